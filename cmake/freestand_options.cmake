@@ -1,0 +1,32 @@
+# Language, warnings, numerics and sanitizers: the same for every target.
+option(FREESTAND_TESTS "build the tests" ON)
+option(FREESTAND_WERROR "warnings are errors" OFF)
+set(FREESTAND_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
+set(FREESTAND_ARCH "x86-64-v2" CACHE STRING "instruction set, as -march= takes it")
+set(FREESTAND_DATA_DIR "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
+    "real records and measurements; the tests that need them skip when it is not there")
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+# The same study gives the same bits: no contraction, no reassociation.
+add_compile_options(-Wall -Wextra -ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" AND FREESTAND_ARCH)
+  add_compile_options(-march=${FREESTAND_ARCH})
+endif()
+if(FREESTAND_WERROR)
+  add_compile_options(-Werror)
+endif()
+if(FREESTAND_SANITIZE)
+  add_compile_options(-fsanitize=${FREESTAND_SANITIZE} -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${FREESTAND_SANITIZE})
+endif()
+find_program(FREESTAND_CCACHE ccache)
+if(FREESTAND_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${FREESTAND_CCACHE})
+endif()

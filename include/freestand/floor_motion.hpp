@@ -1,0 +1,49 @@
+// Floor motion as the integrators see it: a piecewise polynomial in time.
+//
+// Recorded motions are piecewise linear between their samples (degree 1). Closed-form pulses are stored once, with unit
+// peak acceleration and unit period, as polynomials of higher degree that agree with the closed form to about 1e-14; a
+// sample scales and stretches them. So one kernel serves both, steps never cross a knot, and all pulses of one type share
+// one table.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace freestand {
+
+// Shape: n segments, n + 1 knots, degree + 1 coefficients a segment.
+// On segment i, with tau = t - knot_s[i]:  a(t) = sum_k horizontal_mps2[i * (degree + 1) + k] * tau^k   [m/s2].
+// After the last knot the floor is still (a = 0). Before knot_s[0] = 0 nothing happens.
+struct FloorMotion {
+  std::string name;
+  std::vector<double> knot_s;           // increasing, starts at 0
+  int degree = 1;
+  std::vector<double> horizontal_mps2;  // n * (degree + 1)
+  std::vector<double> vertical_mps2;    // the same, up positive; empty where there is no vertical channel
+
+  std::size_t segments() const { return knot_s.empty() ? 0 : knot_s.size() - 1; }
+  double duration_s() const { return knot_s.empty() ? 0.0 : knot_s.back(); }
+};
+
+// A floor motion as one sample feels it: acceleration(t) = scale * motion(t / stretch).
+// `stretch` is the pulse period for the unit pulses and 1 for records.
+struct Shaking {
+  const FloorMotion* motion = nullptr;  // not owned
+  double scale = 1.0;                   // on the horizontal channel; its sign mirrors the motion
+  double stretch = 1.0;                 // > 0
+  double vertical_scale = 0.0;          // on the vertical channel; 0: vertical shaking is ignored
+
+  double duration_s() const { return motion->duration_s() * stretch; }
+};
+
+// Acceleration [m/s2] at time t [s], for pictures, output and tests (the kernels read the coefficients).
+double horizontal_acceleration(const Shaking& shaking, double t);
+double vertical_acceleration(const Shaking& shaking, double t);
+
+// Equally spaced samples -> piecewise linear motion. vertical may be empty. Throws Error on fewer than two samples,
+// unequal lengths, a step that is not positive, or a value that is not finite.
+FloorMotion piecewise_linear(std::string name, double dt_s, const std::vector<double>& horizontal_mps2,
+                             const std::vector<double>& vertical_mps2 = {});
+
+}  // namespace freestand

@@ -1,0 +1,58 @@
+// What comes back from one integration.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace freestand {
+
+// Contact state x friction state, and the absorbing end.
+enum class Mode : int { rest, slide, rock, slide_rock, flight, overturned };
+const char* name(Mode mode);
+
+// How a sample ended. Failure is data: counted and reported, never thrown, never averaged in silently.
+enum class Outcome : int {
+  at_rest,     // never moved
+  moved,       // moved and stood
+  overturned,  // |theta| passed pi/2
+  painleve,    // no consistent motion: friction too high for a slipping corner
+  step_limit,  // more events or steps than the settings allow
+  not_finite   // a state that is not a number
+};
+inline constexpr int outcome_count = 6;
+const char* name(Outcome outcome);
+
+struct Response {
+  Outcome outcome = Outcome::at_rest;
+  double peak_slip_m = 0;         // max |u|, u = displacement of the base's midpoint relative to the floor
+  double residual_slip_m = 0;     // u at the end (signed)
+  double slid_path_m = 0;         // integral of |slip speed of the contact|
+  double peak_rotation_rad = 0;   // max |theta|
+  double residual_rotation_rad = 0;
+  double peak_acceleration_mps2 = 0;  // max of the vector sum of the centre of mass's total acceleration, impacts left out
+  int impacts = 0;                // rocking impacts and landings
+  int events = 0;                 // all mode changes and impacts
+  double end_time_s = 0;          // when the integration could stop: at rest for good, or overturned
+};
+
+// One change of mode, for tests, histories and error reports.
+struct Event {
+  double time_s;
+  Mode from, to;
+  int pivot;          // after the event: +1 right corner, -1 left corner, 0 both or none
+  bool impact;
+};
+
+// One point of a history.
+struct HistoryPoint {
+  double time_s, floor_acceleration_mps2, slip_m, slip_velocity_mps, rotation_rad, rotation_rate_radps;
+  Mode mode;
+};
+
+struct History {
+  double step_s = 0.005;              // output step; 0: events only
+  std::vector<HistoryPoint> points;
+  std::vector<Event> events;
+};
+
+}  // namespace freestand

@@ -1,0 +1,58 @@
+// What stands on the floor: a rigid block, its friction, its impact law, and the model it is computed with.
+#pragma once
+
+#include <cmath>
+
+namespace freestand {
+
+// Rigid body on a flat base. The centre of mass is at height h over the base, between the two corners.
+//
+//            _________
+//           |         |          theta > 0: clockwise, about the right corner
+//           |    x    |  ^       s = sgn(theta): which corner carries
+//           |    |    |  | h     R = sqrt(b^2 + h^2), alpha = atan(b/h), p = sqrt(3 g / (4 R)) for the uniform block
+//           |____|____|  v
+//           <-bl-><-br->
+//
+struct Block {
+  double left_m = 0;        // b_l: centre of mass to left corner, > 0
+  double right_m = 0;       // b_r: centre of mass to right corner, > 0
+  double height_m = 0;      // h: centre of mass above the base, > 0
+  double gyration2_m2 = 0;  // k^2 = I/m about the centre of mass, > 0
+  double mass_kg = 1;
+
+  // Uniform rectangle of width W and height H: b = W/2, h = H/2, I = m R^2/3.
+  static Block rectangular(double width_m, double height_m, double mass_kg);
+
+  double base_m() const { return left_m + right_m; }
+  double half_base_m() const { return 0.5 * (left_m + right_m); }
+  // Slenderness of the weaker side, alpha = atan(min(b_l, b_r)/h) [rad].
+  double alpha_rad() const;
+  // Size R to the nearer corner [m] and frequency parameter p = sqrt(g R/(k^2 + R^2)) [rad/s]; sqrt(3g/(4R)) if uniform.
+  double size_m() const;
+  double p_radps() const;
+};
+
+struct Friction {
+  double mu_s = 0;  // static coefficient, >= mu_k
+  double mu_k = 0;  // kinetic coefficient, >= 0
+};
+
+enum class ImpactLaw { housner, coulomb };
+
+struct Impact {
+  ImpactLaw law = ImpactLaw::housner;
+  double factor = 1.0;  // times Housner's rate, in [0, 1]; `coulomb` takes no factor
+};
+
+// What the block may do: only slide (never tips), only rock (never slips), or both.
+enum class Model { slide, rock, slide_rock };
+
+struct Specimen {
+  Block block;
+  Friction friction;
+  Impact impact;
+  Model model = Model::slide_rock;
+};
+
+}  // namespace freestand

@@ -1,0 +1,66 @@
+#include <freestand/floor_motion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+
+namespace freestand {
+namespace {
+
+double evaluate(const FloorMotion& motion, const std::vector<double>& coefficients, double t) {
+  if (coefficients.empty() || t < 0 || t >= motion.duration_s()) return 0;
+  const auto next = std::upper_bound(motion.knot_s.begin(), motion.knot_s.end(), t);
+  const auto segment = static_cast<std::size_t>(next - motion.knot_s.begin()) - 1;
+  const double tau = t - motion.knot_s[segment];
+  const double* c = &coefficients[segment * static_cast<std::size_t>(motion.degree + 1)];
+  double value = c[motion.degree];
+  for (int k = motion.degree - 1; k >= 0; --k) value = value * tau + c[k];
+  return value;
+}
+
+std::vector<double> linear_coefficients(double dt_s, const std::vector<double>& samples) {
+  std::vector<double> c;
+  c.reserve(2 * (samples.size() - 1));
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    c.push_back(samples[i]);
+    c.push_back((samples[i + 1] - samples[i]) / dt_s);
+  }
+  return c;
+}
+
+bool all_finite(const std::vector<double>& samples) {
+  return std::all_of(samples.begin(), samples.end(), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+double horizontal_acceleration(const Shaking& shaking, double t) {
+  return shaking.scale * evaluate(*shaking.motion, shaking.motion->horizontal_mps2, t / shaking.stretch);
+}
+
+double vertical_acceleration(const Shaking& shaking, double t) {
+  return shaking.vertical_scale * evaluate(*shaking.motion, shaking.motion->vertical_mps2, t / shaking.stretch);
+}
+
+FloorMotion piecewise_linear(std::string name, double dt_s, const std::vector<double>& horizontal_mps2,
+                             const std::vector<double>& vertical_mps2) {
+  const auto reject = [&](const char* why) {
+    throw Error("motion " + name + " cannot be used (" + why + "): check the record", Exit::data);
+  };
+  if (!(dt_s > 0) || !std::isfinite(dt_s)) reject("the time step is not a positive number");
+  if (horizontal_mps2.size() < 2) reject("fewer than two samples");
+  if (!vertical_mps2.empty() && vertical_mps2.size() != horizontal_mps2.size())
+    reject("the vertical channel has another length than the horizontal one");
+  if (!all_finite(horizontal_mps2) || !all_finite(vertical_mps2)) reject("a value is not a finite number");
+
+  FloorMotion motion;
+  motion.name = std::move(name);
+  motion.degree = 1;
+  motion.knot_s.reserve(horizontal_mps2.size());
+  for (std::size_t i = 0; i < horizontal_mps2.size(); ++i) motion.knot_s.push_back(static_cast<double>(i) * dt_s);
+  motion.horizontal_mps2 = linear_coefficients(dt_s, horizontal_mps2);
+  if (!vertical_mps2.empty()) motion.vertical_mps2 = linear_coefficients(dt_s, vertical_mps2);
+  return motion;
+}
+
+}  // namespace freestand

@@ -1,0 +1,15 @@
+#include <freestand/response.hpp>
+
+namespace freestand {
+
+const char* name(Mode mode) {
+  constexpr const char* names[] = {"rest", "slide", "rock", "slide_rock", "flight", "overturned"};
+  return names[static_cast<int>(mode)];
+}
+
+const char* name(Outcome outcome) {
+  constexpr const char* names[] = {"at_rest", "moved", "overturned", "painleve", "step_limit", "not_finite"};
+  return names[static_cast<int>(outcome)];
+}
+
+}  // namespace freestand
