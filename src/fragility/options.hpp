@@ -1,0 +1,49 @@
+// What a fragility analysis is asked to do. Fixed before the first sample is counted.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace freestand::fragility {
+
+// A demand parameter (EDP) and the capacities its surface is wanted at.
+struct EdpOptions {
+  std::string name;  // as in the column edp_<name>
+  std::string unit = "1";
+  std::string symbol;              // for axis labels
+  bool binary = false;             // 0 or 1, such as "overturned": its mean is itself the probability
+  double still_threshold = 0;      // the sample stood still, as far as this EDP is concerned, at or below this value
+  std::vector<double> capacities;  // increasing, > 0; a binary EDP has the one capacity 0.5, whatever stands here
+};
+
+// A second axis of the surfaces: a column of the samples and its bin edges.
+struct AxisOptions {
+  std::string name;  // name of the column, such as friction_mu_k
+  std::string unit = "1";
+  std::vector<double> edge;  // increasing, at least two
+};
+
+struct Options {
+  std::string im_name;  // as in the column im_<name>
+  std::string im_unit = "1";
+  std::vector<double> im_edge;  // increasing, at least two: bin i holds im_edge[i] <= IM < im_edge[i + 1]; the last
+                                // edge belongs to the last bin
+  std::vector<EdpOptions> edps;
+  std::vector<AxisOptions> axes;
+
+  // For each motion of the study (index = column `motion`): 1 a record, whose samples are one group; 0 a family of
+  // pulses, where every sample is a motion of its own. Empty: every sample is a motion of its own.
+  std::vector<std::uint8_t> motion_is_record;
+
+  int minimum_samples =
+      30;  // a bin (or cell of a surface) with fewer is left empty; as many must have moved and stood for a fit
+  int resamples = 500;            // of the motions, for the bands
+  double confidence = 0.95;       // of all intervals and bands
+  double false_discovery = 0.05;  // Benjamini-Hochberg level of the goodness-of-fit tests over the bins
+  bool empirical_fallback =
+      true;                // a bin that fails goodness of fit takes its surface row from the counts, not from the fit
+  std::uint64_t seed = 1;  // of resampling and of the bootstrap of the test statistics
+};
+
+}  // namespace freestand::fragility

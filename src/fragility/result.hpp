@@ -1,0 +1,122 @@
+// What a fragility analysis found: plain values, ready to be written to files. Everything that is not known is NaN.
+// Shapes are given as [rows, columns], stored row by row.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <freestand/response.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace freestand::fragility {
+
+inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+enum class BinStatus : int {
+  fitted = 0,    // lognormal fit that passes goodness of fit
+  too_few = 1,   // fewer samples than the minimum: the row of the surface is empty
+  rejected = 2,  // fitted, but fails goodness of fit: the row of the surface is the empirical one
+  counts_only =
+      3  // enough samples but too few that moved and stood (or a binary EDP): no fit, the row is the empirical one
+};
+
+// One IM bin of one EDP. Samples that failed numerically (painleve, step_limit, not_finite) are in none of the counts.
+struct BinFit {
+  std::int64_t n = 0;        // samples in the bin = n_still + n_over + n_moved
+  std::int64_t n_still = 0;  // EDP at or below its threshold (binary EDP: 0)
+  std::int64_t n_over = 0;   // overturned: EDP censored
+  std::int64_t n_moved = 0;  // moved and stood (binary EDP: 1 without overturning)
+  int motions = 0;           // groups of motions that have samples here
+  double im_mean = unknown;  // of the n samples
+
+  // Exact binomial (Clopper-Pearson) intervals, which take the samples as independent.
+  double p_still = unknown, p_still_lower = unknown,
+         p_still_upper = unknown;                                           // n_still/(n - n_over), given that it stood
+  double p_over = unknown, p_over_lower = unknown, p_over_upper = unknown;  // n_over/n
+
+  // Lognormal by maximum likelihood on the n_moved samples [KM05 5.21-5.25]; standard errors s/sqrt(n) and
+  // s/sqrt(2(n-1)), s^2 = omega^2 n/(n-1), for independent samples; *_se_motions from resampled motions.
+  double lambda = unknown, lambda_se = unknown, lambda_se_motions = unknown;
+  double omega = unknown, omega_se = unknown, omega_se_motions = unknown;
+  double mean = unknown, standard_deviation = unknown;  // [KM05 5.24], unit of the EDP
+
+  double ks_statistic = unknown;          // S [KM05 5.28-5.30]
+  double ks_resolution = unknown;         // bound on the error of S, because it is taken from a histogram
+  double ks_p_textbook = unknown;         // as if lambda and omega were known beforehand: far too lax
+  double ks_critical_textbook = unknown;  // at 5 %
+  double ks_p_estimated = unknown;        // lambda and omega estimated from the same samples: the one to believe
+  double ks_critical_estimated = unknown;
+  double ad_statistic = unknown;  // Anderson-Darling A^2
+  double ad_p_estimated = unknown;
+  int fdr_rejected = 0;  // 1: rejected by ks_p_estimated with false discovery controlled over the bins
+  BinStatus status = BinStatus::too_few;
+};
+
+// P(EDP > C), [im, capacity]. `probability` is the one to use (fit or empirical by BinStatus), lower and upper its band
+// from resampled motions, `empirical` the plain fraction of samples above C, overturned ones included.
+struct Surface {
+  std::vector<double> probability, lower, upper, empirical;
+};
+
+// P(EDP > C) over IM x a second axis, from counts, with band from resampled motions. All [im, axis, capacity] but n
+// [im, axis].
+struct AxisSurface {
+  std::string name, unit;
+  std::vector<double> edge, centre;
+  std::vector<double> probability, lower, upper;
+  std::vector<std::int64_t> n;
+};
+
+// Histogram of ln(EDP) of the samples that moved and stood, coarsened for pictures: count [im, cell], cell i between
+// ln_edge[i] and ln_edge[i + 1].
+struct Distribution {
+  std::vector<double> ln_edge;
+  std::vector<std::int64_t> count;
+};
+
+// Regressions of one EDP on IM over the samples that moved and stood and have IM > 0.
+struct Regressions {
+  std::int64_t n = 0;
+  double slope = unknown, slope_r2 = unknown;  // EDP = slope IM, least squares through the origin [KM05 5.17-5.20]
+  double sd_slope = unknown;                   // standard deviation = sd_slope IM [KM05 5.20, 8.2]
+  double cloud_intercept = unknown, cloud_slope = unknown, cloud_sd = unknown,
+         cloud_r2 = unknown;  // ln EDP = a + b ln IM +- sd
+};
+
+struct EdpResult {
+  std::string name, unit, symbol;
+  bool binary = false;
+  std::vector<BinFit> bins;      // one per IM bin
+  std::vector<double> capacity;  // unit of the EDP
+  Surface surface;
+  Distribution distribution;  // empty for a binary EDP
+  std::vector<AxisSurface> axes;
+  Regressions regressions;  // NaN for a binary EDP
+};
+
+// One overturning curve over all bins: P = Phi(ln(IM/median)/dispersion), maximum likelihood, penalised
+// (Firth/Jeffreys) where the outcomes separate. NaN where no sample or every sample overturned, or where overturning
+// does not grow with IM.
+struct OverturningCurve {
+  double median = unknown, dispersion = unknown;        // unit of IM, 1
+  double median_se = unknown, dispersion_se = unknown;  // from the Fisher information, samples taken as independent
+  bool penalised = false;
+  std::vector<double> grid;                       // IM, from the first positive edge to the last
+  std::vector<double> probability, lower, upper;  // [grid], band from resampled motions
+};
+
+struct Result {
+  std::string im_name, im_unit;
+  std::vector<double> im_edge, im_centre;  // n + 1 and n
+  double confidence = 0.95;
+  std::array<std::int64_t, outcome_count> outcome_counts{};  // in the order of Outcome
+  std::int64_t samples = 0;                                  // all, = sum of outcome_counts
+  std::int64_t outside_im = 0;                               // sound samples whose IM is in no bin (or not a number)
+  int motions = 0;                                           // groups of motions that have samples
+  std::vector<EdpResult> edps;
+  OverturningCurve overturning;
+  std::vector<std::string> warnings;  // plain sentences
+};
+
+}  // namespace freestand::fragility
