@@ -1,5 +1,5 @@
-// Counter-based random numbers: every draw is a pure function of (seed, sample, stream), so any rank can make any sample,
-// in any order, and one more sample or one more parameter changes no earlier draw.
+// Counter-based random numbers: every draw is a pure function of (seed, sample, stream), so any rank can make any
+// sample, in any order, and one more sample or one more parameter changes no earlier draw.
 //
 // Source: J. K. Salmon et al., "Parallel random numbers: as easy as 1, 2, 3" (SC11); Philox4x32-10 of Random123.
 #pragma once
@@ -37,9 +37,7 @@ inline std::pair<std::uint64_t, std::uint64_t> bits(std::uint64_t seed, std::uin
 
 // The upper 52 bits of a word -> the open interval (0, 1): odd multiples of 2^-53. Never 0, never 1, and symmetric:
 // flipping every bit of the word gives exactly 1 - u.
-constexpr double unit_interval(std::uint64_t word) {
-  return static_cast<double>(2 * (word >> 12) + 1) * 0x1.0p-53;
-}
+constexpr double unit_interval(std::uint64_t word) { return static_cast<double>(2 * (word >> 12) + 1) * 0x1.0p-53; }
 
 // Uniform in the open interval (0, 1).
 inline double uniform(std::uint64_t seed, std::uint64_t counter, std::uint64_t stream) {

@@ -1,5 +1,5 @@
-// Designs: how the uniforms of a sweep are spread. Each parameter has its own stream, keyed by its NAME, so that one more
-// parameter changes no draw of the others.
+// Designs: how the uniforms of a sweep are spread. Each parameter has its own stream, keyed by its NAME, so that one
+// more parameter changes no draw of the others.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,15 @@ struct Plan {
 // The uniforms of one parameter: stream(sample) in the open interval (0, 1), a pure function of (plan, name, sample).
 //
 // monte_carlo      Philox4x32-10 at (seed; sample, hash of the name).
-// latin_hypercube  one point in each of `samples` strata: sample -> stratum by a keyed permutation (Feistel network with
+// latin_hypercube  one point in each of `samples` strata: sample -> stratum by a keyed permutation (Feistel network
+// with
 //                  cycle walking, O(1) memory), jittered inside the stratum. 0 <= sample < samples.
-// sobol            Sobol points of Joe & Kuo (2008) with nested uniform (Owen) scrambling keyed by (seed, name): over any
-//                  block of 2^m samples that starts at a multiple of 2^m each dyadic interval of length 2^-m is hit once.
-//                  Known parameter names have fixed dimensions (sobol_dimension). Any other name takes the first dimension
-//                  with its samples in an order of its own (nested uniform shuffle of the index, [Owen 2003; Burley
-//                  2020]): as even by itself, and paired at random with the others.
+// sobol            Sobol points of Joe & Kuo (2008) with nested uniform (Owen) scrambling keyed by (seed, name): over
+// any
+//                  block of 2^m samples that starts at a multiple of 2^m each dyadic interval of length 2^-m is hit
+//                  once. Known parameter names have fixed dimensions (sobol_dimension). Any other name takes the first
+//                  dimension with its samples in an order of its own (nested uniform shuffle of the index, [Owen 2003;
+//                  Burley 2020]): as even by itself, and paired at random with the others.
 class Stream {
  public:
   // Throws Error for latin_hypercube without samples.
@@ -39,9 +41,9 @@ class Stream {
   double sobol(std::uint64_t sample) const;
 
   Plan plan_;
-  std::uint64_t stream_;    // hash of the name
-  std::uint64_t key_;       // of the permutation or scrambling, from (seed, name)
-  std::uint64_t order_key_; // of the shuffle of the index; 0: none
+  std::uint64_t stream_;     // hash of the name
+  std::uint64_t key_;        // of the permutation or scrambling, from (seed, name)
+  std::uint64_t order_key_;  // of the shuffle of the index; 0: none
   int dimension_;
 };
 

@@ -71,8 +71,8 @@ std::optional<std::string> mistake(const Names&);
 
 bool is_fixed(const Distribution&);
 
-// As the study file writes it: 0.6, {uniform: [0.3, 2]}, {lognormal: {median: 0.2, dispersion: 0.25}} ... Numbers in the
-// shortest text that reads back to the same bits.
+// As the study file writes it: 0.6, {uniform: [0.3, 2]}, {lognormal: {median: 0.2, dispersion: 0.25}} ... Numbers in
+// the shortest text that reads back to the same bits.
 std::string to_string(const Distribution&);
 std::string to_string(const Names&);
 

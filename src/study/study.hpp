@@ -1,0 +1,169 @@
+// The study file as plain structs: what a sweep is, with every default filled in. Read by read_study(), written out in
+// full by expanded(), turned into samples by Realiser (realise.hpp).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <freestand/specimen.hpp>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sampling/design.hpp"
+#include "sampling/distribution.hpp"
+
+namespace freestand::study {
+
+// One number of the study: its dotted name ("block.width_m"), its unit ("m"; "1" for a plain number), its distribution.
+struct Quantity {
+  std::string name;
+  std::string unit;
+  sampling::Distribution value;
+};
+
+// Either width and height, or slenderness alpha = atan(W/H) and size R = half the diagonal.
+struct BlockPart {
+  std::optional<Quantity> width, height;      // block.width_m, block.height_m
+  std::optional<Quantity> slenderness, size;  // block.slenderness_rad, block.size_m
+  Quantity mass;                              // block.mass_kg
+};
+
+// Either mu for both coefficients, or mu_k with mu_s, or mu_k with static_ratio = mu_s/mu_k >= 1 (default 1).
+struct FrictionPart {
+  std::optional<Quantity> mu, mu_k, mu_s, static_ratio;
+};
+
+struct ImpactPart {
+  ImpactLaw law = ImpactLaw::housner;
+  Quantity factor;  // impact.factor, in [0, 1]
+};
+
+// A physical effect by name with its parameters, named effects.<effect>.<parameter>.
+struct EffectPart {
+  std::string name;
+  std::vector<Quantity> parameters;
+};
+
+struct ModelPart {
+  BlockPart block;
+  FrictionPart friction;
+  Model model = Model::slide_rock;
+  ImpactPart impact;
+  std::vector<EffectPart> effects;
+};
+
+// One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
+struct MotionSource {
+  enum class Kind { pulses, records };
+  Kind kind = Kind::pulses;
+  double weight = 1;
+  // Pulses. `amplitude` is motion.peak_acceleration_g or motion.peak_velocity_mps; a negative one mirrors the pulse.
+  sampling::Names pulses;
+  std::optional<Quantity> period, amplitude;
+  // Records. `amplitude` is motion.pta_g (each record scaled to this peak) or motion.scale (a factor).
+  std::string records;                       // glob, relative to the folder of the study file
+  std::vector<std::filesystem::path> files;  // what it matched, sorted by name
+  std::optional<double> dt_s;                // time step, for plain columns without a time column
+  std::string unit;                          // of plain columns: g, mps2, cmps2; empty: the file says
+};
+
+enum class Spacing { equal_width, equal_count, log };
+
+// Bins of an intensity measure or of a second axis. Exactly one of edges (not empty), width (> 0) and count (> 0).
+struct BinsPart {
+  std::vector<double> edges;
+  double width = 0;
+  int count = 0;
+  Spacing spacing = Spacing::equal_count;  // of `count` bins
+};
+
+struct IntensityPart {
+  std::string name = "report";
+  std::optional<double> period_s;  // of spectral measures
+};
+
+struct CapacitiesPart {
+  std::string edp;
+  std::vector<double> values;  // increasing
+};
+
+struct AxisPart {
+  std::string name;  // a dotted name: friction.mu_k, block.alpha_rad, motion.period_s ...
+  BinsPart bins;
+};
+
+struct FragilityPart {
+  IntensityPart im;
+  BinsPart bins;
+  std::vector<std::string> edp;
+  std::vector<CapacitiesPart> capacities;  // one for each EDP of the list
+  std::vector<AxisPart> axes;
+  int resamples = 200;      // bootstrap repeats of the intervals
+  double confidence = 0.9;  // of every interval
+};
+
+// Run until every wanted point of the surface is known to +- half_width, or `at_most` samples are done.
+struct UntilPart {
+  double half_width = 0;
+  std::uint64_t at_most = 0;
+};
+
+struct Study {
+  std::string name;              // key `name`, or the stem of the file
+  std::filesystem::path folder;  // of the study file: record globs start here; no part of the expanded text
+  std::uint64_t seed = 1;
+  std::uint64_t samples = 0;  // with `until`: until->at_most
+  std::optional<UntilPart> until;
+  sampling::Design design = sampling::Design::sobol;
+  double tolerance = 1e-9;
+  double free_vibration_s = 60;
+  std::uint64_t block_size = 0;  // samples a work unit; default: samples/1000 within [64, 8192]
+  ModelPart model;
+  std::vector<MotionSource> motions;
+  FragilityPart fragility;
+
+  sampling::Plan plan() const { return {design, seed, samples}; }
+};
+
+// One sample to be simulated: a study in which every number is fixed and there is one motion.
+struct Case {
+  Study study;
+  double output_step_s = 0.005;
+};
+
+// An EDP that the program knows, as far as the study file is concerned.
+struct KnownEdp {
+  std::string name;
+  bool binary = false;                     // overturned: takes no capacities
+  std::vector<double> default_capacities;  // where the study gives none
+};
+
+struct KnownIntensity {
+  std::string name;
+  bool needs_period = false;
+};
+
+// The names that a study may use, from the registries (registries() in known.hpp).
+struct Known {
+  std::vector<KnownEdp> edps;
+  std::vector<KnownIntensity> intensities;
+};
+
+// Reads and checks a study or case. Every problem of the file is reported at once: throws Error (Exit::usage) with one
+// line each, "file:line: problem (why): what to do".
+Study read_study(const std::filesystem::path& file, const Known&);
+Case read_case(const std::filesystem::path& file);
+
+// The same from text; `file` names it in messages and its folder is where globs start.
+Study parse_study(const std::string& text, const std::filesystem::path& file, const Known&);
+Case parse_case(const std::string& text, const std::filesystem::path& file);
+
+// The whole study, every default written out, as YAML that parses back to the same study.
+std::string expanded(const Study&);
+
+// Hash (16 hexadecimal digits) of all that determines the numbers in the result files; the name does not. The contents
+// of records count through MotionSet::fingerprint.
+std::string fingerprint(const Study&);
+
+}  // namespace freestand::study
