@@ -1,0 +1,39 @@
+// Recorded motions: one file per format in this folder (format_*.cpp), one function to read them all.
+#pragma once
+
+#include <filesystem>
+#include <freestand/floor_motion.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace freestand::motion {
+
+// What the user says about a record. A file that says otherwise is an error: nothing is overridden silently.
+struct ReadOptions {
+  std::optional<double> dt_s;  // time step; needed by plain one-column files
+  std::string unit;            // "g", "m/s2", "cm/s2" (or "gal"), "mm/s2", "in/s2", "ft/s2"; needed by plain files
+  std::string format;          // name of a format; empty: found from the content
+  std::string channel;  // of files that hold several: its number ("2") or name ("H1"); empty: the first horizontal one
+  std::string vertical_file;  // record of the vertical component, same step; the shorter of the two ends at rest
+};
+
+// Reads a record. The motion's name is the path as given. Files that hold a vertical channel beside the horizontal one
+// (floor csv, CSMIP V2) keep it. Throws Error (Exit::data) that names file and line; Error (Exit::usage) when an option
+// is missing, unknown or contradicts the file.
+FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& options = {});
+
+// Files that a pattern (`*`, `?`, `[...]`) matches, or the files of a folder, sorted by name; a relative pattern starts
+// at `base`. Throws Error when there is none.
+std::vector<std::filesystem::path> expand_glob(const std::string& pattern, const std::filesystem::path& base = {});
+
+// Name and one line about each format, sorted by name.
+struct FormatInfo {
+  std::string name, summary;
+};
+std::vector<FormatInfo> record_formats();
+
+// m/s2 in one of the units above. Throws Error that lists them.
+double acceleration_unit_mps2(const std::string& unit);
+
+}  // namespace freestand::motion

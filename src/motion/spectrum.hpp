@@ -1,0 +1,30 @@
+// Fourier and response spectra of a floor motion's horizontal channel.
+#pragma once
+
+#include <freestand/floor_motion.hpp>
+#include <vector>
+
+namespace freestand::motion {
+
+// |integral a(t) exp(-2 pi i f t) dt| [m/s] at f = 0, df, 2 df ... up to the Nyquist frequency of step_s; the integral
+// as the sum over samples (FFTW), padded with zeros to at least `padding` times the duration.
+struct FourierSpectrum {
+  double step_hz = 0;
+  std::vector<double> amplitude_mps;
+};
+FourierSpectrum fourier_spectrum(const FloorMotion& motion, double step_s, double padding = 1);
+
+// Largest |u| [m] of u'' + 2 z w u' + w^2 u = -a(t), w = 2 pi / period, from rest, the free vibration afterwards
+// included. Exact to rounding: each segment of the motion is solved in closed form, peaks between the knots too. Needs
+// period_s > 0 and 0 <= damping < 1, else throws Error.
+double spectral_displacement_m(const FloorMotion& motion, double period_s, double damping = 0.05);
+
+// Pseudo-acceleration w^2 |u| [m/s2] and pseudo-velocity w |u| [m/s].
+double spectral_acceleration_mps2(const FloorMotion& motion, double period_s, double damping = 0.05);
+double spectral_velocity_mps(const FloorMotion& motion, double period_s, double damping = 0.05);
+
+// Housner's intensity [m]: integral of the pseudo-velocity over periods 0.1 to 2.5 s, 5 % damping (Housner 1952), of
+// motion(t / stretch); trapezoids of 0.02 s.
+double housner_intensity_m(const FloorMotion& motion, double stretch = 1);
+
+}  // namespace freestand::motion
