@@ -1,0 +1,23 @@
+// The folder that results go to.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace freestand::io {
+
+enum class Existing {
+  refuse,     // a folder with something in it is an Error
+  overwrite,  // results of freestand in it are removed first; other files are left
+  resume      // everything stays
+};
+
+// Makes the folder and its parents, and checks that files can be written there, before long work starts. Throws Error
+// (Exit::usage): not empty and `refuse`, not a folder, no write permission; a full disk is Exit::resumable. One rank
+// does it for all.
+void prepare_output_folder(const std::filesystem::path& folder, Existing);
+
+// Text file, whole or not there (durable_file.hpp).
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace freestand::io

@@ -1,0 +1,70 @@
+// samples.h5: one dataset per column, one row per sample.
+//
+// root attributes: provenance.hpp, format "freestand-samples/1". /samples/sample is the dimension scale 0..n-1;
+// /samples/NAME [sample] is float64, int32 or uint8 by the column's kind, with attributes unit and description; outcome
+// carries flag_values and flag_meanings. /motions/name [motion]: names of the floor motions, which the column `motion`
+// points to.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/table.hpp"
+#include "io/provenance.hpp"
+
+namespace freestand::io {
+
+inline constexpr const char* samples_format = "freestand-samples/1";
+
+struct SamplesHeader {
+  Provenance provenance;
+  std::vector<Column> columns;
+  std::vector<std::string> motion_names;
+};
+
+// How samples lie in blocks: block i holds samples i * block_size up to the next block or the end.
+struct BlockLayout {
+  std::int64_t samples = 0;
+  std::int64_t block_size = 1;
+
+  std::int64_t blocks() const { return (samples + block_size - 1) / block_size; }
+  std::int64_t rows(std::int64_t block) const;  // of this block
+};
+
+// Values of one block, row-major, rows(block) x columns.
+using ReadBlock = std::function<std::vector<double>(std::int64_t block)>;
+
+// Writes the file, all ranks together: each reads runs of blocks, in order, and writes them as slabs; it holds about
+// 16 MiB of rows, or one block, at a time. The file does not depend on the number of ranks but for the provenance.
+// Throws Error: a full disk is Exit::resumable, a block of another shape or a fraction in an integer column Exit::data.
+// Collective.
+void write_samples(const std::filesystem::path& path, const SamplesHeader&, const BlockLayout&, const ReadBlock&);
+
+// Reads samples.h5 block by block. Every rank may have its own.
+class SampleReader {
+ public:
+  explicit SampleReader(const std::filesystem::path& path);  // Exit::data if it is no such file
+
+  std::int64_t rows() const { return rows_; }
+  const std::vector<Column>& columns() const { return columns_; }  // `sample` itself is not among them
+  const std::vector<std::string>& motion_names() const { return motion_names_; }
+  const Provenance& provenance() const { return provenance_; }
+
+  // Rows first .. first + count - 1, all columns or the named ones, in that order.
+  Table read(std::int64_t first, std::int64_t count) const;
+  Table read(std::int64_t first, std::int64_t count, const std::vector<std::string>& names) const;
+
+ private:
+  std::shared_ptr<const h5::File> file_;
+  std::string path_;
+  Provenance provenance_;
+  std::vector<Column> columns_;
+  std::vector<std::string> motion_names_;
+  std::int64_t rows_ = 0;
+};
+
+}  // namespace freestand::io

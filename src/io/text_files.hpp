@@ -1,0 +1,31 @@
+// The small text files of a result folder.
+#pragma once
+
+#include <filesystem>
+#include <freestand/response.hpp>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "fragility/result.hpp"
+#include "io/provenance.hpp"
+
+namespace freestand::io {
+
+inline constexpr const char* summary_format = "freestand-summary/1";
+
+// Text of history.csv: time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode.
+// Numbers read back to the same bits.
+std::string history_csv(const History&);
+
+// summary.json of one simulated sample: peak_slip_m, residual_slip_m, slid_path_m, peak_rotation_rad, overturned,
+// outcome, peak_acceleration_g, events, and impacts, residual_rotation_rad, end_time_s.
+nlohmann::ordered_json response_summary(const Response&);
+
+// summary.json of a sweep: format, study_name, samples, seed, outcomes, im, edps, warnings, provenance. The caller adds
+// timing and files.
+nlohmann::ordered_json fragility_summary(const Provenance&, const fragility::Result&);
+
+// JSON text, indented, line end at its end: doubles read back to the same bits, NaN and infinity become null.
+std::string json_text(const nlohmann::ordered_json&);
+
+}  // namespace freestand::io
