@@ -1,0 +1,49 @@
+#include "dynamics/floor_cursor.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace freestand::dynamics {
+
+FloorCursor::FloorCursor(const Shaking& shaking, double g)
+    : knots_(shaking.motion->knot_s.data()),
+      horizontal_(shaking.motion->horizontal_mps2.data()),
+      vertical_(shaking.motion->vertical_mps2.empty() || shaking.vertical_scale == 0
+                    ? nullptr
+                    : shaking.motion->vertical_mps2.data()),
+      segments_(shaking.motion->segments()),
+      stride_(static_cast<std::size_t>(shaking.motion->degree) + 1),
+      degree_(shaking.motion->degree),
+      scale_(shaking.scale),
+      vertical_scale_(shaking.vertical_scale),
+      stretch_(shaking.stretch),
+      g_(g) {}
+
+double FloorCursor::left() const {
+  if (motion_over()) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, knots_[segment_ + 1] * stretch_ - start_ - offset_);
+}
+
+void FloorCursor::next_segment() {
+  ++segment_;
+  start_ = knots_[segment_] * stretch_;
+  offset_ = 0;
+}
+
+// sum_k coefficients[k] (x + offset / stretch)^k in powers of tau = stretch * x.
+void FloorCursor::shift(const double* coefficients, double scale, double* out, int order) const {
+  const int top = std::min(degree_, order);
+  double c[max_floor_degree + 1];
+  std::copy(coefficients, coefficients + degree_ + 1, c);
+  const double by = offset_ / stretch_;
+  if (by != 0)
+    for (int i = 0; i < degree_; ++i)
+      for (int k = degree_ - 1; k >= i; --k) c[k] += by * c[k + 1];
+  double factor = scale;
+  for (int k = 0; k <= top; ++k) {
+    out[k] += factor * c[k];
+    factor /= stretch_;
+  }
+}
+
+}  // namespace freestand::dynamics

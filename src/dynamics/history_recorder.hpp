@@ -1,0 +1,66 @@
+// Writes the history of one sample: points at a constant step, read off the polynomials of each step, and the events.
+#pragma once
+
+#include <freestand/response.hpp>
+
+#include "dynamics/peaks.hpp"
+
+namespace freestand::dynamics {
+
+class HistoryRecorder {
+ public:
+  HistoryRecorder(History* history, const Rig& rig) : history_(history), rig_(rig) {
+    if (history_) history_->points.clear(), history_->events.clear();
+  }
+
+  void event(double time, Mode from, const State& to, bool impact) {
+    if (history_) history_->events.push_back({time, from, to.mode, to.pivot, impact});
+  }
+
+  template <int N>
+  void record(const State& state, const Arc<double, N>& arc, const Floor<double, N>& floor, double start, double tau) {
+    if (!wanted()) return;
+    const auto u = midpoint(rig_, state, arc);
+    each_point(start, tau, [&](double t) {
+      const double theta = arc.theta.at(t), omega = arc.omega.at(t);
+      return HistoryPoint{start + t, floor.a.at(t), u.at(t),
+                          arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega, theta, omega, state.mode};
+    });
+  }
+
+  template <int N>
+  void record(const Flight<double, N>& flight, const Floor<double, N>& floor, double start, double tau) {
+    if (!wanted()) return;
+    const double d = 0.5 * (rig_.right - rig_.left);
+    each_point(start, tau, [&](double t) {
+      const double theta = flight.theta.at(t), omega = flight.omega[0];
+      return HistoryPoint{start + t, floor.a.at(t), midpoint_in_flight(rig_, flight.x.at(t), theta),
+                          flight.vx.at(t) - (rig_.h * std::cos(theta) + d * std::sin(theta)) * omega, theta, omega,
+                          Mode::flight};
+    });
+  }
+
+  // The last state, held to the end of the motion: what rests, or has fallen, stays.
+  void hold(const State& state, double slip, double end, const Shaking& shaking) {
+    if (!wanted()) return;
+    for (; next_time() <= end; ++next_)
+      history_->points.push_back(
+          {next_time(), horizontal_acceleration(shaking, next_time()), slip, 0.0, state.theta, 0.0, state.mode});
+  }
+
+ private:
+  bool wanted() const { return history_ && history_->step_s > 0; }
+  double next_time() const { return static_cast<double>(next_) * history_->step_s; }
+
+  template <class Point>
+  void each_point(double start, double tau, Point&& point) {
+    for (; next_time() < start + tau; ++next_)
+      if (next_time() >= start) history_->points.push_back(point(next_time() - start));
+  }
+
+  History* history_;
+  const Rig& rig_;
+  long next_ = 0;
+};
+
+}  // namespace freestand::dynamics

@@ -1,0 +1,110 @@
+#include "dynamics/impact.hpp"
+
+#include <cmath>
+
+namespace freestand::dynamics {
+namespace {
+
+struct Velocity {
+  double vx, vy, omega;  // of the centre of mass, and rotation
+};
+
+struct Arm {
+  double rx, ry;  // corner to centre of mass
+};
+
+Arm arm(const Rig& rig, int pivot, double theta) {
+  Arc<double, 1> arc;
+  start_arc(arc, rig.corner(pivot), theta, 0.0, 0.0, 0.0);
+  return {arc.rx[0], arc.ry[0]};
+}
+
+Velocity at_centre(const Arm& r, double w, double omega) { return {w + r.ry * omega, -r.rx * omega, omega}; }
+
+double slip(const Arm& r, const Velocity& v) { return v.vx - v.omega * r.ry; }
+
+// The corner keeps its place: angular momentum about it is conserved.
+Velocity stick(const Rig& rig, const Arm& r, const Velocity& before) {
+  const double omega = (rig.k2 * before.omega + r.ry * before.vx - r.rx * before.vy) /
+                       (rig.k2 + r.rx * r.rx + r.ry * r.ry);
+  return at_centre(r, 0.0, omega);
+}
+
+// The corner slips in direction sigma while it is stopped vertically. False: no push can stop it.
+bool slide_through(const Rig& rig, const Arm& r, const Velocity& before, int sigma, Velocity& after) {
+  const double q = r.rx + sigma * rig.mu_k * r.ry;
+  const double d = rig.k2 + r.rx * q;
+  if (!(d > 0)) return false;
+  const double py = -(before.vy + before.omega * r.rx) * rig.k2 / d;
+  after = {before.vx - sigma * rig.mu_k * py, before.vy + py, before.omega + py * q / rig.k2};
+  return true;
+}
+
+// Plastic impulse on one corner: stick if friction holds, else the slip that keeps its direction.
+bool plastic(const Rig& rig, const Arm& r, const Velocity& before, Velocity& after, double& w) {
+  after = stick(rig, r, before);
+  w = 0;
+  const double px = after.vx - before.vx, py = after.vy - before.vy;
+  if (!rig.can_slip || std::abs(px) <= rig.mu_s * py) return true;
+  const int first = px < 0 ? 1 : -1;  // friction opposes the slip
+  for (const int sigma : {first, -first}) {
+    if (!slide_through(rig, r, before, sigma, after)) continue;
+    w = slip(r, after);
+    if (sigma * w >= 0) return true;
+  }
+  return false;
+}
+
+// Both corners take the blow: the block stays flat, friction of both acts.
+void stay_flat(const Rig& rig, State& state, double vx, double vy) {
+  const double friction_s = rig.mu_s * std::abs(vy), friction_k = rig.mu_k * std::abs(vy);
+  state.theta = state.omega = 0;
+  if (!rig.can_slip || std::abs(vx) <= friction_s)
+    state.w = 0;
+  else
+    state.w = vx > 0 ? std::fmax(vx - friction_k, 0.0) : std::fmin(vx + friction_k, 0.0);
+}
+
+}  // namespace
+
+bool strike(const Rig& rig, State& state) {
+  const int old_pivot = state.pivot, new_pivot = -state.pivot;
+  const double omega = state.omega;
+  state.theta = 0;
+  if (rig.impact.law == ImpactLaw::housner) {
+    const double kept = (rig.k2 + rig.h * rig.h + rig.offset(old_pivot) * rig.offset(new_pivot)) / rig.inertia(new_pivot);
+    state.omega = rig.impact.factor * std::fmax(kept, 0.0) * omega;
+  } else {
+    const Velocity before = at_centre(arm(rig, old_pivot, 0.0), state.w, omega);
+    Velocity after{};
+    double w = 0;
+    if (!plastic(rig, arm(rig, new_pivot, 0.0), before, after, w)) return false;
+    if (after.omega * new_pivot > 0) {
+      state.omega = after.omega;
+      state.w = w;
+    } else {
+      stay_flat(rig, state, before.vx, before.vy);
+    }
+  }
+  if (rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation) state.omega = 0;
+  state.pivot = state.omega == 0 ? 0 : new_pivot;
+  return true;
+}
+
+bool land(const Rig& rig, State& state, int pivot) {
+  if (state.theta == 0 && state.omega == 0) {
+    state.xi = state.x;
+    state.pivot = 0;
+    stay_flat(rig, state, state.vx, state.vy);
+    return true;
+  }
+  const Arm r = arm(rig, pivot, state.theta);
+  Velocity after{};
+  if (!plastic(rig, r, {state.vx, state.vy, state.omega}, after, state.w)) return false;
+  state.omega = after.omega;
+  state.xi = state.x - r.rx - rig.offset(pivot);
+  state.pivot = pivot;
+  return true;
+}
+
+}  // namespace freestand::dynamics

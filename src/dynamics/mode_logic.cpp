@@ -1,0 +1,93 @@
+#include "dynamics/mode_logic.hpp"
+
+#include "dynamics/witness.hpp"
+
+namespace freestand::dynamics {
+namespace {
+
+// One step of the search: does the state hold in this mode?
+bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, int pivot, int sigma) {
+  State trial = state;
+  trial.mode = mode;
+  trial.pivot = pivot;
+  trial.sigma = sigma;
+  AllHold all;
+  const auto floor = cursor.local<judge_order>();
+  const auto arc = contact_arc<judge_order>(rig, trial, floor);
+  for_each_witness(rig, trial, arc, [&](Witness witness, const auto& series, ZeroTolerance zero) {
+    all(witness, series, zero);
+  });
+  // A slip or a rotation that is to start must start: zero to all orders is the stuck mode's, not this one's.
+  const bool starts_slip = sigma == 0 || sign_after(scaled(double(sigma), arc.w), {1, rig.force_zero}) > 0;
+  const bool starts_turn = pivot == 0 || sign_after(scaled(double(pivot), arc.theta), {2, rig.turn_zero}) > 0;
+  if (!all.hold() || !starts_slip || !starts_turn) return false;
+  state = trial;
+  return true;
+}
+
+bool lifts_off(const Rig& rig, const FloorCursor& cursor, State& state) {
+  State trial = state;
+  take_off(rig, trial);
+  AllHold all;
+  for_each_witness(rig, flight_arc<judge_order>(rig, trial, cursor.local<judge_order>()),
+                   [&](Witness witness, const auto& series, ZeroTolerance zero) { all(witness, series, zero); });
+  if (!all.hold()) return false;
+  state = trial;
+  return true;
+}
+
+int direction(double w) { return w > 0 ? 1 : -1; }
+
+bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
+  if (state.w == 0) {
+    if (stands(rig, cursor, state, Mode::rest, 0, 0)) return true;
+    if (rig.can_rock)
+      for (const int pivot : {1, -1})
+        if (stands(rig, cursor, state, Mode::rock, pivot, 0)) return true;
+    if (!rig.can_slip) return false;
+    for (const int sigma : {1, -1})
+      if (stands(rig, cursor, state, Mode::slide, 0, sigma)) return true;
+  } else if (stands(rig, cursor, state, Mode::slide, 0, direction(state.w))) {
+    return true;
+  }
+  if (!rig.can_rock) return false;
+  for (const int pivot : {1, -1})
+    for (const int sigma : {1, -1})
+      if ((state.w == 0 || sigma == direction(state.w)) &&
+          stands(rig, cursor, state, Mode::slide_rock, pivot, sigma))
+        return true;
+  return false;
+}
+
+bool choose_on_corner(const Rig& rig, const FloorCursor& cursor, State& state) {
+  const int pivot = state.theta > 0 || (state.theta == 0 && state.omega > 0) ? 1 : -1;
+  if (state.w != 0) return stands(rig, cursor, state, Mode::slide_rock, pivot, direction(state.w));
+  if (stands(rig, cursor, state, Mode::rock, pivot, 0)) return true;
+  if (!rig.can_slip) return false;
+  for (const int sigma : {1, -1})
+    if (stands(rig, cursor, state, Mode::slide_rock, pivot, sigma)) return true;
+  return false;
+}
+
+}  // namespace
+
+bool choose_mode(const Rig& rig, const FloorCursor& cursor, State& state) {
+  const bool both_down = state.theta == 0 && state.omega == 0;
+  if (both_down) state.pivot = 0;
+  if (both_down ? choose_flat(rig, cursor, state) : choose_on_corner(rig, cursor, state)) return true;
+  return lifts_off(rig, cursor, state);
+}
+
+void take_off(const Rig& rig, State& state) {
+  const int pivot = state.theta > 0 || (state.theta == 0 && state.omega > 0) ? 1 : -1;
+  Arc<double, 1> arc;
+  start_arc(arc, rig.corner(pivot), state.theta, state.omega, state.xi, state.w);
+  state.x = rig.offset(pivot) + state.xi + arc.rx[0];
+  state.y = arc.ry[0];
+  state.vx = state.w + arc.ry[0] * state.omega;
+  state.vy = -(arc.rx[0] * state.omega);
+  state.mode = Mode::flight;
+  state.pivot = state.sigma = 0;
+}
+
+}  // namespace freestand::dynamics

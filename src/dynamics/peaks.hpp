@@ -1,0 +1,87 @@
+// Running extremes of a response, taken from the polynomials of each step, not from its end points.
+#pragma once
+
+#include <freestand/response.hpp>
+
+#include "dynamics/contact.hpp"
+#include "dynamics/rig.hpp"
+#include "dynamics/roots.hpp"
+
+namespace freestand::dynamics {
+
+// u(tau): displacement of the base's midpoint relative to the floor, u = xi + s B (1 - cos theta), B = (b_l + b_r)/2.
+template <int N>
+Series<double, N> midpoint(const Rig& rig, const State& state, const Arc<double, N>& arc) {
+  Series<double, N> u = arc.xi;
+  if (state.pivot == 0) return u;
+  const double c = rig.offset(state.pivot);
+  const double lever = state.pivot * rig.half_base() / (rig.h * rig.h + c * c);  // cos theta = (h r_y - c r_x)/(h^2 + c^2)
+  for (int k = 1; k <= N; ++k) u[k] -= lever * (rig.h * arc.ry[k] - c * arc.rx[k]);
+  const double half = std::sin(0.5 * state.theta);
+  u[0] += state.pivot * rig.half_base() * 2 * half * half;
+  return u;
+}
+
+// The same in flight: u = x + d cos(theta) - h sin(theta) - d, d = (b_r - b_l)/2.
+inline double midpoint_in_flight(const Rig& rig, double x, double theta) {
+  const double d = 0.5 * (rig.right - rig.left), half = std::sin(0.5 * theta);
+  return x - rig.h * std::sin(theta) - d * 2 * half * half;
+}
+
+class Peaks {
+ public:
+  template <int N>
+  void observe(const Rig& rig, const State& state, const Arc<double, N>& arc, double tau) {
+    if (state.mode != Mode::rest) {
+      response_.peak_slip_m = max_abs(midpoint(rig, state, arc), tau, response_.peak_slip_m);
+      if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
+      if (state.sigma != 0) response_.slid_path_m += std::abs(arc.xi.at(tau) - arc.xi[0]);
+    }
+    observe_acceleration(rig, arc.fx, arc.fy, tau);
+  }
+
+  template <int N>
+  void observe(const Rig& rig, const Flight<double, N>& flight, double tau) {
+    response_.peak_rotation_rad = max_abs(flight.theta, tau, response_.peak_rotation_rad);
+    Series<double, N> u = flight.x;
+    const double d = 0.5 * (rig.right - rig.left);
+    Series<double, N> sine, cosine;
+    sine[0] = std::sin(flight.theta[0]);
+    cosine[0] = std::cos(flight.theta[0]);
+    for (int k = 0; k < N; ++k) {
+      sine[k + 1] = cosine[k] * flight.omega[0] / (k + 1);
+      cosine[k + 1] = -sine[k] * flight.omega[0] / (k + 1);
+      u[k + 1] += d * cosine[k + 1] - rig.h * sine[k + 1];
+    }
+    u[0] = midpoint_in_flight(rig, flight.x[0], flight.theta[0]);
+    response_.peak_slip_m = max_abs(u, tau, response_.peak_slip_m);
+    response_.peak_acceleration_mps2 = std::fmax(response_.peak_acceleration_mps2, rig.g);  // free fall
+  }
+
+  Response& response() { return response_; }
+  bool finite() const { return finite_; }
+
+ private:
+  // Total acceleration of the centre of mass: (f_x, f_y - g).
+  template <int N>
+  void observe_acceleration(const Rig& rig, const Series<double, N>& fx, const Series<double, N>& fy, double tau) {
+    double bound_x = 0, bound_y = 0;
+    Series<double, N> lift = fy;
+    lift[0] -= rig.g;
+    for (int k = N; k >= 0; --k) {
+      bound_x = bound_x * tau + std::abs(fx[k]);
+      bound_y = bound_y * tau + std::abs(lift[k]);
+    }
+    const double peak = response_.peak_acceleration_mps2, bound2 = bound_x * bound_x + bound_y * bound_y;
+    if (bound2 <= peak * peak) return;
+    if (!std::isfinite(bound2)) finite_ = false;
+    Series<double, N> square;
+    for (int k = 0; k <= N; ++k) square[k] = product(fx, fx, k) + product(lift, lift, k);
+    response_.peak_acceleration_mps2 = std::sqrt(max_abs(square, tau, peak * peak));
+  }
+
+  Response response_;
+  bool finite_ = true;
+};
+
+}  // namespace freestand::dynamics

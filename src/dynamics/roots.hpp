@@ -1,0 +1,56 @@
+// Where a polynomial that starts out positive first falls to zero.
+//
+// An event is a witness (a series that is >= 0 while the mode lasts) and its first root. Two ideas make the search safe:
+//  * a root at the very start is not nudged away from but divided out: with c[0] = 0, witness(tau)/tau has the same later
+//    roots and a sign at 0;
+//  * an interval is dropped only when |c[0]| > sum |c[k]| h^k proves that it holds no root, otherwise it is halved until the
+//    witness is monotone on it. Double crossings inside a step cannot be missed.
+#pragma once
+
+#include "dynamics/series.hpp"
+
+namespace freestand::dynamics {
+
+// How zero is told from round-off in the leading coefficients of a witness. Coefficients below `level` are set by resets and
+// exact; from `level` on they are accelerations (times `size`) and their rates, known to about `acceleration`.
+struct ZeroTolerance {
+  int level;            // 0: force, 1: velocity, 2: displacement
+  double acceleration;  // [unit of the witness / s^level]
+};
+
+// Largest order for which the root search is compiled.
+inline constexpr int max_root_order = 10;
+
+namespace detail {
+int sign_after(const double* c, int order, ZeroTolerance zero);
+bool first_root(const double* c, int order, double h, ZeroTolerance zero, double& tau);
+double max_abs(const double* c, int order, double h, double floor);
+}  // namespace detail
+
+// Sign of the series just after its start: +1, -1, or 0 when all coefficients vanish within the tolerance.
+template <int N>
+int sign_after(const Series<double, N>& y, ZeroTolerance zero) {
+  return detail::sign_after(y.c, N, zero);
+}
+
+// First tau in [0, h] at which y falls below zero; false: none. tau = 0 when y is negative just after the start.
+template <int N>
+bool first_root(const Series<double, N>& y, double h, ZeroTolerance zero, double& tau) {
+  static_assert(N <= max_root_order);
+  double bound = 0;
+  for (int k = N; k >= 1; --k) bound = (bound + (y.c[k] < 0 ? -y.c[k] : y.c[k])) * h;
+  if (y.c[0] > bound) return false;
+  return detail::first_root(y.c, N, h, zero, tau);
+}
+
+// max(floor, max over [0, h] of |y|).
+template <int N>
+double max_abs(const Series<double, N>& y, double h, double floor) {
+  static_assert(N <= max_root_order);
+  double bound = 0;
+  for (int k = N; k >= 0; --k) bound = bound * h + (y.c[k] < 0 ? -y.c[k] : y.c[k]);
+  if (bound <= floor) return floor;
+  return detail::max_abs(y.c, N, h, floor);
+}
+
+}  // namespace freestand::dynamics

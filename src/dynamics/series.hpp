@@ -1,0 +1,65 @@
+// Truncated Taylor series: the number that the physics is written in.
+//
+// A quantity over one step is y(tau) = sum_k c[k] tau^k, k = 0..N. The equations of motion give coefficient k + 1 of the
+// state from coefficients 0..k, so one text of the physics yields the derivative (N = 1, first coefficient), the Taylor step,
+// its dense output, and the polynomials in which events are found. Real is double, or a pack of doubles.
+#pragma once
+
+namespace freestand::dynamics {
+
+template <class Real, int N>
+struct Series {
+  Real c[N + 1];
+
+  Real& operator[](int k) { return c[k]; }
+  const Real& operator[](int k) const { return c[k]; }
+
+  static Series zero() {
+    Series series;
+    for (Real& coefficient : series.c) coefficient = Real(0.0);
+    return series;
+  }
+
+  // y(tau), Horner.
+  Real at(const Real& tau) const {
+    Real value = c[N];
+    for (int k = N - 1; k >= 0; --k) value = value * tau + c[k];
+    return value;
+  }
+};
+
+// Coefficient k of the product a b.
+template <class Real, int N>
+Real product(const Series<Real, N>& a, const Series<Real, N>& b, int k) {
+  Real sum = a[0] * b[k];
+  for (int i = 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
+  return sum;
+}
+
+// dy/dtau; the last coefficient is zero.
+template <class Real, int N>
+Series<Real, N> derivative(const Series<Real, N>& y) {
+  Series<Real, N> d;
+  for (int k = 0; k < N; ++k) d[k] = Real(k + 1.0) * y[k + 1];
+  d[N] = Real(0.0);
+  return d;
+}
+
+// factor * y.
+template <class Real, int N>
+Series<Real, N> scaled(const Real& factor, const Series<Real, N>& y) {
+  Series<Real, N> z;
+  for (int k = 0; k <= N; ++k) z[k] = factor * y[k];
+  return z;
+}
+
+// factor_a * a + factor_b * b.
+template <class Real, int N>
+Series<Real, N> combination(const Real& factor_a, const Series<Real, N>& a, const Real& factor_b,
+                            const Series<Real, N>& b) {
+  Series<Real, N> z;
+  for (int k = 0; k <= N; ++k) z[k] = factor_a * a[k] + factor_b * b[k];
+  return z;
+}
+
+}  // namespace freestand::dynamics

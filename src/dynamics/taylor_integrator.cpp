@@ -1,0 +1,99 @@
+// The integrator of the sweep: one Taylor step between two knots of the floor motion, or up to the next event.
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/integration.hpp"
+
+namespace freestand {
+namespace dynamics {
+namespace {
+
+template <int N>
+class TaylorIntegrator {
+ public:
+  TaylorIntegrator(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history)
+      : life_(specimen, shaking, settings, history), p_(specimen.block.p_radps()), alpha_(specimen.block.alpha_rad()),
+        size_(specimen.block.size_m()) {}
+
+  Response run() {
+    for (life_.stop_when_done(); !life_.finished(); life_.stop_when_done()) {
+      const auto floor = life_.cursor.template local<N>();
+      if (life_.state.mode == Mode::flight)
+        fly_on(floor);
+      else
+        move_on(floor);
+    }
+    return life_.result();
+  }
+
+ private:
+  void move_on(const Floor<double, N>& floor) {
+    const State before = life_.state;
+    const auto arc = contact_arc<N>(life_.rig, before, floor);
+    const double h = step(before.pivot == 0 ? 0.0 : local_error(arc));
+    FirstEvent first(h);
+    for_each_witness(life_.rig, before, arc, first);
+    const double tau = first.found().tau;
+    life_.peaks.observe(life_.rig, before, arc, tau);
+    life_.recorder.record(before, arc, floor, life_.cursor.time(), tau);
+    life_.state.theta = arc.theta.at(tau);
+    life_.state.omega = arc.omega.at(tau);
+    life_.state.xi = arc.xi.at(tau);
+    life_.state.w = arc.w.at(tau);
+    end_step(first.found(), h);
+  }
+
+  void fly_on(const Floor<double, N>& floor) {
+    const auto flight = flight_arc<N>(life_.rig, life_.state, floor);
+    const double turn = std::abs(life_.state.omega);
+    const double h = std::min(life_.cursor.left(), turn > 0 ? 0.1 / turn : 0.1);
+    FirstEvent first(h);
+    for_each_witness(life_.rig, flight, first);
+    const double tau = first.found().tau;
+    life_.peaks.observe(life_.rig, flight, tau);
+    life_.recorder.record(flight, floor, life_.cursor.time(), tau);
+    life_.state.theta = flight.theta.at(tau);
+    life_.state.x = flight.x.at(tau);
+    life_.state.y = flight.y.at(tau);
+    life_.state.vx = flight.vx.at(tau);
+    life_.state.vy = flight.vy.at(tau);
+    end_step(first.found(), h);
+  }
+
+  // A step that reached the knot goes to the next segment; an event is resolved where it fell.
+  void end_step(const Found& found, double h) {
+    const bool at_knot = !found.any && h == life_.cursor.left();
+    life_.cursor.advance(found.tau);
+    if (at_knot) life_.cursor.next_segment();
+    if (found.any) life_.resolve(found.witness);
+  }
+
+  // Next term of the series, dimensionless, at tau = 1/p: the error of a step h is about this times (p h)^(N + 1).
+  double local_error(const Arc<double, N>& arc) const {
+    const double pN = std::pow(p_, N);
+    return std::max({std::abs(arc.theta[N]) / alpha_, std::abs(arc.omega[N]) / (p_ * alpha_),
+                     std::abs(arc.xi[N]) / size_, std::abs(arc.w[N]) / (p_ * size_)}) / pN;
+  }
+
+  double step(double error_at_1p) const {
+    double h = std::min(life_.cursor.left(), 1.0 / p_);
+    if (error_at_1p * std::pow(p_ * h, N + 1) > life_.settings.tolerance)
+      h = std::pow(life_.settings.tolerance / error_at_1p, 1.0 / (N + 1)) / p_;
+    return h;
+  }
+
+  Integration life_;
+  double p_, alpha_, size_;
+};
+
+}  // namespace
+}  // namespace dynamics
+
+Response respond(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history) {
+  if (!dynamics::admissible(specimen, shaking, settings)) return Response{.outcome = Outcome::not_finite};
+  // Records are linear between samples that lie close together; pulses have longer segments of higher degree.
+  if (shaking.motion->degree <= 1) return dynamics::TaylorIntegrator<7>(specimen, shaking, settings, history).run();
+  return dynamics::TaylorIntegrator<10>(specimen, shaking, settings, history).run();
+}
+
+}  // namespace freestand

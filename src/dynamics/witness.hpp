@@ -1,0 +1,125 @@
+// The inequalities that hold while a mode lasts. Each is a witness series, >= 0 in the mode; its first root is an event.
+#pragma once
+
+#include "dynamics/contact.hpp"
+#include "dynamics/rig.hpp"
+#include "dynamics/roots.hpp"
+
+namespace freestand::dynamics {
+
+enum class Witness : int {
+  impact,     // s theta: the raised corner is above the floor
+  upright,    // pi/2 - s theta: the block has not fallen over
+  pressed,    // f_y: the corner pushes on the floor
+  grip_right, // mu_s f_y - f_x: the contact does not slip (to the left, pushed right)
+  grip_left,  // mu_s f_y + f_x
+  slipping,   // sigma w: the slip has not stopped
+  flat_right, // N_right: both corners push on the floor
+  flat_left,  // N_left
+  regular,    // k^2 + r_x q: not Painleve's paradox
+  above_right, above_left  // gaps in flight
+};
+
+// Calls visit(Witness, const Series&, ZeroTolerance) for every witness of the state's mode.
+template <int N, class Visit>
+void for_each_witness(const Rig& rig, const State& state, const Arc<double, N>& arc, Visit&& visit) {
+  const ZeroTolerance force{0, rig.force_zero}, velocity{1, rig.force_zero}, rotation{2, rig.turn_zero};
+  const double s = state.pivot;
+  if (state.pivot != 0) {
+    visit(Witness::impact, scaled(s, arc.theta), rotation);
+    Series<double, N> upright = scaled(-s, arc.theta);
+    upright[0] += pi / 2;
+    visit(Witness::upright, upright, rotation);
+    if (state.sigma != 0) visit(Witness::regular, arc.d, ZeroTolerance{0, 0.0});
+    visit(Witness::pressed, arc.fy, force);
+  }
+  if (state.sigma != 0) {
+    visit(Witness::slipping, scaled(double(state.sigma), arc.w), velocity);
+  } else if (rig.can_slip) {
+    visit(Witness::grip_right, combination(rig.mu_s, arc.fy, -1.0, arc.fx), force);
+    visit(Witness::grip_left, combination(rig.mu_s, arc.fy, 1.0, arc.fx), force);
+  }
+  if (state.pivot == 0) {
+    if (rig.can_rock) {  // moments about the corners: N_right (b_l + b_r) = b_l f_y - h f_x
+      visit(Witness::flat_right, combination(rig.left / rig.h, arc.fy, -1.0, arc.fx), force);
+      visit(Witness::flat_left, combination(rig.right / rig.h, arc.fy, 1.0, arc.fx), force);
+    } else {
+      visit(Witness::pressed, arc.fy, force);
+    }
+  }
+}
+
+template <int N, class Visit>
+void for_each_witness(const Rig& rig, const Flight<double, N>& flight, Visit&& visit) {
+  const ZeroTolerance gap{2, rig.force_zero};
+  visit(Witness::above_right, flight.gap_right, gap);
+  visit(Witness::above_left, flight.gap_left, gap);
+  Series<double, N> upright = scaled(flight.theta[0] < 0 ? 1.0 : -1.0, flight.theta);
+  upright[0] += pi / 2;
+  visit(Witness::upright, upright, ZeroTolerance{2, rig.turn_zero});
+}
+
+// Series of the state's mode, one corner or two down.
+template <int N>
+Arc<double, N> contact_arc(const Rig& rig, const State& state, const Floor<double, N>& floor) {
+  Arc<double, N> arc;
+  const int pivot = state.pivot == 0 ? 1 : state.pivot;
+  start_arc(arc, rig.corner(pivot), state.theta, state.omega, state.xi, state.w);
+  const double sigma_mu = state.sigma * rig.mu_k;
+  if (state.pivot == 0)
+    flat(arc, floor, sigma_mu, state.sigma == 0);
+  else if (state.sigma == 0)
+    rock(arc, floor, rig.corner(pivot));
+  else
+    slide_rock(arc, floor, rig.corner(pivot), sigma_mu);
+  return arc;
+}
+
+template <int N>
+Flight<double, N> flight_arc(const Rig& rig, const State& state, const Floor<double, N>& floor) {
+  Flight<double, N> flight;
+  flight.x[0] = state.x;
+  flight.y[0] = state.y;
+  flight.theta[0] = state.theta;
+  flight.vx[0] = state.vx;
+  flight.vy[0] = state.vy;
+  flight.omega[0] = state.omega;
+  fly(flight, floor, rig.right, rig.left, rig.h);
+  return flight;
+}
+
+// The first event of the mode within h.
+struct Found {
+  bool any = false;
+  Witness witness = Witness::impact;
+  double tau = 0;
+};
+
+class FirstEvent {
+ public:
+  explicit FirstEvent(double h) { found_.tau = h; }
+  template <int N>
+  void operator()(Witness witness, const Series<double, N>& series, ZeroTolerance zero) {
+    double tau = 0;
+    if (first_root(series, found_.tau, zero, tau) && (!found_.any || tau < found_.tau)) found_ = {true, witness, tau};
+  }
+  Found found() const { return found_; }
+
+ private:
+  Found found_;
+};
+
+// True when every witness of the mode is >= 0 just after the instant.
+class AllHold {
+ public:
+  template <int N>
+  void operator()(Witness, const Series<double, N>& series, ZeroTolerance zero) {
+    hold_ = hold_ && sign_after(series, zero) >= 0;
+  }
+  bool hold() const { return hold_; }
+
+ private:
+  bool hold_ = true;
+};
+
+}  // namespace freestand::dynamics
