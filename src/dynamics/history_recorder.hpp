@@ -54,8 +54,7 @@ class HistoryRecorder {
 
   template <class Point>
   void each_point(double start, double tau, Point&& point) {
-    for (; next_time() < start + tau; ++next_)
-      if (next_time() >= start) history_->points.push_back(point(next_time() - start));
+    for (; next_time() < start + tau; ++next_) history_->points.push_back(point(std::fmax(next_time() - start, 0.0)));
   }
 
   History* history_;

@@ -3,6 +3,9 @@
 #include "dynamics/impact.hpp"
 
 namespace freestand::dynamics {
+namespace {
+constexpr int wait_order = max_floor_degree + 1;  // witnesses at rest are the floor's own polynomials
+}
 
 bool admissible(const Specimen& specimen, const Shaking& shaking, const Settings& settings) {
   const Block& b = specimen.block;
@@ -22,6 +25,21 @@ Integration::Integration(const Specimen& specimen, const Shaking& shaking_, cons
       settings(settings_),
       cursor(shaking, rig.g),
       recorder(history, rig) {}
+
+void Integration::wait() {
+  while (!cursor.motion_over()) {
+    const auto floor = cursor.local<wait_order>();
+    const auto arc = contact_arc<wait_order>(rig, state, floor);
+    FirstEvent first(cursor.left());
+    for_each_witness(rig, state, arc, first);
+    const Found found = first.found();
+    peaks.observe(rig, state, arc, found.tau);
+    recorder.record(state, arc, floor, cursor.time(), found.tau);
+    cursor.advance(found.tau);
+    if (found.any) return resolve(found.witness);
+    cursor.next_segment();
+  }
+}
 
 void Integration::resolve(Witness witness) {
   const Mode from = state.mode;

@@ -18,6 +18,8 @@ class Integration {
   Integration(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history);
 
   bool finished() const { return finished_; }
+  // At rest nothing is integrated: goes along the motion to the instant at which rest ends, or to its end.
+  void wait();
   // Applies an event: sets what the event makes exact, strikes or lands where corners meet the floor, chooses the next mode.
   void resolve(Witness witness);
   void chose(Mode from, bool impact);  // counts and records a change of mode

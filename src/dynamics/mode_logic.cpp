@@ -41,6 +41,7 @@ int direction(double w) { return w > 0 ? 1 : -1; }
 bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
   if (state.w == 0) {
     if (stands(rig, cursor, state, Mode::rest, 0, 0)) return true;
+    if (!rig.can_slip && lifts_off(rig, cursor, state)) return true;  // before the hinges, which could pull
     if (rig.can_rock)
       for (const int pivot : {1, -1})
         if (stands(rig, cursor, state, Mode::rock, pivot, 0)) return true;

@@ -17,11 +17,12 @@ class TaylorIntegrator {
 
   Response run() {
     for (life_.stop_when_done(); !life_.finished(); life_.stop_when_done()) {
-      const auto floor = life_.cursor.template local<N>();
-      if (life_.state.mode == Mode::flight)
-        fly_on(floor);
+      if (life_.state.mode == Mode::rest)
+        life_.wait();
+      else if (life_.state.mode == Mode::flight)
+        fly_on(life_.cursor.template local<N>());
       else
-        move_on(floor);
+        move_on(life_.cursor.template local<N>());
     }
     return life_.result();
   }

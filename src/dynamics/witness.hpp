@@ -20,6 +20,8 @@ enum class Witness : int {
   above_right, above_left  // gaps in flight
 };
 
+// In the pure rocking model the pivot is a hinge, as in Housner's: it neither slips nor lifts.
+//
 // Calls visit(Witness, const Series&, ZeroTolerance) for every witness of the state's mode.
 template <int N, class Visit>
 void for_each_witness(const Rig& rig, const State& state, const Arc<double, N>& arc, Visit&& visit) {
@@ -31,7 +33,7 @@ void for_each_witness(const Rig& rig, const State& state, const Arc<double, N>& 
     upright[0] += pi / 2;
     visit(Witness::upright, upright, rotation);
     if (state.sigma != 0) visit(Witness::regular, arc.d, ZeroTolerance{0, 0.0});
-    visit(Witness::pressed, arc.fy, force);
+    if (rig.can_slip) visit(Witness::pressed, arc.fy, force);
   }
   if (state.sigma != 0) {
     visit(Witness::slipping, scaled(double(state.sigma), arc.w), velocity);

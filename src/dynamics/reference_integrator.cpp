@@ -1,0 +1,228 @@
+// The reference: SUNDIALS ARKODE, explicit Runge-Kutta of order 8 with root finding, restarted at every knot of the floor
+// motion and at every event. It shares the equations of motion, the mode logic and the impact laws with the integrator of the
+// sweep, and nothing of how that one moves through time or finds its events.
+#include <arkode/arkode_erkstep.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+#include <memory>
+
+#include "dynamics/integration.hpp"
+
+namespace freestand {
+namespace dynamics {
+namespace {
+
+constexpr int state_size = 6;  // contact: theta, omega, xi, w, -, -;  flight: theta, omega, x, vx, y, vy
+constexpr int witness_slots = 8;
+constexpr int root_count = witness_slots + 2;  // and the stationary points of u and theta
+
+struct Delete {
+  void operator()(_SUNContext* context) const { SUNContext_Free(&context); }
+  void operator()(_generic_N_Vector* vector) const { N_VDestroy(vector); }
+  void operator()(void* memory) const { ERKStepFree(&memory); }
+};
+
+void check(int flag, const char* what) {
+  if (flag < 0)
+    throw Error(std::string("the reference integrator failed (SUNDIALS ") + what + " returned " + std::to_string(flag) +
+                    "): loosen the tolerance",
+                Exit::data);
+}
+
+class ReferenceIntegrator {
+ public:
+  ReferenceIntegrator(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history)
+      : life_(specimen, shaking, settings, history), longest_step_(0.05 / specimen.block.p_radps()) {
+    SUNContext context = nullptr;
+    check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
+    context_.reset(context);
+    y_.reset(N_VNew_Serial(state_size, context));
+    N_VConst(0, y_.get());
+    arkode_.reset(ERKStepCreate(&derivative, 0, y_.get(), context));
+    if (!arkode_) throw Error("the reference integrator cannot start (SUNDIALS has no memory): free some memory", Exit::data);
+    void* ark = arkode_.get();
+    check(ERKStepSetTableNum(ark, ARKODE_FEHLBERG_13_7_8), "ERKStepSetTableNum");
+    check(ERKStepSStolerances(ark, settings.tolerance, settings.tolerance * 1e-3), "ERKStepSStolerances");
+    check(ERKStepSetUserData(ark, this), "ERKStepSetUserData");
+    check(ERKStepSetMaxStep(ark, longest_step_), "ERKStepSetMaxStep");
+    check(ERKStepSetMaxNumSteps(ark, 100000), "ERKStepSetMaxNumSteps");
+    check(ERKStepRootInit(ark, root_count, &roots), "ERKStepRootInit");
+    int direction[root_count] = {};
+    std::fill(direction, direction + witness_slots, -1);
+    check(ERKStepSetRootDirection(ark, direction), "ERKStepSetRootDirection");
+    check(ERKStepSetNoInactiveRootWarn(ark), "ERKStepSetNoInactiveRootWarn");
+    output_step_ = history && history->step_s > 0 ? history->step_s : 0;
+  }
+
+  Response run() {
+    for (life_.stop_when_done(); !life_.finished(); life_.stop_when_done()) {
+      if (life_.state.mode == Mode::rest)
+        life_.wait();
+      else if (!resolve_if_violated())
+        integrate_leg();
+    }
+    return life_.result();
+  }
+
+ private:
+  // A jump of the floor's acceleration may end the mode at once.
+  bool resolve_if_violated() {
+    FirstEvent now(0);
+    const auto floor = life_.cursor.local<judge_order>();
+    if (life_.state.mode == Mode::flight)
+      for_each_witness(life_.rig, flight_arc<judge_order>(life_.rig, life_.state, floor), now);
+    else
+      for_each_witness(life_.rig, life_.state, contact_arc<judge_order>(life_.rig, life_.state, floor), now);
+    if (now.found().any) life_.resolve(now.found().witness);
+    return now.found().any;
+  }
+
+  // To the next knot, output time or event.
+  void integrate_leg() {
+    void* ark = arkode_.get();
+    floor_ = life_.cursor.local<judge_order>();
+    const double h = leg_length();
+    const bool to_knot = h == life_.cursor.left();
+    record(h);
+    write(life_.state);
+    watch_slip_ = watch_turn_ = true;
+    double g[root_count];
+    roots(0, y_.get(), g, this);
+    watch_slip_ = std::abs(g[witness_slots]) > 1e-9;      // a leg that starts at a stationary point
+    watch_turn_ = std::abs(g[witness_slots + 1]) > 1e-9;  // does not look for it again
+    check(ERKStepReset(ark, 0, y_.get()), "ERKStepReset");
+    check(ERKStepSetInitStep(ark, std::min(h, longest_step_)), "ERKStepSetInitStep");
+    check(ERKStepSetStopTime(ark, h), "ERKStepSetStopTime");
+    observe(0);
+    double tau = 0;
+    for (;;) {
+      const int flag = ERKStepEvolve(ark, h, y_.get(), &tau, ARK_ONE_STEP);
+      check(flag, "ERKStepEvolve");
+      const double xi = life_.state.xi;
+      life_.state = read(y_.get());
+      if (life_.state.sigma != 0) life_.peaks.response().slid_path_m += std::abs(life_.state.xi - xi);
+      observe(tau);
+      if (flag == ARK_TSTOP_RETURN || tau >= h) break;
+      if (flag != ARK_ROOT_RETURN) continue;
+      life_.cursor.advance(tau);
+      int found[root_count] = {};
+      check(ERKStepGetRootInfo(ark, found), "ERKStepGetRootInfo");
+      for (int slot = 0; slot < witness_slots; ++slot)
+        if (found[slot]) return life_.resolve(slots_[slot]);
+      return;  // a stationary point: the next leg starts there
+    }
+    life_.cursor.advance(h);
+    if (to_knot) life_.cursor.next_segment();
+  }
+
+  double leg_length() const {
+    double h = std::min(life_.cursor.left(), 20 * longest_step_);
+    if (output_step_ > 0) {
+      const double next = (std::floor(life_.cursor.time() / output_step_ + 1e-6) + 1) * output_step_;
+      h = std::min(h, next - life_.cursor.time());
+    }
+    return h;
+  }
+
+  void record(double h) {
+    if (life_.state.mode == Mode::flight)
+      life_.recorder.record(flight_arc<judge_order>(life_.rig, life_.state, floor_), floor_, life_.cursor.time(), h);
+    else
+      life_.recorder.record(life_.state, contact_arc<judge_order>(life_.rig, life_.state, floor_), floor_,
+                            life_.cursor.time(), h);
+  }
+
+  // Extremes at the present point; root finding stops the integration at the stationary ones.
+  void observe(double tau) {
+    const Floor<double, 1> floor = floor_at(tau);
+    if (life_.state.mode == Mode::flight)
+      life_.peaks.observe(life_.rig, flight_arc<1>(life_.rig, life_.state, floor), 0);
+    else
+      life_.peaks.observe(life_.rig, life_.state, contact_arc<1>(life_.rig, life_.state, floor), 0);
+  }
+
+  Floor<double, 1> floor_at(double tau) const { return {{floor_.a.at(tau), 0}, {floor_.g.at(tau), 0}}; }
+
+  State read(N_Vector y) const {
+    const double* v = N_VGetArrayPointer(y);
+    State s = life_.state;
+    s.theta = v[0];
+    s.omega = v[1];
+    const bool flying = s.mode == Mode::flight;
+    (flying ? s.x : s.xi) = v[2];
+    (flying ? s.vx : s.w) = v[3];
+    if (flying) s.y = v[4], s.vy = v[5];
+    return s;
+  }
+
+  void write(const State& s) {
+    double* v = N_VGetArrayPointer(y_.get());
+    const bool flying = s.mode == Mode::flight;
+    const double values[state_size] = {s.theta, s.omega, flying ? s.x : s.xi, flying ? s.vx : s.w,
+                                       flying ? s.y : 0, flying ? s.vy : 0};
+    std::copy(values, values + state_size, v);
+  }
+
+  static int derivative(double tau, N_Vector y, N_Vector rate, void* self) {
+    auto& me = *static_cast<ReferenceIntegrator*>(self);
+    const State s = me.read(y);
+    double* d = N_VGetArrayPointer(rate);
+    const auto floor = me.floor_at(tau);
+    if (s.mode == Mode::flight) {
+      const double rates[state_size] = {s.omega, 0, s.vx, -floor.a[0], s.vy, -floor.g[0]};
+      std::copy(rates, rates + state_size, d);
+    } else {
+      const auto arc = contact_arc<1>(me.life_.rig, s, floor);
+      const double rates[state_size] = {arc.theta[1], arc.omega[1], arc.xi[1], arc.w[1], 0, 0};
+      std::copy(rates, rates + state_size, d);
+    }
+    return 0;
+  }
+
+  static int roots(double tau, N_Vector y, double* g, void* self) {
+    auto& me = *static_cast<ReferenceIntegrator*>(self);
+    const State s = me.read(y);
+    const auto floor = me.floor_at(tau);
+    std::fill(g, g + root_count, 1.0);
+    int slot = 0;
+    const auto fill = [&](Witness witness, const Series<double, 1>& series, ZeroTolerance) {
+      me.slots_[slot] = witness;
+      g[slot++] = series[0];
+    };
+    if (s.mode == Mode::flight) {
+      for_each_witness(me.rig(), flight_arc<1>(me.rig(), s, floor), fill);
+    } else {
+      const auto arc = contact_arc<1>(me.rig(), s, floor);
+      for_each_witness(me.rig(), s, arc, fill);
+      if (me.watch_slip_) g[witness_slots] = midpoint(me.rig(), s, arc)[1];
+      if (me.watch_turn_ && s.pivot != 0) g[witness_slots + 1] = s.omega;
+    }
+    return 0;
+  }
+
+  const Rig& rig() const { return life_.rig; }
+
+  Integration life_;
+  double longest_step_;
+  double output_step_ = 0;
+  bool watch_slip_ = true, watch_turn_ = true;
+  Floor<double, judge_order> floor_{};
+  Witness slots_[witness_slots]{};
+  std::unique_ptr<_SUNContext, Delete> context_;
+  std::unique_ptr<_generic_N_Vector, Delete> y_;
+  std::unique_ptr<void, Delete> arkode_;
+};
+
+}  // namespace
+}  // namespace dynamics
+
+Response respond_reference(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history) {
+  if (!dynamics::admissible(specimen, shaking, settings)) return Response{.outcome = Outcome::not_finite};
+  return dynamics::ReferenceIntegrator(specimen, shaking, settings, history).run();
+}
+
+}  // namespace freestand
