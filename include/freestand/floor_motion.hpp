@@ -22,6 +22,11 @@ struct FloorMotion {
   std::vector<double> horizontal_mps2;  // n * (degree + 1)
   std::vector<double> vertical_mps2;    // the same, up positive; empty where there is no vertical channel
 
+  // Bounds of |a| over runs of `run_length` segments, from index_runs(): an integrator passes over the runs that cannot move
+  // the block. Empty: not indexed, every segment is looked at.
+  static constexpr std::size_t run_length = 32;
+  std::vector<double> horizontal_run_mps2, vertical_run_mps2;
+
   std::size_t segments() const { return knot_s.empty() ? 0 : knot_s.size() - 1; }
   double duration_s() const { return knot_s.empty() ? 0.0 : knot_s.back(); }
 };
@@ -41,7 +46,10 @@ struct Shaking {
 double horizontal_acceleration(const Shaking& shaking, double t);
 double vertical_acceleration(const Shaking& shaking, double t);
 
-// Equally spaced samples -> piecewise linear motion. vertical may be empty. Throws Error on fewer than two samples,
+// Fills the bounds of the runs from the coefficients.
+void index_runs(FloorMotion& motion);
+
+// Equally spaced samples -> piecewise linear motion, indexed. vertical may be empty. Throws Error on fewer than two samples,
 // unequal lengths, a step that is not positive, or a value that is not finite.
 FloorMotion piecewise_linear(std::string name, double dt_s, const std::vector<double>& horizontal_mps2,
                              const std::vector<double>& vertical_mps2 = {});

@@ -18,6 +18,22 @@ double evaluate(const FloorMotion& motion, const std::vector<double>& coefficien
   return value;
 }
 
+// max over each run of sum_k |c_k| h^k.
+std::vector<double> run_bounds(const FloorMotion& motion, const std::vector<double>& coefficients) {
+  const auto stride = static_cast<std::size_t>(motion.degree) + 1;
+  std::vector<double> bounds;
+  for (std::size_t i = 0; i * stride < coefficients.size(); ++i) {
+    const double h = motion.knot_s[i + 1] - motion.knot_s[i];
+    double bound = 0;
+    for (std::size_t k = stride; k-- > 0;) bound = bound * h + std::abs(coefficients[i * stride + k]);
+    if (i % FloorMotion::run_length == 0)
+      bounds.push_back(bound);
+    else
+      bounds.back() = std::max(bounds.back(), bound);
+  }
+  return bounds;
+}
+
 std::vector<double> linear_coefficients(double dt_s, const std::vector<double>& samples) {
   std::vector<double> c;
   c.reserve(2 * (samples.size() - 1));
@@ -42,6 +58,11 @@ double vertical_acceleration(const Shaking& shaking, double t) {
   return shaking.vertical_scale * evaluate(*shaking.motion, shaking.motion->vertical_mps2, t / shaking.stretch);
 }
 
+void index_runs(FloorMotion& motion) {
+  motion.horizontal_run_mps2 = run_bounds(motion, motion.horizontal_mps2);
+  motion.vertical_run_mps2 = run_bounds(motion, motion.vertical_mps2);
+}
+
 FloorMotion piecewise_linear(std::string name, double dt_s, const std::vector<double>& horizontal_mps2,
                              const std::vector<double>& vertical_mps2) {
   const auto reject = [&](const char* why) {
@@ -60,6 +81,7 @@ FloorMotion piecewise_linear(std::string name, double dt_s, const std::vector<do
   for (std::size_t i = 0; i < horizontal_mps2.size(); ++i) motion.knot_s.push_back(static_cast<double>(i) * dt_s);
   motion.horizontal_mps2 = linear_coefficients(dt_s, horizontal_mps2);
   if (!vertical_mps2.empty()) motion.vertical_mps2 = linear_coefficients(dt_s, vertical_mps2);
+  index_runs(motion);
   return motion;
 }
 

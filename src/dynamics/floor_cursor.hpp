@@ -19,6 +19,15 @@ class FloorCursor {
   bool motion_over() const { return segment_ == segments_; }
   void advance(double tau) { offset_ += tau; }
   void next_segment();  // to the first instant of the next segment
+  void next_run();      // to the first instant of the next run of segments
+
+  // Bounds of the floor's accelerations [m/s2], over the present segment, or over the run that starts here.
+  struct Bound {
+    double a, v;
+  };
+  Bound segment_bound() const;
+  bool run_starts_here() const;
+  Bound run_bound() const;
 
   // Floor acceleration and effective gravity about time(). N must be at least the degree of the motion.
   template <int N>
@@ -35,6 +44,9 @@ class FloorCursor {
  private:
   void shift(const double* coefficients, double scale, double* out, int order) const;
 
+  double bound(const double* coefficients) const;
+
+  const FloorMotion* motion_;
   const double* knots_;
   const double* horizontal_;
   const double* vertical_;  // null: no vertical shaking

@@ -48,8 +48,9 @@ class HistoryRecorder {
           {next_time(), horizontal_acceleration(shaking, next_time()), slip, 0.0, state.theta, 0.0, state.mode});
   }
 
- private:
   bool wanted() const { return history_ && history_->step_s > 0; }
+
+ private:
   double next_time() const { return static_cast<double>(next_) * history_->step_s; }
 
   template <class Point>

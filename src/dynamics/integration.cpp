@@ -27,7 +27,18 @@ Integration::Integration(const Specimen& specimen, const Shaking& shaking_, cons
       recorder(history, rig) {}
 
 void Integration::wait() {
+  const auto quiet = [&](FloorCursor::Bound bound) {
+    return !recorder.wanted() && !peaks.may_exceed(bound.a, bound.v) && rig.stays_put(bound.a, bound.v);
+  };
   while (!cursor.motion_over()) {
+    if (cursor.run_starts_here() && quiet(cursor.run_bound())) {
+      cursor.next_run();
+      continue;
+    }
+    if (quiet(cursor.segment_bound())) {
+      cursor.next_segment();
+      continue;
+    }
     const auto floor = cursor.local<wait_order>();
     const auto arc = contact_arc<wait_order>(rig, state, floor);
     FirstEvent first(cursor.left());
@@ -42,7 +53,7 @@ void Integration::wait() {
 }
 
 void Integration::resolve(Witness witness) {
-  const Mode from = state.mode;
+  const State from = state;
   bool impact = false, regular = true;
   switch (witness) {
     case Witness::impact:
@@ -68,10 +79,12 @@ void Integration::resolve(Witness witness) {
   chose(from, impact);
 }
 
-void Integration::chose(Mode from, bool impact) {
-  recorder.event(cursor.time(), from, state, impact);
+void Integration::chose(const State& from, bool impact) {
+  const bool news = impact || from.mode != state.mode || from.pivot != state.pivot || from.sigma != state.sigma;
+  if (news) recorder.event(cursor.time(), from.mode, state, impact);
   if (state.mode != Mode::rest) moved_ = true;
-  if (++peaks.response().events >= settings.event_limit && !finished_) stop(Outcome::step_limit);
+  peaks.response().events += news;
+  if (++resolved_ >= settings.event_limit && !finished_) stop(Outcome::step_limit);
 }
 
 void Integration::stop(Outcome outcome) {

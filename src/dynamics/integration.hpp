@@ -22,7 +22,7 @@ class Integration {
   void wait();
   // Applies an event: sets what the event makes exact, strikes or lands where corners meet the floor, chooses the next mode.
   void resolve(Witness witness);
-  void chose(Mode from, bool impact);  // counts and records a change of mode
+  void chose(const State& from, bool impact);  // counts and records a change of mode
   void stop(Outcome outcome);
   // Ends the sample when it can move no more, or has used up its time.
   void stop_when_done();
@@ -41,6 +41,7 @@ class Integration {
 
   bool finished_ = false;
   bool moved_ = false;
+  int resolved_ = 0;  // events, those that changed nothing included
   Outcome outcome_ = Outcome::moved;
 };
 

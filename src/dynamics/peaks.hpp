@@ -58,6 +58,12 @@ class Peaks {
     response_.peak_acceleration_mps2 = std::fmax(response_.peak_acceleration_mps2, rig.g);  // free fall
   }
 
+  // Would a total acceleration within these bounds be a new peak?
+  bool may_exceed(double a, double v) const {
+    const double peak = response_.peak_acceleration_mps2;
+    return !(a * a + v * v <= peak * peak);
+  }
+
   Response& response() { return response_; }
   bool finite() const { return finite_; }
 

@@ -37,6 +37,12 @@ struct Rig {
         rest_rotation(settings.tolerance),
         told_rotation(1e-3 * specimen.block.alpha_rad()) {}
 
+  // No floor acceleration with |a| <= a_max, |v| <= v_max can move the block from rest.
+  bool stays_put(double a_max, double v_max) const {
+    const double push = g - v_max;
+    return (!can_slip || a_max < mu_s * push) && (!can_rock || h * a_max < (right < left ? right : left) * push) && push > 0;
+  }
+
   double offset(int pivot) const { return pivot > 0 ? right : -left; }
   Corner<double> corner(int pivot) const { return {offset(pivot), h, k2}; }
   double half_base() const { return 0.5 * (right + left); }

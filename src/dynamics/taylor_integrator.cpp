@@ -8,7 +8,8 @@ namespace freestand {
 namespace dynamics {
 namespace {
 
-template <int N>
+// N: order of the steps on one corner. FlatN: order in which sliding is exact, degree of the motion + 2.
+template <int N, int FlatN>
 class TaylorIntegrator {
  public:
   TaylorIntegrator(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history)
@@ -21,6 +22,8 @@ class TaylorIntegrator {
         life_.wait();
       else if (life_.state.mode == Mode::flight)
         fly_on(life_.cursor.template local<N>());
+      else if (life_.state.pivot == 0)
+        move_on(life_.cursor.template local<FlatN>());
       else
         move_on(life_.cursor.template local<N>());
     }
@@ -28,9 +31,10 @@ class TaylorIntegrator {
   }
 
  private:
-  void move_on(const Floor<double, N>& floor) {
+  template <int M>
+  void move_on(const Floor<double, M>& floor) {
     const State before = life_.state;
-    const auto arc = contact_arc<N>(life_.rig, before, floor);
+    const auto arc = contact_arc<M>(life_.rig, before, floor);
     const double h = step(before.pivot == 0 ? 0.0 : local_error(arc));
     FirstEvent first(h);
     for_each_witness(life_.rig, before, arc, first);
@@ -69,17 +73,19 @@ class TaylorIntegrator {
     if (found.any) life_.resolve(found.witness);
   }
 
-  // Next term of the series, dimensionless, at tau = 1/p: the error of a step h is about this times (p h)^(N + 1).
-  double local_error(const Arc<double, N>& arc) const {
-    const double pN = std::pow(p_, N);
-    return std::max({std::abs(arc.theta[N]) / alpha_, std::abs(arc.omega[N]) / (p_ * alpha_),
-                     std::abs(arc.xi[N]) / size_, std::abs(arc.w[N]) / (p_ * size_)}) / pN;
+  // Last term of the series, dimensionless, at tau = 1/p: a step h neglects about this times (p h)^N in the forces, and less
+  // in the state.
+  template <int M>
+  double local_error(const Arc<double, M>& arc) const {
+    const double pN = std::pow(p_, M);
+    return std::max({std::abs(arc.theta[M]) / alpha_, std::abs(arc.omega[M]) / (p_ * alpha_),
+                     std::abs(arc.xi[M]) / size_, std::abs(arc.w[M]) / (p_ * size_)}) / pN;
   }
 
   double step(double error_at_1p) const {
     double h = std::min(life_.cursor.left(), 1.0 / p_);
-    if (error_at_1p * std::pow(p_ * h, N + 1) > life_.settings.tolerance)
-      h = std::pow(life_.settings.tolerance / error_at_1p, 1.0 / (N + 1)) / p_;
+    if (error_at_1p * std::pow(p_ * h, N) > life_.settings.tolerance)
+      h = std::pow(life_.settings.tolerance / error_at_1p, 1.0 / N) / p_;
     return h;
   }
 
@@ -93,8 +99,8 @@ class TaylorIntegrator {
 Response respond(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history) {
   if (!dynamics::admissible(specimen, shaking, settings)) return Response{.outcome = Outcome::not_finite};
   // Records are linear between samples that lie close together; pulses have longer segments of higher degree.
-  if (shaking.motion->degree <= 1) return dynamics::TaylorIntegrator<7>(specimen, shaking, settings, history).run();
-  return dynamics::TaylorIntegrator<10>(specimen, shaking, settings, history).run();
+  if (shaking.motion->degree <= 1) return dynamics::TaylorIntegrator<7, 3>(specimen, shaking, settings, history).run();
+  return dynamics::TaylorIntegrator<10, 10>(specimen, shaking, settings, history).run();
 }
 
 }  // namespace freestand

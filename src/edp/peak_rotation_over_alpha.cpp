@@ -1,0 +1,15 @@
+#include "edp/edp.hpp"
+
+namespace freestand::edp {
+
+const Register peak_rotation_over_alpha{{
+    .name = "peak_rotation_over_alpha",
+    .unit = "1",
+    .symbol = "θ/α",
+    .summary = "largest rotation over the slenderness; 1: the centre of mass is over the corner",
+    .source = "[KM05 ch. 6]",
+    .default_capacities = {0.1, 0.25, 0.5, 0.75},
+    .value = [](const Input& in) { return in.response.peak_rotation_rad / in.specimen.block.alpha_rad(); },
+}};
+
+}  // namespace freestand::edp
