@@ -1,0 +1,76 @@
+#include "fragility/intervals.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace freestand::fragility {
+namespace {
+
+constexpr std::int64_t many = 100000;
+
+// By bisection: the distribution function of GSL converges wherever it is asked here, its inverse does not.
+double beta_quantile(double p, double a, double b) {
+  double low = 0, high = 1;
+  for (int i = 0; i < 200 && high - low > 1e-15 * high; ++i) {
+    const double middle = (low + high) / 2;
+    (gsl_cdf_beta_P(middle, a, b) < p ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+// Wilson's score limit at a count that was corrected for continuity.
+double score_limit(double k, double n, double side, double tail) {
+  const double z = gsl_cdf_ugaussian_Qinv(tail), p = k / n;
+  const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+  return (p + z * z / (2 * n) + side * half) / (1 + z * z / n);
+}
+
+}  // namespace
+
+Interval clopper_pearson(std::int64_t hits, std::int64_t trials, double confidence) {
+  if (trials <= 0) return {0, 1};
+  const double tail = (1 - confidence) / 2;
+  const double k = static_cast<double>(hits), n = static_cast<double>(trials);
+  if (std::min(hits, trials - hits) > many)
+    return {score_limit(k - 0.5, n, -1, tail), score_limit(k + 0.5, n, +1, tail)};
+  return {hits == 0 ? 0 : beta_quantile(tail, k, n - k + 1),
+          hits == trials ? 1 : beta_quantile(1 - tail, k + 1, n - k)};
+}
+
+double sorted_quantile(const std::vector<double>& sorted, double p) {
+  if (sorted.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const double position = std::clamp(p, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  if (below + 1 >= sorted.size()) return sorted.back();
+  return sorted[below] + (position - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
+}
+
+Interval percentile_interval(std::vector<double> values, double confidence, int groups) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  if (values.size() < 2 || groups < 2) return {nan, nan};
+  std::sort(values.begin(), values.end());
+  const double g = groups;
+  const double t = gsl_cdf_tdist_Qinv((1 - confidence) / 2, g - 1);
+  const double tail = gsl_cdf_ugaussian_Q(std::sqrt(g / (g - 1)) * t);
+  return {sorted_quantile(values, tail), sorted_quantile(values, 1 - tail)};
+}
+
+std::vector<bool> benjamini_hochberg(const std::vector<double>& p, double level) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < p.size(); ++i)
+    if (!std::isnan(p[i])) order.push_back(i);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p[a] < p[b]; });
+  std::size_t rejected = 0;
+  for (std::size_t rank = 1; rank <= order.size(); ++rank)
+    if (p[order[rank - 1]] <= level * static_cast<double>(rank) / static_cast<double>(order.size())) rejected = rank;
+  std::vector<bool> result(p.size(), false);
+  for (std::size_t rank = 0; rank < rejected; ++rank) result[order[rank]] = true;
+  return result;
+}
+
+}  // namespace freestand::fragility
