@@ -24,11 +24,12 @@ struct Pulse {
   double phase_rad = 0;           // phi of the C pulses [KM05 5.5], else 0
   double velocity_amplitude = 0;  // v_p of [KM05 ch. 5] for a_p = 1, T = 1 (a_p = 2 pi v_p / T for B and C, pi v_p / T
                                   // for A); peak_velocity for pulses that are not of that family
-  double peak_velocity = 0;              // true max |velocity| for a_p = 1, T = 1: (1 + sin phi) v_p for the C pulses
-  double peak_displacement = 0;          // true max |displacement| for a_p = 1, T = 1
-  int segments_per_period = 32;          // of the polynomial table
-  std::vector<double> breaks;            // times [periods] of jumps and kinks, 0 and duration among them
-  std::function<PulseState(double)> at;  // closed form, time in periods within [0, duration]
+  double peak_velocity = 0;       // true max |velocity| for a_p = 1, T = 1: (1 + sin phi) v_p for the C pulses
+  double peak_displacement = 0;   // true max |displacement| for a_p = 1, T = 1
+  int segments_per_period = 32;   // of the polynomial table, and its degree
+  int table_degree = 7;
+  std::vector<double> breaks = {};            // times [periods] of jumps and kinks, 0 and duration among them
+  std::function<PulseState(double)> at = {};  // closed form, time in periods within [0, duration]
 };
 
 // The pulse of that name; "C7" and the like for any n >= 1. Upper or lower case. Throws Error that lists the known

@@ -28,7 +28,7 @@ struct MotionSummary {
 };
 
 MotionSummary summarize(const FloorMotion& record, const SummaryRequest& request = {});
-MotionSummary summarize(const Pulse& pulse, const FloorMotion& table, const SummaryRequest& request = {});
+MotionSummary summarize(const Pulse& pulse);
 
 // w_p = 2 pi / T_p [rad/s] of Delta = U w_p^2 / PTA [KM05 5.7]: of the pulse itself, or of the pulse identified in the
 // record. nan when the record's pulse was not asked for or there is none.

@@ -1,0 +1,26 @@
+// A motion's segments as polynomials, for the files of this folder.
+#pragma once
+
+#include <freestand/floor_motion.hpp>
+
+#include "motion/peaks.hpp"
+#include "motion/polynomial.hpp"
+
+namespace freestand::motion {
+
+// Acceleration of segment i in the time since its start.
+inline Polynomial segment(const FloorMotion& motion, const std::vector<double>& coefficients, std::size_t i) {
+  Polynomial p;
+  p.degree = motion.degree;
+  const std::size_t terms = static_cast<std::size_t>(motion.degree) + 1;
+  for (std::size_t k = 0; k < terms; ++k) p.c[k] = coefficients[i * terms + k];
+  return p;
+}
+
+inline double length(const FloorMotion& motion, std::size_t i) { return motion.knot_s[i + 1] - motion.knot_s[i]; }
+
+inline const std::vector<double>& coefficients(const FloorMotion& motion, Channel channel) {
+  return channel == Channel::horizontal ? motion.horizontal_mps2 : motion.vertical_mps2;
+}
+
+}  // namespace freestand::motion

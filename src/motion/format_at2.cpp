@@ -1,0 +1,75 @@
+// PEER .AT2: header lines of text, then accelerations, several a line. One of the first lines gives count and step,
+//   "NPTS=   7995, DT=   .0050 SEC, ..."  or, in old files,  "  7995   .0050   NPTS, DT".
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "motion/record_format.hpp"
+
+namespace freestand::motion {
+namespace {
+
+constexpr std::size_t header_lines = 12;  // at most
+
+std::size_t count_line(const RecordText& text) { return text.find("npts", 0, header_lines); }
+
+// What stands behind `key` and an optional "=" in a line; empty where the key is missing.
+std::string_view value_of(std::string_view line, std::string_view key) {
+  const std::size_t place = lower_case(line).find(key);
+  if (place == std::string::npos) return {};
+  const auto parts = split(line.substr(place + key.size()), "= \t,");
+  return parts.empty() ? std::string_view() : parts.front();
+}
+
+struct Size {
+  std::size_t count;
+  double dt_s;
+};
+
+Size read_size(const RecordText& text, std::size_t line) {
+  const std::string_view header = text.line(line);
+  if (header.find('=') == std::string_view::npos) {
+    const auto parts = split(header, " \t,");
+    if (parts.size() < 3)
+      text.fail(line, "no count and step before \"NPTS, DT\" (the header is cut): get the file again");
+    return {text.count(line, parts[0]), text.number(line, parts[1])};
+  }
+  const std::string_view count = value_of(header, "npts"), dt = value_of(header, "dt");
+  if (count.empty() || dt.empty())
+    text.fail(line, "NPTS= or DT= without a value (the header is cut): get the file again");
+  return {text.count(line, count), text.number(line, dt)};
+}
+
+std::string read_unit(const RecordText& text, std::size_t until) {
+  for (std::size_t i = 0; i < until; ++i) {
+    const std::string line = lower_case(text.line(i));
+    if (line.find("velocity time series") != std::string::npos ||
+        line.find("displacement time series") != std::string::npos)
+      text.fail(i, "not a record of acceleration (the header says so): use the .AT2 file");
+    const std::size_t place = line.find("units of ");
+    if (place == std::string::npos) continue;
+    const auto parts = split(std::string_view(line).substr(place + 9), " ,()");
+    if (!parts.empty()) return std::string(parts.front());
+  }
+  return "g";
+}
+
+bool recognises(const RecordText& text) { return count_line(text) < std::min(text.size(), header_lines); }
+
+RawRecord read(const RecordText& text) {
+  std::size_t line = count_line(text);
+  const Size size = read_size(text, line);
+  RawRecord record{size.dt_s, read_unit(text, line), {RawChannel{}}};
+  ++line;
+  record.channels[0].values = text.block(line, size.count);
+  text.ends_at(line, size.count);
+  return record;
+}
+
+const RegisteredFormat here{{.name = "at2",
+                             .summary = "PEER .AT2: NPTS= and DT= in the header, accelerations in g",
+                             .recognises = recognises,
+                             .read = read}};
+
+}  // namespace
+}  // namespace freestand::motion

@@ -1,0 +1,71 @@
+// freestand's own csv: a header line of column names, among them time_s, floor_acceleration_mps2 and perhaps
+// floor_vertical_acceleration_mps2. Other columns (as in histories and measured tests) are left unread.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "motion/record_format.hpp"
+
+namespace freestand::motion {
+namespace {
+
+constexpr std::string_view time_name = "time_s", horizontal_name = "floor_acceleration_mps2",
+                           vertical_name = "floor_vertical_acceleration_mps2";
+
+std::vector<std::string_view> cells(std::string_view line) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    parts.push_back(trim(line.substr(begin, end - begin)));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+std::size_t header_line(const RecordText& text) {
+  std::size_t line = 0;
+  while (line < text.size() && (trim(text.line(line)).empty() || text.line(line)[0] == '#')) ++line;
+  return line;
+}
+
+bool recognises(const RecordText& text) {
+  const auto names = cells(text.line(header_line(text)));
+  return std::find(names.begin(), names.end(), time_name) != names.end();
+}
+
+RawRecord read(const RecordText& text) {
+  const std::size_t header = header_line(text);
+  const auto names = cells(text.line(header));
+  const auto place = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const std::size_t time = place(time_name), horizontal = place(horizontal_name), vertical = place(vertical_name);
+  if (horizontal == names.size())
+    text.fail(header,
+              fmt::format("no column {} (the columns are {}): add it", horizontal_name, trim(text.line(header))));
+  std::vector<double> times;
+  std::vector<std::size_t> lines;
+  RawRecord record{{}, "m/s2", {RawChannel{"horizontal", false, {}}}};
+  if (vertical < names.size()) record.channels.push_back({"vertical", true, {}});
+  for (std::size_t line = header + 1; line < text.size(); ++line) {
+    if (trim(text.line(line)).empty()) continue;
+    const auto row = cells(text.line(line));
+    if (row.size() != names.size())
+      text.fail(line, fmt::format("{} columns (the header has {}): correct the line", row.size(), names.size()));
+    times.push_back(text.number(line, row[time]));
+    lines.push_back(line);
+    record.channels[0].values.push_back(text.number(line, row[horizontal]));
+    if (vertical < names.size()) record.channels[1].values.push_back(text.number(line, row[vertical]));
+  }
+  record.dt_s = text.even_step(times, lines);
+  return record;
+}
+
+const RegisteredFormat here{{.name = "floor_csv",
+                             .summary = "csv with columns time_s, floor_acceleration_mps2 "
+                                        "[, floor_vertical_acceleration_mps2], constant step",
+                             .recognises = recognises,
+                             .read = read}};
+
+}  // namespace
+}  // namespace freestand::motion

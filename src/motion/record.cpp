@@ -1,0 +1,163 @@
+#include "motion/record.hpp"
+
+#include <fmt/format.h>
+#include <glob.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+
+#include "base/units.hpp"
+#include "motion/record_format.hpp"
+
+namespace freestand::motion {
+namespace {
+
+std::string format_names() {
+  std::string names;
+  for (const RecordFormat& format : registry<RecordFormat>()) names += (names.empty() ? "" : ", ") + format.name;
+  return names;
+}
+
+const RecordFormat& choose_format(const RecordText& text, const std::string& wanted) {
+  for (const RecordFormat& format : registry<RecordFormat>())
+    if (wanted.empty() ? format.recognises(text) : format.name == wanted) return format;
+  if (!wanted.empty())
+    throw Error(fmt::format("no record format \"{}\" (the formats are {}): name one of these", wanted, format_names()));
+  text.fail(0, fmt::format("no known record format (the formats are {}): convert the record to one of these",
+                           format_names()));
+}
+
+double choose_step(const RecordText& text, const RawRecord& raw, const ReadOptions& options) {
+  if (!raw.dt_s && !options.dt_s)
+    throw Error(
+        fmt::format("{}: the time step is not known (the file does not say it): give dt_s", text.path().string()));
+  if (raw.dt_s && options.dt_s && std::abs(*raw.dt_s - *options.dt_s) > 1e-6 * *raw.dt_s)
+    throw Error(fmt::format("{}: dt_s {} contradicts the file (it says {}): leave dt_s out", text.path().string(),
+                            *options.dt_s, *raw.dt_s));
+  const double dt = raw.dt_s ? *raw.dt_s : *options.dt_s;
+  if (!(dt > 0) || !std::isfinite(dt))
+    text.fail(fmt::format("the time step {} s is of no use (not a positive number): correct it", dt));
+  return dt;
+}
+
+double choose_unit(const RecordText& text, const RawRecord& raw, const ReadOptions& options) {
+  if (raw.unit.empty() && options.unit.empty())
+    throw Error(
+        fmt::format("{}: the unit of acceleration is not known (the file does not say it): give unit, "
+                    "\"g\" or \"m/s2\"",
+                    text.path().string()));
+  if (raw.unit.empty()) return acceleration_unit_mps2(options.unit);
+  const double stated = acceleration_unit_mps2(raw.unit);
+  if (!options.unit.empty() && acceleration_unit_mps2(options.unit) != stated)
+    throw Error(fmt::format("{}: unit {} contradicts the file (it says {}): leave unit out", text.path().string(),
+                            options.unit, raw.unit));
+  return stated;
+}
+
+const RawChannel& choose_channel(const RecordText& text, const RawRecord& raw, const std::string& wanted) {
+  if (wanted.empty()) {
+    for (const RawChannel& channel : raw.channels)
+      if (!channel.vertical) return channel;
+    return raw.channels.front();
+  }
+  std::string names;
+  for (std::size_t i = 0; i < raw.channels.size(); ++i) {
+    const std::string& name = raw.channels[i].name;
+    if (std::to_string(i + 1) == wanted || (!name.empty() && lower_case(name) == lower_case(wanted)))
+      return raw.channels[i];
+    names += fmt::format("{}{} {}", i ? ", " : "", i + 1, name);
+  }
+  throw Error(fmt::format("{}: no channel \"{}\" (the channels are {}): name one of these", text.path().string(),
+                          wanted, names));
+}
+
+std::vector<double> in_mps2(std::vector<double> values, double unit) {
+  for (double& value : values) value *= unit;
+  return values;
+}
+
+struct Samples {
+  double dt_s;
+  std::vector<double> horizontal, vertical;
+};
+
+Samples read_samples(const std::filesystem::path& path, const ReadOptions& options) {
+  const RecordText text(path);
+  const RawRecord raw = choose_format(text, options.format).read(text);
+  const RawChannel& horizontal = choose_channel(text, raw, options.channel);
+  if (horizontal.values.size() < 2) text.fail("fewer than two samples (no motion): get the whole file");
+  const double unit = choose_unit(text, raw, options);
+  Samples samples{choose_step(text, raw, options), in_mps2(horizontal.values, unit), {}};
+  for (const RawChannel& channel : raw.channels)
+    if (channel.vertical && &channel != &horizontal && channel.values.size() == horizontal.values.size() &&
+        samples.vertical.empty())
+      samples.vertical = in_mps2(channel.values, unit);
+  return samples;
+}
+
+void add_vertical(Samples& samples, const ReadOptions& options) {
+  ReadOptions own = options;
+  own.vertical_file.clear();
+  own.channel.clear();
+  Samples vertical = read_samples(options.vertical_file, own);
+  if (std::abs(vertical.dt_s - samples.dt_s) > 1e-6 * samples.dt_s)
+    throw Error(fmt::format("{}: another time step ({} s) than the horizontal record ({} s): resample one of them",
+                            options.vertical_file, vertical.dt_s, samples.dt_s),
+                Exit::data);
+  samples.vertical = std::move(vertical.horizontal);
+  const std::size_t size = std::max(samples.horizontal.size(), samples.vertical.size());
+  samples.horizontal.resize(size, 0.0);
+  samples.vertical.resize(size, 0.0);
+}
+
+}  // namespace
+
+FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& options) {
+  Samples samples = read_samples(path, options);
+  if (!options.vertical_file.empty()) add_vertical(samples, options);
+  return piecewise_linear(path.string(), samples.dt_s, samples.horizontal, samples.vertical);
+}
+
+std::vector<FormatInfo> record_formats() {
+  std::vector<FormatInfo> formats;
+  for (const RecordFormat& format : registry<RecordFormat>()) formats.push_back({format.name, format.summary});
+  return formats;
+}
+
+double acceleration_unit_mps2(const std::string& unit) {
+  std::string name;
+  for (const char c : lower_case(unit))
+    if (c != '^' && c != ' ') name += c;
+  if (name == "g") return standard_gravity_mps2;
+  if (name == "m/s2" || name == "mps2" || name == "m/s/s" || name == "m/sec2") return 1;
+  if (name == "cm/s2" || name == "cm/s/s" || name == "cm/sec2" || name == "cm/sec/sec" || name == "gal") return 0.01;
+  if (name == "mm/s2" || name == "mm/s/s" || name == "mm/sec2") return 0.001;
+  if (name == "in/s2" || name == "in/s/s" || name == "in/sec2") return inch_m;
+  if (name == "ft/s2" || name == "ft/s/s" || name == "ft/sec2") return 12 * inch_m;
+  throw Error(
+      fmt::format("no unit of acceleration \"{}\" (the units are g, m/s2, cm/s2 or gal, mm/s2, in/s2, ft/s2): name "
+                  "one of these",
+                  unit));
+}
+
+std::vector<std::filesystem::path> expand_glob(const std::string& pattern, const std::filesystem::path& base) {
+  std::filesystem::path full = base / pattern;  // an absolute pattern stays as it is
+  std::error_code ignored;
+  if (std::filesystem::is_directory(full, ignored)) full /= "*";
+  glob_t found{};
+  std::vector<std::filesystem::path> files;
+  if (glob(full.c_str(), GLOB_NOSORT, nullptr, &found) == 0)
+    for (std::size_t i = 0; i < found.gl_pathc; ++i)
+      if (std::filesystem::is_regular_file(found.gl_pathv[i], ignored)) files.emplace_back(found.gl_pathv[i]);
+  globfree(&found);
+  if (files.empty())
+    throw Error(
+        fmt::format("no file matches \"{}\" (looked for {}): correct the pattern; a relative one starts at the "
+                    "study's folder",
+                    pattern, full.string()));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace freestand::motion
