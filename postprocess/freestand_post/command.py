@@ -1,0 +1,72 @@
+"""The two commands, and the one place where a Problem becomes a line on the terminal and an exit code."""
+import argparse
+import json
+import pathlib
+import sys
+
+from .problem import USAGE, Problem
+
+
+def _arguments(what, argv):
+    parser = argparse.ArgumentParser(prog=f"postprocess/{what}", description={
+        "figures": "Draws every picture of a result folder into DIR/figures, as SVG and PNG.",
+        "report": "Writes DIR/report.html, one self-contained page, from a result folder."}[what])
+    parser.add_argument("folder", metavar="DIR", type=pathlib.Path, help="folder written by freestand run, fit or simulate")
+    parser.add_argument("--history", metavar="DIR", type=pathlib.Path, help="folder of one freestand simulate, shown beside the sweep")
+    parser.add_argument("-o", "--output", metavar="PATH", type=pathlib.Path,
+                        help="where to write (default: DIR/figures, DIR/report.html)")
+    return parser.parse_args(argv)
+
+
+def read(folder, history=None):
+    """What there is to draw: a list of Sweep and History values."""
+    from . import reading
+    folder = reading.existing_folder(folder)
+    found = []
+    if reading.is_sweep(folder) or not reading.is_history(folder):
+        found.append(reading.read_sweep(folder))
+    if reading.is_history(folder):
+        found.append(reading.read_history(folder))
+    if history is not None:
+        found.append(reading.read_history(history))
+    return found
+
+
+def _figures(arguments):
+    from . import pictures, style
+    results = read(arguments.folder, arguments.history)
+    target = arguments.output or arguments.folder / "figures"
+    target.mkdir(parents=True, exist_ok=True)
+    style.apply()
+    captions = {}
+    for result in results:
+        for picture in pictures.draw(result):
+            (target / f"{picture.name}.svg").write_text(style.svg(picture.figure), encoding="utf-8")
+            picture.figure.savefig(target / f"{picture.name}.png", dpi=style.DPI)
+            captions[picture.name] = {"finding": picture.finding, "caption": picture.caption}
+    (target / "captions.json").write_text(json.dumps(captions, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    print(f"{len(captions)} pictures in {target}")
+
+
+def _report(arguments):
+    from . import report
+    results = read(arguments.folder, arguments.history)
+    target = arguments.output or arguments.folder / "report.html"
+    target.write_text(report.page(results), encoding="utf-8")
+    print(target.resolve())
+
+
+def main(what, argv=None):
+    arguments = _arguments(what, argv)
+    try:
+        {"figures": _figures, "report": _report}[what](arguments)
+    except Problem as problem:
+        print(f"postprocess/{what}: {problem}", file=sys.stderr)
+        return problem.exit_code
+    except PermissionError as why:
+        print(f"postprocess/{what}: {why.filename} cannot be written (no permission): give another place with -o", file=sys.stderr)
+        return USAGE
+    except ModuleNotFoundError as why:
+        print(f"postprocess/{what}: the Python package {why.name} is not there: run jobs/install", file=sys.stderr)
+        return USAGE
+    return 0

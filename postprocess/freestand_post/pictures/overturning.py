@@ -1,0 +1,61 @@
+"""Probability of overturning against intensity: one lognormal curve over all bins, and the counted shares with exact intervals."""
+import numpy as np
+
+from .. import style, words
+from ..reading import Sweep
+from . import Picture
+
+order = 50
+CAPTION = ("Points: share of overturned samples in each bin, bars: exact binomial 95 % interval; line and band: lognormal curve "
+           "fitted to all bins at once by maximum likelihood. Where points leave the band, one curve is too simple.")
+
+
+def pictures(results):
+    if not isinstance(results, Sweep) or not results.edps:
+        return
+    bins = next((edp.bins for edp in results.edps if edp.kind == "binary"), results.edps[0].bins)
+    if np.isfinite(bins["p_over"]).any():
+        yield _picture(results, bins)
+
+
+def _picture(sweep, bins):
+    im, curve = sweep.im_symbol, sweep.overturning
+    fig = style.figure(7.4, 4.0)
+    ax = fig.subplots()
+    drawn = bool(curve) and np.isfinite(curve["probability"]).any()
+    if drawn:
+        ax.fill_between(curve["grid"], curve["lower"], curve["upper"], color=style.VERMILION, alpha=0.15, lw=0)
+        ax.plot(curve["grid"], curve["probability"], color=style.VERMILION)
+    p, x = bins["p_over"], sweep.centre
+    error = np.vstack([p - bins["p_over_lower"], bins["p_over_upper"] - p])
+    good = np.isfinite(p) & np.isfinite(error).all(axis=0)
+    ax.errorbar(x[good], p[good], yerr=np.maximum(error[:, good], 0), fmt="o", ms=4.5, color=style.INK, mec="white", mew=0.5,
+                elinewidth=1.0, capsize=2)
+    top = max(np.nanmax(bins["p_over_upper"][good], initial=0.0), np.nanmax(curve["upper"], initial=0.0) if drawn else 0.0)
+    ax.set(xlim=(sweep.edge[0], sweep.edge[-1]), ylim=(0, 1.015 if top > 0.5 else min(1.0, 1.25 * top + 0.005)),
+           xlabel=words.with_unit(im, sweep.im_unit), ylabel="P(overturned)")
+    style.grid(ax)
+    if drawn and sweep.edge[0] < curve["median"] < sweep.edge[-1] and ax.get_ylim()[1] > 0.5:
+        ax.plot([curve["median"]] * 2 + [sweep.edge[0]], [0, 0.5, 0.5], color=style.MUTED, lw=0.8, ls=(0, (1, 2)))
+    finding = _finding(sweep, bins, curve, drawn, im)
+    style.headline(fig, finding, _subtitle(curve, drawn))
+    return Picture("overturning", fig, finding, CAPTION, "sweep")
+
+
+def _finding(sweep, bins, curve, drawn, im):
+    if not np.nansum(bins["n_over"]):
+        return "No specimen overturned in the range swept"
+    median = curve.get("median", np.nan) if drawn else np.nan
+    if np.isfinite(median) and sweep.edge[0] <= median <= sweep.edge[-1]:
+        return f"By the fitted curve, half of the specimens overturn at {words.is_(im, median, sweep.im_unit)}"
+    top = int(np.nanargmax(bins["p_over"]))
+    return (f"Overturning peaks at {words.probability(bins['p_over'][top])}, "
+            f"{words.is_(f'at {im}', sweep.centre[top], sweep.im_unit)}")
+
+
+def _subtitle(curve, drawn):
+    if not drawn:
+        return "Counted shares with exact binomial 95 % intervals; no curve could be fitted."
+    text = (f"Lognormal curve: median {words.plus_minus(curve['median'], curve['median_se'])}, dispersion "
+            f"{words.plus_minus(curve['dispersion'], curve['dispersion_se'])} (standard errors)")
+    return text + ("; penalised, since the outcomes separate." if curve["penalised"] else "; bars: exact 95 % intervals.")

@@ -1,0 +1,89 @@
+"""The surface P(EDP > C) over intensity and capacity: shades per bin, contour lines through the bins."""
+import numpy as np
+
+from .. import style, words
+from ..model import crossing, exceedance
+from ..reading import REJECTED, Sweep
+from . import Picture
+
+order = 20
+LEVELS = (0.1, 0.25, 0.5, 0.75, 0.9)
+CAPTION = ("Shade and contour lines: probability that {symbol} exceeds the capacity C (up) at an intensity (across), from the "
+           "three-part model of each bin; a triangle marks a bin whose lognormal failed and whose counted distribution is shown instead.")
+
+
+def pictures(results):
+    if isinstance(results, Sweep):
+        for edp in results.continuous():
+            yield _picture(results, edp)
+
+
+def capacity_range(edp):
+    """Capacities worth showing: the list of the study and the middle of what was seen."""
+    low, high = 0.8 * edp.capacity[edp.capacity > 0].min(), 1.25 * edp.capacity.max()
+    total = edp.cells.sum(axis=0)
+    if total.sum() > 0:
+        share = np.cumsum(total) / total.sum()
+        seen = np.exp(np.interp([0.15, 0.98], share, edp.ln_edge[1:]))
+        low, high = min(low, seen[0]), max(high, seen[1])
+    return (low, high) if high > low else (low / 3, low * 3)
+
+
+def _picture(sweep, edp):
+    symbol, im = edp.label, sweep.im_symbol
+    low, high = capacity_range(edp)
+    capacity = np.geomspace(low, high, 161)
+    middle = np.sqrt(capacity[1:] * capacity[:-1])
+    p = exceedance(edp, middle)
+    fig = style.figure(7.4, 4.6)
+    ax = fig.subplots()
+    ax.set_facecolor(style.EMPTY)
+    mesh = ax.pcolormesh(sweep.edge, capacity, p.T, cmap=style.PROBABILITY, vmin=0, vmax=1, rasterized=True)
+    ax.set(yscale="log", xlim=(sweep.edge[0], sweep.edge[-1]), ylim=(low, high), xlabel=words.with_unit(im, sweep.im_unit),
+           ylabel=words.with_unit(f"capacity C of {symbol}", edp.unit))
+    style.plain_log(ax.yaxis)
+    _contours(ax, sweep, middle, p)
+    for i in np.flatnonzero(edp.bins["status"] == REJECTED):
+        ax.plot(sweep.centre[i], 1.02, "v", ms=5, color=style.FAIL, transform=ax.get_xaxis_transform(), clip_on=False)
+    _bar(fig, ax, mesh, symbol)
+    finding = _finding(sweep, edp, symbol, im, p, middle)
+    failed = int((edp.bins["status"] == REJECTED).sum())
+    note = f"Triangles: the {failed} bins where the lognormal fails and the counted distribution is shown." if failed > 1 else \
+        "Triangle: the bin where the lognormal fails and the counted distribution is shown." if failed else \
+        "The lognormal holds in every bin shown."
+    style.headline(fig, finding, f"P({symbol} > C) over intensity and capacity. {note} Grey: too few samples.")
+    return Picture(f"surface_{edp.name}", fig, finding, CAPTION.format(symbol=symbol), "sweep", edp.name)
+
+
+def _contours(ax, sweep, capacity, p):
+    good = np.isfinite(p[:, 0])
+    if good.sum() < 2:
+        return
+    x = sweep.centre[good]
+    grid = np.linspace(x[0], x[-1], 300)
+    dense = np.array([np.interp(grid, x, p[good, j]) for j in range(capacity.size)])
+    lines = ax.contour(grid, capacity, dense, levels=LEVELS, colors=[style.INK, style.INK, "white", "white", "white"],
+                       linewidths=[0.8, 0.8, 1.6, 0.8, 0.8])
+    ax.clabel(lines, fmt="%.2g", fontsize=8, inline_spacing=4)
+
+
+def _bar(fig, ax, mesh, symbol):
+    bar = fig.colorbar(mesh, ax=ax, pad=0.02, aspect=28)
+    bar.set_label(f"P({symbol} > C)")
+    bar.set_ticks([0, 0.25, 0.5, 0.75, 1])
+    bar.outline.set_visible(False)
+
+
+def _finding(sweep, edp, symbol, im, p, capacity):
+    """What half and nine tenths of the specimens exceed, in the bin nearest to the middle that shows it."""
+    found = []
+    for i in np.flatnonzero(np.isfinite(p[:, 0])):
+        half, most = (crossing(-np.log(capacity), p[i], level) for level in (0.5, 0.9))  # p falls with capacity
+        if np.isfinite(half):
+            found.append((abs(i - 0.5 * p.shape[0]), sweep.centre[i], np.exp(-half), np.exp(-most)))
+    if not found:
+        return f"{symbol} over the whole range swept" if np.isfinite(p).any() else f"Too few samples for a surface of {symbol}"
+    _, x, half, most = min(found)
+    where = words.is_(f"At {im}", x, sweep.im_unit)
+    rest = f", nine in ten exceed {words.quantity(most, edp.unit)}" if np.isfinite(most) else ""
+    return f"{where}, half of the specimens exceed {words.is_(symbol, half, edp.unit)}{rest}"

@@ -1,0 +1,276 @@
+"""Result folders of freestand as plain values. Whatever cannot be used is one Problem with the file in it."""
+import csv
+import json
+import pathlib
+from dataclasses import dataclass, field
+
+import h5py
+import numpy as np
+
+from . import words
+from .problem import Problem
+
+OUTCOMES = ("at_rest", "moved", "overturned", "painleve", "step_limit", "not_finite")
+FITTED, TOO_FEW, REJECTED, COUNTED = 0, 1, 2, 3  # COUNTED: enough samples, too few that moved and stood
+PER_BIN = ("n n_still n_over n_moved p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
+           "omega omega_se mean standard_deviation ks_statistic ks_p_textbook ks_critical_textbook ks_p_estimated "
+           "ks_critical_estimated ad_statistic ad_p_estimated fdr_rejected status").split()
+
+
+@dataclass
+class Axis:
+    name: str
+    edge: np.ndarray         # [axis + 1]
+    probability: np.ndarray  # [im, axis, capacity]
+    lower: np.ndarray
+    upper: np.ndarray
+    n: np.ndarray            # [im, axis]
+
+
+@dataclass
+class Edp:
+    name: str
+    unit: str
+    symbol: str
+    kind: str                # continuous | binary
+    bins: dict               # column of PER_BIN -> [im], nan where missing
+    capacity: np.ndarray
+    surface: dict            # probability, lower, upper, empirical -> [im, capacity]
+    ln_edge: np.ndarray      # [cell + 1]
+    cells: np.ndarray        # [im, cell]
+    axes: list = field(default_factory=list)
+
+    @property
+    def label(self):
+        return words.demand(self.name, self.symbol)
+
+
+@dataclass
+class Sweep:
+    folder: pathlib.Path
+    attributes: dict
+    summary: dict
+    outcomes: dict           # name -> count
+    im: str
+    im_unit: str
+    edge: np.ndarray
+    edps: list
+    overturning: dict        # empty where it is not there
+    draws: dict              # column -> values; empty without samples.h5
+    outcome: np.ndarray      # [sample] int
+    motions: list
+
+    @property
+    def im_symbol(self):
+        return words.intensity(self.im, str(self.attributes.get("im_symbol", "")))
+
+    @property
+    def centre(self):
+        return 0.5 * (self.edge[1:] + self.edge[:-1])
+
+    @property
+    def samples(self):
+        return int(sum(self.outcomes.values()))
+
+    def continuous(self):
+        return [edp for edp in self.edps if edp.kind != "binary" and edp.capacity.size]
+
+
+@dataclass
+class History:
+    folder: pathlib.Path
+    columns: dict            # column -> values
+    mode: list
+    summary: dict
+
+
+def is_sweep(folder):
+    return (folder / "fragility.h5").exists()
+
+
+def is_history(folder):
+    return (folder / "history.csv").exists()
+
+
+def existing_folder(path):
+    folder = pathlib.Path(path)
+    if not folder.is_dir():
+        raise Problem(f"{folder} is not a folder: give the folder that freestand wrote with -o")
+    return folder
+
+
+def _open(path, form):
+    try:
+        root = h5py.File(path, "r")
+    except OSError as why:
+        raise Problem(f"{path} cannot be read as HDF5 ({_first_line(why)}): it is truncated, still being written or no "
+                      "result of freestand; run the study again") from None
+    found = _text(root.attrs.get("format", ""))
+    if found != form:
+        root.close()
+        raise Problem(f'{path} says format "{found}", not "{form}": it is another file, or of another version of freestand')
+    return root
+
+
+def _first_line(why):
+    return str(why).strip().splitlines()[0][:160]
+
+
+def _text(value):
+    return value.decode("utf-8", "replace") if isinstance(value, bytes) else str(value)
+
+
+def _attribute(value):
+    if isinstance(value, np.ndarray):
+        return [_attribute(item) for item in value.tolist()] if value.ndim else _attribute(value.item())
+    if isinstance(value, (bytes, np.bytes_)):
+        return _text(value)
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _numbers(group, name, shape=None):
+    try:
+        values = np.asarray(group[name][()], dtype=float)
+    except KeyError:
+        raise Problem(f"{group.file.filename} has no {group.name.rstrip('/')}/{name}: it was written by another version of "
+                      "freestand or is incomplete; run `freestand fit` again") from None
+    except OSError as why:
+        raise Problem(f"{group.file.filename}: {group.name}/{name} cannot be read ({_first_line(why)}): the file is damaged; "
+                      "run `freestand fit` again") from None
+    if shape is not None and values.shape != shape:
+        raise Problem(f"{group.file.filename}: {group.name}/{name} has shape {values.shape}, expected {shape}: the file is "
+                      "damaged; run `freestand fit` again")
+    return values
+
+
+def _edp(group, name, n_im):
+    kind = _text(group.attrs.get("kind", "continuous"))
+    bins = {column: _numbers(group, column, (n_im,)) if column in group else np.full(n_im, np.nan) for column in PER_BIN}
+    capacity = _numbers(group, "capacity") if "capacity" in group else np.zeros(0)
+    shape = (n_im, capacity.size)
+    surface = {}
+    if capacity.size and "surface" in group:
+        surface = {key: _numbers(group["surface"], key, shape) for key in ("probability", "lower", "upper", "empirical")}
+    elif kind != "binary":
+        capacity = np.zeros(0)
+    ln_edge, cells = np.zeros(0), np.zeros((n_im, 0))
+    if "distribution" in group:
+        ln_edge = _numbers(group["distribution"], "ln_edge")
+        cells = _numbers(group["distribution"], "count", (n_im, max(ln_edge.size - 1, 0)))
+    edp = Edp(name, _text(group.attrs.get("unit", "1")), _text(group.attrs.get("symbol", "")), kind, bins, capacity, surface,
+              ln_edge, cells)
+    for axis_name, axis in (group["axis"].items() if "axis" in group and capacity.size else ()):
+        edge = _numbers(axis, "edge")
+        cube = (n_im, edge.size - 1, capacity.size)
+        edp.axes.append(Axis(axis_name, edge, _numbers(axis, "probability", cube), _numbers(axis, "lower", cube),
+                             _numbers(axis, "upper", cube), _numbers(axis, "n", cube[:2])))
+    return edp
+
+
+def _overturning(root):
+    if "overturning" not in root:
+        return {}
+    group = root["overturning"]
+    result = {key: _numbers(group, key) for key in ("grid", "probability", "lower", "upper")}
+    result.update({key: float(group.attrs.get(key, np.nan)) for key in ("median", "dispersion", "median_se", "dispersion_se")})
+    result["penalised"] = bool(group.attrs.get("penalised", 0))
+    return result
+
+
+def _json(path):
+    if not path.exists():
+        return {}
+    try:
+        value = json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, UnicodeDecodeError) as why:
+        raise Problem(f"{path} is not readable as JSON ({_first_line(why)}): run the study again") from None
+    if not isinstance(value, dict):
+        raise Problem(f"{path} holds no object: it is no summary of freestand")
+    return value
+
+
+def _samples(path):
+    """Draws, outcomes and motion names of samples.h5; empty where the file is not there."""
+    if not path.exists():
+        return {}, np.zeros(0, int), []
+    with _open(path, "freestand-samples/1") as root:
+        if "samples" not in root or "outcome" not in root["samples"]:
+            raise Problem(f"{path} has no /samples/outcome: it is incomplete; finish it with `freestand sweep --resume`")
+        group = root["samples"]
+        draws = {}
+        for name in group:
+            skip = name in ("sample", "outcome", "impacts", "events") or name.startswith(("im_", "edp_"))
+            if not skip and np.issubdtype(group[name].dtype, np.number):
+                draws[name] = _numbers(group, name)
+        outcome = _numbers(group, "outcome").astype(int)
+        motions = [_text(item) for item in root["motions/name"][()]] if "motions/name" in root else []
+    return {name: values for name, values in draws.items() if values.shape == outcome.shape}, outcome, motions
+
+
+def read_sweep(folder):
+    try:
+        return _read_sweep(folder)
+    except (OSError, RuntimeError, KeyError) as why:  # what h5py raises when a file breaks off in the middle
+        raise Problem(f"{folder}: a result file is damaged ({_first_line(why)}): run the study again") from None
+
+
+def _read_sweep(folder):
+    folder = existing_folder(folder)
+    path = folder / "fragility.h5"
+    if not path.exists():
+        hint = "run `freestand fit` on it first" if (folder / "samples.h5").exists() else "give the folder of `freestand run`"
+        raise Problem(f"{folder} has no fragility.h5: {hint}")
+    summary = _json(folder / "summary.json")
+    with _open(path, "freestand-fragility/1") as root:
+        attributes = {key: _attribute(value) for key, value in root.attrs.items()}
+        for group in ("im", "edp"):
+            if group not in root:
+                raise Problem(f"{path} has no /{group}: it is incomplete; run `freestand fit` again")
+        edge = _numbers(root["im"], "edge")
+        if edge.size < 2 or not np.all(np.diff(edge) > 0):
+            raise Problem(f"{path}: /im/edge does not increase: the file is damaged; run `freestand fit` again")
+        edps = [_edp(group, name, edge.size - 1) for name, group in root["edp"].items()]
+        overturning = _overturning(root)
+    names = attributes.get("outcome_names", OUTCOMES)
+    names = names.split() if isinstance(names, str) else names
+    outcomes = dict(zip(names, np.atleast_1d(attributes.get("outcome_counts", [])).astype(int).tolist()))
+    draws, outcome, motions = _samples(folder / "samples.h5")
+    return Sweep(folder, attributes, summary, outcomes or summary.get("outcomes", {}), str(attributes.get("im", "im")),
+                 str(attributes.get("im_unit", "1")), edge, _in_order(edps, summary), overturning, draws, outcome, motions)
+
+
+def _in_order(edps, summary):
+    """As the study names them (HDF5 sorts by letter)."""
+    wanted = list(summary.get("edps", {}))
+    return sorted(edps, key=lambda edp: (wanted.index(edp.name) if edp.name in wanted else len(wanted), edp.name))
+
+
+HISTORY_COLUMNS = ("time_s", "floor_acceleration_mps2", "slip_m", "slip_velocity_mps", "rotation_rad", "rotation_rate_radps")
+
+
+def read_history(folder):
+    folder = existing_folder(folder)
+    path = folder / "history.csv"
+    if not path.exists():
+        raise Problem(f"{folder} has no history.csv: give the folder of `freestand simulate`")
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    except UnicodeDecodeError:
+        raise Problem(f"{path} is not a text file: give the folder of `freestand simulate`") from None
+    if not rows or not set(HISTORY_COLUMNS + ("mode",)) <= set(rows[0]):
+        raise Problem(f"{path}:1 lacks the columns {', '.join(HISTORY_COLUMNS)}, mode: it is no history of freestand")
+    header, body = rows[0], [row for row in rows[1:] if row]
+    for line, row in enumerate(body, start=2):
+        if len(row) != len(header):
+            raise Problem(f"{path}:{line} has {len(row)} fields, not {len(header)}: the file is truncated; simulate again")
+    columns = {}
+    for name in HISTORY_COLUMNS:
+        at = header.index(name)
+        try:
+            columns[name] = np.array([float(row[at]) for row in body])
+        except ValueError as why:
+            raise Problem(f"{path}: column {name} holds something that is no number ({_first_line(why)}): simulate again") from None
+    if len(body) < 2:
+        raise Problem(f"{path} holds fewer than two points: simulate again")
+    return History(folder, columns, [row[header.index("mode")] for row in body], _json(folder / "summary.json"))

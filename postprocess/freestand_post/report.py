@@ -1,0 +1,166 @@
+"""One self-contained page from the results: text, tables and pictures; nothing is fetched."""
+import json
+import math
+import pathlib
+
+import jinja2
+import numpy as np
+from markupsafe import Markup
+
+from . import pictures, style, words
+from .model import kept_fits
+from .pictures.coverage import swept
+from .reading import COUNTED, FITTED, OUTCOMES, REJECTED, TOO_FEW, Sweep
+
+HERE = pathlib.Path(__file__).parent
+PROVENANCE = (("created_utc", "written (UTC)"), ("version", "freestand"), ("git_commit", "commit"), ("command", "command"),
+              ("compiler", "compiler"), ("libraries", "libraries"), ("host", "host"), ("ranks", "MPI ranks"), ("seed", "seed"))
+
+
+def page(results):
+    """Html text from a list of Sweep and History values."""
+    style.apply()
+    sweep = next((result for result in results if isinstance(result, Sweep)), None)
+    history = next((result for result in results if not isinstance(result, Sweep)), None)
+    drawn = [picture for result in results for picture in pictures.draw(result)]
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True,
+                                     undefined=jinja2.StrictUndefined)
+    environment.filters.update(number=words.number, p=words.p_value, fixed=words.fixed, count=words.count)
+    return environment.get_template("page.html").render(
+        css=Markup((HERE / "page.css").read_text(encoding="utf-8")), **_content(sweep, history, drawn))
+
+
+def _content(sweep, history, drawn):
+    figures = [_figure(picture) for picture in drawn]
+    edps = [edp.name for edp in sweep.continuous()] if sweep else []
+    main = edps[0] if edps else ""
+    of = {name: [figure for figure in figures if figure["edp"] == name] for name in edps}
+    return {
+        "title": _title(sweep, history), "headline": _headline(sweep, main) if sweep else _history_numbers(history),
+        "hero": next((figure for figure in of.get(main, []) if figure["name"].startswith("fragility")), None),
+        "demand": [figure for figure in of.get(main, []) if not figure["name"].startswith(("fragility", "goodness"))],
+        "fit_figure": next((figure for figure in of.get(main, []) if figure["name"].startswith("goodness")), None),
+        "other": [{"name": words.capitalised(words.demand_meaning(name)), "figures": of[name], "table": _fit_table(sweep, name)}
+                  for name in edps[1:]],
+        "shared": [figure for figure in figures if not figure["edp"]],
+        "fit": _fit_table(sweep, main) if main else None,
+        "outcomes": _outcomes(sweep) if sweep else [], "computed": _computed(sweep) if sweep else None,
+        "draws": _draws(sweep) if sweep else [], "study": str(sweep.attributes.get("study", "")).strip() if sweep else "",
+        "warnings": _warnings(sweep), "provenance": _provenance(sweep) if sweep else [],
+    }
+
+
+def _title(sweep, history):
+    if sweep is None:
+        return f"Response of one specimen: {history.folder.resolve().name}"
+    return words.capitalised(str(sweep.summary.get("study_name") or sweep.folder.resolve().name)) + ": seismic fragility"
+
+
+def _figure(picture):
+    svg = style.inline_svg(style.svg(picture.figure), picture.name.replace("_", "-"), picture.finding)
+    return {"name": picture.name, "edp": picture.edp, "svg": Markup(svg), "caption": picture.caption}
+
+
+def _headline(sweep, main):
+    """The numbers at the top: (value, what)."""
+    total = max(sweep.samples, 1)
+    numbers = [(words.count(sweep.samples), "samples"),
+               (_percent(sweep.outcomes.get("moved", 0) / total), "moved and stood"),
+               (_percent(sweep.outcomes.get("overturned", 0) / total), "overturned")]
+    if main:
+        edp = next(edp for edp in sweep.edps if edp.name == main)
+        status, label = edp.bins["status"], edp.label
+        fitted, failed = int((status == FITTED).sum()), int((status == REJECTED).sum())
+        numbers.append((f"{fitted} of {fitted + failed}", f"bins of {label} pass the test of fit"))
+    timing = sweep.summary.get("timing", {})
+    if timing.get("wall_s"):
+        rate = timing.get("samples_per_s", sweep.samples / timing["wall_s"])
+        numbers.append((_duration(timing["wall_s"]), f"on {words.plural(timing.get('ranks', 1), 'core')}, "
+                        f"{words.count(rate)} samples a second"))
+    return numbers
+
+
+def _history_numbers(history):
+    summary = history.summary
+    table = (("peak_slip_m", 100, "cm", "largest slip"), ("residual_slip_m", 100, "cm", "slip that remains"),
+             ("peak_rotation_rad", 180 / math.pi, "°", "largest rotation"), ("peak_acceleration_g", 1, "g", "peak equipment acceleration"))
+    return [(f"{words.number(factor * float(summary[key]))} {unit}".replace(" °", "°"), what)
+            for key, factor, unit, what in table if isinstance(summary.get(key), (int, float))]
+
+
+def _percent(share):
+    return "0 %" if share == 0 else "< 0.1 %" if share < 0.001 else f"{100 * share:.1f} %"
+
+
+def _duration(seconds):
+    return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
+
+
+def _fit_table(sweep, name):
+    edp = next(edp for edp in sweep.edps if edp.name == name)
+    verdict = {FITTED: "passes", TOO_FEW: "too few samples", COUNTED: "too few moved: counted",
+               REJECTED: "fails: counted share used"}
+    kept = kept_fits(edp)
+    rows = []
+    for i in range(sweep.centre.size):
+        row = {key: edp.bins[key][i] for key in edp.bins}
+        row.update(range=words.span(sweep.edge[i], sweep.edge[i + 1]), median=math.exp(row["lambda"]),
+                   failed=row["status"] == REJECTED, empty=row["status"] in (TOO_FEW, COUNTED),
+                   verdict="fails: fit kept" if kept[i] else verdict.get(row["status"], "unknown"))
+        row.update({key: np.nan_to_num(row[key]) for key in ("n", "n_still", "n_moved", "n_over")})
+        rows.append(row)
+    return {"rows": rows, "symbol": words.with_unit(edp.label, edp.unit),
+            "im": words.with_unit(sweep.im_symbol, sweep.im_unit)}
+
+
+def _outcomes(sweep):
+    total = max(sweep.samples, 1)
+    return [{"name": words.OUTCOMES.get(name, name), "count": sweep.outcomes.get(name, 0), "colour": style.OUTCOME.get(name, style.INK),
+             "percent": 100 * sweep.outcomes.get(name, 0) / total, "share": _percent(sweep.outcomes.get(name, 0) / total)}
+            for name in OUTCOMES]
+
+
+def _computed(sweep):
+    names = [words.short_column(name) for name in swept(sweep, limit=None)]
+    motions = f" under {words.plural(len(sweep.motions), 'floor motion')}" if sweep.motions else ""
+    over = f" over {words.listing(names)}" if names else ""
+    return (f"Each of {words.plural(sweep.samples, 'sample')} is one specimen{motions}: its slide-rock motion was integrated, its demand "
+            f"measured, and the demands of all samples reduced to probabilities in {words.plural(sweep.centre.size, 'bin')} of "
+            f"{sweep.im_symbol}. The sweep runs{over}." if names else
+            f"{words.plural(sweep.samples, 'sample')}{motions}, in {words.plural(sweep.centre.size, 'bin')} of {sweep.im_symbol}.")
+
+
+def _draws(sweep):
+    rows = []
+    for name in swept(sweep, limit=None):
+        values = sweep.draws[name][np.isfinite(sweep.draws[name])]
+        rows.append({"name": words.column(name), "low": values.min(), "middle": np.median(values), "high": values.max()})
+    return rows
+
+
+def _warnings(sweep):
+    if sweep is None:
+        return []
+    found = [str(warning) for warning in sweep.summary.get("warnings", [])]
+    if not sweep.summary:
+        found.append("summary.json is not there: times and warnings of the run are unknown.")
+    if not sweep.draws:
+        found.append("samples.h5 is not there: the page says nothing about what the sweep covered.")
+    if not sweep.overturning:
+        found.append("No overturning curve was fitted.")
+    return found
+
+
+def _provenance(sweep):
+    rows = []
+    for key, label in PROVENANCE:
+        value = sweep.attributes.get(key)
+        if value in (None, ""):
+            continue
+        if key == "libraries":
+            try:
+                value = ", ".join(f"{name} {version}" for name, version in json.loads(value).items())
+            except (ValueError, AttributeError):
+                pass
+        rows.append((label, str(value)))
+    return rows

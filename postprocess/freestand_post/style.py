@@ -1,0 +1,155 @@
+"""The look of every picture: colours, type, and the few helpers that keep labels apart."""
+import io
+import math
+import re
+import warnings
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib import font_manager, patheffects, ticker  # noqa: E402
+from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
+
+INK, MUTED, FAINT, PAPER = "#1d2430", "#626b78", "#dfe3e8", "#ffffff"
+BLUE, VERMILION, ORANGE, GREEN, PURPLE, SKY = "#0072b2", "#d55e00", "#e69f00", "#009e73", "#a65298", "#56b4e9"
+GREY = "#8d95a1"
+OUTCOME = {"at_rest": GREY, "moved": BLUE, "overturned": VERMILION, "painleve": PURPLE, "step_limit": INK, "not_finite": INK}
+MODE = {"rest": "#c3c8cf", "slide": BLUE, "rock": ORANGE, "slide_rock": GREEN, "flight": PURPLE, "overturned": VERMILION}
+FAIL = VERMILION
+PROBABILITY = LinearSegmentedColormap.from_list(
+    "probability", ["#f7f9fb", "#d5e3ef", "#9fc3dd", "#5a9bc6", "#22709f", "#0d4671", "#07233f"])
+EMPTY = "#eceef1"
+DPI = 200         # of the png files
+RASTER_DPI = 150  # of the parts of a svg that are pixels
+_SERIES = ["#6fb1d8", "#2f86bd", "#125a8c", "#07304f"]
+
+
+def fonts():
+    """Inter where it is installed, DejaVu Sans (it comes with matplotlib) for the rest."""
+    here = {entry.name for entry in font_manager.fontManager.ttflist}
+    return [name for name in ("Inter", "DejaVu Sans") if name in here]
+
+
+def apply():
+    plt.rcParams.update({
+        "font.family": fonts(), "font.size": 9, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": MUTED,
+        "axes.linewidth": 0.7, "axes.spines.top": False, "axes.spines.right": False, "axes.labelsize": 9.5,
+        "axes.titlesize": 9, "axes.titlelocation": "left", "xtick.color": MUTED, "ytick.color": MUTED,
+        "xtick.labelcolor": INK, "ytick.labelcolor": INK, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5,
+        "xtick.major.width": 0.7, "ytick.major.width": 0.7, "xtick.major.size": 3, "ytick.major.size": 3,
+        "xtick.minor.size": 1.5, "ytick.minor.size": 1.5, "lines.linewidth": 1.8, "lines.solid_capstyle": "round",
+        "figure.facecolor": PAPER, "savefig.facecolor": PAPER, "svg.fonttype": "path", "svg.hashsalt": "freestand",
+        "axes.unicode_minus": True, "axes.axisbelow": True, "hatch.linewidth": 0.6})
+
+
+def series(count):
+    """Shades of one hue, light to dark, for an ordered family of curves."""
+    if count <= 1:
+        return [_SERIES[2]]
+    positions = [i * (len(_SERIES) - 1) / (count - 1) for i in range(count)]
+    ramp = LinearSegmentedColormap.from_list("series", _SERIES)
+    return [ramp(position / (len(_SERIES) - 1)) for position in positions]
+
+
+def figure(width=7.4, height=4.4):
+    return plt.figure(figsize=(width, height), layout="constrained")
+
+
+def _wrapped(fig, text, size, weight, limit):
+    """Lines of text no wider than `limit` inches."""
+    renderer = fig.canvas.get_renderer()
+    probe = fig.text(0, 0, "", size=size, weight=weight)
+    lines, line = [], ""
+    for word in text.split(" "):
+        trial = f"{line} {word}".strip()
+        probe.set_text(trial)
+        if line and probe.get_window_extent(renderer).width / fig.dpi > limit:
+            lines.append(line)
+            trial = word
+        line = trial
+    probe.remove()
+    return lines + [line]
+
+
+def headline(fig, title, subtitle=""):
+    """The finding in bold over the picture, how to read it underneath; makes room for both."""
+    width, height = fig.get_size_inches()
+    margin, y = 0.12, height - 0.1
+    for text, size, weight, colour, step in ((title, 12, "bold", INK, 0.215), (subtitle, 8.6, "normal", MUTED, 0.165)):
+        if not text:
+            continue
+        for line in _wrapped(fig, text, size, weight, width - 2 * margin):
+            fig.text(margin / width, y / height, line, size=size, weight=weight, color=colour, va="top")
+            y -= step
+        y -= 0.03
+    fig.get_layout_engine().set(rect=(0.005, 0, 0.99, (y - 0.05) / height), w_pad=0.08, h_pad=0.06)
+
+
+def spread(positions, gap, high=float("inf"), low=-float("inf")):
+    """Positions moved apart so that neighbours are at least `gap` away, within low and high, order kept (of equal ones the
+    first is highest), as near as can be."""
+    order = sorted(range(len(positions)), key=lambda i: (positions[i], -i))
+    place = {i: k for k, i in enumerate(order)}
+    positions = [max(low + gap * place[i], min(high - gap * (len(order) - 1 - place[i]), y)) for i, y in enumerate(positions)]
+    blocks = []  # [sum of wanted starts, members]
+    for i in order:
+        blocks.append([positions[i], [i]])
+        while len(blocks) > 1:
+            (low_sum, low), (high_sum, high) = blocks[-2], blocks[-1]
+            if low_sum / len(low) + gap * len(low) <= high_sum / len(high) + 1e-12:
+                break
+            blocks[-2:] = [[low_sum + high_sum - gap * len(low) * len(high), low + high]]
+    result = [0.0] * len(positions)
+    for total, members in blocks:
+        for k, i in enumerate(members):
+            result[i] = total / len(members) + k * gap
+    return result
+
+
+def end_labels(ax, entries, x, gap, reach, high=1.0):
+    """Direct labels at the right end of curves. entries: (y, text, colour); x, gap, reach and high in data units."""
+    for (y, text, colour), at in zip(entries, spread([entry[0] for entry in entries], gap, high)):
+        ax.plot([x, x + 0.8 * reach], [y, at], color=colour, lw=0.7, clip_on=False, alpha=0.7)
+        ax.text(x + reach, at, text, color=colour, weight="bold", size=9, va="center", clip_on=False)
+
+
+def halo():
+    """Keeps text readable over lines."""
+    return [patheffects.withStroke(linewidth=2.5, foreground=PAPER)]
+
+
+def grid(ax, axis="y"):
+    ax.grid(axis=axis, color=FAINT, lw=0.6)
+
+
+def svg(fig):
+    """The picture as svg text, without prologue, all ids its own."""
+    buffer = io.StringIO()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        fig.savefig(buffer, format="svg", dpi=RASTER_DPI, metadata={"Date": None, "Creator": None})
+    return buffer.getvalue()
+
+
+def inline_svg(text, prefix, label):
+    """Svg text ready to stand inside a page: ids prefixed, sized by the page, named for screen readers."""
+    body = text[text.index("<svg"):]
+    body = re.sub(r"<metadata>.*?</metadata>", "", body, flags=re.S)
+    body = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', body)
+    body = re.sub(r'href="#([^"]+)"', rf'href="#{prefix}-\1"', body)
+    body = re.sub(r"url\(#([^)]+)\)", rf"url(#{prefix}-\1)", body)
+    body = re.sub(r'<svg([^>]*?) width="[^"]*"', r"<svg\1", body, count=1)
+    body = re.sub(r'<svg([^>]*?) height="[^"]*"', r"<svg\1", body, count=1)
+    safe = label.replace("&", "&amp;").replace('"', "&quot;").replace("<", "&lt;")
+    return body.replace("<svg", f'<svg role="img" aria-label="{safe}"', 1)
+
+
+def plain_log(axis, crowd=1):
+    """A logarithmic axis with ordinary numbers, as many as have room; crowd: how many times smaller than usual it is."""
+    low, high = axis.get_view_interval()
+    fullness = crowd * abs(math.log10(high / low))
+    subs = (1, 2, 5) if fullness < 2.6 else (1, 3) if fullness < 5.5 else (1,)
+    axis.set_major_locator(ticker.LogLocator(base=10, subs=subs, numticks=20))
+    axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_locator(ticker.NullLocator())

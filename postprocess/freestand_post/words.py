@@ -1,0 +1,176 @@
+"""Names, symbols, units and numbers as a reader wants to see them."""
+import math
+
+# name in the files -> what it is, for captions. Anything else is shown under its own name.
+DEMANDS = {
+    "delta": "dimensionless peak slip Δ = U ω²/PTA",
+    "peak_slip": "largest slip",
+    "residual_slip": "slip that remains",
+    "slid_path": "path slid",
+    "peak_rotation_over_alpha": "peak rotation over slenderness",
+    "impacts": "number of impacts",
+    "peak_acceleration": "peak equipment acceleration",
+}
+# name in the files -> symbol.
+INTENSITIES = {"report": "PTA/(μg)\u00a0−\u00a01"}
+DRAWS = {
+    "friction_mu": "friction coefficient μ",
+    "friction_mu_k": "friction coefficient μk",
+    "friction_mu_s": "static friction μs",
+    "block_width_m": "width (m)",
+    "block_height_m": "height (m)",
+    "block_mass_kg": "mass (kg)",
+    "block_slenderness": "slenderness",
+    "block_alpha_rad": "slenderness α (rad)",
+    "block_size_m": "size R (m)",
+    "pulse_period_s": "pulse period (s)",
+    "pta_g": "peak acceleration PTA (g)",
+    "pta": "peak acceleration PTA",
+    "scale": "scale factor",
+    "motion": "motion",
+}
+UNIT_SUFFIXES = ("mps2", "radps", "mps", "rad", "kg", "g", "m", "s", "hz")
+UNITS = {"mps2": "m/s²", "radps": "rad/s", "mps": "m/s", "m/s2": "m/s²"}
+OUTCOMES = {
+    "at_rest": "stayed at rest",
+    "moved": "moved and stood",
+    "overturned": "overturned",
+    "painleve": "Painlevé's paradox",
+    "step_limit": "step limit",
+    "not_finite": "not finite",
+}
+
+def split_unit(name):
+    """"width_m" -> ("width", "m"); "mu_k" -> ("mu_k", "")."""
+    stem, _, last = name.rpartition("_")
+    return (stem, UNITS.get(last, last)) if stem and last in UNIT_SUFFIXES else (name, "")
+
+
+def with_unit(text, unit):
+    return text if unit in ("", "1") else f"{text} ({UNITS.get(unit, unit)})"
+
+
+def demand(name, symbol=""):
+    """Symbol of a demand parameter: the one in the file, or the name without its unit."""
+    return symbol or split_unit(name)[0].replace("_", " ")
+
+
+def demand_meaning(name):
+    stem = split_unit(name)[0]
+    return DEMANDS.get(name, DEMANDS.get(stem, stem.replace("_", " ")))
+
+
+def intensity(name, symbol=""):
+    """Symbol of an intensity measure."""
+    stem = split_unit(name)[0]
+    return symbol or INTENSITIES.get(name) or (stem.upper() if len(stem) < 4 else stem.replace("_", " "))
+
+
+def column(name):
+    """Axis label of a draw."""
+    if name in DRAWS:
+        return DRAWS[name]
+    stem, unit = split_unit(name)
+    return with_unit(stem.replace("_", " "), unit)
+
+
+def short_column(name):
+    """The same without its unit, for sentences."""
+    return column(name).split(" (")[0]
+
+
+def number(value, digits=2):
+    """Significant digits, no exponent where it can be avoided, true minus sign."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if value == 0:
+        return "0"
+    magnitude = math.floor(math.log10(abs(value)))
+    if magnitude >= 6 or magnitude < -4:
+        mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+        return f"{mantissa}×10^{int(exponent)}".replace("-", "−")
+    decimals = max(0, digits - 1 - magnitude)
+    text = f"{value:.{decimals}f}"
+    return text.replace("-", "−")
+
+
+def plain(value):
+    """A number somebody chose (a capacity, an edge): no trailing zeros."""
+    return "–" if value is None or not math.isfinite(value) else f"{value:.4g}".replace("-", "−")
+
+
+def span(low, high, digits=3):
+    """The two ends of a range."""
+    return f"{low:.{digits}g} to {high:.{digits}g}".replace("-", "−")
+
+
+def plus_minus(value, error):
+    """As many decimals as the standard error has meaning."""
+    if not (math.isfinite(value) and math.isfinite(error) and error > 0):
+        return number(value, 3)
+    decimals = max(0, 1 - math.floor(math.log10(error)))
+    return f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
+
+
+def probability(value):
+    """Two decimals; never 0 or 1 unless it is."""
+    if value is None or not math.isfinite(value):
+        return "–"
+    if 0 < value < 0.005:
+        return "< 0.01"
+    if 0.995 < value < 1:
+        return "> 0.99"
+    return f"{value:.2f}"
+
+
+def p_value(value):
+    if value is None or not math.isfinite(value):
+        return "–"
+    if value < 0.0005:
+        return "< 0.001"
+    return f"{value:.3f}" if value < 0.1 else f"{value:.2f}"
+
+
+def equals(text):
+    """"0.31" -> "= 0.31", "< 0.001" stays."""
+    return text if text[:1] in "<>" else f"= {text}"
+
+
+def count(value):
+    return f"{int(value):,}".replace(",", "\u202f")
+
+
+def plural(n, noun):
+    return f"{count(n)} {noun}" + ("" if n == 1 else "s")
+
+
+def listing(items):
+    items = list(items)
+    return items[0] if len(items) == 1 else ", ".join(items[:-1]) + " and " + items[-1] if items else ""
+
+
+def fixed(value, decimals):
+    return f"{value:.{decimals}f}".replace("-", "−") if math.isfinite(value) else "–"
+
+
+def is_(left, value, unit=""):
+    """"left = value unit" that no line break parts."""
+    return f"{left}\u00a0=\u00a0{quantity(value, unit)}"
+
+
+def quantity(value, unit=""):
+    """A computed value: two digits and its unit."""
+    return number(value) + _spaced(unit)
+
+
+def chosen(value, unit=""):
+    """A value somebody chose: as it is, and its unit."""
+    return plain(value) + _spaced(unit)
+
+
+def _spaced(unit):
+    return "" if unit in ("", "1") else f"\u00a0{UNITS.get(unit, unit)}"
+
+
+def capitalised(text):
+    return text[:1].upper() + text[1:]
