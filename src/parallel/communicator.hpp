@@ -61,7 +61,8 @@ class SharedError : public Error {
   using Error::Error;
 };
 
-// MPI from here to the end of the object's life. One per program, made in main. Throws Error if MPI does not start.
+// MPI from here to the end of the object's life, where a launcher (mpirun, srun) started the program; without one there
+// is one rank and MPI stays untouched. One per program, made in main. Throws Error if MPI does not start.
 class Session {
  public:
   Session(int* argc, char*** argv);

@@ -1,0 +1,156 @@
+#include "base/durable_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+namespace freestand {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Advice {
+  const char* what;
+  Exit exit;
+};
+
+Advice advice(int error_number) {
+  switch (error_number) {
+    case ENOSPC:
+      return {"free some space and start again; finished work is kept", Exit::resumable};
+    case EDQUOT:
+      return {"free some of your quota and start again; finished work is kept", Exit::resumable};
+    case EFBIG:
+      return {"raise the file size limit (ulimit -f) and start again; finished work is kept", Exit::resumable};
+    case EIO:
+      return {"check the disk or the network file system and start again; finished work is kept", Exit::resumable};
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return {"choose a folder that you may write to, or change its permissions", Exit::usage};
+    case ENOENT:
+    case ENOTDIR:
+      return {"check the path", Exit::usage};
+    default:
+      return {"check the path and the disk, and start again; finished work is kept", Exit::resumable};
+  }
+}
+
+// An open file that goes away unless it is kept.
+class AsideFile {
+ public:
+  explicit AsideFile(const fs::path& path, const fs::path& final_path) : path_(path), final_path_(final_path) {
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) throw file_error("write", final_path, errno);
+  }
+  ~AsideFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  AsideFile(const AsideFile&) = delete;
+  AsideFile& operator=(const AsideFile&) = delete;
+
+  void write(std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) throw file_error("write", final_path_, errno);
+      bytes = bytes.subspan(static_cast<std::size_t>(count));
+    }
+  }
+
+  void close() {
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) throw file_error("write", final_path_, errno);
+    const int result = ::close(descriptor_);
+    descriptor_ = -1;
+    if (result != 0) throw file_error("write", final_path_, errno);
+  }
+
+  void keep() { path_.clear(); }
+
+ private:
+  fs::path path_, final_path_;
+  int descriptor_ = -1;
+};
+
+void sync_path(const fs::path& path, int flags) {
+  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0) throw file_error("open", path, errno);
+  const int result = ::fsync(descriptor);
+  const int error_number = errno;
+  ::close(descriptor);
+  if (result != 0 && error_number != EINVAL) throw file_error("write", path, error_number);
+}
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+void rename_and_sync(const fs::path& aside, const fs::path& path) {
+  if (::rename(aside.c_str(), path.c_str()) != 0) throw file_error("write", path, errno);
+  sync_path(folder_of(path), O_RDONLY | O_DIRECTORY);
+}
+
+std::string host_name() {
+  char text[256] = {};
+  if (::gethostname(text, sizeof text - 1) != 0) return "host";
+  return text;
+}
+
+constexpr const char* aside_ending = ".part";
+
+}  // namespace
+
+Error file_error(const std::string& action, const fs::path& path, int error_number) {
+  const Advice what = advice(error_number);
+  return Error("cannot " + action + " " + path.string() + " (" + std::generic_category().message(error_number) +
+                   "): " + what.what,
+               what.exit);
+}
+
+fs::path aside_name(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return path.parent_path() / ("." + name + "." + host_name() + "." + std::to_string(::getpid()) + aside_ending);
+}
+
+bool is_aside_name(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.starts_with(".") && name.ends_with(aside_ending);
+}
+
+void write_durably(const fs::path& path, std::span<const std::span<const std::byte>> pieces) {
+  const fs::path aside = aside_name(path);
+  AsideFile file(aside, path);
+  for (const auto& piece : pieces) file.write(piece);
+  file.close();
+  rename_and_sync(aside, path);
+  file.keep();
+}
+
+void write_durably(const fs::path& path, std::string_view text) {
+  const std::span<const std::byte> piece = std::as_bytes(std::span(text.data(), text.size()));
+  write_durably(path, std::span(&piece, 1));
+}
+
+void publish_durably(const fs::path& aside, const fs::path& path) {
+  sync_path(aside, O_RDWR);
+  rename_and_sync(aside, path);
+}
+
+std::string read_whole(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) {
+    const int error_number = errno;
+    throw Error("cannot read " + path.string() + " (" + std::generic_category().message(error_number) +
+                    "): check the path and its permissions",
+                Exit::data);
+  }
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (stream.bad()) throw Error("cannot read " + path.string() + " (input/output error): check the disk", Exit::data);
+  return text;
+}
+
+}  // namespace freestand

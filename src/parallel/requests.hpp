@@ -1,0 +1,33 @@
+// Waiting for MPI without holding the core. Only for the sources of this folder.
+#pragma once
+
+#define OMPI_SKIP_MPICXX 1  // the C++ bindings of old
+#include <mpi.h>
+
+#include <chrono>
+#include <thread>
+
+namespace freestand::parallel {
+
+// Starts a transfer, start(&request), and waits for it: first in a tight loop, because most are over in microseconds,
+// then with short sleeps, so that ranks that wait leave the cores to ranks that compute. MPI ends the program on
+// errors.
+template <class Start, class While>
+void wait(const Start& start, const While& meanwhile) {
+  MPI_Request request = MPI_REQUEST_NULL;
+  start(&request);
+  int done = 0;
+  for (int tries = 0; !done; ++tries) {
+    MPI_Test(&request, &done, MPI_STATUS_IGNORE);
+    if (done || tries < 200) continue;
+    meanwhile();
+    std::this_thread::sleep_for(std::chrono::microseconds(tries < 2000 ? 50 : 500));
+  }
+}
+
+template <class Start>
+void wait(const Start& start) {
+  wait(start, [] {});
+}
+
+}  // namespace freestand::parallel

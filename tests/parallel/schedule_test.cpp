@@ -1,0 +1,84 @@
+// Without mpirun: one rank. tests/mpi holds the same for several.
+#include "parallel/schedule.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "parallel/stop.hpp"
+
+namespace freestand::parallel {
+namespace {
+
+TEST(Schedule, OneRankDoesAllBlocksInTheOrderOfTheList) {
+  Words done;
+  EXPECT_TRUE(for_each_block(Communicator(), {4, 0, 9}, [&](std::int64_t block, const Beat& beat) {
+    beat();
+    done.push_back(block);
+    return Counts{};
+  }));
+  EXPECT_EQ(done, (Words{4, 0, 9}));
+}
+
+TEST(Schedule, NothingToDoIsDone) {
+  EXPECT_TRUE(for_each_block(Communicator(), {}, [](std::int64_t, const Beat&) -> Counts { throw 1; }));
+}
+
+TEST(Schedule, AnErrorInABlockComesOut) {
+  EXPECT_THROW(for_each_block(Communicator(), {0}, [](std::int64_t, const Beat&) -> Counts { throw Error("x"); }),
+               Error);
+}
+
+TEST(Stop, ASignalStopsAfterTheOpenBlock) {
+  for (const int signal_number : {SIGTERM, SIGINT, SIGUSR1}) {
+    const StopOnSignal stop_on_signal;
+    Words done;
+    const bool complete = for_each_block(Communicator(), {0, 1, 2, 3}, [&](std::int64_t block, const Beat&) {
+      if (block == 1) std::raise(signal_number);
+      done.push_back(block);
+      return Counts{};
+    });
+    EXPECT_TRUE(stop_requested());
+    clear_stop();
+    EXPECT_FALSE(complete);
+    EXPECT_EQ(done, (Words{0, 1}));
+  }
+}
+
+TEST(Stop, ASignalInTheLastBlockChangesNothing) {
+  const StopOnSignal stop_on_signal;
+  EXPECT_TRUE(for_each_block(Communicator(), {0}, [](std::int64_t, const Beat&) {
+    std::raise(SIGTERM);
+    return Counts{};
+  }));
+  clear_stop();
+}
+
+TEST(StopDeathTest, ASecondInterruptEndsTheProcess) {
+  EXPECT_EXIT(
+      {
+        const StopOnSignal stop_on_signal;
+        std::raise(SIGINT);
+        std::raise(SIGINT);
+        std::raise(SIGINT);
+      },
+      testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(Communicator, OneRankTalksToItself) {
+  const Communicator alone;
+  alone.barrier();
+  Words values{1, 2};
+  alone.sum_in_place(values);
+  EXPECT_EQ(values, (Words{1, 2}));
+  EXPECT_EQ(alone.broadcast(std::string("x")), "x");
+  EXPECT_EQ(alone.gather({3}), (std::vector<Words>{{3}}));
+  EXPECT_EQ(alone.merge({4}, [](Words&, const Words&) { FAIL(); }), Words{4});
+  EXPECT_TRUE(alone.any(true));
+  EXPECT_FALSE(alone.any(false));
+  EXPECT_THROW(alone.on_root([] { throw Error("x"); }), SharedError);
+  EXPECT_EQ(end_run(alone, Error("told once", Exit::data)), 3);
+}
+
+}  // namespace
+}  // namespace freestand::parallel
