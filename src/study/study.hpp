@@ -58,14 +58,20 @@ struct MotionSource {
   enum class Kind { pulses, records };
   Kind kind = Kind::pulses;
   double weight = 1;
-  // Pulses. `amplitude` is motion.peak_acceleration_g or motion.peak_velocity_mps; a negative one mirrors the pulse.
+  // Pulses: motion.peak_acceleration_g or motion.peak_velocity_mps (the true peak of the floor's velocity). Records:
+  // motion.pta_g (each record scaled to this peak) or motion.scale (a factor). A negative one, but for pta_g, mirrors.
+  std::optional<Quantity> amplitude;
+  // Pulses.
   sampling::Names pulses;
-  std::optional<Quantity> period, amplitude;
-  // Records. `amplitude` is motion.pta_g (each record scaled to this peak) or motion.scale (a factor).
-  std::string records;                       // glob, relative to the folder of the study file
-  std::vector<std::filesystem::path> files;  // what it matched, sorted by name
-  std::optional<double> dt_s;                // time step, for plain columns without a time column
-  std::string unit;                          // of plain columns: g, mps2, cmps2; empty: the file says
+  std::optional<Quantity> period;  // motion.period_s
+  double pulse_scale = 1;          // key `scale`: a plain factor on the amplitude
+  // Records; all alike likely.
+  std::string records;                                // glob, folder or file, relative to the folder of the study file
+  std::string vertical_records;                       // the same for vertical components, paired in the order of names
+  std::vector<std::filesystem::path> files;           // what `records` matched, sorted by name
+  std::vector<std::filesystem::path> vertical_files;  // empty, or one for each of `files`
+  std::optional<double> dt_s;                         // the rest as motion::ReadOptions
+  std::string unit, format, channel;
 };
 
 enum class Spacing { equal_width, equal_count, log };
@@ -78,9 +84,11 @@ struct BinsPart {
   Spacing spacing = Spacing::equal_count;  // of `count` bins
 };
 
+// fragility.im: a name, or {name: sa_g, period_s: 1.0} for a measure that takes a number.
 struct IntensityPart {
   std::string name = "report";
-  std::optional<double> period_s;  // of spectral measures
+  std::string parameter = {};           // key of that number; empty: the measure takes none
+  std::optional<double> period_s = {};  // the number; the measure's own default where the study gives none
 };
 
 struct CapacitiesPart {
@@ -95,12 +103,15 @@ struct AxisPart {
 
 struct FragilityPart {
   IntensityPart im;
-  BinsPart bins;
-  std::vector<std::string> edp;
-  std::vector<CapacitiesPart> capacities;  // one for each EDP of the list
+  BinsPart bins;                           // default: 12 bins of equal count
+  std::vector<std::string> edp;            // default: every one that is known
+  std::vector<CapacitiesPart> capacities;  // of each EDP of the list that is not binary, in its order
   std::vector<AxisPart> axes;
-  int resamples = 200;      // bootstrap repeats of the intervals
-  double confidence = 0.9;  // of every interval
+  int resamples = 500;  // bootstrap repeats of the intervals
+  double confidence = 0.95;
+  int minimum_samples = 30;        // a bin with fewer stays empty
+  double false_discovery = 0.05;   // level of the goodness-of-fit tests over the bins
+  bool empirical_fallback = true;  // a bin that fails goodness of fit takes its curve from the counts
 };
 
 // Run until every wanted point of the surface is known to +- half_width, or `at_most` samples are done.
@@ -118,7 +129,7 @@ struct Study {
   sampling::Design design = sampling::Design::sobol;
   double tolerance = 1e-9;
   double free_vibration_s = 60;
-  std::uint64_t block_size = 0;  // samples a work unit; default: samples/1000 within [64, 8192]
+  std::uint64_t block_size = 0;  // samples a work unit; default: samples/1000 as a power of two within 64 and 8192
   ModelPart model;
   std::vector<MotionSource> motions;
   FragilityPart fragility;
@@ -132,23 +143,27 @@ struct Case {
   double output_step_s = 0.005;
 };
 
-// An EDP that the program knows, as far as the study file is concerned.
+// An EDP and an intensity measure, as far as the study file is concerned.
 struct KnownEdp {
   std::string name;
-  bool binary = false;                     // overturned: takes no capacities
-  std::vector<double> default_capacities;  // where the study gives none
+  bool binary = false;  // overturned: takes no capacities
+  std::vector<double> default_capacities;
 };
-
 struct KnownIntensity {
   std::string name;
-  bool needs_period = false;
+  std::string parameter;  // key of its number, such as period_s; empty: none
+  double fallback = 0;
 };
 
-// The names that a study may use, from the registries (registries() in known.hpp).
+// The names that a study may use; of the whole program: registries() in known.hpp.
 struct Known {
   std::vector<KnownEdp> edps;
   std::vector<KnownIntensity> intensities;
 };
+
+// Are the records of the study looked for? `ignore`: for the stored study of finished results, whose records need not
+// be there any more; MotionSource::files stays empty.
+enum class Files { look, ignore };
 
 // Reads and checks a study or case. Every problem of the file is reported at once: throws Error (Exit::usage) with one
 // line each, "file:line: problem (why): what to do".
@@ -156,7 +171,7 @@ Study read_study(const std::filesystem::path& file, const Known&);
 Case read_case(const std::filesystem::path& file);
 
 // The same from text; `file` names it in messages and its folder is where globs start.
-Study parse_study(const std::string& text, const std::filesystem::path& file, const Known&);
+Study parse_study(const std::string& text, const std::filesystem::path& file, const Known&, Files = Files::look);
 Case parse_case(const std::string& text, const std::filesystem::path& file);
 
 // The whole study, every default written out, as YAML that parses back to the same study.

@@ -1,0 +1,53 @@
+// What a surface may have as its second axis.
+#include <algorithm>
+
+#include "study/read_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+bool varies(const std::optional<Quantity>& quantity) { return quantity && !is_fixed(quantity->value); }
+
+void block_axes(const BlockPart& block, std::vector<AxisChoice>& axes) {
+  const bool shape = varies(block.width) || varies(block.height), angle = varies(block.slenderness),
+             size = varies(block.size);
+  axes.push_back({"block.width_m", varies(block.width) || angle || size});
+  axes.push_back({"block.height_m", varies(block.height) || angle || size});
+  axes.push_back({"block.mass_kg", varies(block.mass)});
+  if (block.slenderness) axes.push_back({"block.slenderness_rad", angle});
+  axes.push_back({"block.alpha_rad", shape || angle});
+  axes.push_back({"block.size_m", shape || size});
+  axes.push_back({"block.p_radps", shape || size});
+}
+
+void friction_axes(const FrictionPart& friction, std::vector<AxisChoice>& axes) {
+  const bool kinetic = varies(friction.mu) || varies(friction.mu_k);
+  axes.push_back({"friction.mu_k", kinetic});
+  axes.push_back(
+      {"friction.mu_s", varies(friction.mu_s) || varies(friction.static_ratio) || (kinetic && !friction.mu_s)});
+  if (friction.mu) axes.push_back({"friction.mu", kinetic});
+  if (friction.static_ratio) axes.push_back({"friction.static_ratio", varies(friction.static_ratio)});
+}
+
+}  // namespace
+
+std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<MotionSource>& motions) {
+  std::vector<AxisChoice> axes;
+  block_axes(model.block, axes);
+  friction_axes(model.friction, axes);
+  axes.push_back({"impact.factor", varies(model.impact.factor)});
+  for (const auto& effect : model.effects)
+    for (const auto& parameter : effect.parameters) axes.push_back({parameter.name, varies(parameter)});
+  const bool several = motions.size() > 1;
+  const auto any = [&](const auto& test) { return std::any_of(motions.begin(), motions.end(), test); };
+  const bool pulses = any([](const MotionSource& s) { return s.kind == MotionSource::Kind::pulses; });
+  const bool records =
+      any([](const MotionSource& s) { return s.kind == MotionSource::Kind::records && s.files.size() != 1; });
+  const bool amplitude = any([](const MotionSource& s) { return varies(s.amplitude); });
+  const bool period = any([](const MotionSource& s) { return varies(s.period); });
+  if (pulses) axes.push_back({"motion.period_s", period || several});
+  axes.push_back({"motion.pta_g", amplitude || period || records || several});
+  return axes;
+}
+
+}  // namespace freestand::study

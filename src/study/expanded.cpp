@@ -1,0 +1,150 @@
+// The whole study as text, every default written out.
+#include <fmt/format.h>
+#include <yaml-cpp/yaml.h>
+
+#include "base/random.hpp"
+#include "study/study.hpp"
+
+namespace freestand::study {
+namespace {
+
+using sampling::number_text;
+
+// Quoted where YAML would read something else.
+std::string text_value(const std::string& text) {
+  YAML::Emitter out;
+  out << text;
+  return out.c_str();
+}
+
+std::string list(const std::vector<double>& values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(number_text(value));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+// Last part of a dotted name.
+std::string key_of(const Quantity& quantity) { return quantity.name.substr(quantity.name.rfind('.') + 1); }
+
+std::string pair(const Quantity& quantity) { return key_of(quantity) + ": " + to_string(quantity.value); }
+
+class Mapping {
+ public:
+  void add(const std::string& key, const std::string& value) { entries_.push_back(key + ": " + value); }
+  void add(const std::optional<Quantity>& quantity) {
+    if (quantity) entries_.push_back(pair(*quantity));
+  }
+  std::string flow() const { return fmt::format("{{{}}}", fmt::join(entries_, ", ")); }
+  // One entry a line, the first after a dash.
+  std::string item() const { return fmt::format("  - {}\n", fmt::join(entries_, "\n    ")); }
+
+ private:
+  std::vector<std::string> entries_;
+};
+
+std::string block_text(const BlockPart& block) {
+  Mapping m;
+  for (const auto& quantity : {block.width, block.height, block.slenderness, block.size}) m.add(quantity);
+  m.add(block.mass);
+  return m.flow();
+}
+
+std::string friction_text(const FrictionPart& friction) {
+  Mapping m;
+  for (const auto& quantity : {friction.mu, friction.mu_k, friction.mu_s, friction.static_ratio}) m.add(quantity);
+  return m.flow();
+}
+
+std::string effects_text(const std::vector<EffectPart>& effects) {
+  if (effects.empty()) return " []\n";
+  std::string text = "\n";
+  for (const auto& effect : effects) {
+    Mapping m;
+    m.add("name", text_value(effect.name));
+    for (const auto& quantity : effect.parameters) m.add(quantity);
+    text += m.item();
+  }
+  return text;
+}
+
+std::string model_text(const ModelPart& model) {
+  constexpr const char* models[] = {"slide", "rock", "slide_rock"};
+  constexpr const char* laws[] = {"housner", "coulomb"};
+  return fmt::format("block: {}\nfriction: {}\nmodel: {}\nimpact: {{law: {}, {}}}\neffects:{}", block_text(model.block),
+                     friction_text(model.friction), models[static_cast<int>(model.model)],
+                     laws[static_cast<int>(model.impact.law)], pair(model.impact.factor), effects_text(model.effects));
+}
+
+std::string source_text(const MotionSource& source) {
+  Mapping m;
+  if (source.kind == MotionSource::Kind::pulses) {
+    m.add("pulse", to_string(source.pulses));
+    m.add(source.period);
+    m.add(source.amplitude);
+    m.add("scale", number_text(source.pulse_scale));
+  } else {
+    m.add("records", text_value(source.records));
+    if (!source.vertical_records.empty()) m.add("vertical_records", text_value(source.vertical_records));
+    if (source.amplitude && source.amplitude->name == "motion.pta_g")
+      m.add("scale_to", "{" + pair(*source.amplitude) + "}");
+    else
+      m.add(source.amplitude);
+    if (source.dt_s) m.add("dt_s", number_text(*source.dt_s));
+    if (!source.unit.empty()) m.add("unit", text_value(source.unit));
+    if (!source.format.empty()) m.add("format", text_value(source.format));
+    if (!source.channel.empty()) m.add("channel", text_value(source.channel));
+  }
+  m.add("weight", number_text(source.weight));
+  return m.item();
+}
+
+std::string bins_text(const BinsPart& bins) {
+  constexpr const char* spacings[] = {"equal_width", "equal_count", "log"};
+  if (!bins.edges.empty()) return "{edges: " + list(bins.edges) + "}";
+  if (bins.width > 0) return "{width: " + number_text(bins.width) + "}";
+  return fmt::format("{{count: {}, spacing: {}}}", bins.count, spacings[static_cast<int>(bins.spacing)]);
+}
+
+std::string fragility_text(const FragilityPart& f) {
+  std::string text = "fragility:\n  im: " + text_value(f.im.name);
+  if (f.im.period_s)
+    text = fmt::format("fragility:\n  im: {{name: {}, {}: {}}}", text_value(f.im.name), f.im.parameter,
+                       number_text(*f.im.period_s));
+  text += fmt::format("\n  bins: {}\n  edp: [{}]\n  capacities:", bins_text(f.bins), fmt::join(f.edp, ", "));
+  if (f.capacities.empty()) text += " {}";
+  for (const auto& part : f.capacities) text += fmt::format("\n    {}: {}", part.edp, list(part.values));
+  text += "\n  axes:";
+  if (f.axes.empty()) text += " []";
+  for (const auto& axis : f.axes)
+    text += fmt::format("\n    - {{name: {}, bins: {}}}", axis.name, bins_text(axis.bins));
+  return text + fmt::format(
+                    "\n  resamples: {}\n  confidence: {}\n  minimum_samples: {}\n  false_discovery: {}\n"
+                    "  empirical_fallback: {}\n",
+                    f.resamples, number_text(f.confidence), f.minimum_samples, number_text(f.false_discovery),
+                    f.empirical_fallback);
+}
+
+std::string all_but_name(const Study& study) {
+  std::string text = fmt::format("seed: {}\n", study.seed);
+  if (study.until)
+    text += fmt::format("until: {{half_width: {}, at_most: {}}}\n", number_text(study.until->half_width),
+                        study.until->at_most);
+  else
+    text += fmt::format("samples: {}\n", study.samples);
+  text += fmt::format("design: {}\nblock_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", name(study.design),
+                      study.block_size, number_text(study.tolerance), number_text(study.free_vibration_s));
+  text += model_text(study.model) + "motions:\n";
+  for (const auto& source : study.motions) text += source_text(source);
+  return text + fragility_text(study.fragility);
+}
+
+}  // namespace
+
+std::string expanded(const Study& study) { return "name: " + text_value(study.name) + "\n" + all_but_name(study); }
+
+std::string fingerprint(const Study& study) {
+  // The first word changes whenever the same study begins to give other numbers.
+  return fmt::format("{:016x}", random::stable_hash("freestand-draws/1\n" + all_but_name(study)));
+}
+
+}  // namespace freestand::study

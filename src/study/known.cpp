@@ -1,0 +1,22 @@
+#include "study/known.hpp"
+
+#include "edp/edp.hpp"
+#include "intensity/intensity.hpp"
+
+namespace freestand::study {
+
+Known registries() {
+  Known known;
+  for (const auto& edp : edp::all()) known.edps.push_back({edp.name, edp.binary, edp.default_capacities});
+  for (const auto* measure : intensity::all()) {
+    KnownIntensity intensity{measure->name, "", 0};
+    if (measure->parameter) {
+      intensity.parameter = measure->parameter->name;
+      intensity.fallback = measure->parameter->fallback;
+    }
+    known.intensities.push_back(std::move(intensity));
+  }
+  return known;
+}
+
+}  // namespace freestand::study

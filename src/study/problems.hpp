@@ -1,0 +1,54 @@
+// Collects every problem of a file, to report them all at once.
+#pragma once
+
+#include <freestand/error.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace freestand::study {
+
+class Problems {
+ public:
+  // file: the name that stands before each line number.
+  explicit Problems(std::string file) : file_(std::move(file)) {}
+
+  // text: "problem (why): what to do". line: 1, 2 ...; 0 for what belongs to no line.
+  void add(int line, std::string text);
+
+  bool empty() const { return entries_.empty(); }
+  std::size_t count() const { return entries_.size(); }
+
+  // "file:line: problem (why): what to do", one a line, in the order of the file.
+  std::string text() const;
+
+  // Throws one Error with all of them, if there are any.
+  void throw_if_any(Exit exit = Exit::usage) const;
+
+ private:
+  struct Entry {
+    int line;
+    std::string text;
+  };
+  std::string file_;
+  std::vector<Entry> entries_;
+};
+
+// Least number of insertions, deletions, replacements and exchanges of neighbours between two words.
+int edit_distance(std::string_view a, std::string_view b);
+
+// The candidate nearest to `word`, or empty when none is near (more than a third of the word would have to change).
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+// "did you mean delta?" or, when nothing is near, "known: delta, overturned".
+std::string hint(std::string_view word, const std::vector<std::string>& candidates);
+
+std::string joined(const std::vector<std::string>& words);
+
+// Unit of a dotted name from its suffix: block.width_m -> "m", friction.mu -> "1".
+std::string unit_of(std::string_view name);
+
+// Name without its unit suffix: width_m -> width, mu -> mu.
+std::string_view without_unit(std::string_view name);
+
+}  // namespace freestand::study

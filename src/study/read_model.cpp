@@ -1,0 +1,174 @@
+// block, friction, model, impact, effects.
+#include <fmt/format.h>
+
+#include "base/units.hpp"
+#include "study/read_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+using sampling::number_text;
+using sampling::support;
+
+constexpr Range size_range = {.lower = 0, .why = "a size must be above zero"};
+constexpr Range slenderness_range = {.lower = 0, .upper = pi / 2, .why = "a slenderness lies between 0 and pi/2"};
+constexpr Range ratio_range = {
+    .lower = 1, .lower_open = false, .why = "static friction is never below kinetic friction"};
+
+void both(Section& section, const std::string& a, const std::string& b, const char* why) {
+  section.problem(b, fmt::format("{} and {} are both given ({}): remove one", section.name(a), b, why));
+}
+
+void missing(Section& section, const std::string& key, const std::string& other) {
+  section.problem(key, fmt::format("{} is missing (the study cannot do without it): add {}", section.name(key), other));
+}
+
+BlockPart read_block(Section& file) {
+  BlockPart block;
+  const YAML::Node* node = file.find("block");
+  if (!node) {
+    file.problem("block", "block is missing (there is nothing to shake): add block: {width_m: ..., height_m: ...}");
+    return block;
+  }
+  Section section(*node, "block", file.line("block"), file.problems());
+  block.width = section.quantity("block", "width_m", size_range);
+  block.height = section.quantity("block", "height_m", size_range);
+  block.slenderness = section.quantity("block", "slenderness_rad", slenderness_range);
+  block.size = section.quantity("block", "size_m", size_range);
+  block.mass = section.quantity("block", "mass_kg", {.lower = 0, .why = "a mass must be above zero"}, 1);
+  section.finish();
+  if (!node->IsMap()) return block;
+
+  const bool sides = section.has("width_m") || section.has("height_m");
+  const bool angles = section.has("slenderness_rad") || section.has("size_m");
+  if (sides && angles)
+    both(section, section.has("width_m") ? "width_m" : "height_m",
+         section.has("slenderness_rad") ? "slenderness_rad" : "size_m",
+         "the block is given either by its sides or by slenderness and size");
+  else if (angles) {
+    if (!section.has("slenderness_rad")) missing(section, "slenderness_rad", "slenderness_rad, the angle atan(W/H)");
+    if (!section.has("size_m")) missing(section, "size_m", "size_m, half the diagonal of the block");
+  } else {
+    if (!section.has("width_m")) missing(section, "width_m", "width_m, or slenderness_rad and size_m");
+    if (!section.has("height_m")) missing(section, "height_m", "height_m");
+  }
+  return block;
+}
+
+// mu_s must not fall below mu_k in any sample. They are drawn independently, so their ranges must not overlap.
+void check_static_friction(Section& section, const FrictionPart& friction) {
+  if (!friction.mu_s || !friction.mu_k) return;
+  const double most = support(friction.mu_k->value).upper, least = support(friction.mu_s->value).lower;
+  if (most <= least) return;
+  const bool numbers = is_fixed(friction.mu_k->value) && is_fixed(friction.mu_s->value);
+  section.problem("mu_s",
+                  numbers ? fmt::format("friction.mu_s {} is below friction.mu_k {} (static friction is never below "
+                                        "kinetic friction): raise mu_s",
+                                        number_text(least), number_text(most))
+                          : std::string("friction.mu_s can fall below friction.mu_k (they are drawn independently and "
+                                        "their ranges overlap): use mu_k with static_ratio"));
+}
+
+FrictionPart read_friction(Section& file) {
+  FrictionPart friction;
+  const YAML::Node* node = file.find("friction");
+  if (!node) {
+    file.problem("friction", "friction is missing (the block cannot stand without it): add friction: {mu: ...}");
+    return friction;
+  }
+  Section section(*node, "friction", file.line("friction"), file.problems());
+  friction.mu = section.quantity("friction", "mu", range::not_negative);
+  friction.mu_k = section.quantity("friction", "mu_k", range::not_negative);
+  friction.mu_s = section.quantity("friction", "mu_s", range::not_negative);
+  friction.static_ratio = section.quantity("friction", "static_ratio", ratio_range);
+  section.finish();
+  if (!node->IsMap()) return friction;
+
+  if (section.has("mu")) {
+    for (const char* key : {"mu_k", "mu_s", "static_ratio"})
+      if (section.has(key)) both(section, "mu", key, "mu stands for both coefficients");
+  } else if (!section.has("mu_k")) {
+    missing(section, "mu_k", "mu_k, or mu for both coefficients");
+  } else if (section.has("mu_s") && section.has("static_ratio")) {
+    both(section, "mu_s", "static_ratio", "one determines the other");
+  }
+  check_static_friction(section, friction);
+  return friction;
+}
+
+Model read_model_name(Section& file) {
+  const YAML::Node* node = file.find("model");
+  if (node && node->IsScalar() && node->Scalar() == "bouc_wen") {
+    file.problem("model", "model is bouc_wen (this version does not compute it): choose slide, rock or slide_rock");
+    return Model::slide_rock;
+  }
+  return static_cast<Model>(file.choice("model", {"slide", "rock", "slide_rock"}, 2));
+}
+
+ImpactPart read_impact(Section& file) {
+  ImpactPart impact{ImpactLaw::housner, {"impact.factor", "1", sampling::Fixed{1}}};
+  const YAML::Node* node = file.find("impact");
+  if (!node) return impact;
+  Section section(*node, "impact", file.line("impact"), file.problems());
+  impact.law = static_cast<ImpactLaw>(section.choice("law", {"housner", "coulomb"}, 0));
+  impact.factor = section.quantity("impact", "factor", range::fraction, 1);
+  section.finish();
+  const auto* fixed = std::get_if<sampling::Fixed>(&impact.factor.value);
+  if (impact.law == ImpactLaw::coulomb && !(fixed && fixed->value == 1))
+    section.problem("factor",
+                    "impact.factor does not go with law coulomb (its impulse follows from friction alone): "
+                    "remove factor, or use housner");
+  return impact;
+}
+
+// The one effect that this version has; true when the name is known.
+bool read_parameters(Section& section, EffectPart& effect) {
+  if (effect.name != "vertical_shaking") return false;
+  effect.parameters.push_back(section.quantity("effects.vertical_shaking", "scale", range::not_negative, 1));
+  return true;
+}
+
+std::vector<EffectPart> read_effects(Section& file) {
+  std::vector<EffectPart> effects;
+  const YAML::Node* node = file.find("effects");
+  if (!node) return effects;
+  if (!node->IsSequence()) {
+    file.problem("effects", "effects is no list (each effect is an entry): write effects: [{name: vertical_shaking}]");
+    return effects;
+  }
+  for (std::size_t i = 0; i < node->size(); ++i) {
+    const int line = line_of((*node)[i]) ? line_of((*node)[i]) : file.line("effects");
+    const std::string path = fmt::format("effects[{}]", i);
+    Section section((*node)[i], path, line, file.problems());
+    EffectPart effect{section.text("name", ""), {}};
+    if (effect.name.empty()) {
+      if ((*node)[i].IsMap() && !section.has("name")) missing(section, "name", "name: vertical_shaking");
+      continue;
+    }
+    if (!read_parameters(section, effect)) {
+      section.problem("name", fmt::format("effect {} is not known (this version has: vertical_shaking): {}",
+                                          effect.name, "remove it or choose one of these"));
+      continue;
+    }
+    section.finish();
+    for (const auto& earlier : effects)
+      if (earlier.name == effect.name)
+        section.problem("name", fmt::format("effect {} stands twice (it acts once): remove one", effect.name));
+    effects.push_back(std::move(effect));
+  }
+  return effects;
+}
+
+}  // namespace
+
+ModelPart read_model(Section& file) {
+  ModelPart model;
+  model.block = read_block(file);
+  model.friction = read_friction(file);
+  model.model = read_model_name(file);
+  model.impact = read_impact(file);
+  model.effects = read_effects(file);
+  return model;
+}
+
+}  // namespace freestand::study

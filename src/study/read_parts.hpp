@@ -1,0 +1,31 @@
+// The parts of a study file, one reader each. Internal to src/study.
+#pragma once
+
+#include "study/section.hpp"
+#include "study/study.hpp"
+
+namespace freestand::study {
+
+// block, friction, model, impact, effects: the keys that studies and cases share.
+ModelPart read_model(Section& file);
+
+// Entries of `motions`; globs start at `folder`.
+std::vector<MotionSource> read_motions(Section& file, const std::filesystem::path& folder, Files);
+
+// `motion` of a case: one pulse or one file.
+MotionSource read_motion(Section& file, const std::filesystem::path& folder);
+
+// What a surface may have as its second axis, and whether it takes more than one value in this study.
+struct AxisChoice {
+  std::string name;
+  bool varies;
+};
+std::vector<AxisChoice> axis_choices(const ModelPart&, const std::vector<MotionSource>&);
+
+// `fragility`, defaults where it is absent.
+FragilityPart read_fragility(Section& file, const Known&, const std::vector<AxisChoice>&);
+
+// The mapping of the file, or nothing (syntax errors and empty files are problems).
+std::optional<YAML::Node> parse_yaml(const std::string& text, Problems&);
+
+}  // namespace freestand::study

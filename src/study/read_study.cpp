@@ -1,0 +1,154 @@
+// The study file and the case file as a whole.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <fstream>
+#include <sstream>
+
+#include "study/read_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (stream && !std::filesystem::is_directory(file)) text << stream.rdbuf();
+  if (!stream || std::filesystem::is_directory(file))
+    throw Error(fmt::format("{} cannot be read ({}): check the path", file.string(),
+                            std::filesystem::is_directory(file) ? "it is a folder"
+                            : std::filesystem::exists(file)     ? "no permission"
+                                                                : "no such file"));
+  return text.str();
+}
+
+void read_common(Section& file, const std::filesystem::path& path, Study& study) {
+  study.name = file.text("name", path.stem().string());
+  study.folder = path.parent_path();
+  study.tolerance =
+      file.number("tolerance", study.tolerance,
+                  {.lower = 0, .upper = 1e-2, .upper_open = false, .why = "it must lie between 0 and 0.01"});
+  study.free_vibration_s = file.number("free_vibration_s", study.free_vibration_s, range::not_negative);
+  study.model = read_model(file);
+}
+
+// 1/1000 of the samples, a power of two between 64 and 8192: enough blocks to share among ranks, and whole nets of the
+// Sobol sequence.
+std::uint64_t default_block_size(std::uint64_t samples) {
+  return std::bit_floor(std::clamp<std::uint64_t>(samples / 1000, 64, 8192));
+}
+
+constexpr std::uint64_t most_samples = 1ULL << 50;
+
+void read_until(Section& file, Study& study) {
+  const YAML::Node* node = file.find("until");
+  if (!node) return;
+  Section section(*node, "until", file.line("until"), file.problems());
+  UntilPart until;
+  until.half_width = section.number(
+      "half_width", 0.02, {.lower = 0, .upper = 0.5, .why = "a half width of a probability lies between 0 and 0.5"});
+  until.at_most = section.integer("at_most", 10000000, 1, most_samples);
+  if (node->IsMap() && !section.has("half_width"))
+    section.problem("half_width",
+                    "until.half_width is missing (how well must the surface be known?): add half_width: 0.02");
+  section.finish();
+  if (file.has("samples"))
+    file.problem("until",
+                 "samples and until are both given (the one fixes the number, the other finds it): remove one");
+  study.until = until;
+  study.samples = until.at_most;
+}
+
+void read_design(Section& file, Study& study) {
+  study.seed = file.integer("seed", 1, 0);
+  study.design = static_cast<sampling::Design>(file.choice("design", {"monte_carlo", "latin_hypercube", "sobol"}, 2));
+  study.samples = file.integer("samples", 0, 1, most_samples);
+  read_until(file, study);
+  if (!file.has("samples") && !file.has("until"))
+    file.problem("samples",
+                 "samples is missing (how many are wanted?): add samples: 20000 or until: {half_width: 0.02}");
+  if (study.until && study.design == sampling::Design::latin_hypercube)
+    file.problem("design",
+                 "latin_hypercube does not go with until (its strata depend on the number of samples): give "
+                 "samples, or use sobol");
+  study.block_size = file.integer("block_size", default_block_size(study.samples), 1, 1U << 20);
+}
+
+// A case is one sample: no distribution anywhere.
+void refuse_distributions(const Study& study, Problems& problems) {
+  const auto check = [&](const std::optional<Quantity>& q) {
+    if (q && !is_fixed(q->value))
+      problems.add(0, fmt::format("{} is a distribution (a case is one sample): give a number", q->name));
+  };
+  const ModelPart& m = study.model;
+  for (const auto& q : {m.block.width, m.block.height, m.block.slenderness, m.block.size}) check(q);
+  for (const auto& q : {m.friction.mu, m.friction.mu_k, m.friction.mu_s, m.friction.static_ratio}) check(q);
+  check(m.block.mass);
+  check(m.impact.factor);
+  for (const auto& effect : m.effects)
+    for (const auto& q : effect.parameters) check(q);
+  for (const auto& source : study.motions) {
+    check(source.amplitude);
+    check(source.period);
+    if (source.pulses.values.size() > 1)
+      problems.add(0, "motion.pulse is a list (a case is one sample): name one pulse");
+  }
+}
+
+}  // namespace
+
+std::optional<YAML::Node> parse_yaml(const std::string& text, Problems& problems) {
+  try {
+    YAML::Node node = YAML::Load(text);
+    if (!node.IsNull()) return node;
+    problems.add(0, "the file is empty (there is no key in it): see configs/ for examples");
+  } catch (const YAML::Exception& error) {
+    problems.add(
+        error.mark.is_null() ? 0 : error.mark.line + 1,
+        fmt::format("this is not YAML ({}): check indentation, colons and brackets here and on the line before",
+                    error.msg));
+  }
+  return {};
+}
+
+Study parse_study(const std::string& text, const std::filesystem::path& path, const Known& known, Files look) {
+  Problems problems(path.string());
+  Study study;
+  if (const auto root = parse_yaml(text, problems)) {
+    Section file(*root, "", 1, problems);
+    problems.throw_if_any();
+    read_common(file, path, study);
+    read_design(file, study);
+    study.motions = read_motions(file, path.parent_path(), look);
+    study.fragility = read_fragility(file, known, axis_choices(study.model, study.motions));
+    file.finish();
+  }
+  problems.throw_if_any();
+  return study;
+}
+
+Case parse_case(const std::string& text, const std::filesystem::path& path) {
+  Problems problems(path.string());
+  Case one;
+  if (const auto root = parse_yaml(text, problems)) {
+    Section file(*root, "", 1, problems);
+    problems.throw_if_any();
+    read_common(file, path, one.study);
+    one.study.samples = one.study.block_size = 1;
+    one.study.motions = {read_motion(file, path.parent_path())};
+    one.output_step_s = file.number("output_step_s", one.output_step_s, range::positive);
+    refuse_distributions(one.study, problems);
+    file.finish();
+  }
+  problems.throw_if_any();
+  return one;
+}
+
+Study read_study(const std::filesystem::path& file, const Known& known) {
+  return parse_study(read_text(file), file, known);
+}
+
+Case read_case(const std::filesystem::path& file) { return parse_case(read_text(file), file); }
+
+}  // namespace freestand::study

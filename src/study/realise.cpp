@@ -1,0 +1,245 @@
+#include "study/realise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.hpp"
+#include "study/problems.hpp"
+
+namespace freestand::study {
+namespace {
+
+using sampling::Plan;
+using sampling::Stream;
+
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+// A number of the study with its stream of uniforms; drawn only when it is no fixed number.
+class Drawn {
+ public:
+  Drawn(const Plan& plan, const Quantity& quantity) : value_(quantity.value), stream_(plan, quantity.name) {
+    if (const auto* fixed = std::get_if<sampling::Fixed>(&value_)) number_ = fixed->value;
+  }
+  double operator()(std::uint64_t sample) const { return number_ ? *number_ : quantile(value_, stream_(sample)); }
+
+ private:
+  sampling::Distribution value_;
+  Stream stream_;
+  std::optional<double> number_;
+};
+
+std::optional<Drawn> drawn(const Plan& plan, const std::optional<Quantity>& quantity) {
+  return quantity ? std::optional<Drawn>(std::in_place, plan, *quantity) : std::nullopt;
+}
+
+enum class Amplitude { acceleration_g, velocity_mps, pta_g, factor };
+
+Amplitude amplitude_of(const MotionSource& source) {
+  const std::string& name = source.amplitude->name;
+  if (name == "motion.peak_acceleration_g") return Amplitude::acceleration_g;
+  if (name == "motion.peak_velocity_mps") return Amplitude::velocity_mps;
+  return name == "motion.pta_g" ? Amplitude::pta_g : Amplitude::factor;
+}
+
+struct Source {
+  Source(const Plan& plan, const MotionSource& from)
+      : part(from),
+        amplitude_kind(amplitude_of(from)),
+        amplitude(plan, *from.amplitude),
+        period(drawn(plan, from.period)),
+        item(plan, from.kind == MotionSource::Kind::pulses ? "motion.pulse" : "motion.record") {}
+
+  MotionSource part;
+  Amplitude amplitude_kind;
+  Drawn amplitude;
+  std::optional<Drawn> period;
+  Stream item;
+};
+
+std::string column_name(std::string dotted) {
+  std::replace(dotted.begin(), dotted.end(), '.', '_');
+  return dotted;
+}
+
+// The quantities of the model in the order of their columns.
+std::vector<Quantity> model_quantities(const ModelPart& model) {
+  std::vector<Quantity> all;
+  const auto add = [&](const std::optional<Quantity>& quantity) {
+    if (quantity) all.push_back(*quantity);
+  };
+  for (const auto& q : {model.block.width, model.block.height, model.block.slenderness, model.block.size}) add(q);
+  add(model.block.mass);
+  for (const auto& q : {model.friction.mu, model.friction.mu_k, model.friction.mu_s, model.friction.static_ratio})
+    add(q);
+  add(model.impact.factor);
+  for (const auto& effect : model.effects)
+    for (const auto& q : effect.parameters) add(q);
+  return all;
+}
+
+const std::vector<Column>& derived_columns() {
+  static const std::vector<Column> columns = {
+      {"block_width_m", "m", "width of the block"},
+      {"block_height_m", "m", "height of the block"},
+      {"block_alpha_rad", "rad", "slenderness angle of the block, atan(W/H)"},
+      {"block_size_m", "m", "R, half the diagonal of the block"},
+      {"block_p_radps", "rad/s", "frequency parameter of the block, sqrt(3g/(4R))"},
+      {"friction_mu_k", "1", "kinetic friction coefficient"},
+      {"friction_mu_s", "1", "static friction coefficient"},
+  };
+  return columns;
+}
+
+const std::vector<Column>& motion_columns() {
+  static const std::vector<Column> columns = {
+      {"motion", "1", "index of the floor motion", ColumnKind::integer},
+      {"scale", "1", "factor on the motion as stored (pulses are stored with a peak of 1 m/s2); negative: mirrored"},
+      {"pta_g", "g", "peak of the floor's horizontal acceleration"},
+      {"pulse_period_s", "s", "period of the pulse; nan for records"},
+  };
+  return columns;
+}
+
+std::size_t position(const std::vector<Quantity>& quantities, const std::string& name) {
+  const auto found = std::find_if(quantities.begin(), quantities.end(), [&](const auto& q) { return q.name == name; });
+  return static_cast<std::size_t>(found - quantities.begin());
+}
+
+}  // namespace
+
+struct Realiser::Parts {
+  Parts(const Study& study, MotionSet set);
+
+  // Value of a model quantity among those of this sample; nothing when the study does not have it.
+  std::optional<double> value(const std::vector<double>& drawn_values, const char* name) const {
+    const std::size_t i = position(quantities, name);
+    return i < quantities.size() ? std::optional<double>(drawn_values[i]) : std::nullopt;
+  }
+  Block block(const std::vector<double>& values) const;
+  Friction friction(const std::vector<double>& values) const;
+  void shake(std::uint64_t sample, double vertical, Realisation& out) const;
+
+  ModelPart model;
+  MotionSet motions;
+  std::vector<Quantity> quantities;
+  std::vector<Drawn> draws;  // one for each quantity
+  std::vector<Source> sources;
+  std::vector<double> weights;
+  Stream source_stream;
+  std::vector<Column> columns;
+  std::vector<bool> derived_wanted;
+};
+
+Realiser::Parts::Parts(const Study& study, MotionSet set)
+    : model(study.model),
+      motions(std::move(set)),
+      quantities(model_quantities(study.model)),
+      source_stream(study.plan(), "motion.source") {
+  for (const auto& quantity : quantities) {
+    draws.emplace_back(study.plan(), quantity);
+    columns.push_back({column_name(quantity.name), quantity.unit, quantity.name + " of the study"});
+  }
+  for (const auto& source : study.motions) {
+    sources.emplace_back(study.plan(), source);
+    weights.push_back(source.weight);
+  }
+  for (const auto& column : derived_columns()) {
+    const bool there =
+        std::any_of(columns.begin(), columns.end(), [&](const auto& c) { return c.name == column.name; });
+    derived_wanted.push_back(!there);
+    if (!there) columns.push_back(column);
+  }
+  columns.insert(columns.end(), motion_columns().begin(), motion_columns().end());
+}
+
+Block Realiser::Parts::block(const std::vector<double>& values) const {
+  const double mass = *value(values, "block.mass_kg");
+  if (const auto width = value(values, "block.width_m"))
+    return Block::rectangular(*width, *value(values, "block.height_m"), mass);
+  const double alpha = *value(values, "block.slenderness_rad"), diagonal = 2 * *value(values, "block.size_m");
+  return Block::rectangular(diagonal * std::sin(alpha), diagonal * std::cos(alpha), mass);
+}
+
+Friction Realiser::Parts::friction(const std::vector<double>& values) const {
+  if (const auto mu = value(values, "friction.mu")) return {*mu, *mu};
+  const double mu_k = *value(values, "friction.mu_k");
+  if (const auto mu_s = value(values, "friction.mu_s")) return {*mu_s, mu_k};
+  return {mu_k * value(values, "friction.static_ratio").value_or(1), mu_k};
+}
+
+void Realiser::Parts::shake(std::uint64_t sample, double vertical, Realisation& out) const {
+  const std::size_t chosen = sources.size() == 1 ? 0 : sampling::pick(sources.size(), weights, source_stream(sample));
+  const Source& source = sources[chosen];
+  const auto& items = motions.of_source[chosen];
+  const std::size_t item =
+      items.size() == 1 ? 0 : sampling::pick(items.size(), source.part.pulses.weights, source.item(sample));
+  out.motion = items[item];
+  const MotionSet::Entry& entry = (*motions.entries)[out.motion];
+
+  const double amplitude = source.amplitude(sample);
+  out.pulse_period_s = source.period ? (*source.period)(sample) : not_known;
+  Shaking& shaking = out.shaking;
+  shaking.motion = &entry.motion;
+  shaking.stretch = source.period ? out.pulse_period_s : 1;
+  switch (source.amplitude_kind) {
+    case Amplitude::acceleration_g:
+      shaking.scale = amplitude * standard_gravity_mps2;
+      break;
+    case Amplitude::velocity_mps:
+      shaking.scale = amplitude / (out.pulse_period_s * entry.peak_mps);
+      break;
+    case Amplitude::pta_g:
+      shaking.scale = amplitude * standard_gravity_mps2 / entry.peak_mps2;
+      break;
+    case Amplitude::factor:
+      shaking.scale = amplitude;
+      break;
+  }
+  shaking.scale *= source.part.pulse_scale;
+  shaking.vertical_scale = vertical * std::abs(shaking.scale);
+  out.pta_g = std::abs(shaking.scale) * entry.peak_mps2 / standard_gravity_mps2;
+}
+
+Realiser::Realiser(const Study& study, MotionSet motions)
+    : parts_(std::make_shared<const Parts>(study, std::move(motions))) {}
+
+Realisation Realiser::operator()(std::uint64_t sample) const {
+  const Parts& parts = *parts_;
+  Realisation out;
+  out.draws.reserve(parts.columns.size());
+  for (const auto& draw : parts.draws) out.draws.push_back(draw(sample));
+
+  out.specimen.block = parts.block(out.draws);
+  out.specimen.friction = parts.friction(out.draws);
+  out.specimen.impact = {parts.model.impact.law, *parts.value(out.draws, "impact.factor")};
+  out.specimen.model = parts.model.model;
+  parts.shake(sample, parts.value(out.draws, "effects.vertical_shaking.scale").value_or(0), out);
+
+  const Block& block = out.specimen.block;
+  const double derived[] = {block.base_m(),  2 * block.height_m,         block.alpha_rad(),         block.size_m(),
+                            block.p_radps(), out.specimen.friction.mu_k, out.specimen.friction.mu_s};
+  for (std::size_t i = 0; i < parts.derived_wanted.size(); ++i)
+    if (parts.derived_wanted[i]) out.draws.push_back(derived[i]);
+  for (const double x : {static_cast<double>(out.motion), out.shaking.scale, out.pta_g, out.pulse_period_s})
+    out.draws.push_back(x);
+  return out;
+}
+
+const std::vector<Column>& Realiser::draw_columns() const { return parts_->columns; }
+
+const MotionSet& Realiser::motions() const { return parts_->motions; }
+
+std::string Realiser::column_of(const std::string& dotted) {
+  if (dotted == "motion.period_s") return "pulse_period_s";
+  if (dotted == "motion.pta_g") return "pta_g";
+  return column_name(dotted);
+}
+
+Settings integration_settings(const Study& study) {
+  Settings settings;
+  settings.tolerance = study.tolerance;
+  settings.free_vibration_s = study.free_vibration_s;
+  return settings;
+}
+
+}  // namespace freestand::study

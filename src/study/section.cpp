@@ -1,0 +1,201 @@
+#include "study/section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace freestand::study {
+namespace {
+
+using sampling::number_text;
+
+std::optional<std::uint64_t> integer_of(const std::string& text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size()) return value;
+  // 2e5 and the like.
+  const auto real = number_of(text);
+  if (!real || *real < 0 || *real != std::floor(*real) || *real > 9007199254740992.0) return {};
+  return static_cast<std::uint64_t>(*real);
+}
+
+const char* kind_of(const YAML::Node& node) {
+  if (node.IsMap()) return "a mapping";
+  if (node.IsSequence()) return "a list";
+  if (node.IsNull()) return "empty";
+  return "a single value";
+}
+
+}  // namespace
+
+int line_of(const YAML::Node& node) {
+  const YAML::Mark mark = node.Mark();
+  return mark.is_null() ? 0 : mark.line + 1;
+}
+
+std::optional<double> number_of(const std::string& text) {
+  const char* first = text.data();
+  const char* last = first + text.size();
+  if (first != last && *first == '+') ++first;
+  double value = 0;
+  const auto [end, error] = std::from_chars(first, last, value);
+  if (error != std::errc() || end != last || first == last || !std::isfinite(value)) return {};
+  return value;
+}
+
+Section::Section(const YAML::Node& node, std::string path, int line, Problems& problems)
+    : path_(std::move(path)), line_(line), problems_(problems) {
+  if (!node.IsMap()) {
+    problems_.add(line_, fmt::format("{} is {} (keys with values are needed here): write \"key: value\" lines",
+                                     path_.empty() ? "the file" : path_, kind_of(node)));
+    return;
+  }
+  for (const auto& pair : node) {
+    const std::string key = pair.first.IsScalar() ? pair.first.Scalar() : "";
+    const int key_line = std::max(line_of(pair.first), 1);
+    if (key.empty())
+      problems_.add(key_line, "a key is not a word (keys are plain names): correct it");
+    else if (item(key))
+      problems_.add(key_line,
+                    fmt::format("key {} stands twice (first on line {}): remove one", name(key), item(key)->line));
+    else
+      items_.push_back({key, key_line, pair.second});
+  }
+}
+
+const Section::Item* Section::item(const std::string& key) const {
+  const auto found = std::find_if(items_.begin(), items_.end(), [&](const Item& i) { return i.key == key; });
+  return found == items_.end() ? nullptr : &*found;
+}
+
+const YAML::Node* Section::find(const std::string& key) {
+  const bool first_time = std::find(known_.begin(), known_.end(), key) == known_.end();
+  if (first_time) known_.push_back(key);
+  const Item* found = item(key);
+  if (!found) return nullptr;
+  if (!found->value.IsNull()) return &found->value;
+  if (first_time)
+    problem(key, name(key) + " has no value (nothing stands behind the colon): give one or remove the key");
+  return nullptr;
+}
+
+bool Section::has(const std::string& key) const { return item(key) != nullptr; }
+
+int Section::line(const std::string& key) const {
+  const Item* found = item(key);
+  return found ? found->line : line_;
+}
+
+std::optional<double> Section::optional_number(const std::string& key, const Range& range) {
+  const YAML::Node* node = find(key);
+  if (!node) return {};
+  const auto value = node->IsScalar() ? number_of(node->Scalar()) : std::nullopt;
+  if (!value) {
+    problem(key, fmt::format("{} is {} (one number is needed): give a number", name(key),
+                             node->IsScalar() ? "\"" + node->Scalar() + "\"" : kind_of(*node)));
+    return {};
+  }
+  check_range(sampling::Fixed{*value}, range, name(key), line(key), problems_);
+  return value;
+}
+
+double Section::number(const std::string& key, double fallback, const Range& range) {
+  return optional_number(key, range).value_or(fallback);
+}
+
+std::uint64_t Section::integer(const std::string& key, std::uint64_t fallback, std::uint64_t least,
+                               std::uint64_t greatest) {
+  const YAML::Node* node = find(key);
+  if (!node) return fallback;
+  const auto value = node->IsScalar() ? integer_of(node->Scalar()) : std::nullopt;
+  if (value && *value >= least && *value <= greatest) return *value;
+  const std::string given = node->IsScalar() ? node->Scalar() : kind_of(*node);
+  const std::string wanted = greatest == std::numeric_limits<std::int64_t>::max()
+                                 ? fmt::format("a whole number of at least {}", least)
+                                 : fmt::format("a whole number from {} to {}", least, greatest);
+  problem(key, fmt::format("{} is {} ({} is needed): correct it", name(key), given, wanted));
+  return fallback;
+}
+
+bool Section::flag(const std::string& key, bool fallback) {
+  return choice(key, {"false", "true"}, fallback ? 1 : 0) == 1;
+}
+
+std::string Section::text(const std::string& key, const std::string& fallback) {
+  const YAML::Node* node = find(key);
+  if (!node) return fallback;
+  if (node->IsScalar() && !node->Scalar().empty()) return node->Scalar();
+  problem(key, fmt::format("{} is {} (one word or text is needed): correct it", name(key),
+                           node->IsScalar() ? "an empty text" : kind_of(*node)));
+  return fallback;
+}
+
+std::vector<double> Section::numbers(const std::string& key) {
+  const YAML::Node* node = find(key);
+  if (!node) return {};
+  std::vector<double> values;
+  if (!node->IsSequence()) {
+    problem(key, fmt::format("{} is {} (a list of numbers is needed): write [1, 2, 3]", name(key), kind_of(*node)));
+    return {};
+  }
+  for (const auto& entry : *node) {
+    const auto value = entry.IsScalar() ? number_of(entry.Scalar()) : std::nullopt;
+    if (value)
+      values.push_back(*value);
+    else
+      problem(key, fmt::format("{} holds {} (numbers only): correct it", name(key),
+                               entry.IsScalar() ? "\"" + entry.Scalar() + "\"" : kind_of(entry)));
+  }
+  return values;
+}
+
+std::size_t Section::choice(const std::string& key, const std::vector<std::string>& choices, std::size_t fallback) {
+  const YAML::Node* node = find(key);
+  if (!node) return fallback;
+  const std::string word = node->IsScalar() ? node->Scalar() : kind_of(*node);
+  const auto found = std::find(choices.begin(), choices.end(), word);
+  if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
+  problem(key,
+          fmt::format("{} is {} ({}): choose one of {}", name(key), word,
+                      nearest(word, choices).empty() ? "not known" : "did you mean " + nearest(word, choices) + "?",
+                      joined(choices)));
+  return fallback;
+}
+
+std::optional<Quantity> Section::quantity(const std::string& prefix, const std::string& key, const Range& range) {
+  const YAML::Node* node = find(key);
+  if (!node) return {};
+  const auto value = read_distribution(*node, name(key), line(key), problems_);
+  if (!value) return {};
+  check_range(*value, range, name(key), line(key), problems_);
+  return Quantity{prefix + "." + key, unit_of(key), *value};
+}
+
+Quantity Section::quantity(const std::string& prefix, const std::string& key, const Range& range, double fallback) {
+  return quantity(prefix, key, range).value_or(Quantity{prefix + "." + key, unit_of(key), sampling::Fixed{fallback}});
+}
+
+void Section::finish() {
+  for (const auto& [key, line, value] : items_)
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) problems_.add(line, unknown_key(key));
+}
+
+std::string Section::unknown_key(const std::string& key) const {
+  const std::string where = path_.empty() ? "" : " in " + path_;
+  for (const auto& known : known_) {
+    if (without_unit(known) == known) continue;
+    if (without_unit(known) == key)
+      return fmt::format("key {}{} has no unit (every key with a dimension carries its own): write {}", key, where,
+                         known);
+    if (without_unit(known) == without_unit(key))
+      return fmt::format("key {}{} has another unit (freestand reads SI, here {}): convert the value and write {}", key,
+                         where, unit_of(known), known);
+  }
+  const std::string near = nearest(key, known_);
+  if (!near.empty()) return fmt::format("unknown key {}{} (did you mean {}?): correct or remove it", key, where, near);
+  return fmt::format("unknown key {}{} (nothing reads it): remove it, or use one of {}", key, where, joined(known_));
+}
+
+}  // namespace freestand::study
