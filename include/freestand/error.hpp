@@ -14,7 +14,8 @@ enum class Exit : int {
   resumable = 75  // stopped early; `sweep --resume` goes on
 };
 
-// A problem that the user can act on. The text reads "problem (why): what to do"; several problems stand on several lines.
+// A problem that the user can act on. The text reads "problem (why): what to do"; several problems stand on several
+// lines.
 class Error : public std::runtime_error {
  public:
   explicit Error(const std::string& text, Exit exit = Exit::usage) : std::runtime_error(text), exit_(exit) {}

@@ -2,8 +2,8 @@
 //
 // Recorded motions are piecewise linear between their samples (degree 1). Closed-form pulses are stored once, with unit
 // peak acceleration and unit period, as polynomials of higher degree that agree with the closed form to about 1e-14; a
-// sample scales and stretches them. So one kernel serves both, steps never cross a knot, and all pulses of one type share
-// one table.
+// sample scales and stretches them. So one kernel serves both, steps never cross a knot, and all pulses of one type
+// share one table.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,13 @@ namespace freestand {
 // After the last knot the floor is still (a = 0). Before knot_s[0] = 0 nothing happens.
 struct FloorMotion {
   std::string name;
-  std::vector<double> knot_s;           // increasing, starts at 0
+  std::vector<double> knot_s;  // increasing, starts at 0
   int degree = 1;
   std::vector<double> horizontal_mps2;  // n * (degree + 1)
   std::vector<double> vertical_mps2;    // the same, up positive; empty where there is no vertical channel
 
-  // Bounds of |a| over runs of `run_length` segments, from index_runs(): an integrator passes over the runs that cannot move
-  // the block. Empty: not indexed, every segment is looked at.
+  // Bounds of |a| over runs of `run_length` segments, from index_runs(): an integrator passes over the runs that cannot
+  // move the block. Empty: not indexed, every segment is looked at.
   static constexpr std::size_t run_length = 32;
   std::vector<double> horizontal_run_mps2, vertical_run_mps2;
 
@@ -49,8 +49,8 @@ double vertical_acceleration(const Shaking& shaking, double t);
 // Fills the bounds of the runs from the coefficients.
 void index_runs(FloorMotion& motion);
 
-// Equally spaced samples -> piecewise linear motion, indexed. vertical may be empty. Throws Error on fewer than two samples,
-// unequal lengths, a step that is not positive, or a value that is not finite.
+// Equally spaced samples -> piecewise linear motion, indexed. vertical may be empty. Throws Error on fewer than two
+// samples, unequal lengths, a step that is not positive, or a value that is not finite.
 FloorMotion piecewise_linear(std::string name, double dt_s, const std::vector<double>& horizontal_mps2,
                              const std::vector<double>& vertical_mps2 = {});
 

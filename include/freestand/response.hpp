@@ -24,22 +24,23 @@ const char* name(Outcome outcome);
 
 struct Response {
   Outcome outcome = Outcome::at_rest;
-  double peak_slip_m = 0;         // max |u|, u = displacement of the base's midpoint relative to the floor
-  double residual_slip_m = 0;     // u at the end (signed)
-  double slid_path_m = 0;         // integral of |slip speed of the contact|
-  double peak_rotation_rad = 0;   // max |theta|
+  double peak_slip_m = 0;        // max |u|, u = displacement of the base's midpoint relative to the floor
+  double residual_slip_m = 0;    // u at the end (signed)
+  double slid_path_m = 0;        // integral of |slip speed of the contact|
+  double peak_rotation_rad = 0;  // max |theta|
   double residual_rotation_rad = 0;
-  double peak_acceleration_mps2 = 0;  // max of the vector sum of the centre of mass's total acceleration, impacts left out
-  int impacts = 0;                // rocking impacts and landings
-  int events = 0;                 // all mode changes and impacts
-  double end_time_s = 0;          // when the integration could stop: at rest for good, or overturned
+  double peak_acceleration_mps2 =
+      0;                  // max of the vector sum of the centre of mass's total acceleration, impacts left out
+  int impacts = 0;        // rocking impacts and landings
+  int events = 0;         // all mode changes and impacts
+  double end_time_s = 0;  // when the integration could stop: at rest for good, or overturned
 };
 
 // One change of mode, for tests, histories and error reports.
 struct Event {
   double time_s;
   Mode from, to;
-  int pivot;          // after the event: +1 right corner, -1 left corner, 0 both or none
+  int pivot;  // after the event: +1 right corner, -1 left corner, 0 both or none
   bool impact;
 };
 
@@ -50,7 +51,7 @@ struct HistoryPoint {
 };
 
 struct History {
-  double step_s = 0.005;              // output step; 0: events only
+  double step_s = 0.005;  // output step; 0: events only
   std::vector<HistoryPoint> points;
   std::vector<Event> events;
 };

@@ -28,7 +28,8 @@ struct Block {
   double half_base_m() const { return 0.5 * (left_m + right_m); }
   // Slenderness of the weaker side, alpha = atan(min(b_l, b_r)/h) [rad].
   double alpha_rad() const;
-  // Size R to the nearer corner [m] and frequency parameter p = sqrt(g R/(k^2 + R^2)) [rad/s]; sqrt(3g/(4R)) if uniform.
+  // Size R to the nearer corner [m] and frequency parameter p = sqrt(g R/(k^2 + R^2)) [rad/s]; sqrt(3g/(4R)) if
+  // uniform.
   double size_m() const;
   double p_radps() const;
 };

@@ -1,1 +1,45 @@
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "app/command.hpp"
+#include "io/provenance.hpp"
+#include "parallel/stop.hpp"
+
+namespace {
+
+// Tells the parser's problem, or its help, once for all ranks.
+int tell(const CLI::App& parser, const CLI::ParseError& error, const freestand::parallel::Communicator& world) {
+  const bool is_help = error.get_exit_code() == 0;
+  if (world.is_root()) parser.exit(error);
+  return static_cast<int>(is_help ? freestand::Exit::done : freestand::Exit::usage);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const freestand::parallel::Session session(&argc, &argv);
+  const freestand::parallel::Communicator world = session.world();
+  const freestand::parallel::StopOnSignal stop_on_signal;
+
+  CLI::App parser("Seismic fragility databases for freestanding equipment", "freestand");
+  parser.require_subcommand(1);
+  parser.set_version_flag("--version", freestand::io::provenance_here("", 1).version);
+  freestand::app::Work work;
+  freestand::app::add_run(parser, work);
+  freestand::app::add_sweep(parser, work);
+  freestand::app::add_fit(parser, work);
+  freestand::app::add_simulate(parser, work);
+  freestand::app::add_motion(parser, work);
+
+  try {
+    parser.parse(argc, argv);
+    return static_cast<int>(work({world, freestand::io::command_line(argc, argv)}));
+  } catch (const CLI::ParseError& error) {
+    return tell(parser, error, world);
+  } catch (const freestand::Error& error) {
+    return freestand::parallel::end_run(world, error);
+  } catch (const std::exception& error) {
+    return freestand::parallel::end_run(world, fmt::format("unexpected: {}", error.what()), 1);
+  }
+}

@@ -1,8 +1,7 @@
-#include <freestand/floor_motion.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <freestand/error.hpp>
+#include <freestand/floor_motion.hpp>
 
 namespace freestand {
 namespace {

@@ -1,10 +1,12 @@
-// The physics: equations of motion of the freestanding block, mode by mode.  [KM05 ch. 6; derived for any k^2, h, b_l, b_r]
+// The physics: equations of motion of the freestanding block, mode by mode.  [KM05 ch. 6; derived for any k^2, h, b_l,
+// b_r]
 //
 //        theta > 0 clockwise                 r = (r_x, r_y): from the pivot (contact corner) to the centre of mass
 //              ____                            r_x = -c cos(theta) + h sin(theta)       d/dt r_x =  omega r_y
 //             /    /    r_y ^                  r_y =  c sin(theta) + h cos(theta)       d/dt r_y = -omega r_x
 //            /  x /         |                c = +b_r on the right corner, -b_l on the left one
-//           /    /          |                uniform block: r_x = -s R sin(phi), r_y = R cos(phi), phi = alpha - |theta|
+//           /    /          |                uniform block: r_x = -s R sin(phi), r_y = R cos(phi), phi = alpha -
+//           |theta|
 //      ____/____/_____      +--> r_x
 //           pivot, at w = slip speed         floor: a(t) to the right, v(t) up, g' = g + v
 //
@@ -13,7 +15,8 @@
 //
 //   rock        (k^2 + r^2) theta'' = r_x g' - r_y a
 //   slide-rock  f_x = -sigma mu f_y,  q = r_x + sigma mu r_y,  n = g' - r_y omega^2:
-//               (k^2 + r_x q) theta'' = n q,   w' = -sigma mu f_y - a - r_y theta'' + r_x omega^2,   f_y = n k^2/(k^2 + r_x q)
+//               (k^2 + r_x q) theta'' = n q,   w' = -sigma mu f_y - a - r_y theta'' + r_x omega^2,   f_y = n k^2/(k^2 +
+//               r_x q)
 //   slide       w' = -a - sigma mu g'
 //   flight      theta'' = 0, centre of mass (x, y): x'' = -a, y'' = -g'
 //
@@ -113,15 +116,14 @@ void slide_rock(Arc<Real, N>& y, const Floor<Real, N>& floor, const Corner<Real>
     y.alpha[k] = numerator / y.d[0];
     y.fy[k] = y.n[k] - product(y.rx, y.alpha, k);
     y.fx[k] = -sigma_mu * y.fy[k];
-    const Real slip_acceleration =
-        y.fx[k] - floor.a[k] - product(y.ry, y.alpha, k) + product(y.rx, omega2, k);
+    const Real slip_acceleration = y.fx[k] - floor.a[k] - product(y.ry, y.alpha, k) + product(y.rx, omega2, k);
     integrate_coefficient(y, slip_acceleration, k);
   }
   finish_arc(y);
 }
 
-// Both corners down, slipping (sigma_mu = sigma mu_k) or at rest (sigma_mu ignored, stuck = true). Polynomials of degree
-// floor + 2: exact, not a truncation.
+// Both corners down, slipping (sigma_mu = sigma mu_k) or at rest (sigma_mu ignored, stuck = true). Polynomials of
+// degree floor + 2: exact, not a truncation.
 template <class Real, int N>
 void flat(Arc<Real, N>& y, const Floor<Real, N>& floor, const Real& sigma_mu, bool stuck) {
   for (int k = 0; k <= N; ++k) y.theta[k] = y.omega[k] = y.alpha[k] = y.d[k] = Real(0.0);

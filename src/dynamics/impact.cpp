@@ -25,8 +25,8 @@ double slip(const Arm& r, const Velocity& v) { return v.vx - v.omega * r.ry; }
 
 // The corner keeps its place: angular momentum about it is conserved.
 Velocity stick(const Rig& rig, const Arm& r, const Velocity& before) {
-  const double omega = (rig.k2 * before.omega + r.ry * before.vx - r.rx * before.vy) /
-                       (rig.k2 + r.rx * r.rx + r.ry * r.ry);
+  const double omega =
+      (rig.k2 * before.omega + r.ry * before.vx - r.rx * before.vy) / (rig.k2 + r.rx * r.rx + r.ry * r.ry);
   return at_centre(r, 0.0, omega);
 }
 
@@ -72,7 +72,8 @@ bool strike(const Rig& rig, State& state) {
   const double omega = state.omega;
   state.theta = 0;
   if (rig.impact.law == ImpactLaw::housner) {
-    const double kept = (rig.k2 + rig.h * rig.h + rig.offset(old_pivot) * rig.offset(new_pivot)) / rig.inertia(new_pivot);
+    const double kept =
+        (rig.k2 + rig.h * rig.h + rig.offset(old_pivot) * rig.offset(new_pivot)) / rig.inertia(new_pivot);
     state.omega = rig.impact.factor * std::fmax(kept, 0.0) * omega;
   } else {
     const Velocity before = at_centre(arm(rig, old_pivot, 0.0), state.w, omega);

@@ -1,4 +1,5 @@
-// Impacts: what happens to the velocities when a corner strikes the floor.  [KM05 6.17, 6.32; PHYSICS: plastic, Coulomb]
+// Impacts: what happens to the velocities when a corner strikes the floor.  [KM05 6.17, 6.32; PHYSICS: plastic,
+// Coulomb]
 //
 // Impulse p = (p_x, p_y) per unit mass on a corner, r from the corner to the centre of mass (contact.hpp):
 //   V_x+ - V_x- = p_x,   V_y+ - V_y- = p_y,   k^2 (omega+ - omega-) = r_x p_y - r_y p_x
@@ -11,13 +12,14 @@ namespace freestand::dynamics {
 
 // theta = 0: the raised corner strikes. state.pivot is the corner that carried until now. Sets omega, w, and theta = 0;
 // omega = 0 when both corners stay down or the next hop would be too small to tell. False: Painleve's paradox.
-//   housner: omega+ = factor (k^2 + h^2 + c_old c_new)/(k^2 + h^2 + c_new^2) omega-, w+ = w-;  uniform: 1 - 1.5 sin^2(alpha)
-//   coulomb: plastic impulse at the new corner that sticks (|p_x| <= mu_s p_y) or slips (p_x = -sigma mu_k p_y); where the
+//   housner: omega+ = factor (k^2 + h^2 + c_old c_new)/(k^2 + h^2 + c_new^2) omega-, w+ = w-;  uniform: 1 - 1.5
+//   sin^2(alpha) coulomb: plastic impulse at the new corner that sticks (|p_x| <= mu_s p_y) or slips (p_x = -sigma mu_k
+//   p_y); where the
 //            old corner would be pushed into the floor, both stay down.
 bool strike(const Rig& rig, State& state);
 
-// End of a flight on one corner (pivot +1 or -1), or flat on both. Plastic, with Coulomb friction, whatever the impact law:
-// Housner's law says nothing of a landing. Sets pivot's xi, w, omega. False: Painleve's paradox.
+// End of a flight on one corner (pivot +1 or -1), or flat on both. Plastic, with Coulomb friction, whatever the impact
+// law: Housner's law says nothing of a landing. Sets pivot's xi, w, omega. False: Painleve's paradox.
 bool land(const Rig& rig, State& state, int pivot);
 
 }  // namespace freestand::dynamics

@@ -11,8 +11,8 @@ bool admissible(const Specimen& specimen, const Shaking& shaking, const Settings
   const Block& b = specimen.block;
   for (const double size : {b.left_m, b.right_m, b.height_m, b.gyration2_m2, shaking.stretch, settings.tolerance})
     if (!(size > 0) || !std::isfinite(size)) return false;
-  for (const double number : {specimen.friction.mu_s, specimen.friction.mu_k, specimen.impact.factor,
-                              settings.free_vibration_s})
+  for (const double number :
+       {specimen.friction.mu_s, specimen.friction.mu_k, specimen.impact.factor, settings.free_vibration_s})
     if (!(number >= 0) || !std::isfinite(number)) return false;
   return std::isfinite(shaking.scale) && std::isfinite(shaking.vertical_scale) && shaking.motion &&
          shaking.motion->degree >= 0 && shaking.motion->degree <= max_floor_degree &&
@@ -44,7 +44,7 @@ void Integration::wait() {
     FirstEvent first(cursor.left());
     for_each_witness(rig, state, arc, first);
     const Found found = first.found();
-    peaks.observe(rig, state, arc, found.tau);
+    if (found.tau > 0) peaks.observe(rig, state, arc, found.tau);
     recorder.record(state, arc, floor, cursor.time(), found.tau);
     cursor.advance(found.tau);
     if (found.any) return resolve(found.witness);
@@ -68,12 +68,15 @@ void Integration::resolve(Witness witness) {
       regular = land(rig, state, witness == Witness::above_right ? 1 : -1);
       if (regular && state.theta == 0 && state.omega * state.pivot < 0) regular = strike(rig, state);
       break;
-    case Witness::slipping: state.w = 0; break;
+    case Witness::slipping:
+      state.w = 0;
+      break;
     case Witness::upright:
       state.mode = Mode::overturned;
       chose(from, false);
       return stop(Outcome::overturned);
-    default: break;
+    default:
+      break;
   }
   if (!regular || !choose_mode(rig, cursor, state)) return stop(Outcome::painleve);
   chose(from, impact);
@@ -115,7 +118,8 @@ Response Integration::result() {
   response.residual_slip_m = slip();
   response.residual_rotation_rad = state.theta;
   response.end_time_s = cursor.time();
-  recorder.hold(state, response.residual_slip_m, shaking.duration_s(), shaking);
+  if (outcome_ == Outcome::at_rest || outcome_ == Outcome::moved || outcome_ == Outcome::overturned)
+    recorder.hold(state, response.residual_slip_m, shaking.duration_s(), shaking);
   return response;
 }
 

@@ -1,4 +1,5 @@
-// What both integrators share: the life of one sample from event to event. They differ only in how they move between events.
+// What both integrators share: the life of one sample from event to event. They differ only in how they move between
+// events.
 #pragma once
 
 #include "dynamics/floor_cursor.hpp"
@@ -20,7 +21,8 @@ class Integration {
   bool finished() const { return finished_; }
   // At rest nothing is integrated: goes along the motion to the instant at which rest ends, or to its end.
   void wait();
-  // Applies an event: sets what the event makes exact, strikes or lands where corners meet the floor, chooses the next mode.
+  // Applies an event: sets what the event makes exact, strikes or lands where corners meet the floor, chooses the next
+  // mode.
   void resolve(Witness witness);
   void chose(const State& from, bool impact);  // counts and records a change of mode
   void stop(Outcome outcome);

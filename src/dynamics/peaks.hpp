@@ -15,7 +15,8 @@ Series<double, N> midpoint(const Rig& rig, const State& state, const Arc<double,
   Series<double, N> u = arc.xi;
   if (state.pivot == 0) return u;
   const double c = rig.offset(state.pivot);
-  const double lever = state.pivot * rig.half_base() / (rig.h * rig.h + c * c);  // cos theta = (h r_y - c r_x)/(h^2 + c^2)
+  const double lever =
+      state.pivot * rig.half_base() / (rig.h * rig.h + c * c);  // cos theta = (h r_y - c r_x)/(h^2 + c^2)
   for (int k = 1; k <= N; ++k) u[k] -= lever * (rig.h * arc.ry[k] - c * arc.rx[k]);
   const double half = std::sin(0.5 * state.theta);
   u[0] += state.pivot * rig.half_base() * 2 * half * half;

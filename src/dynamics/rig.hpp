@@ -40,7 +40,8 @@ struct Rig {
   // No floor acceleration with |a| <= a_max, |v| <= v_max can move the block from rest.
   bool stays_put(double a_max, double v_max) const {
     const double push = g - v_max;
-    return (!can_slip || a_max < mu_s * push) && (!can_rock || h * a_max < (right < left ? right : left) * push) && push > 0;
+    return (!can_slip || a_max < mu_s * push) && (!can_rock || h * a_max < (right < left ? right : left) * push) &&
+           push > 0;
   }
 
   double offset(int pivot) const { return pivot > 0 ? right : -left; }
@@ -55,7 +56,8 @@ struct Rig {
   }
 };
 
-// Where the block is. `pivot`: +1 right corner, -1 left corner, 0 both or none. `sigma`: direction of slip, 0 when stuck.
+// Where the block is. `pivot`: +1 right corner, -1 left corner, 0 both or none. `sigma`: direction of slip, 0 when
+// stuck.
 struct State {
   Mode mode = Mode::rest;
   int pivot = 0;
@@ -64,6 +66,7 @@ struct State {
   double xi = 0, w = 0;         // contact's displacement and slip speed, when a corner is down [m], [m/s]
   double x = 0, vx = 0;         // centre of mass relative to the floor, in flight [m], [m/s]
   double y = 0, vy = 0;
+  double doubt = 1;  // by how much more than round-off the last choice of mode took for zero
 };
 
 }  // namespace freestand::dynamics

@@ -1,9 +1,12 @@
 // Where a polynomial that starts out positive first falls to zero.
 //
-// An event is a witness (a series that is >= 0 while the mode lasts) and its first root. Two ideas make the search safe:
-//  * a root at the very start is not nudged away from but divided out: with c[0] = 0, witness(tau)/tau has the same later
+// An event is a witness (a series that is >= 0 while the mode lasts) and its first root. Two ideas make the search
+// safe:
+//  * a root at the very start is not nudged away from but divided out: with c[0] = 0, witness(tau)/tau has the same
+//  later
 //    roots and a sign at 0;
-//  * an interval is dropped only when |c[0]| > sum |c[k]| h^k proves that it holds no root, otherwise it is halved until the
+//  * an interval is dropped only when |c[0]| > sum |c[k]| h^k proves that it holds no root, otherwise it is halved
+//  until the
 //    witness is monotone on it. Double crossings inside a step cannot be missed.
 #pragma once
 
@@ -11,8 +14,9 @@
 
 namespace freestand::dynamics {
 
-// How zero is told from round-off in the leading coefficients of a witness. Coefficients below `level` are set by resets and
-// exact; from `level` on they are accelerations (times `size`) and their rates, known to about `acceleration`.
+// How zero is told from round-off in the leading coefficients of a witness. Coefficients below `level` are set by
+// resets and exact; from `level` on they are accelerations (times `size`) and their rates, known to about
+// `acceleration`.
 struct ZeroTolerance {
   int level;            // 0: force, 1: velocity, 2: displacement
   double acceleration;  // [unit of the witness / s^level]

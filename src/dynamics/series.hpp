@@ -1,8 +1,8 @@
 // Truncated Taylor series: the number that the physics is written in.
 //
-// A quantity over one step is y(tau) = sum_k c[k] tau^k, k = 0..N. The equations of motion give coefficient k + 1 of the
-// state from coefficients 0..k, so one text of the physics yields the derivative (N = 1, first coefficient), the Taylor step,
-// its dense output, and the polynomials in which events are found. Real is double, or a pack of doubles.
+// A quantity over one step is y(tau) = sum_k c[k] tau^k, k = 0..N. The equations of motion give coefficient k + 1 of
+// the state from coefficients 0..k, so one text of the physics yields the derivative (N = 1, first coefficient), the
+// Taylor step, its dense output, and the polynomials in which events are found. Real is double, or a pack of doubles.
 #pragma once
 
 namespace freestand::dynamics {

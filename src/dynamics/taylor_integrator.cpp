@@ -13,7 +13,9 @@ template <int N, int FlatN>
 class TaylorIntegrator {
  public:
   TaylorIntegrator(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history)
-      : life_(specimen, shaking, settings, history), p_(specimen.block.p_radps()), alpha_(specimen.block.alpha_rad()),
+      : life_(specimen, shaking, settings, history),
+        p_(specimen.block.p_radps()),
+        alpha_(specimen.block.alpha_rad()),
         size_(specimen.block.size_m()) {}
 
   Response run() {
@@ -39,7 +41,7 @@ class TaylorIntegrator {
     FirstEvent first(h);
     for_each_witness(life_.rig, before, arc, first);
     const double tau = first.found().tau;
-    life_.peaks.observe(life_.rig, before, arc, tau);
+    if (tau > 0) life_.peaks.observe(life_.rig, before, arc, tau);
     life_.recorder.record(before, arc, floor, life_.cursor.time(), tau);
     life_.state.theta = arc.theta.at(tau);
     life_.state.omega = arc.omega.at(tau);
@@ -69,17 +71,19 @@ class TaylorIntegrator {
   void end_step(const Found& found, double h) {
     const bool at_knot = !found.any && h == life_.cursor.left();
     life_.cursor.advance(found.tau);
+    if (found.tau > 0) life_.state.doubt = 1;
     if (at_knot) life_.cursor.next_segment();
     if (found.any) life_.resolve(found.witness);
   }
 
-  // Last term of the series, dimensionless, at tau = 1/p: a step h neglects about this times (p h)^N in the forces, and less
-  // in the state.
+  // Last term of the series, dimensionless, at tau = 1/p: a step h neglects about this times (p h)^N in the forces, and
+  // less in the state.
   template <int M>
   double local_error(const Arc<double, M>& arc) const {
     const double pN = std::pow(p_, M);
     return std::max({std::abs(arc.theta[M]) / alpha_, std::abs(arc.omega[M]) / (p_ * alpha_),
-                     std::abs(arc.xi[M]) / size_, std::abs(arc.w[M]) / (p_ * size_)}) / pN;
+                     std::abs(arc.xi[M]) / size_, std::abs(arc.w[M]) / (p_ * size_)}) /
+           pN;
   }
 
   double step(double error_at_1p) const {

@@ -1,4 +1,5 @@
-// The inequalities that hold while a mode lasts. Each is a witness series, >= 0 in the mode; its first root is an event.
+// The inequalities that hold while a mode lasts. Each is a witness series, >= 0 in the mode; its first root is an
+// event.
 #pragma once
 
 #include "dynamics/contact.hpp"
@@ -8,16 +9,17 @@
 namespace freestand::dynamics {
 
 enum class Witness : int {
-  impact,     // s theta: the raised corner is above the floor
-  upright,    // pi/2 - s theta: the block has not fallen over
-  pressed,    // f_y: the corner pushes on the floor
-  grip_right, // mu_s f_y - f_x: the contact does not slip (to the left, pushed right)
-  grip_left,  // mu_s f_y + f_x
-  slipping,   // sigma w: the slip has not stopped
-  flat_right, // N_right: both corners push on the floor
-  flat_left,  // N_left
-  regular,    // k^2 + r_x q: not Painleve's paradox
-  above_right, above_left  // gaps in flight
+  impact,      // s theta: the raised corner is above the floor
+  upright,     // pi/2 - s theta: the block has not fallen over
+  pressed,     // f_y: the corner pushes on the floor
+  grip_right,  // mu_s f_y - f_x: the contact does not slip (to the left, pushed right)
+  grip_left,   // mu_s f_y + f_x
+  slipping,    // sigma w: the slip has not stopped
+  flat_right,  // N_right: both corners push on the floor
+  flat_left,   // N_left
+  regular,     // k^2 + r_x q: not Painleve's paradox
+  above_right,
+  above_left  // gaps in flight
 };
 
 // In the pure rocking model the pivot is a hinge, as in Housner's: it neither slips nor lifts.
@@ -25,7 +27,8 @@ enum class Witness : int {
 // Calls visit(Witness, const Series&, ZeroTolerance) for every witness of the state's mode.
 template <int N, class Visit>
 void for_each_witness(const Rig& rig, const State& state, const Arc<double, N>& arc, Visit&& visit) {
-  const ZeroTolerance force{0, rig.force_zero}, velocity{1, rig.force_zero}, rotation{2, rig.turn_zero};
+  const double zero = rig.force_zero * state.doubt, turn_zero = rig.turn_zero * state.doubt;
+  const ZeroTolerance force{0, zero}, velocity{1, zero}, rotation{2, turn_zero};
   const double s = state.pivot;
   if (state.pivot != 0) {
     visit(Witness::impact, scaled(s, arc.theta), rotation);

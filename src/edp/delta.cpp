@@ -9,7 +9,8 @@ const Register delta{{
     .summary = "peak slip over the size of the pulse, U w_p^2/PTA",
     .source = "[KM05 5.7]",
     .default_capacities = {0.5, 1, 2, 3},
-    .value = [](const Input& in) {
+    .value =
+        [](const Input& in) {
           return in.response.peak_slip_m * in.pulse_frequency_radps * in.pulse_frequency_radps / in.pta_mps2;
         },
 }};

@@ -1,0 +1,29 @@
+// The verbs of the command line. One file per verb: it adds its options to the parser and returns what to do.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <freestand/error.hpp>
+#include <functional>
+#include <string>
+
+#include "parallel/communicator.hpp"
+
+namespace freestand::app {
+
+// What a verb needs to know of the run.
+struct Context {
+  parallel::Communicator world;
+  std::string command_line;
+};
+
+// Adds a verb; the parser calls `done` with the work when the verb was given.
+using Work = std::function<Exit(const Context&)>;
+using Verb = std::function<void(CLI::App& parser, Work& work)>;
+
+void add_run(CLI::App& parser, Work& work);
+void add_sweep(CLI::App& parser, Work& work);
+void add_fit(CLI::App& parser, Work& work);
+void add_simulate(CLI::App& parser, Work& work);
+void add_motion(CLI::App& parser, Work& work);
+
+}  // namespace freestand::app

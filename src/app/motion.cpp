@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+#include "base/units.hpp"
+#include "io/output_folder.hpp"
+#include "motion/identify.hpp"
+#include "motion/peaks.hpp"
+#include "motion/record.hpp"
+#include "motion/spectrum.hpp"
+
+namespace freestand::app {
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  std::string unit, channel, convert;
+  double dt_s = 0;
+};
+
+constexpr double spectrum_periods_s[] = {0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};
+constexpr double damping = 0.05;
+
+std::string description(const FloorMotion& motion) {
+  const motion::MotionPeaks peaks = motion::peaks(motion);
+  const motion::IdentifiedPulse pulse = motion::identify_pulse(motion);
+  std::string text = fmt::format("{}\n", motion.name);
+  text += fmt::format("  {} samples, step {:g} s, {:g} s, {}\n", motion.knot_s.size(),
+                      motion.duration_s() / static_cast<double>(motion.segments()), motion.duration_s(),
+                      motion.vertical_mps2.empty() ? "horizontal" : "horizontal and vertical");
+  text += fmt::format("  PGA {:.4f} g   PGV {:.4f} m/s   PGD {:.4f} m\n", peaks.pga_mps2 / standard_gravity_mps2,
+                      peaks.pgv_mps, peaks.pgd_m);
+  if (!pulse.type.empty())
+    text += fmt::format(
+        "  pulse {}: period {:.3f} s, velocity {:.3f} m/s, from {:.2f} s, explains {:.0f} % of the velocity\n",
+        pulse.type, pulse.period_s, pulse.velocity_mps, pulse.start_s, 100 * pulse.explained);
+  text += fmt::format("  Sa, {:.0f} % damped:", 100 * damping);
+  for (const double period : spectrum_periods_s)
+    text += fmt::format("  {:g} s {:.3f} g", period,
+                        motion::spectral_acceleration(motion, period, damping) / standard_gravity_mps2);
+  return text + "\n";
+}
+
+// Floor motion csv of the samples; the step of a record is constant.
+std::string floor_csv(const FloorMotion& motion) {
+  const Shaking shaking{&motion, 1.0, 1.0, 1.0};
+  const bool vertical = !motion.vertical_mps2.empty();
+  std::string text = vertical ? "time_s,floor_acceleration_mps2,floor_vertical_acceleration_mps2\n"
+                              : "time_s,floor_acceleration_mps2\n";
+  const auto stride = static_cast<std::size_t>(motion.degree) + 1;
+  for (std::size_t i = 0; i < motion.knot_s.size(); ++i) {
+    const bool last = i == motion.segments();  // the end of the last segment
+    const auto at = [&](const std::vector<double>& c) {
+      return last ? c[(i - 1) * stride] + c[(i - 1) * stride + 1] * (motion.knot_s[i] - motion.knot_s[i - 1])
+                  : c[i * stride];
+    };
+    text += fmt::format("{},{}", motion.knot_s[i], at(motion.horizontal_mps2));
+    text += vertical ? fmt::format(",{}\n", at(motion.vertical_mps2)) : "\n";
+  }
+  return text;
+}
+
+Exit show(const Options& options) {
+  if (!options.convert.empty() && options.files.size() != 1)
+    throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
+                "): convert them one by one");
+  motion::ReadOptions read;
+  if (options.dt_s > 0) read.dt_s = options.dt_s;
+  read.unit = options.unit;
+  read.channel = options.channel;
+  for (const std::string& file : options.files) {
+    const FloorMotion motion = motion::read_record(file, read);
+    fmt::print("{}", description(motion));
+    if (!options.convert.empty()) io::write_text(options.convert, floor_csv(motion));
+  }
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_motion(CLI::App& parser, Work& work) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = parser.add_subcommand("motion", "what is in a record: step, peaks, spectrum, identified pulse");
+  verb->add_option("files", options->files, "records")->required();
+  verb->add_option("--dt", options->dt_s, "time step in s, for plain columns")->check(CLI::PositiveNumber);
+  verb->add_option("--unit", options->unit, "unit of plain columns: g, m/s2, cm/s2 ...");
+  verb->add_option("--channel", options->channel, "channel of files that hold several");
+  verb->add_option("--convert", options->convert, "write the record as floor motion csv to this file");
+  verb->callback([options, &work] {
+    work = [options](const Context& context) {
+      context.world.on_root([&] { show(*options); });
+      return Exit::done;
+    };
+  });
+}
+
+}  // namespace freestand::app

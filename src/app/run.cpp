@@ -1,0 +1,74 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+#include "parallel/progress.hpp"
+#include "study/fit.hpp"
+#include "study/known.hpp"
+#include "study/sweep.hpp"
+
+namespace freestand::app {
+namespace {
+
+struct Options {
+  std::string study;
+  std::string folder;
+  bool check = false, overwrite = false, resume = false, quiet = false;
+};
+
+// Every rank reads the study; what is wrong with it is found on all of them alike and told once.
+study::Study read(const Context& context, const std::string& file) {
+  context.world.on_root([&] { study::read_study(file, study::registries()); });
+  return study::read_study(file, study::registries());
+}
+
+Exit check(const Context& context, const Options& options) {
+  const study::Study study = read(context, options.study);
+  if (context.world.is_root()) fmt::print("{}", study::expanded(study));
+  return Exit::done;
+}
+
+Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit) {
+  if (options.check) return check(context, options);
+  if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DIR");
+  const study::Study study = read(context, options.study);
+  const study::SweepOptions sweep_options{options.folder, options.overwrite, options.resume, options.quiet,
+                                          context.command_line};
+  const study::SweepSummary summary = study::sweep(context.world, study, sweep_options);
+  if (!summary.complete) {
+    if (context.world.is_root())
+      fmt::print(stderr, "stopped early: finished blocks are kept in {}; go on with --resume\n", options.folder);
+    return Exit::resumable;
+  }
+  if (with_fit) study::fit(context.world, options.folder, context.command_line, &summary);
+  if (context.world.is_root() && !options.quiet)
+    fmt::print("{} samples in {} on {} ranks ({:.0f} samples/s); results in {}\n", summary.samples,
+               parallel::duration_text(summary.wall_s), context.world.size(), summary.samples_per_s, options.folder);
+  return Exit::done;
+}
+
+void add(CLI::App& parser, Work& work, const std::string& name, const std::string& what, bool with_fit) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = parser.add_subcommand(name, what);
+  verb->add_option("study", options->study, "study file")->required();
+  verb->add_option("-o,--output", options->folder, "folder for the results");
+  verb->add_flag("--check", options->check, "check the study, print it with all defaults written out, and stop");
+  auto* overwrite = verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder");
+  verb->add_flag("--resume", options->resume, "go on with a sweep that was stopped or killed")->excludes(overwrite);
+  verb->add_flag("--quiet", options->quiet, "no progress");
+  verb->callback([options, with_fit, &work] {
+    work = [options, with_fit](const Context& context) { return sweep_and_fit(context, *options, with_fit); };
+  });
+}
+
+}  // namespace
+
+void add_run(CLI::App& parser, Work& work) {
+  add(parser, work, "run",
+      "sweep a study on all ranks, fit it, write samples.h5, fragility.h5, bins.csv, surface.csv, summary.json", true);
+}
+
+void add_sweep(CLI::App& parser, Work& work) { add(parser, work, "sweep", "the first half of run: samples.h5", false); }
+
+}  // namespace freestand::app

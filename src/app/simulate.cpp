@@ -1,0 +1,51 @@
+#include "study/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command.hpp"
+#include "io/output_folder.hpp"
+#include "io/text_files.hpp"
+
+namespace freestand::app {
+namespace {
+
+struct Options {
+  std::string file, folder;
+  bool overwrite = false, reference = false;
+};
+
+Exit simulate(const Options& options) {
+  const study::Case c = study::read_case(options.file);
+  const std::filesystem::path folder = options.folder;
+  io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse);
+  const study::Simulation result = study::simulate(c, options.reference);
+  io::write_text(folder / "history.csv", io::history_csv(result.history));
+  io::write_text(folder / "summary.json", io::json_text(io::response_summary(result.response)));
+  io::write_text(folder / "case.yaml", study::expanded(c.study));
+  fmt::print("{}: peak slip {:.4g} m, peak rotation {:.4g} rad (alpha {:.4g} rad), {} events; results in {}\n",
+             name(result.response.outcome), result.response.peak_slip_m, result.response.peak_rotation_rad,
+             result.specimen.block.alpha_rad(), result.response.events, folder.string());
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& parser, Work& work) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = parser.add_subcommand("simulate", "one sample: history.csv, summary.json");
+  verb->add_option("case", options->file, "case file")->required();
+  verb->add_option("-o,--output", options->folder, "folder for the results")->required();
+  verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder");
+  verb->add_flag("--reference", options->reference, "integrate with SUNDIALS instead of the integrator of the sweep");
+  verb->callback([options, &work] {
+    work = [options](const Context& context) {
+      context.world.on_root([&] { simulate(*options); });
+      return Exit::done;
+    };
+  });
+}
+
+}  // namespace freestand::app

@@ -1,0 +1,81 @@
+#include "study/analysis.hpp"
+
+#include "edp/edp.hpp"
+#include "fragility/analyse.hpp"
+#include "fragility/tally.hpp"
+#include "intensity/intensity.hpp"
+#include "study/bins.hpp"
+#include "study/realise.hpp"
+
+namespace freestand::study {
+namespace {
+
+std::vector<double> column(const Table& table, const std::string& name) {
+  const std::size_t index = column_index(table.columns, name);
+  std::vector<double> values;
+  for (std::size_t row = 0; row < table.rows(); ++row) values.push_back(table.at(row, index));
+  return values;
+}
+
+fragility::EdpOptions edp_options(const std::string& name, const std::vector<double>& capacities) {
+  const edp::Edp& edp = edp::find(name);
+  return {edp.name, edp.unit, edp.symbol, edp.binary, edp.still, edp.binary ? std::vector<double>{} : capacities};
+}
+
+std::vector<double> capacities_of(const FragilityPart& part, const std::string& edp) {
+  for (const CapacitiesPart& capacities : part.capacities)
+    if (capacities.edp == edp) return capacities.values;
+  return edp::find(edp).default_capacities;
+}
+
+// The first samples, from whole blocks.
+Table first_rows(std::int64_t blocks, const ReadTable& read) {
+  Table first;
+  for (std::int64_t block = 0; block < blocks && first.rows() < bin_layout_samples; ++block) {
+    Table more = read(block);
+    first.columns = std::move(more.columns);
+    first.values.insert(first.values.end(), more.values.begin(), more.values.end());
+  }
+  first.values.resize(std::min<std::size_t>(first.rows(), bin_layout_samples) * first.columns.size());
+  return first;
+}
+
+}  // namespace
+
+fragility::Options fragility_options(const Study& study, const Table& first,
+                                     const std::vector<std::uint8_t>& motion_is_record) {
+  const FragilityPart& part = study.fragility;
+  const intensity::Measure& measure = intensity::find(part.im.name);
+  fragility::Options options;
+  options.im_name = measure.name;
+  options.im_unit = measure.unit;
+  options.im_edge = bin_edges(part.bins, column(first, "im_" + measure.name));
+  for (const std::string& name : part.edp) options.edps.push_back(edp_options(name, capacities_of(part, name)));
+  for (const AxisPart& axis : part.axes) {
+    const std::string name = Realiser::column_of(axis.name);
+    const std::string unit = first.columns[column_index(first.columns, name)].unit;
+    options.axes.push_back({name, unit, bin_edges(axis.bins, column(first, name))});
+  }
+  options.motion_is_record = motion_is_record;
+  options.resamples = part.resamples;
+  options.confidence = part.confidence;
+  options.seed = study.seed;
+  return options;
+}
+
+fragility::Result analyse(const parallel::Communicator& world, const Study& study,
+                          const std::vector<std::uint8_t>& motion_is_record, std::int64_t blocks,
+                          const ReadTable& read) {
+  const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_is_record);
+  fragility::Tally tally(options);
+  for (std::int64_t block = world.rank(); block < blocks; block += world.size()) tally.add(read(block));
+  const parallel::Words merged = world.merge(tally.words(), [&](parallel::Words& into, const parallel::Words& from) {
+    fragility::Tally sum = fragility::Tally::from_words(options, into);
+    sum.merge(fragility::Tally::from_words(options, from));
+    into = sum.words();
+  });
+  if (!world.is_root()) return {};
+  return fragility::analyse(options, fragility::Tally::from_words(options, merged));
+}
+
+}  // namespace freestand::study

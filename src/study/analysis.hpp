@@ -1,0 +1,33 @@
+// From rows of samples to the fragility of a study: bins, tally on all ranks, fits.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/table.hpp"
+#include "fragility/options.hpp"
+#include "fragility/result.hpp"
+#include "parallel/communicator.hpp"
+#include "study/study.hpp"
+
+namespace freestand::study {
+
+// Bins that are not given by edges are laid over the intensities of this many first samples, so that they depend
+// neither on the number of ranks nor, beyond that, on the number of samples.
+inline constexpr std::int64_t bin_layout_samples = 4096;
+
+// What the study asks of the statistics. first: the first samples' rows, at least bin_layout_samples or all there are.
+// motion_is_record: one entry a motion. Throws Error when no intensity lies above zero.
+fragility::Options fragility_options(const Study&, const Table& first,
+                                     const std::vector<std::uint8_t>& motion_is_record);
+
+// Rows of one block.
+using ReadTable = std::function<Table(std::int64_t block)>;
+
+// Tallies the blocks, dealt to the ranks, and analyses them. The result stands on the root, the others get an empty
+// one. The same to the bit on any number of ranks. Collective.
+fragility::Result analyse(const parallel::Communicator&, const Study&,
+                          const std::vector<std::uint8_t>& motion_is_record, std::int64_t blocks, const ReadTable&);
+
+}  // namespace freestand::study

@@ -1,0 +1,35 @@
+// One sample of a study, from its index to its row in samples.h5.
+#pragma once
+
+#include <cstdint>
+#include <freestand/simulate.hpp>
+#include <memory>
+#include <vector>
+
+#include "base/table.hpp"
+#include "study/realise.hpp"
+#include "study/study.hpp"
+
+namespace freestand::study {
+
+// A pure function of the sample index; const and safe to share between threads.
+class Evaluator {
+ public:
+  Evaluator(const Study&, MotionSet);
+
+  // Columns of a row: the draws (Realiser::draw_columns), im_NAME, edp_NAME for every demand parameter, outcome,
+  // events.
+  const std::vector<Column>& columns() const;
+
+  // Draws, integrates and appends the row of this sample. Demand parameters without meaning for an overturned block,
+  // and all of a sample that failed, are nan.
+  Outcome append(std::uint64_t sample, std::vector<double>& values) const;
+
+  const MotionSet& motions() const;
+
+ private:
+  struct Parts;
+  std::shared_ptr<const Parts> parts_;
+};
+
+}  // namespace freestand::study

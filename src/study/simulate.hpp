@@ -1,0 +1,20 @@
+// One sample in full: case file -> history.csv, summary.json.
+#pragma once
+
+#include <freestand/response.hpp>
+#include <freestand/simulate.hpp>
+
+#include "study/study.hpp"
+
+namespace freestand::study {
+
+struct Simulation {
+  Specimen specimen;
+  Response response;
+  History history;
+};
+
+// Integrates the one sample of a case; with the reference integrator if asked.
+Simulation simulate(const Case&, bool reference = false);
+
+}  // namespace freestand::study

@@ -1,0 +1,190 @@
+#include "study/sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <freestand/error.hpp>
+#include <numeric>
+#include <optional>
+
+#include "fragility/half_width.hpp"
+#include "io/output_folder.hpp"
+#include "io/samples_file.hpp"
+#include "parallel/checkpoint.hpp"
+#include "parallel/progress.hpp"
+#include "parallel/schedule.hpp"
+#include "study/analysis.hpp"
+#include "study/evaluator.hpp"
+
+namespace freestand::study {
+namespace {
+
+using parallel::Communicator;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// A sweep whose samples.h5 is already there: nothing to do, if it is of this study.
+bool already_complete(const Study& study, const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(samples_path(folder))) return false;
+  const io::SampleReader reader(samples_path(folder));
+  if (fingerprint(parse_stored(reader.provenance().study)) != fingerprint(study))
+    throw Error(
+        fmt::format("{} holds the results of another study (its fingerprint differs): choose another folder, or give "
+                    "--overwrite to replace them",
+                    folder.string()));
+  return true;
+}
+
+class Sweep {
+ public:
+  Sweep(const Communicator& world, const Study& study, const SweepOptions& options)
+      : world_(world),
+        study_(study),
+        options_(options),
+        evaluator_(study, load_motions(study)),
+        store_(blocks_path(options.folder), fingerprint(study) + evaluator_.motions().fingerprint()) {}
+
+  SweepSummary run() {
+    const auto start = Clock::now();
+    take_stock();
+    std::int64_t samples = first_round();
+    for (;;) {
+      if (!compute(samples)) break;
+      if (samples == total() || known_well_enough(samples)) {
+        write(samples);
+        summary_.complete = true;
+        break;
+      }
+      samples = std::min(total(), 2 * samples);
+    }
+    summary_.samples = samples;
+    summary_.wall_s = seconds_since(start);
+    summary_.samples_per_s = compute_s_ > 0 ? static_cast<double>(summary_.computed) / compute_s_ : 0;
+    return summary_;
+  }
+
+ private:
+  std::int64_t total() const { return static_cast<std::int64_t>(study_.samples); }
+  io::BlockLayout layout(std::int64_t samples) const { return {samples, static_cast<std::int64_t>(study_.block_size)}; }
+
+  // With `until`: whole blocks, enough for the bins of the intensity measure to be laid.
+  std::int64_t first_round() const {
+    if (!study_.until) return total();
+    const auto block = static_cast<std::int64_t>(study_.block_size);
+    return std::min(total(), block * ((bin_layout_samples + block - 1) / block));
+  }
+
+  void take_stock() {
+    parallel::Words finished;
+    world_.on_root([&] {
+      if (!options_.resume) store_.clear();
+      store_.remove_leftovers();
+      finished = store_.finished();
+    });
+    finished_ = world_.broadcast(finished);
+  }
+
+  // All blocks of the first `samples` samples. False: stopped on request.
+  bool compute(std::int64_t samples) {
+    parallel::Words todo;
+    std::int64_t there = 0;
+    for (std::int64_t block = 0; block < layout(samples).blocks(); ++block) {
+      if (std::binary_search(finished_.begin(), finished_.end(), block))
+        there += layout(samples).rows(block);
+      else
+        todo.push_back(block);
+    }
+    std::optional<parallel::Progress> progress;
+    if (world_.is_root())
+      progress.emplace(samples, parallel::Counts{.samples = there},
+                       parallel::Progress::Settings{.quiet = options_.quiet || todo.empty()});
+    const auto start = Clock::now();
+    const bool complete = parallel::for_each_block(
+        world_, todo,
+        [&](std::int64_t block, const parallel::Beat& beat) { return compute_block(samples, block, beat); },
+        progress ? &*progress : nullptr);
+    compute_s_ += seconds_since(start);
+    if (!complete) return false;
+    summary_.computed += samples - there;
+    finished_.insert(finished_.end(), todo.begin(), todo.end());
+    std::sort(finished_.begin(), finished_.end());
+    return true;
+  }
+
+  parallel::Counts compute_block(std::int64_t samples, std::int64_t block, const parallel::Beat& beat) {
+    const io::BlockLayout blocks = layout(samples);
+    parallel::BlockRows rows{.columns = static_cast<std::int64_t>(evaluator_.columns().size()), .values = {}};
+    rows.values.reserve(static_cast<std::size_t>(rows.columns * blocks.rows(block)));
+    parallel::Counts counts;
+    const std::int64_t first = block * blocks.block_size;
+    for (std::int64_t sample = first; sample < first + blocks.rows(block); ++sample) {
+      const Outcome outcome = evaluator_.append(static_cast<std::uint64_t>(sample), rows.values);
+      ++counts.samples;
+      counts.overturned += outcome == Outcome::overturned;
+      counts.failed += outcome == Outcome::painleve || outcome == Outcome::step_limit || outcome == Outcome::not_finite;
+      beat();
+    }
+    store_.write(block, rows);
+    return counts;
+  }
+
+  // Is every wanted point of the surface within the half width asked for?
+  bool known_well_enough(std::int64_t samples) {
+    const fragility::Result result =
+        analyse(world_, study_, evaluator_.motions().is_record(), layout(samples).blocks(), [&](std::int64_t block) {
+          return Table{evaluator_.columns(), store_.read(block).values};
+        });
+    double half_width = 0;
+    if (world_.is_root()) half_width = fragility::largest_half_width(result);
+    half_width = world_.broadcast(std::vector<double>{half_width}).front();
+    if (world_.is_root() && !options_.quiet)
+      fmt::print(stderr, "{} samples: the surface is known to +-{:.3f} (wanted +-{:.3f})\n", samples, half_width,
+                 study_.until->half_width);
+    return half_width <= study_.until->half_width;
+  }
+
+  void write(std::int64_t samples) {
+    io::SamplesHeader header{io::provenance_here(options_.command, world_.size()), evaluator_.columns(),
+                             evaluator_.motions().names(), evaluator_.motions().is_record()};
+    header.provenance.study = expanded(study_);
+    header.provenance.study_name = study_.name;
+    header.provenance.seed = study_.seed;
+    header.provenance.samples = samples;
+    io::write_samples(samples_path(options_.folder), header, layout(samples),
+                      [&](std::int64_t block) { return store_.read(block).values; });
+    world_.on_root([&] { store_.clear(); });
+  }
+
+  const Communicator& world_;
+  const Study& study_;
+  const SweepOptions& options_;
+  Evaluator evaluator_;
+  parallel::BlockStore store_;
+  parallel::Words finished_;
+  SweepSummary summary_;
+  double compute_s_ = 0;
+};
+
+}  // namespace
+
+std::filesystem::path samples_path(const std::filesystem::path& folder) { return folder / "samples.h5"; }
+std::filesystem::path blocks_path(const std::filesystem::path& folder) { return folder / "blocks"; }
+std::filesystem::path study_path(const std::filesystem::path& folder) { return folder / "study.yaml"; }
+
+SweepSummary sweep(const Communicator& world, const Study& study, const SweepOptions& options) {
+  parallel::Words complete{0};
+  world.on_root([&] {
+    io::prepare_output_folder(options.folder, options.resume      ? io::Existing::resume
+                                              : options.overwrite ? io::Existing::overwrite
+                                                                  : io::Existing::refuse);
+    if (options.resume) complete[0] = already_complete(study, options.folder);
+    io::write_text(study_path(options.folder), expanded(study));
+  });
+  if (world.broadcast(complete)[0])
+    return {.complete = true, .samples = static_cast<std::int64_t>(study.samples), .computed = 0};
+  return Sweep(world, study, options).run();
+}
+
+}  // namespace freestand::study

@@ -1,0 +1,39 @@
+// The sweep: all samples of a study, on all ranks, into samples.h5.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "parallel/communicator.hpp"
+#include "study/study.hpp"
+
+namespace freestand::study {
+
+struct SweepOptions {
+  std::filesystem::path folder;
+  bool overwrite = false;
+  bool resume = false;
+  bool quiet = false;
+  std::string command;  // for the provenance
+};
+
+// Where a sweep's files lie inside its folder.
+std::filesystem::path samples_path(const std::filesystem::path& folder);
+std::filesystem::path blocks_path(const std::filesystem::path& folder);
+std::filesystem::path study_path(const std::filesystem::path& folder);  // the expanded study
+
+struct SweepSummary {
+  bool complete = false;  // false: stopped on request, `resume` goes on (exit 75)
+  std::int64_t samples = 0;
+  std::int64_t computed = 0;  // by this run; the others were there
+  double wall_s = 0;
+  double samples_per_s = 0;  // of this run, all ranks together
+};
+
+// Computes the blocks that are not there yet and writes samples.h5. With `until`, goes on in rounds, each twice as long
+// as all before, until every wanted point of the surface is known well enough. The same numbers, to the bit, on any
+// number of ranks and after any restart. Collective. Throws Error: folder in use, another study's blocks (Exit::usage),
+// full disk (Exit::resumable).
+SweepSummary sweep(const parallel::Communicator&, const Study&, const SweepOptions&);
+
+}  // namespace freestand::study
