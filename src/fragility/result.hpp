@@ -80,6 +80,8 @@ struct Regressions {
   std::int64_t n = 0;
   double slope = unknown, slope_r2 = unknown;  // EDP = slope IM, least squares through the origin [KM05 5.17-5.20]
   double sd_slope = unknown;                   // standard deviation = sd_slope IM [KM05 5.20, 8.2]
+  double bin_mean_slope = unknown,
+         bin_sd_slope = unknown;  // the same two through the mean and standard deviation of the fitted bins
   double cloud_intercept = unknown, cloud_slope = unknown, cloud_sd = unknown,
          cloud_r2 = unknown;  // ln EDP = a + b ln IM +- sd
 };

@@ -1,0 +1,59 @@
+#include "fragility/groups.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <freestand/error.hpp>
+
+#include "base/random.hpp"
+
+namespace freestand::fragility {
+namespace {
+
+constexpr int most_record_groups = 256;
+constexpr int hashed_group_count = 128;
+
+}  // namespace
+
+MotionGroups::MotionGroups(const Options& options) {
+  const auto& is_record = options.motion_is_record;
+  records_ = static_cast<int>(std::count_if(is_record.begin(), is_record.end(), [](auto flag) { return flag != 0; }));
+  const bool lone_record = records_ == 1;
+  record_groups_ = lone_record ? 0 : std::min(records_, most_record_groups);
+  int next = 0;
+  for (const auto flag : is_record) record_group_.push_back(flag && !lone_record ? next++ % most_record_groups : -1);
+  if (lone_record || records_ < static_cast<int>(is_record.size()) || is_record.empty())
+    hashed_groups_ = hashed_group_count;
+}
+
+int MotionGroups::group(int motion, std::uint64_t sample) const {
+  if (!record_group_.empty()) {
+    if (motion < 0 || motion >= static_cast<int>(record_group_.size()))
+      throw Error(fmt::format("sample {} names motion {} (the study has {}): the samples belong to another study",
+                              sample, motion, record_group_.size()),
+                  Exit::data);
+    const int record = record_group_[static_cast<std::size_t>(motion)];
+    if (record >= 0) return record;
+  }
+  return record_groups_ + static_cast<int>(random::mix(sample + 0x9e3779b97f4a7c15ULL) % hashed_group_count);
+}
+
+Resampling::Resampling(const MotionGroups& groups, const std::vector<bool>& has_samples, int resamples,
+                       std::uint64_t seed)
+    : resamples_(resamples), groups_(static_cast<std::size_t>(groups.count())) {
+  weight_.assign(groups_ * static_cast<std::size_t>(resamples), 0);
+  const std::uint64_t stream = random::stable_hash("fragility/motions");
+  const int borders[] = {0, groups.record_groups(), groups.count()};
+  for (int stratum = 0; stratum < 2; ++stratum) {
+    std::vector<std::size_t> there;
+    for (int g = borders[stratum]; g < borders[stratum + 1]; ++g)
+      if (has_samples[static_cast<std::size_t>(g)]) there.push_back(static_cast<std::size_t>(g));
+    for (std::size_t r = 0; r < static_cast<std::size_t>(resamples); ++r)
+      for (std::size_t k = 0; k < there.size(); ++k) {
+        const double u = random::uniform(seed, (r << 20) + k, stream + static_cast<std::uint64_t>(stratum));
+        ++weight_[r * groups_ + there[static_cast<std::size_t>(u * static_cast<double>(there.size()))]];
+      }
+  }
+}
+
+}  // namespace freestand::fragility

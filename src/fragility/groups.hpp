@@ -1,0 +1,50 @@
+// Groups of samples that share a motion. Samples that share a record are not independent, so intervals come from
+// resampling the motions, and everything they need is counted by group.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "fragility/options.hpp"
+
+namespace freestand::fragility {
+
+// A record is one group (records beyond 256 share groups, whole records to a group). A pulse sample is a motion of its
+// own: a hash of its index puts it in one of 128 groups, which resample like the samples themselves and keep memory
+// bounded. A record that is the only one of the study is treated in the same way: its bands then say how well the
+// answer for this record is known, and nothing about other records.
+class MotionGroups {
+ public:
+  explicit MotionGroups(const Options& options);
+
+  int count() const { return record_groups_ + hashed_groups_; }
+  int record_groups() const { return record_groups_; }  // groups 0 ... record_groups() - 1 are records, the rest hashed
+  int records() const { return records_; }
+
+  // motion: index of the motion in the study (ignored where Options::motion_is_record is empty); sample: its number.
+  // Throws Error for a motion that the options do not know.
+  int group(int motion, std::uint64_t sample) const;
+
+ private:
+  std::vector<int> record_group_;  // by motion; -1: hashed
+  int records_ = 0, record_groups_ = 0, hashed_groups_ = 0;
+};
+
+// Bootstrap weights: how often each group is drawn in each resample. Groups are drawn with replacement among the groups
+// that have samples, records among records and hashed groups among hashed ones, so that the mix of the study is kept.
+class Resampling {
+ public:
+  Resampling(const MotionGroups& groups, const std::vector<bool>& has_samples, int resamples, std::uint64_t seed);
+
+  int resamples() const { return resamples_; }
+  double weight(int resample, int group) const {
+    return weight_[static_cast<std::size_t>(resample) * groups_ + static_cast<std::size_t>(group)];
+  }
+
+ private:
+  int resamples_;
+  std::size_t groups_;
+  std::vector<std::uint16_t> weight_;
+};
+
+}  // namespace freestand::fragility

@@ -1,0 +1,28 @@
+// The fixed fine histogram of ln(EDP) from which goodness of fit and empirical curves are taken: memory does not grow
+// with the number of samples, and counts merge exactly.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace freestand::fragility {
+
+// Cells of width 1/256 in ln(EDP) from -18 to 12 (EDP from 1.5e-8 to 1.6e5 in its unit), one cell below and one above.
+inline constexpr double ln_lowest = -18, ln_highest = 12, ln_cell_width = 1.0 / 256;
+inline constexpr int ln_cell_count = 30 * 256 + 2;
+
+// Cell of a value, 0 (below the range) ... ln_cell_count - 1 (above it).
+int ln_cell(double ln_value);
+
+// Left edge of a cell; for cell 0 one cell width below the range.
+double ln_cell_edge(int cell);
+
+// S and A^2 of the counts (ln_cell_count of them) against N(lambda, omega^2). The samples of a cell are taken as spread
+// evenly over it. S lies within `resolution` of the S of the samples themselves: the largest probability that the
+// normal gives a cell, ln_cell_width/(omega sqrt(2 pi)), plus the share of samples outside the range.
+struct HistogramGoodness {
+  double ks, ad, resolution;
+};
+HistogramGoodness histogram_goodness(std::span<const std::int64_t> count, double lambda, double omega);
+
+}  // namespace freestand::fragility

@@ -1,0 +1,114 @@
+#include "fragility/tally.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+#include <numeric>
+
+#include "fragility/histogram.hpp"
+#include "fragility/validate.hpp"
+
+namespace freestand::fragility {
+namespace {
+
+bool sound(Outcome outcome) {
+  return outcome == Outcome::at_rest || outcome == Outcome::moved || outcome == Outcome::overturned;
+}
+
+Options checked(Options options) {
+  validate(options);
+  return options;
+}
+
+// Fine cell inside a bin; the bin's edges share out by equal width.
+std::size_t cell_in_bin(const std::vector<double>& edge, std::size_t bin, double im) {
+  constexpr std::size_t cells = TallyLayout::cells_per_bin;
+  const double place = (im - edge[bin]) / (edge[bin + 1] - edge[bin]);
+  return std::min(static_cast<std::size_t>(place * static_cast<double>(cells)), cells - 1);
+}
+
+}  // namespace
+
+Tally::Tally(Options options)
+    : options_(checked(std::move(options))),
+      groups_(options_),
+      layout_(options_, static_cast<std::size_t>(groups_.count())),
+      count_(layout_.count_size, 0),
+      sum_(layout_.sum_size) {
+  for (const EdpOptions& edp : options_.edps) capacity_.push_back(capacities(edp));
+}
+
+void Tally::add(const Sample& sample) {
+  if (sample.edp.size() != options_.edps.size() || sample.axis.size() != options_.axes.size())
+    throw Error("a sample cannot be counted (another number of EDPs or axes than the options have): pass one of each",
+                Exit::data);
+  const auto group = static_cast<std::size_t>(groups_.group(sample.motion, sample.index));
+  ++count_[static_cast<std::size_t>(sample.outcome)];
+  if (!sound(sample.outcome)) return;
+  const int found = bin_index(options_.im_edge, sample.im);
+  if (found < 0) {
+    ++count_[layout_.outside];
+    return;
+  }
+  const auto bin = static_cast<std::size_t>(found);
+  const std::size_t cell = bin * TallyLayout::cells_per_bin + cell_in_bin(options_.im_edge, bin, sample.im);
+  ++count_[layout_.at_im_cell(cell, group)];
+  if (sample.outcome == Outcome::overturned) ++count_[layout_.at_im_cell(cell, group) + 1];
+  sum_[layout_.im_sums + cell].add(sample.im);
+  for (std::size_t e = 0; e < layout_.edps; ++e) add_edp(e, bin, group, sample);
+}
+
+void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t group, const Sample& sample) {
+  const EdpOptions& edp = options_.edps[e];
+  const bool over = sample.outcome == Outcome::overturned;
+  const double value = sample.edp[e];
+  if (!over && !std::isfinite(value)) {
+    ++count_[layout_.missing + e];
+    return;
+  }
+  const bool still = !over && value <= (edp.binary ? 0.5 : edp.still_threshold);
+  std::int64_t* counts = &count_[layout_.at_bin(e, bin, group)];
+  ++counts[0];
+  ++counts[still ? 1 : over ? 2 : 3];
+
+  const std::vector<double>& capacity = capacity_[e];
+  const auto above = [&](std::size_t c) { return over || (!still && value > capacity[c]); };
+  for (std::size_t c = 0; c < capacity.size(); ++c)
+    if (above(c)) ++count_[layout_.at_exceeding(e, bin, group) + c];
+  for (std::size_t a = 0; a < options_.axes.size(); ++a) {
+    const int cell = bin_index(options_.axes[a].edge, sample.axis[a]);
+    if (cell < 0) continue;
+    std::int64_t* counted = &count_[layout_.at_axis(e, a, bin, static_cast<std::size_t>(cell), group)];
+    ++counted[0];
+    for (std::size_t c = 0; c < capacity.size(); ++c)
+      if (above(c)) ++counted[1 + c];
+  }
+  if (still || over || edp.binary) return;
+  const double ln_value = std::log(value);
+  sum_[layout_.at_bin_sum(e, bin, group)].add(ln_value);
+  sum_[layout_.at_bin_sum(e, bin, group) + 1].add(ln_value * ln_value);
+  ++count_[layout_.histogram[e] + bin * ln_cell_count + static_cast<std::size_t>(ln_cell(ln_value))];
+  add_regression(e, sample.im, value);
+}
+
+// In units of the EDP's first capacity, so that the fixed resolution of ExactSum suits any unit.
+void Tally::add_regression(std::size_t e, double im, double value) {
+  if (!(im > 0)) return;
+  const double x = im, y = value / capacity_[e].front();
+  const double lx = std::log(x), ly = std::log(y);
+  const double terms[] = {1, x, y, x * x, x * y, y * y, lx, ly, lx * lx, lx * ly, ly * ly};
+  static_assert(std::size(terms) == TallyLayout::sums_per_regression);
+  ExactSum* sums = &sum_[layout_.regression_sums + TallyLayout::sums_per_regression * e];
+  for (std::size_t i = 0; i < std::size(terms); ++i) sums[i].add(terms[i]);
+}
+
+void Tally::merge(const Tally& other) {
+  if (count_.size() != other.count_.size() || sum_.size() != other.sum_.size())
+    throw Error("two tallies cannot be merged (their options differ): count both with the same options", Exit::data);
+  for (std::size_t i = 0; i < count_.size(); ++i) count_[i] += other.count_[i];
+  for (std::size_t i = 0; i < sum_.size(); ++i) sum_[i].add(other.sum_[i]);
+}
+
+}  // namespace freestand::fragility

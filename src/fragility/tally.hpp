@@ -1,0 +1,104 @@
+// What is kept of the samples: counts and exact sums, by bin and by motion. A tally is a pure function of the set of
+// samples: any split over ranks and blocks, added and merged in any order, gives the same bits. Its size is fixed by
+// the options.
+#pragma once
+
+#include <cstdint>
+#include <freestand/response.hpp>
+#include <span>
+#include <vector>
+
+#include "base/exact_sum.hpp"
+#include "base/table.hpp"
+#include "fragility/groups.hpp"
+#include "fragility/options.hpp"
+#include "fragility/tally_layout.hpp"
+
+namespace freestand::fragility {
+
+struct Sample {
+  std::uint64_t index = 0;  // number of the sample in the study
+  double im = 0;
+  int motion = 0;  // index of the motion in the study
+  Outcome outcome = Outcome::at_rest;
+  std::span<const double> edp;  // one a demand parameter, in the order of Options::edps; NaN: not known for this sample
+  std::span<const double> axis;  // one an axis, in the order of Options::axes
+};
+
+// Samples of one EDP, one bin and one group of motions.
+struct Counts {
+  std::int64_t n = 0, still = 0, over = 0, moved = 0;
+  double sum_ln = 0, sum_ln2 = 0;  // of the moved ones
+};
+
+// Fine IM cell of the overturning curve and of the mean IM of a bin.
+struct ImCell {
+  std::int64_t n = 0;
+  double im_sum = 0;
+};
+
+// Sums over the samples of one EDP that moved and stood and have IM > 0: x = IM, y = EDP.
+struct RegressionSums {
+  std::int64_t n = 0;
+  double x = 0, y = 0, xx = 0, xy = 0, yy = 0, lx = 0, ly = 0, lxlx = 0, lxly = 0, lyly = 0;
+  double unit = 1;  // y is in this many units of the EDP
+};
+
+class Tally {
+ public:
+  // Throws Error listing everything that is wrong with the options.
+  explicit Tally(Options options);
+
+  // Samples that failed numerically are counted by outcome and enter nothing else; overturned ones are censored: they
+  // have no EDP, and count as above every capacity.
+  void add(const Sample& sample);
+
+  // Every row of a table with the columns im_<name>, edp_<name>, outcome, those of the axes, and motion where
+  // Options::motion_is_record is not empty. Row i is sample first_sample + i. Throws Error if a column is missing.
+  void add(const Table& table, std::uint64_t first_sample);
+
+  // Throws Error if the other tally has another shape.
+  void merge(const Tally& other);
+
+  // The whole tally as words, for messages. Words of tallies with the same options may be added element by element (by
+  // MPI_SUM, say, up to 2^30 of them), which is the same as merging.
+  std::vector<std::int64_t> words() const;
+  static Tally from_words(Options options, std::span<const std::int64_t> words);
+
+  const Options& options() const { return options_; }
+  const MotionGroups& groups() const { return groups_; }
+  const TallyLayout& layout() const { return layout_; }
+
+  std::int64_t count_of(Outcome outcome) const;
+  std::int64_t outside_im() const;              // sound samples whose IM is in no bin
+  std::int64_t missing(std::size_t edp) const;  // sound samples, in a bin, that have no value of this EDP
+  std::int64_t samples() const;                 // all
+  std::vector<bool> groups_with_samples() const;
+
+  Counts counts(std::size_t edp, std::size_t bin, std::size_t group) const;
+  std::int64_t exceeding(std::size_t edp, std::size_t bin, std::size_t group, std::size_t capacity) const;
+  std::span<const std::int64_t> histogram(std::size_t edp,
+                                          std::size_t bin) const;  // of ln(EDP), moved ones; histogram.hpp
+  std::int64_t axis_n(std::size_t edp, std::size_t axis, std::size_t bin, std::size_t cell, std::size_t group) const;
+  std::int64_t axis_exceeding(std::size_t edp, std::size_t axis, std::size_t bin, std::size_t cell, std::size_t group,
+                              std::size_t capacity) const;
+  ImCell im_cell(std::size_t cell) const;
+  std::int64_t im_cell_n(std::size_t cell, std::size_t group) const;
+  std::int64_t im_cell_over(std::size_t cell, std::size_t group) const;
+  RegressionSums regression(std::size_t edp) const;
+
+  bool operator==(const Tally& other) const { return count_ == other.count_ && sum_ == other.sum_; }
+
+ private:
+  void add_edp(std::size_t edp, std::size_t bin, std::size_t group, const Sample& sample);
+  void add_regression(std::size_t edp, double im, double value);
+
+  Options options_;
+  MotionGroups groups_;
+  TallyLayout layout_;
+  std::vector<std::vector<double>> capacity_;  // [edp]
+  std::vector<std::int64_t> count_;
+  std::vector<ExactSum> sum_;
+};
+
+}  // namespace freestand::fragility

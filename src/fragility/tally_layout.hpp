@@ -1,0 +1,54 @@
+// Where each count of a tally lies.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "fragility/options.hpp"
+
+namespace freestand::fragility {
+
+// Position of a value among increasing edges: edge[i] <= value < edge[i + 1], the last edge included; -1 outside or
+// NaN.
+int bin_index(const std::vector<double>& edge, double value);
+
+// Capacities of an EDP: those of the options, or {0.5} for a binary one.
+std::vector<double> capacities(const EdpOptions& edp);
+
+// Offsets into the flat array of counts and into the flat array of exact sums.
+struct TallyLayout {
+  static constexpr std::size_t cells_per_bin = 20;  // fine IM cells, for the overturning curve
+  static constexpr std::size_t sums_per_regression = 11;
+
+  TallyLayout(const Options& options, std::size_t group_count);
+
+  std::size_t edps, bins, groups;
+  std::vector<std::size_t> capacity_count;  // [edp]
+  std::vector<std::size_t> axis_cells;      // [axis]
+
+  std::size_t outside, missing, bin_counts, im_cells;  // offsets of counts
+  std::vector<std::size_t> exceeding, histogram;       // [edp]
+  std::vector<std::vector<std::size_t>> axis;          // [edp][axis]
+  std::size_t bin_sums, im_sums, regression_sums;      // offsets of sums
+  std::size_t count_size, sum_size;
+
+  std::size_t im_cell_count() const { return bins * cells_per_bin; }
+  // n, still, over, moved
+  std::size_t at_bin(std::size_t edp, std::size_t bin, std::size_t group) const {
+    return bin_counts + 4 * ((edp * bins + bin) * groups + group);
+  }
+  std::size_t at_bin_sum(std::size_t edp, std::size_t bin, std::size_t group) const {
+    return bin_sums + 2 * ((edp * bins + bin) * groups + group);
+  }
+  std::size_t at_exceeding(std::size_t edp, std::size_t bin, std::size_t group) const {
+    return exceeding[edp] + (bin * groups + group) * capacity_count[edp];
+  }
+  // n, then one an EDP capacity
+  std::size_t at_axis(std::size_t edp, std::size_t ax, std::size_t bin, std::size_t cell, std::size_t group) const {
+    return axis[edp][ax] + ((bin * axis_cells[ax] + cell) * groups + group) * (1 + capacity_count[edp]);
+  }
+  // n, over
+  std::size_t at_im_cell(std::size_t cell, std::size_t group) const { return im_cells + 2 * (cell * groups + group); }
+};
+
+}  // namespace freestand::fragility
