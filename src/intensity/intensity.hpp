@@ -23,6 +23,9 @@ struct Input {
   const Shaking& shaking;
   const Specimen& specimen;
   double parameter = 0;
+
+  // Peaks of the floor as this sample feels it.
+  motion::MotionPeaks peaks() const { return motion::scaled(summary.peaks, shaking.scale, shaking.stretch); }
 };
 
 // The one number a measure may take, as the period of Sa(T).
@@ -57,7 +60,7 @@ void add_needs(const Measure& measure, motion::SummaryRequest& request, std::opt
 
 // Puts a measure into the registry; used once in each measure's file.
 struct Register {
-  explicit Register(const Measure& measure);
+  explicit Register(Measure measure);
 };
 
 }  // namespace freestand::intensity

@@ -26,13 +26,15 @@ OscillatorState Oscillator::power_response(int k, double t, const Map& free) con
   const double w2 = w_ * w_, drag = 2 * z_ * w_;
   OscillatorState at;
   if (w_ * t <= series_rad) {  // u = sum y_j t^j,  (j+1)(j+2) y_(j+2) = -[j = k] - 2 z w (j+1) y_(j+1) - w^2 y_j
-    double y0 = 0, y1 = 0, power = std::pow(t, k);
+    double y0 = 0, y1 = 0, last = 0, power = std::pow(t, k);
     for (int j = k; j < k + 60; ++j) {
       const double y2 = (-(j == k ? 1.0 : 0.0) - drag * (j + 1) * y1 - w2 * y0) / ((j + 1.0) * (j + 2.0));
       at.v += (j + 2) * y2 * power * t;
       const double term = y2 * power * t * t;
       at.u += term;
-      if (j > k + 4 && std::abs(term) * (j + 2) < 1e-20 * std::abs(at.u)) break;
+      const double size = std::abs(term) * (j + 2), enough = 1e-20 * std::abs(at.u);
+      if (j > k + 4 && size < enough && last < enough) break;  // every other term is 0 without damping
+      last = size;
       y0 = y1;
       y1 = y2;
       power *= t;

@@ -61,10 +61,9 @@ Roots sign_changes(const Polynomial& p, double length) {
   for (int i = 0; i <= turns.count; ++i) {
     const double upper = i < turns.count ? turns.at[static_cast<std::size_t>(i)] : length;
     const double at_upper = p(upper);
-    if (at_lower * at_upper < 0)
+    if (at_upper == 0) continue;  // touches zero or crosses it: the next bracket tells
+    if (at_lower != 0 && (at_lower < 0) != (at_upper < 0))
       roots.at[static_cast<std::size_t>(roots.count++)] = root_between(p, lower, upper, at_lower, at_upper);
-    else if (at_lower != 0 && at_upper == 0 && upper < length)
-      roots.at[static_cast<std::size_t>(roots.count++)] = upper;
     lower = upper;
     at_lower = at_upper;
   }

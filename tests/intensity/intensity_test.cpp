@@ -1,0 +1,141 @@
+#include "intensity/intensity.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <freestand/error.hpp>
+
+#include "base/units.hpp"
+#include "motion/spectrum.hpp"
+#include "support/data.hpp"
+
+namespace freestand::intensity {
+namespace {
+
+constexpr double g = standard_gravity_mps2;
+
+Specimen refrigerator() {
+  Specimen specimen;
+  specimen.block = Block::rectangular(0.6, 1.8, 150);
+  specimen.friction = {0.3, 0.25};
+  return specimen;
+}
+
+class OfAPulse : public testing::Test {
+ protected:
+  const motion::Pulse pulse = motion::find_pulse("C1");
+  const FloorMotion table = motion::pulse_motion(pulse);
+  const motion::MotionSummary summary = motion::summarize(pulse);
+  const Shaking shaking{&table, -6.0, 0.8, 0.0};  // mirrored, 6 m/s2, period 0.8 s
+  const Specimen specimen = refrigerator();
+
+  double value_of(const std::string& name, std::optional<double> parameter = {}) const {
+    return value(find(name), summary, shaking, specimen, parameter);
+  }
+};
+
+TEST_F(OfAPulse, PeaksScaleWithAmplitudeAndPeriod) {
+  const double pgv = 6 * 0.8 * (1 + std::sin(pulse.phase_rad)) / (2 * pi);
+  EXPECT_NEAR(value_of("pga_g"), 6 / g, 1e-15);
+  EXPECT_EQ(value_of("pta_g"), value_of("pga_g"));
+  EXPECT_NEAR(value_of("pgv_mps"), pgv, 1e-14);
+  EXPECT_NEAR(value_of("pgd_m"), 6 * 0.64 * pulse.peak_displacement, 1e-14);
+}
+
+TEST_F(OfAPulse, DimensionlessMeasuresFollowTheirFormulas) {
+  const double tan_alpha = 0.6 / 1.8, p = std::sqrt(3 * g / (4 * std::hypot(0.3, 0.9)));
+  EXPECT_NEAR(value_of("report"), 6 / (0.25 * g) - 1, 1e-14);
+  EXPECT_NEAR(value_of("pga_over_g_tan_alpha"), 6 / (g * tan_alpha), 1e-14);
+  EXPECT_NEAR(value_of("p_pgv_over_g_tan_alpha"), p * value_of("pgv_mps") / (g * tan_alpha), 1e-14);
+}
+
+// The pulse written out as a record of its own period is another way to the same numbers.
+TEST_F(OfAPulse, SpectralMeasuresAreThoseOfTheStretchedPulse) {
+  std::vector<double> samples;
+  const int n = 4000;
+  for (int i = 0; i <= n; ++i) samples.push_back(-6 * pulse.at(pulse.duration * i / n).acceleration);
+  const FloorMotion record = piecewise_linear("record", 0.8 * pulse.duration / n, samples);
+  for (const double period : {0.2, 0.8, 3.0}) {
+    const double expected = motion::spectral_acceleration_mps2(record, period) / g;
+    EXPECT_NEAR(value_of("sa_g", period), expected, 1e-5 * expected) << period;
+  }
+  EXPECT_EQ(value_of("sa_g"), value_of("sa_g", 1.0));
+  EXPECT_NEAR(value_of("housner_m"), motion::housner_intensity_m(record), 1e-5);
+}
+
+TEST(OfARecord, SummaryHoldsWhatWasAskedForAndTheMeasuresReadIt) {
+  std::vector<double> samples;
+  for (int i = 0; i < 800; ++i) samples.push_back(std::sin(0.05 * i) * std::exp(-0.004 * i));
+  const FloorMotion record = piecewise_linear("record", 0.01, samples);
+  motion::SummaryRequest request;
+  add_needs(find("sa_g"), request, 0.5);
+  add_needs(find("sa_g"), request, 0.25);
+  add_needs(find("housner_m"), request);
+  add_needs(find("report"), request);
+  motion::MotionSummary summary = motion::summarize(record, request);
+  ASSERT_EQ(summary.sa_period_s, (std::vector<double>{0.25, 0.5}));
+  EXPECT_FALSE(summary.is_pulse);
+
+  const Shaking shaking{&record, 2.0, 1.0, 0.0};
+  const auto value_of = [&](const char* name, double parameter) {
+    return value(find(name), summary, shaking, refrigerator(), parameter);
+  };
+  EXPECT_EQ(value_of("sa_g", 0.5), 2 * motion::spectral_acceleration_mps2(record, 0.5) / g);
+  EXPECT_EQ(value_of("sa_g", 0.7), 2 * motion::spectral_acceleration_mps2(record, 0.7) / g);
+  EXPECT_EQ(value_of("housner_m", 0), 2 * motion::housner_intensity_m(record));
+  summary.sa_mps2[1] = 123 * g;  // read, not computed again
+  summary.housner_m = 7;
+  EXPECT_NEAR(value_of("sa_g", 0.5), 246, 1e-12);
+  EXPECT_EQ(value_of("housner_m", 0), 14);
+}
+
+TEST(EveryMeasure, DoesNotTellAMotionFromItsMirrorImage) {
+  const FloorMotion table = motion::pulse_motion(motion::find_pulse("B"));
+  const motion::MotionSummary summary = motion::summarize(motion::find_pulse("B"));
+  const Shaking one{&table, 3.7, 0.6, 0.0}, other{&table, -3.7, 0.6, 0.0};
+  for (const Measure* measure : all())
+    EXPECT_EQ(value(*measure, summary, one, refrigerator()), value(*measure, summary, other, refrigerator()))
+        << measure->name;
+}
+
+TEST(EveryMeasure, GrowsWithTheMotionAndSaysWhatItIs) {
+  const FloorMotion table = motion::pulse_motion(motion::find_pulse("A"));
+  const motion::MotionSummary summary = motion::summarize(motion::find_pulse("A"));
+  const Shaking weak{&table, 2.0, 0.6, 0.0}, strong{&table, 4.0, 0.6, 0.0};
+  for (const Measure* measure : all()) {
+    EXPECT_LT(value(*measure, summary, weak, refrigerator()), value(*measure, summary, strong, refrigerator()))
+        << measure->name;
+    for (const std::string& text : {measure->unit, measure->symbol, measure->summary, measure->source})
+      EXPECT_FALSE(text.empty()) << measure->name;
+  }
+}
+
+TEST(EveryMeasure, HasAFileOfItsOwnAndANameOfItsOwn) {
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "src" / "intensity"))
+    files += entry.path().extension() == ".cpp" && entry.path().stem() != "intensity";
+  EXPECT_EQ(all().size(), files);
+  for (std::size_t i = 1; i < all().size(); ++i) EXPECT_LT(all()[i - 1]->name, all()[i]->name);
+}
+
+TEST(Measures, UnknownNamesAreRefusedWithTheKnownOnes) {
+  try {
+    find("pgx");
+    FAIL() << "pgx was found";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("housner_m, p_pgv_over_g_tan_alpha, pga_g"));
+  }
+}
+
+TEST(Measures, WithoutFrictionTheReportsMeasureIsInfinite) {
+  const FloorMotion table = motion::pulse_motion(motion::find_pulse("A"));
+  Specimen specimen = refrigerator();
+  specimen.friction = {0, 0};
+  EXPECT_TRUE(
+      std::isinf(value(find("report"), motion::summarize(motion::find_pulse("A")), {&table, 1.0, 1.0, 0.0}, specimen)));
+}
+
+}  // namespace
+}  // namespace freestand::intensity
