@@ -22,6 +22,7 @@ function(freestand_module NAME)
     target_include_directories(freestand_${NAME} PUBLIC ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/include)
     target_link_libraries(freestand_${NAME} PUBLIC ${links})
   endif()
+  include(${CMAKE_SOURCE_DIR}/src/${NAME}/module.cmake OPTIONAL)  # what one module needs beyond this
 endfunction()
 
 # Names of modules or packages -> targets.

@@ -16,6 +16,10 @@ namespace freestand::io::h5 {
 using Id = std::int64_t;
 using Dimensions = std::vector<std::uint64_t>;
 
+// Ranks of the run as HDF5 sees them: 0 of 1 where MPI was not started.
+int world_rank();
+int world_size();
+
 // One identifier, closed when it goes. Empty when moved from.
 class Handle {
  public:
@@ -28,6 +32,7 @@ class Handle {
 
   Id id() const { return id_; }
   void close();
+  Id release() { return std::exchange(id_, -1); }  // no longer closed
 
  private:
   Id id_ = -1;
@@ -53,11 +58,11 @@ class Object {
   double real_attribute(const std::string& name) const;
   std::vector<std::int64_t> integers_attribute(const std::string& name) const;
 
+  const std::string& file_path() const { return *file_; }
+
  protected:
   Object(Handle handle, std::shared_ptr<const std::string> file) : handle_(std::move(handle)), file_(std::move(file)) {}
   Id id() const { return handle_.id(); }
-  [[noreturn]] void fail(const std::string& what) const;  // names the file
-  const std::shared_ptr<const std::string>& file_name() const { return file_; }
 
   Handle handle_;
   std::shared_ptr<const std::string> file_;
@@ -119,6 +124,8 @@ class Group : public Object {
 
  protected:
   friend class File;
+  template <class T>
+  Dataset put_values(const std::string& name, const std::vector<T>& values, Dimensions dimensions);
   Group(Handle handle, std::shared_ptr<const std::string> file, bool together)
       : Object(std::move(handle), std::move(file)), together_(together) {}
   bool together_ = false;
@@ -161,14 +168,9 @@ class File {
   static std::filesystem::path aside_together(const std::filesystem::path& path);
   static File create_at(const std::filesystem::path& aside, const std::filesystem::path& path);
   static File open_together(const std::filesystem::path& aside, const std::filesystem::path& path);
-  static int world_rank();
   void hand_over();
 
   std::unique_ptr<State> state_;
 };
-
-// Ranks of the run as HDF5 sees them: 0 of 1 where MPI was not started.
-int world_rank();
-int world_size();
 
 }  // namespace freestand::io::h5

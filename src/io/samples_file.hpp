@@ -60,7 +60,6 @@ class SampleReader {
 
  private:
   std::shared_ptr<const h5::File> file_;
-  std::string path_;
   Provenance provenance_;
   std::vector<Column> columns_;
   std::vector<std::string> motion_names_;

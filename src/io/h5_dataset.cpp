@@ -1,0 +1,147 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <freestand/error.hpp>
+#include <functional>
+#include <numeric>
+
+#include "io/h5_internal.hpp"
+
+namespace freestand::io::h5 {
+namespace {
+
+std::size_t count_of(const Dimensions& dimensions) {
+  return std::accumulate(dimensions.begin(), dimensions.end(), std::size_t{1}, std::multiplies<>());
+}
+
+std::string name_of(Id dataset) {
+  char text[256] = {};
+  H5Iget_name(dataset, text, sizeof text);
+  return text;
+}
+
+Handle space_of(Id dataset, const std::string& file) {
+  return checked(H5Dget_space(dataset), H5Sclose, file, "shape of " + name_of(dataset), Doing::reading);
+}
+
+template <class T>
+void write_all(Id dataset, const std::string& file, const Dimensions& dimensions, const std::vector<T>& values) {
+  if (values.size() != count_of(dimensions))
+    throw Error(fmt::format("cannot write {} ({} values for {} [{}]): report this", file, values.size(),
+                            name_of(dataset), fmt::join(dimensions, ", ")),
+                Exit::data);
+  if (!values.empty() && H5Dwrite(dataset, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    throw failure(file, name_of(dataset), Doing::writing);
+}
+
+// Memory and file spaces of a run of rows; nothing selected for no rows.
+struct RowSpaces {
+  Handle memory, file;
+
+  RowSpaces(Id dataset, const std::string& name, std::uint64_t first, std::uint64_t count)
+      : file(space_of(dataset, name)) {
+    const hsize_t start = first, length = count;
+    memory = checked(H5Screate_simple(1, &length, nullptr), H5Sclose, name, name_of(dataset), Doing::writing);
+    if (count == 0) {
+      H5Sselect_none(file.id());
+      H5Sselect_none(memory.id());
+    } else {
+      H5Sselect_hyperslab(file.id(), H5S_SELECT_SET, &start, nullptr, &length, nullptr);
+    }
+  }
+};
+
+template <class T>
+void write_slab(Id dataset, const std::string& file, bool together, std::uint64_t first, const std::vector<T>& values) {
+  const RowSpaces spaces(dataset, file, first, values.size());
+  const Handle transfer = checked(H5Pcreate(H5P_DATASET_XFER), H5Pclose, file, "transfer settings", Doing::writing);
+  if (together) H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE);
+  if (H5Dwrite(dataset, memory_type<T>(), spaces.memory.id(), spaces.file.id(), transfer.id(), values.data()) < 0)
+    throw failure(file, name_of(dataset), Doing::writing);
+}
+
+}  // namespace
+
+Dimensions Dataset::dimensions() const {
+  const Handle space = space_of(id(), *file_);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.id())));
+  H5Sget_simple_extent_dims(space.id(), extent.data(), nullptr);
+  return {extent.begin(), extent.end()};
+}
+
+Type Dataset::type() const {
+  const Handle type = checked(H5Dget_type(id()), H5Tclose, *file_, "type of " + name_of(id()), Doing::reading);
+  const H5T_class_t kind = H5Tget_class(type.id());
+  const std::size_t bytes = H5Tget_size(type.id());
+  if (kind == H5T_FLOAT && bytes == 8) return Type::real;
+  if (kind == H5T_INTEGER && bytes == 8) return Type::integer64;
+  if (kind == H5T_INTEGER && bytes == 4) return Type::integer;
+  if (kind == H5T_INTEGER && bytes == 1) return Type::flag;
+  throw failure(*file_, name_of(id()) + " is of a type that freestand does not write", Doing::reading);
+}
+
+void Dataset::write(const std::vector<double>& values) { write_all(id(), *file_, dimensions(), values); }
+void Dataset::write(const std::vector<std::int64_t>& values) { write_all(id(), *file_, dimensions(), values); }
+void Dataset::write(const std::vector<std::int32_t>& values) { write_all(id(), *file_, dimensions(), values); }
+void Dataset::write(const std::vector<std::uint8_t>& values) { write_all(id(), *file_, dimensions(), values); }
+
+std::vector<double> Dataset::read() const {
+  std::vector<double> values(count_of(dimensions()));
+  if (!values.empty() && H5Dread(id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    throw failure(*file_, name_of(id()), Doing::reading);
+  return values;
+}
+
+std::vector<std::string> Dataset::read_texts() const {
+  std::vector<char*> texts(count_of(dimensions()), nullptr);
+  if (texts.empty()) return {};
+  const Handle type = text_type(*file_);
+  const Handle space = space_of(id(), *file_);
+  if (H5Dread(id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()) < 0)
+    throw failure(*file_, name_of(id()), Doing::reading);
+  std::vector<std::string> values;
+  for (const char* text : texts) values.emplace_back(text ? text : "");
+  H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, texts.data());
+  return values;
+}
+
+void Dataset::write_rows(std::uint64_t first, const std::vector<double>& values) {
+  write_slab(id(), *file_, together_, first, values);
+}
+void Dataset::write_rows(std::uint64_t first, const std::vector<std::int32_t>& values) {
+  write_slab(id(), *file_, together_, first, values);
+}
+void Dataset::write_rows(std::uint64_t first, const std::vector<std::uint8_t>& values) {
+  write_slab(id(), *file_, together_, first, values);
+}
+
+std::vector<double> Dataset::read_rows(std::uint64_t first, std::uint64_t count) const {
+  std::vector<double> values(count);
+  if (count == 0) return values;
+  const RowSpaces spaces(id(), *file_, first, count);
+  if (H5Dread(id(), H5T_NATIVE_DOUBLE, spaces.memory.id(), spaces.file.id(), H5P_DEFAULT, values.data()) < 0)
+    throw failure(*file_, fmt::format("rows {} to {} of {}", first, first + count, name_of(id())), Doing::reading);
+  return values;
+}
+
+Dataset& Dataset::scale(const std::string& name) {
+  if (H5DSset_scale(id(), name.c_str()) < 0) throw failure(*file_, "dimension scale " + name, Doing::writing);
+  return *this;
+}
+
+Dataset& Dataset::attach(unsigned dimension, const Dataset& scale) {
+  if (H5DSattach_scale(id(), scale.id(), dimension) < 0)
+    throw failure(*file_, "dimension scale of " + name_of(id()), Doing::writing);
+  return *this;
+}
+
+Dataset& Dataset::describe(const std::string& unit, const std::string& description) {
+  if (!unit.empty()) {
+    attribute("unit", unit);
+    attribute("units", unit);
+  }
+  if (!description.empty()) attribute("description", description);
+  return *this;
+}
+
+}  // namespace freestand::io::h5

@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <exception>
+#include <freestand/error.hpp>
+
+#include "base/durable_file.hpp"
+#include "io/h5_internal.hpp"
+
+namespace freestand::io::h5 {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Before anything else: no printing of error stacks, and no closing of files at the end of the program (files are
+// closed by finish(); after an error on one rank a collective close would wait for ever).
+void start_library() {
+  static const bool started = [] {
+    H5dont_atexit();
+    H5open();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    return true;
+  }();
+  static_cast<void>(started);
+}
+
+struct Reasons {
+  std::string innermost;
+  int error_number = 0;
+};
+
+herr_t collect(unsigned, const H5E_error2_t* error, void* into) {
+  auto& reasons = *static_cast<Reasons*>(into);
+  const std::string text = error->desc ? error->desc : "";
+  if (reasons.innermost.empty()) reasons.innermost = text;
+  constexpr std::string_view key = "errno = ";
+  const auto at = text.find(key);
+  if (at != std::string::npos && !reasons.error_number)
+    std::from_chars(text.data() + at + key.size(), text.data() + text.size(), reasons.error_number);
+  if (text.find("NO_SPACE") != std::string::npos && !reasons.error_number) reasons.error_number = ENOSPC;
+  return 0;
+}
+
+Handle file_access(bool together, const std::string& name) {
+  Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, name, "file access settings", Doing::writing);
+  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  H5Pset_file_locking(access.id(), true, true);
+  if (together) {
+    H5Pset_fapl_mpio(access.id(), MPI_COMM_WORLD, MPI_INFO_NULL);
+    H5Pset_all_coll_metadata_ops(access.id(), true);
+    H5Pset_coll_metadata_write(access.id(), true);
+  }
+  return access;
+}
+
+bool mpi_runs() {
+  int initialized = 0, finalized = 0;
+  MPI_Initialized(&initialized);
+  if (initialized) MPI_Finalized(&finalized);
+  return initialized && !finalized;
+}
+
+}  // namespace
+
+int world_rank() {
+  int rank = 0;
+  if (mpi_runs()) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+int world_size() {
+  int size = 1;
+  if (mpi_runs()) MPI_Comm_size(MPI_COMM_WORLD, &size);
+  return size;
+}
+
+Error failure(const std::string& file, const std::string& what, Doing doing) {
+  Reasons reasons;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, collect, &reasons);
+  H5Eclear2(H5E_DEFAULT);
+  const char* verb = doing == Doing::writing ? "write" : "read";
+  if (reasons.error_number) return file_error(verb, file, reasons.error_number);
+  const char* advice = doing == Doing::writing ? "check the disk and start again; finished work is kept"
+                                               : "make the file again, or name one that freestand has written";
+  return Error(fmt::format("cannot {} {} ({}{}{}): {}", verb, file, what, reasons.innermost.empty() ? "" : ": ",
+                           reasons.innermost, advice),
+               doing == Doing::writing ? Exit::resumable : Exit::data);
+}
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  if (this == &other) return *this;
+  close();
+  id_ = std::exchange(other.id_, -1);
+  closer_ = other.closer_;
+  return *this;
+}
+
+void Handle::close() {
+  if (id_ >= 0 && closer_) closer_(id_);
+  id_ = -1;
+}
+
+Handle group_properties(const std::string& file, bool for_file) {
+  Handle properties = checked(H5Pcreate(for_file ? H5P_FILE_CREATE : H5P_GROUP_CREATE), H5Pclose, file,
+                              "settings of a group", Doing::writing);
+  H5Pset_link_creation_order(properties.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  H5Pset_attr_creation_order(properties.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
+  H5Pset_obj_track_times(properties.id(), false);
+  return properties;
+}
+
+struct File::State {
+  Handle file;
+  fs::path aside, path;  // aside is empty for a file that is read
+  bool together = false;
+  std::shared_ptr<const std::string> name;
+
+  // A file that was not finished: closing it together would wait for ranks that do not come.
+  ~State() {
+    if (!together) file.close();
+    if (!aside.empty() && (!together || world_rank() == 0)) ::unlink(aside.c_str());
+  }
+};
+
+File::File(std::unique_ptr<State> state) : state_(std::move(state)) {}
+File::File(File&&) noexcept = default;
+File::~File() = default;
+
+File File::create(const fs::path& path) { return create_at(aside_name(path), path); }
+
+fs::path File::aside_together(const fs::path& path) {
+  return path.parent_path() / fmt::format(".{}.part", path.filename().string());
+}
+
+File File::create_at(const fs::path& aside, const fs::path& path) {
+  start_library();
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->name = std::make_shared<const std::string>(path.string());
+  const Handle access = file_access(false, *state->name);
+  const Handle creation = group_properties(*state->name, true);
+  state->file = checked(H5Fcreate(aside.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, *state->name,
+                        "the file cannot be made", Doing::writing);
+  state->aside = aside;
+  return File(std::move(state));
+}
+
+File File::open_together(const fs::path& aside, const fs::path& path) {
+  start_library();
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->aside = aside;
+  state->together = world_size() > 1;
+  state->name = std::make_shared<const std::string>(path.string());
+  if (state->together) MPI_Barrier(MPI_COMM_WORLD);
+  const Handle access = file_access(state->together, *state->name);
+  state->file = checked(H5Fopen(aside.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose, *state->name,
+                        "the file cannot be opened by all ranks", Doing::writing);
+  return File(std::move(state));
+}
+
+File File::open(const fs::path& path) {
+  start_library();
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->name = std::make_shared<const std::string>(path.string());
+  const Handle access = file_access(false, *state->name);
+  state->file = checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose, *state->name,
+                        "no HDF5 file, or cut short", Doing::reading);
+  return File(std::move(state));
+}
+
+Group File::root() const {
+  Handle group =
+      checked(H5Gopen2(state_->file.id(), "/", H5P_DEFAULT), H5Gclose, *state_->name, "no root group", Doing::reading);
+  return Group(std::move(group), state_->name, state_->together);
+}
+
+void File::hand_over() {
+  const std::string& name = *state_->name;
+  if (H5Fflush(state_->file.id(), H5F_SCOPE_GLOBAL) < 0) throw failure(name, "not all is written", Doing::writing);
+  const Id id = state_->file.release();
+  if (H5Fclose(id) < 0) throw failure(name, "closing failed", Doing::writing);
+  state_->aside.clear();
+}
+
+void File::finish() {
+  const fs::path aside = state_->aside;
+  hand_over();
+  if (world_rank() == 0 || !state_->together) {
+    try {
+      publish_durably(aside, state_->path);
+    } catch (...) {
+      ::unlink(aside.c_str());
+      throw;
+    }
+  }
+  if (state_->together) MPI_Barrier(MPI_COMM_WORLD);
+}
+
+}  // namespace freestand::io::h5

@@ -1,0 +1,173 @@
+#include "io/samples_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+#include <freestand/response.hpp>
+#include <limits>
+#include <numeric>
+
+namespace freestand::io {
+namespace {
+
+constexpr std::int64_t slab_values = 2'000'000;  // rows held at a time, times columns
+
+h5::Type type_of(ColumnKind kind) {
+  switch (kind) {
+    case ColumnKind::integer:
+      return h5::Type::integer;
+    case ColumnKind::flag:
+      return h5::Type::flag;
+    case ColumnKind::real:
+      break;
+  }
+  return h5::Type::real;
+}
+
+ColumnKind kind_of(h5::Type type) {
+  if (type == h5::Type::integer || type == h5::Type::integer64) return ColumnKind::integer;
+  return type == h5::Type::flag ? ColumnKind::flag : ColumnKind::real;
+}
+
+// "at_rest moved overturned ..." and 0 1 2 ..., as the climate and forecast conventions name the values of a flag.
+void describe_outcome(h5::Dataset& dataset) {
+  std::string meanings;
+  std::vector<std::int64_t> values;
+  for (int i = 0; i < outcome_count; ++i) {
+    meanings += (i ? " " : "") + std::string(name(static_cast<Outcome>(i)));
+    values.push_back(i);
+  }
+  dataset.attribute("flag_values", values);
+  dataset.attribute("flag_meanings", meanings);
+}
+
+void lay_out(h5::File& file, const SamplesHeader& header, std::int64_t rows) {
+  h5::Group root = file.root();
+  write_provenance(root, samples_format, header.provenance);
+  h5::Group samples = root.make_group("samples");
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(rows));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  h5::Dataset scale = samples.put("sample", numbers);
+  scale.scale("sample").describe("", "number of the sample");
+  for (const Column& column : header.columns) {
+    h5::Dataset dataset = samples.make_dataset(column.name, type_of(column.kind), {static_cast<std::uint64_t>(rows)});
+    dataset.attach(0, scale).describe(column.unit, column.description);
+    if (column.name == "outcome") describe_outcome(dataset);
+  }
+  root.make_group("motions")
+      .put("name", header.motion_names)
+      .describe("", "floor motion, by the samples' column motion");
+}
+
+// Rows of consecutive blocks, row-major.
+struct Slab {
+  std::int64_t first = 0;
+  std::vector<double> values;
+};
+
+Slab read_slab(const BlockLayout& layout, std::size_t columns, std::int64_t first_block, std::int64_t end_block,
+               const ReadBlock& read) {
+  Slab slab{first_block * layout.block_size, {}};
+  for (std::int64_t block = first_block; block < end_block; ++block) {
+    const std::vector<double> rows = read(block);
+    if (rows.size() != static_cast<std::size_t>(layout.rows(block)) * columns)
+      throw Error(fmt::format("block {} cannot be used ({} values for {} rows of {} columns): run the sweep again",
+                              block, rows.size(), layout.rows(block), columns),
+                  Exit::data);
+    slab.values.insert(slab.values.end(), rows.begin(), rows.end());
+  }
+  return slab;
+}
+
+template <class T>
+std::vector<T> whole_numbers(const std::vector<double>& values, const Column& column) {
+  std::vector<T> whole;
+  whole.reserve(values.size());
+  for (const double value : values) {
+    if (!(value >= std::numeric_limits<T>::min() && value <= std::numeric_limits<T>::max()) ||
+        value != std::floor(value))
+      throw Error(fmt::format("column {} cannot be stored ({} is no whole number of its range): report this",
+                              column.name, value),
+                  Exit::data);
+    whole.push_back(static_cast<T>(value));
+  }
+  return whole;
+}
+
+void write_slab(h5::Group& samples, const std::vector<Column>& columns, const Slab& slab) {
+  const std::size_t rows = slab.values.size() / columns.size();
+  std::vector<double> values(rows);
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    for (std::size_t row = 0; row < rows; ++row) values[row] = slab.values[row * columns.size() + c];
+    h5::Dataset dataset = samples.open_dataset(columns[c].name);
+    const auto first = static_cast<std::uint64_t>(slab.first);
+    if (columns[c].kind == ColumnKind::real) dataset.write_rows(first, values);
+    if (columns[c].kind == ColumnKind::integer)
+      dataset.write_rows(first, whole_numbers<std::int32_t>(values, columns[c]));
+    if (columns[c].kind == ColumnKind::flag) dataset.write_rows(first, whole_numbers<std::uint8_t>(values, columns[c]));
+  }
+}
+
+}  // namespace
+
+std::int64_t BlockLayout::rows(std::int64_t block) const {
+  return std::clamp<std::int64_t>(samples - block * block_size, 0, block_size);
+}
+
+void write_samples(const std::filesystem::path& path, const SamplesHeader& header, const BlockLayout& layout,
+                   const ReadBlock& read) {
+  h5::File file = h5::File::create_together(path, [&](h5::File& made) { lay_out(made, header, layout.samples); });
+  h5::Group samples = file.root().open_group("samples");
+  const auto columns = static_cast<std::int64_t>(header.columns.size());
+  const std::int64_t run =
+      std::max<std::int64_t>(1, slab_values / std::max<std::int64_t>(1, columns * layout.block_size));
+  const std::int64_t blocks = layout.blocks(), ranks = h5::world_size(), rank = h5::world_rank();
+  for (std::int64_t first = 0; columns > 0 && first < blocks; first += run * ranks) {
+    const std::int64_t mine = std::min(first + rank * run, blocks), end = std::min(mine + run, blocks);
+    write_slab(samples, header.columns, read_slab(layout, header.columns.size(), mine, end, read));
+  }
+  file.finish();
+}
+
+SampleReader::SampleReader(const std::filesystem::path& path)
+    : file_(std::make_shared<const h5::File>(h5::File::open(path))) {
+  const h5::Group root = file_->root();
+  provenance_ = read_provenance(root, samples_format);
+  const h5::Group samples = root.open_group("samples");
+  for (const std::string& name : samples.names()) {
+    const h5::Dataset dataset = samples.open_dataset(name);
+    if (name == "sample") {
+      rows_ = static_cast<std::int64_t>(dataset.dimensions().at(0));
+      continue;
+    }
+    const auto text = [&](const char* key) { return dataset.has_attribute(key) ? dataset.text_attribute(key) : ""; };
+    columns_.push_back({name, text("unit"), text("description"), kind_of(dataset.type())});
+  }
+  motion_names_ = root.open_group("motions").open_dataset("name").read_texts();
+}
+
+Table SampleReader::read(std::int64_t first, std::int64_t count) const {
+  std::vector<std::string> names;
+  for (const Column& column : columns_) names.push_back(column.name);
+  return read(first, count, names);
+}
+
+Table SampleReader::read(std::int64_t first, std::int64_t count, const std::vector<std::string>& names) const {
+  if (first < 0 || count < 0 || first + count > rows_)
+    throw Error(fmt::format("no samples {} to {} (there are {}): ask for fewer", first, first + count, rows_),
+                Exit::data);
+  Table table;
+  table.values.resize(static_cast<std::size_t>(count) * names.size());
+  const h5::Group samples = file_->root().open_group("samples");
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    table.columns.push_back(columns_[column_index(columns_, names[c])]);
+    const std::vector<double> values =
+        samples.open_dataset(names[c]).read_rows(static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(count));
+    for (std::size_t row = 0; row < values.size(); ++row) table.values[row * names.size() + c] = values[row];
+  }
+  return table;
+}
+
+}  // namespace freestand::io
