@@ -20,7 +20,7 @@ FourierSpectrum fourier_spectrum(const FloorMotion& motion, double step_s, doubl
   const std::size_t n = transform_size(static_cast<std::size_t>(std::ceil(wanted)));
   FourierSpectrum spectrum;
   spectrum.step_hz = 1 / (static_cast<double>(n) * step_s);
-  for (const auto& bin : transform(a, n)) spectrum.amplitude_mps.push_back(std::abs(bin) * step_s);
+  for (const auto& bin : RealTransform(n).forward(a)) spectrum.amplitude_mps.push_back(std::abs(bin) * step_s);
   return spectrum;
 }
 

@@ -1,0 +1,103 @@
+#include "motion/identify.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "motion/peaks.hpp"
+#include "motion/pulse.hpp"
+#include "motion/summary.hpp"
+#include "support/data.hpp"
+
+namespace freestand::motion {
+namespace {
+
+struct Hidden {
+  const char* type;
+  double period_s, velocity_mps, start_s;
+};
+
+// A record of `duration` with one pulse in it, and a ripple of the given velocity.
+FloorMotion record_with(const Hidden& hidden, double ripple_mps = 0, double duration = 20) {
+  const Pulse pulse = find_pulse(hidden.type);
+  const double scale = acceleration_of_velocity_amplitude(pulse, hidden.velocity_mps, hidden.period_s), dt = 0.005;
+  std::vector<double> a;
+  for (int i = 0; i * dt <= duration; ++i) {
+    const double t = (i * dt - hidden.start_s) / hidden.period_s, w = 31;
+    const double inside = t >= 0 && t <= pulse.duration ? scale * pulse.at(t).acceleration : 0;
+    a.push_back(inside + ripple_mps * w * std::cos(w * i * dt));
+  }
+  return piecewise_linear("hidden", dt, a);
+}
+
+class HiddenPulse : public testing::TestWithParam<Hidden> {};
+INSTANTIATE_TEST_SUITE_P(Identify, HiddenPulse,
+                         testing::Values(Hidden{"A", 1.3, 0.9, 4.0}, Hidden{"B", 0.53, -0.61, 7.2},
+                                         Hidden{"C1", 0.7, 0.5, 3.3}, Hidden{"C2", 2.1, -0.76, 5.0},
+                                         Hidden{"B", 4.2, 1.1, 1.0}, Hidden{"C1", 0.3, 0.2, 11.7}),
+                         [](const auto& info) { return info.param.type + std::to_string(info.index); });
+
+TEST_P(HiddenPulse, IsFoundAlone) {
+  const Hidden& hidden = GetParam();
+  const IdentifiedPulse found = identify_pulse(record_with(hidden));
+  EXPECT_EQ(found.type, hidden.type);
+  EXPECT_NEAR(found.period_s, hidden.period_s, 0.01 * hidden.period_s);
+  EXPECT_NEAR(found.velocity_mps, hidden.velocity_mps, 0.02 * std::abs(hidden.velocity_mps));
+  EXPECT_NEAR(found.start_s, hidden.start_s, 0.02 * hidden.period_s);
+  // Jumps that fall between samples leave the record a small velocity afterwards, which no pulse explains.
+  EXPECT_GT(found.explained, hidden.period_s > 0.5 ? 0.99 : 0.75);
+}
+
+TEST_P(HiddenPulse, IsFoundUnderARipple) {
+  const Hidden& hidden = GetParam();
+  const IdentifiedPulse found = identify_pulse(record_with(hidden, 0.05 * std::abs(hidden.velocity_mps)));
+  EXPECT_EQ(found.type, hidden.type);
+  EXPECT_NEAR(found.period_s, hidden.period_s, 0.05 * hidden.period_s);
+  EXPECT_NEAR(found.velocity_mps, hidden.velocity_mps, 0.1 * std::abs(hidden.velocity_mps));
+  EXPECT_LT(found.explained, 1);
+}
+
+TEST_P(HiddenPulse, OfTheMirroredRecordIsTheMirroredPulseToTheBit) {
+  FloorMotion motion = record_with(GetParam(), 0.03);
+  const IdentifiedPulse one = identify_pulse(motion);
+  for (double& c : motion.horizontal_mps2) c = -c;
+  const IdentifiedPulse other = identify_pulse(motion);
+  EXPECT_EQ(one.type, other.type);
+  EXPECT_EQ(one.period_s, other.period_s);
+  EXPECT_EQ(one.velocity_mps, -other.velocity_mps);
+  EXPECT_EQ(one.start_s, other.start_s);
+  EXPECT_EQ(one.explained, other.explained);
+}
+
+TEST(Identify, UnitPulsesThemselvesAreRecognised) {
+  for (const char* type : {"A", "B", "C1", "C2"}) {
+    const Pulse pulse = find_pulse(type);
+    const IdentifiedPulse found = identify_pulse(pulse_motion(pulse));
+    EXPECT_EQ(found.type, type);
+    EXPECT_NEAR(found.period_s, 1, 1e-6) << type;
+    EXPECT_NEAR(found.velocity_mps, pulse.velocity_amplitude, 1e-6) << type;
+    EXPECT_NEAR(found.explained, 1, 1e-6) << type;
+  }
+}
+
+TEST(Identify, StillFloorHasNoPulse) {
+  const IdentifiedPulse found = identify_pulse(piecewise_linear("still", 0.01, std::vector<double>(500, 0.0)));
+  EXPECT_TRUE(found.type.empty());
+  EXPECT_EQ(found.explained, 0);
+}
+
+TEST(PulseFrequency, OfPulsesIsTheirOwnAndOfRecordsThatOfTheFit) {
+  const Pulse pulse = find_pulse("C2");
+  const FloorMotion table = pulse_motion(pulse);
+  EXPECT_DOUBLE_EQ(pulse_frequency_radps(summarize(pulse), {&table, 3.0, 0.25, 0.0}), 8 * std::numbers::pi);
+  const FloorMotion record = record_with({"B", 0.5, 1, 3});
+  const Shaking shaking{&record, 2.0, 1.0, 0.0};
+  EXPECT_NEAR(pulse_frequency_radps(summarize(record, {.pulse = true, .housner = false, .sa_period_s = {}}), shaking),
+              4 * std::numbers::pi, 0.1);
+  EXPECT_TRUE(std::isnan(pulse_frequency_radps(summarize(record), shaking)));
+}
+
+}  // namespace
+}  // namespace freestand::motion
