@@ -1,4 +1,5 @@
 # cmake -D SOURCE=folder -D OUTPUT=header -P git_commit.cmake
+cmake_minimum_required(VERSION 3.22)
 set(commit unknown)
 execute_process(COMMAND git -C ${SOURCE} rev-parse --show-toplevel
                 OUTPUT_VARIABLE top OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)

@@ -6,6 +6,9 @@
 
 namespace freestand::io {
 
+// Where a sweep keeps its finished blocks, inside the output folder.
+inline constexpr const char* blocks_name = "blocks";
+
 enum class Existing {
   refuse,     // a folder with something in it is an Error
   overwrite,  // results of freestand in it are removed first; other files are left

@@ -1,0 +1,201 @@
+#include "io/fragility_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/bin_fields.hpp"
+
+namespace freestand::io {
+namespace {
+
+using fragility::AxisSurface;
+using fragility::BinFit;
+using fragility::EdpResult;
+using fragility::Result;
+using h5::Dataset;
+using h5::Group;
+
+// A coordinate: its own dimension scale, named as it is.
+Dataset coordinate(Group& group, const std::string& name, const std::vector<double>& values, const std::string& unit,
+                   const std::string& description) {
+  Dataset dataset = group.put(name, values);
+  dataset.scale(name).describe(unit, description);
+  return dataset;
+}
+
+void write_bins(Group& group, const Dataset& im, const Result& result, const EdpResult& edp) {
+  for (const BinField& field : bin_fields()) {
+    std::vector<double> values;
+    for (const BinFit& bin : edp.bins) values.push_back(field.value(bin));
+    const std::string& unit = field.unit == FieldUnit::edp ? edp.unit : result.im_unit;
+    Dataset dataset = field.whole ? group.put(field.name, std::vector<std::int64_t>(values.begin(), values.end()))
+                                  : group.put(field.name, values);
+    dataset.attach(0, im).describe(field.unit == FieldUnit::one ? "1" : unit, field.description);
+  }
+}
+
+struct Curve {
+  const char* name;
+  const std::vector<double>* values;
+  const char* description;
+};
+
+void write_surface(Group& parent, const Dataset& im, const Dataset& capacity, const EdpResult& edp) {
+  Group group = parent.make_group("surface");
+  const h5::Dimensions shape{edp.bins.size(), edp.capacity.size()};
+  for (const Curve& curve :
+       {Curve{"probability", &edp.surface.probability, "P(EDP > capacity), fit or counts by status"},
+        Curve{"lower", &edp.surface.lower, "lower end of the band, from resampled motions"},
+        Curve{"upper", &edp.surface.upper, "upper end of the band, from resampled motions"},
+        Curve{"empirical", &edp.surface.empirical, "fraction of samples above, overturned included"}})
+    group.put(curve.name, *curve.values, shape).attach(0, im).attach(1, capacity).describe("1", curve.description);
+}
+
+void write_distribution(Group& parent, const Dataset& im, const EdpResult& edp) {
+  if (edp.distribution.ln_edge.size() < 2) return;
+  Group group = parent.make_group("distribution");
+  coordinate(group, "ln_edge", edp.distribution.ln_edge, "1", "edges of the cells, ln EDP");
+  group.put("count", edp.distribution.count, {edp.bins.size(), edp.distribution.ln_edge.size() - 1})
+      .attach(0, im)
+      .describe("1", "samples that moved and stood");
+}
+
+void write_axis(Group& parent, const Dataset& im, const Dataset& capacity, const EdpResult& edp,
+                const AxisSurface& axis) {
+  Group group = parent.make_group(axis.name);
+  group.attribute("unit", axis.unit);
+  coordinate(group, "edge", axis.edge, axis.unit, "edges of the bins");
+  const Dataset centre = coordinate(group, "centre", axis.centre, axis.unit, axis.name);
+  const h5::Dimensions cells{edp.bins.size(), axis.centre.size()};
+  const h5::Dimensions shape{cells[0], cells[1], edp.capacity.size()};
+  for (const Curve& curve : {Curve{"probability", &axis.probability, "P(EDP > capacity), from counts"},
+                             Curve{"lower", &axis.lower, "lower end of the band, from resampled motions"},
+                             Curve{"upper", &axis.upper, "upper end of the band, from resampled motions"}}) {
+    Dataset dataset = group.put(curve.name, *curve.values, shape);
+    dataset.attach(0, im).attach(1, centre).attach(2, capacity).describe("1", curve.description);
+  }
+  group.put("n", axis.n, cells).attach(0, im).attach(1, centre).describe("1", "samples in the cell");
+}
+
+void write_regressions(Group& group, const fragility::Regressions& found) {
+  group.attribute("regression_n", found.n);
+  group.attribute("slope", found.slope);
+  group.attribute("slope_r2", found.slope_r2);
+  group.attribute("sd_slope", found.sd_slope);
+  group.attribute("cloud_intercept", found.cloud_intercept);
+  group.attribute("cloud_slope", found.cloud_slope);
+  group.attribute("cloud_sd", found.cloud_sd);
+  group.attribute("cloud_r2", found.cloud_r2);
+}
+
+void write_edp(Group& parent, const Result& result, const EdpResult& edp) {
+  Group group = parent.make_group(edp.name);
+  group.attribute("unit", edp.unit);
+  group.attribute("symbol", edp.symbol);
+  group.attribute("kind", edp.binary ? "binary" : "continuous");
+  write_regressions(group, edp.regressions);
+  const Dataset im = coordinate(group, "im", result.im_centre, result.im_unit, result.im_name);
+  const Dataset capacity = coordinate(group, "capacity", edp.capacity, edp.unit, "capacity");
+  write_bins(group, im, result, edp);
+  write_surface(group, im, capacity, edp);
+  write_distribution(group, im, edp);
+  if (edp.axes.empty()) return;
+  Group axes = group.make_group("axis");
+  for (const AxisSurface& axis : edp.axes) write_axis(axes, im, capacity, edp, axis);
+}
+
+void write_overturning(Group& root, const Result& result) {
+  const fragility::OverturningCurve& curve = result.overturning;
+  Group group = root.make_group("overturning");
+  group.attribute("im", result.im_name);
+  group.attribute("im_unit", result.im_unit);
+  group.attribute("median", curve.median);
+  group.attribute("dispersion", curve.dispersion);
+  group.attribute("median_se", curve.median_se);
+  group.attribute("dispersion_se", curve.dispersion_se);
+  group.attribute("penalised", curve.penalised ? 1 : 0);
+  const Dataset grid = coordinate(group, "grid", curve.grid, result.im_unit, result.im_name);
+  group.put("probability", curve.probability).attach(0, grid).describe("1", "P(overturning)");
+  group.put("lower", curve.lower).attach(0, grid).describe("1", "lower end of the band, from resampled motions");
+  group.put("upper", curve.upper).attach(0, grid).describe("1", "upper end of the band, from resampled motions");
+}
+
+void write_root(Group& root, const Provenance& provenance, const Result& result) {
+  write_provenance(root, fragility_format, provenance);
+  root.attribute("im", result.im_name);
+  root.attribute("im_unit", result.im_unit);
+  root.attribute("confidence", result.confidence);
+  std::vector<std::string> names;
+  for (int i = 0; i < outcome_count; ++i) names.emplace_back(name(static_cast<Outcome>(i)));
+  root.attribute("outcome_names", names);
+  root.attribute("outcome_counts",
+                 std::vector<std::int64_t>(result.outcome_counts.begin(), result.outcome_counts.end()));
+  root.attribute("outside_im", result.outside_im);
+  root.attribute("motions", result.motions);
+  root.attribute("warnings", result.warnings);
+}
+
+std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  quoted += '"';
+  return quoted;
+}
+
+}  // namespace
+
+const char* name(fragility::BinStatus status) {
+  constexpr const char* names[] = {"fitted", "too_few", "rejected", "counts_only"};
+  return names[static_cast<int>(status)];
+}
+
+void write_fragility(const std::filesystem::path& path, const Provenance& provenance, const Result& result) {
+  h5::File file = h5::File::create(path);
+  Group root = file.root();
+  write_root(root, provenance, result);
+  Group im = root.make_group("im");
+  coordinate(im, "edge", result.im_edge, result.im_unit, "edges of the bins, " + result.im_name);
+  im.put("centre", result.im_centre).scale("im").describe(result.im_unit, result.im_name);
+  Group edps = root.make_group("edp");
+  for (const EdpResult& edp : result.edps) write_edp(edps, result, edp);
+  write_overturning(root, result);
+  file.finish();
+}
+
+std::string bins_csv(const Result& result) {
+  std::string text = "edp,unit,im_lower,im_upper,im_centre";
+  for (const BinField& field : bin_fields()) text += fmt::format(",{}", field.name);
+  text += '\n';
+  for (const EdpResult& edp : result.edps)
+    for (std::size_t i = 0; i < edp.bins.size(); ++i) {
+      text += fmt::format("{},{},{},{},{}", cell(edp.name), cell(edp.unit), cell(result.im_edge[i]),
+                          cell(result.im_edge[i + 1]), cell(result.im_centre[i]));
+      for (const BinField& field : bin_fields())
+        if (field.name == std::string_view("status"))
+          text += fmt::format(",{}", name(edp.bins[i].status));
+        else
+          text += fmt::format(",{}", cell(field.value(edp.bins[i])));
+      text += '\n';
+    }
+  return text;
+}
+
+std::string surface_csv(const Result& result) {
+  std::string text = "im,edp,capacity,probability,lower,upper,empirical,status\n";
+  for (const EdpResult& edp : result.edps)
+    for (std::size_t i = 0; i < edp.bins.size(); ++i)
+      for (std::size_t k = 0; k < edp.capacity.size(); ++k) {
+        const std::size_t at = i * edp.capacity.size() + k;
+        const fragility::Surface& surface = edp.surface;
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", cell(result.im_centre[i]), cell(edp.name),
+                            cell(edp.capacity[k]), cell(surface.probability[at]), cell(surface.lower[at]),
+                            cell(surface.upper[at]), cell(surface.empirical[at]), name(edp.bins[i].status));
+      }
+  return text;
+}
+
+}  // namespace freestand::io

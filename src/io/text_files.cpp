@@ -1,0 +1,91 @@
+#include "io/text_files.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "base/units.hpp"
+#include "io/fragility_file.hpp"
+
+namespace freestand::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json edp_summary(const fragility::EdpResult& edp) {
+  std::array<int, 4> bins{};
+  for (const fragility::BinFit& bin : edp.bins) ++bins[static_cast<std::size_t>(bin.status)];
+  Json json{{"unit", edp.unit}, {"kind", edp.binary ? "binary" : "continuous"}, {"bins", edp.bins.size()}};
+  for (std::size_t i = 0; i < bins.size(); ++i) json[name(static_cast<fragility::BinStatus>(i))] = bins[i];
+  if (edp.binary) return json;
+  const fragility::Regressions& found = edp.regressions;
+  json["regression"] = {{"n", found.n},
+                        {"slope", found.slope},
+                        {"slope_r2", found.slope_r2},
+                        {"sd_slope", found.sd_slope},
+                        {"cloud_intercept", found.cloud_intercept},
+                        {"cloud_slope", found.cloud_slope},
+                        {"cloud_sd", found.cloud_sd},
+                        {"cloud_r2", found.cloud_r2}};
+  return json;
+}
+
+Json provenance_json(const Provenance& from) {
+  return {{"version", from.version},   {"git_commit", from.git_commit},
+          {"compiler", from.compiler}, {"libraries", Json::parse(from.libraries, nullptr, false)},
+          {"host", from.host},         {"created_utc", from.created_utc},
+          {"command", from.command},   {"ranks", from.ranks}};
+}
+
+}  // namespace
+
+std::string history_csv(const History& history) {
+  std::string text = "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode\n";
+  for (const HistoryPoint& p : history.points)
+    text += fmt::format("{},{},{},{},{},{},{}\n", p.time_s, p.floor_acceleration_mps2, p.slip_m, p.slip_velocity_mps,
+                        p.rotation_rad, p.rotation_rate_radps, name(p.mode));
+  return text;
+}
+
+Json response_summary(const Response& response) {
+  return {{"peak_slip_m", response.peak_slip_m},
+          {"residual_slip_m", response.residual_slip_m},
+          {"slid_path_m", response.slid_path_m},
+          {"peak_rotation_rad", response.peak_rotation_rad},
+          {"overturned", response.outcome == Outcome::overturned},
+          {"outcome", name(response.outcome)},
+          {"peak_acceleration_g", response.peak_acceleration_mps2 / standard_gravity_mps2},
+          {"events", response.events},
+          {"impacts", response.impacts},
+          {"residual_rotation_rad", response.residual_rotation_rad},
+          {"end_time_s", response.end_time_s}};
+}
+
+Json fragility_summary(const Provenance& provenance, const fragility::Result& result) {
+  Json json{{"format", summary_format},
+            {"study_name", provenance.study_name},
+            {"samples", result.samples},
+            {"seed", provenance.seed}};
+  for (int i = 0; i < outcome_count; ++i)
+    json["outcomes"][name(static_cast<Outcome>(i))] = result.outcome_counts[static_cast<std::size_t>(i)];
+  json["im"] = result.im_name;
+  json["im_unit"] = result.im_unit;
+  json["outside_im"] = result.outside_im;
+  json["motions"] = result.motions;
+  json["edps"] = Json::object();
+  for (const fragility::EdpResult& edp : result.edps) json["edps"][edp.name] = edp_summary(edp);
+  const fragility::OverturningCurve& curve = result.overturning;
+  json["overturning"] = {{"median", curve.median},
+                         {"dispersion", curve.dispersion},
+                         {"median_se", curve.median_se},
+                         {"dispersion_se", curve.dispersion_se},
+                         {"penalised", curve.penalised}};
+  json["warnings"] = result.warnings;
+  json["provenance"] = provenance_json(provenance);
+  return json;
+}
+
+std::string json_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace freestand::io
