@@ -40,18 +40,18 @@ int MotionGroups::group(int motion, std::uint64_t sample) const {
 
 Resampling::Resampling(const MotionGroups& groups, const std::vector<bool>& has_samples, int resamples,
                        std::uint64_t seed)
-    : resamples_(resamples), groups_(static_cast<std::size_t>(groups.count())) {
-  weight_.assign(groups_ * static_cast<std::size_t>(resamples), 0);
+    : weight_(Eigen::MatrixXd::Zero(resamples, groups.count())) {
   const std::uint64_t stream = random::stable_hash("fragility/motions");
   const int borders[] = {0, groups.record_groups(), groups.count()};
   for (int stratum = 0; stratum < 2; ++stratum) {
-    std::vector<std::size_t> there;
+    std::vector<int> there;
     for (int g = borders[stratum]; g < borders[stratum + 1]; ++g)
-      if (has_samples[static_cast<std::size_t>(g)]) there.push_back(static_cast<std::size_t>(g));
-    for (std::size_t r = 0; r < static_cast<std::size_t>(resamples); ++r)
+      if (has_samples[static_cast<std::size_t>(g)]) there.push_back(g);
+    for (int r = 0; r < resamples; ++r)
       for (std::size_t k = 0; k < there.size(); ++k) {
-        const double u = random::uniform(seed, (r << 20) + k, stream + static_cast<std::uint64_t>(stratum));
-        ++weight_[r * groups_ + there[static_cast<std::size_t>(u * static_cast<double>(there.size()))]];
+        const std::uint64_t counter = (static_cast<std::uint64_t>(r) << 20) + k;
+        const double u = random::uniform(seed, counter, stream + static_cast<std::uint64_t>(stratum));
+        weight_(r, there[static_cast<std::size_t>(u * static_cast<double>(there.size()))]) += 1;
       }
   }
 }

@@ -2,6 +2,7 @@
 // resampling the motions, and everything they need is counted by group.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
@@ -36,15 +37,13 @@ class Resampling {
  public:
   Resampling(const MotionGroups& groups, const std::vector<bool>& has_samples, int resamples, std::uint64_t seed);
 
-  int resamples() const { return resamples_; }
-  double weight(int resample, int group) const {
-    return weight_[static_cast<std::size_t>(resample) * groups_ + static_cast<std::size_t>(group)];
-  }
+  int resamples() const { return static_cast<int>(weight_.rows()); }
+
+  // Quantities counted by group, [group, quantity] -> their totals in each resample, [resample, quantity].
+  Eigen::MatrixXd totals(const Eigen::MatrixXd& by_group) const { return weight_ * by_group; }
 
  private:
-  int resamples_;
-  std::size_t groups_;
-  std::vector<std::uint16_t> weight_;
+  Eigen::MatrixXd weight_;  // [resample, group]
 };
 
 }  // namespace freestand::fragility

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fragility/intervals.hpp"
 #include "fragility/overturning.hpp"
 
 namespace freestand::fragility {
@@ -8,40 +9,51 @@ namespace {
 
 constexpr int grid_points = 81;
 
-struct Cell {
-  double im;
-  std::vector<double> n, over;  // [group]
+struct Cells {
+  std::vector<double> im;
+  Eigen::MatrixXd n, over;  // [group, cell]
 };
 
-std::vector<Cell> cells_of(const Tally& tally) {
-  std::vector<Cell> cells;
-  const std::size_t groups = tally.layout().groups;
+Cells cells_of(const Tally& tally) {
+  const auto groups = static_cast<Eigen::Index>(tally.layout().groups);
+  const auto all = static_cast<Eigen::Index>(tally.layout().im_cell_count());
+  Cells cells{{}, Eigen::MatrixXd(groups, all), Eigen::MatrixXd(groups, all)};
+  Eigen::Index used = 0;
   for (std::size_t i = 0; i < tally.layout().im_cell_count(); ++i) {
     const ImCell total = tally.im_cell(i);
     const double im = total.n > 0 ? total.im_sum / static_cast<double>(total.n) : 0;
     if (!(im > 0)) continue;
-    Cell cell{im, std::vector<double>(groups), std::vector<double>(groups)};
-    for (std::size_t g = 0; g < groups; ++g) {
-      cell.n[g] = static_cast<double>(tally.im_cell_n(i, g));
-      cell.over[g] = static_cast<double>(tally.im_cell_over(i, g));
+    cells.im.push_back(im);
+    for (Eigen::Index g = 0; g < groups; ++g) {
+      cells.n(g, used) = static_cast<double>(tally.im_cell_n(i, static_cast<std::size_t>(g)));
+      cells.over(g, used) = static_cast<double>(tally.im_cell_over(i, static_cast<std::size_t>(g)));
     }
-    cells.push_back(std::move(cell));
+    ++used;
   }
+  cells.n.conservativeResize(groups, used);
+  cells.over.conservativeResize(groups, used);
   return cells;
 }
 
-template <class Weight>
-std::vector<OverturningPoint> weighted(const std::vector<Cell>& cells, Weight weight) {
+std::vector<OverturningPoint> points_of(const std::vector<double>& im, const Eigen::RowVectorXd& n,
+                                        const Eigen::RowVectorXd& over) {
   std::vector<OverturningPoint> points;
-  for (const Cell& cell : cells) {
-    OverturningPoint point{cell.im, 0, 0};
-    for (std::size_t g = 0; g < cell.n.size(); ++g) {
-      point.n += weight(g) * cell.n[g];
-      point.over += weight(g) * cell.over[g];
-    }
-    if (point.n > 0) points.push_back(point);
-  }
+  for (Eigen::Index i = 0; i < n.size(); ++i)
+    if (n(i) > 0) points.push_back({im[static_cast<std::size_t>(i)], n(i), over(i)});
   return points;
+}
+
+// The curve of one resample on the grid; 0 or 1 throughout where no sample, or every sample, of it overturned.
+void append_curve(const std::vector<OverturningPoint>& points, const std::vector<double>& grid,
+                  std::vector<std::vector<double>>& values) {
+  double n = 0, over = 0;
+  for (const auto& point : points) {
+    n += point.n;
+    over += point.over;
+  }
+  const OverturningFit fit = fit_overturning(points);
+  for (std::size_t i = 0; i < grid.size(); ++i)
+    values[i].push_back(over == 0 || over == n ? over / n : overturning_probability(fit, grid[i]));
 }
 
 // Equally spaced from the first positive edge (or a hundredth of the last) to the last edge.
@@ -57,8 +69,8 @@ std::vector<double> grid_of(const std::vector<double>& edge) {
 }  // namespace
 
 OverturningCurve overturning_curve(const Tally& tally, const Resampling& resampling) {
-  const std::vector<Cell> cells = cells_of(tally);
-  const OverturningFit fit = fit_overturning(weighted(cells, [](std::size_t) { return 1.0; }));
+  const Cells cells = cells_of(tally);
+  const OverturningFit fit = fit_overturning(points_of(cells.im, cells.n.colwise().sum(), cells.over.colwise().sum()));
   OverturningCurve curve;
   curve.median = fit.median;
   curve.dispersion = fit.dispersion;
@@ -72,11 +84,9 @@ OverturningCurve overturning_curve(const Tally& tally, const Resampling& resampl
   if (std::isnan(fit.median)) return curve;
 
   std::vector<std::vector<double>> values(points);
-  for (int r = 0; r < resampling.resamples(); ++r) {
-    const auto weight = [&](std::size_t g) { return resampling.weight(r, static_cast<int>(g)); };
-    const OverturningFit again = fit_overturning(weighted(cells, weight));
-    for (std::size_t i = 0; i < points; ++i) values[i].push_back(overturning_probability(again, curve.grid[i]));
-  }
+  const Eigen::MatrixXd n = resampling.totals(cells.n), over = resampling.totals(cells.over);
+  for (Eigen::Index r = 0; r < n.rows(); ++r)
+    append_curve(points_of(cells.im, n.row(r), over.row(r)), curve.grid, values);
   const std::vector<bool> there = tally.groups_with_samples();
   const int motions = static_cast<int>(std::count(there.begin(), there.end(), true));
   for (std::size_t i = 0; i < points; ++i) {

@@ -1,0 +1,110 @@
+#include "fragility/fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fragility/bin_fit.hpp"
+#include "fragility/histogram.hpp"
+#include "fragility/overturning.hpp"
+#include "fragility/regression.hpp"
+#include "fragility/surface.hpp"
+#include "fragility/warnings.hpp"
+
+namespace freestand::fragility {
+namespace {
+
+constexpr int cells_joined = 8;  // fine cells to one cell of the coarsened histogram
+
+Distribution coarsened(const Tally& tally, std::size_t edp) {
+  constexpr int cells = ln_cell_count / cells_joined + 1;
+  const std::size_t bins = tally.layout().bins;
+  std::vector<std::int64_t> all(bins * cells, 0);
+  int first = cells, last = -1;
+  for (std::size_t b = 0; b < bins; ++b) {
+    const auto fine = tally.histogram(edp, b);
+    for (int i = 0; i < static_cast<int>(fine.size()); ++i) {
+      const std::int64_t count = fine[static_cast<std::size_t>(i)];
+      if (count == 0) continue;
+      const int cell = i / cells_joined;
+      all[b * cells + static_cast<std::size_t>(cell)] += count;
+      first = std::min(first, cell);
+      last = std::max(last, cell);
+    }
+  }
+  Distribution result;
+  if (last < 0) return result;
+  for (int cell = first; cell <= last + 1; ++cell) result.ln_edge.push_back(ln_cell_edge(cell * cells_joined));
+  for (std::size_t b = 0; b < bins; ++b)
+    for (int cell = first; cell <= last; ++cell)
+      result.count.push_back(all[b * cells + static_cast<std::size_t>(cell)]);
+  return result;
+}
+
+EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resampling, EstimatedNull& null) {
+  const EdpOptions& options = tally.options().edps[e];
+  EdpResult result;
+  result.name = options.name;
+  result.unit = options.unit;
+  result.symbol = options.symbol;
+  result.binary = options.binary;
+  result.capacity = capacities(options);
+  result.bins = fit_bins(tally, e, null);
+  result.surface = surface(tally, e, resampling, result.bins);
+  for (std::size_t a = 0; a < tally.options().axes.size(); ++a)
+    result.axes.push_back(axis_surface(tally, e, a, resampling));
+  if (options.binary) return result;
+  result.distribution = coarsened(tally, e);
+  result.regressions = regressions(tally.regression(e), result.bins);
+  return result;
+}
+
+}  // namespace
+
+Result fit(const Tally& tally) {
+  EstimatedNull null(tally.options().seed);
+  return fit(tally, null);
+}
+
+Result fit(const Tally& tally, EstimatedNull& null) {
+  const Options& options = tally.options();
+  Result result;
+  result.im_name = options.im_name;
+  result.im_unit = options.im_unit;
+  result.im_edge = options.im_edge;
+  result.confidence = options.confidence;
+  for (std::size_t b = 0; b + 1 < options.im_edge.size(); ++b)
+    result.im_centre.push_back((options.im_edge[b] + options.im_edge[b + 1]) / 2);
+  for (int i = 0; i < outcome_count; ++i)
+    result.outcome_counts[static_cast<std::size_t>(i)] = tally.count_of(static_cast<Outcome>(i));
+  result.samples = tally.samples();
+  result.outside_im = tally.outside_im();
+  const std::vector<bool> there = tally.groups_with_samples();
+  result.motions = static_cast<int>(std::count(there.begin(), there.end(), true));
+
+  const Resampling resampling(tally.groups(), there, options.resamples, options.seed);
+  for (std::size_t e = 0; e < options.edps.size(); ++e) result.edps.push_back(fit_edp(tally, e, resampling, null));
+  result.overturning = overturning_curve(tally, resampling);
+  result.warnings = warnings(tally, result);
+  return result;
+}
+
+HalfWidth half_width(const Result& result) {
+  HalfWidth width;
+  for (const EdpResult& edp : result.edps)
+    for (std::size_t i = 0; i < edp.surface.probability.size(); ++i) {
+      const double half = (edp.surface.upper[i] - edp.surface.lower[i]) / 2;
+      if (std::isnan(half)) {
+        ++width.empty_points;
+        continue;
+      }
+      ++width.points;
+      if (half < width.largest) continue;
+      width.largest = half;
+      width.edp = edp.name;
+      width.im = result.im_centre[i / edp.capacity.size()];
+      width.capacity = edp.capacity[i % edp.capacity.size()];
+    }
+  return width;
+}
+
+}  // namespace freestand::fragility

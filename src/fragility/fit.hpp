@@ -1,0 +1,28 @@
+// From a tally to everything that is reported: fits per bin, goodness of fit, surfaces with bands, overturning curve.
+#pragma once
+
+#include <string>
+
+#include "fragility/goodness.hpp"
+#include "fragility/result.hpp"
+#include "fragility/tally.hpp"
+
+namespace freestand::fragility {
+
+// A pure function of the tally and its options (seed, resamples ...): the same bits every time. `null` only saves the
+// time of simulating the same test statistics again when fits are repeated; it must carry the seed of the options to
+// give the same.
+Result fit(const Tally& tally);
+Result fit(const Tally& tally, EstimatedNull& null);
+
+// How well the surfaces IM x C are known, for `until: {half_width: ...}`.
+struct HalfWidth {
+  double largest = 0;  // of (upper - lower)/2 over all points that have a band
+  std::string edp;     // where that is
+  double im = unknown, capacity = unknown;
+  int points = 0;        // that have a band
+  int empty_points = 0;  // that have none (too few samples, or too few motions)
+};
+HalfWidth half_width(const Result& result);
+
+}  // namespace freestand::fragility

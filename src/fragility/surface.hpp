@@ -1,0 +1,23 @@
+// Exceedance surfaces of one demand parameter, with bands from resampled motions.
+#pragma once
+
+#include <vector>
+
+#include "fragility/result.hpp"
+#include "fragility/tally.hpp"
+
+namespace freestand::fragility {
+
+// IM x C. A row is the three-part fit of its bin, or the plain fraction of samples above C where the bin has no fit or
+// (with Options::empirical_fallback) fails goodness of fit, or empty where it has too few samples. Also sets the
+// standard errors of the bins by resampling.
+//
+// Bands never claim to know more than the counts: a row of plain fractions is at least as wide as the exact binomial
+// interval, and a fitted row in which nothing overturned (or nothing stood still) carries the exact binomial limit for
+// that.
+Surface surface(const Tally& tally, std::size_t edp, const Resampling& resampling, std::vector<BinFit>& bins);
+
+// IM x axis x C, plain fractions.
+AxisSurface axis_surface(const Tally& tally, std::size_t edp, std::size_t axis, const Resampling& resampling);
+
+}  // namespace freestand::fragility

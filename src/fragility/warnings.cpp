@@ -1,0 +1,86 @@
+#include "fragility/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace freestand::fragility {
+namespace {
+
+constexpr int few_motions = 10;
+
+void about_outcomes(const Tally& tally, const Result& result, std::vector<std::string>& out) {
+  for (const Outcome outcome : {Outcome::painleve, Outcome::step_limit, Outcome::not_finite}) {
+    const std::int64_t count = tally.count_of(outcome);
+    if (count > 0)
+      out.push_back(fmt::format("{} of {} samples ended as {}; they enter no fit and no surface.", count,
+                                result.samples, name(outcome)));
+  }
+  if (result.outside_im > 0)
+    out.push_back(fmt::format("{} of {} samples have an IM ({}) outside the bins, {:g} to {:g}, and are left out.",
+                              result.outside_im, result.samples, result.im_name, result.im_edge.front(),
+                              result.im_edge.back()));
+  for (std::size_t e = 0; e < tally.options().edps.size(); ++e)
+    if (tally.missing(e) > 0)
+      out.push_back(fmt::format("{} samples have no value of {} and are left out of it.", tally.missing(e),
+                                tally.options().edps[e].name));
+}
+
+void about_motions(const Tally& tally, const Result& result, std::vector<std::string>& out) {
+  const int records = tally.groups().records();
+  if (records == 1)
+    out.push_back(
+        "There is only one record: the bands say how well the answer for this record is known, and nothing about how "
+        "much "
+        "other records would differ.");
+  else if (records > 0 && result.motions < few_motions)
+    out.push_back(
+        fmt::format("The samples come from only {} motions: bands from resampling so few are rough.", result.motions));
+}
+
+void about_bins(const EdpResult& edp, const Options& options, std::vector<std::string>& out) {
+  int too_few = 0, rejected = 0;
+  double worst = 0;
+  for (const BinFit& bin : edp.bins) {
+    if (bin.status == BinStatus::too_few) ++too_few;
+    if (bin.status != BinStatus::rejected) continue;
+    ++rejected;
+    worst = std::max(worst, bin.ks_statistic);
+  }
+  if (too_few > 0)
+    out.push_back(fmt::format("{}: {} of {} bins hold fewer than {} samples and are left empty.", edp.name, too_few,
+                              edp.bins.size(), options.minimum_samples));
+  if (rejected > 0)
+    out.push_back(
+        fmt::format("{}: the lognormal fails goodness of fit in {} of {} bins (its probabilities are off by up to "
+                    "{:.3f}); {}.",
+                    edp.name, rejected, edp.bins.size(), worst,
+                    options.empirical_fallback ? "these rows are the empirical ones" : "these rows are still the fit"));
+}
+
+void about_overturning(const Tally& tally, const Result& result, std::vector<std::string>& out) {
+  const std::int64_t over = tally.count_of(Outcome::overturned);
+  if (over == 0) return;
+  if (result.overturning.penalised && !std::isnan(result.overturning.median))
+    out.push_back(
+        "One intensity parts all samples that overturned from all that stood: the overturning curve is a penalised "
+        "estimate.");
+  if (std::isnan(result.overturning.median))
+    out.push_back(
+        "Samples overturned, but not more often at higher intensity, or all of them did: there is no overturning "
+        "curve.");
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const Tally& tally, const Result& result) {
+  std::vector<std::string> out;
+  about_outcomes(tally, result, out);
+  about_motions(tally, result, out);
+  for (const EdpResult& edp : result.edps) about_bins(edp, tally.options(), out);
+  about_overturning(tally, result, out);
+  return out;
+}
+
+}  // namespace freestand::fragility
