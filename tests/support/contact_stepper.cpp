@@ -23,11 +23,11 @@ struct Arm {  // from the centre of mass to a corner
   double x = 0, y = 0;
 };
 
-// Vector fixed in the body, turned clockwise by theta.
-Arm turned(double x, double y, double theta) {
-  const double c = std::cos(theta), s = std::sin(theta);
-  return {x * c + y * s, -x * s + y * c};
-}
+struct Turn {  // clockwise by theta
+  double c = 1, s = 0;
+  Arm operator()(double x, double y) const { return {x * c + y * s, -x * s + y * c}; }
+};
+Turn turn(double theta) { return theta == 0 ? Turn{} : Turn{std::cos(theta), std::sin(theta)}; }
 
 double slip_speed(const Velocity& v, const Arm& r) { return v.x + v.q * r.y; }
 double lift_speed(const Velocity& v, const Arm& r) { return v.y - v.q * r.x; }
@@ -91,39 +91,51 @@ bool solve_both(const Contacts& c, const Velocity& v, double height, Grip grip, 
   return true;
 }
 
-}  // namespace
-
 // The block, its state, and one step.
-namespace {
 class Stepper {
  public:
-  Stepper(const Specimen& specimen, double dt)
-      : block_(specimen.block), friction_(specimen.friction), dt_(dt), pose_{0, specimen.block.height_m, 0} {}
+  explicit Stepper(const Specimen& specimen)
+      : block_(specimen.block), friction_(specimen.friction), pose_{0, specimen.block.height_m, 0} {}
 
-  bool step(const FloorAcceleration& a);
+  // One step. False: no case is consistent.
+  bool step(const FloorAcceleration& a, double dt);
+
   double slip() const {
-    const Arm middle = turned(0.5 * (block_.right_m - block_.left_m), -block_.height_m, pose_.theta);
-    return pose_.x + middle.x - 0.5 * (block_.right_m - block_.left_m);
+    const double middle = 0.5 * (block_.right_m - block_.left_m);
+    return pose_.x + turn_(middle, -block_.height_m).x - middle;
   }
   const Pose& pose() const { return pose_; }
   const Velocity& velocity() const { return velocity_; }
   bool closed(Corner k) const { return closed_[k]; }
-  Grip grip() const { return grip_; }
+  bool slips() const { return grip_ == Grip::to_left || grip_ == Grip::to_right; }
+  bool flies() const { return grip_ == Grip::none; }
   double contact_speed() const { return contact_speed_; }
   double closing_speed() const { return closing_speed_; }  // of the corner that closed in the last step, 0: none
 
  private:
-  Arm arm(Corner k, double theta) const {
-    return turned(k == left ? -block_.left_m : block_.right_m, -block_.height_m, theta);
+  Arm arm(Corner k, const Turn& turned) const {
+    return turned(k == left ? -block_.left_m : block_.right_m, -block_.height_m);
+  }
+  double gap(Corner k) const { return pose_.y + arm(k, turn_).y; }
+  Velocity freely(const FloorAcceleration& a, double dt) const {  // what the velocity becomes without contact
+    return {velocity_.x - dt * a.horizontal_mps2, velocity_.y - dt * (standard_gravity_mps2 + a.vertical_mps2),
+            velocity_.q};
+  }
+  Contacts contacts(const Velocity& free, double dt) const;
+  bool closes(const Contacts& c, Corner k) const {
+    return c.near[k] && !closed_[k] && lift_speed(velocity_, c.stop[k]) < 0;
   }
   bool attempt(const Contacts& c, const Velocity& free, bool with_left, bool with_right, Grip grip);
   bool choose(const Contacts& c, const Velocity& free, bool closing);
+  bool advance(const Contacts& c, const Velocity& free, double dt, bool closing);
+  double advance_until(const FloorAcceleration& a, double dt, const std::function<bool(const Stepper&)>& too_far);
+  void collide(const std::array<bool, 2>& closing);
   void put_back(const std::array<double, 2>& corner_x);
 
   Block block_;
   Friction friction_;
-  double dt_;
   Pose pose_;
+  Turn turn_;  // by pose_.theta
   Velocity velocity_;
   std::array<bool, 2> closed_{true, true};
   Grip grip_ = Grip::stuck;
@@ -184,48 +196,117 @@ bool Stepper::choose(const Contacts& c, const Velocity& free, bool closing) {
 }
 
 void Stepper::put_back(const std::array<double, 2>& corner_x) {
-  if (!closed_[left] && !closed_[right]) return;
   if (closed_[left] && closed_[right]) pose_.theta = 0;
+  turn_ = turn(pose_.theta);
+  if (!closed_[left] && !closed_[right]) return;
   const Corner k = closed_[left] ? left : right;
-  const Arm r = arm(k, pose_.theta);
+  const Arm r = arm(k, turn_);
   pose_.y = -r.y;
   if (grip_ == Grip::stuck) pose_.x = corner_x[k] - r.x;
 }
 
-bool Stepper::step(const FloorAcceleration& a) {
+Contacts Stepper::contacts(const Velocity& free, double dt) const {
   Contacts c;
   c.gyration2 = block_.gyration2_m2;
-  std::array<double, 2> corner_x{};
-  bool closing = false;
-  closing_speed_ = 0;
-  const double middle = pose_.theta + 0.5 * dt_ * velocity_.q, end = pose_.theta + dt_ * velocity_.q;
-  const Velocity free{velocity_.x - dt_ * a.horizontal_mps2,
-                      velocity_.y - dt_ * (standard_gravity_mps2 + a.vertical_mps2), velocity_.q};
+  const Turn middle = turn(pose_.theta + 0.5 * dt * velocity_.q), end = turn(pose_.theta + dt * velocity_.q);
   for (Corner k : {left, right}) {
-    corner_x[k] = pose_.x + arm(k, pose_.theta).x;
     c.push[k] = arm(k, middle);
     c.stop[k] = arm(k, end);
-    c.near[k] = closed_[k] || pose_.y + dt_ * free.y + c.stop[k].y <= 0;
-    const double closing_speed = -lift_speed(velocity_, c.stop[k]);
-    if (c.near[k] && !closed_[k] && closing_speed > 0) {
-      closing = true;
-      closing_speed_ = std::max(closing_speed_, closing_speed);
-      corner_x[k] += 0.5 * dt_ * slip_speed(velocity_, c.stop[k]);
-    }
+    c.near[k] = closed_[k] || pose_.y + dt * free.y + c.stop[k].y <= 0;
+  }
+  return c;
+}
+
+bool Stepper::advance(const Contacts& c, const Velocity& free, double dt, bool closing) {
+  std::array<double, 2> corner_x{};
+  for (Corner k : {left, right}) {
+    corner_x[k] = pose_.x + arm(k, turn_).x;
+    if (closes(c, k)) corner_x[k] += 0.5 * dt * slip_speed(velocity_, c.stop[k]);
   }
   const Velocity before = velocity_;
   if (!choose(c, free, closing)) return false;
-  pose_.x += 0.5 * dt_ * (before.x + velocity_.x);
-  pose_.y += 0.5 * dt_ * (before.y + velocity_.y);
-  pose_.theta += 0.5 * dt_ * (before.q + velocity_.q);
+  pose_.x += 0.5 * dt * (before.x + velocity_.x);
+  pose_.y += 0.5 * dt * (before.y + velocity_.y);
+  pose_.theta += 0.5 * dt * (before.q + velocity_.q);
   put_back(corner_x);
   return true;
+}
+
+// Follows the motion, corners that close left out, as long as `too_far` does not hold, at most dt. Returns the time
+// gone.
+double Stepper::advance_until(const FloorAcceleration& a, double dt,
+                              const std::function<bool(const Stepper&)>& too_far) {
+  const Stepper start = *this;
+  double low = 0, high = dt;
+  for (int i = 0; i < 40; ++i) {
+    const double part = 0.5 * (low + high);
+    Stepper trial = start;
+    const Velocity free = start.freely(a, part);
+    Contacts c = start.contacts(free, part);
+    c.near = start.closed_;
+    if (!trial.advance(c, free, part, false) || too_far(trial)) {
+      high = part;
+      continue;
+    }
+    low = part;
+    *this = trial;
+  }
+  return low;
+}
+
+// A step in which a corner meets the floor is cut at that instant: up to it without the corner, then an impact of no
+// duration, then the rest. So is one in which friction falls from mu_s to mu_k. After a few cuts (rattling) the rest is
+// done in one go, the corner closing in it.
+bool Stepper::step(const FloorAcceleration& a, double dt) {
+  closing_speed_ = 0;
+  const bool falls = friction_.mu_s > friction_.mu_k;
+  for (int cut = 0; cut < 4 && dt > 1e-12; ++cut) {
+    const Velocity free = freely(a, dt);
+    const Contacts c = contacts(free, dt);
+    const std::array<bool, 2> closing{closes(c, left), closes(c, right)};
+    if (closing[left] || closing[right]) {
+      for (Corner k : {left, right})
+        if (closing[k]) closing_speed_ = std::max(closing_speed_, -lift_speed(velocity_, c.stop[k]));
+      dt -= advance_until(a, dt, [&](const Stepper& trial) {
+        return (closing[left] && trial.gap(left) < 0) || (closing[right] && trial.gap(right) < 0);
+      });
+      collide(closing);
+      continue;
+    }
+    const Stepper start = *this;
+    if (!advance(c, free, dt, false)) return false;
+    if (!falls || start.grip_ != Grip::stuck || !slips()) return true;
+    Stepper onset = start;
+    const double gone = onset.advance_until(a, dt, [](const Stepper& trial) { return trial.slips(); });
+    if (gone < 1e-12) return true;
+    *this = onset;
+    dt -= gone;
+  }
+  if (dt <= 1e-12) return true;
+  const Velocity free = freely(a, dt);
+  const Contacts c = contacts(free, dt);
+  return advance(c, free, dt, closes(c, left) || closes(c, right));
+}
+
+// Impact of the corners that are about to close; nothing moves in it.
+void Stepper::collide(const std::array<bool, 2>& closing) {
+  Contacts c = contacts(velocity_, 0);
+  c.push = c.stop;
+  std::array<double, 2> corner_x{};
+  bool any = false;
+  for (Corner k : {left, right}) {
+    corner_x[k] = pose_.x + c.stop[k].x;
+    const bool meets = closing[k] && !closed_[k] && gap(k) < 1e-12 && lift_speed(velocity_, c.stop[k]) < 0;
+    c.near[k] = closed_[k] || meets;
+    any = any || meets;
+  }
+  if (any && choose(c, velocity_, true)) put_back(corner_x);
 }
 
 }  // namespace
 
 StepperResult step_contacts(const Specimen& specimen, const FloorAt& floor, const StepperSettings& settings) {
-  Stepper stepper(specimen, settings.step_s);
+  Stepper stepper(specimen);
   StepperResult result;
   const auto steps = static_cast<long>(std::llround(settings.end_time_s / settings.step_s));
   const auto stride = std::max(1L, std::lround(settings.output_step_s / settings.step_s));
@@ -238,13 +319,13 @@ StepperResult step_contacts(const Specimen& specimen, const FloorAt& floor, cons
     result.peak_rotation_rad = std::max(result.peak_rotation_rad, std::abs(theta));
     result.overturned = std::abs(theta) > 0.5 * pi;
     if (result.overturned || i == steps) break;
-    if (!stepper.step(floor(t + 0.5 * settings.step_s))) {
+    if (!stepper.step(floor(t + 0.5 * settings.step_s), settings.step_s)) {
       result.inconsistent = true;
       break;
     }
-    const bool slips = stepper.grip() == Grip::to_left || stepper.grip() == Grip::to_right;
+    const bool slips = stepper.slips();
     result.slid_path_m += std::abs(stepper.contact_speed()) * settings.step_s;
-    result.flew = result.flew || stepper.grip() == Grip::none;
+    result.flew = result.flew || stepper.flies();
     result.slide_rocked = result.slide_rocked || (slips && stepper.closed(left) != stepper.closed(right));
     result.impacts += stepper.closing_speed() > 1e-3 ? 1 : 0;
     result.slipping_impact = result.slipping_impact || (slips && stepper.closing_speed() > 1e-2);

@@ -9,18 +9,14 @@
 // (Moreau 1988, Stewart & Trinkle 1996). The problem has at most two corners; it is solved exactly by trying the cases
 // {no corner, left, right, both} x {stick, slip to the right, slip to the left} and taking the consistent one.
 // J is taken at the middle of the step for the impulses and at its end for the velocities, so smooth motion is followed
-// to second order in dt; impacts and jumps of the floor acceleration are resolved to one step, so the whole is of first
-// order. A corner that carries is put back on the floor after each step, one that sticks is put back to where it stuck.
+// to second order in dt. A step in which a corner meets the floor, or friction falls from mu_s to mu_k, is cut there.
+// A corner that carries is put back on the floor after each step, one that sticks is put back to where it stuck.
 //
 // Static friction above kinetic friction (mu_s > mu_k), stated since Coulomb's law with two coefficients has no unique
-// form:
-//   * a contact that stuck, or that closes in this step (an impact), tries to stick with mu_s first, then slips with
-//   mu_k;
-//   * a contact that slipped goes on slipping with mu_k in its direction while that is consistent; when it would
-//   reverse
-//     it tries to stick with mu_s, and reverses with mu_k otherwise.
-// Both corners closed and stuck: only the sum of the two friction forces is determined, and it is bounded by mu_s times
-// the sum of the normal forces.
+// form. A contact that stuck, or that closes in this step (an impact), tries to stick with mu_s first, then slips with
+// mu_k. A contact that slipped goes on slipping with mu_k in its direction while that is consistent; when it would
+// reverse it tries to stick with mu_s, and reverses with mu_k otherwise. Both corners closed and stuck: only the sum of
+// the two friction forces is determined, and it is bounded by mu_s times the sum of the normal forces.
 //
 // Impact law: the `coulomb` one, always; Specimen::impact and Specimen::model are not read.
 #pragma once
