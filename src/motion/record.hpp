@@ -11,11 +11,12 @@ namespace freestand::motion {
 
 // What the user says about a record. A file that says otherwise is an error: nothing is overridden silently.
 struct ReadOptions {
-  std::optional<double> dt_s;  // time step; needed by plain one-column files
-  std::string unit;            // "g", "m/s2", "cm/s2" (or "gal"), "mm/s2", "in/s2", "ft/s2"; needed by plain files
-  std::string format;          // name of a format; empty: found from the content
-  std::string channel;  // of files that hold several: its number ("2") or name ("H1"); empty: the first horizontal one
-  std::string vertical_file;  // record of the vertical component, same step; the shorter of the two ends at rest
+  std::optional<double> dt_s = {};  // time step; needed by plain one-column files
+  std::string unit = {};            // "g", "m/s2", "cm/s2" (or "gal"), "mm/s2", "in/s2", "ft/s2"; needed by plain files
+  std::string format = {};          // name of a format; empty: found from the content
+  std::string channel =
+      {};  // of files that hold several: its number ("2") or name ("H1"); empty: the first horizontal one
+  std::string vertical_file = {};  // record of the vertical component, same step; the shorter of the two ends at rest
 };
 
 // Reads a record. The motion's name is the path as given. Files that hold a vertical channel beside the horizontal one

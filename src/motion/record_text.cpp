@@ -177,6 +177,16 @@ void RecordText::uneven(const std::vector<double>& times, const std::vector<std:
                    steps[worst], usual));
 }
 
+std::size_t column_width(std::string_view fortran) {
+  for (std::size_t i = 0; i + 1 < fortran.size(); ++i) {
+    if (std::string_view("fegiFEGI").find(fortran[i]) == std::string_view::npos) continue;
+    std::size_t width = 0;
+    const char* digits = fortran.data() + i + 1;
+    if (std::from_chars(digits, fortran.data() + fortran.size(), width).ec == std::errc()) return width;
+  }
+  return 0;
+}
+
 std::string_view trim(std::string_view text) {
   const std::size_t begin = std::min(text.find_first_not_of(blanks), text.size());
   text.remove_prefix(begin);

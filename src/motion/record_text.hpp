@@ -57,6 +57,9 @@ class RecordText {
   std::vector<std::string_view> lines_;
 };
 
+// Width of the columns that a Fortran format such as "(8f10.6)" or "8(1PE10.4)" describes; 0 where there is none.
+std::size_t column_width(std::string_view fortran);
+
 // Text without blanks at both ends; parts of a text between separators; equality whatever the case.
 std::string_view trim(std::string_view text);
 std::vector<std::string_view> split(std::string_view text, std::string_view separators);

@@ -14,7 +14,7 @@ namespace freestand::motion {
 struct SummaryRequest {
   bool pulse = false;  // identify the pulse of a record (needed by pulse_frequency_radps)
   bool housner = false;
-  std::vector<double> sa_period_s;  // spectral accelerations, 5 % damping
+  std::vector<double> sa_period_s = {};  // spectral accelerations, 5 % damping
 };
 
 // All of the motion as it stands: scale 1, stretch 1.

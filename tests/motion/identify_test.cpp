@@ -94,8 +94,7 @@ TEST(PulseFrequency, OfPulsesIsTheirOwnAndOfRecordsThatOfTheFit) {
   EXPECT_DOUBLE_EQ(pulse_frequency_radps(summarize(pulse), {&table, 3.0, 0.25, 0.0}), 8 * std::numbers::pi);
   const FloorMotion record = record_with({"B", 0.5, 1, 3});
   const Shaking shaking{&record, 2.0, 1.0, 0.0};
-  EXPECT_NEAR(pulse_frequency_radps(summarize(record, {.pulse = true, .housner = false, .sa_period_s = {}}), shaking),
-              4 * std::numbers::pi, 0.1);
+  EXPECT_NEAR(pulse_frequency_radps(summarize(record, {.pulse = true}), shaking), 4 * std::numbers::pi, 0.1);
   EXPECT_TRUE(std::isnan(pulse_frequency_radps(summarize(record), shaking)));
 }
 

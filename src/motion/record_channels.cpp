@@ -1,0 +1,40 @@
+#include "motion/record_channels.hpp"
+
+#include <fmt/format.h>
+
+namespace freestand::motion {
+namespace {
+
+bool starts_with(const std::string& text, std::initializer_list<const char*> beginnings) {
+  for (const char* beginning : beginnings)
+    if (text.rfind(beginning, 0) == 0) return true;
+  return false;
+}
+
+bool is_downward(const std::string& name) { return starts_with(lower_case(name), {"down", "dn", "dwn"}); }
+
+}  // namespace
+
+RawChannel named_channel(const std::string& name) {
+  return {
+      name, is_downward(name) || starts_with(lower_case(name), {"up", "vert", "v "}) || lower_case(name) == "v", {}};
+}
+
+std::vector<double> oriented(const RawChannel& channel, std::vector<double> values) {
+  if (is_downward(channel.name))
+    for (double& value : values) value = -value;
+  return values;
+}
+
+void agree(const RecordText& text, std::size_t line, RawRecord& record, double dt_s, const std::string& unit) {
+  if (record.channels.empty()) {
+    record.dt_s = dt_s;
+    record.unit = unit;
+  }
+  if (*record.dt_s != dt_s || record.unit != unit)
+    text.fail(line,
+              fmt::format("a channel with another step or unit ({} s, {}) than the first ({} s, {}): split the file",
+                          dt_s, unit, *record.dt_s, record.unit));
+}
+
+}  // namespace freestand::motion
