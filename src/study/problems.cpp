@@ -23,6 +23,7 @@ constexpr std::array<Suffix, 23> suffixes = {{
 }};
 
 const Suffix* suffix_of(std::string_view name) {
+  if (name == "mu_s" || name.ends_with(".mu_s")) return nullptr;  // s for static
   for (const auto& s : suffixes)
     if (name.size() > s.suffix.size() && name.ends_with(s.suffix)) return &s;
   return nullptr;
@@ -67,6 +68,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   int least = std::max(1, static_cast<int>(word.size()) / 3) + 1;
   std::string found;
   for (const auto& candidate : candidates) {
+    if (without_unit(candidate) == word) return candidate;
     const int distance = edit_distance(word, candidate);
     if (distance < least) {
       least = distance;

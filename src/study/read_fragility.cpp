@@ -159,6 +159,7 @@ std::vector<CapacitiesPart> read_capacities(Section& section, const Known& known
 
 void check_axis(Section& section, const std::string& key, const std::string& name,
                 const std::vector<AxisChoice>& choices) {
+  if (choices.empty()) return;
   const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.name == name; });
   if (found == choices.end()) {
     std::vector<std::string> names;

@@ -24,10 +24,11 @@ void out_of_place(Section& section, const std::vector<std::string>& keys, const 
           key, fmt::format("{} does not go with {} (it has no meaning there): remove it", section.name(key), with));
 }
 
-void check_pulse_names(Section& section, const sampling::Names& names) {
-  for (const auto& name : names.values) {
+// Checks the names and gives each the form that the pulse itself has (c1 -> C1).
+void settle_pulse_names(Section& section, sampling::Names& names) {
+  for (auto& name : names.values) {
     try {
-      motion::find_pulse(name);
+      name = motion::find_pulse(name).name;
     } catch (const Error& error) {
       section.problem("pulse", section.name("pulse") + ": " + error.what());
     }
@@ -39,7 +40,7 @@ void read_pulses(Section& section, MotionSource& source) {
   if (const auto names =
           read_names(*section.find("pulse"), section.name("pulse"), section.line("pulse"), section.problems())) {
     source.pulses = *names;
-    check_pulse_names(section, *names);
+    settle_pulse_names(section, source.pulses);
   }
   source.period = section.quantity("motion", "period_s", period_range);
   const auto acceleration = section.quantity("motion", "peak_acceleration_g", range::any);
@@ -125,12 +126,12 @@ MotionSource read_source(Section& section, const std::string& file_key, const st
     read_pulses(section, source);
   else if (file)
     read_records(section, source, file_key, vertical_key, folder, look);
-  else {
-    section.problem(
-        "pulse", fmt::format("{} names no motion (neither pulse nor {}): add one of them", section.name(""), file_key));
-    out_of_place(section, {}, "");
-    return source;
-  }
+  else
+    section.problem("pulse",
+                    fmt::format("a motion has neither pulse nor {} (nothing would shake): add one of them", file_key));
+  if (pulse == file)
+    for (const auto& keys : {pulse_keys, record_keys, {"scale"}})
+      for (const auto& key : keys) section.find(key);
   section.finish();
   return source;
 }
@@ -168,6 +169,8 @@ MotionSource read_motion(Section& file, const std::filesystem::path& folder) {
   Section section(*node, "motion", file.line("motion"), file.problems());
   if (!node->IsMap()) return {};
   MotionSource source = read_source(section, "file", "vertical_file", folder, Files::look);
+  if (source.pulses.values.size() > 1)
+    section.problem("pulse", "motion.pulse is a list (a case is one sample): name one pulse");
   if (source.files.size() > 1)
     section.problem("file",
                     fmt::format("motion.file matches {} files (a case has one motion): name one", source.files.size()));

@@ -22,7 +22,7 @@ struct AxisChoice {
 };
 std::vector<AxisChoice> axis_choices(const ModelPart&, const std::vector<MotionSource>&);
 
-// `fragility`, defaults where it is absent.
+// `fragility`, defaults where it is absent. No choices: axes are not checked.
 FragilityPart read_fragility(Section& file, const Known&, const std::vector<AxisChoice>&);
 
 // The mapping of the file, or nothing (syntax errors and empty files are problems).

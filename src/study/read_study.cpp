@@ -79,7 +79,7 @@ void read_design(Section& file, Study& study) {
 void refuse_distributions(const Study& study, Problems& problems) {
   const auto check = [&](const std::optional<Quantity>& q) {
     if (q && !is_fixed(q->value))
-      problems.add(0, fmt::format("{} is a distribution (a case is one sample): give a number", q->name));
+      problems.add(q->line, fmt::format("{} is a distribution (a case is one sample): give a number", q->name));
   };
   const ModelPart& m = study.model;
   for (const auto& q : {m.block.width, m.block.height, m.block.slenderness, m.block.size}) check(q);
@@ -91,8 +91,6 @@ void refuse_distributions(const Study& study, Problems& problems) {
   for (const auto& source : study.motions) {
     check(source.amplitude);
     check(source.period);
-    if (source.pulses.values.size() > 1)
-      problems.add(0, "motion.pulse is a list (a case is one sample): name one pulse");
   }
 }
 
@@ -121,7 +119,9 @@ Study parse_study(const std::string& text, const std::filesystem::path& path, co
     read_common(file, path, study);
     read_design(file, study);
     study.motions = read_motions(file, path.parent_path(), look);
-    study.fragility = read_fragility(file, known, axis_choices(study.model, study.motions));
+    // What the study draws is known only when its parts are sound.
+    const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
+    study.fragility = read_fragility(file, known, choices);
     file.finish();
   }
   problems.throw_if_any();

@@ -109,10 +109,11 @@ std::uint64_t Section::integer(const std::string& key, std::uint64_t fallback, s
                                std::uint64_t greatest) {
   const YAML::Node* node = find(key);
   if (!node) return fallback;
-  const auto value = node->IsScalar() ? integer_of(node->Scalar()) : std::nullopt;
+  const auto value = integer_of(node->IsScalar() ? node->Scalar() : "");
   if (value && *value >= least && *value <= greatest) return *value;
   const std::string given = node->IsScalar() ? node->Scalar() : kind_of(*node);
-  const std::string wanted = greatest == std::numeric_limits<std::int64_t>::max()
+  const bool too_many = value.value_or(0) > greatest;
+  const std::string wanted = !too_many && greatest > 1000000
                                  ? fmt::format("a whole number of at least {}", least)
                                  : fmt::format("a whole number from {} to {}", least, greatest);
   problem(key, fmt::format("{} is {} ({} is needed): correct it", name(key), given, wanted));
@@ -170,7 +171,7 @@ std::optional<Quantity> Section::quantity(const std::string& prefix, const std::
   const auto value = read_distribution(*node, name(key), line(key), problems_);
   if (!value) return {};
   check_range(*value, range, name(key), line(key), problems_);
-  return Quantity{prefix + "." + key, unit_of(key), *value};
+  return Quantity{prefix + "." + key, unit_of(key), *value, line(key)};
 }
 
 Quantity Section::quantity(const std::string& prefix, const std::string& key, const Range& range, double fallback) {

@@ -20,6 +20,7 @@ struct Quantity {
   std::string name;
   std::string unit;
   sampling::Distribution value;
+  int line = 0;  // of the study file, for messages; 0: a default
 };
 
 // Either width and height, or slenderness alpha = atan(W/H) and size R = half the diagonal.

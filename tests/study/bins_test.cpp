@@ -1,0 +1,60 @@
+#include "study/bins.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+
+namespace freestand::study {
+namespace {
+
+using testing::DoubleEq;
+using testing::ElementsAre;
+
+const double inf = std::numeric_limits<double>::infinity(), nan = std::nan("");
+
+TEST(Bins, GivenEdgesStayAsTheyAre) {
+  EXPECT_THAT(bin_edges({{1, 2, 5}, 0, 0, Spacing::equal_count}, {}), ElementsAre(1, 2, 5));
+}
+
+TEST(Bins, EqualWidthAndLogSpanTheValues) {
+  EXPECT_THAT(bin_edges({{}, 0, 4, Spacing::equal_width}, {3, 1, nan, 5, inf}), ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_THAT(bin_edges({{}, 0, 2, Spacing::log}, {0.01, 100, 0, -4}), ElementsAre(0.01, DoubleEq(1), 100));
+}
+
+TEST(Bins, WidthGivesMultiplesThatEncloseEverything) {
+  EXPECT_THAT(bin_edges({{}, 0.5, 0, Spacing::equal_count}, {0.6, 1.9, -0.2}), ElementsAre(-0.5, 0, 0.5, 1, 1.5, 2));
+  EXPECT_THROW(bin_edges({{}, 1e-12, 0, Spacing::equal_count}, {0, 1}), Error);
+}
+
+TEST(Bins, EqualCountPutsAsManyIntoEach) {
+  std::vector<double> values;
+  for (int i = 0; i < 1000; ++i) values.push_back(std::exp(0.01 * ((i * 617) % 1000)));
+  const auto edges = bin_edges({{}, 0, 8, Spacing::equal_count}, values);
+  ASSERT_EQ(edges.size(), 9U);
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i)
+    EXPECT_EQ(std::count_if(values.begin(), values.end(),
+                            [&](double x) { return x >= edges[i] && (x < edges[i + 1] || (i == 7 && x == edges[8])); }),
+              125);
+}
+
+TEST(Bins, RepeatedValuesGiveFewerBinsAndIncreasingEdges) {
+  const auto edges = bin_edges({{}, 0, 10, Spacing::equal_count}, {1, 1, 1, 1, 1, 1, 2, 2, 2, 3});
+  EXPECT_EQ(std::adjacent_find(edges.begin(), edges.end(), std::greater_equal<>()), edges.end());
+  EXPECT_EQ(edges.front(), 1);
+  EXPECT_EQ(edges.back(), 3);
+  const auto alike = bin_edges({{}, 0, 5, Spacing::equal_width}, {7, 7, 7});
+  ASSERT_EQ(alike.size(), 2U);
+  EXPECT_LT(alike[0], 7);
+  EXPECT_GT(alike[1], 7);
+}
+
+TEST(Bins, NothingToBinIsAnError) {
+  EXPECT_THROW(bin_edges({{}, 0, 5, Spacing::equal_width}, {nan, inf}), Error);
+  EXPECT_THROW(bin_edges({{}, 0, 5, Spacing::log}, {-1, 0}), Error);
+}
+
+}  // namespace
+}  // namespace freestand::study

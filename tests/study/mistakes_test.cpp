@@ -1,0 +1,217 @@
+// Bad study files: what is said about them, and where.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "study_text.hpp"
+
+namespace freestand::study {
+namespace {
+
+using namespace test;
+using testing::HasSubstr;
+
+const std::string rest = friction + motions + fragility + samples;  // all but the block
+const std::string sound = block + rest;
+
+struct Mistake {
+  std::string text;  // of the whole file
+  const char* line;  // "some.yaml:LINE:"
+  const char* says;
+};
+
+std::string with_block(const std::string& text) { return "block: " + text + "\n" + rest; }
+std::string with_friction(const std::string& text) {
+  return block + "friction: " + text + "\n" + motions + fragility + samples;
+}
+std::string with_motion(const std::string& text) {
+  return block + friction + "motions: [" + text + "]\n" + fragility + samples;
+}
+std::string with_fragility(const std::string& text) {
+  return block + friction + motions + samples + "fragility: " + text + "\n";
+}
+
+void expect_each(const std::vector<Mistake>& mistakes) {
+  for (const auto& [text, line, says] : mistakes) {
+    const std::string found = problems(text);
+    EXPECT_THAT(found, HasSubstr(std::string("folder/some.yaml:") + line + ": ")) << text;
+    EXPECT_THAT(found, HasSubstr(says)) << text;
+    EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), 0) << "more than one problem in:\n" << text << found;
+    EXPECT_THAT(found, testing::MatchesRegex(".+:[0-9]+: .+ \\(.+\\): .+")) << text;
+  }
+}
+
+TEST(StudyMistakes, TheSoundStudyHasNone) { EXPECT_EQ(problems(sound), ""); }
+
+TEST(StudyMistakes, InTheBlock) {
+  expect_each({
+      {rest, "1", "block is missing"},
+      {with_block("0.6"), "1", "block is a single value"},
+      {with_block("{width: 0.6, height_m: 1.8, width_m: 0.6}"), "1", "key width in block has no unit"},
+      {with_block("{width_mm: 600, height_m: 1.8, width_m: 0.6}"), "1", "another unit (freestand reads SI, here m)"},
+      {with_block("{widht_m: 0.6, height_m: 1.8, width_m: 0.6}"), "1", "did you mean width_m?"},
+      {with_block("{colour: red, height_m: 1.8, width_m: 0.6}"), "1", "unknown key colour in block (nothing reads it)"},
+      {with_block("{width_m: 0.6}"), "1", "block.height_m is missing"},
+      {with_block("{slenderness_rad: 0.3}"), "1", "block.size_m is missing"},
+      {with_block("{width_m: 0.6, height_m: 1.8, size_m: 1}"), "1", "either by its sides or by slenderness and size"},
+      {with_block("{slenderness_rad: 1.6, size_m: 1}"), "1", "a slenderness lies between 0 and pi/2"},
+      {with_block("{width_m: 0, height_m: 1.8}"), "1", "block.width_m is 0 (a size must be above zero)"},
+      {with_block("{width_m: -1, height_m: 1.8}"), "1", "block.width_m is -1"},
+      {with_block("{width_m: {normal: {mean: 1, standard_deviation: 0.1}}, height_m: 1.8}"), "1",
+       "its distribution has no lower end"},
+      {with_block("{width_m: {uniform: [-0.1, 0.5]}, height_m: 1.8}"), "1", "its distribution reaches -0.1"},
+      {with_block("{width_m: {uniform: [2, 1]}, height_m: 1.8}"), "1", "lower end 2 is not below its upper end 1"},
+      {with_block("{width_m: {uniform: [1, 2, 3]}, height_m: 1.8}"), "1", "has 3 numbers (2 are needed)"},
+      {with_block("{width_m: {lognormal: {median: 1, dispersion: -1}}, height_m: 1.8}"), "1", "dispersion -1"},
+      {with_block("{width_m: {lognormal: {median: 1}}, height_m: 1.8}"), "1", "lognormal.dispersion is missing"},
+      {with_block("{width_m: {lognormal: {median: 1, dispersion: 1, sigma: 2}}, height_m: 1.8}"), "1",
+       "unknown key sigma"},
+      {with_block("{width_m: {choice: []}, height_m: 1.8}"), "1", "empty choice"},
+      {with_block("{width_m: {choice: [1, x]}, height_m: 1.8}"), "1", "holds \"x\""},
+      {with_block("{width_m: {unifrom: [1, 2]}, height_m: 1.8}"), "1", "did you mean uniform?"},
+      {with_block("{width_m: {calibrate: [1, 2]}, height_m: 1.8}"), "1", "found calibrate"},
+      {with_block("{width_m: {uniform: [1, 2], choice: [1]}, height_m: 1.8}"), "1", "both uniform and choice"},
+      {with_block("{width_m: [1, 2], height_m: 1.8}"), "1", "is a list"},
+      {with_block("{width_m: wide, height_m: 1.8}"), "1", "\"wide\" (a number or a distribution is needed)"},
+      {with_block("{width_m: .inf, height_m: 1.8}"), "1", "\".inf\""},
+      {with_block("{width_m: , height_m: 1.8}"), "1", "block.width_m has no value"},
+      {with_block("{width_m: 1, height_m: 1.8, height_m: 2}"), "1", "stands twice"},
+  });
+}
+
+TEST(StudyMistakes, InFrictionModelImpactAndEffects) {
+  expect_each({
+      {block + motions + fragility + samples, "1", "friction is missing"},
+      {with_friction("{}"), "2", "friction.mu_k is missing"},
+      {with_friction("{mu_s: 0.3}"), "2", "friction.mu_k is missing"},
+      {with_friction("{mu: 0.3, mu_k: 0.2}"), "2", "both given (mu stands for both coefficients)"},
+      {with_friction("{mu_k: 0.2, mu_s: 0.3, static_ratio: 1.5}"), "2", "one determines the other"},
+      {with_friction("{mu_k: 0.3, mu_s: 0.2}"), "2", "friction.mu_s 0.2 is below friction.mu_k 0.3"},
+      {with_friction("{mu_k: {uniform: [0.2, 0.3]}, mu_s: {uniform: [0.25, 0.4]}}"), "2", "use mu_k with static_ratio"},
+      {with_friction("{mu_k: 0.2, static_ratio: 0.9}"), "2", "static friction is never below kinetic"},
+      {with_friction("{mu: -0.1}"), "2", "it must not be negative"},
+      {sound + "model: bouc_wen\n", "6", "this version does not compute it"},
+      {sound + "model: sliding\n", "6", "choose one of slide, rock, slide_rock"},
+      {sound + "impact: {law: newton}\n", "6", "choose one of housner, coulomb"},
+      {sound + "impact: {factor: 1.1}\n", "6", "it must lie between 0 and 1"},
+      {sound + "impact: {law: coulomb, factor: 0.9}\n", "6", "does not go with law coulomb"},
+      {sound + "effects: vertical_shaking\n", "6", "effects is no list"},
+      {sound + "effects:\n  - {name: rate_weakening, drop: 0.4}\n", "7", "(this version has: vertical_shaking)"},
+      {sound + "effects:\n  - {scale: 0.4}\n", "7", "effects[0].name is missing"},
+      {sound + "effects:\n  - {name: vertical_shaking, scal: 1}\n", "7", "did you mean scale?"},
+      {sound + "effects: [{name: vertical_shaking}, {name: vertical_shaking}]\n", "6", "stands twice"},
+  });
+}
+
+TEST(StudyMistakes, InMotions) {
+  expect_each({
+      {block + friction + fragility + samples, "1", "motions is missing"},
+      {with_motion(""), "3", "an empty one"},
+      {with_motion("{period_s: 1}"), "3", "neither pulse nor records"},
+      {with_motion("{pulse: Q, period_s: 1, peak_acceleration_g: 1}"), "3", "Q"},
+      {with_motion("{pulse: [], period_s: 1, peak_acceleration_g: 1}"), "3", "empty choice"},
+      {with_motion("{pulse: A, peak_acceleration_g: 1}"), "3", "has no period"},
+      {with_motion("{pulse: A, period_s: 1}"), "3", "has no amplitude"},
+      {with_motion("{pulse: A, period_s: 0, peak_acceleration_g: 1}"), "3", "a period must be above zero"},
+      {with_motion("{pulse: A, period: 1, period_s: 1, peak_acceleration_g: 1}"), "3", "write period_s"},
+      {with_motion("{pulse: A, period_s: 1, peak_acceleration_g: 1, peak_velocity_mps: 1}"), "3",
+       "one determines the other"},
+      {with_motion("{pulse: A, period_s: 1, peak_acceleration_g: 1, scale_to: {pta_g: 1}}"), "3",
+       "does not go with pulse"},
+      {with_motion("{pulse: A, period_s: 1, peak_acceleration_g: 1, weight: 0}"), "3", "a weight must be above zero"},
+      {with_motion("{records: \"nowhere/*.AT2\"}"), "3", "nowhere/*.AT2"},
+      {with_motion("{records: \"nowhere/*.AT2\", pulse: A}"), "3", "a motion is one or the other"},
+  });
+}
+
+TEST(StudyMistakes, InFragility) {
+  expect_each({
+      {with_fragility("{edp: [delta], im: pta}"), "5", "pta is not known (did you mean pta_g?)"},
+      {with_fragility("{edp: [delta], im: {name: sa_g, period_s: 0}}"), "5", "above zero"},
+      {with_fragility("{edp: [delta], im: {name: pta_g, period_s: 1}}"), "5", "unknown key period_s"},
+      {with_fragility("{edp: [dleta]}"), "5",
+       "dleta is not known (did you mean delta?): name some of delta, overturned"},
+      {with_fragility("{edp: [delta, delta]}"), "5", "twice"},
+      {with_fragility("{edp: [delta], bins: {count: 0}}"), "5", "a whole number from 1 to 1000"},
+      {with_fragility("{edp: [delta], bins: {count: 3, width: 1}}"), "5", "more than one of edges, width and count"},
+      {with_fragility("{edp: [delta], bins: {edges: [1, 1, 2]}}"), "5", "does not increase"},
+      {with_fragility("{edp: [delta], bins: {width: 1, spacing: log}}"), "5", "goes with count only"},
+      {with_fragility("{edp: [peak_slip_m]}"), "5", "peak_slip_m has no capacities"},
+      {with_fragility("{edp: [delta], capacities: {delta: [2, 1]}}"), "5",
+       "each capacity must be above the one before"},
+      {with_fragility("{edp: [delta], capacities: {delta: [0, 1]}}"), "5", "not above zero"},
+      {with_fragility("{edp: [overturned], capacities: {overturned: [1]}}"), "5", "it happens or not"},
+      {with_fragility("{edp: [delta], capacities: {peak_slip_m: [1]}}"), "5", "not in fragility.edp"},
+      {with_fragility("{edp: [delta], capacities: {detla: [1]}}"), "5", "did you mean delta?"},
+      {with_fragility("{edp: [delta], axes: [friction.mu]}"), "5", "has one value only"},
+      {with_fragility("{edp: [delta], axes: [motion.pta]}"), "5", "did you mean motion.pta_g?"},
+      {with_fragility("{edp: [delta], confidence: 1}"), "5", "between 0 and 1"},
+      {with_fragility("{edp: [delta], resamples: many}"), "5", "a whole number"},
+  });
+}
+
+TEST(StudyMistakes, InTheSweep) {
+  const std::string without = block + friction + motions + fragility;
+  expect_each({
+      {without, "1", "samples is missing"},
+      {without + "samples: 0\n", "5", "a whole number of at least 1"},
+      {without + "samples: -5\n", "5", "-5"},
+      {without + "samples: 1.5\n", "5", "1.5"},
+      {sound + "until: {half_width: 0.02}\n", "6", "samples and until are both given"},
+      {without + "until: {}\n", "5", "half_width is missing"},
+      {without + "until: {half_width: 0.02}\ndesign: latin_hypercube\n", "6",
+       "its strata depend on the number of samples"},
+      {sound + "design: sobal\n", "6", "did you mean sobol?"},
+      {sound + "seed: -1\n", "6", "seed is -1"},
+      {sound + "tolerance: 0\n", "6", "tolerance is 0"},
+      {sound + "free_vibration: 3\n", "6", "write free_vibration_s"},
+      {sound + "block_size: 0\n", "6", "block_size is 0"},
+      {sound + "sampels: 3\n", "6", "did you mean samples?"},
+  });
+}
+
+TEST(StudyMistakes, InYamlItself) {
+  EXPECT_THAT(problems("block: {width_m: 1\nsamples: 3\n"),
+              testing::ContainsRegex("some.yaml:[0-9]+: this is not YAML"));
+  EXPECT_THAT(problems(""), HasSubstr("the file is empty"));
+  EXPECT_THAT(problems("- 1\n- 2\n"), HasSubstr("the file is a list"));
+  EXPECT_THROW(read_study("no/such/study.yaml", known()), Error);
+}
+
+TEST(StudyMistakes, AllAreReportedAtOnceWithTheirLines) {
+  const std::string text =
+      "samples: 0\n"
+      "block:\n"
+      "  width: 0.6\n"
+      "  height_m: -1.8\n"
+      "friction: {mu: {uniform: [0.3, 0.2]}}\n"
+      "motions:\n"
+      "  - {pulse: B, period_s: 0.5, peak_acceleration_g: 1}\n"
+      "  - {records: \"nowhere/*.AT2\"}\n"
+      "fragility: {im: nothing_known, edp: [delta]}\n"
+      "modle: slide\n";
+  const std::string found = problems(text);
+  for (const char* says : {"some.yaml:1: samples is 0", "some.yaml:3: key width in block has no unit",
+                           "some.yaml:2: block.width_m is missing", "some.yaml:4: block.height_m is -1.8",
+                           "some.yaml:5: friction.mu: impossible distribution", "some.yaml:8: motions[1].records",
+                           "some.yaml:9: intensity measure nothing_known", "some.yaml:10: unknown key modle"})
+    EXPECT_THAT(found, HasSubstr(says));
+  EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), 7) << found;
+}
+
+TEST(CaseMistakes, ACaseIsOneSample) {
+  const std::string motion = "motion: {pulse: B, period_s: 0.5, peak_acceleration_g: 0.6}\n";
+  EXPECT_EQ(case_problems(block + friction + motion), "");
+  EXPECT_THAT(case_problems(block + friction), HasSubstr("motion is missing"));
+  EXPECT_THAT(case_problems(block + "friction: {mu: {uniform: [0.1, 0.2]}}\n" + motion),
+              HasSubstr("one.yaml:2: friction.mu is a distribution (a case is one sample)"));
+  EXPECT_THAT(case_problems(block + friction + "motion: {pulse: [A, B], period_s: 0.5, peak_acceleration_g: 0.6}\n"),
+              HasSubstr("name one pulse"));
+  EXPECT_THAT(case_problems(block + friction + motion + "samples: 3\n"), HasSubstr("unknown key samples"));
+  EXPECT_THAT(case_problems(block + friction + "motion: {file: nowhere.csv}\n"), HasSubstr("nowhere.csv"));
+  EXPECT_THAT(case_problems(block + friction + motion + "output_step_s: 0\n"), HasSubstr("output_step_s is 0"));
+}
+
+}  // namespace
+}  // namespace freestand::study
