@@ -44,7 +44,7 @@ RawRecord read(const RecordText& text) {
   const Entry rate = entry(text, "Sampling Freq"), duration = entry(text, "Duration Time");
   const double frequency = text.number(rate.line, rate.value.substr(0, rate.value.find_first_not_of("0123456789.")));
   const double factor = scale_factor(text), seconds = text.number(duration.line, duration.value);
-  const auto count = static_cast<std::size_t>(std::max(0.0, seconds * frequency + 0.5));
+  const auto count = static_cast<std::size_t>(std::clamp(seconds * frequency + 0.5, 0.0, 1e12));
   std::size_t line = entry(text, "Memo.").line + 1;
   std::vector<double> values = text.block(line, count);
   text.ends_at(line, count);

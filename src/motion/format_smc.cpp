@@ -15,7 +15,7 @@ bool recognises(const RecordText& text) {
 }
 
 std::size_t whole(const RecordText& text, std::size_t line, double value) {
-  if (!(value >= 0))
+  if (!(value >= 0 && value < 1e12))
     text.fail(line, fmt::format("the header says {} where a count stands (unknown): get the file again", value));
   return static_cast<std::size_t>(value);
 }

@@ -41,6 +41,15 @@ double choose_step(const RecordText& text, const RawRecord& raw, const ReadOptio
   return dt;
 }
 
+// The unit that the file itself names.
+double stated_unit(const RecordText& text, const std::string& unit) {
+  try {
+    return acceleration_unit_mps2(unit);
+  } catch (const Error& error) {
+    text.fail(error.what());
+  }
+}
+
 double choose_unit(const RecordText& text, const RawRecord& raw, const ReadOptions& options) {
   if (raw.unit.empty() && options.unit.empty())
     throw Error(
@@ -48,7 +57,7 @@ double choose_unit(const RecordText& text, const RawRecord& raw, const ReadOptio
                     "\"g\" or \"m/s2\"",
                     text.path().string()));
   if (raw.unit.empty()) return acceleration_unit_mps2(options.unit);
-  const double stated = acceleration_unit_mps2(raw.unit);
+  const double stated = stated_unit(text, raw.unit);
   if (!options.unit.empty() && acceleration_unit_mps2(options.unit) != stated)
     throw Error(fmt::format("{}: unit {} contradicts the file (it says {}): leave unit out", text.path().string(),
                             options.unit, raw.unit));

@@ -157,7 +157,7 @@ double RecordText::even_step(const std::vector<double>& times, const std::vector
   double dt = (times.back() - times.front()) / steps;
   if (!(dt > 0)) fail(lines.back(), "the times do not increase (the last is not after the first): correct the times");
   const double rounded = std::round(dt * 1e9) / 1e9;  // 0.005 rather than 0.00500000000000012
-  if (std::abs(rounded - dt) * steps < 1e-9 * (1 + std::abs(times.back()))) dt = rounded;
+  if (std::abs(rounded - dt) < std::min(1e-9 * (1 + std::abs(times.back())) / steps, 1e-3 * dt)) dt = rounded;
   for (std::size_t i = 1; i < times.size(); ++i)
     if (std::abs(times[i] - times.front() - static_cast<double>(i) * dt) > 0.05 * dt) uneven(times, lines);
   return dt;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <freestand/error.hpp>
+#include <random>
 
 #include "base/units.hpp"
 #include "motion/peaks.hpp"
@@ -151,6 +152,8 @@ TEST_F(Record, At2WithABrokenHeaderIsRefused) {
   expect_data_error(write("e.AT2", at2_head + "NPTS, DT\n" + seven_text), 4, "no count and step");
   expect_data_error(write("f.AT2", "a\nb\nVELOCITY TIME SERIES IN UNITS OF CM/S\nNPTS= 7, DT= .01\n" + seven_text), 3,
                     "not a record of acceleration");
+  expect_data_error(write("h.AT2", "a\nb\nIN UNITS OF FURLONGS\nNPTS= 7, DT= .01\n" + seven_text), 0,
+                    "no unit of acceleration \"furlongs\"");
   expect_data_error(write("g.AT2", at2_head + "NPTS= 1, DT= .01\n .5\n"), 0, "fewer than two samples");
 }
 
@@ -393,6 +396,43 @@ TEST(Formats, EveryFileIsInTheRegistry) {
     files += entry.path().extension() == ".cpp" && entry.path().filename().string().rfind("format_", 0) == 0;
   EXPECT_EQ(registry<RecordFormat>().size(), files);
   EXPECT_EQ(record_formats().size(), files);
+}
+
+// Whatever stands in a file, it is read or refused with an Error, and what is read is finite.
+TEST_F(Record, DamagedFilesAreReadOrRefusedButNothingElse) {
+  const std::string originals[] = {
+      at2_head + "NPTS= 7, DT= .0050 SEC\n" + seven_text,
+      "time_s,floor_acceleration_mps2,floor_vertical_acceleration_mps2\n0,1,10\n0.005,2,20\n0.01,3,30\n",
+      "0 1\n0.02 2\n0.04 3\n",
+      csmip_channel(1, "H1", "  1.000000  2.000000  3.000000\n"),
+      cosmos_channel("90 deg", "cm/s^2 (4)", "10.000000"),
+      esm("cm/s^2", 3),
+      knet("4000(gal)/2000", "2"),
+      smc("4")};
+  std::mt19937_64 random(20);
+  const std::string marks = "0159-+.eE, \t\n\r\"#:=()/*|\xff";
+  int read = 0, refused = 0;
+  for (const std::string& original : originals)
+    for (int i = 0; i < 300; ++i) {
+      std::string text = original;
+      for (int k = 0; k < 1 + i % 3; ++k) {
+        const std::size_t place = random() % text.size();
+        if (random() % 3 == 0)
+          text.erase(place, 1 + random() % 20);
+        else
+          text[place] = random() % 4 == 0 ? static_cast<char>(random() % 256) : marks[random() % marks.size()];
+        if (text.empty()) text = "1";
+      }
+      try {
+        const FloorMotion motion = read_record(write("x", text), {.unit = "cm/s2"});
+        for (const double c : motion.horizontal_mps2) ASSERT_TRUE(std::isfinite(c)) << text;
+        ++read;
+      } catch (const Error&) {
+        ++refused;
+      }
+    }
+  EXPECT_GT(read, 100);
+  EXPECT_GT(refused, 100);
 }
 
 // ---- globs ----
