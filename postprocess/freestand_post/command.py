@@ -63,8 +63,10 @@ def main(what, argv=None):
     except Problem as problem:
         print(f"postprocess/{what}: {problem}", file=sys.stderr)
         return problem.exit_code
-    except PermissionError as why:
-        print(f"postprocess/{what}: {why.filename} cannot be written (no permission): give another place with -o", file=sys.stderr)
+    except OSError as why:
+        reason = "no permission" if isinstance(why, PermissionError) else (why.strerror or str(why)).lower()
+        print(f"postprocess/{what}: {why.filename or 'a file'} cannot be written ({reason}): give another place with -o",
+              file=sys.stderr)
         return USAGE
     except ModuleNotFoundError as why:
         print(f"postprocess/{what}: the Python package {why.name} is not there: run jobs/install", file=sys.stderr)

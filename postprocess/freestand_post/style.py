@@ -5,11 +5,10 @@ import re
 import warnings
 
 import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-from matplotlib import font_manager, patheffects, ticker  # noqa: E402
-from matplotlib.colors import LinearSegmentedColormap  # noqa: E402
+from matplotlib import font_manager, patheffects, ticker
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
 
 INK, MUTED, FAINT, PAPER = "#1d2430", "#626b78", "#dfe3e8", "#ffffff"
 BLUE, VERMILION, ORANGE, GREEN, PURPLE, SKY = "#0072b2", "#d55e00", "#e69f00", "#009e73", "#a65298", "#56b4e9"
@@ -32,7 +31,7 @@ def fonts():
 
 
 def apply():
-    plt.rcParams.update({
+    matplotlib.rcParams.update({
         "font.family": fonts(), "font.size": 9, "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": MUTED,
         "axes.linewidth": 0.7, "axes.spines.top": False, "axes.spines.right": False, "axes.labelsize": 9.5,
         "axes.titlesize": 9, "axes.titlelocation": "left", "xtick.color": MUTED, "ytick.color": MUTED,
@@ -53,7 +52,9 @@ def series(count):
 
 
 def figure(width=7.4, height=4.4):
-    return plt.figure(figsize=(width, height), layout="constrained")
+    made = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(made)
+    return made
 
 
 def _wrapped(fig, text, size, weight, limit):

@@ -54,18 +54,29 @@ def _levels(p):
 
 
 def _slices(ax, sweep, axis, k):
-    """Curves of a few levels, each named where it ends; names that end together are moved apart."""
-    levels, ends = _levels(axis.probability[:, :, k]), {}
+    """Curves of a few levels, each named where it ends; names that end near each other are moved apart."""
+    levels, ends = _levels(axis.probability[:, :, k]), []
     for j, colour in zip(levels, style.series(len(levels))):
         p = axis.probability[:, j, k]
         ax.fill_between(sweep.centre, axis.lower[:, j, k], axis.upper[:, j, k], color=colour, alpha=0.14, lw=0)
         ax.plot(sweep.centre, p, "-o", ms=3, color=colour, lw=1.5)
         last = int(np.flatnonzero(np.isfinite(p))[-1])
-        ends.setdefault(last, []).append((p[last], words.span(axis.edge[j], axis.edge[j + 1], 2), colour))
-    for last, entries in ends.items():
-        for (_, text, colour), y in zip(entries, style.spread([entry[0] for entry in entries], 0.07, 0.99)):
-            ax.annotate(text, (sweep.centre[last], y), xytext=(7, 0), textcoords="offset points", color=colour, weight="bold",
+        ends.append((sweep.centre[last], p[last], words.span(axis.edge[j], axis.edge[j + 1], 2), colour))
+    for group in _near(ends, 0.45 * (sweep.edge[-1] - sweep.edge[0])):
+        for (x, _, text, colour), y in zip(group, style.spread([end[1] for end in group], 0.075, 0.99)):
+            ax.annotate(text, (x, y), xytext=(7, 0), textcoords="offset points", color=colour, weight="bold",
                         size=8.8, va="center", path_effects=style.halo(), annotation_clip=False, zorder=6)
+
+
+def _near(ends, width):
+    """Groups of ends that follow each other within a width."""
+    groups = []
+    for end in sorted(ends):
+        if groups and end[0] - groups[-1][-1][0] < width:
+            groups[-1].append(end)
+        else:
+            groups.append([end])
+    return groups
 
 
 def _finding(sweep, axis, k, p, symbol, capacity, im):

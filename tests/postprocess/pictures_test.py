@@ -1,0 +1,186 @@
+#!/usr/bin/python3
+"""Every picture: it is drawn, says what it shows, names its axes, and no two of its texts overlap or leave the page."""
+import pathlib
+import tempfile
+import unittest
+from unittest import mock
+
+import support
+from support import make_results
+
+import numpy as np
+from freestand_post import pictures, reading, style
+from matplotlib.text import Text
+
+
+def texts(figure):
+    """Texts that are drawn, with their boxes in pixels. Contour labels stand on their lines and are left out."""
+    drawn, draw = [], Text.draw
+
+    def record(self, renderer, *arguments, **options):
+        drawn.append(self)
+        return draw(self, renderer, *arguments, **options)
+
+    figure.draw_without_rendering()  # settles the layout
+    with mock.patch.object(Text, "draw", record):
+        figure.draw_without_rendering()
+    renderer = figure.canvas.get_renderer()
+    for text in drawn:
+        if text.get_text().strip() and text.get_visible() and text.get_rotation() in (0, 90):
+            yield text.get_text(), text.get_window_extent(renderer)
+
+
+def overlaps(figure):
+    found, seen = [], list(texts(figure))
+    for i, (a, box_a) in enumerate(seen):
+        for b, box_b in seen[i + 1:]:
+            x = min(box_a.x1, box_b.x1) - max(box_a.x0, box_b.x0)
+            y = min(box_a.y1, box_b.y1) - max(box_a.y0, box_b.y0)
+            if x > 1.0 and y > 1.5:
+                found.append((a, b))
+    width, height = figure.get_size_inches() * figure.dpi
+    found += [(a, "edge of the page") for a, box in seen
+              if box.x0 < -1 or box.y0 < -1 or box.x1 > width + 1 or box.y1 > height + 1]
+    return found
+
+
+class Pictures(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        style.apply()
+        cls.drawn = {picture.name: picture for picture in pictures.draw(reading.read_sweep(support.sweep()))}
+        with tempfile.TemporaryDirectory() as folder:
+            for name, overturned in (("stands", False), ("falls", True)):
+                history = reading.read_history(make_results.make_history(pathlib.Path(folder) / name, overturned))
+                (picture,) = pictures.draw(history)
+                cls.drawn[name] = picture
+
+    def test_all_are_there(self):
+        per_edp = ["fragility_{}", "surface_{}", "axis_{}_friction_mu_k", "axis_{}_pulse_period_s", "goodness_{}"]
+        expected = {form.format(edp) for edp in ("delta", "peak_rotation_over_alpha") for form in per_edp}
+        self.assertEqual(set(self.drawn), expected | {"overturning", "coverage", "stands", "falls"})
+
+    def test_no_two_texts_overlap(self):
+        for name, picture in self.drawn.items():
+            with self.subTest(name):
+                self.assertEqual(overlaps(picture.figure), [])
+
+    def test_the_check_of_overlaps_sees_one(self):
+        figure = style.figure(4, 3)
+        figure.text(0.5, 0.5, "first text")
+        figure.text(0.52, 0.51, "second text")
+        figure.text(0.98, 0.1, "runs off the page")
+        self.assertEqual(overlaps(figure), [("first text", "second text"), ("runs off the page", "edge of the page")])
+
+    def test_finding_and_caption_are_sentences(self):
+        for name, picture in self.drawn.items():
+            with self.subTest(name):
+                self.assertGreater(len(picture.finding), 15)
+                self.assertNotIn("nan", picture.finding.lower().split())
+                self.assertTrue(picture.caption.endswith("."))
+                self.assertNotIn("{", picture.caption)
+
+    def test_outer_axes_are_named(self):
+        for name, picture in self.drawn.items():
+            labels = [axes.get_xlabel() for axes in picture.figure.axes] + [axes.get_ylabel() for axes in picture.figure.axes]
+            with self.subTest(name):
+                self.assertGreaterEqual(sum(bool(label) for label in labels), 2, labels)
+
+    def test_units_stand_on_the_axes(self):
+        labels = {axes.get_ylabel() for axes in self.drawn["stands"].figure.axes}
+        self.assertLessEqual({"floor acc. (g)", "slip (cm)", "rotation (°)"}, labels)
+        labels = {axes.get_ylabel() for axes in self.drawn["axis_delta_pulse_period_s"].figure.axes}
+        self.assertIn("pulse period (s)", labels)
+
+    def test_the_curve_is_the_surface_in_the_file(self):
+        sweep = reading.read_sweep(support.sweep())
+        lines = [line.get_ydata() for line in self.drawn["fragility_delta"].figure.axes[0].get_lines()]
+        for k in range(4):
+            wanted = sweep.edps[0].surface["probability"][:, k]
+            self.assertTrue(any(len(y) == len(wanted) and np.array_equal(y, wanted, equal_nan=True) for y in lines), k)
+
+    def test_half_is_where_the_title_says(self):
+        sweep = reading.read_sweep(support.sweep())
+        title = self.drawn["fragility_delta"].finding
+        p = sweep.edps[0].surface["probability"][:, 2]
+        at = float(title.rsplit(" ", 1)[1])
+        self.assertIn("Δ\u00a0=\u00a02 ", title)
+        self.assertAlmostEqual(np.interp(at, sweep.centre, p), 0.5, delta=0.02)
+
+    def test_failed_bins_are_marked(self):
+        sweep = reading.read_sweep(support.sweep())
+        failed = int((sweep.edps[0].bins["status"] == 2).sum())
+        self.assertGreater(failed, 0)
+        titles = [axes.get_title(loc="left") for axes in self.drawn["goodness_delta"].figure.axes]
+        self.assertEqual(sum("fails" in title for title in titles), failed)
+        shown = " ".join(text for text, _ in texts(self.drawn["goodness_delta"].figure))
+        self.assertIn("S = ", shown)
+        self.assertIn("p* ", shown)
+
+    def test_the_fall_is_told(self):
+        self.assertTrue(self.drawn["falls"].finding.startswith("Overturns at "))
+        self.assertIn("comes to rest", self.drawn["stands"].finding)
+
+
+class MissingPieces(unittest.TestCase):
+    """Pictures of poor results: nothing breaks, nothing is invented."""
+
+    def setUp(self):
+        style.apply()
+        self.sweep = reading.read_sweep(support.sweep())
+        self.sweep.edps = [edp for edp in self.sweep.edps if edp.name != "peak_rotation_over_alpha"]
+        self.sweep.edps[0].axes = self.sweep.edps[0].axes[:1]
+
+    def draw(self):
+        drawn = {picture.name: picture for picture in pictures.draw(self.sweep)}
+        for picture in drawn.values():
+            style.svg(picture.figure)
+        return drawn
+
+    def test_no_bin_has_enough_samples(self):
+        edp = self.sweep.edps[0]
+        for name in edp.bins:
+            if name not in ("n", "n_still", "n_over", "n_moved"):
+                edp.bins[name] = np.full_like(edp.bins[name], np.nan)
+        edp.bins["status"][:] = 1
+        for table in (*edp.surface.values(), edp.axes[0].probability, edp.axes[0].lower, edp.axes[0].upper):
+            table[:] = np.nan
+        drawn = self.draw()
+        self.assertIn("Too few", drawn["fragility_delta"].finding)
+        self.assertIn("Too few", drawn["surface_delta"].finding)
+        self.assertIn("Too few", drawn["axis_delta_friction_mu_k"].finding)
+        self.assertNotIn("goodness_delta", drawn)
+
+    def test_empty_bins_single_bin_and_nothing_overturned(self):
+        edp, binary = self.sweep.edps
+        binary.bins["n_over"][:] = 0
+        for name in ("p_over", "p_over_lower", "p_over_upper"):
+            binary.bins[name][:] = 0.0
+        self.sweep.overturning = {}
+        self.sweep.outcome[self.sweep.outcome == 2] = 1
+        keep = int(np.flatnonzero(edp.bins["status"] == 0)[0])
+        for i in range(edp.bins["n"].size):
+            if i != keep:
+                edp.bins["status"][i] = 1
+                edp.bins["n"][i] = edp.bins["n_still"][i] = edp.bins["n_moved"][i] = edp.bins["n_over"][i] = 0
+                for table in edp.surface.values():
+                    table[i] = np.nan
+        drawn = self.draw()
+        self.assertEqual(drawn["overturning"].finding, "No specimen overturned in the range swept")
+        self.assertIn("all 1 bins", drawn["goodness_delta"].finding)
+
+    def test_without_draws_and_without_edps(self):
+        self.sweep.draws, self.sweep.outcome = {}, np.zeros(0, int)
+        self.sweep.edps = []
+        self.assertEqual(self.draw(), {})
+
+    def test_one_draw_and_missing_values(self):
+        period = self.sweep.draws["pulse_period_s"]
+        period[::2] = np.nan  # recorded motions have no period
+        self.sweep.draws = {"pulse_period_s": period}
+        self.sweep.edps = []
+        self.assertEqual(set(self.draw()), {"coverage"})
+
+
+if __name__ == "__main__":
+    unittest.main()
