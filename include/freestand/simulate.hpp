@@ -16,7 +16,7 @@ struct Settings {
 // Taylor integrator of the sweep. Never throws, never allocates unless `history` is given.
 Response respond(const Specimen&, const Shaking&, const Settings& = {}, History* history = nullptr);
 
-// Event-driven reference on SUNDIALS ARKODE (explicit Runge-Kutta, order 8) with root finding; stops at every knot of
+// Event-driven reference on SUNDIALS ARKODE (explicit Runge-Kutta, order 5) with root finding; stops at every knot of
 // the motion. Slow and exact.
 Response respond_reference(const Specimen&, const Shaking&, const Settings& = {}, History* history = nullptr);
 

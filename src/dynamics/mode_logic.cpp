@@ -30,7 +30,7 @@ bool lifts_off(const Rig& rig, const FloorCursor& cursor, State& state) {
   State trial = state;
   take_off(rig, trial);
   AllHold all;
-  for_each_witness(rig, flight_arc<judge_order>(rig, trial, cursor.local<judge_order>()),
+  for_each_witness(rig, trial, flight_arc<judge_order>(rig, trial, cursor.local<judge_order>()),
                    [&](Witness witness, const auto& series, ZeroTolerance zero) { all(witness, series, zero); });
   if (!all.hold()) return false;
   state = trial;

@@ -1,11 +1,17 @@
 // The reference: SUNDIALS ARKODE, explicit Runge-Kutta of order 8 with root finding, restarted at every knot of the
-// floor motion and at every event. It shares the equations of motion, the mode logic and the impact laws with the
-// integrator of the sweep, and nothing of how that one moves through time or finds its events.
+// floor motion and at every event. ARKODE finds a root on an interpolant of its step, and sees only roots at which a
+// witness changes sign between two steps. So an event is located again by Newton's method on the integrated state
+// itself, and the stationary points of the slip speed are roots too: a slip that stops and goes on within one step
+// shows as a negative speed there, and the leg is gone through again in shorter steps.
+//
+// It shares the equations of motion, the mode logic and the impact laws with the integrator of the sweep, and nothing
+// of how that one moves through time or finds its events.
 #include <arkode/arkode_erkstep.h>
 #include <nvector/nvector_serial.h>
 #include <sundials/sundials_context.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <freestand/error.hpp>
 #include <memory>
@@ -18,7 +24,8 @@ namespace {
 
 constexpr int state_size = 6;  // contact: theta, omega, xi, w, -, -;  flight: theta, omega, x, vx, y, vy
 constexpr int witness_slots = 8;
-constexpr int root_count = witness_slots + 2;  // and the stationary points of u and theta
+constexpr int stationary_u = witness_slots, stationary_theta = witness_slots + 1, stationary_w = witness_slots + 2;
+constexpr int root_count = witness_slots + 3;
 
 struct Delete {
   void operator()(_SUNContext* context) const { SUNContext_Free(&context); }
@@ -42,20 +49,13 @@ class ReferenceIntegrator {
     context_.reset(context);
     y_.reset(N_VNew_Serial(state_size, context));
     N_VConst(0, y_.get());
-    arkode_.reset(ERKStepCreate(&derivative, 0, y_.get(), context));
-    if (!arkode_)
-      throw Error("the reference integrator cannot start (SUNDIALS has no memory): free some memory", Exit::data);
-    void* ark = arkode_.get();
-    check(ERKStepSetTableNum(ark, ARKODE_FEHLBERG_13_7_8), "ERKStepSetTableNum");
-    check(ERKStepSStolerances(ark, settings.tolerance, settings.tolerance * 0.1), "ERKStepSStolerances");
-    check(ERKStepSetUserData(ark, this), "ERKStepSetUserData");
-    check(ERKStepSetMaxStep(ark, longest_step_), "ERKStepSetMaxStep");
-    check(ERKStepSetMaxNumSteps(ark, 100000), "ERKStepSetMaxNumSteps");
-    check(ERKStepRootInit(ark, root_count, &roots), "ERKStepRootInit");
+    stepper_ = make_arkode(settings);
+    check(ERKStepRootInit(stepper_.get(), root_count, &roots), "ERKStepRootInit");
     int direction[root_count] = {};
     std::fill(direction, direction + witness_slots, -1);
-    check(ERKStepSetRootDirection(ark, direction), "ERKStepSetRootDirection");
-    check(ERKStepSetNoInactiveRootWarn(ark), "ERKStepSetNoInactiveRootWarn");
+    check(ERKStepSetRootDirection(stepper_.get(), direction), "ERKStepSetRootDirection");
+    check(ERKStepSetNoInactiveRootWarn(stepper_.get()), "ERKStepSetNoInactiveRootWarn");
+    locator_ = make_arkode(settings);
     output_step_ = history && history->step_s > 0 ? history->step_s : 0;
   }
 
@@ -70,55 +70,124 @@ class ReferenceIntegrator {
   }
 
  private:
+  using Arkode = std::unique_ptr<void, Delete>;
+
+  Arkode make_arkode(const Settings& settings) {
+    Arkode arkode(ERKStepCreate(&derivative, 0, y_.get(), context_.get()));
+    if (!arkode)
+      throw Error("the reference integrator cannot start (SUNDIALS has no memory): free some memory", Exit::data);
+    void* ark = arkode.get();
+    check(ERKStepSetTableNum(ark, ARKODE_FEHLBERG_13_7_8), "ERKStepSetTableNum");
+    check(ERKStepSStolerances(ark, settings.tolerance, settings.tolerance * 0.1), "ERKStepSStolerances");
+    check(ERKStepSetUserData(ark, this), "ERKStepSetUserData");
+    check(ERKStepSetMaxNumSteps(ark, 100000), "ERKStepSetMaxNumSteps");
+    return arkode;
+  }
+
   // A jump of the floor's acceleration may end the mode at once.
   bool resolve_if_violated() {
     FirstEvent now(0);
     const auto floor = life_.cursor.local<judge_order>();
     if (life_.state.mode == Mode::flight)
-      for_each_witness(life_.rig, flight_arc<judge_order>(life_.rig, life_.state, floor), now);
+      for_each_witness(life_.rig, life_.state, flight_arc<judge_order>(life_.rig, life_.state, floor), now);
     else
       for_each_witness(life_.rig, life_.state, contact_arc<judge_order>(life_.rig, life_.state, floor), now);
     if (now.found().any) life_.resolve(now.found().witness);
     return now.found().any;
   }
 
-  // To the next knot, output time or event.
+  // To the next knot, output time or event; in shorter steps when a slip that stopped was passed over.
   void integrate_leg() {
-    void* ark = arkode_.get();
     floor_ = life_.cursor.local<judge_order>();
     const double h = leg_length();
     const bool to_knot = h == life_.cursor.left();
-    record(h);
-    write(life_.state);
-    watch_slip_ = watch_turn_ = true;
-    double g[root_count];
-    roots(0, y_.get(), g, this);
-    watch_slip_ = std::abs(g[witness_slots]) > 1e-9;      // a leg that starts at a stationary point
-    watch_turn_ = std::abs(g[witness_slots + 1]) > 1e-9;  // does not look for it again
-    check(ERKStepReset(ark, 0, y_.get()), "ERKStepReset");
-    check(ERKStepSetInitStep(ark, std::min(h, longest_step_)), "ERKStepSetInitStep");
-    check(ERKStepSetStopTime(ark, h), "ERKStepSetStopTime");
-    observe(0);
-    double tau = 0;
-    for (;;) {
-      const int flag = ERKStepEvolve(ark, h, y_.get(), &tau, ARK_ONE_STEP);
-      check(flag, "ERKStepEvolve");
-      const double xi = life_.state.xi;
-      life_.state = read(y_.get());
-      life_.state.doubt = 1;
-      if (life_.state.sigma != 0) life_.peaks.response().slid_path_m += std::abs(life_.state.xi - xi);
-      observe(tau);
-      if (flag == ARK_TSTOP_RETURN || tau >= h) break;
-      if (flag != ARK_ROOT_RETURN) continue;
-      life_.cursor.advance(tau);
-      int found[root_count] = {};
-      check(ERKStepGetRootInfo(ark, found), "ERKStepGetRootInfo");
-      for (int slot = 0; slot < witness_slots; ++slot)
-        if (found[slot]) return life_.resolve(slots_[slot]);
-      return;  // a stationary point: the next leg starts there
+    if (h > 0) {
+      record(h);
+      const State start = life_.state;
+      const double path = life_.peaks.response().slid_path_m;
+      double step = std::min(h, longest_step_);
+      for (int attempt = 0; attempt < 4; ++attempt, step /= 8) {
+        life_.state = start;
+        life_.peaks.response().slid_path_m = path;
+        const Leg end = go(h, step);
+        if (end == Leg::event) return;
+        if (end == Leg::whole) break;
+      }
     }
     life_.cursor.advance(h);
     if (to_knot) life_.cursor.next_segment();
+  }
+
+  enum class Leg { whole, event, passed_over };
+
+  // One leg of length h. An event, or a stationary point, ends it early.
+  Leg go(double h, double step) {
+    void* ark = stepper_.get();
+    start_at(ark, 0, h, step);
+    write(life_.state);
+    watch_ = {true, true, true};
+    double g[root_count];
+    roots(0, y_.get(), g, this);
+    for (int i = 0; i < 3; ++i) watch_[i] = std::abs(g[witness_slots + i]) > 1e-9;  // not where the leg starts at one
+    observe(0);
+    for (double tau = 0; tau < h;) {
+      const double before = tau;
+      const State from = life_.state;
+      const int flag = ERKStepEvolve(ark, h, y_.get(), &tau, ARK_ONE_STEP);
+      check(flag, "ERKStepEvolve");
+      int found[root_count] = {};
+      if (flag == ARK_ROOT_RETURN) check(ERKStepGetRootInfo(ark, found), "ERKStepGetRootInfo");
+      const auto slot = std::find(found, found + witness_slots, -1) - found;
+      if (slot < witness_slots) tau = locate(static_cast<int>(slot), from, before, tau, h);
+      arrive(from, tau);
+      if (slot < witness_slots) {
+        life_.cursor.advance(tau);
+        life_.resolve(slots_[slot]);
+        return Leg::event;
+      }
+      if (life_.state.mode != Mode::flight && life_.state.sigma * life_.state.w < -1e-12) return Leg::passed_over;
+      if (flag == ARK_ROOT_RETURN) {  // a stationary point: the next leg starts there
+        life_.cursor.advance(tau);
+        return Leg::event;
+      }
+    }
+    return Leg::whole;
+  }
+
+  void start_at(void* ark, double tau, double end, double step) {
+    write(life_.state);
+    check(ERKStepReset(ark, tau, y_.get()), "ERKStepReset");
+    check(ERKStepSetMaxStep(ark, step), "ERKStepSetMaxStep");
+    check(ERKStepSetInitStep(ark, std::min(end - tau, step)), "ERKStepSetInitStep");
+    check(ERKStepSetStopTime(ark, end), "ERKStepSetStopTime");
+  }
+
+  // The state at the end of a step.
+  void arrive(const State& from, double tau) {
+    life_.state = read(y_.get());
+    life_.state.doubt = 1;
+    if (from.sigma != 0) life_.peaks.response().slid_path_m += std::abs(life_.state.xi - from.xi);
+    observe(tau);
+  }
+
+  // Newton's method on the witness, integrating anew from the start of the step. Leaves the state in y.
+  double locate(int slot, const State& from, double before, double tau, double h) {
+    double g[root_count];
+    for (int i = 0; i < 8; ++i) {
+      life_.state = from;
+      if (tau > before) {
+        start_at(locator_.get(), before, tau, longest_step_);
+        double reached = 0;
+        check(ERKStepEvolve(locator_.get(), tau, y_.get(), &reached, ARK_NORMAL), "ERKStepEvolve");
+      } else {
+        write(from);
+      }
+      roots(tau, y_.get(), g, this);
+      const double next = std::clamp(tau - g[slot] / rate_[slot], before, h);
+      if (!(std::abs(next - tau) > 1e-15)) break;
+      tau = next;
+    }
+    return tau;
   }
 
   double leg_length() const {
@@ -140,14 +209,18 @@ class ReferenceIntegrator {
 
   // Extremes at the present point; root finding stops the integration at the stationary ones.
   void observe(double tau) {
-    const Floor<double, 1> floor = floor_at(tau);
+    const Floor<double, 2> floor = floor_at(tau);
     if (life_.state.mode == Mode::flight)
-      life_.peaks.observe(life_.rig, flight_arc<1>(life_.rig, life_.state, floor), 0);
+      life_.peaks.observe(life_.rig, flight_arc<2>(life_.rig, life_.state, floor), 0);
     else
-      life_.peaks.observe(life_.rig, life_.state, contact_arc<1>(life_.rig, life_.state, floor), 0);
+      life_.peaks.observe(life_.rig, life_.state, contact_arc<2>(life_.rig, life_.state, floor), 0);
   }
 
-  Floor<double, 1> floor_at(double tau) const { return {{floor_.a.at(tau), 0}, {floor_.g.at(tau), 0}}; }
+  // Floor about tau, to first order.
+  Floor<double, 2> floor_at(double tau) const {
+    return {{floor_.a.at(tau), dynamics::derivative(floor_.a).at(tau), 0},
+            {floor_.g.at(tau), dynamics::derivative(floor_.g).at(tau), 0}};
+  }
 
   State read(N_Vector y) const {
     const double* v = N_VGetArrayPointer(y);
@@ -178,7 +251,7 @@ class ReferenceIntegrator {
       const double rates[state_size] = {s.omega, 0, s.vx, -floor.a[0], s.vy, -floor.g[0]};
       std::copy(rates, rates + state_size, d);
     } else {
-      const auto arc = contact_arc<1>(me.life_.rig, s, floor);
+      const auto arc = contact_arc<2>(me.life_.rig, s, floor);
       const double rates[state_size] = {arc.theta[1], arc.omega[1], arc.xi[1], arc.w[1], 0, 0};
       std::copy(rates, rates + state_size, d);
     }
@@ -191,17 +264,19 @@ class ReferenceIntegrator {
     const auto floor = me.floor_at(tau);
     std::fill(g, g + root_count, 1.0);
     int slot = 0;
-    const auto fill = [&](Witness witness, const Series<double, 1>& series, ZeroTolerance) {
+    const auto fill = [&](Witness witness, const Series<double, 2>& series, ZeroTolerance) {
       me.slots_[slot] = witness;
+      me.rate_[slot] = series[1];
       g[slot++] = series[0];
     };
     if (s.mode == Mode::flight) {
-      for_each_witness(me.rig(), flight_arc<1>(me.rig(), s, floor), fill);
+      for_each_witness(me.rig(), s, flight_arc<2>(me.rig(), s, floor), fill);
     } else {
-      const auto arc = contact_arc<1>(me.rig(), s, floor);
+      const auto arc = contact_arc<2>(me.rig(), s, floor);
       for_each_witness(me.rig(), s, arc, fill);
-      if (me.watch_slip_) g[witness_slots] = midpoint(me.rig(), s, arc)[1];
-      if (me.watch_turn_ && s.pivot != 0) g[witness_slots + 1] = s.omega;
+      if (me.watch_[0]) g[stationary_u] = midpoint(me.rig(), s, arc)[1];
+      if (me.watch_[1] && s.pivot != 0) g[stationary_theta] = s.omega;
+      if (me.watch_[2] && s.sigma != 0) g[stationary_w] = arc.w[1];
     }
     return 0;
   }
@@ -211,12 +286,13 @@ class ReferenceIntegrator {
   Integration life_;
   double longest_step_;
   double output_step_ = 0;
-  bool watch_slip_ = true, watch_turn_ = true;
+  std::array<bool, 3> watch_{};
   Floor<double, judge_order> floor_{};
   Witness slots_[witness_slots]{};
+  double rate_[witness_slots]{};
   std::unique_ptr<_SUNContext, Delete> context_;
   std::unique_ptr<_generic_N_Vector, Delete> y_;
-  std::unique_ptr<void, Delete> arkode_;
+  Arkode stepper_, locator_;
 };
 
 }  // namespace

@@ -51,27 +51,43 @@ double monotone_root(const Coefficients& c, int order, double lo, double hi) {
   return hi;
 }
 
-// First root of c on (0, h], c(0) > 0; h when there is none is told by `false`.
-bool search(const Coefficients& c, int order, double h, int depth, double& tau) {
-  if (keeps_sign(c, order, h)) return false;
-  const bool monotone = keeps_sign(derivative(c, order), order - 1, h);
-  const bool crossed = evaluate(c, order, h) <= 0;
-  if (monotone || depth == deepest) {
-    if (!crossed) return false;
-    tau = monotone_root(c, order, 0, h);
-    return true;
-  }
-  const double half = 0.5 * h;
-  if (search(c, order, half, depth + 1, tau)) return true;
-  const Coefficients right = shifted(c, order, half);
-  if (right[0] <= 0) {
-    tau = half;
-    return true;
-  }
-  if (!search(right, order, half, depth + 1, tau)) return false;
-  tau += half;
-  return true;
+double magnitude(const Coefficients& c, int order, double h) {
+  double sum = 0;
+  for (int k = order; k >= 0; --k) sum = sum * h + std::abs(c[k]);
+  return sum;
 }
+
+// First root of a polynomial on (0, h], positive at 0.
+class Search {
+ public:
+  Search(const Coefficients& c, int order, double h) : order_(order), noise_(1e-15 * magnitude(c, order, h)) {}
+
+  // False: there is none.
+  bool find(const Coefficients& c, double h, int depth, double& tau) {
+    if (keeps_sign(c, order_, h) || magnitude(c, order_, h) <= noise_ || --intervals_left_ < 0) return false;
+    const bool monotone = keeps_sign(derivative(c, order_), order_ - 1, h);
+    if (monotone || depth == deepest) {
+      if (evaluate(c, order_, h) > 0) return false;
+      tau = monotone_root(c, order_, 0, h);
+      return true;
+    }
+    const double half = 0.5 * h;
+    if (find(c, half, depth + 1, tau)) return true;
+    const Coefficients right = shifted(c, order_, half);
+    if (right[0] <= 0) {
+      tau = half;
+      return true;
+    }
+    if (!find(right, half, depth + 1, tau)) return false;
+    tau += half;
+    return true;
+  }
+
+ private:
+  int order_;
+  double noise_;               // what is all below this is zero, not a row of roots
+  int intervals_left_ = 4000;  // no polynomial of this order with a sign needs as many
+};
 
 // Index of the first coefficient that is not zero within the tolerance; order + 1 when there is none.
 int leading(const double* c, int order, ZeroTolerance zero) {
@@ -102,7 +118,8 @@ bool first_root(const double* c, int order, double h, ZeroTolerance zero, double
   std::copy(c + first, c + order + 1, deflated.begin());
   const int deflated_order = order - first;
   if (deflated_order == 0) return false;
-  return search(deflated, deflated_order, h, 0, tau);
+  if (!std::isfinite(magnitude(deflated, deflated_order, h))) return false;
+  return Search(deflated, deflated_order, h).find(deflated, h, 0, tau);
 }
 
 double max_abs(const double* c, int order, double h, double floor) {

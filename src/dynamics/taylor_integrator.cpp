@@ -55,7 +55,7 @@ class TaylorIntegrator {
     const double turn = std::abs(life_.state.omega);
     const double h = std::min(life_.cursor.left(), turn > 0 ? 0.1 / turn : 0.1);
     FirstEvent first(h);
-    for_each_witness(life_.rig, flight, first);
+    for_each_witness(life_.rig, life_.state, flight, first);
     const double tau = first.found().tau;
     life_.peaks.observe(life_.rig, flight, tau);
     life_.recorder.record(flight, floor, life_.cursor.time(), tau);

@@ -55,13 +55,13 @@ void for_each_witness(const Rig& rig, const State& state, const Arc<double, N>& 
 }
 
 template <int N, class Visit>
-void for_each_witness(const Rig& rig, const Flight<double, N>& flight, Visit&& visit) {
-  const ZeroTolerance gap{2, rig.force_zero};
+void for_each_witness(const Rig& rig, const State& state, const Flight<double, N>& flight, Visit&& visit) {
+  const ZeroTolerance gap{2, rig.force_zero * state.doubt};
   visit(Witness::above_right, flight.gap_right, gap);
   visit(Witness::above_left, flight.gap_left, gap);
   Series<double, N> upright = scaled(flight.theta[0] < 0 ? 1.0 : -1.0, flight.theta);
   upright[0] += pi / 2;
-  visit(Witness::upright, upright, ZeroTolerance{2, rig.turn_zero});
+  visit(Witness::upright, upright, ZeroTolerance{2, rig.turn_zero * state.doubt});
 }
 
 // Series of the state's mode, one corner or two down.
