@@ -80,7 +80,9 @@ bool strike(const Rig& rig, State& state) {
     Velocity after{};
     double w = 0;
     if (!plastic(rig, arm(rig, new_pivot, 0.0), before, after, w)) return false;
-    if (after.omega * new_pivot > 0 && rig.hop_rotation(new_pivot, after.omega) >= rig.rest_rotation) {
+    const bool hops = after.omega * new_pivot > 0;
+    const bool last_hop = rig.hop_rotation(new_pivot, after.omega) < rig.rest_rotation;
+    if (hops && (!last_hop || w == 0)) {
       state.omega = after.omega;
       state.w = w;
     } else {

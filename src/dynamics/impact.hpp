@@ -15,8 +15,8 @@ namespace freestand::dynamics {
 //   housner: omega+ = factor (k^2 + h^2 + c_old c_new)/(k^2 + h^2 + c_new^2) omega-, w+ = w-;  uniform: 1 - 1.5
 //   sin^2(alpha) coulomb: plastic impulse at the new corner that sticks (|p_x| <= mu_s p_y) or slips (p_x = -sigma mu_k
 //   p_y); where the
-//            old corner would be pushed into the floor, both stay down. The endless row of ever smaller hops is
-//            replaced by its limit, the blow on both corners at once, friction of all its impulses included.
+//            old corner would be pushed into the floor, both stay down. Of a slipping block the endless row of ever smaller
+//            hops is replaced by its limit, the blow on both corners at once with the friction of all its impulses.
 bool strike(const Rig& rig, State& state);
 
 // End of a flight on one corner (pivot +1 or -1), or flat on both. Plastic, with Coulomb friction, whatever the impact

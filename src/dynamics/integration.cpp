@@ -47,6 +47,7 @@ void Integration::wait() {
     if (found.tau > 0) peaks.observe(rig, state, arc, found.tau);
     recorder.record(state, arc, floor, cursor.time(), found.tau);
     cursor.advance(found.tau);
+    if (found.tau > 0) state.doubt = 1;
     if (found.any) return resolve(found.witness);
     cursor.next_segment();
   }
