@@ -31,8 +31,10 @@ bool same_modes(const History& a, const History& b) {
   return true;
 }
 
-void print_difference(const char* what, std::uint64_t number, const RandomCase& c, const Response& fast,
-                      const Response& reference) {
+// The first few of each family, so that a bad day does not flood the log.
+void print_difference(const Count& count, const char* what, std::uint64_t number, const RandomCase& c,
+                      const Response& fast, const Response& reference) {
+  if (count.outcome + count.edp + count.modes > 12) return;
   std::printf(
       "  %s differs: sample %llu, %s/%s, slip %.9f/%.9f, residual %.9f/%.9f, rotation %.9f/%.9f, events %d/%d; %s\n",
       what, static_cast<unsigned long long>(number), name(fast.outcome), name(reference.outcome), fast.peak_slip_m,
@@ -52,7 +54,7 @@ void compare(const CaseFamily& family, std::uint64_t number, Count& count) {
   count.impacts += reference.impacts;
   if (fast.outcome != reference.outcome) {
     ++count.outcome;
-    print_difference("outcome", number, c, fast, reference);
+    print_difference(count, "outcome", number, c, fast, reference);
     return;
   }
   const double slip = std::max(slip_difference(fast.peak_slip_m, reference.peak_slip_m),
@@ -60,14 +62,14 @@ void compare(const CaseFamily& family, std::uint64_t number, Count& count) {
   const double rotation = std::abs(fast.peak_rotation_rad - reference.peak_rotation_rad);
   if (!(slip <= tolerance && rotation <= tolerance)) {
     ++count.edp;
-    print_difference("demand", number, c, fast, reference);
+    print_difference(count, "demand", number, c, fast, reference);
     return;
   }
   count.worst_slip_m = std::max(count.worst_slip_m, slip);
   count.worst_rotation_rad = std::max(count.worst_rotation_rad, rotation);
   if (!same_modes(a, b)) {
     ++count.modes;
-    print_difference("order of modes", number, c, fast, reference);
+    print_difference(count, "order of modes", number, c, fast, reference);
   }
 }
 
