@@ -55,9 +55,14 @@ void write_surface(Group& parent, const Dataset& im, const Dataset& capacity, co
 void write_distribution(Group& parent, const Dataset& im, const EdpResult& edp) {
   if (edp.distribution.ln_edge.size() < 2) return;
   Group group = parent.make_group("distribution");
-  coordinate(group, "ln_edge", edp.distribution.ln_edge, "1", "edges of the cells, ln EDP");
-  group.put("count", edp.distribution.count, {edp.bins.size(), edp.distribution.ln_edge.size() - 1})
+  const std::vector<double>& edge = edp.distribution.ln_edge;
+  std::vector<double> middle;
+  for (std::size_t cell = 0; cell + 1 < edge.size(); ++cell) middle.push_back(0.5 * (edge[cell] + edge[cell + 1]));
+  coordinate(group, "ln_edge", edge, "1", "edges of the cells, ln EDP");
+  const Dataset cell = coordinate(group, "ln_middle", middle, "1", "middle of the cells, ln EDP");
+  group.put("count", edp.distribution.count, {edp.bins.size(), middle.size()})
       .attach(0, im)
+      .attach(1, cell)
       .describe("1", "samples that moved and stood");
 }
 

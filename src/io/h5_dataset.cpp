@@ -21,7 +21,7 @@ std::string name_of(Id dataset) {
 }
 
 Handle space_of(Id dataset, const std::string& file) {
-  return checked(H5Dget_space(dataset), H5Sclose, file, "shape of " + name_of(dataset), Doing::reading);
+  return checked(H5Dget_space(dataset), H5Sclose, file, "shape of a dataset", Doing::reading);
 }
 
 template <class T>
@@ -30,8 +30,9 @@ void write_all(Id dataset, const std::string& file, const Dimensions& dimensions
     throw Error(fmt::format("cannot write {} ({} values for {} [{}]): report this", file, values.size(),
                             name_of(dataset), fmt::join(dimensions, ", ")),
                 Exit::data);
+  const std::string name = name_of(dataset);  // before the call: asking for it afterwards would clear HDF5's errors
   if (!values.empty() && H5Dwrite(dataset, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    throw failure(file, name_of(dataset), Doing::writing);
+    throw failure(file, name, Doing::writing);
 }
 
 // Memory and file spaces of a run of rows; nothing selected for no rows.
@@ -41,7 +42,7 @@ struct RowSpaces {
   RowSpaces(Id dataset, const std::string& name, std::uint64_t first, std::uint64_t count)
       : file(space_of(dataset, name)) {
     const hsize_t start = first, length = count;
-    memory = checked(H5Screate_simple(1, &length, nullptr), H5Sclose, name, name_of(dataset), Doing::writing);
+    memory = checked(H5Screate_simple(1, &length, nullptr), H5Sclose, name, "rows of a dataset", Doing::writing);
     if (count == 0) {
       H5Sselect_none(file.id());
       H5Sselect_none(memory.id());
@@ -56,8 +57,9 @@ void write_slab(Id dataset, const std::string& file, bool together, std::uint64_
   const RowSpaces spaces(dataset, file, first, values.size());
   const Handle transfer = checked(H5Pcreate(H5P_DATASET_XFER), H5Pclose, file, "transfer settings", Doing::writing);
   if (together) H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE);
+  const std::string name = name_of(dataset);
   if (H5Dwrite(dataset, memory_type<T>(), spaces.memory.id(), spaces.file.id(), transfer.id(), values.data()) < 0)
-    throw failure(file, name_of(dataset), Doing::writing);
+    throw failure(file, name, Doing::writing);
 }
 
 }  // namespace
@@ -70,7 +72,7 @@ Dimensions Dataset::dimensions() const {
 }
 
 Type Dataset::type() const {
-  const Handle type = checked(H5Dget_type(id()), H5Tclose, *file_, "type of " + name_of(id()), Doing::reading);
+  const Handle type = checked(H5Dget_type(id()), H5Tclose, *file_, "type of a dataset", Doing::reading);
   const H5T_class_t kind = H5Tget_class(type.id());
   const std::size_t bytes = H5Tget_size(type.id());
   if (kind == H5T_FLOAT && bytes == 8) return Type::real;
@@ -87,8 +89,9 @@ void Dataset::write(const std::vector<std::uint8_t>& values) { write_all(id(), *
 
 std::vector<double> Dataset::read() const {
   std::vector<double> values(count_of(dimensions()));
+  const std::string name = name_of(id());
   if (!values.empty() && H5Dread(id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    throw failure(*file_, name_of(id()), Doing::reading);
+    throw failure(*file_, name, Doing::reading);
   return values;
 }
 
@@ -97,8 +100,9 @@ std::vector<std::string> Dataset::read_texts() const {
   if (texts.empty()) return {};
   const Handle type = text_type(*file_);
   const Handle space = space_of(id(), *file_);
+  const std::string name = name_of(id());
   if (H5Dread(id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()) < 0)
-    throw failure(*file_, name_of(id()), Doing::reading);
+    throw failure(*file_, name, Doing::reading);
   std::vector<std::string> values;
   for (const char* text : texts) values.emplace_back(text ? text : "");
   H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, texts.data());
@@ -117,10 +121,11 @@ void Dataset::write_rows(std::uint64_t first, const std::vector<std::uint8_t>& v
 
 std::vector<double> Dataset::read_rows(std::uint64_t first, std::uint64_t count) const {
   std::vector<double> values(count);
+  const std::string name = name_of(id());
   if (count == 0) return values;
   const RowSpaces spaces(id(), *file_, first, count);
   if (H5Dread(id(), H5T_NATIVE_DOUBLE, spaces.memory.id(), spaces.file.id(), H5P_DEFAULT, values.data()) < 0)
-    throw failure(*file_, fmt::format("rows {} to {} of {}", first, first + count, name_of(id())), Doing::reading);
+    throw failure(*file_, fmt::format("rows {} to {} of {}", first, first + count, name), Doing::reading);
   return values;
 }
 
@@ -130,8 +135,9 @@ Dataset& Dataset::scale(const std::string& name) {
 }
 
 Dataset& Dataset::attach(unsigned dimension, const Dataset& scale) {
+  const std::string name = name_of(id());
   if (H5DSattach_scale(id(), scale.id(), dimension) < 0)
-    throw failure(*file_, "dimension scale of " + name_of(id()), Doing::writing);
+    throw failure(*file_, "dimension scale of " + name, Doing::writing);
   return *this;
 }
 

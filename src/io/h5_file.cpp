@@ -4,6 +4,7 @@
 #include <charconv>
 #include <exception>
 #include <freestand/error.hpp>
+#include <system_error>
 
 #include "base/durable_file.hpp"
 #include "io/h5_internal.hpp"
@@ -42,11 +43,14 @@ herr_t collect(unsigned, const H5E_error2_t* error, void* into) {
   return 0;
 }
 
-Handle file_access(bool together, const std::string& name) {
+enum class Access { reading, writing, together };
+
+// A file that is written is closed with all that is open in it; one that is read lives as long as anything in it.
+Handle file_access(Access how, const std::string& name) {
   Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, name, "file access settings", Doing::writing);
-  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  H5Pset_fclose_degree(access.id(), how == Access::reading ? H5F_CLOSE_WEAK : H5F_CLOSE_STRONG);
   H5Pset_file_locking(access.id(), true, true);
-  if (together) {
+  if (how == Access::together) {
     H5Pset_fapl_mpio(access.id(), MPI_COMM_WORLD, MPI_INFO_NULL);
     H5Pset_all_coll_metadata_ops(access.id(), true);
     H5Pset_coll_metadata_write(access.id(), true);
@@ -80,7 +84,11 @@ Error failure(const std::string& file, const std::string& what, Doing doing) {
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, collect, &reasons);
   H5Eclear2(H5E_DEFAULT);
   const char* verb = doing == Doing::writing ? "write" : "read";
-  if (reasons.error_number) return file_error(verb, file, reasons.error_number);
+  if (reasons.error_number && doing == Doing::writing) return file_error(verb, file, reasons.error_number);
+  if (reasons.error_number)
+    return Error(fmt::format("cannot read {} ({}): check the path and its permissions", file,
+                             std::generic_category().message(reasons.error_number)),
+                 Exit::data);
   const char* advice = doing == Doing::writing ? "check the disk and start again; finished work is kept"
                                                : "make the file again, or name one that freestand has written";
   return Error(fmt::format("cannot {} {} ({}{}{}): {}", verb, file, what, reasons.innermost.empty() ? "" : ": ",
@@ -138,7 +146,7 @@ File File::create_at(const fs::path& aside, const fs::path& path) {
   auto state = std::make_unique<State>();
   state->path = path;
   state->name = std::make_shared<const std::string>(path.string());
-  const Handle access = file_access(false, *state->name);
+  const Handle access = file_access(Access::writing, *state->name);
   const Handle creation = group_properties(*state->name, true);
   state->file = checked(H5Fcreate(aside.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, *state->name,
                         "the file cannot be made", Doing::writing);
@@ -154,7 +162,7 @@ File File::open_together(const fs::path& aside, const fs::path& path) {
   state->together = world_size() > 1;
   state->name = std::make_shared<const std::string>(path.string());
   if (state->together) MPI_Barrier(MPI_COMM_WORLD);
-  const Handle access = file_access(state->together, *state->name);
+  const Handle access = file_access(state->together ? Access::together : Access::writing, *state->name);
   state->file = checked(H5Fopen(aside.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose, *state->name,
                         "the file cannot be opened by all ranks", Doing::writing);
   return File(std::move(state));
@@ -165,7 +173,7 @@ File File::open(const fs::path& path) {
   auto state = std::make_unique<State>();
   state->path = path;
   state->name = std::make_shared<const std::string>(path.string());
-  const Handle access = file_access(false, *state->name);
+  const Handle access = file_access(Access::reading, *state->name);
   state->file = checked(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose, *state->name,
                         "no HDF5 file, or cut short", Doing::reading);
   return File(std::move(state));

@@ -36,29 +36,35 @@ void describe_outcome(h5::Dataset& dataset) {
   std::string meanings;
   std::vector<std::int64_t> values;
   for (int i = 0; i < outcome_count; ++i) {
-    meanings += (i ? " " : "") + std::string(name(static_cast<Outcome>(i)));
+    if (i) meanings += ' ';
+    meanings += name(static_cast<Outcome>(i));
     values.push_back(i);
   }
   dataset.attribute("flag_values", values);
   dataset.attribute("flag_meanings", meanings);
 }
 
+std::vector<std::int64_t> counted(std::size_t n) {
+  std::vector<std::int64_t> numbers(n);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
 void lay_out(h5::File& file, const SamplesHeader& header, std::int64_t rows) {
   h5::Group root = file.root();
   write_provenance(root, samples_format, header.provenance);
   h5::Group samples = root.make_group("samples");
-  std::vector<std::int64_t> numbers(static_cast<std::size_t>(rows));
-  std::iota(numbers.begin(), numbers.end(), 0);
-  h5::Dataset scale = samples.put("sample", numbers);
+  h5::Dataset scale = samples.put("sample", counted(static_cast<std::size_t>(rows)));
   scale.scale("sample").describe("", "number of the sample");
   for (const Column& column : header.columns) {
     h5::Dataset dataset = samples.make_dataset(column.name, type_of(column.kind), {static_cast<std::uint64_t>(rows)});
     dataset.attach(0, scale).describe(column.unit, column.description);
     if (column.name == "outcome") describe_outcome(dataset);
   }
-  root.make_group("motions")
-      .put("name", header.motion_names)
-      .describe("", "floor motion, by the samples' column motion");
+  h5::Group motions = root.make_group("motions");
+  h5::Dataset motion = motions.put("motion", counted(header.motion_names.size()));
+  motion.scale("motion").describe("", "number of the floor motion, the samples' column motion");
+  motions.put("name", header.motion_names).attach(0, motion).describe("", "name of the floor motion");
 }
 
 // Rows of consecutive blocks, row-major.

@@ -2,8 +2,8 @@
 //
 // root attributes: provenance.hpp, format "freestand-samples/1". /samples/sample is the dimension scale 0..n-1;
 // /samples/NAME [sample] is float64, int32 or uint8 by the column's kind, with attributes unit and description; outcome
-// carries flag_values and flag_meanings. /motions/name [motion]: names of the floor motions, which the column `motion`
-// points to.
+// carries flag_values and flag_meanings. /motions/name [motion], scale /motions/motion: names of the floor motions,
+// which the column `motion` points to.
 #pragma once
 
 #include <cstdint>

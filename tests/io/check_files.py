@@ -1,0 +1,122 @@
+"""check_files.py WHAT PATH: opens a file that the io tests wrote and checks what is in it. Exit code 77: library missing."""
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True
+
+try:
+    import numpy as np
+except ImportError as why:
+    print(why)
+    sys.exit(77)
+
+
+def need(module):
+    try:
+        return __import__(module)
+    except ImportError as why:
+        print(why)
+        sys.exit(77)
+
+
+def is_close(found, expected):
+    assert np.array_equal(np.asarray(found), np.asarray(expected), equal_nan=True), f"{found} is not {expected}"
+
+
+def samples_h5py(path):
+    h5py = need("h5py")
+    with h5py.File(path, "r") as root:
+        assert root.attrs["format"] == "freestand-samples/1"
+        assert root.attrs["study"] == "seed: 7\n# études\n"
+        assert root.attrs["seed"] == 7 and root.attrs["samples"] == 10 and root.attrs["ranks"] == 1
+        group = root["samples"]
+        assert sorted(group) == ["block_width_m", "edp_delta", "impacts", "motion", "outcome", "overturned", "sample"]
+        is_close(group["sample"][:], np.arange(10))
+        is_close(group["block_width_m"][:], 0.1 * np.arange(10) + 0.3)
+        is_close(group["edp_delta"][:3], [np.nan, 1.0, 4.0])
+        is_close(group["impacts"][:], -np.arange(10))
+        types = {name: group[name].dtype for name in group}
+        assert types["block_width_m"] == np.float64 and types["outcome"] == np.int32 and types["overturned"] == np.uint8
+        for name in group:
+            if name != "sample":
+                assert group[name].dims[0].label == "" and group[name].dims[0][0].name == "/samples/sample"
+        assert group["block_width_m"].attrs["unit"] == "m" and group["block_width_m"].attrs["description"] == "width"
+        assert group["outcome"].attrs["flag_meanings"] == "at_rest moved overturned painleve step_limit not_finite"
+        is_close(group["outcome"].attrs["flag_values"], np.arange(6))
+        assert [text.decode() for text in root["motions/name"][:]] == ["A", "records/x y.AT2", "é"]
+
+
+def samples_xarray(path, engine):
+    xarray = need("xarray")
+    need({"netcdf4": "netCDF4"}.get(engine, engine))
+    with xarray.open_dataset(path, group="samples", engine=engine) as data:
+        assert dict(data.sizes) == {"sample": 10}, data.sizes
+        is_close(data["block_width_m"].values, 0.1 * np.arange(10) + 0.3)
+        assert data["block_width_m"].dims == ("sample",) and data["block_width_m"].attrs["units"] == "m"
+        assert float(data["edp_delta"].sel(sample=2)) == 4.0
+    with xarray.open_dataset(path, group="motions", engine=engine) as data:
+        assert [str(text) for text in data["name"].values] == ["A", "records/x y.AT2", "é"]
+    with xarray.open_dataset(path, engine=engine) as data:
+        assert data.attrs["study"] == "seed: 7\n# études\n"
+
+
+def fragility_h5py(path):
+    h5py = need("h5py")
+    with h5py.File(path, "r") as root:
+        assert root.attrs["format"] == "freestand-fragility/1" and root.attrs["im"] == "pga" and root.attrs["im_unit"] == "g"
+        assert list(root.attrs["outcome_names"])[:2] == ["at_rest", "moved"]
+        is_close(root.attrs["outcome_counts"], [1, 2, 3, 4, 5, 6])
+        assert list(root.attrs["warnings"]) == ["one thing.", "another thing."]
+        is_close(root["im/edge"][:], [0, 1, 2, 4])
+        is_close(root["im/centre"][:], [0.5, 1.5, 3])
+        assert h5py.h5ds.is_scale(root["im/centre"].id)
+        edp = root["edp/delta"]
+        assert edp.attrs["unit"] == "m" and edp.attrs["symbol"] == "Δ" and edp.attrs["kind"] == "continuous"
+        is_close(edp["n"][:], [100, 101, 102])
+        is_close(edp["lambda"][:], [0.25, 1.25, np.nan])
+        is_close(edp["status"][:], [0, 2, 1])
+        is_close(edp["capacity"][:], [0.5, 2])
+        is_close(edp["surface/probability"][:], [[0, 0.125], [1, 1.125], [2, 2.125]])
+        assert edp["surface/probability"].dims[0][0].name == "/edp/delta/im"
+        assert edp["surface/probability"].dims[1][0].name == "/edp/delta/capacity"
+        is_close(edp["distribution/count"][:], [[1, 2], [3, 4], [5, 6]])
+        axis = edp["axis/friction_mu_k"]
+        assert axis["probability"].shape == (3, 2, 2) and axis["probability"][2, 1, 0] == 10
+        assert axis["probability"].dims[1][0].name == "/edp/delta/axis/friction_mu_k/centre"
+        is_close(axis["n"][:], [[0, 1], [2, 3], [4, 5]])
+        assert root["edp/overturned"].attrs["kind"] == "binary" and "distribution" not in root["edp/overturned"]
+        over = root["overturning"]
+        assert over.attrs["median"] == 1.5 and np.isnan(over.attrs["median_se"]) and over.attrs["penalised"] == 1
+        is_close(over["probability"][:], [0.25, 0.75])
+
+
+def fragility_xarray(path, engine):
+    xarray = need("xarray")
+    need({"netcdf4": "netCDF4"}.get(engine, engine))
+    with xarray.open_dataset(path, group="edp/delta", engine=engine) as data:
+        assert data["lambda"].dims == ("im",) and float(data["lambda"].sel(im=1.5)) == 1.25
+    with xarray.open_dataset(path, group="edp/delta/surface", engine=engine) as data:
+        assert data["probability"].dims == ("im", "capacity"), data["probability"].dims
+    with xarray.open_dataset(path, group="edp/delta/axis/friction_mu_k", engine=engine) as data:
+        assert data["probability"].dims == ("im", "centre", "capacity")
+    for group in ("im", "edp/delta/distribution", "edp/overturned", "overturning"):
+        xarray.open_dataset(path, group=group, engine=engine).close()
+
+
+def postprocess(path):
+    need("h5py")
+    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "postprocess"))
+    reading = __import__("freestand_post.reading", fromlist=["read_sweep"])
+    sweep = reading.read_sweep(pathlib.Path(path))
+    assert [edp.name for edp in sweep.edps] == ["delta", "overturned"], sweep.edps
+    assert sweep.outcomes["not_finite"] == 6
+    is_close(sweep.edps[0].surface["upper"], np.full((3, 2), 9))
+    is_close(sweep.overturning["grid"], [1, 2])
+
+
+what, file = sys.argv[1:]
+if what.startswith("xarray"):
+    kind, engine = what.split("-")[1:]
+    {"samples": samples_xarray, "fragility": fragility_xarray}[kind](file, engine)
+else:
+    {"samples": samples_h5py, "fragility": fragility_h5py, "postprocess": postprocess}[what](file)

@@ -1,0 +1,168 @@
+#include "io/fragility_file.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/error_text.hpp"
+#include "io/python.hpp"
+#include "io/text_files.hpp"
+#include "support/sample_blocks.hpp"
+#include "support/scratch.hpp"
+
+namespace freestand::io {
+namespace {
+
+using fragility::BinStatus;
+
+fragility::EdpResult continuous_edp() {
+  fragility::EdpResult edp;
+  edp.name = "delta";
+  edp.unit = "m";
+  edp.symbol = "Δ";
+  edp.bins.resize(3);
+  for (int i = 0; i < 3; ++i) edp.bins[static_cast<std::size_t>(i)].n = 100 + i;
+  edp.bins[0].lambda = 0.25;
+  edp.bins[0].status = BinStatus::fitted;
+  edp.bins[1].lambda = 1.25;
+  edp.bins[1].status = BinStatus::rejected;
+  edp.bins[1].p_over = 0.1;
+  edp.capacity = {0.5, 2};
+  edp.surface.probability = {0, 0.125, 1, 1.125, 2, 2.125};
+  edp.surface.lower = std::vector<double>(6, 8);
+  edp.surface.upper = std::vector<double>(6, 9);
+  edp.surface.empirical = {0, 0, 0, 0, fragility::unknown, 0.5};
+  edp.distribution = {{-1, 0, 1}, {1, 2, 3, 4, 5, 6}};
+  edp.axes = {
+      {"friction_mu_k", "1", {0, 1, 2}, {0.5, 1.5}, {}, std::vector<double>(12, 1), std::vector<double>(12, 2), {}}};
+  for (int i = 0; i < 12; ++i) edp.axes[0].probability.push_back(i);
+  edp.axes[0].n = {0, 1, 2, 3, 4, 5};
+  edp.regressions.slope = 3.5;
+  return edp;
+}
+
+fragility::Result example() {
+  fragility::Result result;
+  result.im_name = "pga";
+  result.im_unit = "g";
+  result.im_edge = {0, 1, 2, 4};
+  result.im_centre = {0.5, 1.5, 3};
+  result.outcome_counts = {1, 2, 3, 4, 5, 6};
+  result.samples = 21;
+  fragility::EdpResult binary;
+  binary.name = "overturned";
+  binary.unit = "1";
+  binary.symbol = "O";
+  binary.binary = true;
+  binary.bins.resize(3);
+  binary.capacity = {0.5};
+  binary.surface.probability = binary.surface.lower = binary.surface.upper = binary.surface.empirical = {0, 0.5, 1};
+  result.edps = {continuous_edp(), binary};
+  result.overturning.median = 1.5;
+  result.overturning.dispersion = 0.5;
+  result.overturning.penalised = true;
+  result.overturning.grid = {1, 2};
+  result.overturning.probability = {0.25, 0.75};
+  result.overturning.lower = {0, 0};
+  result.overturning.upper = {1, 1};
+  result.warnings = {"one thing.", "another thing."};
+  return result;
+}
+
+Provenance provenance() { return test::small_header().provenance; }
+
+std::filesystem::path write_example(const test::Scratch& scratch) {
+  write_fragility(scratch / "fragility.h5", provenance(), example());
+  return scratch / "fragility.h5";
+}
+
+TEST(FragilityFile, OpensInH5py) {
+  const test::Scratch scratch("fragility");
+  FREESTAND_CHECK_WITH_PYTHON("fragility", write_example(scratch));
+}
+TEST(FragilityFile, OpensInXarrayByNetcdf4) {
+  const test::Scratch scratch("fragility");
+  FREESTAND_CHECK_WITH_PYTHON("xarray-fragility-netcdf4", write_example(scratch));
+}
+TEST(FragilityFile, OpensInXarrayByH5netcdf) {
+  const test::Scratch scratch("fragility");
+  FREESTAND_CHECK_WITH_PYTHON("xarray-fragility-h5netcdf", write_example(scratch));
+}
+TEST(FragilityFile, IsReadByPostprocess) {
+  const test::Scratch scratch("fragility");
+  write_example(scratch);
+  FREESTAND_CHECK_WITH_PYTHON("postprocess", scratch.folder());
+}
+
+TEST(FragilityFile, AnEmptyResultIsAFileToo) {
+  const test::Scratch scratch("fragility");
+  fragility::Result nothing;
+  nothing.im_edge = {0, 1};
+  nothing.im_centre = {0.5};
+  write_fragility(scratch / "x.h5", provenance(), nothing);
+  EXPECT_EQ(h5::File::open(scratch / "x.h5").root().open_group("edp").names().size(), 0u);
+}
+
+std::vector<std::vector<std::string>> table_of(const std::string& csv) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    rows.emplace_back();
+    std::istringstream cells(line + ",");
+    for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
+}
+
+std::string cell_of(const std::vector<std::vector<std::string>>& table, std::size_t row, const std::string& column) {
+  for (std::size_t i = 0; i < table[0].size(); ++i)
+    if (table[0][i] == column) return table[row][i];
+  return "no column " + column;
+}
+
+TEST(BinsCsv, HasOneRowPerEdpAndBin) {
+  const auto table = table_of(bins_csv(example()));
+  ASSERT_EQ(table.size(), 1u + 2 * 3);
+  for (const auto& row : table) EXPECT_EQ(row.size(), table[0].size());
+  EXPECT_EQ(cell_of(table, 2, "edp"), "delta");
+  EXPECT_EQ(cell_of(table, 2, "im_lower"), "1");
+  EXPECT_EQ(cell_of(table, 2, "im_centre"), "1.5");
+  EXPECT_EQ(cell_of(table, 2, "n"), "101");
+  EXPECT_EQ(cell_of(table, 2, "lambda"), "1.25");
+  EXPECT_EQ(std::stod(cell_of(table, 2, "p_over")), 0.1);
+  EXPECT_EQ(cell_of(table, 2, "status"), "rejected");
+  EXPECT_EQ(cell_of(table, 3, "lambda"), "");
+  EXPECT_EQ(cell_of(table, 3, "status"), "too_few");
+  EXPECT_EQ(cell_of(table, 6, "edp"), "overturned");
+}
+
+TEST(SurfaceCsv, HasOneRowPerPoint) {
+  const auto table = table_of(surface_csv(example()));
+  ASSERT_EQ(table.size(), 1u + 3 * 2 + 3);
+  EXPECT_EQ(table[0], (std::vector<std::string>{"im", "edp", "capacity", "probability", "lower", "upper", "empirical",
+                                                "status"}));
+  EXPECT_EQ(table[4], (std::vector<std::string>{"1.5", "delta", "2", "1.125", "8", "9", "0", "rejected"}));
+  EXPECT_EQ(table[5], (std::vector<std::string>{"3", "delta", "0.5", "2", "8", "9", "", "too_few"}));
+  EXPECT_EQ(table[9], (std::vector<std::string>{"3", "overturned", "0.5", "1", "1", "1", "1", "too_few"}));
+}
+
+TEST(Summary, TellsWhatASweepFound) {
+  const auto json = nlohmann::json::parse(json_text(fragility_summary(provenance(), example())));
+  EXPECT_EQ(json["format"], "freestand-summary/1");
+  EXPECT_EQ(json["study_name"], "small");
+  EXPECT_EQ(json["samples"], 21);
+  EXPECT_EQ(json["seed"], 7);
+  EXPECT_EQ(json["outcomes"]["not_finite"], 6);
+  EXPECT_EQ(json["edps"]["delta"]["fitted"], 1);
+  EXPECT_EQ(json["edps"]["delta"]["rejected"], 1);
+  EXPECT_EQ(json["edps"]["delta"]["too_few"], 1);
+  EXPECT_EQ(json["edps"]["delta"]["regression"]["slope"], 3.5);
+  EXPECT_TRUE(json["edps"]["delta"]["regression"]["sd_slope"].is_null());
+  EXPECT_EQ(json["overturning"]["median"], 1.5);
+  EXPECT_TRUE(json["overturning"]["median_se"].is_null());
+  EXPECT_EQ(json["warnings"].size(), 2u);
+  EXPECT_EQ(json["provenance"]["git_commit"], "abc");
+}
+
+}  // namespace
+}  // namespace freestand::io

@@ -1,0 +1,111 @@
+#include "io/output_folder.hpp"
+
+#include <fstream>
+#include <set>
+
+#include "base/durable_file.hpp"
+#include "io/error_text.hpp"
+#include "support/scratch.hpp"
+#include "support/trouble.hpp"
+
+namespace freestand::io {
+namespace {
+
+namespace fs = std::filesystem;
+using test::error_text;
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    names.insert(fs::relative(entry.path(), folder).string());
+  return names;
+}
+
+void put(const fs::path& path) {
+  fs::create_directories(path.parent_path());
+  std::ofstream(path) << "x";
+}
+
+TEST(OutputFolder, IsMadeWithItsParents) {
+  const test::Scratch scratch("out");
+  prepare_output_folder(scratch / "a" / "b", Existing::refuse);
+  EXPECT_TRUE(fs::is_directory(scratch / "a" / "b"));
+  EXPECT_TRUE(fs::is_empty(scratch / "a" / "b"));
+  prepare_output_folder(scratch / "a" / "b", Existing::refuse);
+}
+
+TEST(OutputFolder, WithSomethingInItIsRefused) {
+  const test::Scratch scratch("out");
+  put(scratch / "thesis.txt");
+  EXPECT_THAT(error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), Existing::refuse); }),
+              AllOf(HasSubstr(scratch.folder().string()), HasSubstr("not empty"), HasSubstr("--overwrite")));
+  EXPECT_EQ(names_in(scratch.folder()), std::set<std::string>{"thesis.txt"});
+}
+
+TEST(OutputFolder, OverwriteRemovesResultsAndNothingElse) {
+  const test::Scratch scratch("out");
+  for (const char* name : {"samples.h5", "bins.csv", ".samples.h5.part", "thesis.txt", "blocks/block-00000001.bin",
+                           "blocks/.block-00000002.bin.h.1.part"})
+    put(scratch / name);
+  prepare_output_folder(scratch.folder(), Existing::overwrite);
+  EXPECT_EQ(names_in(scratch.folder()), std::set<std::string>{"thesis.txt"});
+  put(scratch / "blocks/mine.txt");
+  put(scratch / "blocks/block-00000001.bin");
+  prepare_output_folder(scratch.folder(), Existing::overwrite);
+  EXPECT_EQ(names_in(scratch.folder()), (std::set<std::string>{"thesis.txt", "blocks", "blocks/mine.txt"}));
+}
+
+TEST(OutputFolder, ResumeLeavesEverything) {
+  const test::Scratch scratch("out");
+  put(scratch / "blocks/block-00000001.bin");
+  put(scratch / "samples.h5");
+  prepare_output_folder(scratch.folder(), Existing::resume);
+  EXPECT_EQ(names_in(scratch.folder()), (std::set<std::string>{"blocks", "blocks/block-00000001.bin", "samples.h5"}));
+}
+
+TEST(OutputFolder, AFileInItsPlaceIsRefused) {
+  const test::Scratch scratch("out");
+  put(scratch / "file");
+  EXPECT_THAT(error_text(Exit::usage, [&] { prepare_output_folder(scratch / "file", Existing::overwrite); }),
+              HasSubstr("it is a file"));
+  EXPECT_THAT(error_text(Exit::usage, [&] { prepare_output_folder(scratch / "file" / "x", Existing::refuse); }),
+              HasSubstr("Not a directory"));
+}
+
+TEST(OutputFolder, NoWritePermissionIsSaidBeforeTheWork) {
+  const test::Scratch scratch("out");
+  const auto inside =
+      test::without_rights(scratch.folder(), [&] { prepare_output_folder(scratch.folder(), Existing::refuse); });
+  EXPECT_EQ(inside.exit, 2);
+  EXPECT_THAT(inside.text, AllOf(HasSubstr("Permission denied"), HasSubstr("choose a folder")));
+  const auto making =
+      test::without_rights(scratch.folder(), [&] { prepare_output_folder(scratch / "x", Existing::refuse); });
+  EXPECT_EQ(making.exit, 2);
+  EXPECT_THAT(making.text, HasSubstr("cannot make folder"));
+}
+
+TEST(OutputFolder, AFullDiskIsSaidBeforeTheWork) {
+  const test::Scratch scratch("out");
+  const test::SmallDisk disk(scratch / "disk", "16k");
+  if (!disk.mounted()) GTEST_SKIP() << "no right to mount a small file system here";
+  std::ofstream(disk.folder() / "filler") << std::string(100000, 'x') << std::flush;
+  EXPECT_THAT(error_text(Exit::resumable, [&] { prepare_output_folder(disk.folder(), Existing::resume); }),
+              HasSubstr("No space left"));
+}
+
+TEST(WriteText, ReplacesAWholeFile) {
+  const test::Scratch scratch("out");
+  write_text(scratch / "x.csv", "old\n");
+  write_text(scratch / "x.csv", "new\n");
+  EXPECT_EQ(read_whole(scratch / "x.csv"), "new\n");
+  EXPECT_EQ(names_in(scratch.folder()), std::set<std::string>{"x.csv"});
+  const auto told = test::with_file_size_limit(100, [&] { write_text(scratch / "x.csv", std::string(1000, 'z')); });
+  EXPECT_EQ(told.exit, 75);
+  EXPECT_EQ(read_whole(scratch / "x.csv"), "new\n");
+  EXPECT_EQ(names_in(scratch.folder()), std::set<std::string>{"x.csv"});
+}
+
+}  // namespace
+}  // namespace freestand::io
