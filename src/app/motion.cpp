@@ -38,13 +38,12 @@ std::string description(const FloorMotion& motion) {
   text += fmt::format("  Sa, {:.0f} % damped:", 100 * damping);
   for (const double period : spectrum_periods_s)
     text += fmt::format("  {:g} s {:.3f} g", period,
-                        motion::spectral_acceleration(motion, period, damping) / standard_gravity_mps2);
+                        motion::spectral_acceleration_mps2(motion, period, damping) / standard_gravity_mps2);
   return text + "\n";
 }
 
 // Floor motion csv of the samples; the step of a record is constant.
 std::string floor_csv(const FloorMotion& motion) {
-  const Shaking shaking{&motion, 1.0, 1.0, 1.0};
   const bool vertical = !motion.vertical_mps2.empty();
   std::string text = vertical ? "time_s,floor_acceleration_mps2,floor_vertical_acceleration_mps2\n"
                               : "time_s,floor_acceleration_mps2\n";

@@ -1,6 +1,5 @@
-#include <freestand/specimen.hpp>
-
 #include <algorithm>
+#include <freestand/specimen.hpp>
 
 #include "base/units.hpp"
 

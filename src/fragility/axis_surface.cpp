@@ -30,7 +30,8 @@ class Cell {
   Interval band(const Eigen::MatrixXd& totals, Eigen::Index c, double confidence) const {
     std::vector<double> values;
     for (Eigen::Index r = 0; r < totals.rows(); ++r) values.push_back(totals(r, 1 + c) / totals(r, 0));
-    const Interval resampled = percentile_interval(values, confidence, motions_);
+    const Interval resampled =
+        percentile_interval(values, static_cast<double>(hits(c)) / static_cast<double>(n()), confidence, motions_);
     if (std::isnan(resampled.lower)) return resampled;
     const Interval exact = clopper_pearson(hits(c), n(), confidence);
     return {std::min(resampled.lower, exact.lower), std::max(resampled.upper, exact.upper)};

@@ -10,7 +10,7 @@
 namespace freestand::fragility {
 
 int ln_cell(double ln_value) {
-  const double cell = std::floor((ln_value - ln_lowest) / ln_cell_width) + 1;
+  const double cell = std::floor(ln_value / ln_cell_width) - ln_lowest / ln_cell_width + 1;
   return static_cast<int>(std::clamp(cell, 0.0, static_cast<double>(ln_cell_count - 1)));
 }
 

@@ -49,15 +49,18 @@ double sorted_quantile(const std::vector<double>& sorted, double p) {
   return sorted[below] + (position - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
 }
 
-Interval percentile_interval(std::vector<double> values, double confidence, int groups) {
+Interval percentile_interval(std::vector<double> values, double estimate, double confidence, int groups) {
   std::erase_if(values, [](double value) { return !std::isfinite(value); });
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  if (values.size() < 2 || groups < 2) return {nan, nan};
+  if (values.size() < 2 || groups < 2 || std::isnan(estimate)) return {nan, nan};
   std::sort(values.begin(), values.end());
-  const double g = groups;
-  const double t = gsl_cdf_tdist_Qinv((1 - confidence) / 2, g - 1);
-  const double tail = gsl_cdf_ugaussian_Q(std::sqrt(g / (g - 1)) * t);
-  return {sorted_quantile(values, tail), sorted_quantile(values, 1 - tail)};
+  const double g = groups, n = static_cast<double>(values.size());
+  const double z = std::sqrt(g / (g - 1)) * gsl_cdf_tdist_Qinv((1 - confidence) / 2, g - 1);
+  const auto [first, last] = std::equal_range(values.begin(), values.end(), estimate);
+  const double below = static_cast<double>((first - values.begin()) + (last - values.begin())) / (2 * n);
+  const double bias = gsl_cdf_ugaussian_Pinv(std::clamp(below, 0.5 / n, 1 - 0.5 / n));
+  return {sorted_quantile(values, gsl_cdf_ugaussian_P(2 * bias - z)),
+          sorted_quantile(values, gsl_cdf_ugaussian_P(2 * bias + z))};
 }
 
 std::vector<bool> benjamini_hochberg(const std::vector<double>& p, double level) {

@@ -18,11 +18,12 @@ Interval clopper_pearson(std::int64_t hits, std::int64_t trials, double confiden
 // Quantile of sorted values with linear interpolation: p = 0 is the first, p = 1 the last. NaN when empty.
 double sorted_quantile(const std::vector<double>& sorted, double p);
 
-// Percentile interval of bootstrap values (those that are not finite are left out), expanded for the number of
-// resampled groups G: the tail is Phi(-sqrt(G/(G-1)) t_{tail,G-1}) in place of `tail`, so that few groups are not taken
-// as many (T. Hesterberg, "What teachers should know about the bootstrap", The American Statistician 69, 2015). NaN
-// with fewer than two groups or two finite values.
-Interval percentile_interval(std::vector<double> values, double confidence, int groups);
+// Percentile interval of bootstrap values of an estimate (values that are not finite are left out), corrected for median bias
+// and expanded for the number of resampled groups G: the quantiles Phi(2 z0 -+ z) in place of Phi(-+1.96), with
+//   Phi(z0) = share of values below the estimate      (B. Efron, Canadian J. Statistics 9, 1981),
+//   z = sqrt(G/(G-1)) t_{G-1}                          (T. Hesterberg, The American Statistician 69, 2015),
+// since few groups make the spread between them look smaller than it is. NaN with fewer than two groups or two finite values.
+Interval percentile_interval(std::vector<double> values, double estimate, double confidence, int groups);
 
 // Benjamini & Hochberg (1995): which of the p values are rejected with false discovery rate `level`. NaN is never
 // rejected and not counted.

@@ -91,7 +91,7 @@ OverturningCurve overturning_curve(const Tally& tally, const Resampling& resampl
   const int motions = static_cast<int>(std::count(there.begin(), there.end(), true));
   for (std::size_t i = 0; i < points; ++i) {
     curve.probability[i] = overturning_probability(fit, curve.grid[i]);
-    const Interval band = percentile_interval(values[i], tally.options().confidence, motions);
+    const Interval band = percentile_interval(values[i], curve.probability[i], tally.options().confidence, motions);
     curve.lower[i] = band.lower;
     curve.upper[i] = band.upper;
   }

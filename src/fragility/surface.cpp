@@ -50,11 +50,11 @@ struct Point {
 
 Point empirical_point(const Eigen::MatrixXd& totals, Eigen::Index column, std::int64_t hits, const BinFit& bin,
                       double confidence) {
+  const double p = static_cast<double>(hits) / static_cast<double>(bin.n);
   std::vector<double> values;
   for (Eigen::Index r = 0; r < totals.rows(); ++r) values.push_back(totals(r, column) / totals(r, n));
-  const Interval band = percentile_interval(values, confidence, bin.motions);
+  const Interval band = percentile_interval(values, p, confidence, bin.motions);
   const Interval exact = clopper_pearson(hits, bin.n, confidence);
-  const double p = static_cast<double>(hits) / static_cast<double>(bin.n);
   if (std::isnan(band.lower)) return {p, unknown, unknown};
   return {p, std::min(band.lower, exact.lower), std::max(band.upper, exact.upper)};
 }
@@ -84,7 +84,7 @@ Point fitted_point(const Parts& parts, const BinFit& bin, double capacity, doubl
   for (std::size_t r = 0; r < parts.lambda.size(); ++r)
     values.push_back(
         three_part_exceedance(parts.p_over[r], parts.p_still[r], parts.lambda[r], parts.omega[r], capacity));
-  const Interval band = percentile_interval(values, confidence, bin.motions);
+  const Interval band = percentile_interval(values, point.probability, confidence, bin.motions);
   point.lower = band.lower;
   point.upper = band.upper;
   if (std::isnan(band.lower)) return point;

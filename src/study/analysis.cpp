@@ -1,7 +1,7 @@
 #include "study/analysis.hpp"
 
 #include "edp/edp.hpp"
-#include "fragility/analyse.hpp"
+#include "fragility/fit.hpp"
 #include "fragility/tally.hpp"
 #include "intensity/intensity.hpp"
 #include "study/bins.hpp"
@@ -65,17 +65,15 @@ fragility::Options fragility_options(const Study& study, const Table& first,
 
 fragility::Result analyse(const parallel::Communicator& world, const Study& study,
                           const std::vector<std::uint8_t>& motion_is_record, std::int64_t blocks,
-                          const ReadTable& read) {
+                          std::int64_t block_size, const ReadTable& read) {
   const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_is_record);
   fragility::Tally tally(options);
-  for (std::int64_t block = world.rank(); block < blocks; block += world.size()) tally.add(read(block));
-  const parallel::Words merged = world.merge(tally.words(), [&](parallel::Words& into, const parallel::Words& from) {
-    fragility::Tally sum = fragility::Tally::from_words(options, into);
-    sum.merge(fragility::Tally::from_words(options, from));
-    into = sum.words();
-  });
+  for (std::int64_t block = world.rank(); block < blocks; block += world.size())
+    tally.add(read(block), static_cast<std::uint64_t>(block * block_size));
+  parallel::Words words = tally.words();
+  world.sum_in_place(words);
   if (!world.is_root()) return {};
-  return fragility::analyse(options, fragility::Tally::from_words(options, merged));
+  return fragility::fit(fragility::Tally::from_words(options, words));
 }
 
 }  // namespace freestand::study

@@ -25,9 +25,10 @@ fragility::Options fragility_options(const Study&, const Table& first,
 // Rows of one block.
 using ReadTable = std::function<Table(std::int64_t block)>;
 
-// Tallies the blocks, dealt to the ranks, and analyses them. The result stands on the root, the others get an empty
-// one. The same to the bit on any number of ranks. Collective.
+// Tallies the blocks, of block_size samples each but the last, dealt to the ranks, and analyses them. The result stands
+// on the root, the others get an empty one. The same to the bit on any number of ranks. Collective.
 fragility::Result analyse(const parallel::Communicator&, const Study&,
-                          const std::vector<std::uint8_t>& motion_is_record, std::int64_t blocks, const ReadTable&);
+                          const std::vector<std::uint8_t>& motion_is_record, std::int64_t blocks,
+                          std::int64_t block_size, const ReadTable&);
 
 }  // namespace freestand::study

@@ -25,10 +25,10 @@ nlohmann::ordered_json timing_json(const SweepSummary& sweep, int ranks) {
 void fit(const parallel::Communicator& world, const std::filesystem::path& folder, const std::string& command,
          const SweepSummary* sweep) {
   const io::SampleReader reader(samples_path(folder));
-  const Study study = parse_stored(reader.provenance().study);
+  const Study study = parse_stored(reader.provenance().study, folder);
   const io::BlockLayout layout{reader.rows(), rows_at_once};
   const fragility::Result result =
-      analyse(world, study, reader.motion_is_record(), layout.blocks(),
+      analyse(world, study, reader.motion_is_record(), layout.blocks(), rows_at_once,
               [&](std::int64_t block) { return reader.read(block * rows_at_once, layout.rows(block)); });
   world.on_root([&] {
     io::Provenance provenance = io::provenance_here(command, world.size());

@@ -19,4 +19,8 @@ Known registries() {
   return known;
 }
 
+Study parse_stored(const std::string& expanded, const std::filesystem::path& origin) {
+  return parse_study(expanded, origin, registries(), Files::ignore);
+}
+
 }  // namespace freestand::study

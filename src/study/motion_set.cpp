@@ -124,6 +124,12 @@ std::vector<std::string> MotionSet::names() const {
   return names;
 }
 
+std::vector<std::uint8_t> MotionSet::is_record() const {
+  std::vector<std::uint8_t> flags;
+  for (const Entry& entry : *entries) flags.push_back(!entry.pulse);
+  return flags;
+}
+
 std::string MotionSet::fingerprint() const {
   std::uint64_t hash = 0;
   for (const auto& [motion, pulse, peak_mps2, peak_mps] : *entries) {

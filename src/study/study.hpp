@@ -175,6 +175,9 @@ Case read_case(const std::filesystem::path& file);
 Study parse_study(const std::string& text, const std::filesystem::path& file, const Known&, Files = Files::look);
 Case parse_case(const std::string& text, const std::filesystem::path& file);
 
+// The study that a result of this program stores; its records are not looked for. `origin` names it in messages.
+Study parse_stored(const std::string& expanded, const std::filesystem::path& origin);
+
 // The whole study, every default written out, as YAML that parses back to the same study.
 std::string expanded(const Study&);
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <optional>
 
-#include "fragility/half_width.hpp"
+#include "fragility/fit.hpp"
 #include "io/output_folder.hpp"
 #include "io/samples_file.hpp"
 #include "parallel/checkpoint.hpp"
@@ -29,7 +29,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 bool already_complete(const Study& study, const std::filesystem::path& folder) {
   if (!std::filesystem::exists(samples_path(folder))) return false;
   const io::SampleReader reader(samples_path(folder));
-  if (fingerprint(parse_stored(reader.provenance().study)) != fingerprint(study))
+  if (fingerprint(parse_stored(reader.provenance().study, folder)) != fingerprint(study))
     throw Error(
         fmt::format("{} holds the results of another study (its fingerprint differs): choose another folder, or give "
                     "--overwrite to replace them",
@@ -79,7 +79,6 @@ class Sweep {
   void take_stock() {
     parallel::Words finished;
     world_.on_root([&] {
-      if (!options_.resume) store_.clear();
       store_.remove_leftovers();
       finished = store_.finished();
     });
@@ -132,12 +131,12 @@ class Sweep {
 
   // Is every wanted point of the surface within the half width asked for?
   bool known_well_enough(std::int64_t samples) {
-    const fragility::Result result =
-        analyse(world_, study_, evaluator_.motions().is_record(), layout(samples).blocks(), [&](std::int64_t block) {
-          return Table{evaluator_.columns(), store_.read(block).values};
-        });
+    const fragility::Result result = analyse(world_, study_, evaluator_.motions().is_record(), layout(samples).blocks(),
+                                             layout(samples).block_size, [&](std::int64_t block) {
+                                               return Table{evaluator_.columns(), store_.read(block).values};
+                                             });
     double half_width = 0;
-    if (world_.is_root()) half_width = fragility::largest_half_width(result);
+    if (world_.is_root()) half_width = fragility::half_width(result).largest;
     half_width = world_.broadcast(std::vector<double>{half_width}).front();
     if (world_.is_root() && !options_.quiet)
       fmt::print(stderr, "{} samples: the surface is known to +-{:.3f} (wanted +-{:.3f})\n", samples, half_width,

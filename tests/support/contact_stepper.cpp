@@ -255,11 +255,10 @@ double Stepper::advance_until(const FloorAcceleration& a, double dt,
 }
 
 // A step in which a corner meets the floor is cut at that instant: up to it without the corner, then an impact of no
-// duration, then the rest. So is one in which friction falls from mu_s to mu_k. After a few cuts (rattling) the rest is
+// duration, then the rest. So is one in which slip begins, stops or reverses. After a few cuts (rattling) the rest is
 // done in one go, the corner closing in it.
 bool Stepper::step(const FloorAcceleration& a, double dt) {
   closing_speed_ = 0;
-  const bool falls = friction_.mu_s > friction_.mu_k;
   for (int cut = 0; cut < 4 && dt > 1e-12; ++cut) {
     const Velocity free = freely(a, dt);
     const Contacts c = contacts(free, dt);
@@ -275,9 +274,10 @@ bool Stepper::step(const FloorAcceleration& a, double dt) {
     }
     const Stepper start = *this;
     if (!advance(c, free, dt, false)) return false;
-    if (!falls || start.grip_ != Grip::stuck || !slips()) return true;
+    const Grip grip = start.grip_;
+    if (grip == Grip::none || grip_ == Grip::none || grip_ == grip) return true;
     Stepper onset = start;
-    const double gone = onset.advance_until(a, dt, [](const Stepper& trial) { return trial.slips(); });
+    const double gone = onset.advance_until(a, dt, [=](const Stepper& trial) { return trial.grip_ != grip; });
     if (gone < 1e-12) return true;
     *this = onset;
     dt -= gone;

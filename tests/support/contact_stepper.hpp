@@ -9,7 +9,7 @@
 // (Moreau 1988, Stewart & Trinkle 1996). The problem has at most two corners; it is solved exactly by trying the cases
 // {no corner, left, right, both} x {stick, slip to the right, slip to the left} and taking the consistent one.
 // J is taken at the middle of the step for the impulses and at its end for the velocities, so smooth motion is followed
-// to second order in dt. A step in which a corner meets the floor, or friction falls from mu_s to mu_k, is cut there.
+// to second order in dt. A step in which a corner meets the floor, or slip begins, stops or reverses, is cut there.
 // A corner that carries is put back on the floor after each step, one that sticks is put back to where it stuck.
 //
 // Static friction above kinetic friction (mu_s > mu_k), stated since Coulomb's law with two coefficients has no unique

@@ -1,0 +1,138 @@
+#include "fragility/overturning.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fragility/draws.hpp"
+
+namespace freestand::fragility {
+namespace {
+
+// `n` trials at each of 40 intensities between 0.05 and 2; the block overturns with probability
+// Phi(ln(im/median)/beta).
+std::vector<OverturningPoint> trials(int n, double median, double beta, std::uint64_t stream) {
+  std::vector<OverturningPoint> points;
+  std::uint64_t i = 0;
+  for (int k = 1; k <= 40; ++k) {
+    OverturningPoint point{0.05 * k, static_cast<double>(n), 0};
+    const double p = 0.5 * std::erfc(-std::log(point.im / median) / beta / std::sqrt(2.0));
+    for (int j = 0; j < n; ++j) point.over += test::uniform(i++, stream) < p ? 1 : 0;
+    points.push_back(point);
+  }
+  return points;
+}
+
+TEST(Overturning, RecoversAKnownCurveWithHonestStandardErrors) {
+  constexpr int repeats = 300;
+  double covered_median = 0, covered_dispersion = 0, median = 0, dispersion = 0;
+  for (std::uint64_t r = 0; r < repeats; ++r) {
+    const OverturningFit fit = fit_overturning(trials(20, 0.9, 0.45, r));
+    EXPECT_FALSE(fit.penalised);
+    median += fit.median / repeats;
+    dispersion += fit.dispersion / repeats;
+    covered_median += std::fabs(fit.median - 0.9) < 1.96 * fit.median_se ? 1.0 / repeats : 0;
+    covered_dispersion += std::fabs(fit.dispersion - 0.45) < 1.96 * fit.dispersion_se ? 1.0 / repeats : 0;
+  }
+  EXPECT_NEAR(median, 0.9, 0.005);
+  EXPECT_NEAR(dispersion, 0.45, 0.01);
+  EXPECT_NEAR(covered_median, 0.95, 0.04);
+  EXPECT_NEAR(covered_dispersion, 0.95, 0.04);
+}
+
+TEST(Overturning, LikelihoodIsLargestAtTheFit) {
+  const auto points = trials(15, 1.1, 0.3, 77);
+  const OverturningFit fit = fit_overturning(points);
+  const auto log_likelihood = [&](double median, double beta) {
+    double sum = 0;
+    for (const auto& p : points) {
+      const double eta = std::log(p.im / median) / beta / std::sqrt(2.0);
+      sum += p.over * std::log(0.5 * std::erfc(-eta)) + (p.n - p.over) * std::log(0.5 * std::erfc(eta));
+    }
+    return sum;
+  };
+  const double best = log_likelihood(fit.median, fit.dispersion);
+  for (const double factor : {0.999, 1.001}) {
+    EXPECT_LT(log_likelihood(fit.median * factor, fit.dispersion), best);
+    EXPECT_LT(log_likelihood(fit.median, fit.dispersion * factor), best);
+  }
+}
+
+TEST(Overturning, SeparatedOutcomesStayFinite) {
+  for (const double n : {1.0, 5.0, 1000.0}) {
+    const OverturningFit fit =
+        fit_overturning({{0.5, n, 0}, {0.8, n, 0}, {1.0, n, 0}, {1.3, n, n}, {1.6, n, n}, {2.0, n, n}});
+    EXPECT_TRUE(fit.penalised);
+    EXPECT_GT(fit.median, 1.0) << n;
+    EXPECT_LT(fit.median, 1.3) << n;
+    EXPECT_GT(fit.dispersion, 0.005) << n;
+    EXPECT_LT(fit.dispersion, 1) << n;
+    EXPECT_TRUE(std::isfinite(fit.median_se) && std::isfinite(fit.dispersion_se)) << n;
+  }
+  // One intensity at which both happen, nothing to overlap with: the likelihood has no maximum either.
+  const OverturningFit touching = fit_overturning({{0.5, 10, 0}, {1.0, 10, 4}, {2.0, 10, 10}});
+  EXPECT_TRUE(touching.penalised);
+  EXPECT_TRUE(std::isfinite(touching.median) && touching.dispersion > 0);
+}
+
+// The penalised objective, maximised on a fine grid by other means.
+TEST(Overturning, PenaltyIsJeffreysPrior) {
+  const std::vector<OverturningPoint> points{{0.5, 3, 0}, {1.0, 3, 0}, {1.4, 3, 3}, {2.0, 3, 3}};
+  const auto objective = [&](double a, double b) {
+    double value = 0, i00 = 0, i01 = 0, i11 = 0;
+    for (const auto& p : points) {
+      const double x = std::log(p.im), eta = a + b * x, cdf = 0.5 * std::erfc(-eta / std::sqrt(2.0));
+      const double pdf = std::exp(-eta * eta / 2) / std::sqrt(2 * pi), w = p.n * pdf * pdf / (cdf * (1 - cdf));
+      value += p.over * std::log(cdf) + (p.n - p.over) * std::log(1 - cdf);
+      i00 += w, i01 += w * x, i11 += w * x * x;
+    }
+    return value + 0.5 * std::log(i00 * i11 - i01 * i01);
+  };
+  const OverturningFit fit = fit_overturning(points);
+  const double best = objective(fit.a, fit.b);
+  for (const double da : {-1e-3, 0.0, 1e-3})
+    for (const double db : {-1e-3, 0.0, 1e-3})
+      EXPECT_LE(objective(fit.a + da, fit.b + db), da == 0 && db == 0 ? best : best - 1e-9) << da << " " << db;
+}
+
+TEST(Overturning, NoCurveWhereThereIsNone) {
+  EXPECT_TRUE(std::isnan(fit_overturning({{0.5, 10, 0}, {1, 10, 0}}).median));
+  EXPECT_TRUE(std::isnan(fit_overturning({{0.5, 10, 10}, {1, 10, 10}}).median));
+  EXPECT_TRUE(std::isnan(fit_overturning({{1, 10, 4}}).median));
+  EXPECT_TRUE(std::isnan(fit_overturning({}).median));
+  const OverturningFit falling = fit_overturning({{0.5, 10, 8}, {1, 10, 5}, {2, 10, 1}});
+  EXPECT_TRUE(std::isnan(falling.median));
+  EXPECT_LT(falling.b, 0);
+  EXPECT_EQ(overturning_probability(falling, 0), 0);
+}
+
+TEST(Overturning, CurveOfATallyHasABandThatHoldsTheTruth) {
+  Options options;
+  options.im_name = "pga";
+  options.im_edge = {0, 0.5, 1, 1.5, 2};
+  options.edps = {{"overturned", "1", "", true, 0, {}}};
+  options.resamples = 200;
+  Tally tally(options);
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const double im = 2 * test::uniform(i, 500);
+    const double p = 0.5 * std::erfc(-std::log(im / 0.9) / 0.45 / std::sqrt(2.0));
+    const bool over = test::uniform(i, 501) < p;
+    const double value = over;
+    tally.add({i, im, 0, over ? Outcome::overturned : Outcome::moved, {&value, 1}, {}});
+  }
+  const Resampling resampling(tally.groups(), tally.groups_with_samples(), options.resamples, 1);
+  const OverturningCurve curve = overturning_curve(tally, resampling);
+  EXPECT_NEAR(curve.median, 0.9, 4 * curve.median_se);
+  EXPECT_NEAR(curve.dispersion, 0.45, 4 * curve.dispersion_se);
+  EXPECT_LT(curve.median_se, 0.02);
+  EXPECT_EQ(curve.grid.front(), 0.5);
+  EXPECT_EQ(curve.grid.back(), 2);
+  for (std::size_t i = 0; i < curve.grid.size(); ++i) {
+    EXPECT_LE(curve.lower[i], curve.probability[i]);
+    EXPECT_GE(curve.upper[i], curve.probability[i]);
+    EXPECT_LT(curve.upper[i] - curve.lower[i], 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace freestand::fragility

@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <numeric>
+
+#include "base/durable_file.hpp"
+#include "io/samples_file.hpp"
+#include "mpi/mpi_main.hpp"
+#include "parallel/checkpoint.hpp"
+#include "parallel/schedule.hpp"
+#include "support/sample_blocks.hpp"
+
+namespace freestand::io {
+namespace {
+
+namespace fs = std::filesystem;
+using test::small_header;
+using test::small_rows;
+using test::world;
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+// Working folder of the test run; the files stay there, so that runs with other numbers of ranks can be compared.
+fs::path folder() {
+  const fs::path path = "samples_of_" + std::to_string(world().size()) + "_ranks";
+  world().on_root([&] {
+    fs::remove_all(path);
+    fs::create_directories(path);
+  });
+  return path;
+}
+
+// The way of a sweep: blocks by whoever is free, each into its file, then all into samples.h5.
+TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
+  const fs::path path = folder();
+  const BlockLayout layout{123457, 1000};
+  const parallel::BlockStore store(path / "blocks", "small");
+  std::vector<std::int64_t> todo(static_cast<std::size_t>(layout.blocks()));
+  std::iota(todo.begin(), todo.end(), 0);
+  ASSERT_TRUE(parallel::for_each_block(world(), todo, [&](std::int64_t block, const parallel::Beat&) {
+    store.write(block, {6, small_rows(block * layout.block_size, layout.rows(block))});
+    return parallel::Counts{};
+  }));
+  EXPECT_EQ(store.finished(), todo);
+
+  SamplesHeader header = small_header();
+  header.provenance.samples = layout.samples;
+  write_samples(path / "samples.h5", header, layout, [&](std::int64_t block) { return store.read(block).values; });
+  EXPECT_FALSE(fs::exists(path / ".samples.h5.part"));
+
+  const SampleReader reader(path / "samples.h5");
+  EXPECT_EQ(reader.rows(), layout.samples);
+  const std::int64_t first = 997 * world().rank();
+  EXPECT_TRUE(same_bits(reader.read(first, 5000).values, small_rows(first, 5000)));
+  EXPECT_TRUE(same_bits(reader.read(120000, 3457).values, small_rows(120000, 3457)));
+  world().barrier();
+  world().on_root([&] { store.clear(); });
+}
+
+TEST(Samples, FewerBlocksThanRanksAreWrittenToo) {
+  const fs::path path = "few_of_" + std::to_string(world().size()) + "_ranks.h5";
+  const BlockLayout layout{3, 2};
+  write_samples(path, small_header(), layout, test::small_blocks(layout));
+  EXPECT_TRUE(same_bits(SampleReader(path).read(0, 3).values, small_rows(0, 3)));
+}
+
+}  // namespace
+}  // namespace freestand::io
