@@ -98,7 +98,7 @@ class Stepper {
       : block_(specimen.block), friction_(specimen.friction), pose_{0, specimen.block.height_m, 0} {}
 
   // One step. False: no case is consistent.
-  bool step(const FloorAcceleration& a, double dt);
+  bool step(const FloorAt& floor, double t, double dt);
 
   double slip() const {
     const double middle = 0.5 * (block_.right_m - block_.left_m);
@@ -128,7 +128,9 @@ class Stepper {
   bool attempt(const Contacts& c, const Velocity& free, bool with_left, bool with_right, Grip grip);
   bool choose(const Contacts& c, const Velocity& free, bool closing);
   bool advance(const Contacts& c, const Velocity& free, double dt, bool closing);
-  double advance_until(const FloorAcceleration& a, double dt, const std::function<bool(const Stepper&)>& too_far);
+  bool loses_grip(const FloorAcceleration& a) const;
+  double advance_until(const FloorAt& floor, double t, double dt,
+                       const std::function<bool(const Stepper&, double)>& too_far);
   void collide(const std::array<bool, 2>& closing);
   void put_back(const std::array<double, 2>& corner_x);
 
@@ -232,19 +234,29 @@ bool Stepper::advance(const Contacts& c, const Velocity& free, double dt, bool c
   return true;
 }
 
-// Follows the motion, corners that close left out, as long as `too_far` does not hold, at most dt. Returns the time
-// gone.
-double Stepper::advance_until(const FloorAcceleration& a, double dt,
-                              const std::function<bool(const Stepper&)>& too_far) {
+// Whether a stuck contact needs more than mu_s at this instant.
+bool Stepper::loses_grip(const FloorAcceleration& a) const {
+  constexpr double instant = 1e-9;
+  Stepper probe = *this;
+  const Velocity free = freely(a, instant);
+  Contacts c = contacts(free, instant);
+  c.near = closed_;
+  return probe.advance(c, free, instant, false) && probe.slips();
+}
+
+// Follows the motion, corners that close left out, as long as `too_far` (state, time gone) does not hold, at most dt.
+// Returns the time gone.
+double Stepper::advance_until(const FloorAt& floor, double t, double dt,
+                              const std::function<bool(const Stepper&, double)>& too_far) {
   const Stepper start = *this;
   double low = 0, high = dt;
   for (int i = 0; i < 40; ++i) {
     const double part = 0.5 * (low + high);
     Stepper trial = start;
-    const Velocity free = start.freely(a, part);
+    const Velocity free = start.freely(floor(t + 0.5 * part), part);
     Contacts c = start.contacts(free, part);
     c.near = start.closed_;
-    if (!trial.advance(c, free, part, false) || too_far(trial)) {
+    if (!trial.advance(c, free, part, false) || too_far(trial, part)) {
       high = part;
       continue;
     }
@@ -257,33 +269,38 @@ double Stepper::advance_until(const FloorAcceleration& a, double dt,
 // A step in which a corner meets the floor is cut at that instant: up to it without the corner, then an impact of no
 // duration, then the rest. So is one in which slip begins, stops or reverses. After a few cuts (rattling) the rest is
 // done in one go, the corner closing in it.
-bool Stepper::step(const FloorAcceleration& a, double dt) {
+bool Stepper::step(const FloorAt& floor, double t, double dt) {
   closing_speed_ = 0;
+  const bool falls = friction_.mu_s > friction_.mu_k;
   for (int cut = 0; cut < 4 && dt > 1e-12; ++cut) {
-    const Velocity free = freely(a, dt);
+    const Velocity free = freely(floor(t + 0.5 * dt), dt);
     const Contacts c = contacts(free, dt);
     const std::array<bool, 2> closing{closes(c, left), closes(c, right)};
+    double gone = 0;
     if (closing[left] || closing[right]) {
       for (Corner k : {left, right})
         if (closing[k]) closing_speed_ = std::max(closing_speed_, -lift_speed(velocity_, c.stop[k]));
-      dt -= advance_until(a, dt, [&](const Stepper& trial) {
+      gone = advance_until(floor, t, dt, [&](const Stepper& trial, double) {
         return (closing[left] && trial.gap(left) < 0) || (closing[right] && trial.gap(right) < 0);
       });
       collide(closing);
-      continue;
+    } else {
+      Stepper start = *this;
+      if (!advance(c, free, dt, false)) return false;
+      const Grip grip = start.grip_;
+      const bool breaks = falls && grip == Grip::stuck && grip_ == Grip::stuck && loses_grip(floor(t + dt));
+      if (grip == Grip::none || grip_ == Grip::none || (grip_ == grip && !breaks)) return true;
+      gone = start.advance_until(floor, t, dt, [&](const Stepper& trial, double part) {
+        return trial.grip_ != grip || (falls && grip == Grip::stuck && trial.loses_grip(floor(t + part)));
+      });
+      if (gone < 1e-12) return true;
+      *this = start;
     }
-    const Stepper start = *this;
-    if (!advance(c, free, dt, false)) return false;
-    const Grip grip = start.grip_;
-    if (grip == Grip::none || grip_ == Grip::none || grip_ == grip) return true;
-    Stepper onset = start;
-    const double gone = onset.advance_until(a, dt, [=](const Stepper& trial) { return trial.grip_ != grip; });
-    if (gone < 1e-12) return true;
-    *this = onset;
+    t += gone;
     dt -= gone;
   }
   if (dt <= 1e-12) return true;
-  const Velocity free = freely(a, dt);
+  const Velocity free = freely(floor(t + 0.5 * dt), dt);
   const Contacts c = contacts(free, dt);
   return advance(c, free, dt, closes(c, left) || closes(c, right));
 }
@@ -319,7 +336,7 @@ StepperResult step_contacts(const Specimen& specimen, const FloorAt& floor, cons
     result.peak_rotation_rad = std::max(result.peak_rotation_rad, std::abs(theta));
     result.overturned = std::abs(theta) > 0.5 * pi;
     if (result.overturned || i == steps) break;
-    if (!stepper.step(floor(t + 0.5 * settings.step_s), settings.step_s)) {
+    if (!stepper.step(floor, t, settings.step_s)) {
       result.inconsistent = true;
       break;
     }
@@ -340,6 +357,7 @@ FloorAt floor_of(const Shaking& shaking) {
   return [shaking, motion, segment = std::size_t{0}](double t) mutable -> FloorAcceleration {
     const double x = t / shaking.stretch;
     while (segment < motion->segments() && x >= motion->knot_s[segment + 1]) ++segment;
+    while (segment > 0 && x < motion->knot_s[segment]) --segment;
     if (segment >= motion->segments()) return {};
     const auto width = static_cast<std::size_t>(motion->degree) + 1;
     const double tau = x - motion->knot_s[segment];

@@ -34,7 +34,7 @@ struct FloorAcceleration {
 };
 using FloorAt = std::function<FloorAcceleration(double time_s)>;
 
-// Floor acceleration of a Shaking, evaluated here from its coefficients. Times must not decrease from call to call.
+// Floor acceleration of a Shaking, evaluated here from its coefficients; quick where times follow each other closely.
 // The FloorMotion must outlive the result.
 FloorAt floor_of(const Shaking& shaking);
 
