@@ -31,11 +31,8 @@ constexpr Type type_for() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return Type::flag;
 }
 
-// Contiguous, space set aside at once, so that ranks can write into it without growing the file.
 Handle dataset_properties(const std::string& file) {
   Handle properties = checked(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, file, "settings of a dataset", Doing::writing);
-  H5Pset_alloc_time(properties.id(), H5D_ALLOC_TIME_EARLY);
-  H5Pset_fill_time(properties.id(), H5D_FILL_TIME_NEVER);
   H5Pset_attr_creation_order(properties.id(), H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
   H5Pset_obj_track_times(properties.id(), false);
   return properties;
@@ -125,8 +122,10 @@ Dataset Group::put(const std::string& name, const std::vector<std::string>& valu
   const hsize_t extent = values.size();
   const Handle type = text_type(*file_);
   const Handle space = checked(H5Screate_simple(1, &extent, nullptr), H5Sclose, *file_, what, Doing::writing);
-  Handle dataset = checked(H5Dcreate2(id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Dclose, *file_, what, Doing::writing);
+  const Handle properties = dataset_properties(*file_);
+  Handle dataset =
+      checked(H5Dcreate2(id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
+              H5Dclose, *file_, what, Doing::writing);
   std::vector<const char*> texts;
   for (const std::string& value : values) texts.push_back(value.c_str());
   if (!texts.empty() && H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()) < 0)

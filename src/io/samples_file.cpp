@@ -65,7 +65,9 @@ void lay_out(h5::File& file, const SamplesHeader& header, std::int64_t rows) {
   h5::Dataset motion = motions.put("motion", counted(header.motion_names.size()));
   motion.scale("motion").describe("", "number of the floor motion, the samples' column motion");
   motions.put("name", header.motion_names).attach(0, motion).describe("", "name of the floor motion");
-  motions.put("is_record", header.motion_is_record).attach(0, motion).describe("1", "1: a record, 0: a family of pulses");
+  motions.put("is_record", header.motion_is_record)
+      .attach(0, motion)
+      .describe("1", "1: a record, 0: a family of pulses");
 }
 
 // Rows of consecutive blocks, row-major.

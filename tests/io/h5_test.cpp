@@ -95,6 +95,7 @@ TEST(H5, TheSameContentGivesTheSameBytes) {
     File file = File::create(scratch / name);
     Group group = file.root().make_group("group");
     group.put("scale", std::vector<double>{1, 2}).scale("scale");
+    group.put("texts", std::vector<std::string>{"a", "b"}).attribute("text", "c");
     group.put("values", std::vector<double>{1, 2}).attach(0, group.open_dataset("scale")).describe("m", "what");
     file.finish();
     ::usleep(name[0] == 'a' ? 1100000 : 0);  // time stamps have a second

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -24,7 +25,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 
 // Working folder of the test run; the files stay there, so that runs with other numbers of ranks can be compared.
 fs::path folder() {
-  const fs::path path = "samples_of_" + std::to_string(world().size()) + "_ranks";
+  const fs::path path = fmt::format("samples_of_{}_ranks", world().size());
   world().on_root([&] {
     fs::remove_all(path);
     fs::create_directories(path);
@@ -60,7 +61,7 @@ TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
 }
 
 TEST(Samples, FewerBlocksThanRanksAreWrittenToo) {
-  const fs::path path = "few_of_" + std::to_string(world().size()) + "_ranks.h5";
+  const fs::path path = fmt::format("few_of_{}_ranks.h5", world().size());
   const BlockLayout layout{3, 2};
   write_samples(path, small_header(), layout, test::small_blocks(layout));
   EXPECT_TRUE(same_bits(SampleReader(path).read(0, 3).values, small_rows(0, 3)));
