@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <charconv>
@@ -118,16 +119,38 @@ Handle group_properties(const std::string& file, bool for_file) {
   return properties;
 }
 
+namespace {
+
+// Closes a file that will not be kept. What HDF5 still holds for it may not fit on a full disk, and HDF5 (1.10) does
+// not survive a close that fails: the rest goes into memory instead.
+void close_unwanted(Handle& file) {
+  void* descriptor = nullptr;
+  if (file.id() >= 0 && H5Fget_vfd_handle(file.id(), H5P_DEFAULT, &descriptor) >= 0 && descriptor) {
+    const int memory = ::memfd_create("freestand", MFD_CLOEXEC);
+    if (memory >= 0) {
+      ::dup2(memory, *static_cast<int*>(descriptor));
+      ::close(memory);
+    }
+  }
+  file.close();
+}
+
+}  // namespace
+
 struct File::State {
   Handle file;
   fs::path aside, path;  // aside is empty for a file that is read
   bool together = false;
   std::shared_ptr<const std::string> name;
 
-  // A file that was not finished: closing it together would wait for ranks that do not come.
+  // Closing a file together would wait for ranks that do not come.
   ~State() {
-    if (!together) file.close();
-    if (!aside.empty() && (!together || world_rank() == 0)) ::unlink(aside.c_str());
+    if (aside.empty()) return;
+    if (together)
+      file.release();
+    else
+      close_unwanted(file);
+    if (!together || world_rank() == 0) ::unlink(aside.c_str());
   }
 };
 

@@ -12,7 +12,7 @@ namespace freestand::test {
 
 inline io::SamplesHeader small_header() {
   io::SamplesHeader header;
-  header.provenance.version = "0";
+  header.provenance.version = "0.0.0";
   header.provenance.git_commit = "abc";
   header.provenance.libraries = "{}";
   header.provenance.created_utc = "2000-01-01T00:00:00Z";
