@@ -12,7 +12,7 @@ from .problem import Problem
 
 OUTCOMES = ("at_rest", "moved", "overturned", "painleve", "step_limit", "not_finite")
 FITTED, TOO_FEW, REJECTED, COUNTED = 0, 1, 2, 3  # COUNTED: enough samples, too few that moved and stood
-PER_BIN = ("n n_still n_over n_moved p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
+PER_BIN = ("n n_still n_over n_moved im_mean p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
            "omega omega_se mean standard_deviation ks_statistic ks_p_textbook ks_critical_textbook ks_p_estimated "
            "ks_critical_estimated ad_statistic ad_p_estimated fdr_rejected status").split()
 
@@ -66,7 +66,21 @@ class Sweep:
 
     @property
     def centre(self):
-        return 0.5 * (self.edge[1:] + self.edge[:-1])
+        """Where a bin is drawn: at the mean intensity of its samples, or in its middle where there are none."""
+        middle = 0.5 * (self.edge[1:] + self.edge[:-1])
+        mean = self.edps[0].bins["im_mean"] if self.edps else middle
+        return np.where((mean >= self.edge[:-1]) & (mean <= self.edge[1:]), mean, middle)
+
+    @property
+    def view(self):
+        """Range of the intensity axis: all bins, but of a long last or first bin only the part that holds most samples."""
+        low, high = self.edge[0], self.edge[-1]
+        last, first = self.centre[-1] - self.edge[-2], self.edge[1] - self.centre[0]
+        if last < 0.35 * (high - self.edge[-2]):
+            high = self.edge[-2] + 2.2 * last
+        if first < 0.35 * (self.edge[1] - low):
+            low = self.edge[1] - 2.2 * first
+        return low, high
 
     @property
     def samples(self):

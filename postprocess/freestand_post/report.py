@@ -65,8 +65,8 @@ def _headline(sweep, main):
     """The numbers at the top: (value, what)."""
     total = max(sweep.samples, 1)
     numbers = [(words.count(sweep.samples), "samples"),
-               (_percent(sweep.outcomes.get("moved", 0) / total), "moved and stood"),
-               (_percent(sweep.outcomes.get("overturned", 0) / total), "overturned")]
+               (words.percent(sweep.outcomes.get("moved", 0) / total), "moved and stood"),
+               (words.percent(sweep.outcomes.get("overturned", 0) / total), "overturned")]
     if main:
         edp = next(edp for edp in sweep.edps if edp.name == main)
         status, label = edp.bins["status"], edp.label
@@ -86,10 +86,6 @@ def _history_numbers(history):
              ("peak_rotation_rad", 180 / math.pi, "°", "largest rotation"), ("peak_acceleration_g", 1, "g", "peak equipment acceleration"))
     return [(f"{words.number(factor * float(summary[key]))} {unit}".replace(" °", "°"), what)
             for key, factor, unit, what in table if isinstance(summary.get(key), (int, float))]
-
-
-def _percent(share):
-    return "0 %" if share == 0 else "< 0.1 %" if share < 0.001 else f"{100 * share:.1f} %"
 
 
 def _duration(seconds):
@@ -116,7 +112,7 @@ def _fit_table(sweep, name):
 def _outcomes(sweep):
     total = max(sweep.samples, 1)
     return [{"name": words.OUTCOMES.get(name, name), "count": sweep.outcomes.get(name, 0), "colour": style.OUTCOME.get(name, style.INK),
-             "percent": 100 * sweep.outcomes.get(name, 0) / total, "share": _percent(sweep.outcomes.get(name, 0) / total)}
+             "percent": 100 * sweep.outcomes.get(name, 0) / total, "share": words.percent(sweep.outcomes.get(name, 0) / total)}
             for name in OUTCOMES]
 
 

@@ -110,7 +110,7 @@ def spread(positions, gap, high=float("inf"), low=-float("inf")):
 
 def end_labels(ax, entries, x, gap, reach, high=1.0):
     """Direct labels at the right end of curves. entries: (y, text, colour); x, gap, reach and high in data units."""
-    for (y, text, colour), at in zip(entries, spread([entry[0] for entry in entries], gap, high)):
+    for (y, text, colour), at in zip(entries, spread([entry[0] for entry in entries], gap, high, 0.3 * gap)):
         ax.plot([x, x + 0.8 * reach], [y, at], color=colour, lw=0.7, clip_on=False, alpha=0.7)
         ax.text(x + reach, at, text, color=colour, weight="bold", size=9, va="center", clip_on=False)
 
@@ -151,6 +151,6 @@ def plain_log(axis, crowd=1):
     low, high = axis.get_view_interval()
     fullness = crowd * abs(math.log10(high / low))
     subs = (1, 2, 5) if fullness < 2.6 else (1, 3) if fullness < 5.5 else (1,)
-    axis.set_major_locator(ticker.LogLocator(base=10, subs=subs, numticks=20))
+    axis.set_major_locator(ticker.LogLocator(base=10, subs=subs, numticks=20 if len(subs) > 1 else max(3, round(8 / crowd))))
     axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(ticker.NullLocator())

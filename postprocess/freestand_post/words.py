@@ -12,6 +12,16 @@ DEMANDS = {
     "peak_acceleration": "peak equipment acceleration",
 }
 # name in the files -> symbol.
+# name in the files -> what specimens do beyond a capacity, for titles.
+BEYOND = {
+    "delta": "exceed Δ\u00a0=\u00a0{}",
+    "peak_slip": "slip more than {}",
+    "residual_slip": "end more than {} away",
+    "slid_path": "slide a path longer than {}",
+    "peak_rotation_over_alpha": "rock beyond {} of their slenderness",
+    "impacts": "take more than {} impacts",
+    "peak_acceleration": "feel more than {}",
+}
 INTENSITIES = {"report": "PTA/(μg)\u00a0−\u00a01"}
 DRAWS = {
     "friction_mu": "friction coefficient μ",
@@ -60,6 +70,12 @@ def demand_meaning(name):
     return DEMANDS.get(name, DEMANDS.get(stem, stem.replace("_", " ")))
 
 
+def beyond(name, symbol, capacity):
+    """"slip more than 0.4 m": what specimens do whose demand exceeds a capacity (given as text)."""
+    stem = split_unit(name)[0]
+    return (BEYOND.get(name) or BEYOND.get(stem) or symbol.join(("exceed ", "\u00a0=\u00a0{}"))).format(capacity)
+
+
 def intensity(name, symbol=""):
     """Symbol of an intensity measure."""
     stem = split_unit(name)[0]
@@ -92,6 +108,10 @@ def number(value, digits=2):
     decimals = max(0, digits - 1 - magnitude)
     text = f"{value:.{decimals}f}"
     return text.replace("-", "−")
+
+
+def percent(share):
+    return "0 %" if share == 0 else "< 0.1 %" if share < 0.001 else f"{100 * share:.0f} %" if share > 0.0995 else f"{100 * share:.1f} %"
 
 
 def plain(value):

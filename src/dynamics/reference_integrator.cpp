@@ -78,7 +78,8 @@ class ReferenceIntegrator {
       throw Error("the reference integrator cannot start (SUNDIALS has no memory): free some memory", Exit::data);
     void* ark = arkode.get();
     check(ERKStepSetTableNum(ark, ARKODE_FEHLBERG_13_7_8), "ERKStepSetTableNum");
-    check(ERKStepSStolerances(ark, settings.tolerance, settings.tolerance * 0.1), "ERKStepSStolerances");
+    const double tolerance = std::max(settings.tolerance, 1e-11);  // below, round-off fails its error test
+    check(ERKStepSStolerances(ark, tolerance, 0.1 * tolerance), "ERKStepSStolerances");
     check(ERKStepSetUserData(ark, this), "ERKStepSetUserData");
     check(ERKStepSetMaxNumSteps(ark, 100000), "ERKStepSetMaxNumSteps");
     return arkode;
@@ -134,11 +135,18 @@ class ReferenceIntegrator {
       const double before = tau;
       const State from = life_.state;
       const int flag = ERKStepEvolve(ark, h, y_.get(), &tau, ARK_ONE_STEP);
+      if (flag == ARK_RHSFUNC_FAIL) {
+        life_.stop(Outcome::not_finite);
+        return Leg::event;
+      }
       check(flag, "ERKStepEvolve");
       int found[root_count] = {};
       if (flag == ARK_ROOT_RETURN) check(ERKStepGetRootInfo(ark, found), "ERKStepGetRootInfo");
       const auto slot = std::find(found, found + witness_slots, -1) - found;
-      if (slot < witness_slots) tau = locate(static_cast<int>(slot), from, before, tau, h);
+      if (slot < witness_slots)
+        tau = locate(static_cast<int>(slot), from, before, tau, h);
+      else if (flag == ARK_ROOT_RETURN)
+        integrate_again(from, before, tau);
       arrive(from, tau);
       if (slot < witness_slots) {
         life_.cursor.advance(tau);
@@ -170,20 +178,24 @@ class ReferenceIntegrator {
     observe(tau);
   }
 
-  // Newton's method on the witness, integrating anew from the start of the step. Leaves the state in y.
+  // Leaves in y the state at tau, integrated anew from the start of the step.
+  void integrate_again(const State& from, double before, double tau) {
+    life_.state = from;
+    write(from);
+    if (!(tau > before)) return;
+    start_at(locator_.get(), before, tau, longest_step_);
+    double reached = 0;
+    check(ERKStepEvolve(locator_.get(), tau, y_.get(), &reached, ARK_NORMAL), "ERKStepEvolve");
+  }
+
+  // Newton's method on the witness.
   double locate(int slot, const State& from, double before, double tau, double h) {
     double g[root_count];
     for (int i = 0; i < 8; ++i) {
-      life_.state = from;
-      if (tau > before) {
-        start_at(locator_.get(), before, tau, longest_step_);
-        double reached = 0;
-        check(ERKStepEvolve(locator_.get(), tau, y_.get(), &reached, ARK_NORMAL), "ERKStepEvolve");
-      } else {
-        write(from);
-      }
+      integrate_again(from, before, tau);
       roots(tau, y_.get(), g, this);
-      const double next = std::clamp(tau - g[slot] / rate_[slot], before, h);
+      const double newton = tau - g[slot] / rate_[slot];
+      const double next = newton > before && newton <= h ? newton : 0.5 * (before + tau);
       if (!(std::abs(next - tau) > 1e-15)) break;
       tau = next;
     }
@@ -255,7 +267,8 @@ class ReferenceIntegrator {
       const double rates[state_size] = {arc.theta[1], arc.omega[1], arc.xi[1], arc.w[1], 0, 0};
       std::copy(rates, rates + state_size, d);
     }
-    return 0;
+    const bool finite = std::all_of(d, d + state_size, [](double x) { return std::isfinite(x); });
+    return finite ? 0 : -1;
   }
 
   static int roots(double tau, N_Vector y, double* g, void* self) {
@@ -271,6 +284,9 @@ class ReferenceIntegrator {
     };
     if (s.mode == Mode::flight) {
       for_each_witness(me.rig(), s, flight_arc<2>(me.rig(), s, floor), fill);
+      const double d = 0.5 * (me.rig().right - me.rig().left);
+      const double lever = me.rig().h * std::cos(s.theta) + d * std::sin(s.theta);
+      if (me.watch_[0]) g[stationary_u] = s.vx - lever * s.omega;
     } else {
       const auto arc = contact_arc<2>(me.rig(), s, floor);
       for_each_witness(me.rig(), s, arc, fill);

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <freestand/error.hpp>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 namespace freestand::motion {
 namespace {
@@ -26,9 +26,10 @@ std::string read_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored)) refuse("it is a folder");
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(std::strerror(errno));
-  std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::ostringstream content;
+  content << file.rdbuf();
   if (file.bad()) refuse("it broke off");
-  return content;
+  return content.str();
 }
 
 std::vector<std::string_view> split_lines(std::string_view text) {

@@ -82,13 +82,14 @@ def exceedance(part, capacity):
     return part["p_over"] + (1 - part["p_over"]) * (1 - part["p_still"]) * tail
 
 
-def count_bin(still, over):
+def count_bin(still, over, im):
     """The counted columns of one bin; the rest is nan."""
     n, n_still, n_over = len(still), int(still.sum()), int(over.sum())
     part = {name: np.nan for name in PER_BIN}
     part.update(n=n, n_still=n_still, n_over=n_over, n_moved=n - n_still - n_over, fdr_rejected=0, status=3 if n >= 30 else 1)
     if n == 0:
         return part
+    part["im_mean"] = im.mean()
     part["p_over"], standing = n_over / n, n - n_over
     part["p_over_lower"], part["p_over_upper"] = binomial(n_over, n)
     if standing:
@@ -97,9 +98,9 @@ def count_bin(still, over):
     return part
 
 
-def fit_bin(values, still, over, random):
+def fit_bin(values, still, over, im, random):
     """One bin of one EDP as a dictionary of the per-bin columns."""
-    part, moved = count_bin(still, over), np.log(values[~still & ~over])
+    part, moved = count_bin(still, over, im), np.log(values[~still & ~over])
     if len(moved) < 30:
         return part
     lam, omega = moved.mean(), moved.std()
@@ -118,7 +119,7 @@ def fit_bin(values, still, over, random):
     return part
 
 
-PER_BIN = ("n n_still n_over n_moved p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
+PER_BIN = ("n n_still n_over n_moved im_mean p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
            "omega omega_se mean standard_deviation ks_statistic ks_p_textbook ks_critical_textbook ks_p_estimated "
            "ks_critical_estimated ad_statistic ad_p_estimated fdr_rejected status").split()
 WHOLE = {"n", "n_still", "n_over", "n_moved", "fdr_rejected", "status"}
@@ -204,7 +205,7 @@ def make_sweep(folder, samples=6000, seed=1):
         root["im/centre"].make_scale("im")
         for name, symbol in (("delta", "Δ"), ("peak_rotation_over_alpha", "θ/α")):
             values = columns[f"edp_{name}"][0]
-            parts = [fit_bin(values[which == i], still[which == i], over[which == i], random) for i in range(len(EDGES) - 1)]
+            parts = [fit_bin(*(column[which == i] for column in (values, still, over, im)), random) for i in range(len(EDGES) - 1)]
             group = write_edp(root, name, {"unit": "1", "symbol": symbol, "kind": "continuous"}, parts)
             group["capacity"] = CAPACITY
             group["capacity"].make_scale("capacity")
@@ -222,7 +223,7 @@ def make_sweep(folder, samples=6000, seed=1):
                                   "too_few": int((status == 1).sum())}
             write_csv(folder, name, parts, group)
         nobody = np.zeros(samples, bool)
-        ones = [count_bin(nobody[which == i], over[which == i]) for i in range(len(EDGES) - 1)]
+        ones = [count_bin(nobody[which == i], over[which == i], im[which == i]) for i in range(len(EDGES) - 1)]
         binary = write_edp(root, "overturned", {"unit": "1", "symbol": "overturned", "kind": "binary"}, ones)
         binary["capacity"] = np.array([0.5])
         for key in ("probability", "lower", "upper", "empirical"):

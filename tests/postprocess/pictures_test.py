@@ -167,7 +167,7 @@ class MissingPieces(unittest.TestCase):
                     table[i] = np.nan
         drawn = self.draw()
         self.assertEqual(drawn["overturning"].finding, "No specimen overturned in the range swept")
-        self.assertIn("all 1 bins", drawn["goodness_delta"].finding)
+        self.assertIn("the one bin", drawn["goodness_delta"].finding)
 
     def test_without_draws_and_without_edps(self):
         self.sweep.draws, self.sweep.outcome = {}, np.zeros(0, int)

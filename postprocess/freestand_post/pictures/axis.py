@@ -33,12 +33,12 @@ def _picture(sweep, edp, axis):
     left, right = fig.subplots(1, 2, gridspec_kw={"width_ratios": [1.15, 1]})
     left.set_facecolor(style.EMPTY)
     mesh = left.pcolormesh(sweep.edge, axis.edge, p.T, cmap=style.PROBABILITY, vmin=0, vmax=1, ec="white", lw=0.4, rasterized=True)
-    left.set(xlabel=words.with_unit(im, sweep.im_unit), ylabel=label)
+    left.set(xlim=sweep.view, xlabel=words.with_unit(im, sweep.im_unit), ylabel=label)
     bar = fig.colorbar(mesh, ax=left, pad=0.03, aspect=26)
     bar.set_label(f"P({symbol} > {capacity})")
     bar.outline.set_visible(False)
     _slices(right, sweep, axis, k)
-    right.set(ylim=(0, 1.015), xlim=(sweep.edge[0], sweep.edge[-1]), xlabel=words.with_unit(im, sweep.im_unit),
+    right.set(ylim=(0, 1.015), xlim=sweep.view, xlabel=words.with_unit(im, sweep.im_unit),
               ylabel=f"P({symbol} > {capacity})")
     style.grid(right)
     finding = _finding(sweep, axis, k, p, symbol, capacity, im)
@@ -62,7 +62,7 @@ def _slices(ax, sweep, axis, k):
         ax.plot(sweep.centre, p, "-o", ms=3, color=colour, lw=1.5)
         last = int(np.flatnonzero(np.isfinite(p))[-1])
         ends.append((sweep.centre[last], p[last], words.span(axis.edge[j], axis.edge[j + 1], 2), colour))
-    for group in _near(ends, 0.45 * (sweep.edge[-1] - sweep.edge[0])):
+    for group in _near(ends, 0.45 * (sweep.view[1] - sweep.view[0])):
         for (x, _, text, colour), y in zip(group, style.spread([end[1] for end in group], 0.075, 0.99)):
             ax.annotate(text, (x, y), xytext=(7, 0), textcoords="offset points", color=colour, weight="bold",
                         size=8.8, va="center", path_effects=style.halo(), annotation_clip=False, zorder=6)

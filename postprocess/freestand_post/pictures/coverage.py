@@ -1,5 +1,8 @@
 """What the sweep covered: every swept draw alone and in pairs, coloured by the outcome of the sample."""
+import zlib
+
 import numpy as np
+from scipy import stats
 
 from .. import style, words
 from ..reading import OUTCOMES, Sweep
@@ -8,7 +11,8 @@ from . import Picture
 order = 70
 LIMIT = 5        # draws shown
 POINTS = 3500    # samples shown in a pair
-LEFT_OUT = ("motion", "scale")
+FEW = 8          # a draw with no more values than these is shown as classes
+LEFT_OUT = ("scale",)
 CAPTION = ("Diagonal: how often each value was drawn, stacked by outcome; below it, pairs of draws, one point a sample. Gaps would be "
            "combinations that were never tried; colour shows where specimens stay, move and overturn.")
 
@@ -21,14 +25,21 @@ def pictures(results):
 
 
 def swept(sweep, limit=LIMIT):
-    """Draws that vary, those that separate the outcomes best first; all of them for limit None."""
-    varied = [name for name, values in sweep.draws.items() if name not in LEFT_OUT and np.isfinite(values).mean() > 0.2
-              and np.nanstd(values) > 1e-12 * max(1e-300, np.nanmax(np.abs(values)))]
-    distinct = []
-    for name in varied:  # the same draw under two names (mu_s = mu_k) is shown once
-        if not any(np.array_equal(sweep.draws[name], sweep.draws[other], equal_nan=True) for other in distinct):
-            distinct.append(name)
-    return sorted(distinct, key=lambda name: (-separation(sweep, name), name))[:limit]
+    """Draws that vary and do not follow from an earlier one, those that separate the outcomes best first; all for limit None."""
+    chosen = []
+    for name, values in sweep.draws.items():
+        good = values[np.isfinite(values)]
+        varies = good.size > 0.2 * values.size and good.max() - good.min() > 1e-12 * np.abs(good).max()
+        many = name == "motion" and len(sweep.motions) > FEW
+        if varies and not many and name not in LEFT_OUT and not any(_same(values, sweep.draws[other]) for other in chosen):
+            chosen.append(name)
+    return sorted(chosen, key=lambda name: (-separation(sweep, name), name))[:limit]
+
+
+def _same(values, other):
+    """Do the two say nearly the same (as width and slenderness of a block of one height)?"""
+    good = np.isfinite(values) & np.isfinite(other)
+    return good.sum() > 2 and abs(np.nan_to_num(stats.spearmanr(values[good][:5000], other[good][:5000]).correlation)) > 0.9
 
 
 def separation(sweep, name):
@@ -38,56 +49,85 @@ def separation(sweep, name):
     yes, no = values[good & event], np.sort(values[good & ~event])
     if yes.size == 0 or no.size == 0:
         return 0.0
+    if name == "motion":  # classes have no order: rank them by how often the event happens
+        share = {value: (yes == value).sum() / max(1, (values[good] == value).sum()) for value in np.unique(values[good])}
+        yes, no = (np.array([share[value] for value in part]) for part in (yes, no))
+        no.sort()
     rank = 0.5 * (np.searchsorted(no, yes, "left") + np.searchsorted(no, yes, "right"))
     return abs(2 * rank.mean() / no.size - 1)
 
 
+class _Draw:
+    """One draw as it is shown: classes side by side, spread a little, or plain values."""
+
+    def __init__(self, sweep, name):
+        values = sweep.draws[name]
+        self.label, self.ticks, self.names = words.column(name), None, None
+        levels = np.unique(values[np.isfinite(values)])
+        if levels.size <= FEW:
+            at = np.searchsorted(levels, values).astype(float)
+            at[~np.isfinite(values)] = np.nan
+            self.exact, self.edges = at, np.arange(levels.size + 1) - 0.5
+            self.shown = at + np.random.default_rng(zlib.crc32(name.encode())).uniform(-0.36, 0.36, at.size)
+            self.ticks = np.arange(levels.size)
+            motions = name == "motion" and levels[-1] < len(sweep.motions)
+            self.names = [sweep.motions[int(level)] if motions else words.plain(level) for level in levels]
+        else:
+            self.exact = self.shown = values
+            self.edges = np.histogram_bin_edges(values[np.isfinite(values)], bins=24)
+        room = 0.02 * (self.edges[-1] - self.edges[0])
+        self.limits = (self.edges[0] - room, self.edges[-1] + room)
+
+    def tick(self, axis):
+        if self.ticks is not None:
+            axis.set_ticks(self.ticks, self.names)
+            axis.set_tick_params(length=0)
+
+
 def _picture(sweep, names):
-    count = len(names)
+    count, draws = len(names), [_Draw(sweep, name) for name in names]
     side = 1.62 if count > 2 else 2.4
     fig = style.figure(max(0.7 + side * count, 5.0), 1.0 + side * count)
     axes = fig.subplots(count, count, squeeze=False, sharex="col")
-    order = np.random.default_rng(1).permutation(sweep.outcome.size)[:POINTS]
+    some = np.random.default_rng(1).permutation(sweep.outcome.size)[:POINTS]
     for row in range(count):
         for column in range(count):
             ax = axes[row, column]
             if column > row:
                 ax.set_axis_off()
             elif column == row:
-                _marginal(ax, sweep, names[row])
+                _marginal(ax, sweep, draws[row])
             else:
-                _pair(ax, sweep, names[column], names[row], order)
+                _pair(ax, sweep, draws[column], draws[row], some)
             if row == count - 1:
-                ax.set_xlabel(words.column(names[column]), size=8.5)
+                draws[column].tick(ax.xaxis)
+                ax.set_xlabel(draws[column].label, size=8.5)
             if column == 0 and row > 0:
-                ax.set_ylabel(words.column(names[row]), size=8.5)
+                ax.set_ylabel(draws[row].label, size=8.5)
             elif column < row:
                 ax.tick_params(labelleft=False)
     fig.align_labels()
+    shown = (f"{words.count(some.size)} of {words.plural(sweep.outcome.size, 'sample')} shown" if some.size < sweep.outcome.size else
+             f"all {words.plural(sweep.outcome.size, 'sample')} shown")
     finding = _finding(sweep, names)
-    shown = f"{words.count(order.size)} of {words.plural(sweep.outcome.size, 'sample')} shown" if order.size < sweep.outcome.size else \
-        f"all {words.plural(sweep.outcome.size, 'sample')} shown"
     style.headline(fig, finding, f"Draws of the sweep, one by one and in pairs; {shown}.")
     _key(axes, sweep, count)
     return Picture("coverage", fig, finding, CAPTION, "sweep")
 
 
-def _marginal(ax, sweep, name):
-    values = sweep.draws[name]
-    good = np.isfinite(values)
-    edges = np.histogram_bin_edges(values[good], bins=24)
-    stack = [values[good & (sweep.outcome == code)] for code in range(len(OUTCOMES))]
-    ax.hist(stack, bins=edges, stacked=True, histtype="stepfilled", color=[style.OUTCOME[name] for name in OUTCOMES], lw=0)
+def _marginal(ax, sweep, draw):
+    stack = [draw.exact[np.isfinite(draw.exact) & (sweep.outcome == code)] for code in range(len(OUTCOMES))]
+    ax.hist(stack, bins=draw.edges, stacked=True, histtype="stepfilled", color=[style.OUTCOME[name] for name in OUTCOMES], lw=0)
     ax.set_yticks([])
     ax.spines["left"].set_visible(False)
-    ax.set_xlim(edges[0], edges[-1])
+    ax.set_xlim(*draw.limits)
 
 
-def _pair(ax, sweep, x, y, order):
+def _pair(ax, sweep, x, y, some):
     colours = np.array([style.OUTCOME[name] for name in OUTCOMES], dtype=object)
-    ax.scatter(sweep.draws[x][order], sweep.draws[y][order], c=list(colours[sweep.outcome[order]]), s=2.2, lw=0, alpha=0.7, rasterized=True)
-    values = sweep.draws[y][np.isfinite(sweep.draws[y])]
-    ax.set_ylim(values.min(), values.max())
+    ax.scatter(x.shown[some], y.shown[some], c=list(colours[sweep.outcome[some]]), s=2.2, lw=0, alpha=0.7, rasterized=True)
+    ax.set_ylim(*y.limits)
+    y.tick(ax.yaxis)
 
 
 def _key(axes, sweep, count):
@@ -95,16 +135,13 @@ def _key(axes, sweep, count):
     ax = axes[0, count - 1] if count > 1 else axes[0, 0]
     present = [(code, name) for code, name in enumerate(OUTCOMES) if (sweep.outcome == code).any()]
     for line, (code, name) in enumerate(present):
-        share = (sweep.outcome == code).mean()
-        text = "< 0.1 %" if share < 0.001 else f"{100 * share:.1f} %"
-        ax.text(1.0, 0.98 - 0.16 * line, f"{words.OUTCOMES[name]}  {text}", color=style.OUTCOME[name], weight="bold", size=9, ha="right",
-                va="top", transform=ax.transAxes)
+        ax.text(1.0, 0.98 - 0.16 * line, f"{words.OUTCOMES[name]}  {words.percent((sweep.outcome == code).mean())}",
+                color=style.OUTCOME[name], weight="bold", size=9, ha="right", va="top", transform=ax.transAxes)
 
 
 def _finding(sweep, names):
-    best = separation(sweep, names[0])
     what = "overturns" if (sweep.outcome == 2).any() else "moves"
-    if best < 0.1:
-        return f"No single draw decides who {what}"
-    runner = f", then by {words.short_column(names[1])}" if len(names) > 1 and separation(sweep, names[1]) > 0.1 else ""
-    return f"Which specimen {what} is decided most by {words.short_column(names[0])}{runner}"
+    if separation(sweep, names[0]) < 0.1:
+        return f"No single draw decides which specimen {what}"
+    runner = f", then by the {words.short_column(names[1])}" if len(names) > 1 and separation(sweep, names[1]) > 0.1 else ""
+    return f"Which specimen {what} is decided most by the {words.short_column(names[0])}{runner}"

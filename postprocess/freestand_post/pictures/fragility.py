@@ -23,16 +23,17 @@ def _picture(sweep, edp):
     top, strip = fig.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [5.2, 1]})
     which = chosen_capacities(edp)
     labels = _curves(top, sweep, edp, which, symbol)
-    low, high = sweep.edge[0], sweep.edge[-1]
-    top.set(ylim=(0, 1.015), xlim=(low, high), ylabel=f"P({symbol} > C)")
-    top.axhline(0.5, color=style.MUTED, lw=0.7, ls=(0, (1, 2)), zorder=0)
+    (low, high), tall = sweep.view, _height(edp, which)
+    top.set(ylim=(0, tall), xlim=(low, high), ylabel=f"P({symbol} > C)")
+    if tall > 0.5:
+        top.axhline(0.5, color=style.MUTED, lw=0.7, ls=(0, (1, 2)), zorder=0)
     style.grid(top)
     _composition(strip, sweep, edp)
     strip.set_xlabel(words.with_unit(im, sweep.im_unit))
     finding = _finding(sweep, edp, which, symbol, im)
     style.headline(fig, finding, _subtitle(sweep, edp))
     if labels:
-        style.end_labels(top, labels, high, 0.06, 0.025 * (high - low))
+        style.end_labels(top, labels, high, 0.06 * tall, 0.025 * (high - low), min(tall, 1.0))
     return Picture(f"fragility_{edp.name}", fig, finding, CAPTION.format(symbol=symbol), "sweep", edp.name)
 
 
@@ -48,7 +49,7 @@ def _curves(ax, sweep, edp, which, symbol):
         ax.plot(x[failed], counted[failed], "o", ms=4.5, mfc="white", mec=colour, mew=1.1)
         if good.any():
             last = np.flatnonzero(good)[-1]
-            ax.plot([x[last], sweep.edge[-1]], [p[last], p[last]], color=colour, lw=0.7, alpha=0.7)
+            ax.plot([x[last], sweep.view[1]], [p[last], p[last]], color=colour, lw=0.7, alpha=0.7)
             labels.append((p[last], f"{symbol} > {words.chosen(edp.capacity[k], edp.unit)}", colour))
     if not labels:
         ax.text(0.5, 0.5, "no bin has enough samples", transform=ax.transAxes, ha="center", color=style.MUTED)
@@ -69,9 +70,9 @@ def _composition(ax, sweep, edp):
             entries.append((bottom[last] + share[last] / 2, {"at_rest": "still", "moved": "moved, stood"}.get(key, key),
                             style.OUTCOME[key]))
         bottom = bottom + share
-    width = sweep.edge[-1] - sweep.edge[0]
+    right, width = sweep.view[1], sweep.view[1] - sweep.view[0]
     for (_, text, colour), y in zip(entries, style.spread([entry[0] for entry in entries], 0.38, 0.88, 0.1)):
-        ax.text(sweep.edge[-1] + 0.012 * width, y, text, color=colour, size=8.5, va="center", weight="bold")
+        ax.text(right + 0.012 * width, y, text, color=colour, size=8.5, va="center", weight="bold")
     ax.set(ylim=(0, 1), yticks=[0, 1], ylabel="share")
     ax.spines["left"].set_visible(False)
 
@@ -84,17 +85,23 @@ def _finding(sweep, edp, which, symbol, im):
     reached = np.flatnonzero(np.isfinite(halves))
     if reached.size:
         k = reached[reached.size // 2]
-        return (f"Half of the specimens exceed {_capacity(edp, symbol, which[k])} once "
-                f"{im} reaches {words.quantity(halves[k], sweep.im_unit)}")
+        return f"Half of the specimens {_beyond(edp, which[k])} once {im} reaches {words.quantity(halves[k], sweep.im_unit)}"
     always = [k for k in range(len(which)) if np.nanmin(p[:, k]) > 0.5]
     if always:
-        return f"More than half of the specimens exceed {_capacity(edp, symbol, which[always[-1]])} at every intensity shown"
-    return (f"At most {words.probability(np.nanmax(p[:, 0]))} of the specimens exceed {_capacity(edp, symbol, which[0])} "
-            "in the range swept")
+        return f"More than half of the specimens {_beyond(edp, which[always[-1]])} at every intensity shown"
+    if np.nanmax(p[:, 0]) == 0:
+        return f"No specimens {_beyond(edp, which[0])} in the range swept"
+    return f"At most {words.percent(np.nanmax(p[:, 0]))} of the specimens {_beyond(edp, which[0])} at any intensity"
 
 
-def _capacity(edp, symbol, k):
-    return f"{symbol}\u00a0=\u00a0{words.chosen(edp.capacity[k], edp.unit)}"
+def _beyond(edp, k):
+    return words.beyond(edp.name, edp.label, words.chosen(edp.capacity[k], edp.unit))
+
+
+def _height(edp, which):
+    """Of the probability axis: 1, or what the curves need where they stay low."""
+    need = np.nanmax(np.concatenate([edp.surface["upper"][:, which].ravel(), [0.0]]))
+    return 1.015 if need > 0.4 or need == 0 else 1.3 * need
 
 
 def _subtitle(sweep, edp):

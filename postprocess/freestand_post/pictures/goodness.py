@@ -55,6 +55,7 @@ def _range(edp):
         return 0.1, 10.0
     share = np.cumsum(total) / total.sum()
     low, high = np.exp(np.interp([0.005, 0.998], share, edp.ln_edge[1:]))
+    low = max(low, high / 1e5)
     return (low, high) if high > low else (low / 2, low * 2)
 
 
@@ -83,8 +84,10 @@ def _finding(sweep, edp, symbol, im):
     status = edp.bins["status"]
     tested = int(np.isin(status, (FITTED, REJECTED)).sum())
     failed = np.flatnonzero(status == REJECTED)
+    if failed.size == tested:
+        return f"In none of the {words.plural(tested, 'bin')} does a lognormal describe {symbol}: the counted shares stand"
     if failed.size == 0:
-        return f"A lognormal describes {symbol} in all {tested} bins tested"
+        return f"A lognormal describes {symbol} in {'the one bin' if tested == 1 else f'all {tested} bins'} tested"
     where = words.listing(words.span(sweep.edge[i], sweep.edge[i + 1]) for i in failed[:4])
     return (f"A lognormal describes {symbol} in {tested - failed.size} of {tested} bins"
             + (f"; it fails at {im} from {where}" if failed.size <= 4 else ""))

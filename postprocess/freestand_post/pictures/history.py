@@ -106,6 +106,8 @@ def _finding(history):
         return f"Overturns at {words.number(history.columns['time_s'][first], 3)} s, after slipping {words.number(peak)} cm"
     if peak < 1e-9 and turned < 1e-9:
         return "The specimen does not move"
+    if not {"slide", "slide_rock", "flight"} & set(history.mode):
+        return f"Rocks up to {words.number(turned)}° without slipping"
     left = 100 * abs(float(summary.get("residual_slip_m", slip[-1])))
     turn = f", rocks up to {words.number(turned)}°" if turned > 1e-9 else ", does not rock"
-    return f"Slips {words.number(peak)} cm{turn} and comes to rest {words.number(left)} cm from where it stood"
+    return f"Moves {words.number(peak)} cm{turn} and comes to rest {words.number(left)} cm from where it stood"

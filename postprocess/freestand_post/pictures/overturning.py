@@ -32,13 +32,13 @@ def _picture(sweep, bins):
     ax.errorbar(x[good], p[good], yerr=np.maximum(error[:, good], 0), fmt="o", ms=4.5, color=style.INK, mec="white", mew=0.5,
                 elinewidth=1.0, capsize=2)
     top = max(np.nanmax(bins["p_over_upper"][good], initial=0.0), np.nanmax(curve["upper"], initial=0.0) if drawn else 0.0)
-    ax.set(xlim=(sweep.edge[0], sweep.edge[-1]), ylim=(0, 1.015 if top > 0.5 else min(1.0, 1.25 * top + 0.005)),
+    ax.set(xlim=sweep.view, ylim=(0, 1.015 if top > 0.5 else min(1.0, 1.25 * top + 0.005)),
            xlabel=words.with_unit(im, sweep.im_unit), ylabel="P(overturned)")
     style.grid(ax)
-    if drawn and sweep.edge[0] < curve["median"] < sweep.edge[-1] and ax.get_ylim()[1] > 0.5:
-        ax.plot([curve["median"]] * 2 + [sweep.edge[0]], [0, 0.5, 0.5], color=style.MUTED, lw=0.8, ls=(0, (1, 2)))
+    if drawn and sweep.view[0] < curve["median"] < sweep.view[1] and ax.get_ylim()[1] > 0.5:
+        ax.plot([curve["median"]] * 2 + [sweep.view[0]], [0, 0.5, 0.5], color=style.MUTED, lw=0.8, ls=(0, (1, 2)))
     finding = _finding(sweep, bins, curve, drawn, im)
-    style.headline(fig, finding, _subtitle(curve, drawn))
+    style.headline(fig, finding, _subtitle(sweep, curve, drawn))
     return Picture("overturning", fig, finding, CAPTION, "sweep")
 
 
@@ -49,13 +49,14 @@ def _finding(sweep, bins, curve, drawn, im):
     if np.isfinite(median) and sweep.edge[0] <= median <= sweep.edge[-1]:
         return f"By the fitted curve, half of the specimens overturn at {words.is_(im, median, sweep.im_unit)}"
     top = int(np.nanargmax(bins["p_over"]))
-    return (f"Overturning peaks at {words.probability(bins['p_over'][top])}, "
-            f"{words.is_(f'at {im}', sweep.centre[top], sweep.im_unit)}")
+    return (f"Overturning peaks {words.is_(f'at {im}', sweep.centre[top], sweep.im_unit)}, "
+            f"where {words.percent(bins['p_over'][top])} of the specimens fall")
 
 
-def _subtitle(curve, drawn):
+def _subtitle(sweep, curve, drawn):
     if not drawn:
         return "Counted shares with exact binomial 95 % intervals; no curve could be fitted."
-    text = (f"Lognormal curve: median {words.plus_minus(curve['median'], curve['median_se'])}, dispersion "
+    beyond = " (beyond the range swept)" if curve["median"] > sweep.edge[-1] else ""
+    text = (f"Lognormal curve: median {words.plus_minus(curve['median'], curve['median_se'])}{beyond}, dispersion "
             f"{words.plus_minus(curve['dispersion'], curve['dispersion_se'])} (standard errors)")
     return text + ("; penalised, since the outcomes separate." if curve["penalised"] else "; bars: exact 95 % intervals.")

@@ -3,7 +3,7 @@ import numpy as np
 
 from .. import style, words
 from ..model import crossing, exceedance
-from ..reading import REJECTED, Sweep
+from ..reading import FITTED, REJECTED, TOO_FEW, Sweep
 from . import Picture
 
 order = 20
@@ -25,7 +25,7 @@ def capacity_range(edp):
     if total.sum() > 0:
         share = np.cumsum(total) / total.sum()
         seen = np.exp(np.interp([0.15, 0.98], share, edp.ln_edge[1:]))
-        low, high = min(low, seen[0]), max(high, seen[1])
+        low, high = max(min(low, seen[0]), low / 10), max(high, seen[1])
     return (low, high) if high > low else (low / 3, low * 3)
 
 
@@ -39,19 +39,21 @@ def _picture(sweep, edp):
     ax = fig.subplots()
     ax.set_facecolor(style.EMPTY)
     mesh = ax.pcolormesh(sweep.edge, capacity, p.T, cmap=style.PROBABILITY, vmin=0, vmax=1, rasterized=True)
-    ax.set(yscale="log", xlim=(sweep.edge[0], sweep.edge[-1]), ylim=(low, high), xlabel=words.with_unit(im, sweep.im_unit),
+    ax.set(yscale="log", xlim=sweep.view, ylim=(low, high), xlabel=words.with_unit(im, sweep.im_unit),
            ylabel=words.with_unit(f"capacity C of {symbol}", edp.unit))
     style.plain_log(ax.yaxis)
     _contours(ax, sweep, middle, p)
-    for i in np.flatnonzero(edp.bins["status"] == REJECTED):
+    failed, tested = (int(np.isin(edp.bins["status"], which).sum()) for which in ((REJECTED,), (FITTED, REJECTED)))
+    for i in np.flatnonzero(edp.bins["status"] == REJECTED) if failed < tested else ():
         ax.plot(sweep.centre[i], 1.02, "v", ms=5, color=style.FAIL, transform=ax.get_xaxis_transform(), clip_on=False)
     _bar(fig, ax, mesh, symbol)
     finding = _finding(sweep, edp, symbol, im, p, middle)
-    failed = int((edp.bins["status"] == REJECTED).sum())
-    note = f"Triangles: the {failed} bins where the lognormal fails and the counted distribution is shown." if failed > 1 else \
-        "Triangle: the bin where the lognormal fails and the counted distribution is shown." if failed else \
-        "The lognormal holds in every bin shown."
-    style.headline(fig, finding, f"P({symbol} > C) over intensity and capacity. {note} Grey: too few samples.")
+    note = ("The lognormal fails in every bin: the counted distributions are shown." if failed == tested > 0 else
+            f"Triangles: the {failed} bins where the lognormal fails and the counted distribution is shown." if failed > 1 else
+            "Triangle: the bin where the lognormal fails and the counted distribution is shown." if failed else
+            "The lognormal holds in every bin tested." if tested else "Too few moved for a lognormal: counted.")
+    grey = " Grey: too few samples." if (edp.bins["status"] == TOO_FEW).any() else ""
+    style.headline(fig, finding, f"P({symbol} > C) over intensity and capacity. {note}{grey}")
     return Picture(f"surface_{edp.name}", fig, finding, CAPTION.format(symbol=symbol), "sweep", edp.name)
 
 
@@ -82,8 +84,8 @@ def _finding(sweep, edp, symbol, im, p, capacity):
         if np.isfinite(half):
             found.append((abs(i - 0.5 * p.shape[0]), sweep.centre[i], np.exp(-half), np.exp(-most)))
     if not found:
-        return f"{symbol} over the whole range swept" if np.isfinite(p).any() else f"Too few samples for a surface of {symbol}"
+        return f"Nowhere do half of the specimens reach the capacities of {symbol} shown" if np.isfinite(p).any() else f"Too few samples for a surface of {symbol}"
     _, x, half, most = min(found)
     where = words.is_(f"At {im}", x, sweep.im_unit)
-    rest = f", nine in ten exceed {words.quantity(most, edp.unit)}" if np.isfinite(most) else ""
-    return f"{where}, half of the specimens exceed {words.is_(symbol, half, edp.unit)}{rest}"
+    rest = f", nine in ten more than {words.quantity(most, edp.unit)}" if np.isfinite(most) else ""
+    return f"{where}, half of the specimens {words.beyond(edp.name, edp.label, words.quantity(half, edp.unit))}{rest}"
