@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(Identify, HiddenPulse,
                          testing::Values(Hidden{"A", 1.3, 0.9, 4.0}, Hidden{"B", 0.53, -0.61, 7.2},
                                          Hidden{"C1", 0.7, 0.5, 3.3}, Hidden{"C2", 2.1, -0.76, 5.0},
                                          Hidden{"B", 4.2, 1.1, 1.0}, Hidden{"C1", 0.3, 0.2, 11.7}),
-                         [](const auto& info) { return info.param.type + std::to_string(info.index); });
+                         [](const auto& hidden) { return hidden.param.type + std::to_string(hidden.index); });
 
 TEST_P(HiddenPulse, IsFoundAlone) {
   const Hidden& hidden = GetParam();

@@ -25,8 +25,7 @@ class EveryPulse : public testing::TestWithParam<std::string> {
   const FloorMotion table = pulse_motion(pulse);
 };
 
-INSTANTIATE_TEST_SUITE_P(Pulse, EveryPulse, testing::ValuesIn(every_pulse),
-                         [](const auto& info) { return info.param; });
+INSTANTIATE_TEST_SUITE_P(Pulse, EveryPulse, testing::ValuesIn(every_pulse), [](const auto& one) { return one.param; });
 
 // Numeric integration that knows nothing of the closed forms of v and u: Gauss's rule of three points on small steps.
 struct Integrated {
