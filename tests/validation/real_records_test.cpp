@@ -55,36 +55,48 @@ double peak(const FloorMotion& record) {
   return most;
 }
 
+constexpr double tolerance = 1e-7;  // m of slip, rad
+
+bool differ(const Response& a, const Response& b) {
+  if (a.outcome != b.outcome) return true;
+  return std::abs(a.peak_slip_m - b.peak_slip_m) > tolerance ||
+         std::abs(a.residual_slip_m - b.residual_slip_m) > tolerance ||
+         std::abs(a.peak_rotation_rad - b.peak_rotation_rad) > tolerance;
+}
+
+// A sample is sensitive when a change of the motion by 1e-10 changes its own answer by more than the tolerance: after
+// fifty impacts on strong motions some are. There only chance decides whether two programs agree; they are counted.
 TEST(RealRecords, FastAgainstReference) {
   FREESTAND_NEEDS_RECORDS();
-  int runs = 0, moved = 0, differ = 0;
-  double worst = 0;
+  const Settings tight{.tolerance = 1e-12};
+  int runs = 0, moved = 0, sensitive = 0;
   for (const FloorMotion& record : some_records(24)) {
     for (const TestBlock& block : blocks) {
       for (const double pga_g : {0.3, 0.7}) {
+        const Specimen specimen = specimen_of(block);
         const Shaking shaking{&record, pga_g * standard_gravity_mps2 / peak(record)};
-        const Response fast = respond(specimen_of(block), shaking),
-                       reference = respond_reference(specimen_of(block), shaking);
-        const double difference = std::max({std::abs(fast.peak_slip_m - reference.peak_slip_m),
-                                            std::abs(fast.residual_slip_m - reference.residual_slip_m),
-                                            std::abs(fast.peak_rotation_rad - reference.peak_rotation_rad)});
+        Shaking more = shaking, less = shaking;
+        more.scale *= 1 + 1e-10;
+        less.scale *= 1 - 1e-10;
+        const Response fast = respond(specimen, shaking, tight);
         ++runs;
-        moved += reference.outcome == Outcome::at_rest ? 0 : 1;
-        if (fast.outcome != reference.outcome || difference > 1e-7) {
-          ++differ;
-          std::printf("  differs by %.1e: %s, %s at %.1f g, %s/%s, impacts %d/%d\n", difference, record.name.c_str(),
-                      block.name, pga_g, name(fast.outcome), name(reference.outcome), fast.impacts, reference.impacts);
+        moved += fast.outcome == Outcome::at_rest ? 0 : 1;
+        if (differ(fast, respond(specimen, more, tight)) || differ(fast, respond(specimen, less, tight))) {
+          ++sensitive;
           continue;
         }
-        worst = std::max(worst, difference);
+        const Response reference = respond_reference(specimen, shaking, tight);
+        EXPECT_FALSE(differ(fast, reference))
+            << record.name << ", " << block.name << " at " << pga_g << " g: " << name(fast.outcome) << '/'
+            << name(reference.outcome) << ", slip " << fast.peak_slip_m << '/' << reference.peak_slip_m << ", rotation "
+            << fast.peak_rotation_rad << '/' << reference.peak_rotation_rad << ", impacts " << fast.impacts;
       }
     }
   }
-  std::printf("%d runs on real records, %d moved, %d differ by more than 1e-7, the others by %.1e at most\n", runs,
-              moved, differ, worst);
+  std::printf("%d runs on real records, %d moved, %d too sensitive to compare\n", runs, moved, sensitive);
   EXPECT_GE(runs, 100);
   EXPECT_GT(moved, runs / 2);
-  EXPECT_LE(differ, 0.01 * runs);
+  EXPECT_LE(sensitive, moved / 5);
 }
 
 TEST(RealRecords, FastAgainstTheContactStepper) {
