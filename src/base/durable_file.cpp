@@ -3,10 +3,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
+#include <cstdio>
 #include <system_error>
 
 namespace freestand {
@@ -141,15 +140,18 @@ void publish_durably(const fs::path& aside, const fs::path& path) {
 }
 
 std::string read_whole(const fs::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) {
-    const int error_number = errno;
-    throw Error("cannot read " + path.string() + " (" + std::generic_category().message(error_number) +
-                    "): check the path and its permissions",
+  const auto reject = [&](int error_number, const char* advice) {
+    throw Error("cannot read " + path.string() + " (" + std::generic_category().message(error_number) + "): " + advice,
                 Exit::data);
-  }
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) throw Error("cannot read " + path.string() + " (input/output error): check the disk", Exit::data);
+  };
+  std::FILE* file = std::fopen(path.c_str(), "rb");
+  if (!file) reject(errno, "check the path and its permissions");
+  std::string text;
+  std::array<char, 65536> part;
+  for (std::size_t count; (count = std::fread(part.data(), 1, part.size(), file)) > 0;) text.append(part.data(), count);
+  const int error_number = std::ferror(file) ? errno : 0;
+  std::fclose(file);
+  if (error_number) reject(error_number, "check the path and the disk");
   return text;
 }
 

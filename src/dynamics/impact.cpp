@@ -71,7 +71,9 @@ bool strike(const Rig& rig, State& state) {
   const int old_pivot = state.pivot, new_pivot = -state.pivot;
   const double omega = state.omega;
   state.theta = 0;
-  if (rig.impact.law == ImpactLaw::housner) {
+  if (state.w == 0 && rig.hop_rotation(new_pivot, omega) < rig.rest_rotation) {
+    state.omega = 0;
+  } else if (rig.impact.law == ImpactLaw::housner) {
     const double kept =
         (rig.k2 + rig.h * rig.h + rig.offset(old_pivot) * rig.offset(new_pivot)) / rig.inertia(new_pivot);
     state.omega = rig.impact.factor * std::fmax(kept, 0.0) * omega;

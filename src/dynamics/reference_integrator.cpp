@@ -1,8 +1,8 @@
-// The reference: SUNDIALS ARKODE, explicit Runge-Kutta of order 8 with root finding, restarted at every knot of the
-// floor motion and at every event. ARKODE finds a root on an interpolant of its step, and sees only roots at which a
-// witness changes sign between two steps. So an event is located again by Newton's method on the integrated state
-// itself, and the stationary points of the slip speed are roots too: a slip that stops and goes on within one step
-// shows as a negative speed there, and the leg is gone through again in shorter steps.
+// The reference: SUNDIALS ARKODE, explicit Runge-Kutta of order 5 in short steps, with root finding, restarted at every
+// knot of the floor motion and at every event. ARKODE finds a root on an interpolant of its step, and sees only roots
+// at which a witness changes sign between two steps. So an event is located again by Newton's method on the integrated
+// state itself, and the stationary points of the slip speed are roots too: a slip that stops and goes on within one
+// step shows as a negative speed there, and the leg is gone through again in shorter steps.
 //
 // It shares the equations of motion, the mode logic and the impact laws with the integrator of the sweep, and nothing
 // of how that one moves through time or finds its events.
@@ -43,7 +43,7 @@ void check(int flag, const char* what) {
 class ReferenceIntegrator {
  public:
   ReferenceIntegrator(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history)
-      : life_(specimen, shaking, settings, history), longest_step_(0.05 / specimen.block.p_radps()) {
+      : life_(specimen, shaking, settings, history), longest_step_(0.006 / specimen.block.p_radps()) {
     SUNContext context = nullptr;
     check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
     context_.reset(context);
@@ -77,7 +77,7 @@ class ReferenceIntegrator {
     if (!arkode)
       throw Error("the reference integrator cannot start (SUNDIALS has no memory): free some memory", Exit::data);
     void* ark = arkode.get();
-    check(ERKStepSetTableNum(ark, ARKODE_FEHLBERG_13_7_8), "ERKStepSetTableNum");
+    check(ERKStepSetTableNum(ark, ARKODE_DORMAND_PRINCE_7_4_5), "ERKStepSetTableNum");
     const double tolerance = std::max(settings.tolerance, 1e-11);  // below, round-off fails its error test
     check(ERKStepSStolerances(ark, tolerance, 0.1 * tolerance), "ERKStepSStolerances");
     check(ERKStepSetUserData(ark, this), "ERKStepSetUserData");
@@ -203,7 +203,7 @@ class ReferenceIntegrator {
   }
 
   double leg_length() const {
-    double h = std::min(life_.cursor.left(), 20 * longest_step_);
+    double h = std::min(life_.cursor.left(), 300 * longest_step_);
     if (output_step_ > 0) {
       const double next = (std::floor(life_.cursor.time() / output_step_ + 1e-6) + 1) * output_step_;
       h = std::min(h, next - life_.cursor.time());
