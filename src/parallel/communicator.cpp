@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -46,6 +47,13 @@ bool has_launcher() {
   for (const char* variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK", "MPI_LOCALRANKID"})
     if (std::getenv(variable)) return true;
   return false;
+}
+
+// As the launcher says; 0 where there is none.
+int launched_processes() {
+  for (const char* variable : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
+    if (const char* text = std::getenv(variable)) return std::atoi(text);
+  return 0;
 }
 
 void send_words(const Words& words, int to) {
@@ -140,7 +148,17 @@ void Communicator::on_root(const std::function<void()>& work) const {
 }
 
 Session::Session(int* argc, char*** argv) {
-  if (!has_launcher()) return;
+  std::signal(SIGXFSZ, SIG_IGN);
+  if (has_launcher()) start(argc, argv);
+  const int processes = launched_processes();
+  if (processes > 1 && world_.size() == 1)
+    throw Error(
+        fmt::format("{} processes were started, each alone (the launcher does not fit this MPI): use mpirun, or "
+                    "srun --mpi=pmix (`srun --mpi=list` shows what there is)",
+                    processes));
+}
+
+void Session::start(int* argc, char*** argv) {
   int provided = 0;
   if (MPI_Init_thread(argc, argv, MPI_THREAD_FUNNELED, &provided) != MPI_SUCCESS)
     throw Error("MPI does not start (MPI_Init failed): check the MPI installation, or run without mpirun");

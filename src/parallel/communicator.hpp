@@ -62,7 +62,9 @@ class SharedError : public Error {
 };
 
 // MPI from here to the end of the object's life, where a launcher (mpirun, srun) started the program; without one there
-// is one rank and MPI stays untouched. One per program, made in main. Throws Error if MPI does not start.
+// is one rank and MPI stays untouched. One per program, made in main. SIGXFSZ is ignored from here on, so that a file
+// size limit shows as a failed write. Throws Error (Exit::usage) if MPI does not start, or if the launcher started
+// several processes that MPI does not bring together: each would do the whole work, into the same files.
 class Session {
  public:
   Session(int* argc, char*** argv);
@@ -73,6 +75,7 @@ class Session {
   Communicator world() const { return world_; }
 
  private:
+  void start(int* argc, char*** argv);
   Communicator world_;
 };
 

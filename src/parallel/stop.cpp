@@ -26,12 +26,10 @@ void handle(int signal_number, void (*handler)(int)) {
 
 StopOnSignal::StopOnSignal() {
   for (const int signal_number : stop_signals) handle(signal_number, on_signal);
-  handle(SIGXFSZ, SIG_IGN);
 }
 
 StopOnSignal::~StopOnSignal() {
   for (const int signal_number : stop_signals) handle(signal_number, SIG_DFL);
-  handle(SIGXFSZ, SIG_DFL);
 }
 
 bool stop_requested() { return stop_flag != 0; }

@@ -4,8 +4,7 @@
 namespace freestand::parallel {
 
 // While it lives, SIGTERM, SIGINT and SIGUSR1 (which mpirun passes on) ask the run to stop after the open blocks
-// instead of ending the process; a second SIGINT ends it. SIGXFSZ is ignored, so that a file size limit shows as a
-// failed write. One at a time.
+// instead of ending the process; a second SIGINT ends it. One at a time.
 class StopOnSignal {
  public:
   StopOnSignal();

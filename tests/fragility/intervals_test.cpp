@@ -56,12 +56,22 @@ TEST(PercentileInterval, IsWiderForFewGroups) {
   std::vector<double> values;
   for (int i = 0; i <= 1000; ++i) values.push_back(i / 1000.0);
   values.push_back(std::numeric_limits<double>::quiet_NaN());
-  const Interval many = percentile_interval(values, 0.95, 100000), few = percentile_interval(values, 0.95, 8);
-  EXPECT_NEAR(many.lower, 0.025, 1e-4);
-  EXPECT_NEAR(many.upper, 0.975, 1e-4);
+  // The estimate is the median of the values, to half a value in a thousand: no bias to correct.
+  const Interval many = percentile_interval(values, 0.5, 0.95, 100000), few = percentile_interval(values, 0.5, 0.95, 8);
+  EXPECT_NEAR(many.lower, 0.025, 3e-4);
+  EXPECT_NEAR(many.upper, 0.975, 3e-4);
   // t(7) = 2.364624, times sqrt(8/7) = 2.527889: tail 0.005738.
-  EXPECT_NEAR(few.lower, 0.005738, 1e-5);
-  EXPECT_TRUE(std::isnan(percentile_interval(values, 0.95, 1).lower));
+  EXPECT_NEAR(few.lower, 0.005738, 1e-4);
+  EXPECT_TRUE(std::isnan(percentile_interval(values, 0.5, 0.95, 1).lower));
+}
+
+TEST(PercentileInterval, MedianBiasMovesBothEnds) {
+  std::vector<double> values;
+  for (int i = 0; i <= 100000; ++i) values.push_back(i / 100000.0);
+  // Share below the estimate 0.6915 = Phi(0.5): ends at Phi(1 -+ 1.959964).
+  const Interval interval = percentile_interval(values, 0.691462, 0.95, 1000000);
+  EXPECT_NEAR(interval.lower, 0.168538, 1e-4);
+  EXPECT_NEAR(interval.upper, 0.998461, 1e-4);
 }
 
 TEST(BenjaminiHochberg, ExampleOfTheirPaper) {

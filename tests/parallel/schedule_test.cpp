@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdlib>
 
 #include "parallel/stop.hpp"
 
@@ -63,6 +64,19 @@ TEST(StopDeathTest, ASecondInterruptEndsTheProcess) {
         std::raise(SIGINT);
       },
       testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(Session, WithoutALauncherThereIsOneRank) {
+  const Session session(nullptr, nullptr);
+  EXPECT_EQ(session.world().size(), 1);
+}
+
+TEST(Session, ProcessesThatMpiDoesNotBringTogetherAreRefused) {
+  ::setenv("SLURM_STEP_NUM_TASKS", "4", 1);
+  EXPECT_THROW(Session(nullptr, nullptr), Error);
+  ::setenv("SLURM_STEP_NUM_TASKS", "1", 1);
+  EXPECT_NO_THROW(Session(nullptr, nullptr));
+  ::unsetenv("SLURM_STEP_NUM_TASKS");
 }
 
 TEST(Communicator, OneRankTalksToItself) {
