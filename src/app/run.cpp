@@ -29,13 +29,25 @@ Exit check(const Context& context, const Options& options) {
   return Exit::done;
 }
 
+// A full disk, or what else can be cured, costs no finished block.
+study::SweepSummary sweep(const Context& context, const study::Study& study, const study::SweepOptions& options) {
+  try {
+    return study::sweep(context.world, study, options);
+  } catch (const parallel::SharedError&) {
+    throw;
+  } catch (const Error& error) {
+    if (error.exit() != Exit::resumable) throw;
+    throw Error(std::string(error.what()) + "; then go on with --resume", Exit::resumable);
+  }
+}
+
 Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit) {
   if (options.check) return check(context, options);
   if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DIR");
   const study::Study study = read(context, options.study);
   const study::SweepOptions sweep_options{options.folder, options.overwrite, options.resume, options.quiet,
                                           context.command_line};
-  const study::SweepSummary summary = study::sweep(context.world, study, sweep_options);
+  const study::SweepSummary summary = sweep(context, study, sweep_options);
   if (!summary.complete) {
     if (context.world.is_root())
       fmt::print(stderr, "stopped early: finished blocks are kept in {}; go on with --resume\n", options.folder);

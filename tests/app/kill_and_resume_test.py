@@ -1,0 +1,94 @@
+"""A run that is killed at any moment is completed by --resume to the same bits."""
+
+import os
+import random
+import signal
+import subprocess
+import time
+import unittest
+
+from support import InFolder, command, datasets, run, study_text
+
+
+def ranks_of(launcher):
+    """Processes of the program below the launcher."""
+    found = []
+    for entry in os.listdir("/proc"):
+        if not entry.isdigit():
+            continue
+        try:
+            with open(f"/proc/{entry}/stat") as stat:
+                fields = stat.read().rsplit(")", 1)
+        except OSError:
+            continue
+        if int(fields[1].split()[1]) == launcher and "freestand" in fields[0]:
+            found.append(int(entry))
+    return found
+
+
+class KillAndResume(InFolder):
+    samples = 40000
+
+    def setUp(self):
+        super().setUp()
+        self.study = self.write("study.yaml", study_text(samples=self.samples))
+        self.whole = self.folder / "whole"
+        start = time.monotonic()
+        self.succeed(["sweep", self.study, "-o", self.whole, "--quiet"], 2)
+        self.seconds = time.monotonic() - start
+
+    def start(self, folder, *options):
+        return subprocess.Popen(command(["sweep", self.study, "-o", folder, "--quiet", *options], 2),
+                                stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def resume(self, folder):
+        self.succeed(["sweep", self.study, "-o", folder, "--resume", "--quiet"], 3)
+        self.assertEqual(datasets(folder / "samples.h5"), datasets(self.whole / "samples.h5"))
+
+    def test_kill_nine_of_a_rank_at_random_moments(self):
+        dice = random.Random(20051)
+        kept = []
+        for number in range(4):
+            folder = self.folder / f"killed-{number}"
+            launcher = self.start(folder)
+            time.sleep(dice.uniform(0.2, 1.0) * self.seconds)
+            for rank in ranks_of(launcher.pid)[:1]:
+                os.kill(rank, signal.SIGKILL)
+            launcher.communicate(timeout=60)
+            kept.append(len(list(folder.glob("blocks/*"))) if folder.exists() else 0)
+            self.resume(folder)
+        self.assertGreater(max(kept), 0, "no run was killed between its first and its last block")
+
+    def test_a_request_to_stop_ends_with_75_and_keeps_the_blocks(self):
+        folder = self.folder / "stopped"
+        launcher = self.start(folder)
+        deadline = time.monotonic() + 30
+        while time.monotonic() < deadline and len(list(folder.glob("blocks/*"))) < 3:
+            time.sleep(0.01)
+        for rank in ranks_of(launcher.pid):
+            os.kill(rank, signal.SIGTERM)
+        _, error = launcher.communicate(timeout=60)
+        self.assertEqual(launcher.returncode, 75, error)
+        self.assertIn("--resume", error)
+        self.assertGreaterEqual(len(list(folder.glob("blocks/*"))), 3)
+        self.assertFalse((folder / "samples.h5").exists())
+        self.resume(folder)
+
+    def test_resume_refuses_another_study(self):
+        folder = self.folder / "stopped"
+        launcher = self.start(folder)
+        while launcher.poll() is None and len(list(folder.glob("blocks/*"))) < 2:
+            time.sleep(0.01)
+        for rank in ranks_of(launcher.pid):
+            os.kill(rank, signal.SIGTERM)
+        launcher.communicate(timeout=60)
+        other = self.write("other.yaml", study_text(samples=self.samples).replace("seed: 7", "seed: 8"))
+        for target in (folder, self.whole):
+            refused = run(["sweep", other, "-o", target, "--resume", "--quiet"])
+            self.assertEqual(refused.returncode, 2, refused.stderr)
+            self.assertIn("another study", refused.stderr)
+        self.resume(folder)
+
+
+if __name__ == "__main__":
+    unittest.main()

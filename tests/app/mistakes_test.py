@@ -1,0 +1,101 @@
+"""What a user does wrong is told clearly, with the right exit code, and nothing is lost."""
+
+import os
+import resource
+import unittest
+
+from support import CONFIGS, InFolder, run, study_text
+
+
+def with_records(glob):
+    text = study_text(samples=50)
+    start, end = text.index("motions:"), text.index("fragility:")
+    return text[:start] + f'motions:\n  - {{records: "{glob}", scale_to: {{pta_g: 0.5}}}}\n' + text[end:]
+
+
+class Mistakes(InFolder):
+    def check(self, text, *words, code=2):
+        study = self.write("study.yaml", text)
+        return self.fail_with(code, ["run", study, "-o", self.folder / "out"], *words)
+
+    def test_all_problems_of_a_study_at_once_with_their_lines(self):
+        text = study_text().replace("height_m: 2.2", "height: 2.2").replace("seed: 7", "sed: 7")
+        text = text.replace("{uniform: [0.3, 1.5]}", "{uniform: [1.5, 0.3]}")
+        done = self.check(text, "study.yaml:1:", "study.yaml:5:", "height_m", "study.yaml:9:")
+        self.assertGreaterEqual(len(done.stderr.strip().splitlines()), 3)
+        self.assertFalse((self.folder / "out").exists())
+
+    def test_problems_are_told_once_whatever_the_number_of_ranks(self):
+        study = self.write("study.yaml", study_text().replace("seed: 7", "sed: 7"))
+        done = self.fail_with(2, ["run", study, "-o", self.folder / "out"], "study.yaml:1:", ranks=3)
+        self.assertEqual(done.stderr.count("study.yaml:1:"), 1)
+
+    def test_check_stops_before_the_sweep(self):
+        study = self.write("study.yaml", study_text())
+        done = self.succeed(["run", "--check", study])
+        self.assertIn("resamples: 50", done.stdout)
+        again = self.write("again.yaml", done.stdout)
+        self.assertEqual(self.succeed(["run", "--check", again]).stdout, done.stdout)
+
+    def test_negative_size_and_impossible_friction(self):
+        self.check(study_text().replace("uniform: [0.5, 0.9]", "uniform: [-0.5, 0.9]"), "width_m")
+        self.check(study_text().replace("static_ratio: 1.2", "static_ratio: 0.8"), "static_ratio")
+
+    def test_empty_glob(self):
+        self.check(with_records("nothing/*.AT2"), "nothing/*.AT2")
+
+    def test_record_with_a_bad_number(self):
+        self.write("bad.csv", "time_s,floor_acceleration_mps2\n0,0\n0.01,1\n0.02,1x\n0.03,0\n")
+        self.check(with_records("bad.csv"), "bad.csv:4", code=3)
+
+    def test_missing_study_and_wrong_verbs(self):
+        self.fail_with(2, ["run", self.folder / "none.yaml", "-o", self.folder / "out"], "none.yaml")
+        self.assertEqual(run(["frobnicate"]).returncode, 2)
+        self.assertEqual(run([]).returncode, 2)
+        self.assertEqual(run(["--help"]).returncode, 0)
+
+    def test_folder_that_exists_is_kept_unless_told_otherwise(self):
+        study = self.write("study.yaml", study_text(samples=200))
+        out = self.folder / "out"
+        self.succeed(["run", study, "-o", out, "--quiet"])
+        before = (out / "samples.h5").read_bytes()
+        (out / "notes.txt").write_text("mine")
+        self.fail_with(2, ["run", study, "-o", out], "--overwrite")
+        self.assertEqual((out / "samples.h5").read_bytes(), before)
+        self.succeed(["run", study, "-o", out, "--overwrite", "--quiet"])
+        self.assertEqual((out / "notes.txt").read_text(), "mine")
+
+    def test_full_disk_is_resumable(self):
+        study = self.write("study.yaml", study_text(samples=4000, block_size=512))
+        out = self.folder / "out"
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))
+        done = run(["sweep", study, "-o", out, "--quiet"], preexec_fn=limit)
+        self.assertEqual(done.returncode, 75, done.stderr)
+        self.assertIn("--resume", done.stderr)
+        self.succeed(["sweep", study, "-o", out, "--resume", "--quiet"])
+        self.assertTrue((out / "samples.h5").exists())
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
+    def test_no_write_permission(self):
+        locked = self.folder / "locked"
+        locked.mkdir(mode=0o555)
+        self.fail_with(2, ["run", self.write("s.yaml", study_text()), "-o", locked / "out"], "permission")
+
+    def test_fit_of_what_is_no_sweep(self):
+        self.fail_with(3, ["fit", self.folder], "samples.h5")
+        (self.folder / "samples.h5").write_bytes(b"not HDF5")
+        self.fail_with(3, ["fit", self.folder], "samples.h5")
+
+    def test_simulate_writes_what_the_contract_says(self):
+        out = self.folder / "case"
+        self.succeed(["simulate", CONFIGS / "case.yaml", "-o", out])
+        header = (out / "history.csv").read_text().splitlines()[0]
+        self.assertEqual(header, "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,"
+                                 "rotation_rate_radps,mode")
+        for key in ("peak_slip_m", "residual_slip_m", "slid_path_m", "peak_rotation_rad", "overturned", "outcome",
+                    "peak_acceleration_g", "events"):
+            self.assertIn(f'"{key}"', (out / "summary.json").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()

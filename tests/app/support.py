@@ -1,0 +1,90 @@
+"""What the tests of the program share: studies, runs, and the comparison of result files."""
+
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+try:
+    import h5py
+except ImportError:
+    print("skipped: python3-h5py is not installed")
+    sys.exit(77)
+
+FREESTAND = os.environ["FREESTAND"]
+MPIEXEC = os.environ["MPIEXEC"]
+CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
+
+STUDY = """\
+seed: 7
+samples: {samples}
+design: {design}
+block_size: {block_size}
+block: {{width_m: {{uniform: [0.5, 0.9]}}, height_m: 2.2, mass_kg: 300}}
+friction: {{mu_k: {{lognormal: {{median: 0.25, dispersion: 0.4}}}}, static_ratio: 1.2}}
+impact: {{law: coulomb}}
+motions:
+  - {{pulse: [A, B, C1], period_s: {{uniform: [0.3, 1.5]}}, peak_acceleration_g: {{uniform: [0.1, 2]}}}}
+fragility: {{im: report, bins: {{count: 5}}, edp: [delta, overturned], axes: [friction.mu_k], resamples: 50}}
+"""
+
+
+def study_text(samples=3000, design="sobol", block_size=64):
+    return STUDY.format(samples=samples, design=design, block_size=block_size)
+
+
+def command(arguments, ranks=1):
+    launcher = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
+    return launcher + [FREESTAND] + [str(a) for a in arguments]
+
+
+def run(arguments, ranks=1, **options):
+    return subprocess.run(command(arguments, ranks), capture_output=True, text=True, timeout=200, **options)
+
+
+def datasets(path):
+    """Every dataset of an HDF5 file: name -> (type, bytes)."""
+    found = {}
+
+    def visit(name, item):
+        if isinstance(item, h5py.Dataset):
+            values = item[()]
+            found[name] = (str(item.dtype), values.tobytes() if item.dtype.kind != "O" else repr(list(values)))
+
+    with h5py.File(path, "r") as file:
+        file.visititems(visit)
+    return found
+
+
+def result(folder):
+    """All numbers of a result folder."""
+    texts = {name: (folder / name).read_bytes() for name in ("bins.csv", "surface.csv")}
+    return datasets(folder / "samples.h5"), datasets(folder / "fragility.h5"), texts
+
+
+class InFolder(unittest.TestCase):
+    """Each test has a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="freestand-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def succeed(self, arguments, ranks=1):
+        done = run(arguments, ranks)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def fail_with(self, code, arguments, *words, ranks=1):
+        done = run(arguments, ranks)
+        self.assertEqual(done.returncode, code, done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+        return done
