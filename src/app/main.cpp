@@ -4,7 +4,6 @@
 
 #include "app/command.hpp"
 #include "io/provenance.hpp"
-#include "parallel/stop.hpp"
 
 namespace {
 
@@ -17,11 +16,9 @@ int tell(const CLI::App& parser, const CLI::ParseError& error, const freestand::
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  const freestand::parallel::Session session(&argc, &argv);
-  const freestand::parallel::Communicator world = session.world();
-  const freestand::parallel::StopOnSignal stop_on_signal;
+namespace {
 
+int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
   CLI::App parser("Seismic fragility databases for freestanding equipment", "freestand");
   parser.require_subcommand(1);
   parser.set_version_flag("--version", freestand::io::provenance_here("", 1).version);
@@ -31,7 +28,6 @@ int main(int argc, char** argv) {
   freestand::app::add_fit(parser, work);
   freestand::app::add_simulate(parser, work);
   freestand::app::add_motion(parser, work);
-
   try {
     parser.parse(argc, argv);
     return static_cast<int>(work({world, freestand::io::command_line(argc, argv)}));
@@ -41,5 +37,17 @@ int main(int argc, char** argv) {
     return freestand::parallel::end_run(world, error);
   } catch (const std::exception& error) {
     return freestand::parallel::end_run(world, fmt::format("unexpected: {}", error.what()), 1);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const freestand::parallel::Session session(&argc, &argv);
+    return run(argc, argv, session.world());
+  } catch (const freestand::Error& error) {  // MPI does not start
+    fmt::print(stderr, "{}\n", error.what());
+    return static_cast<int>(error.exit());
   }
 }

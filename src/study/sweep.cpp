@@ -14,6 +14,7 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/progress.hpp"
 #include "parallel/schedule.hpp"
+#include "parallel/stop.hpp"
 #include "study/analysis.hpp"
 #include "study/evaluator.hpp"
 
@@ -37,13 +38,19 @@ bool already_complete(const Study& study, const std::filesystem::path& folder) {
   return true;
 }
 
+// The root tries the records first, so that a broken one is told once and all ranks leave in order.
+MotionSet load_together(const Communicator& world, const Study& study) {
+  world.on_root([&] { load_motions(study); });
+  return load_motions(study);
+}
+
 class Sweep {
  public:
   Sweep(const Communicator& world, const Study& study, const SweepOptions& options)
       : world_(world),
         study_(study),
         options_(options),
-        evaluator_(study, load_motions(study)),
+        evaluator_(study, load_together(world, study)),
         store_(blocks_path(options.folder), fingerprint(study) + evaluator_.motions().fingerprint()) {}
 
   SweepSummary run() {
@@ -173,6 +180,7 @@ std::filesystem::path blocks_path(const std::filesystem::path& folder) { return 
 std::filesystem::path study_path(const std::filesystem::path& folder) { return folder / "study.yaml"; }
 
 SweepSummary sweep(const Communicator& world, const Study& study, const SweepOptions& options) {
+  const parallel::StopOnSignal stop_on_signal;
   parallel::Words complete{0};
   world.on_root([&] {
     io::prepare_output_folder(options.folder, options.resume      ? io::Existing::resume
