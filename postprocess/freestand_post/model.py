@@ -44,7 +44,7 @@ def crossing(x, y, level):
     return np.nan
 
 
-def chosen_capacities(edp, limit=4):
+def chosen_capacities(edp, limit=5):
     """Positions of a few capacities, spread over the list."""
     n = edp.capacity.size
     return sorted({round(i * (n - 1) / (min(n, limit) - 1)) for i in range(min(n, limit))}) if n > 1 else list(range(n))

@@ -77,9 +77,9 @@ class Sweep:
         low, high = self.edge[0], self.edge[-1]
         last, first = self.centre[-1] - self.edge[-2], self.edge[1] - self.centre[0]
         if last < 0.35 * (high - self.edge[-2]):
-            high = self.edge[-2] + 2.2 * last
+            high = self.edge[-2] + 1.6 * last
         if first < 0.35 * (self.edge[1] - low):
-            low = self.edge[1] - 2.2 * first
+            low = self.edge[1] - 1.6 * first
         return low, high
 
     @property

@@ -4,12 +4,12 @@ import math
 # name in the files -> what it is, for captions. Anything else is shown under its own name.
 DEMANDS = {
     "delta": "dimensionless peak slip Δ = U ω²/PTA",
-    "peak_slip": "largest slip",
+    "peak_slip": "largest slip U",
     "residual_slip": "slip that remains",
-    "slid_path": "path slid",
-    "peak_rotation_over_alpha": "peak rotation over slenderness",
+    "slid_path": "path slid S",
+    "peak_rotation_over_alpha": "peak rotation over slenderness θ/α",
     "impacts": "number of impacts",
-    "peak_acceleration": "peak equipment acceleration",
+    "peak_acceleration": "peak equipment acceleration PEA",
 }
 # name in the files -> symbol.
 # name in the files -> what specimens do beyond a capacity, for titles.
@@ -119,9 +119,15 @@ def plain(value):
     return "–" if value is None or not math.isfinite(value) else f"{value:.4g}".replace("-", "−")
 
 
-def span(low, high, digits=3):
-    """The two ends of a range."""
-    return f"{low:.{digits}g} to {high:.{digits}g}".replace("-", "−")
+def span(low, high):
+    """The two ends of a range, to about a hundredth of its width."""
+    decimals = max(0, 1 - math.floor(math.log10(high - low))) if high > low else 2
+
+    def text(value):
+        shown = f"{value:.{decimals}f}"
+        shown = shown.rstrip("0").rstrip(".") if "." in shown else shown
+        return "0" if shown in ("-0", "") else shown.replace("-", "−")
+    return f"{text(low)} to {text(high)}"
 
 
 def plus_minus(value, error):

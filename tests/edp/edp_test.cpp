@@ -24,7 +24,7 @@ TEST(Edp, EveryFileOfTheFolderIsRegistered) {
   for (const auto& entry : std::filesystem::directory_iterator(test::source_dir() / "src/edp"))
     if (entry.path().extension() == ".cpp" && entry.path().stem() != "edp") ++files;
   EXPECT_EQ(all().size(), files);
-  EXPECT_EQ(files, 8u);
+  EXPECT_GE(files, 8u);
 }
 
 TEST(Edp, DeclarationsAreComplete) {

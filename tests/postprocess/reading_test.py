@@ -206,7 +206,7 @@ class Model(unittest.TestCase):
 
     def test_chosen_capacities(self):
         edp = reading.Edp("x", "1", "", "continuous", {}, np.arange(1, 10), {}, np.zeros(0), np.zeros((0, 0)))
-        self.assertEqual(model.chosen_capacities(edp), [0, 3, 5, 8])
+        self.assertEqual(model.chosen_capacities(edp), [0, 2, 4, 6, 8])
         edp.capacity = np.array([1.0])
         self.assertEqual(model.chosen_capacities(edp), [0])
 
@@ -221,6 +221,8 @@ class Words(unittest.TestCase):
         self.assertEqual(words.p_value(1e-9), "< 0.001")
         self.assertEqual(words.probability(0.999), "> 0.99")
         self.assertEqual(words.count(1234567), "1\u202f234\u202f567")
+        self.assertEqual(words.span(-0.8254, -0.0354), "−0.83 to −0.04")
+        self.assertEqual([words.span(0, 0.5), words.span(2.25, 3), words.span(6.74, 27.2)], ["0 to 0.5", "2.25 to 3", "7 to 27"])
         self.assertEqual(words.listing(["a", "b", "c"]), "a, b and c")
 
     def test_columns_keep_their_unit(self):

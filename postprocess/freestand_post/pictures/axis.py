@@ -61,7 +61,7 @@ def _slices(ax, sweep, axis, k):
         ax.fill_between(sweep.centre, axis.lower[:, j, k], axis.upper[:, j, k], color=colour, alpha=0.14, lw=0)
         ax.plot(sweep.centre, p, "-o", ms=3, color=colour, lw=1.5)
         last = int(np.flatnonzero(np.isfinite(p))[-1])
-        ends.append((sweep.centre[last], p[last], words.span(axis.edge[j], axis.edge[j + 1], 2), colour))
+        ends.append((sweep.centre[last], p[last], words.span(axis.edge[j], axis.edge[j + 1]), colour))
     for group in _near(ends, 0.45 * (sweep.view[1] - sweep.view[0])):
         for (x, _, text, colour), y in zip(group, style.spread([end[1] for end in group], 0.075, 0.99)):
             ax.annotate(text, (x, y), xytext=(7, 0), textcoords="offset points", color=colour, weight="bold",

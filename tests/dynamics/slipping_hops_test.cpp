@@ -1,0 +1,57 @@
+// Where slipping hops end, the slip that goes on is the limit of the endless row of hops, not what the threshold of
+// rest leaves: the demands at the default tolerance are those of a tolerance ten thousand times smaller.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "support/random_cases.hpp"
+#include "support/solvers.hpp"
+
+namespace freestand::test {
+namespace {
+
+bool hops_end_slipping(const History& history) {
+  return std::any_of(history.events.begin(), history.events.end(), [](const Event& event) {
+    return event.impact && event.from == Mode::slide_rock && event.to == Mode::slide;
+  });
+}
+
+void expect_limit(ImpactLaw law) {
+  CaseFamily family;
+  family.seed = 71;
+  family.alpha_low = 0.25;
+  family.mu_low = 0.3;
+  family.excess_low = 1.2;
+  family.one_model = 0;
+  family.duration_low_s = 2;
+  family.duration_high_s = 3;
+  int compared = 0, apart = 0;
+  double worst = 0;
+  for (std::uint64_t number = 0; number < 400; ++number) {
+    RandomCase c = random_case(family, number);
+    if (c.specimen.impact.law != law) continue;
+    History history;
+    history.step_s = 0;
+    const Response usual = respond(c.specimen, c.shaking, {}, &history);
+    if (!hops_end_slipping(history)) continue;
+    Settings tight;
+    tight.tolerance = 1e-13;
+    const Response exact = respond(c.specimen, c.shaking, tight);
+    const double difference = std::max(std::abs(usual.peak_slip_m - exact.peak_slip_m),
+                                       std::abs(usual.residual_slip_m - exact.residual_slip_m));
+    ++compared;
+    apart += difference > 1e-7 ? 1 : 0;
+    worst = std::max(worst, difference);
+  }
+  std::printf("%d samples whose hops end slipping, %d of them off by more than 1e-7 m, worst %.1e m\n", compared, apart,
+              worst);
+  EXPECT_GE(compared, 10);
+  EXPECT_LE(apart, compared / 10);
+}
+
+TEST(SlippingHops, EndInTheirLimitUnderCoulombsLaw) { expect_limit(ImpactLaw::coulomb); }
+
+}  // namespace
+}  // namespace freestand::test
