@@ -27,4 +27,4 @@ inline constexpr Solver reference_solver{"reference", respond_reference};
   class suite : public testing::TestWithParam<freestand::test::Solver> {};                                   \
   INSTANTIATE_TEST_SUITE_P(Both, suite,                                                                      \
                            testing::Values(freestand::test::fast_solver, freestand::test::reference_solver), \
-                           [](const auto& info) { return std::string(info.param.name); })
+                           [](const auto& solver) { return std::string(solver.param.name); })
