@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from . import pictures, style, words
 from .model import kept_fits
-from .pictures.coverage import swept
+from .pictures.coverage import classes, swept
 from .reading import COUNTED, FITTED, OUTCOMES, REJECTED, TOO_FEW, Sweep
 
 HERE = pathlib.Path(__file__).parent
@@ -130,7 +130,9 @@ def _draws(sweep):
     rows = []
     for name in swept(sweep, limit=None):
         values = sweep.draws[name][np.isfinite(sweep.draws[name])]
-        rows.append({"name": words.column(name), "low": values.min(), "middle": np.median(values), "high": values.max()})
+        levels = classes(sweep, name)
+        rows.append({"name": words.column(name), "classes": ", ".join(levels[1]) if levels else "",
+                     "low": values.min(), "middle": np.median(values), "high": values.max()})
     return rows
 
 

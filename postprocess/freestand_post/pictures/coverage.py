@@ -57,21 +57,29 @@ def separation(sweep, name):
     return abs(2 * rank.mean() / no.size - 1)
 
 
+def classes(sweep, name):
+    """(values, names) of a draw that takes only a few values; None of any other."""
+    levels = np.unique(sweep.draws[name][np.isfinite(sweep.draws[name])])
+    if levels.size > FEW:
+        return None
+    motions = name == "motion" and levels[-1] < len(sweep.motions)
+    return levels, [sweep.motions[int(level)] if motions else words.plain(level) for level in levels]
+
+
 class _Draw:
     """One draw as it is shown: classes side by side, spread a little, or plain values."""
 
     def __init__(self, sweep, name):
         values = sweep.draws[name]
         self.label, self.ticks, self.names = words.column(name), None, None
-        levels = np.unique(values[np.isfinite(values)])
-        if levels.size <= FEW:
+        found = classes(sweep, name)
+        if found:
+            levels, self.names = found
             at = np.searchsorted(levels, values).astype(float)
             at[~np.isfinite(values)] = np.nan
             self.exact, self.edges = at, np.arange(levels.size + 1) - 0.5
             self.shown = at + np.random.default_rng(zlib.crc32(name.encode())).uniform(-0.36, 0.36, at.size)
             self.ticks = np.arange(levels.size)
-            motions = name == "motion" and levels[-1] < len(sweep.motions)
-            self.names = [sweep.motions[int(level)] if motions else words.plain(level) for level in levels]
         else:
             self.exact = self.shown = values
             self.edges = np.histogram_bin_edges(values[np.isfinite(values)], bins=24)
