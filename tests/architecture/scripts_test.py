@@ -1,0 +1,206 @@
+#!/usr/bin/python3
+"""The shell scripts against stand-ins for dpkg-query, apt-get, sudo, mpirun, srun and freestand: what they call, say and return."""
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+SCRIPTS = [*(ROOT / "jobs").glob("*"), ROOT / "tests/run", ROOT / ".ci/run"]
+
+
+def packages(optional=False):
+    lines = [line for line in (ROOT / "jobs/packages.txt").read_text().splitlines() if line and not line.startswith("#")]
+    return {line.split()[0] for line in lines if ("# optional" in line) == optional}
+
+
+class Stage(unittest.TestCase):
+    """A folder of stand-ins that comes first in PATH; each notes how it was called."""
+
+    def setUp(self):
+        kept = tempfile.TemporaryDirectory()
+        self.addCleanup(kept.cleanup)
+        self.folder = pathlib.Path(kept.name)
+        self.bin, self.calls = self.folder / "bin", self.folder / "calls"
+        self.bin.mkdir()
+        self.calls.write_text("")
+        self.environment = {**os.environ, "PATH": f"{self.bin}:/usr/bin:/bin", "LC_ALL": "C"}
+        self.environment.pop("FREESTAND_INSTALL", None)
+
+    def stand_in(self, name, body):
+        path = self.bin / name
+        path.write_text(f'#!/bin/bash\necho "{name} $*" >>"{self.calls}"\n{body}\n')
+        path.chmod(0o755)
+        return path
+
+    def called(self, name):
+        return [line for line in self.calls.read_text().splitlines() if line.split()[0] == name]
+
+    def run_script(self, *command, **options):
+        return subprocess.run(command, capture_output=True, text=True, env=self.environment, timeout=60, stdin=subprocess.DEVNULL, **options)
+
+
+class Install(Stage):
+    def installed(self, names):
+        listing = "\n".join(f"ii  {name}" for name in names)
+        self.stand_in("dpkg-query", f"cat <<'END'\n{listing}\nEND\nexit 1")
+
+    def user(self, number):
+        self.stand_in("id", f"echo {number}")
+
+    def install(self):
+        return self.run_script(ROOT / "jobs/install")
+
+    def test_quick_and_silent_when_nothing_is_missing(self):
+        self.installed(packages())  # the optional ones may be missing
+        self.stand_in("apt-get", "exit 9")
+        result = self.install()
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (0, "", ""))
+        self.assertEqual(self.called("apt-get"), [])
+
+    def test_root_installs_what_is_missing_and_the_optional(self):
+        self.installed(packages() - {"cmake", "python3-h5py"})
+        self.user(0)
+        self.stand_in("apt-get", "exit 0")
+        self.assertEqual(self.install().returncode, 0)
+        update, install = self.called("apt-get")
+        self.assertTrue(update.endswith(" update"))
+        wanted = install.split("--no-install-recommends ")[1].split()
+        self.assertEqual(set(wanted), {"cmake", "python3-h5py"} | packages(optional=True))
+
+    def test_user_with_sudo(self):
+        self.installed(packages() - {"cmake"})
+        self.user(1000)
+        self.stand_in("sudo", '[ "$1" = -n ] && exit 0\n"$@"')
+        self.stand_in("apt-get", "exit 0")
+        self.assertEqual(self.install().returncode, 0)
+        self.assertTrue(any("apt-get" in call and "install" in call for call in self.called("sudo")))
+
+    def refused(self, reason, missing):
+        result = self.install()
+        self.assertEqual(result.returncode, 2)
+        self.assertIn(reason, result.stderr)
+        self.assertIn(f"  sudo apt-get install --yes --no-install-recommends {missing}", result.stderr.splitlines()[-1])
+
+    def test_user_whose_sudo_wants_a_password(self):
+        self.installed(packages() - {"cmake", "ninja-build"})
+        self.user(1000)
+        self.stand_in("sudo", "exit 1")
+        self.stand_in("apt-get", "exit 0")
+        self.refused("sudo needs a password", "cmake ninja-build")
+        self.assertEqual(self.called("apt-get"), [])
+
+    def test_apt_that_fails_is_heard(self):
+        self.installed(packages() - {"cmake"})
+        self.user(0)
+        self.stand_in("apt-get", "echo E: no network; exit 100")
+        self.refused("apt-get failed", "cmake")
+        self.assertIn("E: no network", self.install().stderr)
+
+    def test_may_be_switched_off(self):
+        self.installed([])
+        self.environment["FREESTAND_INSTALL"] = "no"
+        self.assertEqual(self.install().returncode, 0)
+        self.assertEqual(self.called("dpkg-query"), [])
+
+
+class Mpirun(Stage):
+    def setUp(self):
+        super().setUp()
+        self.environment["FREESTAND"] = str(self.stand_in("freestand", "exit ${CODE:-0}"))
+        self.script = ROOT / "jobs/freestand.mpirun.sh"
+        self.stand_in("mpirun", 'while [ "$1" != "$FREESTAND" ]; do shift; done\n"$@"')
+
+    def test_sweep_then_fit(self):
+        self.assertEqual(self.run_script(self.script, "s.yaml", self.folder / "new", "3").returncode, 0)
+        self.assertIn(" -n 3 ", self.called("mpirun")[0])
+        self.assertEqual([call.split()[1] for call in self.called("freestand")], ["sweep", "fit"])
+        self.assertNotIn("--resume", self.called("freestand")[0])
+
+    def test_goes_on_where_the_folder_is_there(self):
+        self.run_script(self.script, "s.yaml", self.folder)
+        self.assertIn("--resume", self.called("freestand")[0])
+
+    def test_stopped_early_is_75_without_fit(self):
+        self.environment["CODE"] = "75"
+        result = self.run_script(self.script, "s.yaml", self.folder / "new")
+        self.assertEqual(result.returncode, 75)
+        self.assertIn("to go on", result.stdout)
+        self.assertEqual(len(self.called("freestand")), 1)
+
+    def test_mistakes_keep_their_code(self):
+        self.environment["CODE"] = "3"
+        self.assertEqual(self.run_script(self.script, "s.yaml", self.folder / "new").returncode, 3)
+        self.assertEqual(self.run_script(self.script).returncode, 2)
+        self.environment["FREESTAND"] = "/nowhere/freestand"
+        self.assertEqual(self.run_script(self.script, "s.yaml", "x").returncode, 2)
+
+    def test_termination_becomes_a_request_to_stop(self):
+        self.stand_in("mpirun", "trap 'exit 75' USR1\ntrap 'exit 99' TERM\nfor i in $(seq 200); do sleep 0.05; done")
+        process = subprocess.Popen([self.script, "s.yaml", self.folder / "new"], stdout=subprocess.PIPE, env=self.environment)
+        for _ in range(200):
+            if self.called("mpirun"):
+                break
+            time.sleep(0.02)
+        time.sleep(0.2)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 75)
+
+
+class Slurm(Stage):
+    def setUp(self):
+        super().setUp()
+        self.stand_in("scontrol", "exit 0")
+        self.stand_in("srun", "exit ${CODE:-0}")
+        self.environment.update(FREESTAND=str(self.stand_in("freestand", "exit 0")), SLURM_JOB_ID="77", SLURM_SUBMIT_DIR=str(self.folder))
+
+    def submit(self, *arguments):
+        return self.run_script("bash", ROOT / "jobs/freestand.slurm", *arguments)
+
+    def test_sweep_then_fit(self):
+        self.assertEqual(self.submit("s.yaml", "results").returncode, 0)
+        sweep, fit = self.called("srun")
+        self.assertIn(" sweep s.yaml -o results", sweep)
+        self.assertTrue(fit.endswith(" fit results"))
+        self.assertEqual(self.called("scontrol"), [])
+
+    def test_stopped_early_goes_back_into_the_queue(self):
+        self.environment["CODE"] = "75"
+        (self.folder / "results").mkdir()
+        self.assertEqual(self.submit("s.yaml", "results").returncode, 0)
+        self.assertEqual(self.called("scontrol"), ["scontrol requeue 77"])
+        self.assertEqual(len(self.called("srun")), 1)
+        self.assertIn("--resume", self.called("srun")[0])
+
+    def test_mistakes_do_not(self):
+        self.environment["CODE"] = "2"
+        self.assertEqual(self.submit("s.yaml", "results").returncode, 2)
+        self.assertEqual(self.called("scontrol"), [])
+        self.assertEqual(self.submit().returncode, 2)
+
+    def test_asks_for_time_to_stop_and_may_be_requeued(self):
+        text = (ROOT / "jobs/freestand.slurm").read_text()
+        for line in ("#SBATCH --signal=TERM@120", "#SBATCH --requeue", "#SBATCH --open-mode=append"):
+            self.assertIn(line, text)
+
+
+class Text(unittest.TestCase):
+    def test_bash_reads_every_script(self):
+        for script in SCRIPTS:
+            if script.suffix != ".txt":
+                with self.subTest(script.name):
+                    self.assertEqual(subprocess.run(["bash", "-n", script]).returncode, 0)
+                    if script.name != "lib.sh":
+                        self.assertTrue(os.access(script, os.X_OK))
+                        self.assertRegex(script.read_text(), r"set -euo pipefail|\nexec ")
+
+    def test_a_check_runs_the_tests(self):
+        self.assertIn("tests/run", (ROOT / ".ci/run").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main()
