@@ -65,6 +65,24 @@ void stay_flat(const Rig& rig, State& state, double vx, double vy) {
     state.w = vx > 0 ? std::fmax(vx - friction_k, 0.0) : std::fmin(vx + friction_k, 0.0);
 }
 
+// Housner's ratio of the rates after and before an impact in which `from` gives over to `to`.
+double kept_rate(const Rig& rig, int from, int to) {
+  const double kept = (rig.k2 + rig.h * rig.h + rig.offset(from) * rig.offset(to)) / rig.inertia(to);
+  return rig.impact.factor * std::fmax(kept, 0.0);
+}
+
+// Slip speed at the end of the endless row of hops that starts on `pivot` with `rate`, impacts leaving the slip as it
+// is. A hop turns rate r into -r, and with it the slip by 2 h r + 2 sigma mu_k |c| |r| (its friction beyond that of
+// sliding): two geometric series, one hop on either corner in turn.
+double slip_after_hops(const Rig& rig, int pivot, double rate, double w) {
+  const double ratio = kept_rate(rig, pivot, -pivot);  // rate of the second hop to that of the first
+  const double rows = 1 / (1 - ratio * kept_rate(rig, -pivot, pivot));
+  const int sigma = w > 0 ? 1 : -1;
+  const double arms = std::abs(rig.offset(pivot)) + ratio * std::abs(rig.offset(-pivot));
+  const double after = w + rows * (2 * rig.h * rate * (1 - ratio) + 2 * sigma * rig.mu_k * arms * std::abs(rate));
+  return sigma * after > 0 ? after : 0;
+}
+
 }  // namespace
 
 bool strike(const Rig& rig, State& state) {
@@ -74,9 +92,9 @@ bool strike(const Rig& rig, State& state) {
   if (state.w == 0 && rig.hop_rotation(new_pivot, omega) < rig.rest_rotation) {
     state.omega = 0;
   } else if (rig.impact.law == ImpactLaw::housner) {
-    const double kept =
-        (rig.k2 + rig.h * rig.h + rig.offset(old_pivot) * rig.offset(new_pivot)) / rig.inertia(new_pivot);
-    state.omega = rig.impact.factor * std::fmax(kept, 0.0) * omega;
+    state.omega = kept_rate(rig, old_pivot, new_pivot) * omega;
+    if (state.w != 0 && rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation)
+      state.w = slip_after_hops(rig, new_pivot, state.omega, state.w);
   } else {
     const Velocity before = at_centre(arm(rig, old_pivot, 0.0), state.w, omega);
     Velocity after{};

@@ -12,11 +12,12 @@ namespace freestand::dynamics {
 
 // theta = 0: the raised corner strikes. state.pivot is the corner that carried until now. Sets omega, w, and theta = 0;
 // omega = 0 when both corners stay down or the next hop would be too small to tell. False: Painleve's paradox.
-//   housner: omega+ = factor (k^2 + h^2 + c_old c_new)/(k^2 + h^2 + c_new^2) omega-, w+ = w-;  uniform: 1 - 1.5
-//   sin^2(alpha) coulomb: plastic impulse at the new corner that sticks (|p_x| <= mu_s p_y) or slips (p_x = -sigma mu_k
-//   p_y); where the
-//            old corner would be pushed into the floor, both stay down. Of a slipping block the endless row of ever smaller
-//            hops is replaced by its limit, the blow on both corners at once with the friction of all its impulses.
+//   housner: omega+ = factor (k^2 + h^2 + c_old c_new)/(k^2 + h^2 + c_new^2) omega-, w+ = w-
+//            uniform block: 1 - 1.5 sin^2(alpha)
+//   coulomb: plastic impulse at the new corner that sticks (|p_x| <= mu_s p_y) or slips (p_x = -sigma mu_k p_y);
+//            where the old corner would be pushed into the floor, both stay down
+// Of a slipping block the endless row of ever smaller hops is replaced by its limit: under `coulomb` the blow on both
+// corners at once, with the friction of all its impulses; under `housner` the sum over its hops.
 bool strike(const Rig& rig, State& state);
 
 // End of a flight on one corner (pivot +1 or -1), or flat on both. Plastic, with Coulomb friction, whatever the impact

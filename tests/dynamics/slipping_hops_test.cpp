@@ -1,5 +1,6 @@
 // Where slipping hops end, the slip that goes on is the limit of the endless row of hops, not what the threshold of
-// rest leaves: the demands at the default tolerance are those of a tolerance ten thousand times smaller.
+// rest leaves: the demands at the default tolerance are those of a tolerance ten thousand times smaller, to 1e-6 m (a local
+// error of 1e-9 grows to some 1e-7 over the hundred impacts of such samples; cutting the row short costs up to 5e-4 m).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -42,15 +43,16 @@ void expect_limit(ImpactLaw law) {
     const double difference = std::max(std::abs(usual.peak_slip_m - exact.peak_slip_m),
                                        std::abs(usual.residual_slip_m - exact.residual_slip_m));
     ++compared;
-    apart += difference > 1e-7 ? 1 : 0;
+    apart += difference > 1e-6 ? 1 : 0;
     worst = std::max(worst, difference);
   }
-  std::printf("%d samples whose hops end slipping, %d of them off by more than 1e-7 m, worst %.1e m\n", compared, apart,
+  std::printf("%d samples whose hops end slipping, %d of them off by more than 1e-6 m, worst %.1e m\n", compared, apart,
               worst);
   EXPECT_GE(compared, 10);
   EXPECT_LE(apart, compared / 10);
 }
 
+TEST(SlippingHops, EndInTheirLimitUnderHousnersLaw) { expect_limit(ImpactLaw::housner); }
 TEST(SlippingHops, EndInTheirLimitUnderCoulombsLaw) { expect_limit(ImpactLaw::coulomb); }
 
 }  // namespace
