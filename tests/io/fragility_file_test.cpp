@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/error_text.hpp"
 #include "io/python.hpp"
 #include "io/text_files.hpp"
+#include "support/error_text.hpp"
 #include "support/sample_blocks.hpp"
 #include "support/scratch.hpp"
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/durable_file.hpp"
-#include "io/error_text.hpp"
+#include "support/error_text.hpp"
 #include "support/scratch.hpp"
 #include "support/trouble.hpp"
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "base/durable_file.hpp"
-#include "io/error_text.hpp"
+#include "support/error_text.hpp"
 #include "support/scratch.hpp"
 #include "support/trouble.hpp"
 

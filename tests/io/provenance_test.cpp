@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "io/error_text.hpp"
+#include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
 namespace freestand::io {

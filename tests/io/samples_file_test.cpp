@@ -3,8 +3,8 @@
 #include <cstring>
 
 #include "base/durable_file.hpp"
-#include "io/error_text.hpp"
 #include "io/python.hpp"
+#include "support/error_text.hpp"
 #include "support/sample_blocks.hpp"
 #include "support/scratch.hpp"
 #include "support/trouble.hpp"

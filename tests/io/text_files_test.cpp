@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/error_text.hpp"
+#include "support/error_text.hpp"
 
 namespace freestand::io {
 namespace {

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "base/durable_file.hpp"
+#include "support/error_text.hpp"
 #include "support/scratch.hpp"
 #include "support/trouble.hpp"
 
@@ -18,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Blocks = std::vector<std::int64_t>;
+using test::error_text;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -28,18 +30,6 @@ std::vector<std::string> file_names(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
-}
-
-template <class Work>
-std::string error_text(Exit expected, const Work& work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.exit(), expected) << error.what();
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return "";
 }
 
 TEST(BlockStore, ABlockComesBackToTheBit) {
