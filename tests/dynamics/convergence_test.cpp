@@ -65,5 +65,34 @@ TEST(Convergence, DemandErrorsFallWithTheTolerance) {
   }
 }
 
+// A block that rocks under a steady push has no knot and no event in its way: the steps are the method's own. Steps of order N
+// with local error equal to the tolerance make errors that fall with the tolerance to the power of 1 (forces, order N)
+// to (N + 1)/N (state).
+TEST(Convergence, ErrorOfTheStepsIsProportionalToTheTolerance) {
+  Specimen specimen;
+  specimen.block = Block::rectangular(0.5, 2.0, 100);
+  specimen.model = Model::rock;
+  const FloorMotion push = piecewise_linear("push", 1.0, {0.27 * 9.80665, 0.27 * 9.80665});
+  const auto rotation = [&](double tolerance) {
+    History history;
+    history.step_s = 0.9;
+    respond(specimen, {&push}, {.tolerance = tolerance}, &history);
+    return history.points.at(1).rotation_rad;
+  };
+  const double exact = rotation(1e-15);
+  ASSERT_LT(exact, -0.05);
+  std::vector<double> ln_tolerance, ln_error;
+  for (double tolerance = 1e-4; tolerance > 1e-9; tolerance /= 10) {
+    const double error = std::abs(rotation(tolerance) - exact);
+    std::printf("tolerance %.0e: error %.2e rad\n", tolerance, error);
+    ASSERT_LT(error, tolerance);
+    ln_tolerance.push_back(std::log(tolerance));
+    ln_error.push_back(std::log(error));
+  }
+  const double slope = (ln_error.front() - ln_error.back()) / (ln_tolerance.front() - ln_tolerance.back());
+  EXPECT_GT(slope, 0.8);
+  EXPECT_LT(slope, 1.4);
+}
+
 }  // namespace
 }  // namespace freestand::test
