@@ -86,7 +86,7 @@ std::string source_text(const MotionSource& source) {
     m.add("records", text_value(source.records));
     if (!source.vertical_records.empty()) m.add("vertical_records", text_value(source.vertical_records));
     if (source.amplitude && source.amplitude->name == "motion.pta_g")
-      m.add("scale_to", "{" + pair(*source.amplitude) + "}");
+      m.add("scale_to", fmt::format("{{{}}}", pair(*source.amplitude)));
     else
       m.add(source.amplitude);
     if (source.dt_s) m.add("dt_s", number_text(*source.dt_s));
@@ -100,8 +100,8 @@ std::string source_text(const MotionSource& source) {
 
 std::string bins_text(const BinsPart& bins) {
   constexpr const char* spacings[] = {"equal_width", "equal_count", "log"};
-  if (!bins.edges.empty()) return "{edges: " + list(bins.edges) + "}";
-  if (bins.width > 0) return "{width: " + number_text(bins.width) + "}";
+  if (!bins.edges.empty()) return fmt::format("{{edges: {}}}", list(bins.edges));
+  if (bins.width > 0) return fmt::format("{{width: {}}}", number_text(bins.width));
   return fmt::format("{{count: {}, spacing: {}}}", bins.count, spacings[static_cast<int>(bins.spacing)]);
 }
 
