@@ -31,11 +31,12 @@ Mistake cut(double lower, double upper) {
                      number_text(lower), number_text(upper));
 }
 
-// Probability left between the limits, in standard normal units.
+// Is there probability between the limits, in standard normal units? Each tail is worked from its own end, as quantile()
+// does.
 Mistake enough_left(double lower, double upper) {
   const double left = 0.5 * (std::erfc(-upper / std::sqrt(2.0)) - std::erfc(-lower / std::sqrt(2.0)));
   const double right = 0.5 * (std::erfc(lower / std::sqrt(2.0)) - std::erfc(upper / std::sqrt(2.0)));
-  if (std::max(left, right) > 1e-12) return {};
+  if (std::max(left, right) > 1e-100) return {};
   return "impossible distribution (practically nothing of it lies between min and max): move the limits or the centre";
 }
 

@@ -34,11 +34,16 @@ TEST(Distribution, TruncatedQuantilesInvertTheTruncatedCdf) {
     EXPECT_NEAR((normal_cdf(std::log(quantile(ln, u) / 0.2) / 0.4) - la) / (lb - la), u, 1e-12);
 }
 
-// Far in the upper tail 1 - F has no digits left in double: P(Z > 8) = 6e-16. The quantile must be right all the same.
+// Far in the upper tail 1 - F has no digits left in double: P(Z > 20) = 3e-89. The quantile must be right all the same.
 TEST(Distribution, TruncationFarInATailKeepsItsDigits) {
-  const double upper = quantile(Normal{0, 1, 8, unbounded}, 0.5), lower = quantile(Normal{0, 1, -unbounded, -8}, 0.5);
-  EXPECT_NEAR(0.5 * std::erfc(upper / std::sqrt(2.0)) / (0.5 * std::erfc(8 / std::sqrt(2.0))), 0.5, 1e-9);
-  EXPECT_NEAR(upper, -lower, 1e-12);
+  for (const double end : {4.0, 8.0, 20.0}) {
+    const Normal above{0, 1, end, unbounded}, below{0, 1, -unbounded, -end};
+    EXPECT_FALSE(mistake(above)) << end;
+    EXPECT_FALSE(mistake(below)) << end;
+    const double upper = quantile(above, 0.5), lower = quantile(below, 0.5);
+    EXPECT_NEAR(std::erfc(upper / std::sqrt(2.0)) / std::erfc(end / std::sqrt(2.0)), 0.5, 1e-9);
+    EXPECT_NEAR(upper, -lower, 1e-12);
+  }
 }
 
 TEST(Distribution, QuantilesAreMonotoneAndInsideTheSupport) {

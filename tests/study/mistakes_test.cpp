@@ -146,6 +146,9 @@ TEST(StudyMistakes, InFragility) {
       {with_fragility("{edp: [delta], capacities: {detla: [1]}}"), "5", "did you mean delta?"},
       {with_fragility("{edp: [delta], axes: [friction.mu]}"), "5", "has one value only"},
       {with_fragility("{edp: [delta], axes: [motion.pta]}"), "5", "did you mean motion.pta_g?"},
+      {block + friction + samples + "motions: [{pulse: A, period_s: 1, peak_acceleration_g: 1}]\n" +
+           "fragility: {edp: [delta], axes: [motion.pta_g]}\n",
+       "5", "axis motion.pta_g has one value only"},
       {with_fragility("{edp: [delta], confidence: 1}"), "5", "between 0 and 1"},
       {with_fragility("{edp: [delta], resamples: many}"), "5", "a whole number"},
   });

@@ -139,6 +139,13 @@ TEST(Realiser, PulsesAndSourcesComeWithTheirWeights) {
   EXPECT_EQ(counts.size(), 4U);
 }
 
+TEST(Realiser, PlainScaleOfAPulseMultipliesItsAmplitude) {
+  const Realiser realise = realiser(block + friction + samples + fragility +
+                                    "motions: [{pulse: A, period_s: 1, peak_acceleration_g: 0.5, scale: -1.2}]\n");
+  EXPECT_DOUBLE_EQ(realise(0).shaking.scale, -0.6 * standard_gravity_mps2);
+  EXPECT_DOUBLE_EQ(realise(0).pta_g, 0.6);
+}
+
 // The peak velocity of the floor, from the exact integral of the scaled motion, is the one that the study asks for.
 TEST(Realiser, PeakVelocityIsThatOfTheFloor) {
   for (const char* pulse : {"A", "B", "C1", "ricker"}) {

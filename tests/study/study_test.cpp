@@ -173,7 +173,7 @@ TEST(Study, DamagedTextsNeverDoWorseThanAnError) {
 }
 
 TEST(Configs, EveryReadyStudyIsSoundButForRecordsThatTheUserBrings) {
-  for (const char* name : {"quickstart.yaml", "kelvinator.yaml", "records.yaml"}) {
+  for (const char* name : {"quickstart.yaml", "kelvinator.yaml", "records.yaml", "every_key.yaml"}) {
     const auto file = freestand::test::source_dir() / "configs" / name;
     std::ifstream stream(file);
     std::ostringstream text;
@@ -181,6 +181,27 @@ TEST(Configs, EveryReadyStudyIsSoundButForRecordsThatTheUserBrings) {
     EXPECT_NO_THROW(parse_study(text.str(), file, registries(), Files::ignore)) << name;
   }
   EXPECT_NO_THROW(read_case(freestand::test::source_dir() / "configs" / "case.yaml"));
+}
+
+// The page of all keys tells the defaults: leaving out every key that has one changes nothing.
+TEST(Configs, EveryKeyShowsTheDefaults) {
+  const auto file = freestand::test::source_dir() / "configs" / "every_key.yaml";
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  Study shown = parse_study(text.str(), file, registries(), Files::ignore);
+  const Study least = parse_study(
+      "name: every key\nsamples: 20000\nblock: {width_m: 0.6, height_m: 1.8}\nfriction: {mu_k: {uniform: [0.1, 0.3]}}\n"
+      "effects: [{name: vertical_shaking}]\nmotions:\n"
+      "  - {pulse: [A, B], period_s: 0.5, peak_acceleration_g: {uniform: [0.1, 2]}}\n"
+      "  - {records: records/*, scale_to: {pta_g: {uniform: [0.1, 2]}}}\nfragility: {axes: [friction.mu_k]}\n",
+      file, registries(), Files::ignore);
+  EXPECT_THAT(shown.fragility.edp, testing::UnorderedElementsAreArray(least.fragility.edp));
+  EXPECT_EQ(std::get<Fixed>(shown.model.friction.static_ratio.value().value).value, 1);
+  shown.model.friction.static_ratio.reset();
+  shown.fragility.edp = least.fragility.edp;  // the order of the list is the user's
+  shown.fragility.capacities = least.fragility.capacities;
+  EXPECT_EQ(expanded(shown), expanded(least));
 }
 
 }  // namespace
