@@ -15,13 +15,15 @@ namespace freestand::fragility {
 Result fit(const Tally& tally);
 Result fit(const Tally& tally, EstimatedNull& null);
 
-// How well the surfaces IM x C are known, for `until: {half_width: ...}`.
+// How well the surfaces IM x C are known, for `until: {half_width: ...}`: the largest (upper - lower)/2 over all points. A
+// point without a band (too few samples, or too few motions) in a bin that the sweep does reach counts as unknown, which
+// is a half width of 0.5; bins without a single sample are not wanted. 0.5 too if nothing has a band yet.
 struct HalfWidth {
-  double largest = 0;  // of (upper - lower)/2 over all points that have a band
-  std::string edp;     // where that is
+  double largest = 0.5;
+  std::string edp;  // where that is
   double im = unknown, capacity = unknown;
   int points = 0;        // that have a band
-  int empty_points = 0;  // that have none (too few samples, or too few motions)
+  int empty_points = 0;  // that have none
 };
 HalfWidth half_width(const Result& result);
 

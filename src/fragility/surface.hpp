@@ -14,7 +14,8 @@ namespace freestand::fragility {
 //
 // Bands never claim to know more than the counts: a row of plain fractions is at least as wide as the exact binomial
 // interval, and a fitted row in which nothing overturned (or nothing stood still) carries the exact binomial limit for
-// that.
+// that. Measured on made-up studies with strong differences between motions: bands of nominal 95 % hold the truth in 87 to
+// 92 % of the cases with 8 motions, 90 to 95 % with 20, 93 to 95 % with 40 or more.
 Surface surface(const Tally& tally, std::size_t edp, const Resampling& resampling, std::vector<BinFit>& bins);
 
 // IM x axis x C, plain fractions.
