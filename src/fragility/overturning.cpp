@@ -10,22 +10,32 @@
 namespace freestand::fragility {
 namespace {
 
-double phi(double x) { return std::exp(-x * x / 2) / std::sqrt(2 * pi); }
 double upper_tail(double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); }
 
-// phi(x)/Phi(-x), also far out where both vanish.
-double hazard(double x) {
-  if (x < 30) return phi(x) / upper_tail(x);
-  return x + 1 / x - 2 / (x * x * x);
+// Logarithms of Phi(eta) and 1 - Phi(eta), and phi/Phi and phi/(1 - Phi), also far out where the tails vanish.
+struct Tails {
+  double log_lower, log_upper, rise, fall;
+};
+
+Tails tails(double eta) {
+  const double x = std::fabs(eta);
+  const double density = std::exp(-x * x / 2) / std::sqrt(2 * pi);
+  const double small = upper_tail(x);
+  const bool far = x > 30;
+  const double log_small =
+      far ? -x * x / 2 - std::log(x * std::sqrt(2 * pi)) + std::log1p(-1 / (x * x)) : std::log(small);
+  const double hazard = far ? x + 1 / x - 2 / (x * x * x) : density / small;
+  const double log_large = std::log1p(-small), other = density / (1 - small);
+  return eta < 0 ? Tails{log_small, log_large, hazard, other} : Tails{log_large, log_small, other, hazard};
 }
 
-double log_upper_tail(double x) {
-  if (x < 30) return std::log(upper_tail(x));
-  return -x * x / 2 - std::log(x * std::sqrt(2 * pi)) + std::log1p(-1 / (x * x));
-}
+// A point as the likelihood sees it.
+struct Trial {
+  double log_im, n, over;
+};
 
 struct Probit {
-  const std::vector<OverturningPoint>& points;
+  std::vector<Trial> trials;
   bool penalised;
 
   // Log likelihood (with half the log determinant of the information if penalised), its gradient, and the information.
@@ -37,13 +47,12 @@ struct Probit {
 
   Value at(const Eigen::Vector2d& line) const {
     Value value;
-    for (const auto& [im, n, over] : points) {
-      const Eigen::Vector2d x(1, std::log(im));
-      const double eta = line.dot(x), rise = hazard(-eta), fall = hazard(eta);  // phi/Phi, phi/(1 - Phi)
-      if (over > 0) value.objective += over * log_upper_tail(-eta);
-      if (n > over) value.objective += (n - over) * log_upper_tail(eta);
-      value.gradient += (over * rise - (n - over) * fall) * x;
-      value.information += n * rise * fall * x * x.transpose();
+    for (const auto& [log_im, n, over] : trials) {
+      const Eigen::Vector2d x(1, log_im);
+      const Tails t = tails(line.dot(x));
+      value.objective += over * t.log_lower + (n - over) * t.log_upper;
+      value.gradient += (over * t.rise - (n - over) * t.fall) * x;
+      value.information += n * t.rise * t.fall * x * x.transpose();
     }
     if (penalised) add_penalty(line, value);
     return value;
@@ -52,16 +61,20 @@ struct Probit {
   void add_penalty(const Eigen::Vector2d& line, Value& value) const {
     value.objective += 0.5 * std::log(value.information.determinant());
     const Eigen::Matrix2d inverse = value.information.inverse();
-    for (const auto& [im, n, over] : points) {
-      const Eigen::Vector2d x(1, std::log(im));
-      const double eta = line.dot(x), rise = hazard(-eta), fall = hazard(eta);
-      const double slope = rise * fall * (-2 * eta - rise + fall);  // d(weight)/d(eta)
+    for (const auto& [log_im, n, over] : trials) {
+      const Eigen::Vector2d x(1, log_im);
+      const double eta = line.dot(x);
+      const Tails t = tails(eta);
+      const double slope = t.rise * t.fall * (-2 * eta - t.rise + t.fall);  // d(weight)/d(eta)
       value.gradient += 0.5 * n * slope * x.dot(inverse * x) * x;
     }
   }
 };
 
-// Fisher scoring with step halving.
+// Fisher scoring with step halving, until the objective would rise by less than `enough`: the line is then known to about
+// sqrt(enough) standard errors.
+constexpr double enough = 1e-14;
+
 Eigen::Vector2d maximise(const Probit& probit, Eigen::Vector2d line) {
   Probit::Value value = probit.at(line);
   for (int iteration = 0; iteration < 200; ++iteration) {
@@ -75,7 +88,7 @@ Eigen::Vector2d maximise(const Probit& probit, Eigen::Vector2d line) {
     if (!(next.objective >= value.objective)) break;
     line += step;
     value = next;
-    if (gain < 1e-16 * (1 + std::fabs(value.objective))) break;
+    if (gain < enough) break;
   }
   return line;
 }
@@ -90,7 +103,7 @@ struct Range {
 
 }  // namespace
 
-OverturningFit fit_overturning(const std::vector<OverturningPoint>& points) {
+OverturningFit fit_overturning(const std::vector<OverturningPoint>& points, const OverturningFit& start) {
   OverturningFit fit;
   Range stood, over, all;
   for (const auto& point : points) {
@@ -101,8 +114,11 @@ OverturningFit fit_overturning(const std::vector<OverturningPoint>& points) {
   }
   if (!(over.least <= over.most) || !(stood.least <= stood.most) || all.least == all.most) return fit;
   fit.penalised = over.least >= stood.most || stood.least >= over.most;
-  const Probit probit{points, fit.penalised};
-  const Eigen::Vector2d line = maximise(probit, Eigen::Vector2d::Zero());
+  Probit probit{{}, fit.penalised};
+  for (const auto& point : points)
+    if (point.n > 0) probit.trials.push_back({std::log(point.im), point.n, point.over});
+  const bool started = std::isfinite(start.a) && std::isfinite(start.b) && !fit.penalised;
+  const Eigen::Vector2d line = maximise(probit, started ? Eigen::Vector2d(start.a, start.b) : Eigen::Vector2d::Zero());
   fit.a = line(0);
   fit.b = line(1);
   if (!(fit.b > 0)) return fit;

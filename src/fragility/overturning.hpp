@@ -25,7 +25,8 @@ struct OverturningFit {
 
 // a and b are NaN where no sample, or every sample, overturned, or where all lie at one intensity; median and
 // dispersion also where overturning does not grow with intensity (b <= 0).
-OverturningFit fit_overturning(const std::vector<OverturningPoint>& points);
+// `start`: a fit to similar points, to save iterations.
+OverturningFit fit_overturning(const std::vector<OverturningPoint>& points, const OverturningFit& start = {});
 
 // P at an intensity; 0 where im <= 0, NaN where the fit is.
 double overturning_probability(const OverturningFit& fit, double im);

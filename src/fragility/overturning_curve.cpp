@@ -44,14 +44,14 @@ std::vector<OverturningPoint> points_of(const std::vector<double>& im, const Eig
 }
 
 // The curve of one resample on the grid; 0 or 1 throughout where no sample, or every sample, of it overturned.
-void append_curve(const std::vector<OverturningPoint>& points, const std::vector<double>& grid,
-                  std::vector<std::vector<double>>& values) {
+void append_curve(const std::vector<OverturningPoint>& points, const OverturningFit& start,
+                  const std::vector<double>& grid, std::vector<std::vector<double>>& values) {
   double n = 0, over = 0;
   for (const auto& point : points) {
     n += point.n;
     over += point.over;
   }
-  const OverturningFit fit = fit_overturning(points);
+  const OverturningFit fit = fit_overturning(points, start);
   for (std::size_t i = 0; i < grid.size(); ++i)
     values[i].push_back(over == 0 || over == n ? over / n : overturning_probability(fit, grid[i]));
 }
@@ -86,7 +86,7 @@ OverturningCurve overturning_curve(const Tally& tally, const Resampling& resampl
   std::vector<std::vector<double>> values(points);
   const Eigen::MatrixXd n = resampling.totals(cells.n), over = resampling.totals(cells.over);
   for (Eigen::Index r = 0; r < n.rows(); ++r)
-    append_curve(points_of(cells.im, n.row(r), over.row(r)), curve.grid, values);
+    append_curve(points_of(cells.im, n.row(r), over.row(r)), fit, curve.grid, values);
   const std::vector<bool> there = tally.groups_with_samples();
   const int motions = static_cast<int>(std::count(there.begin(), there.end(), true));
   for (std::size_t i = 0; i < points; ++i) {

@@ -14,6 +14,7 @@
 #include "study/known.hpp"
 #include "study_text.hpp"
 #include "support/data.hpp"
+#include "support/scratch.hpp"
 
 namespace freestand::study {
 namespace {
@@ -38,12 +39,11 @@ class Records : public testing::Test {
     std::ofstream(folder_ / "records" / "b.csv")
         << "time_s,floor_acceleration_mps2,floor_vertical_acceleration_mps2\n0,0,1\n0.1,4,3\n0.2,0,0\n";
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   Study study(const std::string& motion, const std::string& more = "") const {
     return parse_study(block + friction + samples + fragility + "motions: [" + motion + "]\n" + more,
                        folder_ / "s.yaml", known());
   }
-  std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "freestand_realise_records";
+  freestand::test::Scratch folder_{"realise_records"};
 };
 
 TEST(Realiser, FixedNumbersGiveTheSpecimenOfTheStudy) {

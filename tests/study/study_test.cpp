@@ -10,6 +10,7 @@
 #include "study/known.hpp"
 #include "study_text.hpp"
 #include "support/data.hpp"
+#include "support/scratch.hpp"
 
 namespace freestand::study {
 namespace {
@@ -119,7 +120,7 @@ TEST(Study, FingerprintChangesWithWhatDeterminesTheNumbersAndNotWithTheName) {
 }
 
 TEST(Study, RecordsAreFoundBesideTheStudyFileAndMayBeGoneForStoredStudies) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "freestand_study_records";
+  const freestand::test::Scratch folder("study_records");
   std::filesystem::create_directories(folder / "records");
   for (const char* name : {"b.csv", "a.csv"})
     std::ofstream(folder / "records" / name) << "time_s,floor_acceleration_mps2\n0,0\n0.1,1\n0.2,0\n";
@@ -129,7 +130,7 @@ TEST(Study, RecordsAreFoundBesideTheStudyFileAndMayBeGoneForStoredStudies) {
   ASSERT_EQ(study.motions.at(0).files.size(), 2U);
   EXPECT_EQ(study.motions[0].files[0].filename(), "a.csv");
   EXPECT_EQ(study.motions[0].amplitude.value().name, "motion.pta_g");
-  std::filesystem::remove_all(folder);
+  std::filesystem::remove_all(folder / "records");
   EXPECT_THROW(parse_study(text, folder / "s.yaml", known()), Error);
   const Study stored = parse_study(expanded(study), folder / "s.yaml", known(), Files::ignore);
   EXPECT_EQ(expanded(stored), expanded(study));
