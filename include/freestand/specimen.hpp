@@ -2,8 +2,13 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 namespace freestand {
+
+namespace dynamics {
+struct Effect;
+}
 
 // Rigid body on a flat base. The centre of mass is at height h over the base, between the two corners.
 //
@@ -49,11 +54,19 @@ struct Impact {
 // What the block may do: only slide (never tips), only rock (never slips), or both.
 enum class Model { slide, rock, slide_rock };
 
+// An effect that acts on the specimen: its declaration (kept elsewhere for the life of the program or of the study) and
+// the values of its parameters, in the order of the declaration.
+struct EffectUse {
+  const dynamics::Effect* effect = nullptr;
+  std::vector<double> parameters;
+};
+
 struct Specimen {
   Block block;
   Friction friction;
   Impact impact;
   Model model = Model::slide_rock;
+  std::vector<EffectUse> effects = {};
 };
 
 }  // namespace freestand

@@ -6,7 +6,7 @@
 
 namespace freestand::dynamics {
 
-FloorCursor::FloorCursor(const Shaking& shaking, double g)
+FloorCursor::FloorCursor(const Shaking& shaking, double g, double push)
     : motion_(shaking.motion),
       knots_(shaking.motion->knot_s.data()),
       horizontal_(shaking.motion->horizontal_mps2.data()),
@@ -19,7 +19,8 @@ FloorCursor::FloorCursor(const Shaking& shaking, double g)
       scale_(shaking.scale),
       vertical_scale_(shaking.vertical_scale),
       stretch_(shaking.stretch),
-      g_(g) {}
+      g_(g),
+      push_(push) {}
 
 double FloorCursor::left() const {
   if (motion_over()) return std::numeric_limits<double>::infinity();
@@ -47,7 +48,8 @@ double FloorCursor::bound(const double* coefficients) const {
 }
 
 FloorCursor::Bound FloorCursor::segment_bound() const {
-  return {std::abs(scale_) * bound(horizontal_), vertical_ ? std::abs(vertical_scale_) * bound(vertical_) : 0.0};
+  return {std::abs(push_) + std::abs(scale_) * bound(horizontal_),
+          vertical_ ? std::abs(vertical_scale_) * bound(vertical_) : 0.0};
 }
 
 bool FloorCursor::run_starts_here() const {
@@ -56,7 +58,7 @@ bool FloorCursor::run_starts_here() const {
 
 FloorCursor::Bound FloorCursor::run_bound() const {
   const std::size_t run = segment_ / FloorMotion::run_length;
-  return {std::abs(scale_) * motion_->horizontal_run_mps2[run],
+  return {std::abs(push_) + std::abs(scale_) * motion_->horizontal_run_mps2[run],
           vertical_ ? std::abs(vertical_scale_) * motion_->vertical_run_mps2[run] : 0.0};
 }
 

@@ -12,7 +12,8 @@ inline constexpr int max_floor_degree = 7;
 
 class FloorCursor {
  public:
-  FloorCursor(const Shaking& shaking, double g);
+  // g: gravity across the floor, push: gravity along it [m/s2].
+  FloorCursor(const Shaking& shaking, double g, double push = 0);
 
   double time() const { return start_ + offset_; }
   double left() const;  // to the end of the segment [s]; infinite after the motion
@@ -37,6 +38,7 @@ class FloorCursor {
       shift(horizontal_ + segment_ * stride_, scale_, floor.a.c, N);
       if (vertical_) shift(vertical_ + segment_ * stride_, vertical_scale_, floor.g.c, N);
     }
+    floor.a[0] += push_;
     floor.g[0] += g_;
     return floor;
   }
@@ -52,7 +54,7 @@ class FloorCursor {
   const double* vertical_;  // null: no vertical shaking
   std::size_t segments_, stride_;
   int degree_;
-  double scale_, vertical_scale_, stretch_, g_;
+  double scale_, vertical_scale_, stretch_, g_, push_;
   std::size_t segment_ = 0;
   double start_ = 0, offset_ = 0;  // start of the segment, time since then [s]
 };

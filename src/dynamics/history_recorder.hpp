@@ -23,9 +23,10 @@ class HistoryRecorder {
     const auto u = midpoint(rig_, state, arc);
     each_point(start, tau, [&](double t) {
       const double theta = arc.theta.at(t), omega = arc.omega.at(t);
-      return HistoryPoint{
-          start + t, floor.a.at(t), u.at(t),   arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega,
-          theta,     omega,         state.mode};
+      return HistoryPoint{start + t, floor.a.at(t) - rig_.push,
+                          u.at(t),   arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega,
+                          theta,     omega,
+                          state.mode};
     });
   }
 
@@ -34,9 +35,9 @@ class HistoryRecorder {
     if (!wanted()) return;
     const double d = 0.5 * (rig_.right - rig_.left);
     each_point(start, tau, [&](double t) {
-      const double theta = flight.theta.at(t), omega = flight.omega[0];
+      const double theta = flight.theta.at(t), omega = flight.omega.at(t);
       return HistoryPoint{start + t,
-                          floor.a.at(t),
+                          floor.a.at(t) - rig_.push,
                           midpoint_in_flight(rig_, flight.x.at(t), theta),
                           flight.vx.at(t) - (rig_.h * std::cos(theta) + d * std::sin(theta)) * omega,
                           theta,

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "dynamics/law_arc.hpp"
+
 namespace freestand::dynamics {
 namespace {
 
@@ -23,32 +25,49 @@ Velocity at_centre(const Arm& r, double w, double omega) { return {w + r.ry * om
 
 double slip(const Arm& r, const Velocity& v) { return v.vx - v.omega * r.ry; }
 
+// Friction in a blow. Effects see it with the weight as normal force and the slip speed before it; legs pass on none.
+struct Grip {
+  const Rig& rig;
+  double left = 1, right = 1;  // factors on friction against a slip to the left, and to the right
+
+  double mu_s(int sigma) const { return rig.mu_s * (sigma > 0 ? right : left); }
+  double mu_k(int sigma) const { return rig.mu_k * (sigma > 0 ? right : left); }
+};
+
+Grip grip(const Rig& rig, const State& state, double time) {
+  if (!rig.laws) return {rig};
+  if (rig.laws->legs.frequency_radps > 0) return {rig, 0, 0};
+  return {rig, friction_factor(*rig.laws, state, time, -1), friction_factor(*rig.laws, state, time, 1)};
+}
+
 // The corner keeps its place: angular momentum about it is conserved.
 Velocity stick(const Rig& rig, const Arm& r, const Velocity& before) {
+  const double M = rig.carried_mass();
   const double omega =
-      (rig.k2 * before.omega + r.ry * before.vx - r.rx * before.vy) / (rig.k2 + r.rx * r.rx + r.ry * r.ry);
+      (rig.k2 * before.omega + M * r.ry * before.vx - r.rx * before.vy) / (rig.k2 + r.rx * r.rx + M * r.ry * r.ry);
   return at_centre(r, 0.0, omega);
 }
 
 // The corner slips in direction sigma while it is stopped vertically. False: no push can stop it.
-bool slide_through(const Rig& rig, const Arm& r, const Velocity& before, int sigma, Velocity& after) {
-  const double q = r.rx + sigma * rig.mu_k * r.ry;
-  const double d = rig.k2 + r.rx * q;
+bool slide_through(const Grip& grip, const Arm& r, const Velocity& before, int sigma, Velocity& after) {
+  const double k2 = grip.rig.k2, sigma_mu = sigma * grip.mu_k(sigma);
+  const double q = r.rx + sigma_mu * r.ry;
+  const double d = k2 + r.rx * q;
   if (!(d > 0)) return false;
-  const double py = -(before.vy + before.omega * r.rx) * rig.k2 / d;
-  after = {before.vx - sigma * rig.mu_k * py, before.vy + py, before.omega + py * q / rig.k2};
+  const double py = -(before.vy + before.omega * r.rx) * k2 / d;
+  after = {before.vx - sigma_mu * py / grip.rig.carried_mass(), before.vy + py, before.omega + py * q / k2};
   return true;
 }
 
 // Plastic impulse on one corner: stick if friction holds, else the slip that keeps its direction.
-bool plastic(const Rig& rig, const Arm& r, const Velocity& before, Velocity& after, double& w) {
-  after = stick(rig, r, before);
+bool plastic(const Grip& grip, const Arm& r, const Velocity& before, Velocity& after, double& w) {
+  after = stick(grip.rig, r, before);
   w = 0;
-  const double px = after.vx - before.vx, py = after.vy - before.vy;
-  if (!rig.can_slip || std::abs(px) <= rig.mu_s * py) return true;
+  const double px = grip.rig.carried_mass() * (after.vx - before.vx), py = after.vy - before.vy;
   const int first = px < 0 ? 1 : -1;  // friction opposes the slip
+  if (!grip.rig.can_slip || std::abs(px) <= grip.mu_s(first) * py) return true;
   for (const int sigma : {first, -first}) {
-    if (!slide_through(rig, r, before, sigma, after)) continue;
+    if (!slide_through(grip, r, before, sigma, after)) continue;
     w = slip(r, after);
     if (sigma * w >= 0) return true;
   }
@@ -56,36 +75,41 @@ bool plastic(const Rig& rig, const Arm& r, const Velocity& before, Velocity& aft
 }
 
 // Both corners take the blow: the block stays flat, friction of both acts.
-void stay_flat(const Rig& rig, State& state, double vx, double vy) {
-  const double friction_s = rig.mu_s * std::abs(vy), friction_k = rig.mu_k * std::abs(vy);
+void stay_flat(const Grip& grip, State& state, double vx, double vy) {
+  const int sigma = vx > 0 ? 1 : -1;
+  const double push = std::abs(vy) / grip.rig.carried_mass(), speed = std::abs(vx);
   state.theta = state.omega = 0;
-  if (!rig.can_slip || std::abs(vx) <= friction_s)
+  if (!grip.rig.can_slip || speed <= grip.mu_s(sigma) * push)
     state.w = 0;
   else
-    state.w = vx > 0 ? std::fmax(vx - friction_k, 0.0) : std::fmin(vx + friction_k, 0.0);
+    state.w = sigma * std::fmax(speed - grip.mu_k(sigma) * push, 0.0);
 }
 
 // Housner's ratio of the rates after and before an impact in which `from` gives over to `to`.
 double kept_rate(const Rig& rig, int from, int to) {
-  const double kept = (rig.k2 + rig.h * rig.h + rig.offset(from) * rig.offset(to)) / rig.inertia(to);
+  const double kept =
+      (rig.k2 + rig.carried_mass() * rig.h * rig.h + rig.offset(from) * rig.offset(to)) / rig.inertia(to);
   return rig.impact.factor * std::fmax(kept, 0.0);
 }
 
 // Slip speed at the end of the endless row of hops that starts on `pivot` with `rate`, impacts leaving the slip as it
 // is. A hop turns rate r into -r, and with it the slip by 2 h r + 2 sigma mu_k |c| |r| (its friction beyond that of
 // sliding): two geometric series, one hop on either corner in turn.
-double slip_after_hops(const Rig& rig, int pivot, double rate, double w) {
+double slip_after_hops(const Grip& grip, int pivot, double rate, double w) {
+  const Rig& rig = grip.rig;
   const double ratio = kept_rate(rig, pivot, -pivot);  // rate of the second hop to that of the first
   const double rows = 1 / (1 - ratio * kept_rate(rig, -pivot, pivot));
   const int sigma = w > 0 ? 1 : -1;
   const double arms = std::abs(rig.offset(pivot)) + ratio * std::abs(rig.offset(-pivot));
-  const double after = w + rows * (2 * rig.h * rate * (1 - ratio) + 2 * sigma * rig.mu_k * arms * std::abs(rate));
+  const double after =
+      w + rows * (2 * rig.h * rate * (1 - ratio) + 2 * sigma * grip.mu_k(sigma) * arms * std::abs(rate));
   return sigma * after > 0 ? after : 0;
 }
 
 }  // namespace
 
-bool strike(const Rig& rig, State& state) {
+bool strike(const Rig& rig, State& state, double time) {
+  const Grip friction = grip(rig, state, time);
   const int old_pivot = state.pivot, new_pivot = -state.pivot;
   const double omega = state.omega;
   state.theta = 0;
@@ -94,19 +118,19 @@ bool strike(const Rig& rig, State& state) {
   } else if (rig.impact.law == ImpactLaw::housner) {
     state.omega = kept_rate(rig, old_pivot, new_pivot) * omega;
     if (state.w != 0 && rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation)
-      state.w = slip_after_hops(rig, new_pivot, state.omega, state.w);
+      state.w = slip_after_hops(friction, new_pivot, state.omega, state.w);
   } else {
     const Velocity before = at_centre(arm(rig, old_pivot, 0.0), state.w, omega);
     Velocity after{};
     double w = 0;
-    if (!plastic(rig, arm(rig, new_pivot, 0.0), before, after, w)) return false;
+    if (!plastic(friction, arm(rig, new_pivot, 0.0), before, after, w)) return false;
     const bool hops = after.omega * new_pivot > 0;
     const bool last_hop = rig.hop_rotation(new_pivot, after.omega) < rig.rest_rotation;
     if (hops && (!last_hop || w == 0)) {
       state.omega = after.omega;
       state.w = w;
     } else {
-      stay_flat(rig, state, before.vx, before.vy);
+      stay_flat(friction, state, before.vx, before.vy);
     }
   }
   if (rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation) state.omega = 0;
@@ -114,16 +138,17 @@ bool strike(const Rig& rig, State& state) {
   return true;
 }
 
-bool land(const Rig& rig, State& state, int pivot) {
+bool land(const Rig& rig, State& state, int pivot, double time) {
+  const Grip friction = grip(rig, state, time);
   if (state.theta == 0 && state.omega == 0) {
     state.xi = state.x;
     state.pivot = 0;
-    stay_flat(rig, state, state.vx, state.vy);
+    stay_flat(friction, state, state.vx, state.vy);
     return true;
   }
   const Arm r = arm(rig, pivot, state.theta);
   Velocity after{};
-  if (!plastic(rig, r, {state.vx, state.vy, state.omega}, after, state.w)) return false;
+  if (!plastic(friction, r, {state.vx, state.vy, state.omega}, after, state.w)) return false;
   state.omega = after.omega;
   state.xi = state.x - r.rx - rig.offset(pivot);
   state.pivot = pivot;

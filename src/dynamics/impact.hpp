@@ -18,10 +18,10 @@ namespace freestand::dynamics {
 //            where the old corner would be pushed into the floor, both stay down
 // Of a slipping block the endless row of ever smaller hops is replaced by its limit: under `coulomb` the blow on both
 // corners at once, with the friction of all its impulses; under `housner` the sum over its hops.
-bool strike(const Rig& rig, State& state);
+bool strike(const Rig& rig, State& state, double time);
 
 // End of a flight on one corner (pivot +1 or -1), or flat on both. Plastic, with Coulomb friction, whatever the impact
 // law: Housner's law says nothing of a landing. Sets pivot's xi, w, omega. False: Painleve's paradox.
-bool land(const Rig& rig, State& state, int pivot);
+bool land(const Rig& rig, State& state, int pivot, double time);
 
 }  // namespace freestand::dynamics

@@ -5,10 +5,38 @@
 namespace freestand::dynamics {
 namespace {
 constexpr int wait_order = max_floor_degree + 1;  // witnesses at rest are the floor's own polynomials
+
+// On which side of their kinks the laws are when nothing has moved yet.
+std::uint32_t initial_sides(const Laws& laws) {
+  Series<double, 0> values[max_nodes];
+  for (int i = 0; i < input_count; ++i) values[i][0] = 0;
+  values[static_cast<int>(Input::normal)][0] = 1;
+  std::uint32_t sides = 0;
+  for (int j = 0, from = input_count; j <= laws.tape.kink_count(); ++j) {
+    const int to = j < laws.tape.kink_count() ? laws.tape.kink_node(j) : laws.tape.size();
+    laws.tape.advance(from, to, 0, sides, values);
+    from = to;
+    if (j < laws.tape.kink_count() && values[laws.tape.kink_argument(j)][0] < 0) sides |= 1U << j;
+  }
+  return sides;
 }
 
-bool admissible(const Specimen& specimen, const Shaking& shaking, const Settings& settings) {
+// Horizontal velocity of the centre of mass relative to the floor.
+double centre_speed(const Rig& rig, const State& state) {
+  if (state.mode == Mode::flight) return state.vx;
+  const int pivot = state.pivot == 0 ? 1 : state.pivot;
+  const double lever = rig.offset(pivot) * std::sin(state.theta) + rig.h * std::cos(state.theta);
+  return state.w + lever * state.omega;
+}
+}  // namespace
+
+bool admissible(const Setup& setup, const Settings& settings) {
+  const auto& [specimen, shaking, floor] = setup;
   const Block& b = specimen.block;
+  for (const auto& use : specimen.effects)
+    for (const double parameter : use.parameters)
+      if (!std::isfinite(parameter)) return false;
+  if (!(floor.gravity_factor > 0)) return false;
   for (const double size : {b.left_m, b.right_m, b.height_m, b.gyration2_m2, shaking.stretch, settings.tolerance})
     if (!(size > 0) || !std::isfinite(size)) return false;
   for (const double number :
@@ -19,12 +47,16 @@ bool admissible(const Specimen& specimen, const Shaking& shaking, const Settings
          specimen.friction.mu_s >= specimen.friction.mu_k;
 }
 
-Integration::Integration(const Specimen& specimen, const Shaking& shaking_, const Settings& settings_, History* history)
-    : rig(specimen, settings_),
-      shaking(shaking_),
+Integration::Integration(const Setup& setup, const Settings& settings_, History* history)
+    : rig(setup.specimen, settings_, setup.floor),
+      shaking(setup.shaking),
       settings(settings_),
-      cursor(shaking, rig.g),
-      recorder(history, rig) {}
+      cursor(shaking, rig.g, rig.push),
+      recorder(history, rig) {
+  if (!rig.laws) return;
+  if (rig.laws->tape.overflow() || !(rig.laws->carried_mass > 0)) stop(Outcome::not_finite);
+  state.sides = initial_sides(*rig.laws);
+}
 
 void Integration::wait() {
   const auto quiet = [&](FloorCursor::Bound bound) {
@@ -40,45 +72,85 @@ void Integration::wait() {
       continue;
     }
     const auto floor = cursor.local<wait_order>();
-    const auto arc = contact_arc<wait_order>(rig, state, floor);
     FirstEvent first(cursor.left());
-    for_each_witness(rig, state, arc, first);
+    with_contact_arc<wait_order>(rig, state, cursor.time(), floor, [&](const auto& arc) {
+      for_each_witness(rig, state, arc, first);
+      if (first.found().tau > 0) peaks.observe(rig, state, arc, first.found().tau);
+      recorder.record(state, arc, floor, cursor.time(), first.found().tau);
+    });
     const Found found = first.found();
-    if (found.tau > 0) peaks.observe(rig, state, arc, found.tau);
-    recorder.record(state, arc, floor, cursor.time(), found.tau);
     cursor.advance(found.tau);
-    if (found.tau > 0) state.doubt = 1;
+    if (found.tau > 0) left_instant();
     if (found.any) return resolve(found.witness);
     cursor.next_segment();
   }
 }
 
+void Integration::left_instant() {
+  state.doubt = 1;
+  state.turned_kink = state.held_kink = -1;
+}
+
+// A kink that turns twice at one instant is left as it is until the next step.
+void Integration::turn_kink(int kink) {
+  if (state.turned_kink == kink)
+    state.held_kink = kink;
+  else
+    state.sides ^= 1U << kink;
+  state.turned_kink = kink;
+}
+
+// The wall throws the block back; one that comes slowly stays at it, and the wall takes what presses it there.
+void Integration::reach_wall() {
+  const Wall& wall = rig.laws->wall;
+  const double speed = wall.restitution * state.w;
+  state.xi = wall.gap_m;
+  state.w = speed * speed / (2 * rig.g) < settings.tolerance ? 0.0 : -speed;
+  state.foot = state.w;
+  if (state.w == 0) state.wall = state.sigma;
+}
+
+// Contents on springs keep their own velocity when the block's changes at once.
+void Integration::keep_contents_velocity(double speed_before) {
+  const double jump = centre_speed(rig, state) - speed_before;
+  for (std::size_t i = 0; i < max_states; ++i)
+    if (rig.laws->relative_velocity[i]) state.states[i] -= jump;
+}
+
 void Integration::resolve(Witness witness) {
   const State from = state;
+  const double speed_before = rig.laws ? centre_speed(rig, state) : 0;
   bool impact = false, regular = true;
   switch (witness) {
     case Witness::impact:
       impact = true;
       if (rig.hop_rotation(state.pivot, state.omega) >= rig.told_rotation) ++peaks.response().impacts;
-      regular = strike(rig, state);
+      regular = strike(rig, state, cursor.time());
       break;
     case Witness::above_right:
     case Witness::above_left:
       impact = true;
       ++peaks.response().impacts;
-      regular = land(rig, state, witness == Witness::above_right ? 1 : -1);
-      if (regular && state.theta == 0 && state.omega * state.pivot < 0) regular = strike(rig, state);
+      regular = land(rig, state, witness == Witness::above_right ? 1 : -1, cursor.time());
+      if (regular && state.theta == 0 && state.omega * state.pivot < 0) regular = strike(rig, state, cursor.time());
       break;
     case Witness::slipping:
-      state.w = 0;
+      if (!rig.laws || rig.laws->legs.frequency_radps == 0) state.w = 0;
+      state.foot = 0;
+      break;
+    case Witness::clear:
+      reach_wall();
+      impact = true;
       break;
     case Witness::upright:
       state.mode = Mode::overturned;
       chose(from, false);
       return stop(Outcome::overturned);
     default:
+      if (is_kink(witness)) turn_kink(static_cast<int>(witness) - static_cast<int>(Witness::kink));
       break;
   }
+  if (impact && rig.laws) keep_contents_velocity(speed_before);
   if (!regular || !choose_mode(rig, cursor, state)) return stop(Outcome::painleve);
   chose(from, impact);
 }
@@ -87,6 +159,8 @@ void Integration::chose(const State& from, bool impact) {
   const bool news = impact || from.mode != state.mode || from.pivot != state.pivot || from.sigma != state.sigma;
   if (news) recorder.event(cursor.time(), from.mode, state, impact);
   if (state.mode != Mode::rest) moved_ = true;
+  if (state.sigma * state.wall < 0 || state.mode == Mode::flight) state.wall = 0;
+  if (news) rest_since_ = cursor.time();
   peaks.response().events += news;
   if (++resolved_ >= settings.event_limit && !finished_) stop(Outcome::step_limit);
 }
@@ -103,7 +177,12 @@ void Integration::stop_when_done() {
   if (!peaks.finite()) return stop(Outcome::not_finite);
   if (!cursor.motion_over()) return;
   const bool out_of_time = cursor.time() >= shaking.duration_s() + settings.free_vibration_s;
-  if (state.mode == Mode::rest || out_of_time) stop(moved_ ? Outcome::moved : Outcome::at_rest);
+  if (settles() || out_of_time) stop(moved_ ? Outcome::moved : Outcome::at_rest);
+}
+
+bool Integration::settles() const {
+  if (state.mode != Mode::rest) return false;
+  return waits() || cursor.time() >= std::fmax(rest_since_, shaking.duration_s()) + rig.laws->settling_s;
 }
 
 double Integration::slip() const {

@@ -11,16 +11,54 @@
 
 namespace freestand::dynamics {
 
-// Sizes, friction, scales and settings that can be integrated at all.
-bool admissible(const Specimen& specimen, const Shaking& shaking, const Settings& settings);
+// Sizes, friction, scales, effects and settings that can be integrated at all.
+bool admissible(const Setup& setup, const Settings& settings);
+
+// The state at tau of a step.
+template <int N>
+void go_to(State& state, const Arc<double, N>& arc, double tau) {
+  state.theta = arc.theta.at(tau);
+  state.omega = arc.omega.at(tau);
+  state.xi = arc.xi.at(tau);
+  state.w = arc.w.at(tau);
+}
+
+template <int N>
+void go_to(State& state, const LawArc<N>& arc, double tau) {
+  go_to(state, static_cast<const Arc<double, N>&>(arc), tau);
+  state.path = arc.path.at(tau);
+  state.deflection = arc.deflection.at(tau);
+  state.foot = state.sigma == 0 ? 0.0 : arc.foot.at(tau);
+  for (int i = 0; i < max_states; ++i) state.states[i] = arc.states[i].at(tau);
+}
+
+template <int N>
+void go_to(State& state, const Flight<double, N>& flight, double tau) {
+  state.theta = flight.theta.at(tau);
+  state.omega = flight.omega.at(tau);
+  state.x = flight.x.at(tau);
+  state.y = flight.y.at(tau);
+  state.vx = flight.vx.at(tau);
+  state.vy = flight.vy.at(tau);
+}
+
+template <int N>
+void go_to(State& state, const LawFlight<N>& flight, double tau) {
+  go_to(state, static_cast<const Flight<double, N>&>(flight), tau);
+  for (int i = 0; i < max_states; ++i) state.states[i] = flight.states[i].at(tau);
+}
 
 class Integration {
  public:
-  Integration(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history);
+  Integration(const Setup& setup, const Settings& settings, History* history);
 
   bool finished() const { return finished_; }
   // At rest nothing is integrated: goes along the motion to the instant at which rest ends, or to its end.
   void wait();
+  // At rest with nothing that moves on.
+  bool waits() const { return state.mode == Mode::rest && !(rig.laws && rig.laws->evolve_at_rest()); }
+  // Time goes on: what was special about the last instant is over.
+  void left_instant();
   // Applies an event: sets what the event makes exact, strikes or lands where corners meet the floor, chooses the next
   // mode.
   void resolve(Witness witness);
@@ -40,10 +78,15 @@ class Integration {
 
  private:
   double slip() const;
+  void turn_kink(int kink);
+  void reach_wall();
+  void keep_contents_velocity(double speed_before);
+  bool settles() const;  // at rest, for so long that nothing on it can move it any more
 
   bool finished_ = false;
   bool moved_ = false;
-  int resolved_ = 0;  // events, those that changed nothing included
+  double rest_since_ = 0;  // [s]
+  int resolved_ = 0;       // events, those that changed nothing included
   Outcome outcome_ = Outcome::moved;
 };
 

@@ -11,17 +11,17 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
   trial.mode = mode;
   trial.pivot = pivot;
   trial.sigma = sigma;
-  AllHold all;
-  const auto floor = cursor.local<judge_order>();
-  const auto arc = contact_arc<judge_order>(rig, trial, floor);
-  for_each_witness(rig, trial, arc,
-                   [&](Witness witness, const auto& series, ZeroTolerance zero) { all(witness, series, zero); });
-  // A slip or a rotation that is to start must start: zero to all orders is the stuck mode's, not this one's.
-  const bool starts_slip =
-      sigma == 0 || sign_after(scaled(double(sigma), arc.w), {1, rig.force_zero * state.doubt}) > 0;
-  const bool starts_turn =
-      pivot == 0 || sign_after(scaled(double(pivot), arc.theta), {2, rig.turn_zero * state.doubt}) > 0;
-  if (!all.hold() || !starts_slip || !starts_turn) return false;
+  const auto consistent = [&](const auto& arc) {
+    AllHold all;
+    for_each_witness(rig, trial, arc, all);
+    // A slip or a rotation that is to start must start: zero to all orders is the stuck mode's, not this one's.
+    const bool starts_slip =
+        sigma == 0 || sign_after(scaled(double(sigma), slip_speed(arc)), {1, rig.force_zero * state.doubt}) > 0;
+    const bool starts_turn =
+        pivot == 0 || sign_after(scaled(double(pivot), arc.theta), {2, rig.turn_zero * state.doubt}) > 0;
+    return all.hold() && starts_slip && starts_turn;
+  };
+  if (!with_contact_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) return false;
   state = trial;
   return true;
 }
@@ -29,10 +29,12 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
 bool lifts_off(const Rig& rig, const FloorCursor& cursor, State& state) {
   State trial = state;
   take_off(rig, trial);
-  AllHold all;
-  for_each_witness(rig, trial, flight_arc<judge_order>(rig, trial, cursor.local<judge_order>()),
-                   [&](Witness witness, const auto& series, ZeroTolerance zero) { all(witness, series, zero); });
-  if (!all.hold()) return false;
+  const auto consistent = [&](const auto& flight) {
+    AllHold all;
+    for_each_witness(rig, trial, flight, all);
+    return all.hold();
+  };
+  if (!with_flight_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) return false;
   state = trial;
   return true;
 }
@@ -40,7 +42,8 @@ bool lifts_off(const Rig& rig, const FloorCursor& cursor, State& state) {
 int direction(double w) { return w > 0 ? 1 : -1; }
 
 bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
-  if (state.w == 0) {
+  const double slip = slip_speed(rig, state);
+  if (slip == 0) {
     if (stands(rig, cursor, state, Mode::rest, 0, 0)) return true;
     if (!rig.can_slip && lifts_off(rig, cursor, state)) return true;  // before the hinges, which could pull
     if (rig.can_rock)
@@ -49,20 +52,21 @@ bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
     if (!rig.can_slip) return false;
     for (const int sigma : {1, -1})
       if (stands(rig, cursor, state, Mode::slide, 0, sigma)) return true;
-  } else if (stands(rig, cursor, state, Mode::slide, 0, direction(state.w))) {
+  } else if (stands(rig, cursor, state, Mode::slide, 0, direction(slip))) {
     return true;
   }
   if (!rig.can_rock) return false;
   for (const int pivot : {1, -1})
     for (const int sigma : {1, -1})
-      if ((state.w == 0 || sigma == direction(state.w)) && stands(rig, cursor, state, Mode::slide_rock, pivot, sigma))
+      if ((slip == 0 || sigma == direction(slip)) && stands(rig, cursor, state, Mode::slide_rock, pivot, sigma))
         return true;
   return false;
 }
 
 bool choose_on_corner(const Rig& rig, const FloorCursor& cursor, State& state) {
   const int pivot = state.theta > 0 || (state.theta == 0 && state.omega > 0) ? 1 : -1;
-  if (state.w != 0) return stands(rig, cursor, state, Mode::slide_rock, pivot, direction(state.w));
+  const double slip = slip_speed(rig, state);
+  if (slip != 0) return stands(rig, cursor, state, Mode::slide_rock, pivot, direction(slip));
   if (stands(rig, cursor, state, Mode::rock, pivot, 0)) return true;
   if (!rig.can_slip) return false;
   for (const int sigma : {1, -1})

@@ -4,6 +4,7 @@
 #include <freestand/response.hpp>
 
 #include "dynamics/contact.hpp"
+#include "dynamics/law_arc.hpp"
 #include "dynamics/rig.hpp"
 #include "dynamics/roots.hpp"
 
@@ -38,7 +39,19 @@ class Peaks {
       if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
       if (state.sigma != 0) response_.slid_path_m += std::abs(arc.xi.at(tau) - arc.xi[0]);
     }
-    observe_acceleration(rig, arc.fx, arc.fy, tau);
+    Series<double, N> along = arc.fx;
+    along[0] -= rig.push;
+    observe_acceleration(rig, along, arc.fy, tau);
+  }
+
+  template <int N>
+  void observe(const Rig& rig, const State& state, const LawArc<N>& arc, double tau) {
+    response_.peak_slip_m = max_abs(midpoint(rig, state, arc), tau, response_.peak_slip_m);
+    if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
+    response_.slid_path_m += arc.path.at(tau) - arc.path[0];
+    Series<double, N> floor_frame = arc.ax;
+    floor_frame[0] -= rig.push;
+    observe_acceleration(rig, floor_frame, arc.fy, tau);
   }
 
   template <int N>
@@ -50,8 +63,8 @@ class Peaks {
     sine[0] = std::sin(flight.theta[0]);
     cosine[0] = std::cos(flight.theta[0]);
     for (int k = 0; k < N; ++k) {
-      sine[k + 1] = cosine[k] * flight.omega[0] / (k + 1);
-      cosine[k + 1] = -sine[k] * flight.omega[0] / (k + 1);
+      sine[k + 1] = product(cosine, flight.omega, k) / (k + 1);
+      cosine[k + 1] = -product(sine, flight.omega, k) / (k + 1);
       u[k + 1] += d * cosine[k + 1] - rig.h * sine[k + 1];
     }
     u[0] = midpoint_in_flight(rig, flight.x[0], flight.theta[0]);

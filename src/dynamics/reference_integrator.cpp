@@ -22,8 +22,10 @@ namespace freestand {
 namespace dynamics {
 namespace {
 
-constexpr int state_size = 6;  // contact: theta, omega, xi, w, -, -;  flight: theta, omega, x, vx, y, vy
-constexpr int witness_slots = 8;
+// contact: theta, omega, xi, w, -, -;  flight: theta, omega, x, vx, y, vy;  then path, deflection, the effects' states
+constexpr int plain_size = 6;
+constexpr int state_size = plain_size + 2 + max_states;
+constexpr int witness_slots = 9 + max_kinks;
 constexpr int stationary_u = witness_slots, stationary_theta = witness_slots + 1, stationary_w = witness_slots + 2;
 constexpr int root_count = witness_slots + 3;
 
@@ -42,8 +44,8 @@ void check(int flag, const char* what) {
 
 class ReferenceIntegrator {
  public:
-  ReferenceIntegrator(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history)
-      : life_(specimen, shaking, settings, history), longest_step_(0.006 / specimen.block.p_radps()) {
+  ReferenceIntegrator(const Setup& setup, const Settings& settings, History* history)
+      : life_(setup, settings, history), longest_step_(0.006 / setup.specimen.block.p_radps()) {
     SUNContext context = nullptr;
     check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
     context_.reset(context);
@@ -61,7 +63,7 @@ class ReferenceIntegrator {
 
   Response run() {
     for (life_.stop_when_done(); !life_.finished(); life_.stop_when_done()) {
-      if (life_.state.mode == Mode::rest)
+      if (life_.waits())
         life_.wait();
       else if (!resolve_if_violated())
         integrate_leg();
@@ -89,10 +91,7 @@ class ReferenceIntegrator {
   bool resolve_if_violated() {
     FirstEvent now(0);
     const auto floor = life_.cursor.local<judge_order>();
-    if (life_.state.mode == Mode::flight)
-      for_each_witness(life_.rig, life_.state, flight_arc<judge_order>(life_.rig, life_.state, floor), now);
-    else
-      for_each_witness(life_.rig, life_.state, contact_arc<judge_order>(life_.rig, life_.state, floor), now);
+    with_arc(floor, [&](const auto& arc) { for_each_witness(life_.rig, life_.state, arc, now); });
     if (now.found().any) life_.resolve(now.found().witness);
     return now.found().any;
   }
@@ -153,7 +152,8 @@ class ReferenceIntegrator {
         life_.resolve(slots_[slot]);
         return Leg::event;
       }
-      if (life_.state.mode != Mode::flight && life_.state.sigma * life_.state.w < -1e-12) return Leg::passed_over;
+      if (life_.state.mode != Mode::flight && life_.state.sigma * slip_speed(life_.rig, life_.state) < -1e-12)
+        return Leg::passed_over;
       if (flag == ARK_ROOT_RETURN) {  // a stationary point: the next leg starts there
         life_.cursor.advance(tau);
         return Leg::event;
@@ -173,8 +173,11 @@ class ReferenceIntegrator {
   // The state at the end of a step.
   void arrive(const State& from, double tau) {
     life_.state = read(y_.get());
-    life_.state.doubt = 1;
-    if (from.sigma != 0) life_.peaks.response().slid_path_m += std::abs(life_.state.xi - from.xi);
+    life_.left_instant();
+    if (life_.rig.laws)
+      life_.peaks.response().slid_path_m += life_.state.path - from.path;
+    else if (from.sigma != 0)
+      life_.peaks.response().slid_path_m += std::abs(life_.state.xi - from.xi);
     observe(tau);
   }
 
@@ -212,20 +215,38 @@ class ReferenceIntegrator {
   }
 
   void record(double h) {
+    const double start = life_.cursor.time();
     if (life_.state.mode == Mode::flight)
-      life_.recorder.record(flight_arc<judge_order>(life_.rig, life_.state, floor_), floor_, life_.cursor.time(), h);
+      with_flight_arc<judge_order>(life_.rig, life_.state, start, floor_,
+                                   [&](const auto& arc) { life_.recorder.record(arc, floor_, start, h); });
     else
-      life_.recorder.record(life_.state, contact_arc<judge_order>(life_.rig, life_.state, floor_), floor_,
-                            life_.cursor.time(), h);
+      with_contact_arc<judge_order>(life_.rig, life_.state, start, floor_, [&](const auto& arc) {
+        life_.recorder.record(life_.state, arc, floor_, start, h);
+      });
+  }
+
+  // Calls use(arc) with the series of the state's mode, of its order in the floor given.
+  template <int N, class Use>
+  void with_arc(const Floor<double, N>& floor, Use&& use, double tau = 0) const {
+    const double time = life_.cursor.time() + tau;
+    if (life_.state.mode == Mode::flight)
+      with_flight_arc<N>(life_.rig, life_.state, time, floor, use);
+    else
+      with_contact_arc<N>(life_.rig, life_.state, time, floor, use);
   }
 
   // Extremes at the present point; root finding stops the integration at the stationary ones.
   void observe(double tau) {
     const Floor<double, 2> floor = floor_at(tau);
+    const double time = life_.cursor.time() + tau;
     if (life_.state.mode == Mode::flight)
-      life_.peaks.observe(life_.rig, flight_arc<2>(life_.rig, life_.state, floor), 0);
+      with_flight_arc<2>(life_.rig, life_.state, time, floor,
+                         [&](const auto& arc) { life_.peaks.observe(life_.rig, arc, 0); });
     else
-      life_.peaks.observe(life_.rig, life_.state, contact_arc<2>(life_.rig, life_.state, floor), 0);
+      with_contact_arc<2>(life_.rig, life_.state, time, floor, [&](const auto& arc) {
+        if (life_.state.sigma != 0) life_.state.foot = slip_speed(arc)[0];
+        life_.peaks.observe(life_.rig, life_.state, arc, 0);
+      });
   }
 
   // Floor about tau, to first order.
@@ -243,15 +264,19 @@ class ReferenceIntegrator {
     (flying ? s.x : s.xi) = v[2];
     (flying ? s.vx : s.w) = v[3];
     if (flying) s.y = v[4], s.vy = v[5];
+    s.path = v[plain_size];
+    s.deflection = v[plain_size + 1];
+    std::copy(v + plain_size + 2, v + state_size, s.states.begin());
     return s;
   }
 
   void write(const State& s) {
     double* v = N_VGetArrayPointer(y_.get());
     const bool flying = s.mode == Mode::flight;
-    const double values[state_size] = {s.theta,          s.omega,          flying ? s.x : s.xi, flying ? s.vx : s.w,
-                                       flying ? s.y : 0, flying ? s.vy : 0};
-    std::copy(values, values + state_size, v);
+    const double values[] = {s.theta,           s.omega, flying ? s.x : s.xi, flying ? s.vx : s.w, flying ? s.y : 0,
+                             flying ? s.vy : 0, s.path,  s.deflection};
+    std::copy(std::begin(values), std::end(values), v);
+    std::copy(s.states.begin(), s.states.end(), v + plain_size + 2);
   }
 
   static int derivative(double tau, N_Vector y, N_Vector rate, void* self) {
@@ -259,16 +284,37 @@ class ReferenceIntegrator {
     const State s = me.read(y);
     double* d = N_VGetArrayPointer(rate);
     const auto floor = me.floor_at(tau);
-    if (s.mode == Mode::flight) {
-      const double rates[state_size] = {s.omega, 0, s.vx, -floor.a[0], s.vy, -floor.g[0]};
-      std::copy(rates, rates + state_size, d);
-    } else {
-      const auto arc = contact_arc<2>(me.life_.rig, s, floor);
-      const double rates[state_size] = {arc.theta[1], arc.omega[1], arc.xi[1], arc.w[1], 0, 0};
-      std::copy(rates, rates + state_size, d);
-    }
+    const double time = me.life_.cursor.time() + tau;
+    if (s.mode == Mode::flight)
+      with_flight_arc<2>(me.rig(), s, time, floor, [&](const auto& f) {
+        const double rates[plain_size] = {f.theta[1], f.omega[1], f.x[1], f.vx[1], f.y[1], f.vy[1]};
+        std::copy(rates, rates + plain_size, d);
+        law_rates(f, d + plain_size);
+      });
+    else
+      with_contact_arc<2>(me.rig(), s, time, floor, [&](const auto& arc) {
+        const double rates[plain_size] = {arc.theta[1], arc.omega[1], arc.xi[1], arc.w[1], 0, 0};
+        std::copy(rates, rates + plain_size, d);
+        law_rates(arc, d + plain_size);
+      });
     const bool finite = std::all_of(d, d + state_size, [](double x) { return std::isfinite(x); });
     return finite ? 0 : -1;
+  }
+
+  // Rates of path, deflection and the effects' states; the plain block has none.
+  static constexpr int law_size = state_size - plain_size;
+  template <class Plain>
+  static void law_rates(const Plain&, double* d) {
+    std::fill(d, d + law_size, 0.0);
+  }
+  static void law_rates(const LawArc<2>& arc, double* d) {
+    d[0] = arc.path[1];
+    d[1] = arc.deflection[1];
+    for (int i = 0; i < max_states; ++i) d[2 + i] = arc.states[i][1];
+  }
+  static void law_rates(const LawFlight<2>& flight, double* d) {
+    d[0] = d[1] = 0;
+    for (int i = 0; i < max_states; ++i) d[2 + i] = flight.states[i][1];
   }
 
   static int roots(double tau, N_Vector y, double* g, void* self) {
@@ -282,17 +328,19 @@ class ReferenceIntegrator {
       me.rate_[slot] = series[1];
       g[slot++] = series[0];
     };
+    const double time = me.life_.cursor.time() + tau;
     if (s.mode == Mode::flight) {
-      for_each_witness(me.rig(), s, flight_arc<2>(me.rig(), s, floor), fill);
+      with_flight_arc<2>(me.rig(), s, time, floor, [&](const auto& f) { for_each_witness(me.rig(), s, f, fill); });
       const double d = 0.5 * (me.rig().right - me.rig().left);
       const double lever = me.rig().h * std::cos(s.theta) + d * std::sin(s.theta);
       if (me.watch_[0]) g[stationary_u] = s.vx - lever * s.omega;
     } else {
-      const auto arc = contact_arc<2>(me.rig(), s, floor);
-      for_each_witness(me.rig(), s, arc, fill);
-      if (me.watch_[0]) g[stationary_u] = midpoint(me.rig(), s, arc)[1];
-      if (me.watch_[1] && s.pivot != 0) g[stationary_theta] = s.omega;
-      if (me.watch_[2] && s.sigma != 0) g[stationary_w] = arc.w[1];
+      with_contact_arc<2>(me.rig(), s, time, floor, [&](const auto& arc) {
+        for_each_witness(me.rig(), s, arc, fill);
+        if (me.watch_[0]) g[stationary_u] = midpoint(me.rig(), s, arc)[1];
+        if (me.watch_[1] && s.pivot != 0) g[stationary_theta] = s.omega;
+        if (me.watch_[2] && s.sigma != 0) g[stationary_w] = slip_speed(arc)[1];
+      });
     }
     return 0;
   }
@@ -316,8 +364,9 @@ class ReferenceIntegrator {
 
 Response respond_reference(const Specimen& specimen, const Shaking& shaking, const Settings& settings,
                            History* history) {
-  if (!dynamics::admissible(specimen, shaking, settings)) return Response{.outcome = Outcome::not_finite};
-  return dynamics::ReferenceIntegrator(specimen, shaking, settings, history).run();
+  const dynamics::Setup setup = dynamics::set_up(specimen, shaking);
+  if (!dynamics::admissible(setup, settings)) return Response{.outcome = Outcome::not_finite};
+  return dynamics::ReferenceIntegrator(setup, settings, history).run();
 }
 
 }  // namespace freestand

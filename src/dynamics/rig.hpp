@@ -1,12 +1,15 @@
 // The specimen as the kernel reads it, and the state that it integrates.
 #pragma once
 
+#include <array>
 #include <freestand/response.hpp>
 #include <freestand/simulate.hpp>
 #include <freestand/specimen.hpp>
+#include <optional>
 
 #include "base/units.hpp"
 #include "dynamics/contact.hpp"
+#include "dynamics/laws.hpp"
 
 namespace freestand::dynamics {
 
@@ -15,14 +18,16 @@ struct Rig {
   double mu_s, mu_k;
   bool can_slip, can_rock;
   Impact impact;
-  double g = standard_gravity_mps2;
+  double g;                  // gravity across the floor [m/s2]
+  double push;               // gravity along the floor [m/s2]
+  std::optional<Laws> laws;  // of effects within the equations of motion
   // Thresholds, all scaled by the block.
   double force_zero;     // accelerations smaller than this are round-off [m/s2]
   double turn_zero;      // angular accelerations smaller than this are round-off [rad/s2]
   double rest_rotation;  // a hop of less than this rotation ends the rocking [rad]
   double told_rotation;  // an impact after a rotation of less than this is not counted [rad]
 
-  Rig(const Specimen& specimen, const Settings& settings)
+  Rig(const Specimen& specimen, const Settings& settings, const FloorInput& floor = {})
       : right(specimen.block.right_m),
         left(specimen.block.left_m),
         h(specimen.block.height_m),
@@ -32,22 +37,28 @@ struct Rig {
         can_slip(specimen.model != Model::rock),
         can_rock(specimen.model != Model::slide),
         impact(specimen.impact),
+        g(standard_gravity_mps2 * floor.gravity_factor),
+        push(floor.push_mps2),
         force_zero(1e-11 * g),
         turn_zero(force_zero / specimen.block.size_m()),
         rest_rotation(settings.tolerance),
-        told_rotation(1e-3 * specimen.block.alpha_rad()) {}
+        told_rotation(1e-3 * specimen.block.alpha_rad()) {
+    if (has_laws(specimen)) laws.emplace(specimen);
+  }
 
-  // No floor acceleration with |a| <= a_max, |v| <= v_max can move the block from rest.
+  // No floor acceleration with |a| <= a_max, |v| <= v_max can move the block from rest. Laws are looked at step by step.
   bool stays_put(double a_max, double v_max) const {
-    const double push = g - v_max;
-    return (!can_slip || a_max < mu_s * push) && (!can_rock || h * a_max < (right < left ? right : left) * push) &&
-           push > 0;
+    const double weight = g - v_max;
+    return !laws && (!can_slip || a_max < mu_s * weight) &&
+           (!can_rock || h * a_max < (right < left ? right : left) * weight) && weight > 0;
   }
 
   double offset(int pivot) const { return pivot > 0 ? right : -left; }
   Corner<double> corner(int pivot) const { return {offset(pivot), h, k2}; }
   double half_base() const { return 0.5 * (right + left); }
-  double inertia(int pivot) const { return k2 + h * h + offset(pivot) * offset(pivot); }  // about the pivot, per mass
+  double carried_mass() const { return laws ? laws->carried_mass : 1; }
+  // About the pivot, per mass.
+  double inertia(int pivot) const { return k2 + carried_mass() * h * h + offset(pivot) * offset(pivot); }
 
   // Largest rotation of a free hop that starts flat with rate omega: (1/2) J omega^2 = g |c| theta.
   double hop_rotation(int pivot, double omega) const {
@@ -67,6 +78,16 @@ struct State {
   double x = 0, vx = 0;         // centre of mass relative to the floor, in flight [m], [m/s]
   double y = 0, vy = 0;
   double doubt = 1;  // by how much more than round-off the last choice of mode took for zero
+
+  // With laws only.
+  double path = 0;        // slid by the contact [m]
+  double deflection = 0;  // of the legs [m]
+  double foot = 0;        // slip speed of the contact under the legs [m/s]
+  std::array<double, max_states> states{};
+  std::uint32_t sides = 0;  // bit j: kink j is on its negative side
+  int turned_kink = -1;     // the kink that was met at this instant
+  int held_kink = -1;       // one that would turn back at once: it is left alone for a step
+  int wall = 0;             // +1, -1: pressed against the wall on that side
 };
 
 }  // namespace freestand::dynamics

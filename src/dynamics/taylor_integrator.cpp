@@ -12,19 +12,20 @@ namespace {
 template <int N, int FlatN>
 class TaylorIntegrator {
  public:
-  TaylorIntegrator(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history)
-      : life_(specimen, shaking, settings, history),
-        p_(specimen.block.p_radps()),
-        alpha_(specimen.block.alpha_rad()),
-        size_(specimen.block.size_m()) {}
+  TaylorIntegrator(const Setup& setup, const Settings& settings, History* history)
+      : life_(setup, settings, history),
+        flat_exactly_(!life_.rig.laws),
+        p_(setup.specimen.block.p_radps()),
+        alpha_(setup.specimen.block.alpha_rad()),
+        size_(setup.specimen.block.size_m()) {}
 
   Response run() {
     for (life_.stop_when_done(); !life_.finished(); life_.stop_when_done()) {
-      if (life_.state.mode == Mode::rest)
+      if (life_.waits())
         life_.wait();
       else if (life_.state.mode == Mode::flight)
         fly_on(life_.cursor.template local<N>());
-      else if (life_.state.pivot == 0)
+      else if (life_.state.pivot == 0 && flat_exactly_)
         move_on(life_.cursor.template local<FlatN>());
       else
         move_on(life_.cursor.template local<N>());
@@ -36,42 +37,37 @@ class TaylorIntegrator {
   template <int M>
   void move_on(const Floor<double, M>& floor) {
     const State before = life_.state;
-    const auto arc = contact_arc<M>(life_.rig, before, floor);
-    const double h = step(before.pivot == 0 ? 0.0 : local_error(arc));
-    FirstEvent first(h);
-    for_each_witness(life_.rig, before, arc, first);
-    const double tau = first.found().tau;
-    if (tau > 0) life_.peaks.observe(life_.rig, before, arc, tau);
-    life_.recorder.record(before, arc, floor, life_.cursor.time(), tau);
-    life_.state.theta = arc.theta.at(tau);
-    life_.state.omega = arc.omega.at(tau);
-    life_.state.xi = arc.xi.at(tau);
-    life_.state.w = arc.w.at(tau);
-    end_step(first.found(), h);
+    with_contact_arc<M>(life_.rig, before, life_.cursor.time(), floor, [&](const auto& arc) {
+      const double h = step(before.pivot == 0 && flat_exactly_ ? 0.0 : local_error(arc));
+      FirstEvent first(h);
+      for_each_witness(life_.rig, before, arc, first);
+      const double tau = first.found().tau;
+      if (tau > 0) life_.peaks.observe(life_.rig, before, arc, tau);
+      life_.recorder.record(before, arc, floor, life_.cursor.time(), tau);
+      go_to(life_.state, arc, tau);
+      end_step(first.found(), h);
+    });
   }
 
   void fly_on(const Floor<double, N>& floor) {
-    const auto flight = flight_arc<N>(life_.rig, life_.state, floor);
-    const double turn = std::abs(life_.state.omega);
-    const double h = std::min(life_.cursor.left(), turn > 0 ? 0.1 / turn : 0.1);
-    FirstEvent first(h);
-    for_each_witness(life_.rig, life_.state, flight, first);
-    const double tau = first.found().tau;
-    life_.peaks.observe(life_.rig, flight, tau);
-    life_.recorder.record(flight, floor, life_.cursor.time(), tau);
-    life_.state.theta = flight.theta.at(tau);
-    life_.state.x = flight.x.at(tau);
-    life_.state.y = flight.y.at(tau);
-    life_.state.vx = flight.vx.at(tau);
-    life_.state.vy = flight.vy.at(tau);
-    end_step(first.found(), h);
+    with_flight_arc<N>(life_.rig, life_.state, life_.cursor.time(), floor, [&](const auto& flight) {
+      const double turn = std::abs(life_.state.omega);
+      const double h = std::min(life_.cursor.left(), turn > 0 ? 0.1 / turn : 0.1);
+      FirstEvent first(h);
+      for_each_witness(life_.rig, life_.state, flight, first);
+      const double tau = first.found().tau;
+      life_.peaks.observe(life_.rig, flight, tau);
+      life_.recorder.record(flight, floor, life_.cursor.time(), tau);
+      go_to(life_.state, flight, tau);
+      end_step(first.found(), h);
+    });
   }
 
   // A step that reached the knot goes to the next segment; an event is resolved where it fell.
   void end_step(const Found& found, double h) {
     const bool at_knot = !found.any && h == life_.cursor.left();
     life_.cursor.advance(found.tau);
-    if (found.tau > 0) life_.state.doubt = 1;
+    if (found.tau > 0) life_.left_instant();
     if (at_knot) life_.cursor.next_segment();
     if (found.any) life_.resolve(found.witness);
   }
@@ -86,6 +82,14 @@ class TaylorIntegrator {
            pN;
   }
 
+  double local_error(const LawArc<N>& arc) const {
+    const double pN = std::pow(p_, N);
+    double states = std::max(std::abs(arc.path[N]), std::abs(arc.deflection[N])) / size_;
+    for (int i = 0; i < life_.rig.laws->states; ++i)
+      states = std::max(states, std::abs(arc.states[i][N]) / (size_ * std::max(1.0, p_)));
+    return std::max(local_error(static_cast<const Arc<double, N>&>(arc)), states / pN);
+  }
+
   double step(double error_at_1p) const {
     double h = std::min(life_.cursor.left(), 1.0 / p_);
     if (error_at_1p * std::pow(p_ * h, N) > life_.settings.tolerance)
@@ -94,6 +98,7 @@ class TaylorIntegrator {
   }
 
   Integration life_;
+  bool flat_exactly_;  // steps of order FlatN are exact on both corners
   double p_, alpha_, size_;
 };
 
@@ -101,10 +106,11 @@ class TaylorIntegrator {
 }  // namespace dynamics
 
 Response respond(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history) {
-  if (!dynamics::admissible(specimen, shaking, settings)) return Response{.outcome = Outcome::not_finite};
+  const dynamics::Setup setup = dynamics::set_up(specimen, shaking);
+  if (!dynamics::admissible(setup, settings)) return Response{.outcome = Outcome::not_finite};
   // Records are linear between samples that lie close together; pulses have longer segments of higher degree.
-  if (shaking.motion->degree <= 1) return dynamics::TaylorIntegrator<7, 3>(specimen, shaking, settings, history).run();
-  return dynamics::TaylorIntegrator<10, 10>(specimen, shaking, settings, history).run();
+  if (shaking.motion->degree <= 1) return dynamics::TaylorIntegrator<7, 3>(setup, settings, history).run();
+  return dynamics::TaylorIntegrator<10, 10>(setup, settings, history).run();
 }
 
 }  // namespace freestand

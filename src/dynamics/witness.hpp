@@ -3,6 +3,8 @@
 #pragma once
 
 #include "dynamics/contact.hpp"
+#include "dynamics/law_arc.hpp"
+#include "dynamics/law_flight.hpp"
 #include "dynamics/rig.hpp"
 #include "dynamics/roots.hpp"
 
@@ -19,8 +21,13 @@ enum class Witness : int {
   flat_left,   // N_left
   regular,     // k^2 + r_x q: not Painleve's paradox
   above_right,
-  above_left  // gaps in flight
+  above_left,  // gaps in flight
+  clear,       // the contact has not reached the wall
+  kink         // first of the kinks of the laws: a law has not come to where it bends or jumps
 };
+
+inline Witness kink_witness(int kink) { return static_cast<Witness>(static_cast<int>(Witness::kink) + kink); }
+inline bool is_kink(Witness witness) { return witness >= Witness::kink; }
 
 // In the pure rocking model the pivot is a hinge, as in Housner's: it neither slips nor lifts.
 //
@@ -54,6 +61,45 @@ void for_each_witness(const Rig& rig, const State& state, const Arc<double, N>& 
   }
 }
 
+// The same with laws: friction's limits differ by direction, a wall takes what presses against it, and kinks are watched.
+template <int N, class Visit>
+void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, Visit&& visit) {
+  const double zero = rig.force_zero * state.doubt, turn_zero = rig.turn_zero * state.doubt;
+  const ZeroTolerance force{0, zero}, velocity{1, zero}, displacement{2, zero}, rotation{2, turn_zero};
+  const double s = state.pivot;
+  if (state.pivot != 0) {
+    visit(Witness::impact, scaled(s, arc.theta), rotation);
+    Series<double, N> upright = scaled(-s, arc.theta);
+    upright[0] += pi / 2;
+    visit(Witness::upright, upright, rotation);
+    if (state.sigma != 0) visit(Witness::regular, arc.d, ZeroTolerance{0, 0.0});
+    if (rig.can_slip) visit(Witness::pressed, arc.fy, force);
+  }
+  if (state.sigma != 0) {
+    visit(Witness::slipping, scaled(double(state.sigma), arc.foot), velocity);
+    const double gap = rig.laws->wall.gap_m;
+    if (gap * state.sigma > 0) {
+      Series<double, N> clearance = scaled(-double(state.sigma), arc.xi);
+      clearance[0] = state.wall == state.sigma ? 0.0 : clearance[0] + std::abs(gap);
+      visit(Witness::clear, clearance, displacement);
+    }
+  } else if (rig.can_slip) {
+    if (state.wall >= 0) visit(Witness::grip_right, combination(1.0, arc.limit_right, -1.0, arc.fx), force);
+    if (state.wall <= 0) visit(Witness::grip_left, combination(1.0, arc.limit_left, 1.0, arc.fx), force);
+  }
+  if (state.pivot == 0) {
+    if (rig.can_rock) {  // N_right (b_l + b_r) = b_l f_y - h f_x + T
+      Series<double, N> lean = combination(-1.0, arc.fx, 1 / rig.h, arc.moment);
+      visit(Witness::flat_right, combination(rig.left / rig.h, arc.fy, 1.0, lean), force);
+      visit(Witness::flat_left, combination(rig.right / rig.h, arc.fy, -1.0, lean), force);
+    } else {
+      visit(Witness::pressed, arc.fy, force);
+    }
+  }
+  for (int j = 0; j < rig.laws->tape.kink_count(); ++j)
+    if (j != state.held_kink) visit(kink_witness(j), arc.kink[j], ZeroTolerance{0, 0.0});
+}
+
 template <int N, class Visit>
 void for_each_witness(const Rig& rig, const State& state, const Flight<double, N>& flight, Visit&& visit) {
   const ZeroTolerance gap{2, rig.force_zero * state.doubt};
@@ -62,6 +108,13 @@ void for_each_witness(const Rig& rig, const State& state, const Flight<double, N
   Series<double, N> upright = scaled(flight.theta[0] < 0 ? 1.0 : -1.0, flight.theta);
   upright[0] += pi / 2;
   visit(Witness::upright, upright, ZeroTolerance{2, rig.turn_zero * state.doubt});
+}
+
+template <int N, class Visit>
+void for_each_witness(const Rig& rig, const State& state, const LawFlight<N>& flight, Visit&& visit) {
+  for_each_witness(rig, state, static_cast<const Flight<double, N>&>(flight), visit);
+  for (int j = 0; j < rig.laws->tape.kink_count(); ++j)
+    if (j != state.held_kink) visit(kink_witness(j), flight.kink[j], ZeroTolerance{0, 0.0});
 }
 
 // Series of the state's mode, one corner or two down.
@@ -80,6 +133,26 @@ Arc<double, N> contact_arc(const Rig& rig, const State& state, const Floor<doubl
   return arc;
 }
 
+// Calls use(arc) with the series of the state's mode, with laws or without.
+template <int N, class Use>
+auto with_contact_arc(const Rig& rig, const State& state, double time, const Floor<double, N>& floor, Use&& use) {
+  if (rig.laws) return use(LawStep<N>(rig, state, time, floor).run());
+  return use(contact_arc<N>(rig, state, floor));
+}
+
+// Slip speed of the contact.
+template <int N>
+const Series<double, N>& slip_speed(const Arc<double, N>& arc) {
+  return arc.w;
+}
+template <int N>
+const Series<double, N>& slip_speed(const LawArc<N>& arc) {
+  return arc.foot;
+}
+inline double slip_speed(const Rig& rig, const State& state) {
+  return rig.laws && rig.laws->legs.frequency_radps > 0 ? state.foot : state.w;
+}
+
 template <int N>
 Flight<double, N> flight_arc(const Rig& rig, const State& state, const Floor<double, N>& floor) {
   Flight<double, N> flight;
@@ -91,6 +164,12 @@ Flight<double, N> flight_arc(const Rig& rig, const State& state, const Floor<dou
   flight.omega[0] = state.omega;
   fly(flight, floor, rig.right, rig.left, rig.h);
   return flight;
+}
+
+template <int N, class Use>
+auto with_flight_arc(const Rig& rig, const State& state, double time, const Floor<double, N>& floor, Use&& use) {
+  if (rig.laws) return use(fly_with_laws<N>(rig, state, time, floor));
+  return use(flight_arc<N>(rig, state, floor));
 }
 
 // The first event of the mode within h.
@@ -118,8 +197,8 @@ class FirstEvent {
 class AllHold {
  public:
   template <int N>
-  void operator()(Witness, const Series<double, N>& series, ZeroTolerance zero) {
-    hold_ = hold_ && sign_after(series, zero) >= 0;
+  void operator()(Witness witness, const Series<double, N>& series, ZeroTolerance zero) {
+    if (!is_kink(witness)) hold_ = hold_ && sign_after(series, zero) >= 0;
   }
   bool hold() const { return hold_; }
 

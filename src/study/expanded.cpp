@@ -61,7 +61,15 @@ std::string effects_text(const std::vector<EffectPart>& effects) {
   for (const auto& effect : effects) {
     Mapping m;
     m.add("name", text_value(effect.name));
-    for (const auto& quantity : effect.parameters) m.add(quantity);
+    if (effect.friction.empty() && effect.force.empty()) {
+      for (const auto& quantity : effect.parameters) m.add(quantity);
+    } else {
+      if (!effect.friction.empty()) m.add("friction", text_value(effect.friction));
+      if (!effect.force.empty()) m.add("force", text_value(effect.force));
+      Mapping parameters;
+      for (const auto& quantity : effect.parameters) parameters.add(quantity);
+      m.add("parameters", parameters.flow());
+    }
     text += m.item();
   }
   return text;

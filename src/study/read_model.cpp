@@ -121,44 +121,6 @@ ImpactPart read_impact(Section& file) {
   return impact;
 }
 
-// The one effect that this version has; true when the name is known.
-bool read_parameters(Section& section, EffectPart& effect) {
-  if (effect.name != "vertical_shaking") return false;
-  effect.parameters.push_back(section.quantity("effects.vertical_shaking", "scale", range::not_negative, 1));
-  return true;
-}
-
-std::vector<EffectPart> read_effects(Section& file) {
-  std::vector<EffectPart> effects;
-  const YAML::Node* node = file.find("effects");
-  if (!node) return effects;
-  if (!node->IsSequence()) {
-    file.problem("effects", "effects is no list (each effect is an entry): write effects: [{name: vertical_shaking}]");
-    return effects;
-  }
-  for (std::size_t i = 0; i < node->size(); ++i) {
-    const int line = line_of((*node)[i]) ? line_of((*node)[i]) : file.line("effects");
-    const std::string path = fmt::format("effects[{}]", i);
-    Section section((*node)[i], path, line, file.problems());
-    EffectPart effect{section.text("name", ""), {}};
-    if (effect.name.empty()) {
-      if ((*node)[i].IsMap() && !section.has("name")) missing(section, "name", "name: vertical_shaking");
-      continue;
-    }
-    if (!read_parameters(section, effect)) {
-      section.problem("name", fmt::format("effect {} is not known (this version has: vertical_shaking): {}",
-                                          effect.name, "remove it or choose one of these"));
-      continue;
-    }
-    section.finish();
-    for (const auto& earlier : effects)
-      if (earlier.name == effect.name)
-        section.problem("name", fmt::format("effect {} stands twice (it acts once): remove one", effect.name));
-    effects.push_back(std::move(effect));
-  }
-  return effects;
-}
-
 }  // namespace
 
 ModelPart read_model(Section& file) {
@@ -167,7 +129,7 @@ ModelPart read_model(Section& file) {
   model.friction = read_friction(file);
   model.model = read_model_name(file);
   model.impact = read_impact(file);
-  model.effects = read_effects(file);
+  model.effects = read_effects(file, model.model);
   return model;
 }
 

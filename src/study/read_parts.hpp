@@ -9,6 +9,8 @@ namespace freestand::study {
 // block, friction, model, impact, effects: the keys that studies and cases share.
 ModelPart read_model(Section& file);
 
+std::vector<EffectPart> read_effects(Section& file, Model model);
+
 // Entries of `motions`; globs start at `folder`.
 std::vector<MotionSource> read_motions(Section& file, const std::filesystem::path& folder, Files);
 

@@ -117,7 +117,8 @@ struct Realiser::Parts {
   }
   Block block(const std::vector<double>& values) const;
   Friction friction(const std::vector<double>& values) const;
-  void shake(std::uint64_t sample, double vertical, Realisation& out) const;
+  std::vector<EffectUse> effects(const std::vector<double>& values) const;
+  void shake(std::uint64_t sample, Realisation& out) const;
 
   ModelPart model;
   MotionSet motions;
@@ -167,7 +168,16 @@ Friction Realiser::Parts::friction(const std::vector<double>& values) const {
   return {mu_k * value(values, "friction.static_ratio").value_or(1), mu_k};
 }
 
-void Realiser::Parts::shake(std::uint64_t sample, double vertical, Realisation& out) const {
+std::vector<EffectUse> Realiser::Parts::effects(const std::vector<double>& values) const {
+  std::vector<EffectUse> uses;
+  for (const EffectPart& part : model.effects) {
+    uses.push_back({part.effect.get(), {}});
+    for (const auto& quantity : part.parameters) uses.back().parameters.push_back(*value(values, quantity.name.c_str()));
+  }
+  return uses;
+}
+
+void Realiser::Parts::shake(std::uint64_t sample, Realisation& out) const {
   const std::size_t chosen = sources.size() == 1 ? 0 : sampling::pick(sources.size(), weights, source_stream(sample));
   const Source& source = sources[chosen];
   const auto& items = motions.of_source[chosen];
@@ -196,7 +206,6 @@ void Realiser::Parts::shake(std::uint64_t sample, double vertical, Realisation& 
       break;
   }
   shaking.scale *= source.part.pulse_scale;
-  shaking.vertical_scale = vertical * std::abs(shaking.scale);
   out.pta_g = std::abs(shaking.scale) * entry.peak_mps2 / standard_gravity_mps2;
 }
 
@@ -213,7 +222,8 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
   out.specimen.friction = parts.friction(out.draws);
   out.specimen.impact = {parts.model.impact.law, *parts.value(out.draws, "impact.factor")};
   out.specimen.model = parts.model.model;
-  parts.shake(sample, parts.value(out.draws, "effects.vertical_shaking.scale").value_or(0), out);
+  out.specimen.effects = parts.effects(out.draws);
+  parts.shake(sample, out);
 
   const Block& block = out.specimen.block;
   const double derived[] = {block.base_m(),  2 * block.height_m,         block.alpha_rad(),         block.size_m(),

@@ -7,11 +7,16 @@
 #include <freestand/specimen.hpp>
 #include <limits>
 #include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "sampling/design.hpp"
 #include "sampling/distribution.hpp"
+
+namespace freestand::dynamics {
+struct Effect;
+}
 
 namespace freestand::study {
 
@@ -40,10 +45,13 @@ struct ImpactPart {
   Quantity factor;  // impact.factor, in [0, 1]
 };
 
-// A physical effect by name with its parameters, named effects.<effect>.<parameter>.
+// A physical effect by name with its parameters, named effects.<effect>.<parameter>, in the order of its declaration. A
+// formula of the study carries its text, and the effect that is made of it.
 struct EffectPart {
   std::string name;
   std::vector<Quantity> parameters;
+  std::string friction = {}, force = {};
+  std::shared_ptr<const dynamics::Effect> effect = {};
 };
 
 struct ModelPart {

@@ -1,0 +1,264 @@
+// The equations of motion with effects: contact.hpp's, with the friction factor F, the added force X and moment T, the
+// share M of the mass that moves sideways with the block, legs, and states of the effects' own.
+//
+//   f_x = M (w' + r_y theta'' - r_x omega^2 + a) - X,   f_y = g' - r_x theta'' - r_y omega^2
+//   k^2 theta'' = r_x f_y - r_y f_x + T
+//
+//   rock        (k^2 + r_x^2 + M r_y^2) theta'' = r_x (g' - r_y omega^2) - r_y (M (a - r_x omega^2) - X) + T
+//   slide-rock  f_x = -sigma mu F f_y:  (k^2 + r_x q) theta'' = n q + T,  q = r_x + sigma mu F r_y,  n = g' - r_y omega^2
+//   on legs     w is the speed of the block's base, over the legs; the foot under them moves by w - y', y the deflection.
+//               stuck: y' = w and f_x = -(W^2 y + 2 z W w);  slipping: f_x = -sigma mu F f_y and y' follows from the legs.
+//               (k^2 + r_x^2) theta'' = r_x (g' - r_y omega^2) - r_y f_x + T when stuck
+//   then        w' = (f_x + X)/M - a - r_y theta'' + r_x omega^2
+#pragma once
+
+#include "dynamics/contact.hpp"
+#include "dynamics/rig.hpp"
+
+namespace freestand::dynamics {
+
+template <int N>
+struct LawArc : Arc<double, N> {
+  Series<double, N> ax;                       // absolute horizontal acceleration of the centre of mass [m/s2]
+  Series<double, N> moment;                   // T [m2/s2]
+  Series<double, N> limit_right, limit_left;  // largest |f_x| without slip, f_x to the right and to the left [m/s2]
+  Series<double, N> foot;                     // slip speed of the contact [m/s]
+  Series<double, N> path;                     // [m]
+  Series<double, N> deflection;               // of the legs [m]
+  Series<double, N> states[max_states];
+  Series<double, N> kink[max_kinks];  // arguments, positive on the present side
+};
+
+template <int N>
+class LawStep {
+ public:
+  LawStep(const Rig& rig, const State& state, double time, const Floor<double, N>& floor)
+      : rig_(rig),
+        laws_(*rig.laws),
+        state_(state),
+        floor_(floor),
+        pivot_(state.pivot == 0 ? 1 : state.pivot),
+        body_(rig.corner(pivot_)),
+        legs_(laws_.legs.frequency_radps > 0) {
+    start_arc(y_, body_, state.theta, state.omega, state.xi, state.w);
+    y_.path[0] = state.path;
+    y_.deflection[0] = state.deflection;
+    for (int i = 0; i < max_states; ++i) y_.states[i] = Series<double, N>::zero();
+    for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[0] = state.states[i];
+    for (int k = 0; k <= N; ++k) {
+      value(Input::t)[k] = k == 0 ? time : k == 1 ? 1.0 : 0.0;
+      value(Input::side)[k] = k == 0 ? state.pivot : 0.0;
+      value(Input::sigma)[k] = k == 0 ? state.sigma : 0.0;
+      y_.moment[k] = 0;
+    }
+    factor_ = Series<double, N>::zero();
+    if (laws_.friction < 0) factor_[0] = 1;
+  }
+
+  LawArc<N> run() {
+    for (int k = 0; k < N; ++k) {
+      kinematics(k);
+      laws_.tape.advance(input_count, laws_.forces_end, k, state_.sides, values_);
+      force_[k] = laws_.force < 0 ? 0.0 : values_[laws_.force][k];
+      if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
+      state_.sigma == 0 ? stuck(k) : slipping(k);
+      integrate(k);
+    }
+    finish();
+    return y_;
+  }
+
+ private:
+  Series<double, N>& value(Input input, int offset = 0) { return values_[static_cast<int>(input) + offset]; }
+
+  void kinematics(int k) {
+    omega2_[k] = product(y_.omega, y_.omega, k);
+    y_.n[k] = floor_.g[k] - product(y_.ry, omega2_, k);
+    y_.d[k] = 0;
+    Series<double, N>&u = value(Input::u), &v = value(Input::v);
+    u[k] = y_.xi[k];
+    v[k] = y_.w[k];
+    if (state_.pivot != 0) {
+      const double c = body_.c, h = body_.h, to_angle = 1 / (h * h + c * c), B = state_.pivot * rig_.half_base();
+      sine_[k] = (h * y_.rx[k] + c * y_.ry[k]) * to_angle;
+      const double half = std::sin(0.5 * state_.theta);
+      u[k] += B * (k == 0 ? 2 * half * half : -(h * y_.ry[k] - c * y_.rx[k]) * to_angle);
+      v[k] += B * product(sine_, y_.omega, k);
+    }
+    value(Input::theta)[k] = y_.theta[k];
+    value(Input::omega)[k] = y_.omega[k];
+    value(Input::path)[k] = y_.path[k];
+    value(Input::speed)[k] = state_.sigma * y_.w[k];
+    for (int i = 0; i < laws_.states; ++i) y_.states[i][k] = value(Input::state, i)[k];
+  }
+
+  // theta'' D = numerator, D[0..k] known.
+  double quotient(double numerator, const Series<double, N>& d, int k) const {
+    for (int i = 1; i <= k; ++i) numerator -= d[i] * y_.alpha[k - i];
+    return numerator / d[0];
+  }
+
+  void stuck(int k) {
+    const double M = laws_.carried_mass;
+    const double leg_force = legs_ ? -(square(W()) * y_.deflection[k] + 2 * z() * W() * y_.w[k]) : 0.0;
+    if (state_.pivot == 0) {
+      y_.alpha[k] = 0;
+    } else {
+      const double moved = legs_ ? 0 : M;
+      inertia_[k] = product(y_.rx, y_.rx, k) + moved * product(y_.ry, y_.ry, k) + (k == 0 ? body_.k2 : 0.0);
+      const auto& ax0 = load_;  // M (a - r_x omega^2) - X, or f_x of the legs
+      load_[k] = legs_ ? leg_force : M * (floor_.a[k] - product(y_.rx, omega2_, k)) - force_[k];
+      y_.alpha[k] = quotient(product(y_.rx, y_.n, k) - product(y_.ry, ax0, k) + y_.moment[k], inertia_, k);
+    }
+    y_.fy[k] = y_.n[k] - (state_.pivot == 0 ? 0.0 : product(y_.rx, y_.alpha, k));
+    y_.fx[k] = legs_ ? leg_force : M * own_acceleration(k) - force_[k];
+    y_.ax[k] = (y_.fx[k] + force_[k]) / M;
+    acceleration_ = legs_ ? y_.ax[k] - own_acceleration(k) : 0.0;
+    y_.foot[k] = 0;
+    deflection_rate_ = legs_ ? y_.w[k] : 0.0;
+    value(Input::normal)[k] = y_.fy[k] / rig_.g;
+  }
+
+  // Acceleration of the centre of mass, the floor's included, that is not w'.
+  double own_acceleration(int k) const {
+    if (state_.pivot == 0) return floor_.a[k];
+    return product(y_.ry, y_.alpha, k) - product(y_.rx, omega2_, k) + floor_.a[k];
+  }
+
+  void slipping(int k) {
+    if (laws_.friction >= 0) solve_factor(k);
+    apply_factor(k);
+    const double M = laws_.carried_mass;
+    y_.ax[k] = (y_.fx[k] + force_[k]) / M;
+    acceleration_ = y_.ax[k] - own_acceleration(k);
+    deflection_rate_ = legs_ ? (-y_.fx[k] - square(W()) * y_.deflection[k]) / (2 * z() * W()) : 0.0;
+    y_.foot[k] = y_.w[k] - deflection_rate_;
+    if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero) y_.foot[0] = 0;
+  }
+
+  // Contact forces and theta'' for the factor F whose coefficient k is in factor_.
+  void apply_factor(int k) {
+    const double sigma_mu = state_.sigma * rig_.mu_k;
+    if (state_.pivot == 0) {
+      y_.alpha[k] = 0;
+      y_.fy[k] = y_.n[k];
+    } else {
+      q_[k] = y_.rx[k] + sigma_mu * product(factor_, y_.ry, k);
+      y_.d[k] = product(y_.rx, q_, k) + (k == 0 ? body_.k2 : 0.0);
+      y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k], y_.d, k);
+      y_.fy[k] = y_.n[k] - product(y_.rx, y_.alpha, k);
+    }
+    y_.fx[k] = -sigma_mu * product(factor_, y_.fy, k);
+    value(Input::normal)[k] = y_.fy[k] / rig_.g;
+  }
+
+  double factor_from_tape(int k) {
+    laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, state_.sides, values_);
+    return values_[laws_.friction][k];
+  }
+
+  // F may depend on the normal force, which depends on F. Its leading coefficient solves an equation, by the secant
+  // method; the higher ones enter linearly.
+  void solve_factor(int k) {
+    const auto miss = [&](double factor) {
+      factor_[k] = factor;
+      apply_factor(k);
+      return factor_from_tape(k) - factor;
+    };
+    if (!laws_.tape.depends(laws_.friction, Input::normal)) {
+      factor_[k] = 0;
+      factor_[k] = factor_from_tape(k);
+      return;
+    }
+    double f0 = k == 0 ? 1.0 : 0.0, m0 = miss(f0), f1 = f0 + (k == 0 ? m0 : 1.0);
+    for (int i = 0; i < (k == 0 ? 30 : 1) && f1 != f0; ++i) {
+      const double m1 = miss(f1);
+      if (m1 == m0) break;
+      const double next = f1 - m1 * (f1 - f0) / (m1 - m0);
+      f0 = f1, m0 = m1, f1 = next;
+      if (std::abs(f1 - f0) <= 1e-16 * std::abs(f1)) break;
+    }
+    miss(f1);
+    factor_[k] = f1;
+  }
+
+  void integrate(int k) {
+    value(Input::acceleration)[k] = y_.ax[k];
+    laws_.tape.advance(laws_.friction_end, laws_.tape.size(), k, state_.sides, values_);
+    const double over = 1.0 / (k + 1);
+    for (int i = 0; i < laws_.states; ++i)
+      value(Input::state, i)[k + 1] = values_[laws_.rate[static_cast<std::size_t>(i)]][k] * over;
+    y_.path[k + 1] = state_.sigma * y_.foot[k] * over;
+    y_.deflection[k + 1] = deflection_rate_ * over;
+    integrate_coefficient(y_, acceleration_, k);
+    if (state_.pivot == 0) y_.theta[k + 1] = y_.omega[k + 1] = y_.rx[k + 1] = y_.ry[k + 1] = 0;
+  }
+
+  void finish() {
+    finish_arc(y_);
+    y_.ax[N] = y_.foot[N] = 0;
+    for (int i = 0; i < laws_.states; ++i) y_.states[i][N] = value(Input::state, i)[N];
+    y_.limit_right = limit(-1);
+    y_.limit_left = limit(+1);
+    for (int j = 0; j < laws_.tape.kink_count(); ++j) {
+      const auto& argument = values_[laws_.tape.kink_argument(j)];
+      const double side = state_.sides >> j & 1U ? -1.0 : 1.0;
+      for (int k = 0; k < N; ++k) y_.kink[j][k] = side * argument[k];
+      y_.kink[j][N] = 0;
+      if (state_.turned_kink == j) y_.kink[j][0] = 0;
+    }
+  }
+
+  // Largest friction against a slip in direction sigma that is about to begin.
+  Series<double, N> limit(int sigma) {
+    Series<double, N> result = Series<double, N>::zero();
+    if (state_.sigma != 0) return result;
+    value(Input::sigma)[0] = sigma;
+    value(Input::speed) = Series<double, N>::zero();
+    for (int k = 0; k < N; ++k) {
+      if (laws_.friction >= 0) factor_[k] = factor_from_tape(k);
+      result[k] = rig_.mu_s * product(factor_, y_.fy, k);
+    }
+    return result;
+  }
+
+  static double square(double x) { return x * x; }
+  double W() const { return laws_.legs.frequency_radps; }
+  double z() const { return laws_.legs.damping; }
+
+  static constexpr double foot_zero = 1e-10;  // [m/s]
+
+  const Rig& rig_;
+  const Laws& laws_;
+  const State& state_;
+  const Floor<double, N>& floor_;
+  int pivot_;
+  Corner<double> body_;
+  bool legs_;
+  LawArc<N> y_;
+  Series<double, N> values_[max_nodes];
+  Series<double, N> omega2_, sine_, force_, factor_, load_, inertia_, q_;
+  double acceleration_ = 0, deflection_rate_ = 0;
+};
+
+// F in a blow: the weight as normal force, and the slip speed and path that the state has.
+inline double friction_factor(const Laws& laws, const State& state, double time, int sigma) {
+  if (laws.friction < 0) return 1;
+  Series<double, 0> values[max_nodes];
+  for (int i = 0; i < input_count; ++i) values[i][0] = 0;
+  const auto set = [&](Input input, double x) { values[static_cast<int>(input)][0] = x; };
+  set(Input::u, state.xi);
+  set(Input::v, state.w);
+  set(Input::theta, state.theta);
+  set(Input::omega, state.omega);
+  set(Input::t, time);
+  set(Input::path, state.path);
+  set(Input::normal, 1);
+  set(Input::side, state.pivot);
+  set(Input::sigma, sigma);
+  set(Input::speed, std::abs(state.w));
+  laws.tape.advance(input_count, laws.friction_end, 0, state.sides, values);
+  return values[laws.friction][0];
+}
+
+}  // namespace freestand::dynamics

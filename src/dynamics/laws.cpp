@@ -1,0 +1,87 @@
+#include "dynamics/laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freestand::dynamics {
+namespace {
+
+At inputs(Tape& tape) {
+  const auto input = [&](Input which) { return tape.input(which); };
+  return {.u = input(Input::u),
+          .v = input(Input::v),
+          .theta = input(Input::theta),
+          .omega = input(Input::omega),
+          .t = input(Input::t),
+          .path = input(Input::path),
+          .normal = input(Input::normal),
+          .side = input(Input::side),
+          .sigma = input(Input::sigma),
+          .speed = input(Input::speed),
+          .acceleration = input(Input::acceleration),
+          .own_state = {}};
+}
+
+}  // namespace
+
+Laws::Laws(const Specimen& specimen) {
+  std::vector<At> at;
+  for (const auto& [effect, parameters] : specimen.effects) {
+    at.push_back(inputs(tape));
+    at.back().mu = specimen.friction.mu_k;
+    for (std::size_t i = 0; i < effect->states.size() && states < max_states; ++i)
+      at.back().own_state.push_back(tape.input(Input::state, states++));
+  }
+  const auto combine = [&](auto hook, int& result, auto with) {
+    for (std::size_t i = 0; i < specimen.effects.size(); ++i) {
+      const auto& [effect, parameters] = specimen.effects[i];
+      if (!(effect->*hook)) continue;
+      const Value value = (effect->*hook)(at[i], parameters);
+      result = result < 0 ? value.node : with(Value{&tape, result}, value).node;
+    }
+  };
+  const auto sum = [](Value a, Value b) { return a + b; };
+  combine(&Effect::force, force, sum);
+  combine(&Effect::moment, moment, sum);
+  forces_end = tape.size();
+  combine(&Effect::friction, friction, [](Value a, Value b) { return a * b; });
+  friction_end = tape.size();
+
+  int state = 0;
+  for (std::size_t i = 0; i < specimen.effects.size(); ++i) {
+    const auto& [effect, parameters] = specimen.effects[i];
+    for (const OwnState& own : effect->states) {
+      if (state == max_states) break;
+      rate[static_cast<std::size_t>(state)] = own.rate(at[i], parameters).node;
+      relative_velocity[static_cast<std::size_t>(state++)] = own.relative_velocity;
+    }
+    if (effect->carried_mass) carried_mass -= 1 - effect->carried_mass(parameters);
+    if (effect->wall) effect->wall(wall, parameters);
+    if (effect->legs) effect->legs(legs, parameters);
+    if (effect->settling_s) settling_s = std::max(settling_s, effect->settling_s(parameters));
+  }
+}
+
+bool Laws::uses(Input input) const {
+  for (const int node : {force, moment, friction})
+    if (node >= 0 && tape.depends(node, input)) return true;
+  return false;
+}
+
+Setup set_up(const Specimen& specimen, const Shaking& shaking) {
+  Setup setup{specimen, shaking, {}};
+  for (const auto& [effect, parameters] : specimen.effects) {
+    if (effect->specimen) effect->specimen(setup.specimen, parameters);
+    if (effect->floor) effect->floor(setup.floor, parameters);
+  }
+  if (setup.floor.vertical_scale != 0)
+    setup.shaking.vertical_scale = setup.floor.vertical_scale * std::abs(shaking.scale);
+  return setup;
+}
+
+bool has_laws(const Specimen& specimen) {
+  return std::any_of(specimen.effects.begin(), specimen.effects.end(),
+                     [](const EffectUse& use) { return use.effect->dynamic(); });
+}
+
+}  // namespace freestand::dynamics

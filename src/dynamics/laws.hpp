@@ -1,0 +1,44 @@
+// The dynamic effects of one specimen, recorded together: their factors of friction multiplied, their forces summed.
+#pragma once
+
+#include <freestand/floor_motion.hpp>
+#include <freestand/specimen.hpp>
+
+#include "dynamics/effect.hpp"
+#include "dynamics/tape.hpp"
+
+namespace freestand::dynamics {
+
+struct Laws {
+  explicit Laws(const Specimen& specimen);
+
+  Tape tape;
+  // Nodes of the results; -1 where no effect has a say. Nodes [input_count, forces_end) serve force and moment,
+  // [forces_end, friction_end) the friction, [friction_end, tape.size()) the rates of the states.
+  int force = -1, moment = -1, friction = -1;
+  int forces_end = input_count, friction_end = input_count;
+  int states = 0;
+  std::array<int, max_states> rate{};
+  std::array<bool, max_states> relative_velocity{};
+  double carried_mass = 1;  // M
+  Wall wall;
+  Legs legs;
+  double settling_s = 0;
+
+  // States go on moving while the block rests.
+  bool evolve_at_rest() const { return states > 0 || legs.frequency_radps > 0; }
+  bool uses(Input input) const;
+};
+
+// Specimen and floor as the effects that are no part of the equations of motion leave them.
+struct Setup {
+  Specimen specimen;
+  Shaking shaking;
+  FloorInput floor;
+};
+Setup set_up(const Specimen& specimen, const Shaking& shaking);
+
+// Any effect whose hooks act within the equations of motion.
+bool has_laws(const Specimen& specimen);
+
+}  // namespace freestand::dynamics

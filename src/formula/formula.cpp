@@ -1,0 +1,232 @@
+// muParser reads the text and checks it. It evaluates on numbers only, so its operators and functions are replaced by
+// ones that write down what they are asked to do: the "numbers" that pass through it are the places of operations in the
+// list, and one evaluation yields the list.
+#include "formula/formula.hpp"
+
+#include <muParser.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "base/units.hpp"
+
+namespace freestand::formula {
+namespace {
+
+using dynamics::At;
+using dynamics::Value;
+
+enum Kind { number, variable, add, subtract, multiply, divide, power, negate, less, greater, exp_of, log_of, sqrt_of,
+            sin_of, cos_of, tanh_of, abs_of, step_of, min_of, max_of, where_of };
+
+const std::vector<std::string>& variables() {
+  static const std::vector<std::string> names = {"u",    "v",     "theta", "omega", "t",  "path",
+                                                 "normal", "side", "sigma", "speed", "mu", "g", "pi"};
+  return names;
+}
+
+Value variable_value(const At& at, int i) {
+  const Value inputs[] = {at.u, at.v, at.theta, at.omega, at.t, at.path, at.normal, at.side, at.sigma, at.speed};
+  if (i < static_cast<int>(std::size(inputs))) return inputs[i];
+  const double constants[] = {at.mu, standard_gravity_mps2, pi};
+  return at.u.tape->constant(constants[i - static_cast<int>(std::size(inputs))]);
+}
+
+std::string without_unit(const std::string& name) { return name.substr(0, name.rfind('_')); }
+
+}  // namespace
+
+struct Recorder {
+  explicit Recorder(Formula& to) : formula(to) {}
+  Formula& formula;
+
+  static thread_local Recorder* current;
+  static double put(Kind kind, std::vector<int> operands, double value = 0) {
+    auto& operations = current->formula.operations_;
+    operations.push_back({kind, value, std::move(operands)});
+    return static_cast<double>(operations.size() - 1);
+  }
+};
+thread_local Recorder* Recorder::current = nullptr;
+
+namespace {
+
+template <Kind kind>
+double unary(double a) {
+  return Recorder::put(kind, {static_cast<int>(a)});
+}
+template <Kind kind>
+double binary(double a, double b) {
+  return Recorder::put(kind, {static_cast<int>(a), static_cast<int>(b)});
+}
+double choose(double a, double b, double c) {
+  return Recorder::put(where_of, {static_cast<int>(a), static_cast<int>(b), static_cast<int>(c)});
+}
+
+int read_number(const char* text, int* position, double* value) {
+  if (!(std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '.')) return 0;
+  char* end = nullptr;
+  const double x = std::strtod(text, &end);
+  if (end == text) return 0;
+  *position += static_cast<int>(end - text);
+  *value = Recorder::put(number, {}, x);
+  return 1;
+}
+
+class Parser : public mu::ParserBase {
+ public:
+  Parser() {
+    EnableOptimizer(false);
+    EnableBuiltInOprt(false);
+    AddValIdent(read_number);
+    DefineOprt("<", binary<less>, mu::prCMP);
+    DefineOprt(">", binary<greater>, mu::prCMP);
+    DefineOprt("+", binary<add>, mu::prADD_SUB);
+    DefineOprt("-", binary<subtract>, mu::prADD_SUB);
+    DefineOprt("*", binary<multiply>, mu::prMUL_DIV);
+    DefineOprt("/", binary<divide>, mu::prMUL_DIV);
+    DefineOprt("^", binary<power>, mu::prPOW, mu::oaRIGHT);
+    DefineInfixOprt("-", unary<negate>, mu::prINFIX, false);
+    DefineFun("exp", unary<exp_of>, false);
+    DefineFun("log", unary<log_of>, false);
+    DefineFun("sqrt", unary<sqrt_of>, false);
+    DefineFun("sin", unary<sin_of>, false);
+    DefineFun("cos", unary<cos_of>, false);
+    DefineFun("tanh", unary<tanh_of>, false);
+    DefineFun("abs", unary<abs_of>, false);
+    DefineFun("step", unary<step_of>, false);
+    DefineFun("min", binary<min_of>, false);
+    DefineFun("max", binary<max_of>, false);
+    DefineFun("if", choose, false);
+  }
+
+ private:
+  void InitCharSets() override {
+    DefineNameChars("0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+    DefineOprtChars("+-*/^<>");
+    DefineInfixOprtChars("-");
+  }
+  void InitFun() override {}
+  void InitConst() override {}
+  void InitOprt() override {}
+};
+
+std::string problem(const mu::ParserError& error, const std::string& text) {
+  switch (error.GetCode()) {
+    case mu::ecUNASSIGNABLE_TOKEN:
+      return "\"" + error.GetToken() + "\" is not known here";
+    case mu::ecUNEXPECTED_EOF:
+      return "it ends too early";
+    case mu::ecMISSING_PARENS:
+      return "a parenthesis is not closed";
+    case mu::ecUNEXPECTED_PARENS:
+      return "a parenthesis stands where none can";
+    case mu::ecTOO_MANY_PARAMS:
+    case mu::ecTOO_FEW_PARAMS:
+      return "a function has too many or too few arguments";
+    case mu::ecEMPTY_EXPRESSION:
+      return "it is empty";
+    default:
+      return error.GetToken().empty() || text.empty() ? "it cannot be read"
+                                                      : "\"" + error.GetToken() + "\" stands where it cannot";
+  }
+}
+
+}  // namespace
+
+Formula::Formula(const std::string& text, const std::vector<std::string>& parameters) {
+  // muParser would evaluate one branch only.
+  for (const char* sign : {"?", ":", "=", "!", "&", "|"})
+    if (const auto at = text.find(sign); at != std::string::npos)
+      throw FormulaError(std::string("\"") + sign + "\" is not known here, if(condition, yes, no) is", at);
+  Recorder recorder(*this);
+  Recorder::current = &recorder;
+  std::vector<double> places;
+  places.reserve(variables().size() + 2 * parameters.size());
+  Parser parser;
+  const auto define = [&](const std::string& name, int i) {
+    if (name.empty() || parser.GetVar().count(name)) return;
+    places.push_back(Recorder::put(variable, {i}));
+    parser.DefineVar(name, &places.back());
+  };
+  try {
+    const int known = static_cast<int>(variables().size());
+    for (int i = 0; i < known; ++i) define(variables()[static_cast<std::size_t>(i)], i);
+    for (std::size_t i = 0; i < parameters.size(); ++i) define(parameters[i], known + static_cast<int>(i));
+    for (std::size_t i = 0; i < parameters.size(); ++i) define(without_unit(parameters[i]), known + static_cast<int>(i));
+    parser.SetExpr(text);
+    int results = 0;
+    const double* values = parser.Eval(results);
+    if (results != 1) throw FormulaError("it has more than one value", text.find(','));
+    result_ = static_cast<int>(values[0]);
+  } catch (const mu::ParserError& error) {
+    throw FormulaError(problem(error, text), static_cast<std::size_t>(std::max(error.GetPos(), 0)));
+  }
+}
+
+Value Formula::record(const At& at, const std::vector<double>& parameters) const {
+  const int known = static_cast<int>(variables().size());
+  std::vector<Value> values;
+  for (const auto& [kind, x, operands] : operations_) {
+    const auto operand = [&, &o = operands](std::size_t i) { return values[static_cast<std::size_t>(o[i])]; };
+    const auto constant = [&, &o = operands](std::size_t i) {
+      const Operation& of = operations_[static_cast<std::size_t>(o[i])];
+      return of.kind == number ? &of.number : nullptr;
+    };
+    const auto result = [&, &o = operands, &k = kind, &number_value = x]() -> Value {
+      switch (static_cast<Kind>(k)) {
+        case number: return at.u.tape->constant(number_value);
+        case variable:
+          return o[0] < known ? variable_value(at, o[0])
+                              : at.u.tape->constant(parameters[static_cast<std::size_t>(o[0] - known)]);
+        case add: return operand(0) + operand(1);
+        case subtract: return operand(0) - operand(1);
+        case multiply: return operand(0) * operand(1);
+        case divide: return operand(0) / operand(1);
+        case power: return constant(1) ? pow(operand(0), *constant(1)) : pow(operand(0), operand(1));
+        case negate: return -operand(0);
+        case less: return step(operand(1) - operand(0));
+        case greater: return step(operand(0) - operand(1));
+        case exp_of: return exp(operand(0));
+        case log_of: return log(operand(0));
+        case sqrt_of: return sqrt(operand(0));
+        case sin_of: return sin(operand(0));
+        case cos_of: return cos(operand(0));
+        case tanh_of: return tanh(operand(0));
+        case abs_of: return abs(operand(0));
+        case step_of: return step(operand(0));
+        case min_of: return min(operand(0), operand(1));
+        case max_of: return max(operand(0), operand(1));
+        case where_of: return where(operand(0), operand(1), operand(2));
+      }
+      return at.u;
+    };
+    values.push_back(result());
+  }
+  return values[static_cast<std::size_t>(result_)];
+}
+
+dynamics::Effect effect(const std::string& name, const std::string& friction, const std::string& force,
+                        const std::vector<std::string>& parameters) {
+  dynamics::Effect effect{.name = name,
+                          .summary = "formula of the study",
+                          .law = friction.empty() ? "force: " + force : "friction: " + friction,
+                          .source = "the study",
+                          .suspect = "",
+                          .parameters = {}};
+  if (!friction.empty() && !force.empty()) effect.law += ", force: " + force;
+  for (const auto& parameter : parameters)
+    effect.parameters.push_back({.name = parameter, .unit = "", .summary = "", .lower = -1e300, .upper = 1e300});
+  if (!friction.empty())
+    effect.friction = [law = Formula(friction, parameters)](const At& at, const dynamics::Parameters& p) {
+      return law.record(at, p) / at.mu;
+    };
+  if (!force.empty())
+    effect.force = [law = Formula(force, parameters)](const At& at, const dynamics::Parameters& p) {
+      return law.record(at, p);
+    };
+  return effect;
+}
+
+}  // namespace freestand::formula

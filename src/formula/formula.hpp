@@ -1,0 +1,51 @@
+// A law written in a study file: parsed once, put on the tape of each sample. The effect that needs no compiler.
+//
+//   friction: "mu*(1 + a*sin(2*pi*u/l))"       the friction coefficient
+//   force:    "-k*u - c*v"                     horizontal force per mass through the centre of mass [m/s2]
+//
+// Variables: u v theta omega t path normal side sigma speed (dynamics/tape.hpp says what they are and in which units),
+// mu (kinetic coefficient), g, pi, and the parameters of the effect, with or without their unit suffix.
+// Operators: + - * / ^ and comparisons < > (1 or 0).  Functions: exp log sqrt sin cos tanh abs min max step if.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "dynamics/effect.hpp"
+
+namespace freestand::formula {
+
+// What is wrong in a formula, and where: position counts characters from 0.
+class FormulaError : public std::runtime_error {
+ public:
+  FormulaError(const std::string& problem, std::size_t position) : std::runtime_error(problem), position_(position) {}
+  std::size_t position() const { return position_; }
+
+ private:
+  std::size_t position_;
+};
+
+class Formula {
+ public:
+  // Throws FormulaError. parameters: names of the effect's parameters, e.g. a, l_m.
+  Formula(const std::string& text, const std::vector<std::string>& parameters);
+
+  dynamics::Value record(const dynamics::At& at, const std::vector<double>& parameters) const;
+
+ private:
+  struct Operation {
+    int kind;
+    double number;
+    std::vector<int> operands;
+  };
+  friend struct Recorder;
+  std::vector<Operation> operations_;
+  int result_ = 0;
+};
+
+// The effect of one entry of a study: friction, force, or both (empty: without).
+dynamics::Effect effect(const std::string& name, const std::string& friction, const std::string& force,
+                        const std::vector<std::string>& parameters);
+
+}  // namespace freestand::formula

@@ -1,0 +1,147 @@
+// `effects`: entries of the catalogue by name, and formulas.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "effects/effects.hpp"
+#include "formula/formula.hpp"
+#include "study/read_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+using dynamics::Effect;
+using dynamics::Parameter;
+
+std::vector<std::string> effect_names() {
+  std::vector<std::string> names;
+  for (const auto& effect : effects::all()) names.push_back(effect.name);
+  return names;
+}
+
+std::string bounds_text(const Parameter& p) {
+  const std::string lower = sampling::number_text(p.lower);
+  if (!std::isfinite(p.upper)) return fmt::format("it must be {} {}", p.lower_open ? "above" : "at least", lower);
+  return fmt::format("it must lie between {} and {}", lower, sampling::number_text(p.upper));
+}
+
+// Distributions may reach the bounds themselves, unless the lower one is open.
+std::vector<Quantity> read_parameters(Section& section, const Effect& effect) {
+  std::vector<Quantity> quantities;
+  const std::string prefix = "effects." + effect.name;
+  for (const Parameter& parameter : effect.parameters) {
+    const std::string why = bounds_text(parameter);
+    const Range range{.lower = parameter.lower,
+                      .upper = parameter.upper,
+                      .lower_open = parameter.lower_open,
+                      .upper_open = false,
+                      .why = why.c_str()};
+    if (!section.has(parameter.name) && !parameter.fallback)
+      section.problem(parameter.name, fmt::format("{} is missing ({}): add {}", section.name(parameter.name),
+                                                  parameter.summary, parameter.name));
+    quantities.push_back(section.quantity(prefix, parameter.name, range,
+                                          parameter.fallback.value_or(parameter.neutral.value_or(parameter.low))));
+  }
+  return quantities;
+}
+
+std::shared_ptr<const Effect> make_formula(Section& section, const EffectPart& part,
+                                           const std::vector<std::string>& parameters) {
+  for (const char* key : {"friction", "force"}) {
+    const std::string& text = std::string(key) == "friction" ? part.friction : part.force;
+    if (text.empty()) continue;
+    try {
+      formula::Formula(text, parameters);
+    } catch (const formula::FormulaError& error) {
+      const std::size_t place = std::min(error.position(), text.size());
+      section.problem(key, fmt::format("{} of effect {} does not parse ({}, character {}): correct it\n    {}\n    {:>{}}",
+                                       key, part.name, error.what(), place + 1, text, '^', place + 1));
+      return nullptr;
+    }
+  }
+  return std::make_shared<const Effect>(formula::effect(part.name, part.friction, part.force, parameters));
+}
+
+EffectPart read_formula(Section& section, const std::string& name) {
+  EffectPart part{.name = name, .parameters = {}};
+  part.friction = section.text("friction", "");
+  part.force = section.text("force", "");
+  std::vector<std::string> names;
+  if (const YAML::Node* node = section.find("parameters")) {
+    Section values(*node, section.name("parameters"), section.line("parameters"), section.problems());
+    if (node->IsMap())
+      for (const auto& item : *node) {
+        names.push_back(item.first.Scalar());
+        part.parameters.push_back(values.quantity("effects." + name, names.back(), range::any, 0));
+      }
+  }
+  part.effect = make_formula(section, part, names);
+  return part;
+}
+
+// The effect of an entry; without one where the entry is wrong.
+EffectPart read_effect(Section& section) {
+  const std::string name = section.text("name", "");
+  if (name.empty()) {
+    section.problem("name", fmt::format("{} is missing (an effect is chosen by its name): add name: {}",
+                                        section.name("name"), "static_friction, or another of `freestand effects`"));
+    return {};
+  }
+  const Effect* known = effects::find(name);
+  const bool written = section.has("friction") || section.has("force");
+  if (known && written)
+    section.problem("name", fmt::format("effect {} has a formula, and is in the catalogue (one name, one law): give "
+                                        "the formula another name",
+                                        name));
+  if (known) return {name, read_parameters(section, *known), {}, {}, {std::shared_ptr<void>(), known}};
+  if (written) return read_formula(section, name);
+  section.problem("name", fmt::format("effect {} is not known ({}): choose one of `freestand effects`, or give it a "
+                                      "formula, friction: \"...\" or force: \"...\"",
+                                      name, hint(name, effect_names())));
+  return {};
+}
+
+void check_company(Section& section, const EffectPart& part, const std::vector<EffectPart>& others, Model model) {
+  constexpr const char* models[] = {"slide", "rock", "slide_rock", "bouc_wen"};
+  const std::string in_model = models[static_cast<int>(model)];
+  const auto excluded = [](const Effect& effect, const std::string& name) {
+    return std::find(effect.excludes.begin(), effect.excludes.end(), name) != effect.excludes.end();
+  };
+  if (excluded(*part.effect, in_model))
+    section.problem("name", fmt::format("effect {} does not go with model {} (it has nothing to act on there): remove "
+                                        "it, or choose another model",
+                                        part.name, in_model));
+  for (const EffectPart& other : others) {
+    if (other.name == part.name)
+      section.problem("name", fmt::format("effect {} stands twice (it acts once): remove one", part.name));
+    else if (excluded(*part.effect, other.name) || excluded(*other.effect, part.name))
+      section.problem("name", fmt::format("effects {} and {} exclude each other (their laws cannot act together): "
+                                          "remove one",
+                                          other.name, part.name));
+  }
+}
+
+}  // namespace
+
+std::vector<EffectPart> read_effects(Section& file, Model model) {
+  std::vector<EffectPart> effects;
+  const YAML::Node* node = file.find("effects");
+  if (!node) return effects;
+  if (!node->IsSequence()) {
+    file.problem("effects", "effects is no list (each effect is an entry): write effects: [{name: vertical_shaking}]");
+    return effects;
+  }
+  for (std::size_t i = 0; i < node->size(); ++i) {
+    const int line = line_of((*node)[i]) ? line_of((*node)[i]) : file.line("effects");
+    Section section((*node)[i], fmt::format("effects[{}]", i), line, file.problems());
+    if (!(*node)[i].IsMap()) continue;
+    EffectPart effect = read_effect(section);
+    if (!effect.effect) continue;
+    section.finish();
+    check_company(section, effect, effects, model);
+    effects.push_back(std::move(effect));
+  }
+  return effects;
+}
+
+}  // namespace freestand::study
