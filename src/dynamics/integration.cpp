@@ -117,6 +117,16 @@ void Integration::keep_contents_velocity(double speed_before) {
     if (rig.laws->relative_velocity[i]) state.states[i] -= jump;
 }
 
+// Another event may fall on the very instant of a stop, or of an impact.
+void Integration::stop_slip() {
+  if (!rig.laws || rig.laws->legs.frequency_radps == 0) state.w = 0;
+  state.foot = 0;
+}
+
+bool Integration::strikes_too() const {
+  return state.pivot != 0 && state.pivot * state.theta <= 0 && state.pivot * state.omega < 0;
+}
+
 void Integration::resolve(Witness witness) {
   const State from = state;
   const double speed_before = rig.laws ? centre_speed(rig, state) : 0;
@@ -135,8 +145,7 @@ void Integration::resolve(Witness witness) {
       if (regular && state.theta == 0 && state.omega * state.pivot < 0) regular = strike(rig, state, cursor.time());
       break;
     case Witness::slipping:
-      if (!rig.laws || rig.laws->legs.frequency_radps == 0) state.w = 0;
-      state.foot = 0;
+      stop_slip();
       break;
     case Witness::clear:
       reach_wall();
@@ -149,6 +158,11 @@ void Integration::resolve(Witness witness) {
     default:
       if (is_kink(witness)) turn_kink(static_cast<int>(witness) - static_cast<int>(Witness::kink));
       break;
+  }
+  if (is_kink(witness) && state.sigma * slip_speed(rig, state) <= 0) stop_slip();
+  if (regular && !impact && strikes_too()) {
+    impact = true;
+    regular = strike(rig, state, cursor.time());
   }
   if (impact && rig.laws) keep_contents_velocity(speed_before);
   if (!regular || !choose_mode(rig, cursor, state)) return stop(Outcome::painleve);
@@ -189,7 +203,9 @@ double Integration::slip() const {
   if (state.mode == Mode::flight) return midpoint_in_flight(rig, state.x, state.theta);
   const double half = std::sin(0.5 * state.theta);
   const int side = (state.theta > 0) - (state.theta < 0);
-  return state.xi + side * rig.half_base() * 2 * half * half;
+  // Legs come back upright under a block that rests.
+  const double sway = state.mode == Mode::rest ? state.deflection : 0;
+  return state.xi - sway + side * rig.half_base() * 2 * half * half;
 }
 
 Response Integration::result() {

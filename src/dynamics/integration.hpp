@@ -81,6 +81,8 @@ class Integration {
   void turn_kink(int kink);
   void reach_wall();
   void keep_contents_velocity(double speed_before);
+  void stop_slip();
+  bool strikes_too() const;
   bool settles() const;  // at rest, for so long that nothing on it can move it any more
 
   bool finished_ = false;

@@ -17,12 +17,33 @@ namespace {
 using dynamics::At;
 using dynamics::Value;
 
-enum Kind { number, variable, add, subtract, multiply, divide, power, negate, less, greater, exp_of, log_of, sqrt_of,
-            sin_of, cos_of, tanh_of, abs_of, step_of, min_of, max_of, where_of };
+enum Kind {
+  number,
+  variable,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  negate,
+  less,
+  greater,
+  exp_of,
+  log_of,
+  sqrt_of,
+  sin_of,
+  cos_of,
+  tanh_of,
+  abs_of,
+  step_of,
+  min_of,
+  max_of,
+  where_of
+};
 
 const std::vector<std::string>& variables() {
-  static const std::vector<std::string> names = {"u",    "v",     "theta", "omega", "t",  "path",
-                                                 "normal", "side", "sigma", "speed", "mu", "g", "pi"};
+  static const std::vector<std::string> names = {"u",    "v",     "theta", "omega", "t", "path", "normal",
+                                                 "side", "sigma", "speed", "mu",    "g", "pi"};
   return names;
 }
 
@@ -77,6 +98,7 @@ int read_number(const char* text, int* position, double* value) {
 class Parser : public mu::ParserBase {
  public:
   Parser() {
+    InitCharSets();
     EnableOptimizer(false);
     EnableBuiltInOprt(false);
     AddValIdent(read_number);
@@ -154,7 +176,8 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& parame
     const int known = static_cast<int>(variables().size());
     for (int i = 0; i < known; ++i) define(variables()[static_cast<std::size_t>(i)], i);
     for (std::size_t i = 0; i < parameters.size(); ++i) define(parameters[i], known + static_cast<int>(i));
-    for (std::size_t i = 0; i < parameters.size(); ++i) define(without_unit(parameters[i]), known + static_cast<int>(i));
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      define(without_unit(parameters[i]), known + static_cast<int>(i));
     parser.SetExpr(text);
     int results = 0;
     const double* values = parser.Eval(results);
@@ -176,29 +199,49 @@ Value Formula::record(const At& at, const std::vector<double>& parameters) const
     };
     const auto result = [&, &o = operands, &k = kind, &number_value = x]() -> Value {
       switch (static_cast<Kind>(k)) {
-        case number: return at.u.tape->constant(number_value);
+        case number:
+          return at.u.tape->constant(number_value);
         case variable:
           return o[0] < known ? variable_value(at, o[0])
                               : at.u.tape->constant(parameters[static_cast<std::size_t>(o[0] - known)]);
-        case add: return operand(0) + operand(1);
-        case subtract: return operand(0) - operand(1);
-        case multiply: return operand(0) * operand(1);
-        case divide: return operand(0) / operand(1);
-        case power: return constant(1) ? pow(operand(0), *constant(1)) : pow(operand(0), operand(1));
-        case negate: return -operand(0);
-        case less: return step(operand(1) - operand(0));
-        case greater: return step(operand(0) - operand(1));
-        case exp_of: return exp(operand(0));
-        case log_of: return log(operand(0));
-        case sqrt_of: return sqrt(operand(0));
-        case sin_of: return sin(operand(0));
-        case cos_of: return cos(operand(0));
-        case tanh_of: return tanh(operand(0));
-        case abs_of: return abs(operand(0));
-        case step_of: return step(operand(0));
-        case min_of: return min(operand(0), operand(1));
-        case max_of: return max(operand(0), operand(1));
-        case where_of: return where(operand(0), operand(1), operand(2));
+        case add:
+          return operand(0) + operand(1);
+        case subtract:
+          return operand(0) - operand(1);
+        case multiply:
+          return operand(0) * operand(1);
+        case divide:
+          return operand(0) / operand(1);
+        case power:
+          return constant(1) ? pow(operand(0), *constant(1)) : pow(operand(0), operand(1));
+        case negate:
+          return -operand(0);
+        case less:
+          return step(operand(1) - operand(0));
+        case greater:
+          return step(operand(0) - operand(1));
+        case exp_of:
+          return exp(operand(0));
+        case log_of:
+          return log(operand(0));
+        case sqrt_of:
+          return sqrt(operand(0));
+        case sin_of:
+          return sin(operand(0));
+        case cos_of:
+          return cos(operand(0));
+        case tanh_of:
+          return tanh(operand(0));
+        case abs_of:
+          return abs(operand(0));
+        case step_of:
+          return step(operand(0));
+        case min_of:
+          return min(operand(0), operand(1));
+        case max_of:
+          return max(operand(0), operand(1));
+        case where_of:
+          return where(operand(0), operand(1), operand(2));
       }
       return at.u;
     };

@@ -54,8 +54,9 @@ std::shared_ptr<const Effect> make_formula(Section& section, const EffectPart& p
       formula::Formula(text, parameters);
     } catch (const formula::FormulaError& error) {
       const std::size_t place = std::min(error.position(), text.size());
-      section.problem(key, fmt::format("{} of effect {} does not parse ({}, character {}): correct it\n    {}\n    {:>{}}",
-                                       key, part.name, error.what(), place + 1, text, '^', place + 1));
+      section.problem(
+          key, fmt::format("{} of effect {} does not parse ({}, character {}): correct it\n    {}\n    {:>{}}", key,
+                           part.name, error.what(), place + 1, text, '^', place + 1));
       return nullptr;
     }
   }
@@ -89,10 +90,12 @@ EffectPart read_effect(Section& section) {
   }
   const Effect* known = effects::find(name);
   const bool written = section.has("friction") || section.has("force");
-  if (known && written)
+  if (known && written) {
     section.problem("name", fmt::format("effect {} has a formula, and is in the catalogue (one name, one law): give "
                                         "the formula another name",
                                         name));
+    return {};
+  }
   if (known) return {name, read_parameters(section, *known), {}, {}, {std::shared_ptr<void>(), known}};
   if (written) return read_formula(section, name);
   section.problem("name", fmt::format("effect {} is not known ({}): choose one of `freestand effects`, or give it a "

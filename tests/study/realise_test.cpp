@@ -177,7 +177,7 @@ TEST_F(Records, AreScaledToTheirPeakOrByAFactor) {
       study("{records: records/b.csv, scale: -1.5}", "effects: [{name: vertical_shaking, scale: 0.5}]\n");
   const Realisation r = Realiser(factor, load_motions(factor))(0);
   EXPECT_EQ(r.shaking.scale, -1.5);
-  EXPECT_EQ(r.shaking.vertical_scale, 0.75);  // the mirror image keeps up and down
+  EXPECT_EQ(r.specimen.effects.at(0).parameters, std::vector{0.5});
   EXPECT_DOUBLE_EQ(r.pta_g, 6 / standard_gravity_mps2);
 }
 
