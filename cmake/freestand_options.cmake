@@ -1,5 +1,6 @@
 # Language, warnings, numerics and sanitizers: the same for every target.
 option(FREESTAND_TESTS "build the tests" ON)
+option(FREESTAND_BENCHMARKS "build the benchmark of the kernel (needs Google Benchmark and Boost)" OFF)
 option(FREESTAND_WERROR "warnings are errors" OFF)
 set(FREESTAND_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
 set(FREESTAND_ARCH "x86-64-v2" CACHE STRING "instruction set, as -march= takes it")

@@ -1,0 +1,36 @@
+// The standard jobs of the benchmark: specimens and floor motions drawn from a fixed seed, so that everybody measures
+// the same samples. No file is read.
+//
+//   P1 sliding      block that only slides, constant mu_s >= mu_k
+//   P2 rocking      block that only rocks, Housner's impacts
+//   P3 slide-rock   both, mu_s and mu_k close to the slenderness, Housner's impacts
+//
+// The motions are 20 records of 20 s at 0.005 s: noise through the filters of Kanai & Tajimi and of Clough & Penzien
+// under an envelope of build-up, plateau and decay; every second one carries a velocity pulse. A sample scales its
+// record to a peak drawn relative to what moves its block, so that some samples never move and some overturn.
+#pragma once
+
+#include <freestand/floor_motion.hpp>
+#include <freestand/response.hpp>
+#include <freestand/simulate.hpp>
+#include <freestand/specimen.hpp>
+#include <string>
+#include <vector>
+
+namespace freestand::bench {
+
+struct Job {
+  std::string name;   // "P1"
+  std::string title;  // "sliding"
+  std::vector<Specimen> specimens;
+  std::vector<Shaking> shakings;
+  std::vector<std::string> demands;  // the demands whose error counts: "slip", "rotation"
+
+  std::size_t samples() const { return specimens.size(); }
+};
+
+// The records that the jobs share; they must outlive the jobs.
+std::vector<FloorMotion> benchmark_records();
+std::vector<Job> benchmark_jobs(const std::vector<FloorMotion>& records, std::size_t samples);
+
+}  // namespace freestand::bench

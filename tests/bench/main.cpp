@@ -1,0 +1,182 @@
+// Benchmark of the kernel on the standard jobs (jobs.hpp), beside two peers on the same samples in the same run.
+//
+//   build/release/benchmark_kernel [--benchmark_filter=P2] [--benchmark_repetitions=9] ...
+//
+// FREESTAND_BENCH_SAMPLES sets the number of samples per job. The runs are interleaved at random, medians are told.
+// Errors are medians over the samples of |demand - demand of a tight run| (tolerance 1e-12), relative to the latter,
+// among samples that moved and stand in both; `flips` counts samples with another outcome.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "jobs.hpp"
+#include "peers.hpp"
+
+namespace freestand::bench {
+namespace {
+
+struct Answer {
+  double slip = 0, rotation = 0;
+  bool overturned = false, failed = false;
+  int events = 0;
+};
+
+Answer answer(const Response& r) {
+  const bool failed = r.outcome > Outcome::overturned;
+  return {r.peak_slip_m, r.peak_rotation_rad, r.outcome == Outcome::overturned, failed, r.events};
+}
+
+Answer answer(const PeerResponse& r) { return {r.slip_m, r.rotation_rad, r.overturned, r.failed, r.events}; }
+
+using Solver = std::function<std::vector<Answer>(const Job&)>;
+
+struct Accuracy {
+  double median = 0, high = 0;  // 50 % and 99 %
+  int flips = 0, failed = 0;
+  double events = 0;  // per sample
+};
+
+double part(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+Accuracy accuracy(const Job& job, const std::vector<Answer>& answers, const std::vector<Answer>& truth) {
+  Accuracy result;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    result.events += answers[i].events / static_cast<double>(truth.size());
+    result.failed += answers[i].failed;
+    result.flips += answers[i].overturned != truth[i].overturned;
+    if (answers[i].overturned || truth[i].overturned || truth[i].events == 0) continue;
+    double error = 0;
+    for (const std::string& demand : job.demands) {
+      const double a = demand == "slip" ? answers[i].slip : answers[i].rotation;
+      const double b = demand == "slip" ? truth[i].slip : truth[i].rotation;
+      if (b > 1e-6) error = std::max(error, std::abs(a - b) / b);
+    }
+    errors.push_back(error);
+  }
+  result.median = part(errors, 0.5);
+  result.high = part(errors, 0.99);
+  return result;
+}
+
+struct Row {
+  const Job* job;
+  std::string solver;
+  Solver solve;
+  bool slow;
+  Accuracy accuracy;
+  std::vector<double> seconds;
+};
+
+Solver one_by_one(std::function<Answer(const Specimen&, const Shaking&)> one) {
+  return [one](const Job& job) {
+    std::vector<Answer> answers(job.samples());
+    for (std::size_t i = 0; i < job.samples(); ++i) answers[i] = one(job.specimens[i], job.shakings[i]);
+    return answers;
+  };
+}
+
+std::vector<Row> rows_of(const Job& job) {
+  const auto scalar = [](const Specimen& b, const Shaking& s) { return answer(respond(b, s)); };
+  const auto odeint = [](const Specimen& b, const Shaking& s) { return answer(odeint_peer(b, s)); };
+  const auto cvode = [peer = std::make_shared<CvodePeer>(1e-9)](const Specimen& b, const Shaking& s) {
+    return answer((*peer)(b, s));
+  };
+  return {{&job, "freestand, one by one", one_by_one(scalar), false, {}, {}},
+          {&job, "(a) CVODE Adams", one_by_one(cvode), true, {}, {}},
+          {&job, "(b) odeint dopri5", one_by_one(odeint), false, {}, {}}};
+}
+
+// Collects the repetitions; the table is printed at the end.
+class Collector : public benchmark::BenchmarkReporter {
+ public:
+  explicit Collector(std::map<std::string, Row*> rows) : rows_(std::move(rows)) {}
+  bool ReportContext(const Context& context) override {
+    PrintBasicContext(&GetErrorStream(), context);
+    return true;
+  }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs)
+      if (run.run_type == Run::RT_Iteration && !run.error_occurred)
+        rows_.at(run.run_name.function_name)
+            ->seconds.push_back(run.real_accumulated_time / static_cast<double>(run.iterations));
+  }
+
+ private:
+  std::map<std::string, Row*> rows_;
+};
+
+void print(const std::vector<Row>& rows) {
+  std::printf("\n%-4s %-24s %12s %10s %8s %9s %9s %6s %6s %8s %8s\n", "job", "solver", "samples/s", "us/sample",
+              "events", "error", "99 %", "flips", "failed", "to (a)", "to (b)");
+  std::map<std::string, std::map<char, double>> peers;
+  for (const Row& row : rows)
+    if (row.solver[0] == '(' && !row.seconds.empty()) peers[row.job->name][row.solver[1]] = part(row.seconds, 0.5);
+  for (const Row& row : rows) {
+    if (row.seconds.empty()) continue;
+    const double seconds = part(row.seconds, 0.5), samples = static_cast<double>(row.job->samples());
+    const auto ratio = [&](char peer) { return peers[row.job->name][peer] / seconds; };
+    std::printf("%-4s %-24s %12.0f %10.3f %8.1f %9.1e %9.1e %6d %6d %8.1f %8.1f\n", row.job->name.c_str(),
+                row.solver.c_str(), samples / seconds, 1e6 * seconds / samples, row.accuracy.events,
+                row.accuracy.median, row.accuracy.high, row.accuracy.flips, row.accuracy.failed, ratio('a'),
+                ratio('b'));
+  }
+}
+
+int run(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc);
+  char repetitions[] = "--benchmark_repetitions=7", interleaved[] = "--benchmark_enable_random_interleaving=true",
+       time[] = "--benchmark_min_time=0.05";
+  arguments.insert(arguments.begin() + 1, {repetitions, interleaved, time});
+  int count = static_cast<int>(arguments.size());
+  benchmark::Initialize(&count, arguments.data());
+
+  const char* wanted = std::getenv("FREESTAND_BENCH_SAMPLES");
+  const auto records = benchmark_records();
+  const auto jobs = benchmark_jobs(records, wanted ? std::strtoul(wanted, nullptr, 10) : 960);
+  std::vector<Row> rows;
+  for (const Job& job : jobs)
+    for (Row& row : rows_of(job)) rows.push_back(std::move(row));
+
+  std::map<std::string, Row*> by_name;
+  for (Row& row : rows) {
+    const std::string name = row.job->name + " " + row.solver;
+    by_name[name] = &row;
+    auto* registered = benchmark::RegisterBenchmark(name.c_str(), [&row](benchmark::State& state) {
+      for (auto _ : state) benchmark::DoNotOptimize(row.solve(*row.job));
+    });
+    registered->UseRealTime();
+    if (row.slow) registered->Iterations(1)->Repetitions(1);
+  }
+  Collector collector(by_name);
+  benchmark::RunSpecifiedBenchmarks(&collector);
+
+  const auto tight =
+      one_by_one([](const Specimen& b, const Shaking& s) { return answer(respond(b, s, {.tolerance = 1e-12})); });
+  std::map<const Job*, std::vector<Answer>> truth;
+  for (Row& row : rows) {
+    if (row.seconds.empty()) continue;
+    if (!truth.count(row.job)) truth[row.job] = tight(*row.job);
+    row.accuracy = accuracy(*row.job, row.solve(*row.job), truth[row.job]);
+  }
+  print(rows);
+  return 0;
+}
+
+}  // namespace
+}  // namespace freestand::bench
+
+int main(int argc, char** argv) { return freestand::bench::run(argc, argv); }

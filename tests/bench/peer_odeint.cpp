@@ -1,0 +1,277 @@
+#include <algorithm>
+#include <array>
+#include <boost/numeric/odeint/algebra/array_algebra.hpp>
+#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
+#include <cmath>
+
+#include "peers.hpp"
+
+namespace freestand::bench {
+namespace {
+
+namespace odeint = boost::numeric::odeint;
+
+template <std::size_t D>
+using Values = std::array<double, D>;
+
+template <std::size_t D>
+using Dopri5 = odeint::runge_kutta_dopri5<Values<D>, double, Values<D>, double, odeint::array_algebra>;
+
+// Root of f on [lo, hi] with f(lo) > 0 >= f(hi) (Dowell & Jarratt 1971).
+template <class F>
+double illinois(F&& f, double lo, double f_lo, double hi, double f_hi, double width) {
+  int side = 0;
+  for (int i = 0; i < 60 && hi - lo > width; ++i) {
+    double x = hi - f_hi * (hi - lo) / (f_hi - f_lo);
+    if (!(x > lo && x < hi)) x = 0.5 * (lo + hi);
+    const double value = f(x);
+    if (value == 0) return x;
+    if (value > 0) {
+      lo = x;
+      f_lo = value;
+      if (side == 1) f_hi *= 0.5;
+      side = 1;
+    } else {
+      hi = x;
+      f_hi = value;
+      if (side == -1) f_lo *= 0.5;
+      side = -1;
+    }
+  }
+  return hi;
+}
+
+class Sample {
+ public:
+  Sample(const Specimen& specimen, const Shaking& shaking) : block_(specimen, 1e-9), record_(shaking) {}
+
+  PeerResponse run() {
+    const int last = record_.count + static_cast<int>(60 / record_.dt);
+    bool alive = true;
+    while (alive && knot_ < last) {
+      switch (y_.mode) {
+        case PeerMode::rest:
+          if (!wait()) return response_;
+          break;
+        case PeerMode::slide:
+          alive = slide();
+          break;
+        case PeerMode::rock:
+          alive = rock();
+          break;
+        case PeerMode::slide_rock:
+          alive = slide_rock();
+          break;
+      }
+    }
+    return response_;
+  }
+
+ private:
+  // Quiet knots are passed over; stops where |a| reaches what moves the block. False: it never does.
+  bool wait() {
+    const double quiet = block_.quiet;
+    double at = std::abs(acceleration(offset_));
+    for (; knot_ < record_.count; ++knot_, offset_ = 0, at = std::abs(record_.at(knot_))) {
+      const double here = acceleration(offset_), end = here + record_.slope(knot_) * (record_.dt - offset_);
+      response_.acceleration_mps2 = std::max(response_.acceleration_mps2, std::min(quiet, std::max(at, std::abs(end))));
+      if (std::abs(end) <= quiet && at <= quiet) continue;
+      if (at <= quiet) offset_ += ((end > 0 ? quiet : -quiet) - here) / record_.slope(knot_);
+      ++response_.events;
+      block_.leave_rest(y_, acceleration(offset_));
+      return true;
+    }
+    return false;
+  }
+
+  double acceleration(double offset) const { return record_.at(knot_) + record_.slope(knot_) * offset; }
+  double acceleration_at_start() const { return acceleration(offset_); }
+
+  void observe_rotation(double theta) { response_.rotation_rad = std::max(response_.rotation_rad, std::abs(theta)); }
+  void observe_slip(const PeerState& y) { response_.slip_m = std::max(response_.slip_m, std::abs(block_.slip(y))); }
+  void observe_forces(double fx, double fy) {
+    const double lift = fy - PeerBlock::g;
+    acceleration2_ = std::max(acceleration2_, fx * fx + lift * lift);
+    response_.acceleration_mps2 = std::max(response_.acceleration_mps2, std::sqrt(acceleration2_));
+  }
+
+  // Steps from knot to knot while the mode lasts. `rates`: right-hand side; `read`: values -> state; `first_event`:
+  // looks at the step and tells the first event and when; `watch`: peaks of the step.
+  template <std::size_t D, class Rates, class Read, class Event, class Watch>
+  bool march(Values<D> x, Rates&& rates, Read&& read, Event&& first_event, Watch&& watch) {
+    Dopri5<D> stepper;
+    Values<D> dx{}, next{}, dnext{};
+    rates(x, dx, offset_);
+    for (const int last = record_.count + static_cast<int>(60 / record_.dt); knot_ < last;) {
+      const double h = record_.dt - offset_;
+      if (h <= 0) {
+        next_knot();
+        rates(x, dx, 0);
+        continue;
+      }
+      stepper.do_step(rates, x, dx, offset_, next, dnext, h);
+      const double begin = offset_, end = begin + h;
+      const auto dense = [&](double t) {
+        Values<D> at;
+        stepper.calc_state(t, at, x, dx, begin, next, dnext, end);
+        return at;
+      };
+      double when = end;
+      const PeerEvent event = first_event(x, next, dense, begin, end, when);
+      watch(x, next, dense, begin, when);
+      if (event != PeerEvent::none) {
+        read(when == end ? next : dense(when), y_);
+        offset_ = when;
+        return block_.resolve(event, y_, acceleration(offset_), response_);
+      }
+      x = next;
+      next_knot();
+      if (knot_ == record_.count)
+        rates(x, dx, 0);  // the floor stops
+      else
+        dx = dnext;
+    }
+    read(x, y_);
+    return false;
+  }
+  void next_knot() {
+    ++knot_;
+    offset_ = 0;
+  }
+
+  // First sign change of a witness that is positive at the start (or starts at zero) and negative at the end.
+  template <class F>
+  bool crossing(F&& f, double f_begin, double f_end, double begin, double end, double& when) {
+    if (f_end > 0) return false;
+    double lo = begin, f_lo = f_begin;
+    for (double part = 0.5; !(f_lo > 0) && part > 1e-9; part *= 0.5) {
+      lo = begin + part * (end - begin);
+      f_lo = f(lo);
+    }
+    when = f_lo > 0 ? illinois(f, lo, f_lo, end, f_end, 1e-13) : begin;
+    return true;
+  }
+
+  bool slide() {
+    using X = Values<2>;
+    const double friction = -y_.sigma * block_.mu_k * PeerBlock::g, sigma = y_.sigma;
+    observe_forces(friction, PeerBlock::g);
+    return march<2>(
+        X{y_.xi, y_.w},
+        [&](const X& x, X& dx, double t) {
+          dx[0] = x[1];
+          dx[1] = friction - acceleration(t);
+        },
+        [](const X& x, PeerState& y) { y.xi = x[0], y.w = x[1]; },
+        [&](const X& x, const X& next, auto& dense, double begin, double end, double& when) {
+          const auto witness = [&](double t) { return sigma * dense(t)[1]; };
+          return crossing(witness, sigma * x[1], sigma * next[1], begin, end, when) ? PeerEvent::stop : PeerEvent::none;
+        },
+        [&](const X&, const X& next, auto& dense, double, double when) {
+          const double xi = when == record_.dt ? next[0] : dense(when)[0];
+          response_.slip_m = std::max(response_.slip_m, std::abs(xi));
+        });
+  }
+
+  bool rock() {
+    using X = Values<2>;
+    const double s = y_.s;
+    const auto grip = [&](const X& x, double t) {
+      const PeerForces f = block_.rock_forces(s, x[0], x[1], acceleration(t));
+      observed_ = f;
+      return block_.mu_s * f.fy - std::abs(f.fx);
+    };
+    double grip_before = block_.can_slip ? grip({y_.theta, y_.omega}, offset_) : 0;
+    return march<2>(
+        X{y_.theta, y_.omega},
+        [&](const X& x, X& dx, double t) {
+          dx[0] = x[1];
+          dx[1] = block_.rock_alpha(s, x[0], acceleration(t));
+        },
+        [](const X& x, PeerState& y) { y.theta = x[0], y.omega = x[1]; },
+        [&](const X& x, const X& next, auto& dense, double begin, double end, double& when) {
+          PeerEvent event = PeerEvent::none;
+          if (crossing([&](double t) { return s * dense(t)[0]; }, s * x[0], s * next[0], begin, when, when))
+            event = PeerEvent::impact;
+          if (std::abs(next[0]) > pi / 2) return PeerEvent::overturned;
+          const double grip_after = grip(next, end);
+          observe_forces(observed_.fx, observed_.fy);
+          if (block_.can_slip) {
+            const double after = when == end ? grip_after : grip(dense(when), when);
+            if (crossing([&](double t) { return grip(dense(t), t); }, grip_before, after, begin, when, when))
+              event = PeerEvent::grip;
+            grip_before = grip_after;
+          }
+          return event;
+        },
+        [&](const X& x, const X& next, auto& dense, double begin, double when) {
+          const bool whole = when == record_.dt;
+          turn(x, whole ? next : dense(when), dense, begin, when);
+        });
+  }
+
+  // Peak of the rotation inside a step.
+  template <std::size_t D, class Dense>
+  void turn(const Values<D>& x, const Values<D>& next, Dense& dense, double begin, double when) {
+    if (x[1] * next[1] < 0) {
+      const double sign = x[1] > 0 ? 1 : -1;
+      const double top =
+          illinois([&](double t) { return sign * dense(t)[1]; }, begin, sign * x[1], when, sign * next[1], 1e-9);
+      observe_rotation(dense(top)[0]);
+    }
+    observe_rotation(next[0]);
+  }
+
+  bool slide_rock() {
+    using X = Values<4>;
+    const double s = y_.s, sigma = y_.sigma;
+    const auto state = [&](const X& x) { return PeerState{PeerMode::slide_rock, s, sigma, x[0], x[1], x[2], x[3]}; };
+    return march<4>(
+        X{y_.theta, y_.omega, y_.xi, y_.w},
+        [&](const X& x, X& dx, double t) {
+          const PeerForces f = block_.slide_rock_forces(s, sigma, x[0], x[1], acceleration(t));
+          dx = {x[1], f.alpha, x[3], f.slip_acceleration};
+        },
+        [](const X& x, PeerState& y) { y.theta = x[0], y.omega = x[1], y.xi = x[2], y.w = x[3]; },
+        [&](const X& x, const X& next, auto& dense, double begin, double end, double& when) {
+          PeerEvent event = PeerEvent::none;
+          if (crossing([&](double t) { return s * dense(t)[0]; }, s * x[0], s * next[0], begin, when, when))
+            event = PeerEvent::impact;
+          const double w_end = when == end ? next[3] : dense(when)[3];
+          if (crossing([&](double t) { return sigma * dense(t)[3]; }, sigma * x[3], sigma * w_end, begin, when, when))
+            event = PeerEvent::stop;
+          if (std::abs(next[0]) > pi / 2) return PeerEvent::overturned;
+          const PeerForces f = block_.slide_rock_forces(s, sigma, next[0], next[1], acceleration(end));
+          if (f.fy <= 0 && event == PeerEvent::none) return PeerEvent::lift;
+          observe_forces(f.fx, f.fy);
+          return event;
+        },
+        [&](const X& x, const X& next, auto& dense, double begin, double when) {
+          const X end = when == record_.dt ? next : dense(when);
+          turn(x, end, dense, begin, when);
+          const double before = block_.slip_rate(state(x)), after = block_.slip_rate(state(end));
+          if (before * after < 0) {
+            const double sign = before > 0 ? 1 : -1;
+            const double top = illinois([&](double t) { return sign * block_.slip_rate(state(dense(t))); }, begin,
+                                        sign * before, when, sign * after, 1e-9);
+            observe_slip(state(dense(top)));
+          }
+          observe_slip(state(end));
+        });
+  }
+
+  PeerBlock block_;
+  PeerRecord record_;
+  PeerState y_;
+  PeerResponse response_;
+  PeerForces observed_{};
+  double acceleration2_ = 0;
+  int knot_ = 0;
+  double offset_ = 0;
+};
+
+}  // namespace
+
+PeerResponse odeint_peer(const Specimen& specimen, const Shaking& shaking) { return Sample(specimen, shaking).run(); }
+
+}  // namespace freestand::bench

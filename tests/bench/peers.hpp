@@ -1,0 +1,26 @@
+// What the program is measured against: the same samples by other means.
+#pragma once
+
+#include "peer_block.hpp"
+
+namespace freestand::bench {
+
+// SUNDIALS CVODE, Adams, one sample at a time: root finding for events, stop at every knot of the record.
+class CvodePeer {
+ public:
+  explicit CvodePeer(double tolerance);
+  ~CvodePeer();
+  CvodePeer(const CvodePeer&) = delete;
+  CvodePeer& operator=(const CvodePeer&) = delete;
+  PeerResponse operator()(const Specimen& specimen, const Shaking& shaking);
+
+ private:
+  struct Solver;
+  Solver* solver_;
+};
+
+// Boost.odeint's runge_kutta_dopri5, inlined: one step per knot (shorter where an event cuts it), events located by the
+// Illinois method on its dense output, quiet waits skipped knot by knot.
+PeerResponse odeint_peer(const Specimen& specimen, const Shaking& shaking);
+
+}  // namespace freestand::bench
