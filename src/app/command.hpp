@@ -25,5 +25,6 @@ void add_sweep(CLI::App& parser, Work& work);
 void add_fit(CLI::App& parser, Work& work);
 void add_simulate(CLI::App& parser, Work& work);
 void add_motion(CLI::App& parser, Work& work);
+void add_effects(CLI::App& parser, Work& work);
 
 }  // namespace freestand::app

@@ -1,0 +1,107 @@
+#include "study/effects_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/effects.hpp"
+#include "sampling/distribution.hpp"
+
+namespace freestand::study {
+namespace {
+
+using dynamics::Effect;
+using dynamics::Parameter;
+using sampling::number_text;
+
+constexpr std::size_t text_width = 96;
+
+// Words on lines of at most text_width, under a label in the margin.
+std::string paragraph(const std::string& label, const std::string& text) {
+  if (text.empty()) return "";
+  constexpr std::size_t margin = 12;
+  std::string result = fmt::format("  {:<{}}", label, margin - 2), line;
+  bool first = true;
+  const auto flush = [&] {
+    result += (first ? "" : std::string(margin, ' ')) + line + "\n";
+    first = false;
+    line.clear();
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    if (!line.empty() && line.size() + 1 + end - at > text_width) flush();
+    line += (line.empty() ? "" : " ") + text.substr(at, end - at);
+    at = end + 1;
+  }
+  flush();
+  return result;
+}
+
+std::string bound(double x) { return std::isfinite(x) ? number_text(x) : "inf"; }
+
+std::string parameter_line(const Parameter& p) {
+  std::string text = fmt::format("    {:<14} {:<5} {}{}, {}]", p.name, p.unit, p.lower_open ? "(" : "[", bound(p.lower),
+                                 bound(p.upper));
+  text = fmt::format("{:<42} {}", text, p.summary);
+  if (p.neutral) text += fmt::format("; no effect at {}", bound(*p.neutral));
+  if (p.fallback) text += fmt::format("; {} where a study does not say", number_text(*p.fallback));
+  return text + "\n";
+}
+
+// An entry of a study in the middle of the usual ranges.
+std::string example(const Effect& effect) {
+  std::string text = "{name: " + effect.name;
+  for (const auto& p : effect.parameters) {
+    const double middle = p.low > 0 ? std::sqrt(p.low * p.high) : 0.5 * (p.low + p.high) + 0.25 * (p.high - p.low);
+    text += fmt::format(", {}: {:.2g}", p.name, middle);
+  }
+  return text + "}";
+}
+
+nlohmann::ordered_json number(std::optional<double> x) {
+  if (!x || !std::isfinite(*x)) return nullptr;
+  return *x;
+}
+
+}  // namespace
+
+std::string effects_list() {
+  std::size_t width = 0;
+  for (const auto& effect : effects::all()) width = std::max(width, effect.name.size());
+  std::string text;
+  for (const auto& effect : effects::all()) text += fmt::format("{:<{}}  {}\n", effect.name, width, effect.summary);
+  return text + "\n`freestand effects NAME` tells law, parameters, source and when to suspect it. A law of your own "
+                "goes into\nthe study as a formula: effects: [{name: my_seam, friction: \"mu*(1 + a*sin(2*pi*u/l))\", "
+                "parameters: {a: 0.3, l_m: 0.05}}]\n";
+}
+
+std::string effect_page(const Effect& effect) {
+  std::string text = fmt::format("{}: {}\n", effect.name, effect.summary);
+  text += paragraph("law", effect.law) + "  parameters\n";
+  for (const auto& p : effect.parameters) text += parameter_line(p);
+  text += paragraph("suspect", effect.suspect.empty() ? "" : "it when " + effect.suspect);
+  text += paragraph("twins", effect.twins);
+  if (!effect.excludes.empty()) text += paragraph("not with", fmt::format("{}", fmt::join(effect.excludes, ", ")));
+  return text + paragraph("source", effect.source) + paragraph("study", "effects: [" + example(effect) + "]");
+}
+
+nlohmann::ordered_json effect_json(const Effect& effect) {
+  nlohmann::ordered_json json = {{"name", effect.name},         {"summary", effect.summary}, {"law", effect.law},
+                                 {"source", effect.source},     {"suspect", effect.suspect}, {"twins", effect.twins},
+                                 {"excludes", effect.excludes}, {"example", example(effect)}};
+  json["parameters"] = nlohmann::ordered_json::array();
+  for (const auto& p : effect.parameters)
+    json["parameters"].push_back({{"name", p.name},
+                                  {"unit", p.unit},
+                                  {"summary", p.summary},
+                                  {"lower", number(p.lower)},
+                                  {"upper", number(p.upper)},
+                                  {"neutral", number(p.neutral)},
+                                  {"default", number(p.fallback)},
+                                  {"low", p.low},
+                                  {"high", p.high}});
+  return json;
+}
+
+}  // namespace freestand::study
