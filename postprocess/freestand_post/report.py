@@ -46,7 +46,7 @@ def _content(sweep, history, drawn):
         "fit": _fit_table(sweep, main) if main else None,
         "outcomes": _outcomes(sweep) if sweep else [], "computed": _computed(sweep) if sweep else None,
         "draws": _draws(sweep) if sweep else [], "study": str(sweep.attributes.get("study", "")).strip() if sweep else "",
-        "warnings": _warnings(sweep), "provenance": _provenance(sweep) if sweep else [],
+        "effects": _effects(sweep), "warnings": _warnings(sweep), "provenance": _provenance(sweep) if sweep else [],
     }
 
 
@@ -134,6 +134,18 @@ def _draws(sweep):
         rows.append({"name": words.column(name), "classes": ", ".join(levels[1]) if levels else "",
                      "low": values.min(), "middle": np.median(values), "high": values.max()})
     return rows
+
+
+def _effects(sweep):
+    """The effects that the study's model has: law, source, and each parameter as the study gives it."""
+    try:
+        entries = json.loads(str(sweep.attributes.get("effects", "[]"))) if sweep else []
+    except ValueError:
+        return []
+    for entry in entries:
+        entry["values"] = ", ".join(f"{p['name']} {p['value']}" for p in entry["parameters"])
+        entry["title"] = entry["name"].replace("_", " ")
+    return entries
 
 
 def _warnings(sweep):

@@ -84,6 +84,7 @@ void write_provenance(h5::Group& root, const std::string& format, const Provenan
   root.attribute("format", format);
   root.attribute("study_name", from.study_name);
   root.attribute("study", from.study);
+  root.attribute("effects", from.effects);
   root.attribute("seed", static_cast<std::int64_t>(from.seed));
   root.attribute("samples", from.samples);
   root.attribute("version", from.version);
@@ -106,6 +107,7 @@ Provenance read_provenance(const h5::Group& root, const std::string& format) {
   Provenance from;
   from.study_name = root.text_attribute("study_name");
   from.study = root.text_attribute("study");
+  if (root.has_attribute("effects")) from.effects = root.text_attribute("effects");
   from.seed = static_cast<std::uint64_t>(root.integer_attribute("seed"));
   from.samples = root.integer_attribute("samples");
   from.version = root.text_attribute("version");

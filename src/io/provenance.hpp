@@ -19,6 +19,7 @@ struct Provenance {
   int ranks = 1;
   // Of the study; filled in by who has it.
   std::string study;  // expanded YAML text
+  std::string effects = "[]";  // JSON text: the effects of the study with law, source and parameters
   std::string study_name;
   std::uint64_t seed = 0;
   std::int64_t samples = 0;

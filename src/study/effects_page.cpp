@@ -71,9 +71,10 @@ std::string effects_list() {
   for (const auto& effect : effects::all()) width = std::max(width, effect.name.size());
   std::string text;
   for (const auto& effect : effects::all()) text += fmt::format("{:<{}}  {}\n", effect.name, width, effect.summary);
-  return text + "\n`freestand effects NAME` tells law, parameters, source and when to suspect it. A law of your own "
-                "goes into\nthe study as a formula: effects: [{name: my_seam, friction: \"mu*(1 + a*sin(2*pi*u/l))\", "
-                "parameters: {a: 0.3, l_m: 0.05}}]\n";
+  return text +
+         "\n`freestand effects NAME` tells law, parameters, source and when to suspect it. A law of your own "
+         "goes into\nthe study as a formula: effects: [{name: my_seam, friction: \"mu*(1 + a*sin(2*pi*u/l))\", "
+         "parameters: {a: 0.3, l_m: 0.05}}]\n";
 }
 
 std::string effect_page(const Effect& effect) {
@@ -102,6 +103,26 @@ nlohmann::ordered_json effect_json(const Effect& effect) {
                                   {"low", p.low},
                                   {"high", p.high}});
   return json;
+}
+
+nlohmann::ordered_json effects_json(const Study& study) {
+  auto all = nlohmann::ordered_json::array();
+  for (const EffectPart& part : study.model.effects) {
+    nlohmann::ordered_json entry = {{"name", part.name},
+                                    {"summary", part.effect->summary},
+                                    {"law", part.effect->law},
+                                    {"source", part.effect->source}};
+    entry["parameters"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < part.parameters.size(); ++i) {
+      const Parameter& p = part.effect->parameters[i];
+      entry["parameters"].push_back({{"name", p.name},
+                                     {"unit", part.parameters[i].unit},
+                                     {"summary", p.summary},
+                                     {"value", to_string(part.parameters[i].value)}});
+    }
+    all.push_back(std::move(entry));
+  }
+  return all;
 }
 
 }  // namespace freestand::study

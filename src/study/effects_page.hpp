@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dynamics/effect.hpp"
+#include "study/study.hpp"
 
 namespace freestand::study {
 
@@ -17,5 +18,9 @@ std::string effect_page(const dynamics::Effect&);
 // {name, summary, law, source, suspect, twins, excludes, parameters: [{name, unit, summary, lower, upper, neutral,
 // default, low, high}]}; null where there is no such number.
 nlohmann::ordered_json effect_json(const dynamics::Effect&);
+
+// The effects of a study, for its results: [{name, summary, law, source, parameters: [{name, unit, summary, value}]}];
+// value as the study has it, a number or a distribution.
+nlohmann::ordered_json effects_json(const Study&);
 
 }  // namespace freestand::study

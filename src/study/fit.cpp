@@ -33,6 +33,7 @@ void fit(const parallel::Communicator& world, const std::filesystem::path& folde
   world.on_root([&] {
     io::Provenance provenance = io::provenance_here(command, world.size());
     provenance.study = reader.provenance().study;
+    provenance.effects = reader.provenance().effects;
     provenance.study_name = reader.provenance().study_name;
     provenance.seed = reader.provenance().seed;
     provenance.samples = reader.provenance().samples;

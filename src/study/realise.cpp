@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "dynamics/effect.hpp"
 #include "study/problems.hpp"
 
 namespace freestand::study {
@@ -140,6 +141,13 @@ Realiser::Parts::Parts(const Study& study, MotionSet set)
     draws.emplace_back(study.plan(), quantity);
     columns.push_back({column_name(quantity.name), quantity.unit, quantity.name + " of the study"});
   }
+  for (const auto& part : model.effects)
+    for (std::size_t i = 0; i < part.parameters.size(); ++i) {
+      const std::string& summary = part.effect->parameters[i].summary;
+      const auto column = std::find_if(columns.begin(), columns.end(),
+                                       [&](const Column& c) { return c.name == column_name(part.parameters[i].name); });
+      if (!summary.empty()) column->description = part.name + ": " + summary;
+    }
   for (const auto& source : study.motions) {
     sources.emplace_back(study.plan(), source);
     weights.push_back(source.weight);
@@ -172,7 +180,8 @@ std::vector<EffectUse> Realiser::Parts::effects(const std::vector<double>& value
   std::vector<EffectUse> uses;
   for (const EffectPart& part : model.effects) {
     uses.push_back({part.effect.get(), {}});
-    for (const auto& quantity : part.parameters) uses.back().parameters.push_back(*value(values, quantity.name.c_str()));
+    for (const auto& quantity : part.parameters)
+      uses.back().parameters.push_back(*value(values, quantity.name.c_str()));
   }
   return uses;
 }

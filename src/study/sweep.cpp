@@ -16,6 +16,7 @@
 #include "parallel/schedule.hpp"
 #include "parallel/stop.hpp"
 #include "study/analysis.hpp"
+#include "study/effects_page.hpp"
 #include "study/evaluator.hpp"
 
 namespace freestand::study {
@@ -155,6 +156,7 @@ class Sweep {
     io::SamplesHeader header{io::provenance_here(options_.command, world_.size()), evaluator_.columns(),
                              evaluator_.motions().names(), evaluator_.motions().is_record()};
     header.provenance.study = expanded(study_);
+    header.provenance.effects = effects_json(study_).dump();
     header.provenance.study_name = study_.name;
     header.provenance.seed = study_.seed;
     header.provenance.samples = samples;
