@@ -22,6 +22,7 @@ function(freestand_package NAME)
   target_link_libraries(freestand_pkg_${NAME} INTERFACE ${ARGN})
 endfunction()
 freestand_package(Random123)                 # header only, in the system's include folder
+freestand_package(xsimd)                     # header only, too
 freestand_package(mpi MPI::MPI_C)
 freestand_package(hdf5 hdf5::hdf5 hdf5::hdf5_hl)
 freestand_package(sundials SUNDIALS::arkode SUNDIALS::nvecserial)

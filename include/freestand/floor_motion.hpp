@@ -7,10 +7,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace freestand {
+
+struct MotionTable;
 
 // Shape: n segments, n + 1 knots, degree + 1 coefficients a segment.
 // On segment i, with tau = t - knot_s[i]:  a(t) = sum_k horizontal_mps2[i * (degree + 1) + k] * tau^k   [m/s2].
@@ -26,6 +29,9 @@ struct FloorMotion {
   // move the block. Empty: not indexed, every segment is looked at.
   static constexpr std::size_t run_length = 32;
   std::vector<double> horizontal_run_mps2, vertical_run_mps2;
+  // Integrals and more of the horizontal channel, from index_runs(); null where the motion is not piecewise linear with
+  // a constant step.
+  std::shared_ptr<const MotionTable> table;
 
   std::size_t segments() const { return knot_s.empty() ? 0 : knot_s.size() - 1; }
   double duration_s() const { return knot_s.empty() ? 0.0 : knot_s.back(); }

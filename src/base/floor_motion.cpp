@@ -3,6 +3,8 @@
 #include <freestand/error.hpp>
 #include <freestand/floor_motion.hpp>
 
+#include "base/motion_table.hpp"
+
 namespace freestand {
 namespace {
 
@@ -60,6 +62,7 @@ double vertical_acceleration(const Shaking& shaking, double t) {
 void index_runs(FloorMotion& motion) {
   motion.horizontal_run_mps2 = run_bounds(motion, motion.horizontal_mps2);
   motion.vertical_run_mps2 = run_bounds(motion, motion.vertical_mps2);
+  motion.table = tabulate(motion);
 }
 
 FloorMotion piecewise_linear(std::string name, double dt_s, const std::vector<double>& horizontal_mps2,

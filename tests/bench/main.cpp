@@ -95,7 +95,15 @@ std::vector<Row> rows_of(const Job& job) {
   const auto cvode = [peer = std::make_shared<CvodePeer>(1e-9)](const Specimen& b, const Shaking& s) {
     return answer((*peer)(b, s));
   };
-  return {{&job, "freestand, one by one", one_by_one(scalar), false, {}, {}},
+  const auto packs = [](const Job& all) {
+    std::vector<Response> responses(all.samples());
+    respond_batch(all.specimens, all.shakings, {}, responses);
+    std::vector<Answer> answers(all.samples());
+    std::transform(responses.begin(), responses.end(), answers.begin(), [](const Response& r) { return answer(r); });
+    return answers;
+  };
+  return {{&job, "freestand, packs", packs, false, {}, {}},
+          {&job, "freestand, one by one", one_by_one(scalar), false, {}, {}},
           {&job, "(a) CVODE Adams", one_by_one(cvode), true, {}, {}},
           {&job, "(b) odeint dopri5", one_by_one(odeint), false, {}, {}}};
 }

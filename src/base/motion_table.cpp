@@ -1,0 +1,56 @@
+#include "base/motion_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freestand {
+namespace {
+
+bool constant_step(const FloorMotion& motion) {
+  const double h = motion.knot_s[1];
+  for (std::size_t i = 0; i < motion.knot_s.size(); ++i)
+    if (std::abs(motion.knot_s[i] - static_cast<double>(i) * h) > 1e-12 * motion.duration_s()) return false;
+  return true;
+}
+
+bool continuous(const FloorMotion& motion) {
+  const auto& c = motion.horizontal_mps2;
+  double most = 0;
+  for (std::size_t i = 0; i < motion.segments(); ++i) most = std::max(most, std::abs(c[2 * i]));
+  for (std::size_t i = 0; i + 1 < motion.segments(); ++i) {
+    const double end = c[2 * i] + c[2 * i + 1] * (motion.knot_s[i + 1] - motion.knot_s[i]);
+    if (std::abs(end - c[2 * i + 2]) > 1e-12 * most) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
+  if (motion.degree != 1 || motion.segments() < 1 || !constant_step(motion) || !continuous(motion)) return nullptr;
+  auto table = std::make_shared<MotionTable>();
+  MotionTable& t = *table;
+  const std::size_t n = motion.segments(), all = (n + 1 + table_tail + 31) / 32 * 32;
+  const double h = t.step_s = motion.knot_s[1];
+  t.knots = static_cast<int>(n + 1);
+  for (auto* row : {&t.acceleration, &t.velocity, &t.displacement, &t.margin}) row->assign(all, 0.0);
+  for (std::size_t j = 0; j < n; ++j) t.acceleration[j] = motion.horizontal_mps2[2 * j];
+  t.acceleration[n] = motion.horizontal_mps2[2 * n - 2] + motion.horizontal_mps2[2 * n - 1] * h;
+  for (std::size_t j = 1; j < all; ++j) {
+    const bool moving = j <= n;
+    const double a = moving ? t.acceleration[j - 1] : 0.0, b = moving ? t.acceleration[j] : 0.0;
+    t.velocity[j] = t.velocity[j - 1] + h * (a + b) / 2;
+    t.displacement[j] = t.displacement[j - 1] + h * t.velocity[j - 1] + h * h * (2 * a + b) / 6;
+    t.margin[j] = std::abs(b - a) * h / 8;
+    t.margin[j - 1] = std::max(t.margin[j - 1], t.margin[j]);
+  }
+  t.run_peak.assign(all / table_run + table_tail, 0.0);
+  for (std::size_t j = 0; j < all; ++j)
+    t.run_peak[j / table_run] = std::max(t.run_peak[j / table_run], std::abs(t.acceleration[j]));
+  t.later_peak = t.run_peak;
+  for (std::size_t r = t.later_peak.size() - 1; r-- > 0;)
+    t.later_peak[r] = std::max(t.later_peak[r], t.later_peak[r + 1]);
+  return table;
+}
+
+}  // namespace freestand

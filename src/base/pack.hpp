@@ -1,0 +1,40 @@
+// A pack of doubles: as many as the instruction set of the file that includes this works on at once (2, 4 or 8). The
+// only header that sees xsimd.
+//
+// All operations act lane by lane and round as the scalar ones do; nothing here fuses or reorders, so that a lane has the
+// same bits in a pack of any width.
+#pragma once
+
+#include <cstdint>
+#include <xsimd/xsimd.hpp>
+
+namespace freestand {
+
+using Pack = xsimd::batch<double>;
+using PackMask = Pack::batch_bool_type;
+inline constexpr int pack_lanes = static_cast<int>(Pack::size);
+
+static inline Pack load(const double* p) { return Pack::load_aligned(p); }
+static inline Pack load_any(const double* p) { return Pack::load_unaligned(p); }
+static inline void store(double* p, const Pack& x) { x.store_aligned(p); }
+
+// Bit i: lane i holds.
+static inline unsigned bits(const PackMask& mask) {
+#if defined(__AVX512F__)
+  return static_cast<unsigned>(mask.data);
+#elif defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_pd(mask));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_pd(mask));
+#else
+  unsigned all = 0;
+  for (int i = 0; i < pack_lanes; ++i) all |= static_cast<unsigned>(mask.get(static_cast<std::size_t>(i))) << i;
+  return all;
+#endif
+}
+
+static inline Pack choose(const PackMask& mask, const Pack& yes, const Pack& no) {
+  return xsimd::select(mask, yes, no);
+}
+
+}  // namespace freestand

@@ -1,0 +1,113 @@
+#include "dynamics/batch.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "dynamics/integration.hpp"
+
+namespace freestand::dynamics {
+
+#ifdef FREESTAND_ISA_LEVELS
+namespace v2 {
+extern const BatchKernels kernels;
+}
+namespace v3 {
+extern const BatchKernels kernels;
+}
+namespace v4 {
+extern const BatchKernels kernels;
+}
+#else
+namespace own {
+extern const BatchKernels kernels;
+}
+#endif
+
+namespace {
+
+const BatchKernels* pick() {
+  const char* wanted = std::getenv("FREESTAND_ISA");
+  if (wanted && !std::strcmp(wanted, "scalar")) return nullptr;
+#ifdef FREESTAND_ISA_LEVELS
+  __builtin_cpu_init();
+  const bool has_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  const bool has_v4 = has_v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+                      __builtin_cpu_supports("avx512cd");
+  for (const auto& [kernels, has] : {std::pair{&v4::kernels, has_v4}, std::pair{&v3::kernels, has_v3}})
+    if (has && (!wanted || !std::strcmp(wanted, kernels->name))) return kernels;
+  return &v2::kernels;
+#else
+  return &own::kernels;
+#endif
+}
+
+constexpr double least_tolerance = 1e-10;
+
+// False: no kernel covers it.
+bool covered(const Setup& setup, const Settings& settings, BatchCase& c) {
+  const auto& [specimen, shaking, floor] = setup;
+  if (has_laws(specimen) || !shaking.motion || !shaking.motion->table || shaking.stretch != 1) return false;
+  if (floor.push_mps2 != 0 || (shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty())) return false;
+  if (!admissible(setup, settings) || settings.tolerance < least_tolerance || settings.event_limit < 10000)
+    return false;
+  if (specimen.model != Model::slide && specimen.impact.law != ImpactLaw::housner) return false;
+  const Rig rig(specimen, settings, floor);
+  c = {shaking.motion->table.get(),
+       shaking.scale,
+       rig.right,
+       rig.left,
+       rig.h,
+       rig.k2,
+       rig.mu_s,
+       rig.mu_k,
+       rig.g,
+       rig.impact.factor,
+       rig.rest_rotation,
+       rig.told_rotation,
+       settings.free_vibration_s};
+  return true;
+}
+
+struct Queue {
+  std::vector<BatchCase> cases;
+  std::vector<std::size_t> at;  // which sample each is
+};
+
+}  // namespace
+}  // namespace freestand::dynamics
+
+namespace freestand {
+
+void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking> shakings, const Settings& settings,
+             std::span<Response> responses) {
+  using namespace dynamics;
+  const BatchKernels* kernels = pick();
+  Queue slide;
+  std::vector<std::size_t> single;
+  for (std::size_t i = 0; i < specimens.size(); ++i) {
+    BatchCase c{};
+    if (kernels && specimens[i].model == Model::slide && covered(set_up(specimens[i], shakings[i]), settings, c)) {
+      slide.cases.push_back(c);
+      slide.at.push_back(i);
+    } else {
+      single.push_back(i);
+    }
+  }
+  const auto compute = [&](const Queue& queue, BatchKernel kernel) {
+    std::vector<Response> answers(queue.at.size());
+    std::vector<std::uint8_t> declined(queue.at.size());
+    kernel(queue.cases.data(), queue.at.size(), answers.data(), declined.data());
+    for (std::size_t i = 0; i < queue.at.size(); ++i)
+      if (declined[i])
+        single.push_back(queue.at[i]);
+      else
+        responses[queue.at[i]] = answers[i];
+  };
+  if (kernels) compute(slide, kernels->slide);
+  for (const std::size_t i : single) responses[i] = respond(specimens[i], shakings[i], settings);
+}
+
+}  // namespace freestand

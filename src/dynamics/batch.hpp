@@ -1,0 +1,32 @@
+// Blocks of samples in packs. A kernel is compiled once per instruction set (dynamics/pack/*.cpp, namespaces v2, v3,
+// v4 after the levels of x86-64, or `own`) and picked at run time; FREESTAND_ISA=v2|v3|v4|scalar forces one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <freestand/response.hpp>
+#include <freestand/simulate.hpp>
+
+#include "base/motion_table.hpp"
+
+namespace freestand::dynamics {
+
+// One sample as the kernels read it. Constant friction, no vertical shaking, no dynamic effects, level floor.
+struct BatchCase {
+  const MotionTable* table;
+  double scale;               // of the record
+  double right, left, h, k2;  // [m], [m2]
+  double mu_s, mu_k, g;
+  double factor;  // times Housner's rate
+  double rest_rotation, told_rotation, free_vibration_s;
+};
+
+// Computes `count` samples; sets declined[i] where sample i needs the text for single samples.
+using BatchKernel = void (*)(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined);
+
+struct BatchKernels {
+  const char* name;
+  BatchKernel slide;
+};
+
+}  // namespace freestand::dynamics

@@ -1,0 +1,17 @@
+# The kernels of whole blocks, once per instruction set. A portable build (x86-64-v2) holds three and picks at run time.
+function(freestand_kernels ISA)
+  add_library(freestand_kernels_${ISA} OBJECT ${CMAKE_SOURCE_DIR}/src/dynamics/pack/kernels.cpp)
+  target_include_directories(freestand_kernels_${ISA} PRIVATE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/include)
+  target_compile_definitions(freestand_kernels_${ISA} PRIVATE FREESTAND_ISA=${ISA} FREESTAND_ISA_NAME="${ISA}")
+  target_compile_options(freestand_kernels_${ISA} PRIVATE ${ARGN})
+  target_sources(freestand_dynamics PRIVATE $<TARGET_OBJECTS:freestand_kernels_${ISA}>)
+endfunction()
+
+if(FREESTAND_ARCH STREQUAL "x86-64-v2")
+  target_compile_definitions(freestand_dynamics PRIVATE FREESTAND_ISA_LEVELS)
+  freestand_kernels(v2)
+  freestand_kernels(v3 -march=x86-64-v3)
+  freestand_kernels(v4 -march=x86-64-v4)
+else()
+  freestand_kernels(own)
+endif()

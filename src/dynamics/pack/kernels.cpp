@@ -1,0 +1,10 @@
+// Compiled once per instruction set; everything in it has internal linkage but the one name that it gives out.
+#include "dynamics/batch.hpp"
+#include "dynamics/pack/slide.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+
+extern const BatchKernels kernels;
+const BatchKernels kernels{FREESTAND_ISA_NAME, slide_samples};
+
+}  // namespace freestand::dynamics::FREESTAND_ISA

@@ -1,0 +1,224 @@
+// Blocks of samples in packs against the same samples one by one; and that a sample's answer is its own: to the bit the
+// same in any order, in any company, with any instruction set.
+//
+// Stated tolerance against single samples: 1e-7 m and rad, 1e-6 of the peak acceleration, the same outcome. Samples that
+// a tighter tolerance or a change of the shaking by 1e-9 moves by more than that are sensitive: counted, not compared.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <freestand/simulate.hpp>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "support/random_cases.hpp"
+
+namespace freestand::test {
+namespace {
+
+struct Samples {
+  std::vector<RandomCase> cases;
+  std::vector<Specimen> specimens;
+  std::vector<Shaking> shakings;
+};
+
+Samples random_block(Model model, std::uint64_t seed, std::size_t samples) {
+  CaseFamily family;
+  family.seed = seed;
+  family.one_model = 0;
+  family.vertical = 0;
+  family.coulomb = 0;
+  family.alpha_high = 0.8;
+  Samples block;
+  for (std::size_t i = 0; i < samples; ++i) {
+    block.cases.push_back(random_case(family, i));
+    block.cases.back().specimen.model = model;
+    block.specimens.push_back(block.cases.back().specimen);
+    block.shakings.push_back(block.cases.back().shaking);
+    block.shakings.back().scale *= 1 + 0.01 * static_cast<double>(i % 7);
+  }
+  return block;
+}
+
+std::vector<Response> compute(const Samples& block) {
+  std::vector<Response> responses(block.specimens.size());
+  respond_batch(block.specimens, block.shakings, {}, responses);
+  return responses;
+}
+
+bool same_bits(const Response& a, const Response& b) {
+  const auto same = [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; };
+  return a.outcome == b.outcome && same(a.peak_slip_m, b.peak_slip_m) && same(a.residual_slip_m, b.residual_slip_m) &&
+         same(a.slid_path_m, b.slid_path_m) && same(a.peak_rotation_rad, b.peak_rotation_rad) &&
+         same(a.residual_rotation_rad, b.residual_rotation_rad) &&
+         same(a.peak_acceleration_mps2, b.peak_acceleration_mps2) && a.impacts == b.impacts && a.events == b.events &&
+         same(a.end_time_s, b.end_time_s);
+}
+
+int differing(const std::vector<Response>& a, const std::vector<Response>& b) {
+  int count = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) count += !same_bits(a[i], b[i]);
+  return count;
+}
+
+bool close(const Response& a, const Response& b) {
+  const auto near = [](double x, double y, double limit) {
+    return std::abs(x - y) <= limit * std::max({1.0, std::abs(x), std::abs(y)});
+  };
+  if (a.outcome != b.outcome) return false;
+  if (!near(a.peak_slip_m, b.peak_slip_m, 1e-7) || !near(a.slid_path_m, b.slid_path_m, 1e-7) ||
+      !near(a.residual_slip_m, b.residual_slip_m, 1e-7) ||
+      !near(a.peak_acceleration_mps2, b.peak_acceleration_mps2, 1e-6))
+    return false;
+  if (a.outcome == Outcome::overturned) return true;
+  return near(a.peak_rotation_rad, b.peak_rotation_rad, 1e-7) && near(a.end_time_s, b.end_time_s, 1e-5);
+}
+
+struct Count {
+  int differ = 0, sensitive = 0, flips = 0, events = 0, overturned = 0, still = 0;
+};
+
+Response single(const Samples& samples, std::size_t i, double factor, double tolerance) {
+  Shaking shaking = samples.shakings[i];
+  shaking.scale *= factor;
+  return respond(samples.specimens[i], shaking, {.tolerance = tolerance});
+}
+
+bool sensitive(const Samples& samples, std::size_t i, const Response& expected) {
+  return !close(expected, single(samples, i, 1, 1e-12)) || !close(expected, single(samples, i, 1 + 1e-9, 1e-9)) ||
+         !close(expected, single(samples, i, 1 - 1e-9, 1e-9));
+}
+
+Count compare(const char* label, const Samples& block) {
+  const auto packs = compute(block);
+  Count count;
+  for (std::size_t i = 0; i < packs.size(); ++i) {
+    const Response truth = single(block, i, 1, 1e-9);
+    count.overturned += truth.outcome == Outcome::overturned;
+    count.still += truth.outcome == Outcome::at_rest;
+    if (close(packs[i], truth)) {
+      count.events += packs[i].events != truth.events || packs[i].impacts != truth.impacts;
+      continue;
+    }
+    if (sensitive(block, i, truth)) {
+      ++count.sensitive;
+      continue;
+    }
+    count.flips += packs[i].outcome != truth.outcome;
+    ++count.differ;
+    std::printf("  sample %zu: %s/%s slip %.10f/%.10f rotation %.10f/%.10f acceleration %.8f/%.8f events %d/%d; %s\n",
+                i, name(packs[i].outcome), name(truth.outcome), packs[i].peak_slip_m, truth.peak_slip_m,
+                packs[i].peak_rotation_rad, truth.peak_rotation_rad, packs[i].peak_acceleration_mps2,
+                truth.peak_acceleration_mps2, packs[i].events, truth.events, block.cases[i].text().c_str());
+  }
+  std::printf(
+      "%s: %zu samples, %d still, %d overturned; differ: %d (%d in outcome), %d sensitive, %d in events alone\n", label,
+      packs.size(), count.still, count.overturned, count.differ, count.flips, count.sensitive, count.events);
+  return count;
+}
+
+class Isa {
+ public:
+  explicit Isa(const char* name) { setenv("FREESTAND_ISA", name, 1); }
+  ~Isa() { unsetenv("FREESTAND_ISA"); }
+  Isa(const Isa&) = delete;
+  Isa& operator=(const Isa&) = delete;
+};
+
+class Batch : public testing::TestWithParam<Model> {
+ protected:
+  Samples block(std::size_t samples) const {
+    return random_block(GetParam(), 40 + static_cast<std::uint64_t>(GetParam()), samples);
+  }
+};
+
+TEST_P(Batch, AgreesWithSingleSamples) {
+  const int samples = std::getenv("FREESTAND_LONG_TESTS") ? 10000 : 1000;
+  const Count count = compare("packs", block(static_cast<std::size_t>(samples)));
+  EXPECT_LE(count.differ, samples / 1000);
+  EXPECT_LE(count.sensitive, 0.03 * samples);
+  EXPECT_LE(count.events, 0.05 * samples);
+  EXPECT_LT(count.still, samples / 2);
+}
+
+TEST_P(Batch, SameBitsInAnyOrderAndCompany) {
+  const Samples all = block(300);
+  const auto expected = compute(all);
+  std::vector<std::size_t> order(all.specimens.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t i = 0; i < order.size(); ++i) std::swap(order[i], order[(i * 7919 + 13) % order.size()]);
+  Samples shuffled;
+  for (const std::size_t i : order) {
+    shuffled.specimens.push_back(all.specimens[i]);
+    shuffled.shakings.push_back(all.shakings[i]);
+  }
+  const auto mixed = compute(shuffled);
+  for (std::size_t i = 0; i < order.size(); ++i) EXPECT_TRUE(same_bits(mixed[i], expected[order[i]])) << i;
+  for (const std::size_t count : {1, 2, 3, 5, 8, 13}) {
+    Samples few;
+    few.specimens.assign(all.specimens.begin(), all.specimens.begin() + static_cast<std::ptrdiff_t>(count));
+    few.shakings.assign(all.shakings.begin(), all.shakings.begin() + static_cast<std::ptrdiff_t>(count));
+    const auto responses = compute(few);
+    for (std::size_t i = 0; i < count; ++i) EXPECT_TRUE(same_bits(responses[i], expected[i])) << count << " " << i;
+  }
+}
+
+TEST_P(Batch, SameBitsWithAnyInstructionSet) {
+  const Samples all = block(300);
+  const auto expected = compute(all);
+  for (const char* level : {"v2", "v3", "v4"}) {
+    const Isa forced(level);
+    EXPECT_EQ(differing(compute(all), expected), 0) << level;
+  }
+}
+
+TEST_P(Batch, MirrorsWithTheShaking) {
+  Samples all = block(200);
+  const auto expected = compute(all);
+  for (Shaking& shaking : all.shakings) shaking.scale = -shaking.scale;
+  for (Specimen& specimen : all.specimens) std::swap(specimen.block.left_m, specimen.block.right_m);
+  auto mirrored = compute(all);
+  for (Response& response : mirrored) {
+    response.residual_slip_m = 0 - response.residual_slip_m;
+    response.residual_rotation_rad = 0 - response.residual_rotation_rad;
+  }
+  int wrong = 0;
+  for (std::size_t i = 0; i < mirrored.size(); ++i) {
+    Response same = expected[i];
+    same.residual_slip_m += 0.0;
+    same.residual_rotation_rad += 0.0;
+    mirrored[i].residual_slip_m += 0.0;
+    mirrored[i].residual_rotation_rad += 0.0;
+    wrong += !same_bits(mirrored[i], same);
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Models, Batch, testing::Values(Model::slide, Model::rock, Model::slide_rock), [](const auto& info) {
+      return std::string(info.param == Model::slide ? "Slide" : info.param == Model::rock ? "Rock" : "SlideRock");
+    });
+
+TEST(BatchOfAnything, FallsBackToSingleSamples) {
+  std::vector<RandomCase> cases;
+  std::vector<Specimen> specimens;
+  std::vector<Shaking> shakings;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    cases.push_back(random_case({}, i));
+    specimens.push_back(cases.back().specimen);
+    shakings.push_back(cases.back().shaking);
+  }
+  specimens[7].block.height_m = -1;
+  shakings[8].scale = 0;
+  std::vector<Response> responses(specimens.size());
+  respond_batch(specimens, shakings, {.tolerance = 1e-12}, responses);
+  for (std::size_t i = 0; i < specimens.size(); ++i)
+    EXPECT_TRUE(same_bits(responses[i], respond(specimens[i], shakings[i], {.tolerance = 1e-12}))) << i;
+}
+
+}  // namespace
+}  // namespace freestand::test
