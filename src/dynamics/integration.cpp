@@ -58,9 +58,18 @@ Integration::Integration(const Setup& setup, const Settings& settings_, History*
   state.sides = initial_sides(*rig.laws);
 }
 
+Rig::AtRest Integration::laws_at_rest() const {
+  if (!rig.laws) return {};
+  const LawValues left = law_values(*rig.laws, state, cursor.time(), -1);
+  const LawValues right = law_values(*rig.laws, state, cursor.time(), 1);
+  const bool constant = !rig.laws->uses(Input::t) && !rig.laws->uses(Input::normal) && state.wall == 0;
+  return {std::abs(left.force), std::abs(left.moment), std::fmin(left.factor, right.factor), constant};
+}
+
 void Integration::wait() {
+  const Rig::AtRest rest = laws_at_rest();
   const auto quiet = [&](FloorCursor::Bound bound) {
-    return !recorder.wanted() && !peaks.may_exceed(bound.a, bound.v) && rig.stays_put(bound.a, bound.v);
+    return !recorder.wanted() && !peaks.may_exceed(bound.a, bound.v) && rig.stays_put(bound.a, bound.v, rest);
   };
   while (!cursor.motion_over()) {
     if (cursor.run_starts_here() && quiet(cursor.run_bound())) {

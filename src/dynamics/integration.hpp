@@ -82,6 +82,7 @@ class Integration {
   void reach_wall();
   void keep_contents_velocity(double speed_before);
   void stop_slip();
+  Rig::AtRest laws_at_rest() const;
   bool strikes_too() const;
   bool settles() const;  // at rest, for so long that nothing on it can move it any more
 

@@ -241,9 +241,12 @@ class LawStep {
   double acceleration_ = 0, deflection_rate_ = 0;
 };
 
-// F in a blow: the weight as normal force, and the slip speed and path that the state has.
-inline double friction_factor(const Laws& laws, const State& state, double time, int sigma) {
-  if (laws.friction < 0) return 1;
+// The laws at one instant, the weight as normal force and |w| as slip speed: in a blow, and at rest.
+struct LawValues {
+  double force = 0, moment = 0, factor = 1;
+};
+
+inline LawValues law_values(const Laws& laws, const State& state, double time, int sigma) {
   Series<double, 0> values[max_nodes];
   for (int i = 0; i < input_count; ++i) values[i][0] = 0;
   const auto set = [&](Input input, double x) { values[static_cast<int>(input)][0] = x; };
@@ -258,7 +261,8 @@ inline double friction_factor(const Laws& laws, const State& state, double time,
   set(Input::sigma, sigma);
   set(Input::speed, std::abs(state.w));
   laws.tape.advance(input_count, laws.friction_end, 0, state.sides, values);
-  return values[laws.friction][0];
+  const auto value = [&](int node, double without) { return node < 0 ? without : values[node][0]; };
+  return {value(laws.force, 0), value(laws.moment, 0), value(laws.friction, 1)};
 }
 
 }  // namespace freestand::dynamics

@@ -14,6 +14,23 @@ struct LawFlight : Flight<double, N> {
   Series<double, N> kink[max_kinks];
 };
 
+// Height of a corner over the floor, in the very terms of its state in contact: at take-off it and its rate are zero.
+template <int N>
+Series<double, N> turning_gap(const LawFlight<N>& f, double c, double h) {
+  Series<double, N> rx, ry, gap;
+  const double sine = std::sin(f.theta[0]), cosine = std::cos(f.theta[0]);
+  rx[0] = h * sine - c * cosine;
+  ry[0] = c * sine + h * cosine;
+  gap[0] = f.y[0] - ry[0];
+  for (int k = 0; k < N; ++k) {
+    const double over = 1.0 / (k + 1);
+    rx[k + 1] = product(ry, f.omega, k) * over;
+    ry[k + 1] = -product(rx, f.omega, k) * over;
+    gap[k + 1] = f.y[k + 1] - ry[k + 1];
+  }
+  return gap;
+}
+
 template <int N>
 LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, const Floor<double, N>& floor) {
   const Laws& laws = *rig.laws;
@@ -59,10 +76,8 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     sine[k + 1] = product(cosine, f.omega, k) * over;
     cosine[k + 1] = -product(sine, f.omega, k) * over;
   }
-  for (int k = 0; k <= N; ++k) {
-    f.gap_right[k] = f.y[k] - (rig.right * sine[k] + h * cosine[k]);
-    f.gap_left[k] = f.y[k] - (-rig.left * sine[k] + h * cosine[k]);
-  }
+  f.gap_right = turning_gap(f, rig.right, h);
+  f.gap_left = turning_gap(f, -rig.left, h);
   for (int i = 0; i < max_states; ++i)
     f.states[i] = i < laws.states ? value(Input::state, i) : Series<double, N>::zero();
   for (int j = 0; j < laws.tape.kink_count(); ++j) {

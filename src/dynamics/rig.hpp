@@ -46,11 +46,16 @@ struct Rig {
     if (has_laws(specimen)) laws.emplace(specimen);
   }
 
-  // No floor acceleration with |a| <= a_max, |v| <= v_max can move the block from rest. Laws are looked at step by step.
-  bool stays_put(double a_max, double v_max) const {
-    const double weight = g - v_max;
-    return !laws && (!can_slip || a_max < mu_s * weight) &&
-           (!can_rock || h * a_max < (right < left ? right : left) * weight) && weight > 0;
+  // What laws that do not change while the block rests do to it: the largest force and moment, the least friction factor.
+  struct AtRest {
+    double force = 0, moment = 0, factor = 1;
+    bool constant = true;
+  };
+  // No floor acceleration with |a| <= a_max, |v| <= v_max can move the block from rest.
+  bool stays_put(double a_max, double v_max, const AtRest& rest) const {
+    const double weight = g - v_max, push_max = carried_mass() * a_max + rest.force;
+    return rest.constant && (!can_slip || push_max < mu_s * rest.factor * weight) &&
+           (!can_rock || h * push_max + rest.moment < (right < left ? right : left) * weight) && weight > 0;
   }
 
   double offset(int pivot) const { return pivot > 0 ? right : -left; }

@@ -6,14 +6,14 @@ Tape::Tape() {
   for (int i = 0; i < input_count; ++i) depends_[at(i)] = 1U << i;
 }
 
-Value Tape::append(Op op, int a, int b, double value) {
+Value Tape::append(Op op, int a, int b, double value, double shift) {
   const bool kink = op == Op::abs || op == Op::positive || op == Op::step;
   if (size_ == max_nodes || (kink && kink_count_ == max_kinks)) {
     overflow_ = true;
     return {this, 0};
   }
   const int node = size_++;
-  nodes_[at(node)] = {op, static_cast<std::int16_t>(a), static_cast<std::int16_t>(b), value};
+  nodes_[at(node)] = {op, static_cast<std::int16_t>(a), static_cast<std::int16_t>(b), value, shift};
   const bool binary = op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide;
   depends_[at(node)] = op == Op::constant ? 0 : depends_[at(a)] | (binary ? depends_[at(b)] : 0);
   if (kink) {
@@ -31,25 +31,55 @@ Value Tape::append_circular(Op op, int a) {
   return overflow_ ? Value{this, 0} : Value{this, op == Op::sin ? first : first + 1};
 }
 
+Value Tape::affine(Value x, double factor, double shift) {
+  const Node* of = node(x);
+  if (of && of->op == Op::constant) return constant(factor * of->value + shift);
+  if (of && of->op == Op::affine) return append(Op::affine, of->a, 0, factor * of->value, factor * of->shift + shift);
+  return append(Op::affine, x.node, 0, factor, shift);
+}
+
 namespace {
-Value constant(Value like, double value) { return like.tape->constant(value); }
+
+Value affine(Value x, double factor, double shift) { return x.tape->affine(x, factor, shift); }
 Value binary(Op op, Value a, Value b) { return a.tape->append(op, a.node, b.node); }
 Value unary(Op op, Value x) { return x.tape->append(op, x.node, 0); }
+
+// Null unless x is a constant.
+const double* constant(Value x) {
+  const Node* node = x.tape->node(x);
+  return node && node->op == Op::constant ? &node->value : nullptr;
+}
+
 }  // namespace
 
-Value operator+(Value a, Value b) { return binary(Op::add, a, b); }
-Value operator+(Value a, double b) { return a + constant(a, b); }
-Value operator+(double a, Value b) { return constant(b, a) + b; }
-Value operator-(Value a) { return 0.0 - a; }
-Value operator-(Value a, Value b) { return binary(Op::subtract, a, b); }
-Value operator-(Value a, double b) { return a - constant(a, b); }
-Value operator-(double a, Value b) { return constant(b, a) - b; }
-Value operator*(Value a, Value b) { return binary(Op::multiply, a, b); }
-Value operator*(Value a, double b) { return a * constant(a, b); }
-Value operator*(double a, Value b) { return constant(b, a) * b; }
-Value operator/(Value a, Value b) { return binary(Op::divide, a, b); }
-Value operator/(Value a, double b) { return a / constant(a, b); }
-Value operator/(double a, Value b) { return constant(b, a) / b; }
+Value operator+(Value a, Value b) {
+  if (const double* c = constant(a)) return b + *c;
+  if (const double* c = constant(b)) return a + *c;
+  return binary(Op::add, a, b);
+}
+Value operator+(Value a, double b) { return affine(a, 1, b); }
+Value operator+(double a, Value b) { return affine(b, 1, a); }
+Value operator-(Value a) { return affine(a, -1, 0); }
+Value operator-(Value a, Value b) {
+  if (const double* c = constant(a)) return *c - b;
+  if (const double* c = constant(b)) return a - *c;
+  return binary(Op::subtract, a, b);
+}
+Value operator-(Value a, double b) { return affine(a, 1, -b); }
+Value operator-(double a, Value b) { return affine(b, -1, a); }
+Value operator*(Value a, Value b) {
+  if (const double* c = constant(a)) return b * *c;
+  if (const double* c = constant(b)) return a * *c;
+  return binary(Op::multiply, a, b);
+}
+Value operator*(Value a, double b) { return affine(a, b, 0); }
+Value operator*(double a, Value b) { return affine(b, a, 0); }
+Value operator/(Value a, Value b) {
+  if (const double* c = constant(b)) return a / *c;
+  return binary(Op::divide, a, b);
+}
+Value operator/(Value a, double b) { return affine(a, 1 / b, 0); }
+Value operator/(double a, Value b) { return a * pow(b, -1.0); }
 Value exp(Value x) { return unary(Op::exp, x); }
 Value log(Value x) { return unary(Op::log, x); }
 Value sqrt(Value x) { return unary(Op::sqrt, x); }
@@ -68,9 +98,9 @@ Value pow(Value x, double exponent) {
   if (whole > 0 && whole <= 8 && whole == std::floor(whole)) {
     Value result = x;
     for (int i = 1; i < static_cast<int>(whole); ++i) result = result * x;
-    return exponent > 0 ? result : 1.0 / result;
+    return exponent > 0 ? result : binary(Op::divide, x.tape->constant(1), result);
   }
-  if (exponent == 0) return constant(x, 1.0);
+  if (exponent == 0) return x.tape->constant(1);
   return x.tape->append(Op::power, x.node, 0, exponent);
 }
 

@@ -41,6 +41,7 @@ inline constexpr int max_kinks = 16;
 
 enum class Op : std::uint8_t {
   constant,
+  affine,
   add,
   subtract,
   multiply,
@@ -59,7 +60,8 @@ enum class Op : std::uint8_t {
 struct Node {
   Op op;
   std::int16_t a, b;  // operands; power: exponent in `value`; sin and cos: b is the partner
-  double value;       // of a constant; of an exponent
+  double value;       // of a constant; of an exponent; affine: value * a + shift
+  double shift;
 };
 
 class Tape;
@@ -74,7 +76,10 @@ class Tape {
  public:
   Value input(Input which, int offset = 0) { return {this, static_cast<int>(which) + offset}; }
   Value constant(double value) { return append(Op::constant, 0, 0, value); }
-  Value append(Op op, int a, int b, double value = 0);
+  Value append(Op op, int a, int b, double value = 0, double shift = 0);
+  // factor * x + shift; of constants and of other such values, again one node.
+  Value affine(Value x, double factor, double shift);
+  const Node* node(Value x) const { return x.node < input_count ? nullptr : &nodes_[at(x.node)]; }
   Value append_circular(Op op, int a);  // sin or cos
 
   int size() const { return size_; }
@@ -142,6 +147,9 @@ void Tape::advance(int from, int to, int k, std::uint32_t sides, Series<double, 
     switch (node.op) {
       case Op::constant:
         z[k] = k == 0 ? node.value : 0.0;
+        break;
+      case Op::affine:
+        z[k] = node.value * x[k] + (k == 0 ? node.shift : 0.0);
         break;
       case Op::add:
         z[k] = x[k] + y[k];
