@@ -51,8 +51,19 @@ struct Impact {
   double factor = 1.0;  // times Housner's rate, in [0, 1]; `coulomb` takes no factor
 };
 
-// What the block may do: only slide (never tips), only rock (never slips), or both.
-enum class Model { slide, rock, slide_rock };
+// What the block may do: only slide (never tips), only rock (never slips), or both; or only slide, on an elastoplastic
+// contact.
+enum class Model { slide, rock, slide_rock, bouc_wen };
+
+// Elastoplastic contact of model bouc_wen  [KM05 6.27-6.30]:
+//   u_y z' + gamma |u'| z |z|^(n-1) + beta u' |z|^n - u' = 0,   u'' + mu_k g' z = -a;   mu_s plays no part.
+// |beta| <= gamma: other contacts would make energy. beta + gamma = 1 makes mu_k the strength; else |z| goes up to
+// (beta + gamma)^(-1/n).
+struct BoucWen {
+  double yield_displacement_m = 0.00254;  // u_y, > 0; the report's values lie between 1e-5 in and 0.1 in
+  double exponent = 2;                    // n, >= 1: how sharply the contact yields
+  double gamma = 0.5, beta = 0.5;         // with gamma = beta it unloads along a straight line
+};
 
 // An effect that acts on the specimen: its declaration (kept elsewhere for the life of the program or of the study) and
 // the values of its parameters, in the order of the declaration.
@@ -67,6 +78,7 @@ struct Specimen {
   Impact impact;
   Model model = Model::slide_rock;
   std::vector<EffectUse> effects = {};
+  BoucWen bouc_wen = {};  // of model bouc_wen
 };
 
 }  // namespace freestand

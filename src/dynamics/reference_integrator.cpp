@@ -16,6 +16,7 @@
 #include <freestand/error.hpp>
 #include <memory>
 
+#include "dynamics/bouc_wen.hpp"
 #include "dynamics/integration.hpp"
 
 namespace freestand {
@@ -365,6 +366,7 @@ class ReferenceIntegrator {
 Response respond_reference(const Specimen& specimen, const Shaking& shaking, const Settings& settings,
                            History* history) {
   const dynamics::Setup setup = dynamics::set_up(specimen, shaking);
+  if (specimen.model == Model::bouc_wen) return dynamics::respond_bouc_wen_reference(setup, settings, history);
   if (!dynamics::admissible(setup, settings)) return Response{.outcome = Outcome::not_finite};
   return dynamics::ReferenceIntegrator(setup, settings, history).run();
 }

@@ -1,0 +1,163 @@
+#include "dynamics/bouc_wen_life.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/units.hpp"
+#include "dynamics/bouc_wen_ring.hpp"
+
+namespace freestand::dynamics {
+
+BoucWenContact bouc_wen_contact(double mu, const BoucWen& law, double tolerance) {
+  const double n = law.exponent, sum = law.gamma + law.beta;
+  const double strongest = std::pow(sum, -1 / n);  // z_u
+  BoucWenContact contact{};
+  contact.yield = law.yield_displacement_m * strongest;
+  contact.strength = mu * strongest;
+  contact.n = n;
+  contact.kappa = (law.beta - law.gamma) / sum;
+  const double negligible = 0.1 * tolerance;
+  contact.linear = std::min(0.5, std::pow(negligible * (n + 1) / std::max(1.0, -contact.kappa), 1 / (n + 1)));
+  contact.saturated = negligible;
+  contact.sliding = std::pow(0.5, 1 / n);
+  return contact;
+}
+
+BoucWenLife::BoucWenLife(const Setup& setup, const Settings& settings_, History* history)
+    : settings(settings_),
+      shaking(setup.shaking),
+      gravity(standard_gravity_mps2 * setup.floor.gravity_factor),
+      push(setup.floor.push_mps2),
+      vertical(shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty()),
+      contact(bouc_wen_contact(setup.specimen.friction.mu_k, setup.specimen.bouc_wen, settings.tolerance)),
+      cursor(shaking, gravity, push),
+      history_(history) {
+  if (history_) history_->points.clear(), history_->events.clear();
+  if (cursor.motion_over() && push == 0) finish(Outcome::moved);
+}
+
+double BoucWenLife::time_left() const {
+  if (!cursor.motion_over()) return cursor.left();
+  return std::max(0.0, shaking.duration_s() + settings.free_vibration_s - cursor.time());
+}
+
+void BoucWenLife::set_out(int towards) {
+  direction = towards;
+  const double along = direction * zeta;
+  if (std::abs(zeta) <= contact.linear) {
+    phase = ContactPhase::elastic;
+  } else if (along < 0) {
+    phase = contact.kappa < 0 ? ContactPhase::returning : ContactPhase::elastic;
+  } else {
+    phase = along < 1 ? ContactPhase::yielding : ContactPhase::sliding;
+    if (along > contact.sliding) begin_slide(cursor.time());
+  }
+  q = contact.q(zeta);
+}
+
+void BoucWenLife::pass() {
+  phase = phase == ContactPhase::elastic ? ContactPhase::yielding : ContactPhase::elastic;
+  q = contact.q(zeta);
+}
+
+void BoucWenLife::saturate() {
+  const double all = displacement();
+  zeta = direction;
+  slip = all - contact.yield * zeta;
+  phase = ContactPhase::sliding;
+}
+
+void BoucWenLife::turn() {
+  v = 0;
+  direction = 0;
+  response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(displacement()));
+  if (!vertical) observe_acceleration(contact.strength * gravity * zeta, 0);
+  if (slides_) event(cursor.time(), Mode::slide, Mode::rest);
+  if (++turns_ > 20L * settings.event_limit) finish(Outcome::step_limit);
+  if (finished_ || !cursor.motion_over() || push != 0 || contact.strength == 0) return;
+  if (can_ring_out(contact, contact.q(zeta))) ring();
+}
+
+// All that follows is symmetric: the swings begin against the side on which the block turned.
+void BoucWenLife::ring() {
+  const RingOut out = ring_out(contact, std::abs(zeta));
+  const double towards = zeta > 0 ? -1 : 1;
+  response_.slid_path_m += out.path_m;
+  for (const double u : {slip + towards * out.reach_m, slip - towards * out.second_reach_m})
+    response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(u));
+  slip += towards * out.slip_m;
+  zeta = 0;
+  finish(Outcome::moved);
+}
+
+void BoucWenLife::stand() {
+  const double a = contact.strength * zeta;
+  const double length = time_left();
+  if (vertical && !cursor.motion_over()) {
+    const auto floor = cursor.local<max_floor_degree>();
+    BoucWenArc<max_floor_degree> still{};
+    still.zeta[0] = zeta;
+    direction = 1;
+    phase = ContactPhase::elastic;
+    arrive(still, floor, length);
+    direction = 0;
+  } else {
+    const double start = cursor.time();
+    record(std::min(length, shaking.duration_s() - start), [&](double t) {
+      return HistoryPoint{start + t, horizontal_acceleration(shaking, start + t) + push, displacement(), 0, 0, 0,
+                          Mode::rest};
+    });
+    if (!vertical) observe_acceleration(a * gravity, 0);
+  }
+  if (cursor.motion_over()) return finish(Outcome::moved);
+  next_segment();
+}
+
+void BoucWenLife::next_segment() {
+  cursor.next_segment();
+  if (cursor.motion_over() && v == 0 && zeta == 0 && push == 0) finish(Outcome::moved);
+}
+
+double BoucWenLife::next_output() const {
+  if (!history_ || !(history_->step_s > 0)) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(points_) * history_->step_s - cursor.time();
+}
+
+void BoucWenLife::begin_slide(double time) {
+  if (!slides_) event(time, Mode::rest, Mode::slide);
+}
+
+void BoucWenLife::event(double time, Mode from, Mode to) {
+  slides_ = to == Mode::slide;
+  moved_ = true;
+  if (++response_.events >= settings.event_limit) finish(Outcome::step_limit);
+  if (history_) history_->events.push_back({time, from, to, 0, false});
+}
+
+void BoucWenLife::observe_acceleration(double horizontal, double lift) {
+  response_.peak_acceleration_mps2 =
+      std::max(response_.peak_acceleration_mps2, std::sqrt(horizontal * horizontal + lift * lift));
+}
+
+void BoucWenLife::check() {
+  if (!std::isfinite(slip) || !std::isfinite(zeta) || !std::isfinite(v)) return finish(Outcome::not_finite);
+  if (cursor.motion_over() && cursor.time() >= shaking.duration_s() + settings.free_vibration_s) finish(Outcome::moved);
+}
+
+void BoucWenLife::finish(Outcome failure) {
+  if (finished_) return;
+  finished_ = true;
+  failure_ = failure;
+  response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(displacement()));
+  if (!vertical) observe_acceleration(contact.strength * gravity * zeta, 0);
+}
+
+Response BoucWenLife::result() {
+  response_.outcome = failure_ != Outcome::moved ? failure_ : moved_ ? Outcome::moved : Outcome::at_rest;
+  response_.residual_slip_m = displacement();
+  response_.end_time_s = cursor.time();
+  return response_;
+}
+
+}  // namespace freestand::dynamics

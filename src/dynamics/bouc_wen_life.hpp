@@ -1,0 +1,123 @@
+// The life of one sample on a Bouc-Wen contact, from turn to turn: what both scalar integrators share. They differ in
+// how they move between events.
+#pragma once
+
+#include <freestand/simulate.hpp>
+
+#include "dynamics/bouc_wen_contact.hpp"
+#include "dynamics/floor_cursor.hpp"
+#include "dynamics/laws.hpp"
+#include "dynamics/roots.hpp"
+
+namespace freestand::dynamics {
+
+class BoucWenLife {
+ public:
+  BoucWenLife(const Setup& setup, const Settings& settings, History* history);
+
+  const Settings settings;
+  const Shaking shaking;
+  const double gravity, push;  // across and along the floor [m/s2]
+  const bool vertical;
+  const BoucWenContact contact;
+  FloorCursor cursor;
+
+  // The state. Signs: positive to the right.
+  double slip = 0;         // u_p [m]
+  double zeta = 0, v = 0;  // [1], [m/s]
+  double q = 0;            // |zeta|^n while yielding or returning
+  int direction = 0;       // of the motion, or of the motion that is about to begin; 0: none
+  ContactPhase phase = ContactPhase::elastic;
+
+  bool finished() const { return finished_; }
+  double displacement() const { return slip + contact.yield * zeta; }
+  double force_zero() const { return 1e-11 * gravity; }  // accelerations below are round-off [m/s2]
+  double time_left() const;                              // to the next knot, or to the end of the sample [s]
+
+  void set_out(int towards);  // v = 0, and the motion begins
+  void pass();                // |zeta| = contact.linear
+  void saturate();            // zeta = 1
+  void turn();                // v = 0
+  void stand();               // nothing moves until the next knot
+  void next_segment();
+
+  // Goes to the instant tau of the arc; history and peaks are taken from the arc.
+  template <int N>
+  void arrive(const BoucWenArc<N>& arc, const Floor<double, N>& floor, double tau);
+
+  Response result();
+
+  // For what moves without an arc.
+  double next_output() const;  // time since now [s]; infinite without a history
+  template <class Point>
+  void record(double tau, Point&& point);  // point(t since now) -> HistoryPoint
+  void observe_acceleration(double horizontal, double lift);
+  void add_path(double length) { response_.slid_path_m += length; }
+  void begin_slide(double time);
+  void check();  // ends the sample when its time is over or its state is no number
+
+ private:
+  void event(double time, Mode from, Mode to);
+  void finish(Outcome failure);
+  void ring();
+
+  History* history_;
+  Response response_;
+  long points_ = 0;
+  long turns_ = 0;
+  bool slides_ = false, moved_ = false, finished_ = false;
+  Outcome failure_ = Outcome::moved;
+};
+
+template <class Point>
+void BoucWenLife::record(double tau, Point&& point) {
+  if (!history_ || !(history_->step_s > 0)) return;
+  const double start = cursor.time();
+  const auto next = [&] { return static_cast<double>(points_) * history_->step_s; };
+  for (; next() < start + tau; ++points_) history_->points.push_back(point(std::fmax(next() - start, 0.0)));
+}
+
+template <int N>
+void BoucWenLife::arrive(const BoucWenArc<N>& arc, const Floor<double, N>& floor, double tau) {
+  const double s = direction;
+  const bool loading = phase == ContactPhase::yielding || phase == ContactPhase::sliding;
+  record(tau, [&](double t) {
+    const double z = arc.zeta.at(t);
+    return HistoryPoint{cursor.time() + t,
+                        floor.a.at(t),
+                        slip + s * (arc.slip.at(t) + contact.yield * z),
+                        s * arc.v.at(t),
+                        0,
+                        0,
+                        loading && z > contact.sliding ? Mode::slide : Mode::rest};
+  });
+  if (vertical) {
+    Series<double, N> square;
+    Series<double, N> hold = Series<double, N>::zero(), lift = floor.g;
+    const bool presses = sign_after(floor.g, {0, force_zero()}) > 0;
+    for (int k = 0; k <= N; ++k) hold[k] = presses ? contact.strength * product(floor.g, arc.zeta, k) : 0.0;
+    if (!presses) lift = Series<double, N>::zero();
+    lift[0] -= gravity;
+    for (int k = 0; k <= N; ++k) square[k] = product(hold, hold, k) + product(lift, lift, k);
+    const double peak = response_.peak_acceleration_mps2;
+    response_.peak_acceleration_mps2 = std::sqrt(max_abs(square, tau, peak * peak));
+  }
+  const double slid = arc.slip.at(tau);
+  response_.slid_path_m += std::fabs(slid);
+  slip += s * slid;
+  const double before = arc.zeta[0], after = arc.zeta.at(tau);
+  zeta = phase == ContactPhase::sliding ? s : s * after;
+  v = s * arc.v.at(tau);
+  if (phase == ContactPhase::yielding && before <= contact.sliding && after > contact.sliding) {
+    double at = tau;
+    Series<double, N> below = scaled(-1.0, arc.zeta);
+    below[0] += contact.sliding;
+    if (history_) first_root(below, tau, {0, 0.0}, at);
+    begin_slide(cursor.time() + at);
+  }
+  if (phase == ContactPhase::yielding || phase == ContactPhase::returning) q = contact.q(zeta);
+  cursor.advance(tau);
+  check();
+}
+
+}  // namespace freestand::dynamics
