@@ -31,6 +31,7 @@ struct Response {
   double residual_rotation_rad = 0;
   double peak_acceleration_mps2 =
       0;                  // max of the vector sum of the centre of mass's total acceleration, impacts left out
+  bool connection_failed = false;  // of a chain to the wall
   int impacts = 0;        // rocking impacts and landings
   int events = 0;         // all mode changes and impacts
   double end_time_s = 0;  // when the integration could stop: at rest for good, or overturned

@@ -37,7 +37,7 @@ struct Grip {
 Grip grip(const Rig& rig, const State& state, double time) {
   if (!rig.laws) return {rig};
   if (rig.laws->legs.frequency_radps > 0) return {rig, 0, 0};
-  return {rig, law_values(*rig.laws, state, time, -1).factor, law_values(*rig.laws, state, time, 1).factor};
+  return {rig, law_values(rig, state, time, -1).factor, law_values(rig, state, time, 1).factor};
 }
 
 // The corner keeps its place: angular momentum about it is conserved.

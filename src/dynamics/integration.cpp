@@ -60,9 +60,10 @@ Integration::Integration(const Setup& setup, const Settings& settings_, History*
 
 Rig::AtRest Integration::laws_at_rest() const {
   if (!rig.laws) return {};
-  const LawValues left = law_values(*rig.laws, state, cursor.time(), -1);
-  const LawValues right = law_values(*rig.laws, state, cursor.time(), 1);
-  const bool constant = !rig.laws->uses(Input::t) && !rig.laws->uses(Input::normal) && state.wall == 0;
+  const LawValues left = law_values(rig, state, cursor.time(), -1);
+  const LawValues right = law_values(rig, state, cursor.time(), 1);
+  const bool constant =
+      !rig.laws->uses(Input::t) && state.wall == 0 && (!rig.laws->uses(Input::normal) || shaking.vertical_scale == 0);
   return {std::abs(left.force), std::abs(left.moment), std::fmin(left.factor, right.factor), constant};
 }
 
@@ -223,6 +224,7 @@ Response Integration::result() {
   response.residual_slip_m = slip();
   response.residual_rotation_rad = state.theta;
   response.end_time_s = cursor.time();
+  response.connection_failed = rig.laws && rig.laws->broken(state.sides);
   if (outcome_ == Outcome::at_rest || outcome_ == Outcome::moved || outcome_ == Outcome::overturned)
     recorder.hold(state, response.residual_slip_m, shaking.duration_s(), shaking);
   return response;

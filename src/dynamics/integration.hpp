@@ -57,6 +57,11 @@ class Integration {
   void wait();
   // At rest with nothing that moves on.
   bool waits() const { return state.mode == Mode::rest && !(rig.laws && rig.laws->evolve_at_rest()); }
+  // To the next knot, or after the motion to the end of the time given [s].
+  double left() const {
+    return cursor.motion_over() ? std::fmax(shaking.duration_s() + settings.free_vibration_s - cursor.time(), 0.0)
+                                : cursor.left();
+  }
   // Time goes on: what was special about the last instant is over.
   void left_instant();
   // Applies an event: sets what the event makes exact, strikes or lands where corners meet the floor, chooses the next

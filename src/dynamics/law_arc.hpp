@@ -116,7 +116,7 @@ class LawStep {
     acceleration_ = legs_ ? y_.ax[k] - own_acceleration(k) : 0.0;
     y_.foot[k] = 0;
     deflection_rate_ = legs_ ? y_.w[k] : 0.0;
-    value(Input::normal)[k] = y_.fy[k] / rig_.g;
+    value(Input::normal)[k] = y_.fy[k] / standard_gravity_mps2;
   }
 
   // Acceleration of the centre of mass, the floor's included, that is not w'.
@@ -149,7 +149,7 @@ class LawStep {
       y_.fy[k] = y_.n[k] - product(y_.rx, y_.alpha, k);
     }
     y_.fx[k] = -sigma_mu * product(factor_, y_.fy, k);
-    value(Input::normal)[k] = y_.fy[k] / rig_.g;
+    value(Input::normal)[k] = y_.fy[k] / standard_gravity_mps2;
   }
 
   double factor_from_tape(int k) {
@@ -206,6 +206,7 @@ class LawStep {
       for (int k = 0; k < N; ++k) y_.kink[j][k] = side * argument[k];
       y_.kink[j][N] = 0;
       if (state_.turned_kink == j) y_.kink[j][0] = 0;
+      if (laws_.tape.latched(j, state_.sides)) y_.kink[j] = Series<double, N>::zero();
     }
   }
 
@@ -241,12 +242,13 @@ class LawStep {
   double acceleration_ = 0, deflection_rate_ = 0;
 };
 
-// The laws at one instant, the weight as normal force and |w| as slip speed: in a blow, and at rest.
+// The laws at one instant, the weight on a still floor as normal force and |w| as slip speed: in a blow, and at rest.
 struct LawValues {
   double force = 0, moment = 0, factor = 1;
 };
 
-inline LawValues law_values(const Laws& laws, const State& state, double time, int sigma) {
+inline LawValues law_values(const Rig& rig, const State& state, double time, int sigma) {
+  const Laws& laws = *rig.laws;
   Series<double, 0> values[max_nodes];
   for (int i = 0; i < input_count; ++i) values[i][0] = 0;
   const auto set = [&](Input input, double x) { values[static_cast<int>(input)][0] = x; };
@@ -256,7 +258,7 @@ inline LawValues law_values(const Laws& laws, const State& state, double time, i
   set(Input::omega, state.omega);
   set(Input::t, time);
   set(Input::path, state.path);
-  set(Input::normal, 1);
+  set(Input::normal, rig.g / standard_gravity_mps2);
   set(Input::side, state.pivot);
   set(Input::sigma, sigma);
   set(Input::speed, std::abs(state.w));

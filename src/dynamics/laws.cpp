@@ -68,6 +68,12 @@ bool Laws::uses(Input input) const {
   return false;
 }
 
+bool Laws::broken(std::uint32_t sides) const {
+  for (int kink = 0; kink < tape.kink_count(); ++kink)
+    if (tape.latched(kink, sides)) return true;
+  return false;
+}
+
 Setup set_up(const Specimen& specimen, const Shaking& shaking) {
   Setup setup{specimen, shaking, {}};
   for (const auto& [effect, parameters] : specimen.effects) {

@@ -28,6 +28,8 @@ struct Laws {
   // States go on moving while the block rests.
   bool evolve_at_rest() const { return states > 0 || legs.frequency_radps > 0; }
   bool uses(Input input) const;
+  // Something has broken.
+  bool broken(std::uint32_t sides) const;
 };
 
 // Specimen and floor as the effects that are no part of the equations of motion leave them.

@@ -7,7 +7,7 @@ Tape::Tape() {
 }
 
 Value Tape::append(Op op, int a, int b, double value, double shift) {
-  const bool kink = op == Op::abs || op == Op::positive || op == Op::step;
+  const bool kink = op == Op::abs || op == Op::positive || op == Op::step || op == Op::latch;
   if (size_ == max_nodes || (kink && kink_count_ == max_kinks)) {
     overflow_ = true;
     return {this, 0};
@@ -89,6 +89,7 @@ Value tanh(Value x) { return 1.0 - 2.0 / (exp(2.0 * x) + 1.0); }
 Value abs(Value x) { return unary(Op::abs, x); }
 Value positive(Value x) { return unary(Op::positive, x); }
 Value step(Value x) { return unary(Op::step, x); }
+Value latch(Value x) { return unary(Op::latch, x); }
 Value max(Value a, Value b) { return b + positive(a - b); }
 Value min(Value a, Value b) { return a - positive(a - b); }
 

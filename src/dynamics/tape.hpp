@@ -54,7 +54,8 @@ enum class Op : std::uint8_t {
   cos,
   abs,
   positive,
-  step
+  step,
+  latch
 };
 
 struct Node {
@@ -89,6 +90,9 @@ class Tape {
   int kink_count() const { return kink_count_; }
   int kink_argument(int kink) const { return nodes_[at(kinks_[at(kink)])].a; }
   int kink_node(int kink) const { return kinks_[at(kink)]; }
+  bool latched(int kink, std::uint32_t sides) const {
+    return (sides >> kink & 1U) && nodes_[at(kinks_[at(kink)])].op == Op::latch;
+  }
 
   // Coefficient k of nodes [from, to). values: one series per node, inputs filled to order k. sides: bit j set when
   // kink j is on its negative side.
@@ -131,6 +135,7 @@ Value tanh(Value x);
 Value abs(Value x);
 Value positive(Value x);  // max(x, 0)
 Value step(Value x);      // 1 where x > 0, else 0
+Value latch(Value x);     // 1 until x has once fallen below 0, then 0 for good: what breaks
 Value max(Value a, Value b);
 Value min(Value a, Value b);
 Value pow(Value x, double exponent);
@@ -196,6 +201,7 @@ void Tape::advance(int from, int to, int k, std::uint32_t sides, Series<double, 
         z[k] = sides >> node.b & 1U ? 0.0 : x[k];
         break;
       case Op::step:
+      case Op::latch:
         z[k] = k > 0 || (sides >> node.b & 1U) ? 0.0 : 1.0;
         break;
     }

@@ -53,7 +53,7 @@ class TaylorIntegrator {
   void fly_on(const Floor<double, N>& floor) {
     with_flight_arc<N>(life_.rig, life_.state, life_.cursor.time(), floor, [&](const auto& flight) {
       const double turn = std::abs(life_.state.omega);
-      const double h = std::min(life_.cursor.left(), turn > 0 ? 0.1 / turn : 0.1);
+      const double h = std::min(life_.left(), turn > 0 ? 0.1 / turn : 0.1);
       FirstEvent first(h);
       for_each_witness(life_.rig, life_.state, flight, first);
       const double tau = first.found().tau;
@@ -92,7 +92,7 @@ class TaylorIntegrator {
   }
 
   double step(double error_at_1p) const {
-    double h = std::min(life_.cursor.left(), 1.0 / p_);
+    double h = std::min(life_.left(), 1.0 / p_);
     if (error_at_1p * std::pow(p_ * h, N) > life_.settings.tolerance)
       h = std::pow(life_.settings.tolerance / error_at_1p, 1.0 / N) / p_;
     return h;

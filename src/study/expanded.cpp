@@ -83,6 +83,15 @@ std::string model_text(const ModelPart& model) {
                      laws[static_cast<int>(model.impact.law)], pair(model.impact.factor), effects_text(model.effects));
 }
 
+std::string chain_text(const std::optional<ChainPart>& chain) {
+  if (!chain) return "";
+  Mapping m;
+  for (const auto& quantity : {chain->slack, chain->stiffness, chain->strength}) m.add(quantity);
+  m.add(chain->height);
+  m.add("side", chain->side > 0 ? "right" : "left");
+  return "chain: " + m.flow() + "\n";
+}
+
 std::string source_text(const MotionSource& source) {
   Mapping m;
   if (source.kind == MotionSource::Kind::pulses) {
@@ -141,7 +150,7 @@ std::string all_but_name(const Study& study) {
     text += fmt::format("samples: {}\n", study.samples);
   text += fmt::format("design: {}\nblock_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", name(study.design),
                       study.block_size, number_text(study.tolerance), number_text(study.free_vibration_s));
-  text += model_text(study.model) + "motions:\n";
+  text += model_text(study.model) + chain_text(study.model.chain) + "motions:\n";
   for (const auto& source : study.motions) text += source_text(source);
   return text + fragility_text(study.fragility);
 }

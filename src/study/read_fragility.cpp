@@ -96,7 +96,8 @@ std::vector<std::string> read_edps(Section& section, const Known& known) {
   std::vector<std::string> edps;
   const YAML::Node* node = section.find("edp");
   if (!node) {
-    for (const auto& edp : known.edps) edps.push_back(edp.name);
+    for (const auto& edp : known.edps)
+      if (edp.by_default) edps.push_back(edp.name);
     return edps;
   }
   const auto names = read_names(*node, section.name("edp"), section.line("edp"), section.problems());

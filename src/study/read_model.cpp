@@ -121,6 +121,23 @@ ImpactPart read_impact(Section& file) {
   return impact;
 }
 
+std::optional<ChainPart> read_chain(Section& file) {
+  const YAML::Node* node = file.find("chain");
+  if (!node) return {};
+  Section section(*node, "chain", file.line("chain"), file.problems());
+  ChainPart chain;
+  chain.slack = section.quantity("chain", "slack_m", range::not_negative, 0);
+  chain.stiffness = section.quantity("chain", "stiffness_npm", range::positive, 0);
+  chain.strength = section.quantity("chain", "strength_n", range::positive, 0);
+  chain.height = section.quantity("chain", "height_m", size_range);
+  chain.side = section.choice("side", {"right", "left"}, 0) == 0 ? 1 : -1;
+  section.finish();
+  if (!node->IsMap()) return {};
+  for (const char* key : {"stiffness_npm", "strength_n"})
+    if (!section.has(key)) missing(section, key, std::string(key) + ", of the chain and its connection");
+  return chain;
+}
+
 }  // namespace
 
 ModelPart read_model(Section& file) {
@@ -130,6 +147,11 @@ ModelPart read_model(Section& file) {
   model.model = read_model_name(file);
   model.impact = read_impact(file);
   model.effects = read_effects(file, model.model);
+  model.chain = read_chain(file);
+  if (model.chain && model.block.mass.line == 0)
+    file.problem("chain",
+                 "chain holds a block whose mass is not given (its stiffness and strength are forces): add "
+                 "block.mass_kg");
   return model;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
-#include "dynamics/effect.hpp"
+#include "dynamics/chain.hpp"
 #include "study/problems.hpp"
 
 namespace freestand::study {
@@ -75,6 +75,10 @@ std::vector<Quantity> model_quantities(const ModelPart& model) {
   add(model.impact.factor);
   for (const auto& effect : model.effects)
     for (const auto& q : effect.parameters) add(q);
+  if (model.chain) {
+    for (const auto& q : {model.chain->slack, model.chain->stiffness, model.chain->strength}) add(q);
+    add(model.chain->height);
+  }
   return all;
 }
 
@@ -119,6 +123,7 @@ struct Realiser::Parts {
   Block block(const std::vector<double>& values) const;
   Friction friction(const std::vector<double>& values) const;
   std::vector<EffectUse> effects(const std::vector<double>& values) const;
+  EffectUse chain(const std::vector<double>& values, const Block& block) const;
   void shake(std::uint64_t sample, Realisation& out) const;
 
   ModelPart model;
@@ -186,6 +191,15 @@ std::vector<EffectUse> Realiser::Parts::effects(const std::vector<double>& value
   return uses;
 }
 
+EffectUse Realiser::Parts::chain(const std::vector<double>& values, const Block& block) const {
+  return dynamics::use({.slack_m = *value(values, "chain.slack_m"),
+                        .stiffness_npm = *value(values, "chain.stiffness_npm"),
+                        .strength_n = *value(values, "chain.strength_n"),
+                        .height_m = value(values, "chain.height_m").value_or(2 * block.height_m),
+                        .side = model.chain->side},
+                       block);
+}
+
 void Realiser::Parts::shake(std::uint64_t sample, Realisation& out) const {
   const std::size_t chosen = sources.size() == 1 ? 0 : sampling::pick(sources.size(), weights, source_stream(sample));
   const Source& source = sources[chosen];
@@ -232,6 +246,7 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
   out.specimen.impact = {parts.model.impact.law, *parts.value(out.draws, "impact.factor")};
   out.specimen.model = parts.model.model;
   out.specimen.effects = parts.effects(out.draws);
+  if (parts.model.chain) out.specimen.effects.push_back(parts.chain(out.draws, out.specimen.block));
   parts.shake(sample, out);
 
   const Block& block = out.specimen.block;

@@ -54,12 +54,20 @@ struct EffectPart {
   std::shared_ptr<const dynamics::Effect> effect = {};
 };
 
+// A chain from the top of the block to the wall behind it; forces in newtons, so that the mass matters.
+struct ChainPart {
+  Quantity slack, stiffness, strength;  // chain.slack_m, chain.stiffness_npm, chain.strength_n
+  std::optional<Quantity> height;       // chain.height_m, the block's height where it is not given
+  int side = 1;                         // +1: holds back what moves to the right
+};
+
 struct ModelPart {
   BlockPart block;
   FrictionPart friction;
   Model model = Model::slide_rock;
   ImpactPart impact;
   std::vector<EffectPart> effects;
+  std::optional<ChainPart> chain;
 };
 
 // One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
@@ -157,6 +165,7 @@ struct KnownEdp {
   std::string name;
   bool binary = false;  // overturned: takes no capacities
   std::vector<double> default_capacities;
+  bool by_default = true;
 };
 struct KnownIntensity {
   std::string name;

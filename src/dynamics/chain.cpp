@@ -1,0 +1,60 @@
+#include "dynamics/chain.hpp"
+
+#include <algorithm>
+
+namespace freestand::dynamics {
+namespace {
+
+enum : std::size_t {
+  stiffness,
+  strength,
+  slack,
+  side,
+  height,
+  half_base,
+  above_centre,
+  offset
+};  // per mass; offset: of the centre of mass from the middle of the base
+
+// Displacement of the chain's point towards the side that is held back, less the slack.
+Value stretch(const At& at, const Parameters& p) {
+  const double s = p[side];
+  return s * (at.u + p[height] * sin(at.theta)) - p[half_base] * (cos(at.theta) - 1.0) - p[slack];
+}
+
+Value pull(const At& at, const Parameters& p) {
+  const Value spring = p[stiffness] * positive(stretch(at, p));
+  return spring * latch(p[strength] - spring);
+}
+
+Value force(const At& at, const Parameters& p) { return -p[side] * pull(at, p); }
+
+// Arm: height of the chain's point over the centre of mass.
+Value moment(const At& at, const Parameters& p) {
+  const double across = -p[side] * p[half_base] - p[offset];
+  return (p[above_centre] * cos(at.theta) - across * sin(at.theta)) * force(at, p);
+}
+
+const Effect& law() {
+  static const Effect effect{.name = "chain",
+                             .summary = "A chain from the block's top to the wall behind it",
+                             .law = "P = k (stretch beyond the slack), until P exceeds the strength",
+                             .source = "[KM05 ch. 9]",
+                             .suspect = "",
+                             .parameters = {},
+                             .force = force,
+                             .moment = moment};
+  return effect;
+}
+
+}  // namespace
+
+EffectUse use(const Chain& chain, const Block& block) {
+  const double middle = 0.5 * (block.right_m - block.left_m);  // from the centre of mass to the middle of the base
+  return {
+      &law(),
+      {chain.stiffness_npm / block.mass_kg, std::min(chain.strength_n / block.mass_kg, 1e300), chain.slack_m,
+       static_cast<double>(chain.side), chain.height_m, block.half_base_m(), chain.height_m - block.height_m, -middle}};
+}
+
+}  // namespace freestand::dynamics

@@ -1,0 +1,120 @@
+// The chain to the wall [KM05 ch. 9], against closed forms of a mass that runs into a spring, and the report's trend.
+#include "dynamics/chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.hpp"
+#include "support/floor_motions.hpp"
+#include "support/solvers.hpp"
+
+namespace freestand {
+namespace {
+
+using test::rectangular_pulse;
+
+constexpr test::Solver both[] = {test::fast_solver, test::reference_solver};
+
+constexpr double mass = 200, stiffness = 4e5, slack = 0.02;
+
+Specimen chained(double mu, double strength_n, Model model = Model::slide) {
+  Specimen specimen{Block::rectangular(0.72, 1.81, mass), {mu, mu}, {}, model};
+  specimen.effects.push_back(dynamics::use(
+      {.slack_m = slack, .stiffness_npm = stiffness, .strength_n = strength_n, .height_m = 1.81, .side = 1},
+      specimen.block));
+  return specimen;
+}
+
+// On ice: the floor jerks to the left for 0.1 s and the block, left behind, runs to the right at v = a t1. Its slack is
+// taken up after the push; then x = (v/W) sin(W t), W^2 = k/m, and it comes back with the same speed.
+TEST(Chain, StopsABlockOnIceAsASpringDoes) {
+  const double a = 1.5, t1 = 0.1, v = a * t1, W = std::sqrt(stiffness / mass);
+  ASSERT_LT(0.5 * a * t1 * t1, slack);
+  const FloorMotion motion = rectangular_pulse(-a, t1);
+  for (const auto& [name, solve] : both) {
+    Settings settings;
+    settings.free_vibration_s = 0.25;
+    settings.tolerance = 1e-12;
+    History history;
+    history.step_s = 0.001;
+    const Response r = solve(chained(0, 1e9), {&motion}, settings, &history);
+    EXPECT_NEAR(r.peak_slip_m, slack + v / W, 1e-9) << name;
+    // The reference looks at the acceleration at the ends of its steps only.
+    EXPECT_NEAR(r.peak_acceleration_mps2, v * W, name == std::string("fast") ? 1e-8 : 1e-3) << name;
+    EXPECT_FALSE(r.connection_failed);
+    EXPECT_NEAR(history.points.at(330).slip_velocity_mps, -v, 1e-9) << name;
+  }
+}
+
+// The connection gives way when k x exceeds its strength: what speed is left follows from the energy.
+TEST(Chain, FailsWhereItsStrengthIsReachedAndHoldsNoMore) {
+  const double a = 1.5, t1 = 0.1, v = a * t1, W = std::sqrt(stiffness / mass);
+  const FloorMotion motion = rectangular_pulse(-a, t1);
+  const double strength = 0.6 * mass * v * W, x = strength / stiffness;
+  const double left = std::sqrt(v * v - W * W * x * x);
+  for (const auto& [name, solve] : both) {
+    Settings settings;
+    settings.free_vibration_s = 0.25;
+    settings.tolerance = 1e-12;
+    History history;
+    history.step_s = 0.001;
+    const Response r = solve(chained(0, strength), {&motion}, settings, &history);
+    EXPECT_TRUE(r.connection_failed) << name;
+    EXPECT_NEAR(history.points.at(330).slip_velocity_mps, left, 1e-9) << name;
+    EXPECT_NEAR(r.peak_acceleration_mps2, strength / mass, name == std::string("fast") ? 1e-8 : 1e-2) << name;
+  }
+}
+
+TEST(Chain, LetsTheBlockMoveTowardsTheWall) {
+  const FloorMotion motion = rectangular_pulse(4, 0.3);
+  for (const auto& [name, solve] : both) {
+    const Response r = solve(chained(0.2, 1e9), {&motion}, {}, nullptr);
+    EXPECT_LT(r.residual_slip_m, 0) << name;
+    EXPECT_NEAR(r.peak_acceleration_mps2, 0.2 * standard_gravity_mps2, 1e-12) << name;
+  }
+}
+
+// A pull at the top turns the block: with friction that a free block slides on without rocking, the chained one rocks.
+TEST(Chain, PullsTheTopBackSoThatTheBlockRocks) {
+  const FloorMotion motion = rectangular_pulse(-6, 0.4);
+  Specimen free = chained(0.2, 1e9, Model::slide_rock);
+  const Specimen held = free;
+  free.effects.clear();
+  for (const auto& [name, solve] : both) {
+    EXPECT_EQ(solve(free, {&motion}, {}, nullptr).peak_rotation_rad, 0) << name;
+    const Response r = solve(held, {&motion}, {}, nullptr);
+    EXPECT_GT(r.peak_rotation_rad, 1e-3) << name;
+  }
+}
+
+TEST(Chain, MirroredMotionAndSideGiveTheMirrorImage) {
+  const FloorMotion motion = rectangular_pulse(-6, 0.4);
+  const Specimen right = chained(0.2, 1e9, Model::slide_rock);
+  Specimen left = right;
+  left.effects = {dynamics::use(
+      {.slack_m = slack, .stiffness_npm = stiffness, .strength_n = 1e9, .height_m = 1.81, .side = -1}, left.block)};
+  const Response a = respond(right, {&motion}), b = respond(left, {&motion, -1});
+  EXPECT_EQ(a.peak_slip_m, b.peak_slip_m);
+  EXPECT_EQ(a.residual_slip_m, -b.residual_slip_m);
+  EXPECT_EQ(a.peak_acceleration_mps2, b.peak_acceleration_mps2);
+}
+
+// The report: 0.43 g free and 3.22 g chained, 0.47 g and 1.57 g. Under pulses that slide the block well beyond its
+// slack, peak equipment acceleration rises several times over.
+TEST(Chain, RaisesPeakEquipmentAccelerationSeveralTimesOver) {
+  const FloorMotion sine = test::one_sine();
+  double least = 100;
+  for (const double period : {0.5, 0.7, 1.0})
+    for (const double peak_g : {0.8, 1.0, 1.2}) {
+      Specimen specimen = chained(0.25, 1e9, Model::slide_rock);
+      const Shaking shaking{&sine, -peak_g * standard_gravity_mps2, period};
+      const double held = respond(specimen, shaking).peak_acceleration_mps2;
+      specimen.effects.clear();
+      least = std::min(least, held / respond(specimen, shaking).peak_acceleration_mps2);
+    }
+  EXPECT_GT(least, 3);
+}
+
+}  // namespace
+}  // namespace freestand
