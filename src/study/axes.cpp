@@ -36,6 +36,8 @@ std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<M
   block_axes(model.block, axes);
   friction_axes(model.friction, axes);
   axes.push_back({"impact.factor", varies(model.impact.factor)});
+  if (const auto& b = model.bouc_wen)
+    for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) axes.push_back({q.name, varies(q)});
   for (const auto& effect : model.effects)
     for (const auto& parameter : effect.parameters) axes.push_back({parameter.name, varies(parameter)});
   const bool several = motions.size() > 1;

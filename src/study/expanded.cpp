@@ -75,12 +75,20 @@ std::string effects_text(const std::vector<EffectPart>& effects) {
   return text;
 }
 
+std::string bouc_wen_text(const std::optional<BoucWenPart>& part) {
+  if (!part) return "";
+  Mapping m;
+  for (const auto& quantity : {part->yield_displacement, part->exponent, part->gamma, part->beta}) m.add(quantity);
+  return fmt::format("bouc_wen: {}\n", m.flow());
+}
+
 std::string model_text(const ModelPart& model) {
-  constexpr const char* models[] = {"slide", "rock", "slide_rock"};
+  constexpr const char* models[] = {"slide", "rock", "slide_rock", "bouc_wen"};
   constexpr const char* laws[] = {"housner", "coulomb"};
-  return fmt::format("block: {}\nfriction: {}\nmodel: {}\nimpact: {{law: {}, {}}}\neffects:{}", block_text(model.block),
-                     friction_text(model.friction), models[static_cast<int>(model.model)],
-                     laws[static_cast<int>(model.impact.law)], pair(model.impact.factor), effects_text(model.effects));
+  return fmt::format("block: {}\nfriction: {}\nmodel: {}\n{}impact: {{law: {}, {}}}\neffects:{}",
+                     block_text(model.block), friction_text(model.friction), models[static_cast<int>(model.model)],
+                     bouc_wen_text(model.bouc_wen), laws[static_cast<int>(model.impact.law)], pair(model.impact.factor),
+                     effects_text(model.effects));
 }
 
 std::string chain_text(const std::optional<ChainPart>& chain) {

@@ -1,6 +1,8 @@
 // block, friction, model, impact, effects.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/units.hpp"
 #include "study/read_parts.hpp"
 
@@ -12,6 +14,11 @@ using sampling::support;
 
 constexpr Range size_range = {.lower = 0, .why = "a size must be above zero"};
 constexpr Range slenderness_range = {.lower = 0, .upper = pi / 2, .why = "a slenderness lies between 0 and pi/2"};
+constexpr Range exponent_range = {.lower = 1,
+                                  .upper = 100,
+                                  .lower_open = false,
+                                  .upper_open = false,
+                                  .why = "it must lie between 1 and 100; a sharper contact is Coulomb's, model slide"};
 constexpr Range ratio_range = {
     .lower = 1, .lower_open = false, .why = "static friction is never below kinetic friction"};
 
@@ -97,12 +104,43 @@ FrictionPart read_friction(Section& file) {
 }
 
 Model read_model_name(Section& file) {
-  const YAML::Node* node = file.find("model");
-  if (node && node->IsScalar() && node->Scalar() == "bouc_wen") {
-    file.problem("model", "model is bouc_wen (this version does not compute it): choose slide, rock or slide_rock");
-    return Model::slide_rock;
+  return static_cast<Model>(file.choice("model", {"slide", "rock", "slide_rock", "bouc_wen"}, 2));
+}
+
+// |beta| <= gamma in every sample. They are drawn independently, so the range of the one bounds the other.
+void check_shape(Section& section, const BoucWenPart& part) {
+  const auto beta = support(part.beta.value), gamma = support(part.gamma.value);
+  if (std::max(beta.upper, -beta.lower) <= gamma.lower && beta.lower + gamma.lower > 0) return;
+  section.problem("beta",
+                  "bouc_wen.beta can be above bouc_wen.gamma, or at or below -gamma (such a contact would make energy, "
+                  "or never yield): choose |beta| <= gamma, beta + gamma > 0");
+}
+
+std::optional<BoucWenPart> read_bouc_wen(Section& file, Model model) {
+  const YAML::Node* node = file.find("bouc_wen");
+  if (!node) {
+    if (model == Model::bouc_wen)
+      file.problem("model",
+                   "bouc_wen is missing (model bouc_wen stands on its contact): add bouc_wen: {yield_displacement_m: "
+                   "..., exponent: ...}");
+    return {};
   }
-  return static_cast<Model>(file.choice("model", {"slide", "rock", "slide_rock"}, 2));
+  Section section(*node, "bouc_wen", file.line("bouc_wen"), file.problems());
+  BoucWenPart part;
+  part.yield_displacement = section.quantity("bouc_wen", "yield_displacement_m", size_range, 1);
+  part.exponent = section.quantity("bouc_wen", "exponent", exponent_range, 1);
+  part.gamma = section.quantity("bouc_wen", "gamma", range::positive, 0.5);
+  part.beta = section.quantity("bouc_wen", "beta", range::any, 0.5);
+  section.finish();
+  if (!node->IsMap()) return {};
+  if (model != Model::bouc_wen)
+    file.problem("bouc_wen",
+                 "bouc_wen is given, and model is another (its contact would not be used): choose model: bouc_wen, or "
+                 "remove it");
+  for (const char* key : {"yield_displacement_m", "exponent"})
+    if (!section.has(key)) missing(section, key, std::string(key) + ", of the contact");
+  check_shape(section, part);
+  return part;
 }
 
 ImpactPart read_impact(Section& file) {
@@ -145,6 +183,7 @@ ModelPart read_model(Section& file) {
   model.block = read_block(file);
   model.friction = read_friction(file);
   model.model = read_model_name(file);
+  model.bouc_wen = read_bouc_wen(file, model.model);
   model.impact = read_impact(file);
   model.effects = read_effects(file, model.model);
   model.chain = read_chain(file);

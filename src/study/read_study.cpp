@@ -86,6 +86,8 @@ void refuse_distributions(const Study& study, Problems& problems) {
   for (const auto& q : {m.friction.mu, m.friction.mu_k, m.friction.mu_s, m.friction.static_ratio}) check(q);
   check(m.block.mass);
   check(m.impact.factor);
+  if (const auto& b = m.bouc_wen)
+    for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) check(q);
   for (const auto& effect : m.effects)
     for (const auto& q : effect.parameters) check(q);
   for (const auto& source : study.motions) {

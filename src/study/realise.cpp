@@ -72,6 +72,8 @@ std::vector<Quantity> model_quantities(const ModelPart& model) {
   add(model.block.mass);
   for (const auto& q : {model.friction.mu, model.friction.mu_k, model.friction.mu_s, model.friction.static_ratio})
     add(q);
+  if (const auto& b = model.bouc_wen)
+    for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) add(q);
   add(model.impact.factor);
   for (const auto& effect : model.effects)
     for (const auto& q : effect.parameters) add(q);
@@ -245,6 +247,10 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
   out.specimen.friction = parts.friction(out.draws);
   out.specimen.impact = {parts.model.impact.law, *parts.value(out.draws, "impact.factor")};
   out.specimen.model = parts.model.model;
+  if (parts.model.bouc_wen)
+    out.specimen.bouc_wen = {*parts.value(out.draws, "bouc_wen.yield_displacement_m"),
+                             *parts.value(out.draws, "bouc_wen.exponent"), *parts.value(out.draws, "bouc_wen.gamma"),
+                             *parts.value(out.draws, "bouc_wen.beta")};
   out.specimen.effects = parts.effects(out.draws);
   if (parts.model.chain) out.specimen.effects.push_back(parts.chain(out.draws, out.specimen.block));
   parts.shake(sample, out);

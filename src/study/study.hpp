@@ -61,10 +61,16 @@ struct ChainPart {
   int side = 1;                         // +1: holds back what moves to the right
 };
 
+// The contact of model bouc_wen.
+struct BoucWenPart {
+  Quantity yield_displacement, exponent, gamma, beta;  // bouc_wen.yield_displacement_m, bouc_wen.exponent ...
+};
+
 struct ModelPart {
   BlockPart block;
   FrictionPart friction;
   Model model = Model::slide_rock;
+  std::optional<BoucWenPart> bouc_wen;  // of model bouc_wen, and only there
   ImpactPart impact;
   std::vector<EffectPart> effects;
   std::optional<ChainPart> chain;
