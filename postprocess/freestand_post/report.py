@@ -46,7 +46,7 @@ def _content(sweep, history, drawn):
         "fit": _fit_table(sweep, main) if main else None,
         "outcomes": _outcomes(sweep) if sweep else [], "computed": _computed(sweep) if sweep else None,
         "draws": _draws(sweep) if sweep else [], "study": str(sweep.attributes.get("study", "")).strip() if sweep else "",
-        "effects": _effects(sweep), "warnings": _warnings(sweep), "provenance": _provenance(sweep) if sweep else [],
+        "accuracy": _accuracy(sweep), "effects": _effects(sweep), "warnings": _warnings(sweep), "provenance": _provenance(sweep) if sweep else [],
     }
 
 
@@ -134,6 +134,17 @@ def _draws(sweep):
         rows.append({"name": words.column(name), "classes": ", ".join(levels[1]) if levels else "",
                      "low": values.min(), "middle": np.median(values), "high": values.max()})
     return rows
+
+
+def _accuracy(sweep):
+    """What a paired run of some samples at a tighter tolerance says of the errors."""
+    found = sweep.summary.get("accuracy") if sweep else None
+    if not found or not found.get("samples_checked"):
+        return None
+    rows = [{**edp, "name": words.with_unit(words.capitalised(words.demand_meaning(name)), edp["unit"])}
+            for name, edp in found["edps"].items()]
+    return {"rows": rows, "checked": found["samples_checked"], "flips": found["outcome_flips"],
+            "upper": words.percent(found["flip_share_upper"]), "tolerance": found["tolerance"], "tighter": found["tighter_tolerance"]}
 
 
 def _effects(sweep):

@@ -82,12 +82,15 @@ def intensity(name, symbol=""):
     return symbol or INTENSITIES.get(name) or (stem.upper() if len(stem) < 4 else stem.replace("_", " "))
 
 
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
 def column(name):
     """Axis label of a draw."""
     if name in DRAWS:
         return DRAWS[name]
     stem, unit = split_unit(name)
-    return with_unit(stem.replace("_", " "), unit)
+    return with_unit(stem.removeprefix("effects_").replace("_", " "), unit)
 
 
 def short_column(name):
@@ -104,7 +107,7 @@ def number(value, digits=2):
     magnitude = math.floor(math.log10(abs(value)))
     if magnitude >= 6 or magnitude < -4:
         mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-        return f"{mantissa}×10^{int(exponent)}".replace("-", "−")
+        return mantissa.replace("-", "−") + "×10" + str(int(exponent)).translate(SUPERSCRIPT)
     decimals = max(0, digits - 1 - magnitude)
     text = f"{value:.{decimals}f}"
     return text.replace("-", "−")

@@ -8,6 +8,7 @@
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
 #include "io/text_files.hpp"
+#include "study/accuracy.hpp"
 
 namespace freestand::app {
 namespace {
@@ -23,7 +24,9 @@ Exit simulate(const Options& options) {
   io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse);
   const study::Simulation result = study::simulate(c, options.reference);
   io::write_text(folder / "history.csv", io::history_csv(result.history));
-  io::write_text(folder / "summary.json", io::json_text(io::response_summary(result.response)));
+  nlohmann::ordered_json summary = io::response_summary(result.response);
+  summary["accuracy"] = study::accuracy_json(c.study.tolerance, result.response, result.tighter);
+  io::write_text(folder / "summary.json", io::json_text(summary));
   io::write_text(folder / "case.yaml", study::expanded(c.study));
   fmt::print("{}: peak slip {:.4g} m, peak rotation {:.4g} rad (alpha {:.4g} rad), {} events; results in {}\n",
              name(result.response.outcome), result.response.peak_slip_m, result.response.peak_rotation_rad,

@@ -20,6 +20,7 @@ struct Provenance {
   // Of the study; filled in by who has it.
   std::string study;  // expanded YAML text
   std::string effects = "[]";  // JSON text: the effects of the study with law, source and parameters
+  std::string accuracy = "{}";  // JSON text: error estimates of the demands (study/accuracy.hpp)
   std::string study_name;
   std::uint64_t seed = 0;
   std::int64_t samples = 0;

@@ -6,6 +6,7 @@
 #include "io/output_folder.hpp"
 #include "io/samples_file.hpp"
 #include "io/text_files.hpp"
+#include "study/accuracy.hpp"
 #include "study/analysis.hpp"
 
 namespace freestand::study {
@@ -34,6 +35,7 @@ void fit(const parallel::Communicator& world, const std::filesystem::path& folde
     io::Provenance provenance = io::provenance_here(command, world.size());
     provenance.study = reader.provenance().study;
     provenance.effects = reader.provenance().effects;
+    provenance.accuracy = reader.provenance().accuracy;
     provenance.study_name = reader.provenance().study_name;
     provenance.seed = reader.provenance().seed;
     provenance.samples = reader.provenance().samples;
@@ -41,6 +43,8 @@ void fit(const parallel::Communicator& world, const std::filesystem::path& folde
     io::write_text(folder / "bins.csv", io::bins_csv(result));
     io::write_text(folder / "surface.csv", io::surface_csv(result));
     nlohmann::ordered_json summary = io::fragility_summary(provenance, result);
+    summary["accuracy"] = nlohmann::ordered_json::parse(provenance.accuracy);
+    for (const auto& warning : accuracy_warnings(summary["accuracy"])) summary["warnings"].push_back(warning);
     if (sweep) summary["timing"] = timing_json(*sweep, world.size());
     summary["files"] = {"samples.h5", "fragility.h5", "bins.csv", "surface.csv", "study.yaml"};
     io::write_text(folder / "summary.json", io::json_text(summary));

@@ -1,5 +1,6 @@
 #include "study/simulate.hpp"
 
+#include "study/accuracy.hpp"
 #include "study/realise.hpp"
 
 namespace freestand::study {
@@ -7,10 +8,13 @@ namespace freestand::study {
 Simulation simulate(const Case& c, bool reference) {
   const Realiser realise(c.study, load_motions(c.study));
   const Realisation sample = realise(0);
-  Simulation out{sample.specimen, {}, {}};
+  Simulation out{sample.specimen, {}, {}, {}};
   out.history.step_s = c.output_step_s;
-  out.response = (reference ? respond_reference : respond)(sample.specimen, sample.shaking,
-                                                           integration_settings(c.study), &out.history);
+  const auto solve = reference ? respond_reference : respond;
+  Settings settings = integration_settings(c.study);
+  out.response = solve(sample.specimen, sample.shaking, settings, &out.history);
+  settings.tolerance = tighter(settings.tolerance);
+  out.tighter = solve(sample.specimen, sample.shaking, settings, nullptr);
   return out;
 }
 

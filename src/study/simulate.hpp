@@ -11,6 +11,7 @@ namespace freestand::study {
 struct Simulation {
   Specimen specimen;
   Response response;
+  Response tighter;  // the same at a hundredth of the tolerance
   History history;
 };
 

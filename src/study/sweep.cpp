@@ -15,6 +15,7 @@
 #include "parallel/progress.hpp"
 #include "parallel/schedule.hpp"
 #include "parallel/stop.hpp"
+#include "study/accuracy.hpp"
 #include "study/analysis.hpp"
 #include "study/effects_page.hpp"
 #include "study/evaluator.hpp"
@@ -153,10 +154,12 @@ class Sweep {
   }
 
   void write(std::int64_t samples) {
+    const Accuracy accuracy = check_accuracy(world_, study_, evaluator_, samples);
     io::SamplesHeader header{io::provenance_here(options_.command, world_.size()), evaluator_.columns(),
                              evaluator_.motions().names(), evaluator_.motions().is_record()};
     header.provenance.study = expanded(study_);
     header.provenance.effects = effects_json(study_).dump();
+    header.provenance.accuracy = world_.broadcast(accuracy_json(accuracy).dump());
     header.provenance.study_name = study_.name;
     header.provenance.seed = study_.seed;
     header.provenance.samples = samples;

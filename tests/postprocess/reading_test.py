@@ -213,7 +213,7 @@ class Model(unittest.TestCase):
 
 class Words(unittest.TestCase):
     def test_numbers(self):
-        expected = {0.0123: "0.012", 12.34: "12", 0: "0", -0.5: "−0.50", 2: "2.0", float("nan"): "–", 1.2e7: "1.2×10^7"}
+        expected = {0.0123: "0.012", 12.34: "12", 0: "0", -0.5: "−0.50", 2: "2.0", float("nan"): "–", 1.2e7: "1.2×10⁷", 3e-9: "3.0×10⁻⁹"}
         for value, text in expected.items():
             self.assertEqual(words.number(value), text)
         self.assertEqual(words.plain(2.0), "2")
