@@ -33,6 +33,27 @@ static inline unsigned bits(const PackMask& mask) {
 #endif
 }
 
+// Lane i: *p[i].
+static inline Pack fetch(const double* const* p) {
+#if defined(__AVX512F__)
+  return _mm512_i64gather_pd(_mm512_load_si512(p), nullptr, 1);
+#else
+  alignas(64) double values[pack_lanes];
+  for (int i = 0; i < pack_lanes; ++i) values[i] = *p[i];
+  return load(values);
+#endif
+}
+
+// ++p[i], where bit i of `lanes` is set.
+static inline void advance(const double** p, unsigned lanes) {
+#if defined(__AVX512F__)
+  const __m512i at = _mm512_load_si512(p);
+  _mm512_store_si512(p, _mm512_mask_add_epi64(at, static_cast<__mmask8>(lanes), at, _mm512_set1_epi64(sizeof(double))));
+#else
+  for (int i = 0; i < pack_lanes; ++i) p[i] += lanes >> i & 1U;
+#endif
+}
+
 static inline Pack choose(const PackMask& mask, const Pack& yes, const Pack& no) {
   return xsimd::select(mask, yes, no);
 }

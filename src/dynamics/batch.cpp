@@ -71,9 +71,56 @@ bool covered(const Setup& setup, const Settings& settings, BatchCase& c) {
   return true;
 }
 
+// What the steps' order must follow: length of a step, times p.
+constexpr double fine_step = 0.03, coarse_step = 0.15;
+
+double step_in_own_time(const BatchCase& c) {
+  const double size = std::hypot(c.h, std::fmin(c.left, c.right));
+  return c.table->step_s * std::sqrt(c.g * size / (c.k2 + size * size));
+}
+
+// Null: one by one.
+BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, const BatchCase& c) {
+  if (specimen.model == Model::slide) return kernels.slide;
+  const double step = step_in_own_time(c);
+  if (specimen.model == Model::rock)
+    return step < fine_step ? kernels.rock : step < coarse_step ? kernels.rock_coarse : nullptr;
+  return nullptr;
+}
+
 struct Queue {
-  std::vector<BatchCase> cases;
-  std::vector<std::size_t> at;  // which sample each is
+  BatchKernel kernel = nullptr;
+  std::vector<BatchCase> cases = {};
+  std::vector<std::size_t> at = {};  // which sample each is
+};
+
+class Queues {
+ public:
+  void add(BatchKernel kernel, const BatchCase& c, std::size_t sample) {
+    Queue* queue = nullptr;
+    for (Queue& other : queues_)
+      if (other.kernel == kernel) queue = &other;
+    if (!queue) queue = &queues_.emplace_back(Queue{kernel});
+    queue->cases.push_back(c);
+    queue->at.push_back(sample);
+  }
+
+  // Samples that a kernel declined are added to `single`.
+  void compute(std::span<Response> responses, std::vector<std::size_t>& single) const {
+    for (const Queue& queue : queues_) {
+      std::vector<Response> answers(queue.at.size());
+      std::vector<std::uint8_t> declined(queue.at.size());
+      queue.kernel(queue.cases.data(), queue.at.size(), answers.data(), declined.data());
+      for (std::size_t i = 0; i < queue.at.size(); ++i)
+        if (declined[i])
+          single.push_back(queue.at[i]);
+        else
+          responses[queue.at[i]] = answers[i];
+    }
+  }
+
+ private:
+  std::vector<Queue> queues_;
 };
 
 }  // namespace
@@ -82,31 +129,20 @@ struct Queue {
 namespace freestand {
 
 void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking> shakings, const Settings& settings,
-             std::span<Response> responses) {
+                   std::span<Response> responses) {
   using namespace dynamics;
   const BatchKernels* kernels = pick();
-  Queue slide;
+  Queues queues;
   std::vector<std::size_t> single;
   for (std::size_t i = 0; i < specimens.size(); ++i) {
     BatchCase c{};
-    if (kernels && specimens[i].model == Model::slide && covered(set_up(specimens[i], shakings[i]), settings, c)) {
-      slide.cases.push_back(c);
-      slide.at.push_back(i);
-    } else {
+    const bool packs = kernels && covered(set_up(specimens[i], shakings[i]), settings, c);
+    if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c) : nullptr)
+      queues.add(kernel, c, i);
+    else
       single.push_back(i);
-    }
   }
-  const auto compute = [&](const Queue& queue, BatchKernel kernel) {
-    std::vector<Response> answers(queue.at.size());
-    std::vector<std::uint8_t> declined(queue.at.size());
-    kernel(queue.cases.data(), queue.at.size(), answers.data(), declined.data());
-    for (std::size_t i = 0; i < queue.at.size(); ++i)
-      if (declined[i])
-        single.push_back(queue.at[i]);
-      else
-        responses[queue.at[i]] = answers[i];
-  };
-  if (kernels) compute(slide, kernels->slide);
+  queues.compute(responses, single);
   for (const std::size_t i : single) responses[i] = respond(specimens[i], shakings[i], settings);
 }
 

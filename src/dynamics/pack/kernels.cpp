@@ -1,10 +1,11 @@
 // Compiled once per instruction set; everything in it has internal linkage but the one name that it gives out.
 #include "dynamics/batch.hpp"
+#include "dynamics/pack/rock.hpp"
 #include "dynamics/pack/slide.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 
 extern const BatchKernels kernels;
-const BatchKernels kernels{FREESTAND_ISA_NAME, slide_samples};
+const BatchKernels kernels{FREESTAND_ISA_NAME, slide_samples, rock_samples<5>, rock_samples<8>};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA

@@ -9,36 +9,10 @@
 
 #include "base/pack.hpp"
 #include "dynamics/batch.hpp"
+#include "dynamics/pack/search.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
-
-inline double larger(double a, double b) { return a < b ? b : a; }
-
-// Bit i: |p[i]| > limit, i = 0 ... 7.
-inline unsigned greater_8(const double* p, const Pack& limit) {
-  unsigned found = 0;
-  for (int i = 0; i < table_run; i += pack_lanes) found |= bits(xsimd::abs(load_any(p + i)) > limit) << i;
-  return found;
-}
-
-// First knot j >= from with |a_j| > limit; t.knots or more: none.
-inline int first_above(const MotionTable& t, int from, double limit) {
-  const Pack bound(limit);
-  const double *a = t.acceleration.data(), *peaks = t.run_peak.data();
-  int run = from / table_run;
-  unsigned found = greater_8(a + run * table_run, bound) >> (from % table_run) << (from % table_run);
-  if (!found) {
-    const int runs = (t.knots + table_run - 1) / table_run;
-    unsigned any = 0;
-    for (++run; run < runs; run += table_run)
-      if ((any = greater_8(peaks + run, bound))) break;
-    if (!any) return t.knots;
-    run += __builtin_ctz(any);
-    found = greater_8(a + run * table_run, bound);
-  }
-  return run * table_run + __builtin_ctz(found);
-}
 
 struct Slip {
   double C, x0, sigma, G;  // w_j = C - V_j - sigma G (j - x0)

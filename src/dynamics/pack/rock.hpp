@@ -1,0 +1,222 @@
+// Pure rocking in packs. Every lane carries its own sample, with its own record, time and parameters; a lane whose
+// sample ends takes the next one.
+//
+// One Taylor step per knot interval (dynamics/pack/rock_series.hpp).
+// Lanes in which something may happen within the interval (impact, turning point near a new peak or near the floor,
+// overturning) stand aside before the step, are gathered, and gone through event by event, again in packs: roots by
+// Newton's method on the polynomials, kept in their brackets.
+#pragma once
+
+#include <cmath>
+
+#include "base/pack.hpp"
+#include "base/units.hpp"
+#include "dynamics/batch.hpp"
+#include "dynamics/pack/rock_lanes.hpp"
+#include "dynamics/pack/rock_series.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+template <int N>
+class RockPool : RockLanes {
+ public:
+  using RockLanes::RockLanes;
+
+  void run() {
+    while (live_ > 0) {
+      if (waiting_ >= pack_lanes || waiting_ == live_)
+        resolve();
+      else
+        march();
+    }
+  }
+
+ private:
+  // One interval for every lane in which nothing happens. The lanes in which something does are seen to after all packs
+  // have gone, so that no pack waits for the branches of another.
+  void march() {
+    if (free_ == 0 && !count_free()) return;
+    --free_;
+    unsigned apart[packs];
+    for (int p = 0; p < packs; ++p) apart[p] = busy_[p] ? march(p) : 0;
+    for (int p = 0; p < packs; ++p)
+      for (unsigned open = apart[p]; open; open &= open - 1) stand_aside(p * pack_lanes + __builtin_ctz(open));
+  }
+
+  // Bits of the lanes that stand aside from now on.
+  unsigned march(int p) {
+    const int first = p * pack_lanes;
+    const Pack left = load(r_.left + first), left2 = left * left, one(1.0);
+    RockSeries<N> y;
+    y.theta[0] = load(r_.theta + first);
+    const Pack rate = load(r_.omega + first);
+    y.omega[0] = rate * left;
+    y.rx[0] = load(r_.rx + first);
+    y.ry[0] = load(r_.ry + first);
+    const Pack a = load(r_.a + first), a_next = fetch(r_.next + first), push = load(r_.push + first) * left2;
+    const Pack gravity = load(r_.gravity + first) * left2;
+    y.expand(gravity, push * a, push * (a_next - a));
+    const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), rx = y.sum(y.rx), ry = y.sum(y.ry);
+
+    const Pack zero(0.0), peak = load(r_.peak + first), side = load(r_.side + first);
+    const Pack reach = xsimd::abs(y.omega[0]) + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
+    const Pack before = side * y.theta[0], after = side * theta, high = xsimd::max(before, after);
+    const PackMask near = xsimd::min(before, after) < reach;
+    const PackMask turns = (y.omega[0] * omega <= zero) & ((high + reach > peak) | near);
+    const PackMask twice = near & turns_twice(y, omega);
+    const PackMask live = load(r_.live + first) > zero;
+    const PackMask event = turns | twice | (after <= zero) | (after >= Pack(0.5 * pi));
+    const PackMask moves = live & ~event;
+
+    const Pack left4 = left2 * left2, seen = load(r_.force2 + first), over = load(r_.over + first), over2 = over * over;
+    const Pack force2 = watch_force(y, load(r_.weight + first) * left2, gravity, push, a, a_next - a,
+                                    {omega, rx, ry, a_next}, one, seen * left4, false) *
+                        (over2 * over2);
+    store(r_.force2 + first, choose(moves, force2, seen));
+    store(r_.peak + first, choose(moves, xsimd::max(peak, high), peak));
+    store(r_.theta + first, choose(moves, theta, y.theta[0]));
+    store(r_.omega + first, choose(moves, omega * over, rate));
+    store(r_.rx + first, choose(moves, rx, y.rx[0]));
+    store(r_.ry + first, choose(moves, ry, y.ry[0]));
+    store(r_.a + first, choose(moves, a_next, a));
+    store(r_.left + first, choose(moves, one, left));
+    store(r_.over + first, choose(moves, one, over));
+    advance(r_.next + first, bits(moves));
+    return bits(live & event);
+  }
+
+  // One round of events for a pack of lanes that stand aside.
+  void resolve() {
+    int slots[pack_lanes];
+    const int count = waiting_ < pack_lanes ? waiting_ : pack_lanes;
+    waiting_ -= count;
+    for (int l = 0; l < pack_lanes; ++l) slots[l] = queue_[waiting_ + (l < count ? l : 0)];
+    const auto gathered = [&](const double* row) {
+      alignas(64) double values[pack_lanes];
+      for (int l = 0; l < pack_lanes; ++l) values[l] = row[slots[l]];
+      return load(values);
+    };
+    alignas(64) double nexts[pack_lanes];
+    for (int l = 0; l < pack_lanes; ++l) nexts[l] = *r_.next[slots[l]];
+    const Pack zero(0.0), one(1.0), left = gathered(r_.left), left2 = left * left;
+    const Pack a = gathered(r_.a), rate = load(nexts) - a, side = gathered(r_.side);
+    const Pack gravity = gathered(r_.gravity) * left2, push = gathered(r_.push) * left2;
+    RockSeries<N> y;
+    y.theta[0] = gathered(r_.theta);
+    y.omega[0] = gathered(r_.omega) * left;
+    y.rx[0] = gathered(r_.rx);
+    y.ry[0] = gathered(r_.ry);
+    y.expand(gravity, push * a, push * rate);
+
+    // Where the angular velocity may turn twice, first to the point between where its rate is zero.
+    Pack last = one, theta_end = y.sum(y.theta), omega_end = y.sum(y.omega);
+    const PackMask twice = turns_twice(y, omega_end);
+    if (bits(twice)) {
+      const Pack rate_end = y.sum(y.rx) * gravity - y.sum(y.ry) * (push * (a + rate));
+      const Pack middle = y.omega[1] / (y.omega[1] - rate_end);
+      last = choose(twice & (middle > zero) & (middle < one), middle, one);
+      theta_end = y.at(y.theta, last);
+      omega_end = y.at(y.omega, last);
+    }
+    const Pack sense = choose((side * y.omega[0] > zero) | (y.omega[0] == zero), side, zero - side);
+    const PackMask turns = sense * omega_end < zero;
+    const Pack guess = last * first_zero(sense * y.omega[0], sense * y.omega[1] * last, sense * omega_end);
+    const Pack turn = choose(turns, bracketed_root<N + 1>(y.omega, sense, zero, last, guess, turns), last);
+    const Pack theta_turn = y.at(y.theta, turn), low_turn = side * theta_turn;
+    const PackMask dips = turns & (low_turn <= zero), rises = sense == side;
+    const PackMask falls = (side * theta_end <= zero) | dips;
+    const Pack from = choose(turns & rises, turn, zero), to = choose(dips, turn, last);
+    const Pack fall = last * first_zero(side * y.theta[0], side * y.omega[0] * last, side * theta_end);
+    const Pack part = choose(falls, bracketed_root<N + 1>(y.theta, side, from, to, fall, falls), last);
+
+    const RockEnd end{y.at(y.omega, part), y.at(y.rx, part), y.at(y.ry, part), a + rate * part};
+    const Pack theta = y.at(y.theta, part);
+    const Pack left4 = left2 * left2, seen = gathered(r_.force2) * left4;
+    const Pack force2 =
+        watch_force(y, gathered(r_.weight) * left2, gravity, push, a, rate, end, part, seen, true) / left4;
+    const Pack highest = xsimd::max(side * y.theta[0], choose(turns & rises, low_turn, side * theta));
+
+    Ends ends;
+    store(ends.theta, theta);
+    store(ends.omega, end.omega / left);
+    store(ends.rx, end.rx);
+    store(ends.ry, end.ry);
+    store(ends.part, part);
+    store(ends.a, end.a);
+    store(ends.force2, force2);
+    store(ends.highest, highest);
+    const unsigned hits = bits(falls);
+    for (int l = 0; l < count; ++l) settle(slots[l], ends, l, hits >> l & 1U);
+  }
+
+  struct Ends {
+    alignas(64) double theta[pack_lanes], omega[pack_lanes], rx[pack_lanes], ry[pack_lanes], part[pack_lanes],
+        a[pack_lanes], force2[pack_lanes], highest[pack_lanes];
+  };
+
+  // What follows for one lane: it goes on from the end of its interval, or from the impact within.
+  void settle(int i, const Ends& ends, int l, bool hits) {
+    Lane& lane = lanes_[i];
+    if (ends.highest[l] >= 0.5 * pi) return overturn(i);
+    if (!(ends.highest[l] < 0.5 * pi)) return decline(i);
+    if (ends.force2[l] > r_.force2[i]) r_.force2[i] = ends.force2[l];
+    r_.peak[i] = larger(r_.peak[i], ends.highest[l]);
+    if (hits) {
+      r_.left[i] -= r_.left[i] * ends.part[l];
+      r_.a[i] = ends.a[l];
+      return strike(i, ends.omega[l]);
+    }
+    r_.theta[i] = ends.theta[l];
+    r_.omega[i] = ends.omega[l];
+    r_.rx[i] = ends.rx[l];
+    r_.ry[i] = ends.ry[l];
+    if (ends.part[l] < 1) {
+      r_.left[i] -= r_.left[i] * ends.part[l];
+      r_.a[i] = ends.a[l];
+    } else {
+      to_next_knot(i);
+    }
+    go_on(i);
+  }
+
+  // Goes through the interval again with bisection: when |theta| = pi/2.
+  void overturn(int i) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    RockSeries<N> y;
+    const double left = r_.left[i], change = *r_.next[i] - r_.a[i];
+    y.theta[0] = Pack(r_.theta[i]);
+    y.omega[0] = Pack(r_.omega[i] * left);
+    y.rx[0] = Pack(r_.rx[i]);
+    y.ry[0] = Pack(r_.ry[i]);
+    const double push = r_.push[i] * left * left;
+    y.expand(Pack(r_.gravity[i] * left * left), Pack(push * r_.a[i]), Pack(push * change));
+    double lo = 0, hi = 1;
+    for (int round = 0; round < 50; ++round) {
+      const double middle = 0.5 * (lo + hi);
+      (r_.side[i] * y.at(y.theta, Pack(middle)).get(0) < 0.5 * pi ? lo : hi) = middle;
+    }
+    const Pack at(hi);
+    const RockEnd end{y.at(y.omega, at), y.at(y.rx, at), y.at(y.ry, at), Pack(r_.a[i] + change * hi)};
+    const double left2 = left * left, left4 = left2 * left2;
+    r_.force2[i] = watch_force(y, Pack(r_.weight[i] * left2), Pack(r_.gravity[i] * left2), Pack(push), Pack(r_.a[i]),
+                               Pack(change), end, at, Pack(r_.force2[i] * left4), true)
+                       .get(0) /
+                   left4;
+    r_.peak[i] = 0.5 * pi;
+    ++lane.events;
+    const double knots = (lane.after ? c.table->knots - 1 : 0) + knot(i) + 1 - left + left * hi;
+    finish(i, Outcome::overturned, c.table->step_s * knots, r_.side[i] * 0.5 * pi);
+    refill(i);
+  }
+};
+
+template <int N>
+void rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
+  RockPool<N> pool(cases, count, responses, declined);
+  pool.run();
+}
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA

@@ -1,0 +1,346 @@
+// The lives of the samples in the slots of a pool that rocks: from rest to rest, sample after sample.
+//
+// A row of ever smaller hops that the floor cannot interrupt any more is taken at once: the block ends at rest.
+#pragma once
+
+#include <cmath>
+
+#include "base/pack.hpp"
+#include "base/units.hpp"
+#include "dynamics/batch.hpp"
+#include "dynamics/pack/search.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+constexpr int rock_slots = 64;
+constexpr int still_knots = 16384;
+alignas(64) const double still_floor[still_knots] = {};  // the floor after the record
+
+// What the lanes are at. Angular velocities are per interval, forces times h^2.
+struct RockRows {
+  alignas(64) double theta[rock_slots], omega[rock_slots], rx[rock_slots], ry[rock_slots];
+  alignas(64) double gravity[rock_slots], push[rock_slots];  // g h^2/J, scale h^2/J
+  alignas(64) double weight[rock_slots];                     // scale h^2
+  alignas(64) double a[rock_slots];                          // unit record, where the lane is
+  alignas(64) double left[rock_slots];                       // part of the interval that lies ahead
+  alignas(64) double over[rock_slots];                       // 1 / left
+  alignas(64) double live[rock_slots];                       // 0: the lane stands aside
+  alignas(64) double side[rock_slots];                       // +1 right corner, -1 left
+  alignas(64) double peak[rock_slots], force2[rock_slots];   // of |theta|; of the squared acceleration
+  alignas(64) const double* next[rock_slots];                // a at the end of the interval
+};
+
+class RockLanes {
+ public:
+  RockLanes(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined)
+      : cases_(cases), count_(count), responses_(responses), declined_(declined) {
+    for (int slot = 0; slot < rock_slots; ++slot) clear(slot);
+    for (int slot = 0; slot < rock_slots; ++slot) refill(slot);
+  }
+
+ protected:
+  // What a lane needs only when something happens.
+  struct Lane {
+    const BatchCase* sample = nullptr;
+    std::size_t number = 0;
+    double done = 0;                    // part of the interval that lies behind, when the lane stands aside
+    double kept = 0;                    // of the rate, at the next impact
+    double hop_here = 0, hop_next = 0;  // rotation of a hop by omega^2, on this corner and on the other
+    int events = 0, impacts = 0;
+    bool after = false;  // the record is over
+  };
+
+  void clear(int i) {
+    r_.theta[i] = r_.omega[i] = r_.rx[i] = r_.gravity[i] = r_.push[i] = r_.weight[i] = r_.a[i] = 0;
+    r_.ry[i] = r_.side[i] = r_.left[i] = r_.over[i] = 1;
+    r_.peak[i] = r_.force2[i] = 1e300;
+    r_.next[i] = still_floor;
+    lanes_[i] = Lane{};
+    r_.live[i] = 0;
+  }
+
+  // Knot at which the lane's interval starts; after the record, counted from its end.
+  int knot(int i) const {
+    const Lane& lane = lanes_[i];
+    return static_cast<int>(r_.next[i] - (lane.after ? still_floor : lane.sample->table->acceleration.data())) - 1;
+  }
+
+  // The next sample that moves takes the slot.
+  void refill(int i) {
+    while (taken_ < count_) {
+      const std::size_t number = taken_++;
+      const BatchCase& c = cases_[number];
+      Lane& lane = lanes_[i];
+      lane = Lane{.sample = &c, .number = number};
+      r_.peak[i] = r_.force2[i] = 0;
+      r_.weight[i] = c.scale * c.table->step_s * c.table->step_s;
+      if (c.scale == 0) {
+        declined_[number] = 1;
+        continue;
+      }
+      ++live_;
+      if (leave_rest(i, 0, 0.0)) return;
+    }
+    clear(i);
+    take_last(i);
+  }
+
+  // No more samples: lanes of the last slots fill the gaps before them, so that few packs are left to march.
+  void take_last(int i) {
+    while (top_ > 0 && !lanes_[top_ - 1].sample) --top_;
+    const int last = top_ - 1;
+    if (last <= i || r_.live[last] == 0 || last / pack_lanes == i / pack_lanes) return;
+    for (double* row : {r_.theta, r_.omega, r_.rx, r_.ry, r_.gravity, r_.push, r_.weight, r_.a, r_.left, r_.over,
+                        r_.side, r_.peak, r_.force2})
+      row[i] = row[last];
+    r_.next[i] = r_.next[last];
+    lanes_[i] = lanes_[last];
+    --busy_[last / pack_lanes];
+    clear(last);
+    go_on(i);
+  }
+
+  double limit(const BatchCase& c, double a) const {  // |a| of the unit record that tips the block
+    return (c.scale * a > 0 ? c.left : c.right) * c.g / (c.h * magnitude(c.scale));
+  }
+
+  // From rest at knot m (or `done` of the interval later): to the start of rocking, or to the sample's end. True: the
+  // lane lives.
+  bool leave_rest(int i, int m, double done) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    const MotionTable& t = *c.table;
+    const double* a = t.acceleration.data();
+    const double least = (c.left < c.right ? c.left : c.right) * c.g / (c.h * magnitude(c.scale));
+    if (m == 0 && done == 0 && magnitude(a[0]) > limit(c, a[0])) {
+      start(i, 0, 0.0, a[0] * c.scale > 0 ? -1 : 1);
+      return true;
+    }
+    for (int j = m + 1;; ++j) {
+      j = first_above(t, j, least);
+      if (j >= t.knots) break;
+      const double tips = limit(c, a[j]);
+      if (!(magnitude(a[j]) > tips)) continue;
+      if (c.left != c.right) feel_rest(i, m, j, done);
+      const double limit_here = a[j] > 0 ? tips : -tips, part = (limit_here - a[j - 1]) / (a[j] - a[j - 1]);
+      const bool at_knot = part > 1 - 1e-9 && j + 1 < t.knots;
+      start(i, at_knot ? j : j - 1, at_knot ? 0.0 : (j - 1 == m && part < done ? done : part),
+            a[j] * c.scale > 0 ? -1 : 1);
+      return true;
+    }
+    feel_rest(i, m, t.knots, done);
+    finish(i, lane.events > 0 ? Outcome::moved : Outcome::at_rest, t.step_s * (t.knots - 1), 0.0);
+    return false;
+  }
+
+  // At rest the block feels what the floor does: from `done` of the interval after knot m to knot `end`.
+  void feel_rest(int i, int m, int end, double done) {
+    const MotionTable& t = *lanes_[i].sample->table;
+    const double* a = t.acceleration.data();
+    const double unit = r_.weight[i] * r_.weight[i], bound = bound_between(t, m, end);
+    if (bound * bound * unit <= r_.force2[i]) return;
+    double most = magnitude(done > 0 ? a[m] + (a[m + 1] - a[m]) * done : a[m]);
+    for (int j = m + 1; j < end; ++j) most = larger(most, magnitude(a[j]));
+    r_.force2[i] = larger(r_.force2[i], most * most * unit);
+  }
+
+  void start(int i, int m, double done, int side) {
+    Lane& lane = lanes_[i];
+    const MotionTable& t = *lane.sample->table;
+    r_.next[i] = t.acceleration.data() + m + 1;
+    const double a = t.acceleration[static_cast<std::size_t>(m)];
+    r_.a[i] = a + (*r_.next[i] - a) * done;
+    r_.left[i] = 1 - done;
+    const double f = r_.a[i] * r_.weight[i];
+    if (f * f > r_.force2[i]) r_.force2[i] = f * f;
+    ++lane.events;
+    r_.theta[i] = r_.omega[i] = 0;
+    stand_on(i, side);
+    go_on(i);
+  }
+
+  void stand_on(int i, int side) {
+    const BatchCase& c = *lanes_[i].sample;
+    const double h2 = c.table->step_s * c.table->step_s;
+    const double arm = side > 0 ? c.right : -c.left, inertia = c.k2 + c.h * c.h + arm * arm;
+    const double other = side > 0 ? -c.left : c.right, other_inertia = c.k2 + c.h * c.h + other * other;
+    r_.side[i] = side;
+    r_.rx[i] = -arm;
+    r_.ry[i] = c.h;
+    r_.gravity[i] = c.g * h2 / inertia;
+    r_.push[i] = c.scale * h2 / inertia;
+    const double kept = (c.k2 + c.h * c.h + arm * other) / other_inertia;
+    lanes_[i].kept = c.factor * (kept > 0 ? kept : 0.0);
+    lanes_[i].hop_here = inertia / (2 * c.g * magnitude(arm) * h2);
+    lanes_[i].hop_next = other_inertia / (2 * c.g * magnitude(other) * h2);
+  }
+
+  void stand_aside(int i) {
+    r_.live[i] = 0;
+    --busy_[i / pack_lanes];
+    queue_[waiting_++] = i;
+  }
+
+  void finish(int i, Outcome outcome, double time, double theta) {
+    const Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    Response& out = responses_[lane.number];
+    const double base = 0.5 * (c.left + c.right), half = std::sin(0.5 * r_.peak[i]), half_end = std::sin(0.5 * theta);
+    out = Response{};
+    out.outcome = outcome;
+    out.peak_rotation_rad = r_.peak[i];
+    out.residual_rotation_rad = theta;
+    out.peak_slip_m = base * 2 * half * half;
+    out.residual_slip_m = (theta < 0 ? -base : base) * 2 * half_end * half_end;
+    out.peak_acceleration_mps2 = std::sqrt(r_.force2[i]) / (c.table->step_s * c.table->step_s);
+    out.impacts = lane.impacts;
+    out.events = lane.events;
+    out.end_time_s = time;
+    declined_[lane.number] = 0;
+    --live_;
+  }
+
+  void decline(int i) {
+    declined_[lanes_[i].number] = 1;
+    --live_;
+    refill(i);
+  }
+
+  // How many intervals every lane can go before one meets the end of its record. False: one has met it, and was seen to.
+  bool count_free() {
+    int least = 1 << 30;
+    for (int i = 0; i < rock_slots; ++i) {
+      if (r_.live[i] == 0) continue;
+      const int left = free_of(i);
+      if (left <= 0) {
+        end_record(i);
+        return false;
+      }
+      if (left < least) least = left;
+    }
+    free_ = least;
+    return true;
+  }
+
+  int free_of(int i) const {
+    const Lane& lane = lanes_[i];
+    return (lane.after ? still_knots : lane.sample->table->knots) - 1 - knot(i);
+  }
+
+  // The floor stops; the block rocks on.
+  void end_record(int i) {
+    Lane& lane = lanes_[i];
+    const double patience = still_knots - 2;
+    if (lane.after || lane.sample->free_vibration_s > patience * lane.sample->table->step_s) {
+      r_.live[i] = 0;
+      --busy_[i / pack_lanes];
+      return decline(i);
+    }
+    lane.after = true;
+    r_.a[i] = 0;
+    r_.left[i] = 1;
+    r_.next[i] = still_floor + 1;
+  }
+
+  void go_on(int i) {
+    r_.live[i] = 1;
+    r_.over[i] = 1 / r_.left[i];
+    ++busy_[i / pack_lanes];
+    const int free = free_of(i);
+    if (free < free_) free_ = free;
+  }
+
+  void to_next_knot(int i) {
+    r_.a[i] = *r_.next[i]++;
+    r_.left[i] = 1;
+  }
+
+  void strike(int i, double omega) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    ++lane.events;
+    lane.impacts += lane.hop_here * omega * omega >= c.told_rotation;
+    const double rate = lane.kept * omega;
+    stand_on(i, r_.side[i] > 0 ? -1 : 1);
+    r_.theta[i] = 0;
+    r_.omega[i] = rate;
+    if (r_.left[i] < 1e-12) {
+      if (free_of(i) <= 1) return decline(i);
+      to_next_knot(i);
+    }
+    const bool rests = lane.hop_here * rate * rate < c.rest_rotation;
+    if (!rests && !dies_out(i)) return go_on(i);
+    if (lane.after) {
+      const double inertia = c.k2 + c.h * c.h + c.right * c.left;
+      const double alpha = c.g * 0.5 * (c.left + c.right) / inertia, speed = magnitude(rate) / c.table->step_s;
+      const double time =
+          rests ? 0.0 : 2 * speed / alpha * (1 - std::pow(lane.kept, hops_to_rest(i))) / (1 - lane.kept);
+      finish(i, Outcome::moved, c.table->step_s * (c.table->knots - 1 + knot(i) + 1 - r_.left[i]) + time, 0.0);
+      return refill(i);
+    }
+    const double a = r_.a[i];
+    if (rests && magnitude(a) > limit(c, a)) {
+      r_.omega[i] = 0;
+      stand_on(i, a * c.scale > 0 ? -1 : 1);
+      return go_on(i);
+    }
+    if (!leave_rest(i, knot(i), 1 - r_.left[i])) refill(i);
+  }
+
+  // The hops that follow end before the floor could make one larger: then they are counted, and the block rests.
+  bool dies_out(int i) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    constexpr int look = 16;  // intervals
+    const double h = c.table->step_s, omega = magnitude(r_.omega[i]) / h;
+    const double arm = c.left < c.right ? c.left : c.right, longer = c.left < c.right ? c.right : c.left;
+    const double small = c.k2 + c.h * c.h + arm * arm, large = c.k2 + c.h * c.h + longer * longer;
+    if (2 * omega * large > look * h * arm * c.g) return false;
+    const int m = knot(i);
+    const double push = lane.after ? 0.0 : magnitude(c.scale) * bound_between(*c.table, m, m + 1 + look);
+    const double slow = (arm * c.g - c.h * push) / large;
+    if (!(slow > 0.1 * arm * c.g / large)) return false;
+    // Within one hop the field changes by a factor of 1 + change at most, and with it the squared rate.
+    const double kept = 0.5 * (1 + lane.kept);
+    double jump = 0;
+    if (!lane.after)
+      for (int j = m; j <= m + look; ++j) jump = larger(jump, c.table->margin[static_cast<std::size_t>(j)] * (8 / h));
+    const double change = magnitude(c.scale) * jump * c.h / small * 2 * omega / (h * slow * slow);
+    if (lane.kept * lane.kept * (1 + change) > kept * kept) return false;
+    if (2 * omega > (look - 1) * h * slow * (1 - kept)) return false;
+    const double rotation = omega * omega / (2 * slow);
+    if (rotation > r_.peak[i] || rotation > 0.001 * arm / c.h ||
+        lane.hop_here * r_.omega[i] * r_.omega[i] >= c.told_rotation)
+      return false;
+    const double fast = (longer * c.g + c.h * push) / small;
+    const double fx = push * magnitude(1 - c.h * c.h / large) + c.h * longer * c.g / small + 2 * c.h * omega * omega;
+    const double fy = longer * fast + 2 * c.h * omega * omega;
+    if ((fx * fx + fy * fy) * (h * h * h * h) > r_.force2[i]) return false;
+    lane.events += hops_to_rest(i);
+    return true;
+  }
+
+  // How many hops in a steady field are left until one is too small to tell.
+  int hops_to_rest(int i) const {
+    const Lane& lane = lanes_[i];
+    const double ratio = lane.sample->rest_rotation / (lane.hop_here * r_.omega[i] * r_.omega[i]);
+    return lane.kept > 0 ? static_cast<int>(std::ceil(std::log(ratio) / (2 * std::log(lane.kept)))) : 1;
+  }
+
+  static constexpr int packs = rock_slots / pack_lanes;
+
+  const BatchCase* cases_;
+  std::size_t count_;
+  Response* responses_;
+  std::uint8_t* declined_;
+  std::size_t taken_ = 0;
+  RockRows r_;
+  Lane lanes_[rock_slots];
+  int queue_[rock_slots];
+  int busy_[packs] = {};
+  int waiting_ = 0, live_ = 0, free_ = 0, top_ = rock_slots;
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA

@@ -1,0 +1,128 @@
+// The Taylor series of rocking in packs, and what is read from it.
+//
+// In the time x = (t - t_i)/h of an interval, for theta, Omega = h omega and r = (r_x, r_y) = from the pivot to the centre
+// of mass, so that no sine is taken (see dynamics/contact.hpp):
+//     r_x' = Omega r_y,  r_y' = -Omega r_x,  Omega' = (h^2/J)(g r_x - a r_y),  a = a_i + (a_{i+1} - a_i) x
+#pragma once
+
+#include "base/pack.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+template <int N>
+struct RockSeries {
+  Pack theta[N + 2], omega[N + 2], rx[N + 1], ry[N + 1];  // the rotation to one order more
+
+  // gravity = g h^2/J; a0, a1: floor acceleration and its rate, times h^2/J.
+  void expand(const Pack& gravity, const Pack& a0, const Pack& a1) {
+#pragma GCC unroll 16
+    for (int k = 0; k < N; ++k) {
+      const Pack over(1.0 / (k + 1));
+      Pack alpha = rx[k] * gravity - ry[k] * a0, x = ry[0] * omega[k], y = rx[0] * omega[k];
+      if (k > 0) alpha = alpha - ry[k - 1] * a1;
+#pragma GCC unroll 16
+      for (int i = 1; i <= k; ++i) {
+        x = x + ry[i] * omega[k - i];
+        y = y + rx[i] * omega[k - i];
+      }
+      theta[k + 1] = omega[k] * over;
+      omega[k + 1] = alpha * over;
+      rx[k + 1] = x * over;
+      ry[k + 1] = y * Pack(-1.0 / (k + 1));
+    }
+    const Pack over(1.0 / (N + 1));
+    theta[N + 1] = omega[N] * over;
+    omega[N + 1] = (rx[N] * gravity - ry[N] * a0 - ry[N - 1] * a1) * over;
+  }
+
+  template <int M>
+  static Pack sum(const Pack (&c)[M]) {
+    Pack total = c[M - 1];
+#pragma GCC unroll 16
+    for (int k = M - 2; k >= 0; --k) total = total + c[k];
+    return total;
+  }
+  template <int M>
+  static Pack at(const Pack (&c)[M], const Pack& x) {
+    Pack value = c[M - 1];
+#pragma GCC unroll 16
+    for (int k = M - 2; k >= 0; --k) value = value * x + c[k];
+    return value;
+  }
+};
+
+// Root in [lo, hi] of the polynomial c of order M, positive at lo (times sign) and not so at hi: Newton's method from x,
+// kept in the bracket, in the lanes of `open`.
+template <int M>
+Pack bracketed_root(const Pack* c, const Pack& sign, Pack lo, Pack hi, Pack x, PackMask open) {
+  x = xsimd::min(xsimd::max(x, lo), hi);
+  for (int round = 0; round < 12 && bits(open); ++round) {
+    Pack value = c[M], slope(0.0);
+#pragma GCC unroll 16
+    for (int k = M - 1; k >= 0; --k) {
+      slope = slope * x + value;
+      value = value * x + c[k];
+    }
+    const PackMask above = sign * value > Pack(0.0);
+    lo = choose(above, x, lo);
+    hi = choose(above, hi, x);
+    const Pack newton = x - value / slope;
+    const Pack next = choose((newton >= lo) & (newton <= hi), newton, Pack(0.5) * (lo + hi));
+    const PackMask settled = xsimd::abs(next - x) <= Pack(1e-9);  // and the step after this one is within round-off
+    x = choose(open, next, x);
+    open = open & ~settled;
+  }
+  return x;
+}
+
+// First zero on (0, 1] of the parabola from `start`, with `slope` there, to `end` at 1; the second where it starts at 0.
+inline Pack first_zero(const Pack& start, const Pack& slope, const Pack& end) {
+  const Pack zero(0.0), bend = end - start - slope;
+  const Pack root = xsimd::sqrt(xsimd::max(slope * slope - Pack(4.0) * bend * start, zero));
+  const PackMask rises = slope > zero;
+  return choose(rises, slope + root, Pack(2.0) * start) / choose(rises, Pack(-2.0) * bend, root - slope);
+}
+
+// May the angular velocity change its sign and change it back?
+template <int N>
+PackMask turns_twice(const RockSeries<N>& y, const Pack& omega_end) {
+  const Pack zero(0.0);
+  return (y.omega[0] * omega_end > zero) & (y.omega[0] * y.omega[1] < zero) &
+         (xsimd::abs(y.omega[1]) > Pack(2.0) * xsimd::abs(y.omega[0]));
+}
+
+// Squared acceleration of the centre of mass: its largest value from the start of the series to x = part, where the
+// state is `end`, if it is above `seen`. `weight`: of the floor's acceleration, in the units of the series.
+struct RockEnd {
+  Pack omega, rx, ry, a;
+};
+template <int N>
+Pack watch_force(const RockSeries<N>& y, const Pack& weight, const Pack& gravity, const Pack& push, const Pack& a,
+                 const Pack& rate_a, const RockEnd& end, const Pack& part, const Pack& seen, bool always) {
+  const Pack two(2.0), zero(0.0), omega2 = y.omega[0] * y.omega[0];
+  const Pack fx = y.ry[0] * y.omega[1] - y.rx[0] * omega2 + weight * a;
+  const Pack fy = y.rx[0] * y.omega[1] + y.ry[0] * omega2;
+  const Pack square = fx * fx + fy * fy;
+  if (!always && !bits(square > Pack(0.999) * seen)) return seen;
+  const Pack cross = two * y.omega[0] * y.omega[1], alpha1 = two * y.omega[2];
+  const Pack gx = y.ry[1] * y.omega[1] + y.ry[0] * alpha1 - y.rx[1] * omega2 - y.rx[0] * cross + weight * rate_a;
+  const Pack gy = y.rx[1] * y.omega[1] + y.rx[0] * alpha1 + y.ry[1] * omega2 + y.ry[0] * cross;
+  const Pack slope = two * (fx * gx + fy * gy);
+  const Pack alpha = end.rx * gravity - end.ry * (push * end.a), omega2_end = end.omega * end.omega;
+  const Pack hx = end.ry * alpha - end.rx * omega2_end + weight * end.a, hy = end.rx * alpha + end.ry * omega2_end;
+  const Pack square_end = hx * hx + hy * hy;
+  const Pack high = xsimd::max(seen, xsimd::max(square, square_end));
+  const Pack bend = (square_end - square - slope * part) / (part * part);
+  const PackMask tops =
+      (slope > zero) & (slope + two * bend * part < zero) & (square - slope * slope / (Pack(4.0) * bend) > high);
+  if (!bits(tops)) return high;
+  const Pack at = choose(tops, slope / (Pack(-2.0) * bend), part);
+  const Pack rx = y.at(y.rx, at), ry = y.at(y.ry, at), omega = y.at(y.omega, at), a_top = a + rate_a * at;
+  const Pack alpha_top = rx * gravity - ry * (push * a_top), omega2_top = omega * omega;
+  const Pack tx = ry * alpha_top - rx * omega2_top + weight * a_top, ty = rx * alpha_top + ry * omega2_top;
+  return xsimd::max(high, choose(tops, tx * tx + ty * ty, high));
+}
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA

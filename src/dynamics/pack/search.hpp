@@ -1,0 +1,47 @@
+// Searches along the rows of a record's table, several knots at a time.
+#pragma once
+
+#include "base/motion_table.hpp"
+#include "base/pack.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+inline double larger(double a, double b) { return a < b ? b : a; }
+inline double magnitude(double x) { return x < 0 ? -x : x; }
+
+// Bit i: |p[i]| > limit, i = 0 ... 7.
+inline unsigned greater_8(const double* p, const Pack& limit) {
+  unsigned found = 0;
+  for (int i = 0; i < table_run; i += pack_lanes) found |= bits(xsimd::abs(load_any(p + i)) > limit) << i;
+  return found;
+}
+
+// First knot j >= from with |a_j| > limit; t.knots: none.
+inline int first_above(const MotionTable& t, int from, double limit) {
+  if (from >= t.knots) return t.knots;
+  const Pack bound(limit);
+  const double *a = t.acceleration.data(), *peaks = t.run_peak.data();
+  int run = from / table_run;
+  unsigned found = greater_8(a + run * table_run, bound) >> (from % table_run) << (from % table_run);
+  if (!found) {
+    if (t.later_peak[static_cast<std::size_t>(run) + 1] <= limit) return t.knots;
+    unsigned any = 0;
+    for (++run; !(any = greater_8(peaks + run, bound)); run += table_run) {
+    }
+    run += __builtin_ctz(any);
+    found = greater_8(a + run * table_run, bound);
+  }
+  return run * table_run + __builtin_ctz(found);
+}
+
+// max |a_j|, j = from ... to - 1, by whole runs (an upper bound).
+inline double bound_between(const MotionTable& t, int from, int to) {
+  double most = 0;
+  for (int run = from / table_run; run * table_run < to; ++run)
+    most = larger(most, t.run_peak[static_cast<std::size_t>(run)]);
+  return most;
+}
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
