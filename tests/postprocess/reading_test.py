@@ -227,7 +227,7 @@ class Words(unittest.TestCase):
 
     def test_columns_keep_their_unit(self):
         self.assertEqual(words.column("block_width_m"), "width (m)")
-        self.assertEqual(words.column("effects_tilt_angle_rad"), "effects tilt angle (rad)")
+        self.assertEqual(words.column("effects_tilt_angle_rad"), "tilt angle (rad)")
         self.assertEqual(words.column("motion_peak_velocity_mps"), "motion peak velocity (m/s)")
         self.assertEqual(words.column("friction_static_ratio"), "friction static ratio")
 
