@@ -3,10 +3,11 @@
 // What a Response says of it:
 //   peak_slip_m             max |u|, the elastic part included
 //   residual_slip_m         u when the ringing on the contact has died out, which takes endless time (bouc_wen_ring.hpp)
-//   slid_path_m             integral of |u_p'|, the plastic part of the motion, until then
+//   slid_path_m             integral of |u_p'|, the plastic part of the motion, until nothing is left but ringing
 //   peak_acceleration_mps2  max of sqrt((mu g' z)^2 + v^2)
-//   events                  changes between rest (elastic) and slide; the contact slides when more than half of a further
-//                           displacement would be plastic: q > 1/2 in loading, until the motion turns
+//   events                  changes between rest (elastic) and slide; the contact slides when more than three quarters
+//                           of a further displacement would be plastic, q > 3/4 in loading, until the motion turns. (A
+//                           block that stops on the contact and springs back does not come so far.)
 //   outcome                 at_rest when it never slid in this sense; what moved elastically is reported all the same
 //   end_time_s              when nothing was left but ringing
 // A floor that falls faster than g' = 0 lets go of the block: no force acts then, and z follows u as before.

@@ -27,7 +27,7 @@ struct BoucWenContact {
   // Within the tolerance of the integration:
   double linear;     // below this |zeta| the contact is elastic in loading too
   double saturated;  // 1 - q below this is zero: the block slides as Coulomb's does
-  double sliding;    // |zeta| at which q = 1/2: the contact is said to slide beyond
+  double sliding;    // |zeta| at which q = 3/4: the contact is said to slide beyond
 
   double q(double zeta) const { return std::pow(std::fabs(zeta), n); }
 };

@@ -19,8 +19,9 @@ BoucWenContact bouc_wen_contact(double mu, const BoucWen& law, double tolerance)
   contact.kappa = (law.beta - law.gamma) / sum;
   const double negligible = 0.1 * tolerance;
   contact.linear = std::min(0.5, std::pow(negligible * (n + 1) / std::max(1.0, -contact.kappa), 1 / (n + 1)));
-  contact.saturated = negligible;
-  contact.sliding = std::pow(0.5, 1 / n);
+  // Steps with errors of the tolerance come as near to |zeta| = 1 as that, and no nearer.
+  contact.saturated = std::min(0.1, 2 * n * tolerance);
+  contact.sliding = std::pow(0.75, 1 / n);
   return contact;
 }
 
@@ -83,7 +84,6 @@ void BoucWenLife::turn() {
 void BoucWenLife::ring() {
   const RingOut out = ring_out(contact, std::abs(zeta));
   const double towards = zeta > 0 ? -1 : 1;
-  response_.slid_path_m += out.path_m;
   for (const double u : {slip + towards * out.reach_m, slip - towards * out.second_reach_m})
     response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(u));
   slip += towards * out.slip_m;

@@ -53,10 +53,6 @@ Powers log_energy(double n) {
   return b;
 }
 
-struct Sums {
-  Powers slip, path;  // over y m
-};
-
 // ln(m'/m) = l(q):  2 l(q) = B(kappa q) - B(q e^(n l)),  B = log_energy. Each pass makes one more coefficient right.
 Powers log_decay(const BoucWenContact& contact) {
   const Powers b = log_energy(contact.n);
@@ -75,35 +71,27 @@ Powers log_decay(const BoucWenContact& contact) {
   return l;
 }
 
-Sums sums_of_swings(const BoucWenContact& contact) {
+// Coefficients of S over y m.
+Powers sum_of_swings(const BoucWenContact& contact) {
   const Powers l = log_decay(contact);
   std::array<Powers, order + 1> later;  // m' q'^j = m q^j later[j]
   for (int j = 0; j <= order; ++j) later[j] = exponential(1 + j * contact.n, l);
 
-  Powers slip{}, path{};  // of one swing
+  Powers one{};
   double unload = 1;
   for (int j = 1; j <= order; ++j) {
     const double over = 1 / (j * contact.n + 1);
     unload *= contact.kappa;
-    slip[j] += unload * over;
-    path[j] -= unload * over;
-    for (int i = 0; i + j <= order; ++i) {
-      slip[i + j] += over * later[j][i];
-      path[i + j] += over * later[j][i];
-    }
+    one[j] += unload * over;
+    for (int i = 0; i + j <= order; ++i) one[i + j] += over * later[j][i];
   }
-  Sums sums{};
+  Powers all{};
   for (int j = 1; j <= order; ++j) {
-    double rest = slip[j];
-    for (int i = 1; i < j; ++i) rest -= sums.slip[i] * later[i][j - i];
-    sums.slip[j] = 0.5 * rest;
+    double rest = one[j];
+    for (int i = 1; i < j; ++i) rest -= all[i] * later[i][j - i];
+    all[j] = 0.5 * rest;
   }
-  for (int j = 0; j < order; ++j) {
-    double rest = path[j + 1];
-    for (int i = 0; i < j; ++i) rest += sums.path[i] * later[i][j + 1 - i];
-    sums.path[j] = -rest / later[j][1];
-  }
-  return sums;
+  return all;
 }
 
 double value(const Powers& series, double q) {
@@ -116,7 +104,7 @@ constexpr double small_q = 0.06;  // below, the series are good to 1e-11
 
 }  // namespace
 
-bool can_ring_out(const BoucWenContact& contact, double q) { return q * std::max(1.0, -contact.kappa) <= 0.5; }
+bool can_ring_out(const BoucWenContact& contact, double q) { return q * std::max(1.0, -contact.kappa) <= 0.75; }
 
 Swing next_swing(const BoucWenContact& contact, double turn) {
   const double n = contact.n, q = contact.q(turn);
@@ -130,7 +118,7 @@ Swing next_swing(const BoucWenContact& contact, double turn) {
   }
   const double returning = turn * sum_over(contact.kappa * q, n, 1, 1);
   const double loading = next * sum_over(contact.q(next), n, 1, 1);
-  return {next, returning + loading, loading - returning};
+  return {next, returning + loading};
 }
 
 RingOut ring_out(const BoucWenContact& contact, double turn) {
@@ -139,19 +127,16 @@ RingOut ring_out(const BoucWenContact& contact, double turn) {
   for (int swing = 0; turn > 0; ++swing, sign = -sign) {
     const double q = contact.q(turn);
     if (swing >= 2 && q * std::max(1.0, -contact.kappa) <= small_q) {
-      const Sums sums = sums_of_swings(contact);
-      out.slip_m += sign * turn * value(sums.slip, q);
-      out.path_m += turn * value(sums.path, q);
+      out.slip_m += sign * turn * value(sum_of_swings(contact), q);
       break;
     }
     const Swing half = next_swing(contact, turn);
     out.slip_m += sign * half.slip;
-    out.path_m += half.path;
     turn = half.turn;
     if (swing == 0) out.reach_m = out.slip_m + turn;
     if (swing == 1) out.second_reach_m = -out.slip_m + turn;
   }
-  for (double* length : {&out.slip_m, &out.path_m, &out.reach_m, &out.second_reach_m}) *length *= contact.yield;
+  for (double* length : {&out.slip_m, &out.reach_m, &out.second_reach_m}) *length *= contact.yield;
   return out;
 }
 

@@ -7,8 +7,8 @@
 //   J_1(m') = J_kappa(m),   J_f(m) = int_0^m zeta dzeta/(1 - f zeta^n) = m^2 sum_j (f q)^j/(j n + 2),   q = m^n
 //   slip:  y (Xi_kappa(m) - m  +  Xi_1(m') - m'),   Xi_f(m) = int_0^m dzeta/(1 - f zeta^n) = m sum_j (f q)^j/(j n + 1)
 //
-// The sums over all swings to come, with alternating sign for the slip that remains and without for its path, are m
-// times power series in q, from the functional equations S(m) = D(m) - S(m') and P(m) = |D|(m) + P(m').
+// The slip that remains after all swings to come, of alternating signs, is m times a power series in q, from the
+// functional equation S(m) = D(m) - S(m'), D the slip of one swing.
 #pragma once
 
 #include "dynamics/bouc_wen_contact.hpp"
@@ -17,7 +17,6 @@ namespace freestand::dynamics {
 
 struct RingOut {
   double slip_m = 0;   // in the direction of the next swing, all swings to come
-  double path_m = 0;   // integral of |u_p'|, all swings to come
   double reach_m = 0;  // u at the end of the first swing, relative to u_p at its start, in the direction of the swing
   double second_reach_m = 0;  // the same at the end of the second, in the direction of the second
 };
@@ -28,9 +27,9 @@ bool can_ring_out(const BoucWenContact& contact, double q);
 // The block turns at |zeta| = turn, the floor is still and level. Asks for can_ring_out().
 RingOut ring_out(const BoucWenContact& contact, double turn);
 
-// One half swing: |zeta| at its end, and u_p's change over it in its direction, over y; and its path.
+// One half swing: |zeta| at its end, and u_p's change over it in its direction, over y.
 struct Swing {
-  double turn, slip, path;
+  double turn, slip;
 };
 Swing next_swing(const BoucWenContact& contact, double turn);
 
