@@ -1,0 +1,61 @@
+// Measurements of specimens on a shaken floor: what was put in, what came out, test by test.
+#pragma once
+
+#include <filesystem>
+#include <freestand/floor_motion.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace freestand::measurement {
+
+enum class Role { calibration, holdout };  // holdout: never used by a fit
+
+// Of a specimen, as far as they were measured.
+struct Dimensions {
+  std::optional<double> width_m, height_m, mass_kg;
+};
+
+// Standard deviations of the sensors; 0: not given.
+struct Noise {
+  double slip_m = 0, rotation_rad = 0, block_acceleration_mps2 = 0, floor_acceleration_mps2 = 0;
+};
+
+// What is known of a test as single numbers.
+struct Peaks {
+  std::optional<double> peak_slip_m, residual_slip_m, peak_rotation_rad, peak_acceleration_g;
+  std::optional<bool> overturned;
+};
+
+struct Test {
+  std::string id;
+  Role role = Role::calibration;
+  std::string source;    // file, or words for a pulse, as messages name it
+  Dimensions specimen;   // the data set's, with the test's own over it
+  FloorMotion motion;    // as measured; or a pulse of unit peak acceleration and unit period
+  double scale = 1;      // on the motion
+  double stretch = 1;    // of time: the period of a pulse
+  std::string pulse;     // its name; empty: a measured motion
+  double dt_s = 0;       // of the histories
+
+  // Histories from time 0 on, in steps of dt_s, equally long; empty: not measured. slip_m: horizontal displacement of
+  // the midpoint of the base relative to the floor [m]; rotation positive clockwise [rad]; block_acceleration: absolute,
+  // horizontal, of the centre of mass [m/s2].
+  std::vector<double> slip_m, rotation_rad, block_acceleration_mps2;
+  Peaks peaks;
+
+  bool has_history() const { return !slip_m.empty() || !rotation_rad.empty() || !block_acceleration_mps2.empty(); }
+  bool has_vertical() const { return !motion.vertical_mps2.empty(); }
+  Shaking shaking() const { return {.motion = &motion, .scale = scale, .stretch = stretch}; }  // points into the test
+};
+
+struct Dataset {
+  std::string name;
+  std::filesystem::path file;  // dataset.yaml
+  double sampling_dt_s = 0;    // 0: no histories
+  Dimensions specimen;
+  Noise noise;
+  std::vector<Test> tests;
+};
+
+}  // namespace freestand::measurement
