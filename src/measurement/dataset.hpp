@@ -30,13 +30,13 @@ struct Peaks {
 struct Test {
   std::string id;
   Role role = Role::calibration;
-  std::string source;    // file, or words for a pulse, as messages name it
-  Dimensions specimen;   // the data set's, with the test's own over it
-  FloorMotion motion;    // as measured; or a pulse of unit peak acceleration and unit period
-  double scale = 1;      // on the motion
-  double stretch = 1;    // of time: the period of a pulse
-  std::string pulse;     // its name; empty: a measured motion
-  double dt_s = 0;       // of the histories
+  std::string source;   // file, or words for a pulse, as messages name it
+  Dimensions specimen;  // the data set's, with the test's own over it
+  FloorMotion motion;   // as measured; or a pulse of unit peak acceleration and unit period
+  double scale = 1;     // on the motion
+  double stretch = 1;   // of time: the period of a pulse
+  std::string pulse;    // its name; empty: a measured motion
+  double dt_s = 0;      // of the histories
 
   // Histories from time 0 on, in steps of dt_s, equally long; empty: not measured. slip_m: horizontal displacement of
   // the midpoint of the base relative to the floor [m]; rotation positive clockwise [rad]; block_acceleration: absolute,

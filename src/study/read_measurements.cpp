@@ -1,0 +1,191 @@
+#include "study/read_measurements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "base/units.hpp"
+#include "measurement/test_file.hpp"
+#include "motion/pulse.hpp"
+#include "motion/record.hpp"
+#include "study/read_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+using measurement::Dataset;
+using measurement::Dimensions;
+using measurement::Test;
+
+constexpr const char* format_name = "freestand-measurements/1";
+constexpr Range size_range = {.lower = 0, .why = "a size must be above zero"};
+const std::vector<std::string> peak_keys = {"peak_slip_m", "residual_slip_m", "peak_rotation_rad",
+                                            "peak_acceleration_g", "overturned"};
+
+Dimensions read_dimensions(Section& file, const Dimensions& fallback) {
+  Dimensions dimensions = fallback;
+  const YAML::Node* node = file.find("specimen");
+  if (!node) return dimensions;
+  Section section(*node, file.name("specimen"), file.line("specimen"), file.problems());
+  if (const auto width = section.optional_number("width_m", size_range)) dimensions.width_m = width;
+  if (const auto height = section.optional_number("height_m", size_range)) dimensions.height_m = height;
+  if (const auto mass = section.optional_number("mass_kg", size_range)) dimensions.mass_kg = mass;
+  section.finish();
+  return dimensions;
+}
+
+measurement::Noise read_noise(Section& file) {
+  measurement::Noise noise;
+  const YAML::Node* node = file.find("noise");
+  if (!node) return noise;
+  Section section(*node, "noise", file.line("noise"), file.problems());
+  noise.slip_m = section.number("slip_m", 0, size_range);
+  noise.rotation_rad = section.number("rotation_rad", 0, size_range);
+  noise.block_acceleration_mps2 = section.number("block_acceleration_mps2", 0, size_range);
+  noise.floor_acceleration_mps2 = section.number("floor_acceleration_mps2", 0, size_range);
+  section.finish();
+  return noise;
+}
+
+void read_peaks(Section& section, measurement::Peaks& peaks) {
+  peaks.peak_slip_m = section.optional_number("peak_slip_m", range::not_negative);
+  peaks.residual_slip_m = section.optional_number("residual_slip_m", range::any);
+  peaks.peak_rotation_rad = section.optional_number("peak_rotation_rad", range::not_negative);
+  peaks.peak_acceleration_g = section.optional_number("peak_acceleration_g", range::not_negative);
+  if (section.has("overturned")) peaks.overturned = section.flag("overturned", false);
+}
+
+// With a pulse, peak_acceleration_g is the peak of the pulse; the block's own peak is then not given.
+void read_pulse(Section& section, Test& test) {
+  const std::string name = section.text("pulse", "");
+  test.stretch = section.number("period_s", 1, size_range);
+  const auto acceleration = section.optional_number("peak_acceleration_g");
+  const auto velocity = section.optional_number("peak_velocity_mps");
+  for (const char* key : {"period_s"})
+    if (!section.has(key))
+      section.problem(key, fmt::format("{} is missing (a pulse has a length): add it", section.name(key)));
+  if (!acceleration == !velocity)
+    section.problem("pulse", fmt::format("{} needs one amplitude ({}): give peak_acceleration_g or peak_velocity_mps",
+                                         section.name("pulse"), acceleration ? "two are given" : "none is given"));
+  try {
+    const motion::Pulse pulse = motion::find_pulse(name);
+    test.pulse = pulse.name;
+    test.motion = motion::pulse_motion(pulse);
+    test.scale = acceleration ? *acceleration * standard_gravity_mps2
+                              : velocity.value_or(0) / (test.stretch * pulse.peak_velocity);
+    test.source = fmt::format("pulse {} of {:.3g} s", pulse.name, test.stretch);
+  } catch (const Error& error) {
+    section.problem("pulse", section.name("pulse") + ": " + error.what());
+  }
+}
+
+void read_input(Section& section, const Dataset& set, Test& test) {
+  int given = 0;
+  for (const char* key : {"file", "motion", "pulse"}) given += section.has(key);
+  if (given != 1) {
+    section.problem("id", fmt::format("{} has {} of file, motion and pulse (one says what the floor did): give one",
+                                      section.name("id"), given));
+    for (const char* key : {"file", "motion", "pulse"}) section.find(key);
+    return;
+  }
+  const auto path = [&](const char* key) { return set.file.parent_path() / section.text(key, ""); };
+  try {
+    if (section.has("pulse")) read_pulse(section, test);
+    if (section.has("file")) read_test_file(path("file"), set.sampling_dt_s, test);
+    if (section.has("motion")) {
+      const auto file = path("motion");
+      test.motion = motion::read_record(file);
+      test.source = file.string();
+    }
+  } catch (const Error& error) {
+    section.problem("id", error.what());
+  }
+  read_peaks(section, test.peaks);
+  if (!test.pulse.empty()) test.peaks.peak_acceleration_g.reset();
+  const bool any_peak = std::any_of(peak_keys.begin(), peak_keys.end(),
+                                    [&](const auto& key) { return section.has(key) && key != "peak_acceleration_g"; });
+  if (!section.has("file") && !any_peak && !test.peaks.peak_acceleration_g)
+    section.problem("id", fmt::format("{} says nothing of what came out (there is nothing to compare with): add file, "
+                                      "or one of {}",
+                                      section.name("id"), joined(peak_keys)));
+}
+
+Test read_test(const YAML::Node& node, std::size_t i, int line, const Dataset& set, Problems& problems) {
+  Section section(node, fmt::format("tests[{}]", i), line, problems);
+  Test test;
+  test.id = section.text("id", fmt::format("{}", i + 1));
+  if (!section.has("role"))
+    section.problem("role", fmt::format("{} is missing (which tests may a fit use?): add role: calibration, or holdout",
+                                        section.name("role")));
+  test.role = static_cast<measurement::Role>(section.choice("role", {"calibration", "holdout"}, 0));
+  test.specimen = read_dimensions(section, set.specimen);
+  if (node.IsMap()) read_input(section, set, test);
+  section.finish();
+  return test;
+}
+
+void read_tests(Section& file, Dataset& set) {
+  const YAML::Node* node = file.find("tests");
+  if (!node || !node->IsSequence() || node->size() == 0) {
+    file.problem("tests", "tests is missing or no list (there is nothing to compare with): add tests: [{id: ...}]");
+    return;
+  }
+  for (std::size_t i = 0; i < node->size(); ++i) {
+    const int line = line_of((*node)[i]) ? line_of((*node)[i]) : file.line("tests");
+    Test test = read_test((*node)[i], i, line, set, file.problems());
+    const bool twice = std::any_of(set.tests.begin(), set.tests.end(), [&](const Test& t) { return t.id == test.id; });
+    if (twice)
+      file.problems().add(line, fmt::format("test {} stands twice (an id names one test): rename one", test.id));
+    set.tests.push_back(std::move(test));
+  }
+}
+
+void check_noise(Section& file, const Dataset& set) {
+  const auto any = [&](auto channel) {
+    return std::any_of(set.tests.begin(), set.tests.end(), [&](const Test& t) { return !(t.*channel).empty(); });
+  };
+  const auto needed = [&](bool there, double noise, const char* key) {
+    if (there && noise == 0)
+      file.problem("noise", fmt::format("noise.{} is missing (errors are told in units of the sensor's noise): add its "
+                                        "standard deviation",
+                                        key));
+  };
+  needed(any(&Test::slip_m), set.noise.slip_m, "slip_m");
+  needed(any(&Test::rotation_rad), set.noise.rotation_rad, "rotation_rad");
+}
+
+}  // namespace
+
+Dataset read_measurements(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || std::filesystem::is_directory(path))
+    throw Error(fmt::format("{} cannot be read (no such file, or no permission): check the path", path.string()),
+                Exit::data);
+  text << stream.rdbuf();
+
+  Problems problems(path.string());
+  Dataset set;
+  set.file = path;
+  if (const auto root = parse_yaml(text.str(), problems)) {
+    Section file(*root, "", 1, problems);
+    problems.throw_if_any(Exit::data);
+    if (file.text("format", "") != format_name)
+      file.problem("format", fmt::format("format is not {} (another kind of file, or another version): see the "
+                                         "description of measurements",
+                                         format_name));
+    set.name = file.text("name", path.parent_path().filename().string());
+    set.sampling_dt_s = file.number("sampling_dt_s", 0, range::positive);
+    set.specimen = read_dimensions(file, {});
+    set.noise = read_noise(file);
+    read_tests(file, set);
+    check_noise(file, set);
+    file.finish();
+  }
+  problems.throw_if_any(Exit::data);
+  return set;
+}
+
+}  // namespace freestand::study
