@@ -39,15 +39,42 @@ class TaylorIntegrator {
   void move_on(const Floor<double, M>& floor) {
     const State before = life_.state;
     with_contact_arc<M>(life_.rig, before, life_.cursor.time(), floor, [&](const auto& arc) {
-      const double h = step(before.pivot == 0 && flat_exactly_ ? 0.0 : local_error(arc));
-      FirstEvent first(h);
-      for_each_witness(life_.rig, before, arc, first);
-      const double tau = first.found().tau;
+      double h = step(before.pivot == 0 && flat_exactly_ ? 0.0 : local_error(arc));
+      Found found = first_event(before, arc, h);
+      while (found.tau > shortest_step / p_ && defect(before, arc, floor, found.tau) > defect_allowed) {
+        h = 0.5 * found.tau;
+        found = first_event(before, arc, h);
+      }
+      const double tau = found.tau;
       if (tau > 0) life_.peaks.observe(life_.rig, before, arc, tau);
       life_.recorder.record(before, arc, floor, life_.cursor.time(), tau);
       go_to(life_.state, arc, tau);
-      end_step(first.found(), h);
+      end_step(found, h);
     });
+  }
+
+  template <class Arc>
+  Found first_event(const State& state, const Arc& arc, double h) const {
+    FirstEvent first(h);
+    for_each_witness(life_.rig, state, arc, first);
+    return first.found();
+  }
+
+  // By how much the accelerations at tau miss those of the series, times tau, dimensionless and in tolerances. A law may
+  // have series whose last terms vanish (even in time, say) while later ones do not: the last term alone is no judge.
+  template <int M>
+  double defect(const State& before, const LawArc<M>& arc, const Floor<double, M>& floor, double tau) const {
+    State end = before;
+    go_to(end, arc, tau);
+    const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
+    const LawArc<1> fresh = LawStep<1>(life_.rig, end, life_.cursor.time() + tau, there).run();
+    const double slip = std::abs(fresh.w[1] - derivative(arc.w).at(tau)) / (p_ * size_);
+    const double turn = std::abs(fresh.omega[1] - derivative(arc.omega).at(tau)) / (p_ * alpha_);
+    return std::max(slip, turn) * tau / life_.settings.tolerance;
+  }
+  template <int M>
+  double defect(const State&, const Arc<double, M>&, const Floor<double, M>&, double) const {
+    return 0;
   }
 
   void fly_on(const Floor<double, N>& floor) {
@@ -97,6 +124,8 @@ class TaylorIntegrator {
       h = std::pow(life_.settings.tolerance / error_at_1p, 1.0 / N) / p_;
     return h;
   }
+
+  static constexpr double defect_allowed = 10, shortest_step = 1e-6;
 
   Integration life_;
   bool flat_exactly_;  // steps of order FlatN are exact on both corners

@@ -1,0 +1,125 @@
+#include "effects/effect_fixture.hpp"
+
+#include <cmath>
+
+namespace freestand::test {
+namespace {
+
+CaseFamily family_of(Model model) {
+  CaseFamily family;
+  family.seed = 77;
+  family.alpha_low = model == Model::slide ? 0.6 : 0.15;
+  family.alpha_high = model == Model::slide ? 1.2 : 0.45;
+  family.mu_high = model == Model::slide ? 0.5 : 0.7;
+  family.two_coefficients = 0;
+  family.one_model = 0;
+  family.duration_low_s = 3;
+  family.duration_high_s = 5;
+  family.excess_low = 1.1;
+  family.excess_high = 3;
+  return family;
+}
+
+// Two answers are the same but for what impacts and slips have made of round-off.
+void expect_near(const Response& a, const Response& b, double tolerance, const std::string& text) {
+  EXPECT_EQ(a.outcome, b.outcome) << text;
+  EXPECT_NEAR(a.peak_slip_m, b.peak_slip_m, tolerance) << text;
+  EXPECT_NEAR(a.residual_slip_m, b.residual_slip_m, tolerance) << text;
+  EXPECT_NEAR(a.slid_path_m, b.slid_path_m, tolerance) << text;
+  EXPECT_NEAR(a.peak_rotation_rad, b.peak_rotation_rad, tolerance) << text;
+}
+
+double distance(const Response& a, const Response& b) {
+  if (a.outcome != b.outcome) return 1;
+  return std::fmax(std::abs(a.peak_slip_m - b.peak_slip_m), std::abs(a.peak_rotation_rad - b.peak_rotation_rad)) +
+         std::fmax(std::abs(a.residual_slip_m - b.residual_slip_m), std::abs(a.slid_path_m - b.slid_path_m));
+}
+
+// A change of 1e-10 in the shaking changes the answer by much: nothing can be compared.
+bool sensitive(const Specimen& specimen, Shaking shaking, const Response& response) {
+  shaking.scale *= 1 + 1e-10;
+  return distance(respond(specimen, shaking), response) > 1e-7;
+}
+
+void expect_mirror(const Response& a, const Response& b, const std::string& text) {
+  EXPECT_EQ(a.outcome, b.outcome) << text;
+  EXPECT_EQ(a.peak_slip_m, b.peak_slip_m) << text;
+  EXPECT_EQ(a.residual_slip_m, -b.residual_slip_m) << text;
+  EXPECT_EQ(a.slid_path_m, b.slid_path_m) << text;
+  EXPECT_EQ(a.peak_rotation_rad, b.peak_rotation_rad) << text;
+  EXPECT_EQ(a.peak_acceleration_mps2, b.peak_acceleration_mps2) << text;
+  EXPECT_EQ(a.events, b.events) << text;
+}
+
+Block plain_block(double width, double height) { return Block::rectangular(width, height, 100); }
+
+}  // namespace
+
+EffectUse effect(const std::string& name, const std::vector<double>& parameters) {
+  const effects::Effect* found = effects::find(name);
+  if (!found || found->parameters.size() != parameters.size()) throw std::invalid_argument(name);
+  return {found, parameters};
+}
+
+Specimen sliding(double mu, const std::vector<EffectUse>& effects) {
+  return {plain_block(1.2, 0.8), {mu, mu}, {}, Model::slide, effects};
+}
+
+Specimen slender(double mu, const std::vector<EffectUse>& effects, Model model) {
+  return {plain_block(0.4, 1.8), {mu, mu}, {}, model, effects};
+}
+
+Path run(const Solver& solver, const Specimen& specimen, const Shaking& shaking, double free_s, double step_s) {
+  Settings settings;
+  settings.tolerance = 1e-12;
+  settings.free_vibration_s = free_s;
+  History history;
+  history.step_s = step_s;
+  Path result;
+  result.response = solver(specimen, shaking, settings, &history);
+  result.points = std::move(history.points);
+  return result;
+}
+
+void expect_general(const General& general) {
+  const effects::Effect& law = *effects::find(general.name);
+  for (const Model model : general.models) {
+    int compared = 0, mattered = 0;
+    for (int number = 0; number < general.cases; ++number) {
+      RandomCase c = random_case(family_of(model), static_cast<std::uint64_t>(number));
+      c.specimen.model = model;
+      if (c.specimen.impact.law == ImpactLaw::coulomb) c.specimen.impact.factor = 1;
+      const std::string text = general.name + ", " + c.text();
+      const Response plain = respond(c.specimen, c.shaking);
+      const bool plain_is_stable = !sensitive(c.specimen, c.shaking, plain);
+
+      if (!general.neutral.empty() && plain_is_stable) {
+        Specimen without = c.specimen;
+        without.effects = {effect(general.name, general.neutral)};
+        expect_near(respond(without, c.shaking), plain, law.dynamic() ? 1e-7 : 0.0, text + ", neutral");
+      }
+
+      c.specimen.effects = {effect(general.name, general.values)};
+      const Response with = respond(c.specimen, c.shaking);
+      EXPECT_TRUE(with.outcome == Outcome::at_rest || with.outcome == Outcome::moved ||
+                  with.outcome == Outcome::overturned || with.outcome == Outcome::painleve)
+          << text << " " << name(with.outcome);
+      mattered += distance(with, plain) > 1e-6;
+
+      Specimen image = c.specimen;
+      std::swap(image.block.left_m, image.block.right_m);
+      image.effects = {effect(general.name, general.mirrored)};
+      Shaking negative = c.shaking;
+      negative.scale = -negative.scale;
+      expect_mirror(with, respond(image, negative), text + ", mirrored");
+
+      if (sensitive(c.specimen, c.shaking, with)) continue;
+      expect_near(respond_reference(c.specimen, c.shaking), with, 1e-6, text + ", reference");
+      ++compared;
+    }
+    EXPECT_GE(compared, general.cases / 2) << general.name;
+    EXPECT_GE(mattered, general.matters) << general.name;
+  }
+}
+
+}  // namespace freestand::test

@@ -1,0 +1,50 @@
+// Law: massless foot, legs of stiffness m W^2 and damping ratio z.
+#include "effects/effect_fixture.hpp"
+
+namespace freestand::test {
+namespace {
+
+TEST(FlexibleLegs, General) {
+  expect_general({"flexible_legs", {5, 0.05}, {5, 0.05}, {}, {Model::slide, Model::slide_rock}, 8});
+}
+
+// The foot stuck, the block is an oscillator: after a jerk of the floor to speed v it sways with W_d = W sqrt(1 - z^2),
+// y = (v/W_d) exp(-z W t) sin(W_d t).
+TEST(FlexibleLegs, SwayOverAStuckFoot) {
+  const double f = 3, z = 0.05, W = 2 * pi * f, Wd = W * std::sqrt(1 - z * z), a = 0.5;
+  const FloorMotion step = rectangular_pulse(-a, 2);
+  for (const Solver& solver : both_solvers) {
+    const Path r = run(solver, sliding(0.5, {effect("flexible_legs", {f, z})}), {&step});
+    // A step of force: y = (a/W^2) [1 - exp(-z W t) (cos W_d t + z W/W_d sin W_d t)].
+    for (const std::size_t i : {50u, 333u, 1900u}) {
+      const double t = 0.001 * static_cast<double>(i);
+      const double y = a / (W * W) * (1 - std::exp(-z * W * t) * (std::cos(Wd * t) + z * W / Wd * std::sin(Wd * t)));
+      EXPECT_NEAR(r.points.at(i).slip_m, y, 1e-11) << solver.name;
+    }
+    EXPECT_EQ(r.response.outcome, Outcome::at_rest) << solver.name;
+    EXPECT_NEAR(r.response.residual_slip_m, 0, 1e-15);
+  }
+}
+
+// The legs' force is the block's whole acceleration, and never above friction.
+TEST(FlexibleLegs, NeverPushHarderThanFriction) {
+  const FloorMotion sine = one_sine();
+  const Response r = respond(sliding(0.2, {effect("flexible_legs", {4, 0.02})}), {&sine, 6, 0.7});
+  EXPECT_GT(r.slid_path_m, 0.1);
+  EXPECT_NEAR(r.peak_acceleration_mps2, 0.2 * g, 1e-9);
+}
+
+// Stiff legs are the plain block: what is left is slip speed times the time of a sway, and shrinks with 1/W.
+TEST(FlexibleLegs, StiffLegsAreThePlainBlock) {
+  const FloorMotion sine = one_sine();
+  const double plain = respond(sliding(0.2), {&sine, 6, 0.7}).residual_slip_m;
+  const auto error = [&](double f) {
+    return std::abs(respond(sliding(0.2, {effect("flexible_legs", {f, 0.05})}), {&sine, 6, 0.7}).residual_slip_m -
+                    plain);
+  };
+  EXPECT_LT(error(640), 5e-4);
+  EXPECT_NEAR(error(640) / error(160), 0.25, 0.02);
+}
+
+}  // namespace
+}  // namespace freestand::test

@@ -1,0 +1,36 @@
+// Law: beyond slack a spring m W^2 and a dashpot m c, pulling only.
+#include "effects/effect_fixture.hpp"
+
+namespace freestand::test {
+namespace {
+
+TEST(SlackTether, General) {
+  expect_general({"slack_tether", {0.01, 2, 1}, {-0.01, 2, 1}, {0.01, 0, 0}, {Model::slide, Model::slide_rock}, 40, 4});
+}
+
+// On ice a block of speed v runs into the tether: half a swing of pi/W_d, reaching v/W exp(-(z/r) acos(z)) with
+// r = sqrt(1 - z^2), c = 2 z W; the pull ends before the stretch does, when W^2 x + c x' = 0, at W_d t = 2 acos(z), with
+// speed -v exp(-(z/r) 2 acos(z)).
+TEST(SlackTether, CatchesABlockAsSpringAndDashpotDo) {
+  const double slack = 0.05, f = 1.5, W = 2 * pi * f, z = 0.2, c = 2 * z * W, v = 0.4;
+  const FloorMotion push = staircase({0.05, 1.5}, {-v / 0.05, 0});
+  const double root = std::sqrt(1 - z * z), angle = std::acos(z);
+  for (const Solver& solver : both_solvers) {
+    const Path r = run(solver, sliding(0, {effect("slack_tether", {slack, f, c})}), {&push});
+    double most = 0;
+    for (const auto& p : r.points) most = std::fmax(most, p.slip_m);
+    EXPECT_NEAR(most, slack + v / W * std::exp(-z / root * angle), 1e-6) << solver.name;
+    EXPECT_NEAR(r.points.at(1200).slip_velocity_mps, -v * std::exp(-z / root * 2 * angle), 1e-9) << solver.name;
+  }
+}
+
+TEST(SlackTether, DoesNothingOnTheOtherSide) {
+  const FloorMotion push = rectangular_pulse(6, 0.3);
+  const Response plain = respond(sliding(0.2), {&push});
+  EXPECT_NEAR(respond(sliding(0.2, {effect("slack_tether", {0.01, 3, 1})}), {&push}).residual_slip_m,
+              plain.residual_slip_m, 1e-12);
+  EXPECT_LT(plain.residual_slip_m, -0.05);
+}
+
+}  // namespace
+}  // namespace freestand::test
