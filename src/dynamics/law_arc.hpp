@@ -88,7 +88,8 @@ class LawStep {
     value(Input::theta)[k] = y_.theta[k];
     value(Input::omega)[k] = y_.omega[k];
     value(Input::path)[k] = y_.path[k];
-    value(Input::speed)[k] = state_.sigma * y_.w[k];
+    // Stages of a step that reaches over the end of a slip may ask for a speed below zero, where laws mean nothing.
+    value(Input::speed)[k] = state_.sigma * state_.w < 0 ? 0.0 : state_.sigma * y_.w[k];
     for (int i = 0; i < laws_.states; ++i) y_.states[i][k] = value(Input::state, i)[k];
   }
 

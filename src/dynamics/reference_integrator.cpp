@@ -207,7 +207,7 @@ class ReferenceIntegrator {
   }
 
   double leg_length() const {
-    double h = std::min(life_.cursor.left(), 300 * longest_step_);
+    double h = std::min(life_.left(), 300 * longest_step_);
     if (output_step_ > 0) {
       const double next = (std::floor(life_.cursor.time() / output_step_ + 1e-6) + 1) * output_step_;
       h = std::min(h, next - life_.cursor.time());

@@ -1,0 +1,87 @@
+// Effects together: random mixtures of several, on random specimens under random motions.
+#include <cmath>
+
+#include "effects/effect_fixture.hpp"
+#include "support/keyed_random.hpp"
+
+namespace freestand::test {
+namespace {
+
+const char* const model_names[] = {"slide", "rock", "slide_rock", "bouc_wen"};
+
+bool excluded(const effects::Effect& effect, const std::string& name) {
+  return std::find(effect.excludes.begin(), effect.excludes.end(), name) != effect.excludes.end();
+}
+
+// Up to four effects of the catalogue, in the usual ranges of their parameters.
+std::vector<EffectUse> mixture(KeyedRandom& random, Model model) {
+  std::vector<EffectUse> uses;
+  const std::size_t wanted = 1 + static_cast<std::size_t>(random.uniform(0, 4));
+  for (int attempt = 0; uses.size() < wanted && attempt < 100; ++attempt) {
+    const auto& all = effects::all();
+    const auto& effect = all[static_cast<std::size_t>(random.uniform(0, static_cast<double>(all.size())))];
+    bool fits = !excluded(effect, model_names[static_cast<int>(model)]);
+    for (const auto& other : uses)
+      fits = fits && other.effect != &effect && !excluded(effect, other.effect->name) &&
+             !excluded(*other.effect, effect.name);
+    if (!fits) continue;
+    uses.push_back({&effect, {}});
+    for (const auto& p : effect.parameters) uses.back().parameters.push_back(random.uniform(p.low, p.high));
+  }
+  return uses;
+}
+
+bool near(const Response& a, const Response& b, double tolerance) {
+  return a.outcome == b.outcome && std::abs(a.peak_slip_m - b.peak_slip_m) < tolerance &&
+         std::abs(a.residual_slip_m - b.residual_slip_m) < tolerance &&
+         std::abs(a.slid_path_m - b.slid_path_m) < tolerance &&
+         std::abs(a.peak_rotation_rad - b.peak_rotation_rad) < tolerance;
+}
+
+TEST(Mixtures, BothIntegratorsAgreeAndNothingFails) {
+  CaseFamily family;
+  family.seed = 2024;
+  family.alpha_high = 0.9;
+  family.mu_high = 0.7;
+  family.one_model = 0;
+  family.duration_low_s = 3;
+  family.duration_high_s = 6;
+  int sensitive = 0, compared = 0, moved = 0;
+  for (std::uint64_t number = 0; number < 240; ++number) {
+    KeyedRandom random(5, number);
+    RandomCase c = random_case(family, number);
+    c.specimen.model = number % 3 == 0 ? Model::slide : Model::slide_rock;
+    c.specimen.effects = mixture(random, c.specimen.model);
+    std::string text = c.text();
+    for (const auto& use : c.specimen.effects) {
+      text.append(" ").append(use.effect->name);
+      for (const double p : use.parameters) text.append(" ").append(testing::PrintToString(p));
+    }
+    const Response fast = respond(c.specimen, c.shaking);
+    EXPECT_NE(fast.outcome, Outcome::step_limit) << text;
+    EXPECT_NE(fast.outcome, Outcome::not_finite) << text;
+    moved += fast.outcome == Outcome::moved;
+    const Response reference = respond_reference(c.specimen, c.shaking);
+    if (near(fast, reference, 1e-6)) {
+      ++compared;
+      continue;
+    }
+    // A change of 1e-10 in the shaking changes the answer by as much: impacts have amplified round-off.
+    Shaking stronger = c.shaking;
+    stronger.scale *= 1 + 1e-10;
+    if (!near(respond(c.specimen, stronger), fast, 1e-8))
+      ++sensitive;
+    else
+      ADD_FAILURE() << number << " " << text << "\n fast " << name(fast.outcome) << " " << fast.peak_slip_m << " "
+                    << fast.residual_slip_m << " " << fast.slid_path_m << " " << fast.peak_rotation_rad << " "
+                    << fast.events << "\n reference " << name(reference.outcome) << " " << reference.peak_slip_m << " "
+                    << reference.residual_slip_m << " " << reference.slid_path_m << " " << reference.peak_rotation_rad
+                    << " " << reference.events;
+  }
+  EXPECT_GT(compared, 200);
+  EXPECT_GT(moved, 120);
+  EXPECT_LT(sensitive, 12);
+}
+
+}  // namespace
+}  // namespace freestand::test
