@@ -82,10 +82,11 @@ double step_in_own_time(const BatchCase& c) {
 // Null: one by one.
 BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, const BatchCase& c) {
   if (specimen.model == Model::slide) return kernels.slide;
+  if (specimen.model != Model::rock && specimen.model != Model::slide_rock) return nullptr;
   const double step = step_in_own_time(c);
-  if (specimen.model == Model::rock)
-    return step < fine_step ? kernels.rock : step < coarse_step ? kernels.rock_coarse : nullptr;
-  return nullptr;
+  if (!(step < coarse_step)) return nullptr;
+  if (specimen.model == Model::rock) return step < fine_step ? kernels.rock : kernels.rock_coarse;
+  return step < fine_step ? kernels.slide_rock : kernels.slide_rock_coarse;
 }
 
 struct Queue {

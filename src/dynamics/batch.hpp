@@ -27,7 +27,8 @@ using BatchKernel = void (*)(const BatchCase* cases, std::size_t count, Response
 struct BatchKernels {
   const char* name;
   BatchKernel slide;
-  BatchKernel rock, rock_coarse;  // steps short against the block's own time, and longer ones
+  BatchKernel rock, rock_coarse, slide_rock,
+      slide_rock_coarse;  // steps short against the block's own time, and longer ones
 };
 
 }  // namespace freestand::dynamics

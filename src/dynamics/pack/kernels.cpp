@@ -2,10 +2,12 @@
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/rock.hpp"
 #include "dynamics/pack/slide.hpp"
+#include "dynamics/pack/slide_rock.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 
 extern const BatchKernels kernels;
-const BatchKernels kernels{FREESTAND_ISA_NAME, slide_samples, rock_samples<5>, rock_samples<8>};
+const BatchKernels kernels{FREESTAND_ISA_NAME, slide_samples,         rock_samples<5>,
+                           rock_samples<8>,    slide_rock_samples<5>, slide_rock_samples<8>};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA

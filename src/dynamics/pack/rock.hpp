@@ -157,7 +157,6 @@ class RockPool : RockLanes {
 
   // What follows for one lane: it goes on from the end of its interval, or from the impact within.
   void settle(int i, const Ends& ends, int l, bool hits) {
-    Lane& lane = lanes_[i];
     if (ends.highest[l] >= 0.5 * pi) return overturn(i);
     if (!(ends.highest[l] < 0.5 * pi)) return decline(i);
     if (ends.force2[l] > r_.force2[i]) r_.force2[i] = ends.force2[l];

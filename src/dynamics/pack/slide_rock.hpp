@@ -1,0 +1,258 @@
+// Slide-rock, one sample at a time, written for speed: one Taylor step per knot interval without sines, polynomials as
+// their own dense output, and mode changes decided from the values at the instant (who was violated says what cannot
+// follow). Whatever is not decided beyond doubt - a corner that lifts off, Painleve's paradox - is declined and left to
+// the general text (dynamics/mode_logic.hpp).
+#pragma once
+
+#include <cmath>
+
+#include "base/units.hpp"
+#include "dynamics/batch.hpp"
+#include "dynamics/pack/corner_series.hpp"
+#include "dynamics/pack/polynomial_root.hpp"
+#include "dynamics/pack/slide_rock_life.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+template <int N>
+class SlideRock : SlideRockLife {
+ public:
+  using SlideRockLife::SlideRockLife;
+
+  // False: declined.
+  bool run(Response& out) {
+    a_ = floor_at(0);
+    if (magnitude(a_) > quiet(a_)) {
+      event();
+      choose_flat();
+    }
+    while (!declined_ && !ended_) {
+      switch (mode_) {
+        case Mode::rest:
+          rest();
+          break;
+        case Mode::slide:
+          slide();
+          break;
+        default:
+          corner();
+      }
+    }
+    if (declined_) return false;
+    fill(out);
+    return true;
+  }
+
+ private:
+  // ---- one corner
+  void corner() {
+    const double hs = h_ * left_, hs2 = hs * hs, a1 = next_floor();
+    const bool slips = mode_ == Mode::slide_rock;
+    CornerSeries<N> y;
+    y.theta[0] = theta_;
+    y.omega[0] = omega_ * hs;
+    y.rx[0] = rx_;
+    y.ry[0] = ry_;
+    y.xi[0] = xi_;
+    y.w[0] = w_ * hs;
+    const Forces begin = forces(rx_, ry_, omega_, a_);
+    if (!(begin.fy > 0)) return decline();
+    if (slips) {
+      y.slide_rock(c_.g * hs2, a_ * hs2, (a1 - a_) * hs2, c_.k2, sigma_ * c_.mu_k);
+    } else {
+      const double over = hs2 / (c_.k2 + rx_ * rx_ + ry_ * ry_);
+      y.rock(c_.g * over, a_ * over, (a1 - a_) * over);
+    }
+    // Which comes first?
+    const double reach = valid_part(y);
+    double x = reach;
+    Cause cause = Cause::none;
+    double p[N + 2];
+    for (int k = 0; k < N + 2; ++k) p[k] = side_ * y.theta[k];
+    if (p[0] == 0 && p[1] == 0 && p[2] < 0 && p[2] > -1e-11 * c_.g * hs2 / c_.h) p[2] = 0;
+    const double falls = first_fall<N + 1>(p, reach);
+    if (falls <= reach) x = falls, cause = Cause::impact;
+    if (slips) {
+      for (int k = 0; k < N + 2; ++k) p[k] = sigma_ * y.w[k];
+      if (p[0] == 0 && p[1] < 0 && p[1] > -1e-9 * c_.g * hs2) p[1] = 0;
+      const double stops = first_fall<N + 1>(p, x);
+      if (stops <= x) x = stops, cause = Cause::stop;
+    } else {
+      const double held = grip(y, x, hs, a1);
+      if (held < 0)
+        x = lost_grip(y, x, hs, a1, held), cause = Cause::grip;
+      else if (const double low = weakest(y, x, hs, a1, begin, held); low < x)
+        x = lost_grip(y, low, hs, a1, grip(y, low, hs, a1)), cause = Cause::grip;
+    }
+    const double theta = value(y.theta, x), omega = value(y.omega, x) / hs;
+    if (!(side_ * theta < 0.5 * pi)) {
+      if (side_ * theta >= 0.5 * pi) return overturn(y, x, hs, a1);
+      return decline();
+    }
+    watch(y, x, hs, a1, begin);
+    if (declined_) return;
+    theta_ = theta;
+    omega_ = omega;
+    rx_ = value(y.rx, x);
+    ry_ = value(y.ry, x);
+    if (slips) {
+      const double xi = value(y.xi, x);
+      path_ += magnitude(xi - xi_);
+      xi_ = xi;
+      w_ = value(y.w, x) / hs;
+    }
+    forward(x);
+    switch (cause) {
+      case Cause::none:
+        break;
+      case Cause::impact:
+        strike();
+        break;
+      case Cause::stop:
+        event();
+        w_ = 0;
+        choose_on_corner();
+        break;
+      case Cause::grip:
+        event();
+        slip_on_corner(rocking(rx_, ry_, omega_, a_).fx);
+        break;
+    }
+  }
+
+  // Part of the step in which the terms left out are below about 1e-11.
+  double valid_part(const CornerSeries<N>& y) const {
+    const double last = larger(magnitude(y.omega[N + 1]), magnitude(y.w[N + 1]) / c_.h);
+    return last < 3e-11 ? 1 : larger(0.05, std::pow(3e-11 / last, 1.0 / (N + 1)));
+  }
+
+  enum class Cause { none, impact, stop, grip };
+
+  template <int M>
+  static double value(const double (&c)[M], double x) {
+    double v = c[M - 1];
+    for (int k = M - 2; k >= 0; --k) v = v * x + c[k];
+    return v;
+  }
+
+  // mu_s f_y - |f_x| at x, rocking.
+  double grip(const CornerSeries<N>& y, double x, double hs, double a1) const {
+    const Forces f = rocking(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, a_ + (a1 - a_) * x);
+    return c_.mu_s * f.fy - magnitude(f.fx);
+  }
+
+  // Where the grip, which holds at both ends of the step, is lost in between; the end: nowhere.
+  double weakest(const CornerSeries<N>& y, double x, double hs, double a1, const Forces& begin, double last) const {
+    const double first = c_.mu_s * begin.fy - magnitude(begin.fx);
+    if (std::fmin(first, last) > 0.05 * c_.g) return x;
+    const double middle = 0.5 * x, here = grip(y, middle, hs, a1);
+    if (here < 0) return middle;
+    const double bend = 2 * (first + last - 2 * here), slope = last - first - bend;  // of the parabola, in part/x
+    const double low = -0.5 * slope / bend;
+    if (!(bend > 0 && low > 0 && low < 1)) return x;
+    return grip(y, low * x, hs, a1) < 0 ? low * x : x;
+  }
+
+  // Illinois; the grip holds at the start, or was just found to.
+  double lost_grip(const CornerSeries<N>& y, double hi, double hs, double a1, double f_hi) const {
+    double lo = 0, f_lo = grip(y, 0, hs, a1);
+    if (!(f_lo > 0)) return 0;
+    int side = 0;
+    for (int i = 0; i < 60 && hi - lo > 1e-13; ++i) {
+      double x = hi - f_hi * (hi - lo) / (f_hi - f_lo);
+      if (!(x > lo && x < hi)) x = 0.5 * (lo + hi);
+      const double f = grip(y, x, hs, a1);
+      if (magnitude(f) < 1e-14 * c_.g) return x;
+      if (f > 0) {
+        lo = x;
+        f_lo = f;
+        if (side == 1) f_hi *= 0.5;
+        side = 1;
+      } else {
+        hi = x;
+        f_hi = f;
+        if (side == -1) f_lo *= 0.5;
+        side = -1;
+      }
+    }
+    return hi;
+  }
+
+  void watch(const CornerSeries<N>& y, double x, double hs, double a1, const Forces& begin) {
+    const double theta = value(y.theta, x), omega = value(y.omega, x);
+    const Forces end = forces(value(y.rx, x), value(y.ry, x), omega / hs, a_ + (a1 - a_) * x);
+    if (mode_ == Mode::slide_rock && !(end.fy > 0)) return decline();
+    if (!(end.fy > 0)) return decline();
+    feel(begin.fx, begin.fy);
+    feel(end.fx, end.fy);
+    if (y.omega[0] * omega < 0) {
+      const double top = sign_change<N + 1>(y.omega, x);
+      see_rotation(value(y.theta, top));
+      see_slip(slip_of(value(y.xi, top), value(y.theta, top)));
+      const Forces f = forces(value(y.rx, top), value(y.ry, top), 0.0, a_ + (a1 - a_) * top);
+      feel(f.fx, f.fy);
+    }
+    feel_top(y, x, hs, a1, begin, end);
+    see_rotation(theta);
+    const double lever = side_ * half_base_ / (rx_ * rx_ + ry_ * ry_), c = arm(side_);
+    double u[N + 1];
+    for (int k = 1; k <= N; ++k) u[k] = k * (y.xi[k] - lever * (c_.h * y.ry[k] - c * y.rx[k]));
+    double rate = u[N];
+    for (int k = N - 1; k >= 1; --k) rate = rate * x + u[k];
+    see_slip(slip_of(value(y.xi, x), theta));
+    if (rate * u[1] < 0) {
+      const double top = sign_change<N - 1>(u + 1, x);
+      see_slip(slip_of(value(y.xi, top), value(y.theta, top)));
+    }
+  }
+
+  // Where the squared acceleration has a top inside the step: between the ends its square is all but a parabola.
+  void feel_top(const CornerSeries<N>& y, double x, double hs, double a1, const Forces& begin, const Forces& end) {
+    const auto square = [&](const Forces& f) { return f.fx * f.fx + (f.fy - c_.g) * (f.fy - c_.g); };
+    const double first = square(begin), last = square(end), more = 0.01 * (first + last);
+    if (larger(first, last) + more < force2_) return;
+    const auto at = [&](double part) {
+      return forces(value(y.rx, part), value(y.ry, part), value(y.omega, part) / hs, a_ + (a1 - a_) * part);
+    };
+    double middle = 0.5 * x;
+    for (int round = 0; round < 3; ++round) {
+      const double here = square(at(middle));
+      force2_ = larger(force2_, here);
+      // Top of the parabola through both ends and the point between.
+      const double left = (here - first) / middle, right = (last - here) / (x - middle), bend = (right - left) / x;
+      const double top = 0.5 * (middle - left / bend);
+      if (!(bend < 0) || !(top > 1e-6 * x && top < (1 - 1e-6) * x) || magnitude(top - middle) < 1e-4 * x) return;
+      middle = top;
+    }
+  }
+
+  void overturn(const CornerSeries<N>& y, double x, double hs, double a1) {
+    double lo = 0, hi = x;
+    for (int round = 0; round < 50; ++round) {
+      const double middle = 0.5 * (lo + hi);
+      (side_ * value(y.theta, middle) < 0.5 * pi ? lo : hi) = middle;
+    }
+    watch(y, hi, hs, a1, forces(rx_, ry_, omega_, a_));
+    theta_ = side_ * 0.5 * pi;
+    peak_rotation_ = 0.5 * pi;
+    const double xi = value(y.xi, hi);
+    path_ += magnitude(xi - xi_);
+    xi_ = xi;
+    event();
+    ended_ = true;
+    overturned_ = true;
+    end_ = now() + hs * hi;
+  }
+};
+
+template <int N>
+void slide_rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const BatchCase& c = cases[i];
+    declined[i] = !(c.mu_k > 0) || c.scale == 0 || !SlideRock<N>(c).run(responses[i]);
+  }
+}
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
