@@ -1,0 +1,161 @@
+#include "measurement/bench.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/random.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+// Standard normal numbers, a pure function of their place.
+double normal(std::uint64_t seed, std::uint64_t sample, std::uint64_t stream) {
+  const auto [a, b] = random::bits(seed, sample, stream);
+  return std::sqrt(-2 * std::log(random::unit_interval(a))) * std::cos(2 * std::numbers::pi * random::unit_interval(b));
+}
+
+std::vector<double> samples(const FloorMotion& motion, const std::vector<double>& coefficients) {
+  std::vector<double> values;
+  if (coefficients.empty()) return values;
+  const std::size_t n = motion.segments(), stride = static_cast<std::size_t>(motion.degree) + 1;
+  for (std::size_t i = 0; i < n; ++i) values.push_back(coefficients[i * stride]);
+  const double last = motion.knot_s[n] - motion.knot_s[n - 1];
+  values.push_back(coefficients[(n - 1) * stride] + coefficients[(n - 1) * stride + 1] * last);
+  return values;
+}
+
+FloorMotion with_noise(const FloorMotion& motion, double horizontal, double vertical, std::uint64_t replay,
+                       std::uint64_t stream) {
+  std::vector<double> a = samples(motion, motion.horizontal_mps2), v = samples(motion, motion.vertical_mps2);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += horizontal * normal(1 + replay, i, stream);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += vertical * normal(1 + replay, i, ~stream);
+  return piecewise_linear(motion.name, motion.knot_s[1] - motion.knot_s[0], a, v);
+}
+
+}  // namespace
+
+const char* name(Channel channel) {
+  constexpr const char* names[] = {"slip_m", "rotation_rad", "block_acceleration_mps2"};
+  return names[static_cast<int>(channel)];
+}
+
+const std::vector<double>& history(const Test& test, Channel channel) {
+  if (channel == Channel::slip) return test.slip_m;
+  return channel == Channel::rotation ? test.rotation_rad : test.block_acceleration_mps2;
+}
+
+double sensor_noise(const std::vector<double>& signal) {
+  constexpr std::size_t window = 50;
+  std::vector<double> levels;
+  for (std::size_t from = 0; from + window + 3 <= signal.size(); from += window) {
+    double sum = 0;
+    for (std::size_t i = from; i < from + window; ++i) {
+      const double third = signal[i + 3] - 3 * signal[i + 2] + 3 * signal[i + 1] - signal[i];
+      sum += third * third;
+    }
+    levels.push_back(std::sqrt(sum / (20.0 * window)));
+  }
+  if (levels.empty()) return 0;
+  // The quiet fifth of the windows; a window of that length comes out 14 % low there on white noise.
+  const auto quiet = levels.begin() + static_cast<long>(levels.size() / 5);
+  std::nth_element(levels.begin(), quiet, levels.end());
+  return *quiet / 0.86;
+}
+
+const std::vector<double>& Prediction::channel(Channel which) const {
+  if (which == Channel::slip) return slip_m;
+  return which == Channel::rotation ? rotation_rad : block_acceleration_mps2;
+}
+
+Prediction predict(const ModelSpec& model, const Test& test, std::span<const double> x, const FloorMotion* other) {
+  Prediction out;
+  Shaking shaking = test.shaking();
+  if (other) shaking.motion = other;
+  const Specimen body = specimen(model, test, x);
+  Settings settings;
+  settings.tolerance = 1e-8;
+  if (!test.has_history()) {
+    out.response = respond(body, shaking, settings);
+    return out;
+  }
+  settings.free_vibration_s = 0;
+  thread_local History history;
+  history.step_s = test.dt_s;
+  out.response = respond(body, shaking, settings, &history);
+  const std::size_t n = std::max({test.slip_m.size(), test.rotation_rad.size(), test.block_acceleration_mps2.size()});
+  const auto& points = history.points;
+  const auto at = [&](std::size_t i) {
+    return points.empty() ? HistoryPoint{} : points[std::min(i, points.size() - 1)];
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const HistoryPoint point = at(i);
+    out.slip_m.push_back(point.slip_m);
+    out.rotation_rad.push_back(point.rotation_rad);
+    out.slip_velocity_mps.push_back(point.slip_velocity_mps);
+    out.mode.push_back(point.mode);
+  }
+  if (!test.block_acceleration_mps2.empty()) {
+    // Absolute acceleration of the centre of mass: that of the floor, and the change of its velocity relative to it.
+    const double h = body.block.height_m;
+    const auto speed = [&](std::size_t i) {
+      const HistoryPoint point = at(std::min(i, n - 1));
+      return point.slip_velocity_mps + h * std::cos(point.rotation_rad) * point.rotation_rate_radps;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, n - 1);
+      const double span = static_cast<double>(after - before) * test.dt_s;
+      out.block_acceleration_mps2.push_back(at(i).floor_acceleration_mps2 + (speed(after) - speed(before)) / span);
+    }
+  }
+  return out;
+}
+
+Bench::Bench(const Dataset& data, int replays) : data_(data), replays_(data.tests.size()) {
+  for (std::size_t i = 0; i < data.tests.size(); ++i) {
+    const Test& test = data.tests[i];
+    for (const double slip : test.slip_m) {
+      reach_.least_m = std::min(reach_.least_m, slip);
+      reach_.greatest_m = std::max(reach_.greatest_m, slip);
+    }
+    if (const auto peak = test.peaks.peak_slip_m) {
+      reach_.least_m = std::min(reach_.least_m, -*peak);
+      reach_.greatest_m = std::max(reach_.greatest_m, *peak);
+    }
+    const bool recorded = test.has_history() && test.motion.degree == 1;
+    const double given = data.noise.floor_acceleration_mps2;
+    const double horizontal = !recorded   ? 0
+                              : given > 0 ? given
+                                          : sensor_noise(samples(test.motion, test.motion.horizontal_mps2));
+    const double vertical = recorded ? sensor_noise(samples(test.motion, test.motion.vertical_mps2)) : 0;
+    floor_noise_mps2_.push_back(horizontal);
+    const std::uint64_t stream = random::stable_hash(test.id);
+    for (int k = 0; recorded && k < replays; ++k)
+      replays_[i].push_back(with_noise(test.motion, horizontal, vertical, static_cast<std::uint64_t>(k), stream));
+  }
+}
+
+double Bench::noise(Channel channel) const {
+  if (channel == Channel::slip) return data_.noise.slip_m;
+  return channel == Channel::rotation ? data_.noise.rotation_rad : data_.noise.block_acceleration_mps2;
+}
+
+Spread Bench::spread(const ModelSpec& model, std::size_t i, std::span<const double> x,
+                     const Prediction& nominal) const {
+  Spread spread(channel_count);
+  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(replays_[i].size(), 1));
+  for (int c = 0; c < channel_count; ++c)
+    spread[static_cast<std::size_t>(c)].assign(history(test(i), static_cast<Channel>(c)).size(), 0.0);
+  for (const FloorMotion& motion : replays_[i]) {
+    const Prediction replay = predict(model, test(i), x, &motion);
+    for (int c = 0; c < channel_count; ++c) {
+      auto& variance = spread[static_cast<std::size_t>(c)];
+      const auto& a = replay.channel(static_cast<Channel>(c));
+      const auto& b = nominal.channel(static_cast<Channel>(c));
+      for (std::size_t k = 0; k < variance.size(); ++k) variance[k] += share * (a[k] - b[k]) * (a[k] - b[k]);
+    }
+  }
+  return spread;
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,101 @@
+#include "measurement/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freestand::measurement {
+namespace {
+
+const char* model_name(Model model) {
+  constexpr const char* names[] = {"slide", "rock", "slide_rock", "bouc_wen"};
+  return names[static_cast<int>(model)];
+}
+
+bool excludes(const dynamics::Effect& effect, const std::string& name) {
+  return std::find(effect.excludes.begin(), effect.excludes.end(), name) != effect.excludes.end();
+}
+
+double dimension(const std::optional<Number>& number, const std::optional<double>& measured, std::span<const double> x,
+                 double fallback = 0) {
+  return number ? number->of(x) : measured.value_or(fallback);
+}
+
+}  // namespace
+
+bool ModelSpec::has(const std::string& name) const {
+  return std::any_of(effects.begin(), effects.end(), [&](const EffectTerm& term) { return term.effect->name == name; });
+}
+
+Specimen specimen(const ModelSpec& model, const Test& test, std::span<const double> x) {
+  Specimen s;
+  s.block = Block::rectangular(dimension(model.width, test.specimen.width_m, x),
+                               dimension(model.height, test.specimen.height_m, x),
+                               dimension(model.mass, test.specimen.mass_kg, x, 1));
+  s.friction.mu_k = model.mu_k.of(x);
+  s.friction.mu_s = s.friction.mu_k;
+  if (model.mu_s) s.friction.mu_s = std::max(s.friction.mu_k, model.mu_s->of(x));
+  if (model.static_ratio) s.friction.mu_s = s.friction.mu_k * model.static_ratio->of(x);
+  s.impact = {model.impact_law, model.impact_factor.of(x)};
+  s.model = model.model;
+  s.bouc_wen = model.bouc_wen;
+  for (const EffectTerm& term : model.effects) {
+    EffectUse use{.effect = term.effect, .parameters = {}};
+    for (const Number& number : term.parameters) use.parameters.push_back(number.of(x));
+    s.effects.push_back(std::move(use));
+  }
+  return s;
+}
+
+std::string missing_dimension(const ModelSpec& model, const Test& test) {
+  if (!model.width && !test.specimen.width_m) return "width_m";
+  if (!model.height && !test.specimen.height_m) return "height_m";
+  return {};
+}
+
+Free free_parameter(const dynamics::Effect& effect, const dynamics::Parameter& p, const Reach& reach) {
+  Free free{.name = "effects." + effect.name + "." + p.name,
+            .unit = p.unit,
+            .lower = p.lower,
+            .upper = p.upper,
+            .low = p.low,
+            .high = p.high};
+  if (p.unit == "m" && p.lower < 0 && reach.greatest_m > reach.least_m) {
+    free.low = 1.1 * reach.least_m;
+    free.high = 1.1 * reach.greatest_m;
+  }
+  free.logarithmic = free.low > 0 && free.high / free.low >= 4;
+  if (p.lower_open) free.lower = std::max(free.lower, 1e-3 * free.low);
+  return free;
+}
+
+ModelSpec with_effect(const ModelSpec& base, const dynamics::Effect& effect, const Reach& reach) {
+  ModelSpec model = base;
+  EffectTerm term{.effect = &effect, .parameters = {}};
+  for (const auto& parameter : effect.parameters) {
+    term.parameters.push_back({.free = static_cast<int>(model.free.size())});
+    model.free.push_back(free_parameter(effect, parameter, reach));
+  }
+  model.effects.push_back(std::move(term));
+  return model;
+}
+
+bool goes_with(const ModelSpec& model, const dynamics::Effect& effect) {
+  if (model.has(effect.name) || excludes(effect, model_name(model.model))) return false;
+  if (model.model == Model::bouc_wen && effect.dynamic()) return false;
+  return std::none_of(model.effects.begin(), model.effects.end(), [&](const EffectTerm& term) {
+    return excludes(effect, term.effect->name) || excludes(*term.effect, effect.name);
+  });
+}
+
+double to_unit(const Free& free, double x) {
+  if (free.logarithmic) return std::log(std::max(x, 1e-300) / free.low) / std::log(free.high / free.low);
+  return (x - free.low) / (free.high - free.low);
+}
+
+double from_unit(const Free& free, double z) {
+  const double x =
+      free.logarithmic ? free.low * std::pow(free.high / free.low, z) : free.low + z * (free.high - free.low);
+  return std::clamp(x, free.lower, free.upper);
+}
+
+}  // namespace freestand::measurement

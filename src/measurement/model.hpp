@@ -1,0 +1,76 @@
+// The model that is held against measurements: a specimen some of whose numbers are free.
+#pragma once
+
+#include <freestand/specimen.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dynamics/effect.hpp"
+#include "measurement/dataset.hpp"
+
+namespace freestand::measurement {
+
+// A number that a fit may choose. A start lies within [low, high]; the answer within [lower, upper].
+struct Free {
+  std::string name;  // dotted, as in the study: friction.mu, effects.floor_tilt.angle_rad
+  std::string unit;
+  double lower = 0, upper = 0;
+  double low = 0, high = 0;
+  bool logarithmic = false;  // spread starts and steps over the logarithm
+};
+
+// A number of the model: fixed, or the free one at that place.
+struct Number {
+  double value = 0;
+  int free = -1;
+  double of(std::span<const double> x) const { return free < 0 ? value : x[static_cast<std::size_t>(free)]; }
+};
+
+struct EffectTerm {
+  const dynamics::Effect* effect = nullptr;  // not owned
+  std::vector<Number> parameters;
+};
+
+struct ModelSpec {
+  std::optional<Number> width, height, mass;  // absent: the specimen's of the test
+  Number mu_k;
+  std::optional<Number> mu_s, static_ratio;  // neither: mu_s = mu_k
+  Model model = Model::slide_rock;
+  BoucWen bouc_wen;
+  ImpactLaw impact_law = ImpactLaw::housner;
+  Number impact_factor{.value = 1};
+  std::vector<EffectTerm> effects;
+  // Outcomes only: standard deviation of ln(width) from test to test, since no two placements are alike.
+  std::optional<Number> placement_scatter;
+  std::vector<Free> free;
+
+  bool has(const std::string& effect) const;
+};
+
+// The specimen of a test with the free numbers at x. Dimensions must be known (check with missing_dimension).
+Specimen specimen(const ModelSpec&, const Test&, std::span<const double> x);
+
+// Name of a dimension that neither the model nor the test's specimen gives; empty: all are known.
+std::string missing_dimension(const ModelSpec&, const Test&);
+
+// The catalogue's range of a parameter as a free number. reach: least and greatest slip that was measured [m]; lengths
+// with a sign (gaps, slacks) start within it.
+struct Reach {
+  double least_m = 0, greatest_m = 0;
+};
+Free free_parameter(const dynamics::Effect&, const dynamics::Parameter&, const Reach&);
+
+// The model with one more effect, all of whose parameters are free.
+ModelSpec with_effect(const ModelSpec&, const dynamics::Effect&, const Reach&);
+
+// Can the effect join this model? Not when it is there already, or excludes the model or an effect that is there, or is
+// excluded by one.
+bool goes_with(const ModelSpec&, const dynamics::Effect&);
+
+// Free numbers <-> the unit cube between low and high, in which fits move; logarithmic ones by their logarithm.
+double to_unit(const Free&, double x);
+double from_unit(const Free&, double z);  // kept within [lower, upper]
+
+}  // namespace freestand::measurement

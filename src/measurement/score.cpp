@@ -1,0 +1,170 @@
+#include "measurement/score.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace freestand::measurement {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double failed_error = 1e4;  // of a sample without a history, in noise units
+constexpr double ln_ratio_limit = 3;
+constexpr int placements = 9;
+
+// visit(channel, noise, measured, predicted) for the channels that can be judged.
+template <class Visit>
+void each_channel(const Bench& bench, const Test& test, const Prediction& prediction, Visit&& visit) {
+  for (int c = 0; c < channel_count; ++c) {
+    const auto channel = static_cast<Channel>(c);
+    if (!history(test, channel).empty() && bench.noise(channel) > 0)
+      visit(channel, bench.noise(channel), history(test, channel), prediction.channel(channel));
+  }
+}
+
+TestError history_error(const Bench& bench, std::size_t i, const Prediction& prediction) {
+  double square = 0, relative = 0;
+  int channels = 0;
+  each_channel(bench, bench.test(i), prediction, [&](Channel, double noise, const auto& measured, const auto& model) {
+    double sum = 0, peak = 0;
+    for (std::size_t k = 0; k < measured.size(); ++k) {
+      const double difference = model[k] - measured[k];
+      sum += difference * difference;
+      peak = std::max(peak, std::abs(measured[k]));
+    }
+    const double mean = sum / static_cast<double>(measured.size());
+    square += mean / (noise * noise);
+    if (peak > 5 * noise) relative = std::max(relative, std::sqrt(mean) / peak);
+    ++channels;
+  });
+  TestError error;
+  error.noise_units = prediction.failed() ? failed_error : std::sqrt(square / std::max(channels, 1));
+  error.noise_units = std::min(error.noise_units, failed_error);
+  error.relative = relative;
+  error.score = 2 * std::log(std::max(error.noise_units, 1e-3));
+  return error;
+}
+
+struct PeakPair {
+  double measured, model, noise;
+};
+
+std::vector<PeakPair> peak_pairs(const Bench& bench, const Test& test, const Response& r) {
+  std::vector<PeakPair> pairs;
+  const auto add = [&](const std::optional<double>& measured, double model, double noise) {
+    if (measured && *measured != 0) pairs.push_back({std::abs(*measured), std::abs(model), noise});
+  };
+  const Peaks& p = test.peaks;
+  add(p.peak_slip_m, r.peak_slip_m, bench.noise(Channel::slip));
+  add(p.residual_slip_m, r.residual_slip_m, bench.noise(Channel::slip));
+  add(p.peak_rotation_rad, r.peak_rotation_rad, bench.noise(Channel::rotation));
+  constexpr double g = 9.80665;
+  add(p.peak_acceleration_g, r.peak_acceleration_mps2 / g, bench.noise(Channel::block_acceleration) / g);
+  return pairs;
+}
+
+TestError peak_error(const Bench& bench, std::size_t i, const Prediction& prediction) {
+  const auto pairs = peak_pairs(bench, bench.test(i), prediction.response);
+  const auto n = static_cast<double>(std::max<std::size_t>(pairs.size(), 1));
+  TestError error;
+  double square = 0;
+  for (const PeakPair& pair : pairs) {
+    const double ln = prediction.failed() || pair.model <= 0 ? -ln_ratio_limit : std::log(pair.model / pair.measured);
+    error.score += std::min(ln * ln, ln_ratio_limit * ln_ratio_limit) / n;
+    error.relative = std::max(error.relative, std::abs(pair.model / pair.measured - 1));
+    square += std::pow((pair.model - pair.measured) / pair.noise, 2) / n;
+  }
+  error.noise_units = std::isfinite(square) ? std::sqrt(square) : unknown;
+  return error;
+}
+
+// Share of the placements that overturn.
+double overturning_probability(const ModelSpec& model, const Test& test, std::span<const double> x) {
+  const auto falls = [&](const Specimen& body) {
+    return respond(body, test.shaking(), {.tolerance = 1e-8}).outcome == Outcome::overturned;
+  };
+  const Specimen middle = specimen(model, test, x);
+  const double scatter = model.placement_scatter ? model.placement_scatter->of(x) : 0;
+  if (scatter <= 0) return falls(middle);
+  double share = 0;
+  for (int k = 0; k < placements; ++k) {
+    Specimen body = middle;
+    const double factor = std::exp(scatter * gsl_cdf_ugaussian_Pinv((k + 0.5) / placements));
+    body.block.left_m *= factor;
+    body.block.right_m *= factor;
+    share += falls(body) ? 1.0 / placements : 0.0;
+  }
+  return share;
+}
+
+}  // namespace
+
+Kind kind(const Test& test) {
+  if (test.has_history()) return Kind::history;
+  const Peaks& p = test.peaks;
+  return p.peak_slip_m || p.residual_slip_m || p.peak_rotation_rad || p.peak_acceleration_g ? Kind::peaks
+                                                                                            : Kind::outcome;
+}
+
+TestError test_error(const Bench& bench, std::size_t i, const Prediction& prediction) {
+  return kind(bench.test(i)) == Kind::history ? history_error(bench, i, prediction) : peak_error(bench, i, prediction);
+}
+
+TestError test_error(const Bench& bench, std::size_t i, const ModelSpec& model, std::span<const double> x) {
+  const Test& test = bench.test(i);
+  if (kind(test) != Kind::outcome) return test_error(bench, i, predict(model, test, x));
+  TestError error{.score = 0, .noise_units = unknown, .relative = unknown};
+  error.probability = overturning_probability(model, test, x);
+  const double y = test.peaks.overturned.value_or(false) ? 1 : 0;
+  error.score = (error.probability - y) * (error.probability - y);
+  return error;
+}
+
+double mean_score(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
+                  std::span<const double> x) {
+  double sum = 0;
+  for (const std::size_t i : tests) sum += test_error(bench, i, model, x).score;
+  return sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1));
+}
+
+double explained_error(const Bench& bench, std::size_t i, const Prediction& prediction, const Spread& spread) {
+  double square = 0;
+  int channels = 0;
+  if (prediction.failed()) return failed_error;
+  each_channel(bench, bench.test(i), prediction,
+               [&](Channel channel, double noise, const auto& measured, const auto& model) {
+                 const auto& variance = spread[static_cast<std::size_t>(channel)];
+                 double sum = 0;
+                 for (std::size_t k = 0; k < measured.size(); ++k)
+                   sum += std::pow(model[k] - measured[k], 2) / (noise * noise + variance[k]);
+                 square += sum / static_cast<double>(measured.size());
+                 ++channels;
+               });
+  return std::sqrt(square / std::max(channels, 1));
+}
+
+double expected_error(const Bench& bench, const Spread& spread) {
+  double square = 0;
+  int channels = 0;
+  for (int c = 0; c < channel_count; ++c) {
+    const double noise = bench.noise(static_cast<Channel>(c));
+    const auto& variance = spread[static_cast<std::size_t>(c)];
+    if (variance.empty() || noise <= 0) continue;
+    double sum = 0;
+    for (const double v : variance) sum += v / (noise * noise);
+    square += 1 + sum / static_cast<double>(variance.size());
+    ++channels;
+  }
+  return std::sqrt(square / std::max(channels, 1));
+}
+
+std::vector<std::size_t> tests_of(const Dataset& data, Role role) {
+  std::vector<std::size_t> tests;
+  for (std::size_t i = 0; i < data.tests.size(); ++i)
+    if (data.tests[i].role == role) tests.push_back(i);
+  return tests;
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,41 @@
+// How far the model is from one test, and from many.
+//
+//   histories  e^2 = mean over channels and time of ((model - measured)/noise)^2;  e = 1: as good as the sensor can tell
+//              score = ln(e^2): a test of large slips does not drown the others, and at the truth it weighs as the
+//              likelihood does
+//   peaks      score = mean of ln(model/measured)^2 over the peaks that are known, each not above 3^2
+//   outcomes   score = (p - y)^2, y = 1 overturned; p = share of the placements (ModelSpec::placement_scatter) in which
+//              the model overturns: Brier's
+#pragma once
+
+#include "measurement/bench.hpp"
+
+namespace freestand::measurement {
+
+enum class Kind { history, peaks, outcome };  // what a test can be judged by, the first that it has
+Kind kind(const Test&);
+
+struct TestError {
+  double score = 0;
+  double noise_units = 0;  // e; nan where no noise is known
+  double relative = 0;     // rms error over the measured peak; of peaks |model/measured - 1|; nan for outcomes
+  double probability = 0;  // of overturning, outcomes only
+};
+
+TestError test_error(const Bench&, std::size_t test, const Prediction&);  // histories and peaks
+TestError test_error(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x);
+
+// Mean score over these tests: what fits minimise.
+double mean_score(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&, std::span<const double> x);
+
+// The same error with each sample's noise widened by the spread of the replays: 1 where sensor and floor noise explain
+// all of it, and parts where the motion is chaotic say nothing.
+double explained_error(const Bench&, std::size_t test, const Prediction&, const Spread&);
+
+// e that the true model would show: sqrt(1 + mean(spread/noise^2)).
+double expected_error(const Bench&, const Spread&);
+
+// Positions of the tests of one role.
+std::vector<std::size_t> tests_of(const Dataset&, Role);
+
+}  // namespace freestand::measurement
