@@ -134,10 +134,19 @@ class Parser : public mu::ParserBase {
   void InitOprt() override {}
 };
 
-std::string problem(const mu::ParserError& error, const std::string& text) {
+// The word, or the one sign, with which a token begins.
+std::string beginning(const std::string& token) {
+  std::size_t end = 0;
+  while (end < token.size() && (std::isalnum(static_cast<unsigned char>(token[end])) || token[end] == '_')) ++end;
+  return "\"" + token.substr(0, std::max<std::size_t>(end, 1)) + "\"";
+}
+
+std::string problem(const mu::ParserError& error) {
+  const std::string token = error.GetToken();
   switch (error.GetCode()) {
     case mu::ecUNASSIGNABLE_TOKEN:
-      return "\"" + error.GetToken() + "\" is not known here";
+      return beginning(token) +
+             (std::isalpha(static_cast<unsigned char>(token[0])) ? " is not known here" : " stands where it cannot");
     case mu::ecUNEXPECTED_EOF:
       return "it ends too early";
     case mu::ecMISSING_PARENS:
@@ -150,8 +159,7 @@ std::string problem(const mu::ParserError& error, const std::string& text) {
     case mu::ecEMPTY_EXPRESSION:
       return "it is empty";
     default:
-      return error.GetToken().empty() || text.empty() ? "it cannot be read"
-                                                      : "\"" + error.GetToken() + "\" stands where it cannot";
+      return token.empty() ? "it cannot be read" : beginning(token) + " stands where it cannot";
   }
 }
 
@@ -184,7 +192,8 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& parame
     if (results != 1) throw FormulaError("it has more than one value", text.find(','));
     result_ = static_cast<int>(values[0]);
   } catch (const mu::ParserError& error) {
-    throw FormulaError(problem(error, text), static_cast<std::size_t>(std::max(error.GetPos(), 0)));
+    const auto position = static_cast<std::size_t>(std::max(error.GetPos(), 0));
+    throw FormulaError(problem(error), std::min(position, text.size()));
   }
 }
 
@@ -197,13 +206,21 @@ Value Formula::record(const At& at, const std::vector<double>& parameters) const
       const Operation& of = operations_[static_cast<std::size_t>(o[i])];
       return of.kind == number ? &of.number : nullptr;
     };
-    const auto result = [&, &o = operands, &k = kind, &number_value = x]() -> Value {
+    // What is positive where a condition holds.
+    const auto condition = [&](int place) {
+      const Operation& of = operations_[static_cast<std::size_t>(place)];
+      const auto side = [&](std::size_t i) { return values[static_cast<std::size_t>(of.operands[i])]; };
+      if (of.kind == less) return side(1) - side(0);
+      if (of.kind == greater) return side(0) - side(1);
+      return of.kind == step_of ? side(0) : values[static_cast<std::size_t>(place)];
+    };
+    const auto result = [&, &operands = operands, &k = kind, &number_value = x]() -> Value {
       switch (static_cast<Kind>(k)) {
         case number:
           return at.u.tape->constant(number_value);
         case variable:
-          return o[0] < known ? variable_value(at, o[0])
-                              : at.u.tape->constant(parameters[static_cast<std::size_t>(o[0] - known)]);
+          return operands[0] < known ? variable_value(at, operands[0])
+                                     : at.u.tape->constant(parameters[static_cast<std::size_t>(operands[0] - known)]);
         case add:
           return operand(0) + operand(1);
         case subtract:
@@ -241,13 +258,17 @@ Value Formula::record(const At& at, const std::vector<double>& parameters) const
         case max_of:
           return max(operand(0), operand(1));
         case where_of:
-          return where(operand(0), operand(1), operand(2));
+          return where(condition(operands[0]), operand(1), operand(2));
       }
       return at.u;
     };
     values.push_back(result());
   }
   return values[static_cast<std::size_t>(result_)];
+}
+
+bool is_variable(const std::string& name) {
+  return std::find(variables().begin(), variables().end(), name) != variables().end();
 }
 
 dynamics::Effect effect(const std::string& name, const std::string& friction, const std::string& force,

@@ -44,6 +44,9 @@ class Formula {
   int result_ = 0;
 };
 
+// A name that every formula knows.
+bool is_variable(const std::string& name);
+
 // The effect of one entry of a study: friction, force, or both (empty: without).
 dynamics::Effect effect(const std::string& name, const std::string& friction, const std::string& force,
                         const std::vector<std::string>& parameters);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dynamics/laws.hpp"
 #include "effects/effects.hpp"
 #include "formula/formula.hpp"
 #include "study/read_parts.hpp"
@@ -63,6 +64,13 @@ std::shared_ptr<const Effect> make_formula(Section& section, const EffectPart& p
   return std::make_shared<const Effect>(formula::effect(part.name, part.friction, part.force, parameters));
 }
 
+// One effect of the study, at its own numbers, must fit on a tape beside others.
+bool fits(const Effect& effect, std::size_t parameters) {
+  Specimen specimen{Block::rectangular(1, 1, 1), {0.5, 0.5}, {}};
+  specimen.effects.push_back({&effect, std::vector<double>(parameters, 1.0)});
+  return !dynamics::Laws(specimen).tape.overflow();
+}
+
 EffectPart read_formula(Section& section, const std::string& name) {
   EffectPart part{.name = name, .parameters = {}};
   part.friction = section.text("friction", "");
@@ -76,7 +84,17 @@ EffectPart read_formula(Section& section, const std::string& name) {
         part.parameters.push_back(values.quantity("effects." + name, names.back(), range::any, 0));
       }
   }
+  for (const auto& parameter : names)
+    if (formula::is_variable(parameter) || formula::is_variable(std::string(without_unit(parameter))))
+      section.problem("parameters",
+                      fmt::format("parameter {} of effect {} has the name of a variable (formulas know it "
+                                  "already): choose another name",
+                                  parameter, name));
   part.effect = make_formula(section, part, names);
+  if (part.effect && !fits(*part.effect, names.size()))
+    section.problem("name", fmt::format("the formulas of effect {} are too long (they make more than {} operations): "
+                                        "shorten them",
+                                        name, dynamics::max_nodes - dynamics::input_count));
   return part;
 }
 
@@ -110,7 +128,12 @@ void check_company(Section& section, const EffectPart& part, const std::vector<E
   const auto excluded = [](const Effect& effect, const std::string& name) {
     return std::find(effect.excludes.begin(), effect.excludes.end(), name) != effect.excludes.end();
   };
-  if (excluded(*part.effect, in_model) || (model == Model::bouc_wen && part.effect->dynamic()))
+  if (model == Model::bouc_wen && part.effect->dynamic())
+    section.problem("name",
+                    fmt::format("effect {} does not go with model bouc_wen (its equation takes no further law): "
+                                "remove it, or choose another model",
+                                part.name));
+  else if (excluded(*part.effect, in_model))
     section.problem("name", fmt::format("effect {} does not go with model {} (it has nothing to act on there): remove "
                                         "it, or choose another model",
                                         part.name, in_model));
