@@ -3,7 +3,8 @@ function(freestand_kernels ISA)
   add_library(freestand_kernels_${ISA} OBJECT ${CMAKE_SOURCE_DIR}/src/dynamics/pack/kernels.cpp)
   target_include_directories(freestand_kernels_${ISA} PRIVATE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/include)
   target_compile_definitions(freestand_kernels_${ISA} PRIVATE FREESTAND_ISA=${ISA} FREESTAND_ISA_NAME="${ISA}")
-  target_compile_options(freestand_kernels_${ISA} PRIVATE ${ARGN})
+  # g++ 12 warns of its own AVX-512 headers (GCC bug 105593).
+  target_compile_options(freestand_kernels_${ISA} PRIVATE ${ARGN} -Wno-maybe-uninitialized)
   target_sources(freestand_dynamics PRIVATE $<TARGET_OBJECTS:freestand_kernels_${ISA}>)
 endfunction()
 
