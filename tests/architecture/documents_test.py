@@ -64,7 +64,11 @@ class Documents(unittest.TestCase):
 @unittest.skipUnless(PROGRAM, "no program (FREESTAND is not set)")
 class WithProgram(unittest.TestCase):
     def test_study_of_the_readme_is_accepted(self):
-        (study,) = re.findall(r"```yaml\n(.*?)```", text("README.md"), re.S)
+        (parts, study) = re.findall(r"```yaml\n(.*?)```", text("README.md"), re.S)  # effects and chain, and a whole study
+        self.check(study)
+        self.check(study + parts)
+
+    def check(self, study):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "study.yaml"
             path.write_text(study, encoding="utf-8")
@@ -75,7 +79,7 @@ class WithProgram(unittest.TestCase):
         told = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, timeout=60).stdout
         verbs = set(re.findall(r"^  (\w+)  ", told[told.index("Subcommands"):], re.M))
         table = text("README.md")[text("README.md").index("| verb |"):].split("\n\n")[0]
-        named = set(re.findall(r"`(\w+) [A-Z]", table))
+        named = set(re.findall(r"`(\w+) \[?[A-Z]", table))
         self.assertEqual(named, verbs)
 
 
