@@ -41,6 +41,17 @@ struct Evaluator::Parts {
   double intensity_of(const Realisation& sample) const {
     return intensity::value(measure, summaries[sample.motion], sample.shaking, sample.specimen, measure_parameter);
   }
+
+  void append(const Realisation& drawn, const Response& response, std::vector<double>& values) const {
+    values.insert(values.end(), drawn.draws.begin(), drawn.draws.end());
+    values.push_back(intensity_of(drawn));
+    const edp::Input input{response, drawn.specimen, drawn.pta_g * standard_gravity_mps2,
+                           motion::pulse_frequency_radps(summaries[drawn.motion], drawn.shaking)};
+    for (const edp::Edp& edp : edp::all())
+      values.push_back(has_value(edp, response.outcome) ? edp.value(input) : nothing);
+    values.push_back(static_cast<double>(response.outcome));
+    values.push_back(response.events);
+  }
 };
 
 Evaluator::Evaluator(const Study& study, MotionSet motions) {
@@ -65,18 +76,27 @@ const std::vector<Column>& Evaluator::columns() const { return parts_->columns; 
 const MotionSet& Evaluator::motions() const { return parts_->realise.motions(); }
 
 Outcome Evaluator::append(std::uint64_t sample, std::vector<double>& values) const {
-  const Realisation drawn = parts_->realise(sample);
-  const Response response = respond(drawn.specimen, drawn.shaking, parts_->settings);
+  return append(sample, 1, values).front();
+}
 
-  values.insert(values.end(), drawn.draws.begin(), drawn.draws.end());
-  values.push_back(parts_->intensity_of(drawn));
-  const edp::Input input{response, drawn.specimen, drawn.pta_g * standard_gravity_mps2,
-                         motion::pulse_frequency_radps(parts_->summaries[drawn.motion], drawn.shaking)};
-  for (const edp::Edp& edp : edp::all())
-    values.push_back(has_value(edp, response.outcome) ? edp.value(input) : nothing);
-  values.push_back(static_cast<double>(response.outcome));
-  values.push_back(response.events);
-  return response.outcome;
+std::vector<Outcome> Evaluator::append(std::uint64_t first, std::size_t count, std::vector<double>& values) const {
+  std::vector<Realisation> drawn;
+  std::vector<Specimen> specimens;
+  std::vector<Shaking> shakings;
+  for (std::size_t i = 0; i < count; ++i) {
+    drawn.push_back(parts_->realise(first + i));
+    specimens.push_back(drawn.back().specimen);
+    shakings.push_back(drawn.back().shaking);
+  }
+  std::vector<Response> responses(count);
+  respond_batch(specimens, shakings, parts_->settings, responses);
+
+  std::vector<Outcome> outcomes;
+  for (std::size_t i = 0; i < count; ++i) {
+    parts_->append(drawn[i], responses[i], values);
+    outcomes.push_back(responses[i].outcome);
+  }
+  return outcomes;
 }
 
 }  // namespace freestand::study

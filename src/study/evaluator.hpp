@@ -1,4 +1,4 @@
-// One sample of a study, from its index to its row in samples.h5.
+// Samples of a study, from their indices to their rows in samples.h5.
 #pragma once
 
 #include <cstdint>
@@ -24,6 +24,10 @@ class Evaluator {
   // Draws, integrates and appends the row of this sample. Demand parameters without meaning for an overturned block,
   // and all of a sample that failed, are nan.
   Outcome append(std::uint64_t sample, std::vector<double>& values) const;
+
+  // The same for samples first ... first + count - 1, integrated in packs: the same rows, to the bit, in blocks of any
+  // size. Tells the outcomes in order.
+  std::vector<Outcome> append(std::uint64_t first, std::size_t count, std::vector<double>& values) const;
 
   const MotionSet& motions() const;
 

@@ -23,6 +23,9 @@
 namespace freestand::study {
 namespace {
 
+// Samples that are integrated together between two beats.
+constexpr std::int64_t pack_samples = 256;
+
 using parallel::Communicator;
 using Clock = std::chrono::steady_clock;
 
@@ -126,12 +129,15 @@ class Sweep {
     parallel::BlockRows rows{.columns = static_cast<std::int64_t>(evaluator_.columns().size()), .values = {}};
     rows.values.reserve(static_cast<std::size_t>(rows.columns * blocks.rows(block)));
     parallel::Counts counts;
-    const std::int64_t first = block * blocks.block_size;
-    for (std::int64_t sample = first; sample < first + blocks.rows(block); ++sample) {
-      const Outcome outcome = evaluator_.append(static_cast<std::uint64_t>(sample), rows.values);
-      ++counts.samples;
-      counts.overturned += outcome == Outcome::overturned;
-      counts.failed += outcome == Outcome::painleve || outcome == Outcome::step_limit || outcome == Outcome::not_finite;
+    const std::int64_t first = block * blocks.block_size, end = first + blocks.rows(block);
+    for (std::int64_t sample = first; sample < end; sample += pack_samples) {
+      const auto count = static_cast<std::size_t>(std::min(pack_samples, end - sample));
+      for (const Outcome outcome : evaluator_.append(static_cast<std::uint64_t>(sample), count, rows.values)) {
+        ++counts.samples;
+        counts.overturned += outcome == Outcome::overturned;
+        counts.failed +=
+            outcome == Outcome::painleve || outcome == Outcome::step_limit || outcome == Outcome::not_finite;
+      }
       beat();
     }
     store_.write(block, rows);
