@@ -134,7 +134,7 @@ class LawStep {
     acceleration_ = y_.ax[k] - own_acceleration(k);
     deflection_rate_ = legs_ ? (-y_.fx[k] - square(W()) * y_.deflection[k]) / (2 * z() * W()) : 0.0;
     y_.foot[k] = y_.w[k] - deflection_rate_;
-    if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero) y_.foot[0] = 0;
+    if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero * state_.doubt) y_.foot[0] = 0;
   }
 
   // Contact forces and theta'' for the factor F whose coefficient k is in factor_.
