@@ -28,9 +28,13 @@ bool ModelSpec::has(const std::string& name) const {
 
 Specimen specimen(const ModelSpec& model, const Test& test, std::span<const double> x) {
   Specimen s;
-  s.block = Block::rectangular(dimension(model.width, test.specimen.width_m, x),
-                               dimension(model.height, test.specimen.height_m, x),
-                               dimension(model.mass, test.specimen.mass_kg, x, 1));
+  double width = dimension(model.width, test.specimen.width_m, x);
+  double height = dimension(model.height, test.specimen.height_m, x);
+  if (model.slenderness && model.size) {
+    width = 2 * model.size->of(x) * std::sin(model.slenderness->of(x));
+    height = 2 * model.size->of(x) * std::cos(model.slenderness->of(x));
+  }
+  s.block = Block::rectangular(width, height, dimension(model.mass, test.specimen.mass_kg, x, 1));
   s.friction.mu_k = model.mu_k.of(x);
   s.friction.mu_s = s.friction.mu_k;
   if (model.mu_s) s.friction.mu_s = std::max(s.friction.mu_k, model.mu_s->of(x));
@@ -47,6 +51,7 @@ Specimen specimen(const ModelSpec& model, const Test& test, std::span<const doub
 }
 
 std::string missing_dimension(const ModelSpec& model, const Test& test) {
+  if (model.slenderness && model.size) return {};
   if (!model.width && !test.specimen.width_m) return "width_m";
   if (!model.height && !test.specimen.height_m) return "height_m";
   return {};

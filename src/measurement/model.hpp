@@ -34,7 +34,8 @@ struct EffectTerm {
 };
 
 struct ModelSpec {
-  std::optional<Number> width, height, mass;  // absent: the specimen's of the test
+  // Sides, or slenderness atan(W/H) with half the diagonal; absent: the specimen's of the test.
+  std::optional<Number> width, height, slenderness, size, mass;
   Number mu_k;
   std::optional<Number> mu_s, static_ratio;  // neither: mu_s = mu_k
   Model model = Model::slide_rock;

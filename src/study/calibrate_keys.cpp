@@ -1,0 +1,108 @@
+#include "study/calibrate_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "effects/effects.hpp"
+#include "study/section.hpp"
+
+namespace freestand::study {
+namespace {
+
+bool is_calibrate(const YAML::Node& node) { return node.IsMap() && node["calibrate"]; }
+
+// The middle, of the logarithm where the range spans much.
+double middle(double lower, double upper) {
+  return lower > 0 && upper / lower >= 4 ? std::sqrt(lower * upper) : 0.5 * (lower + upper);
+}
+
+Calibrated read_one(const YAML::Node& node, const std::string& name, int line, Problems& problems) {
+  Section section(node, name, line, problems);
+  const std::vector<double> range = section.numbers("calibrate");
+  Calibrated c{.name = name, .lower = 0, .upper = 1, .value = section.optional_number("value")};
+  section.numbers("interval");
+  section.finish();
+  if (range.size() == 2 && range[0] < range[1]) {
+    c.lower = range[0];
+    c.upper = range[1];
+  } else {
+    problems.add(line, fmt::format("{}.calibrate is no range (a fit needs a least and a greatest value): write "
+                                   "calibrate: [lower, upper]",
+                                   name));
+  }
+  if (c.value && (*c.value < c.lower || *c.value > c.upper))
+    problems.add(line, fmt::format("{}.value lies outside its range (it was fitted between {} and {}): correct one",
+                                   name, c.lower, c.upper));
+  return c;
+}
+
+// `name`: dotted, as quantities are named: entries of `effects` by the effect's name, `parameters` of formulas left out.
+void walk(YAML::Node node, const std::string& name, int line, std::vector<Calibrated>& found, Problems& problems) {
+  if (node.IsMap()) {
+    std::vector<std::string> keys;
+    for (const auto& pair : node) keys.push_back(pair.first.Scalar());
+    for (const auto& key : keys) {
+      const YAML::Node value = node[key];
+      const int here = line_of(value) ? line_of(value) : line;
+      const std::string inner = key == "parameters" ? name : name.empty() ? key : name + "." + key;
+      if (is_calibrate(value)) {
+        found.push_back(read_one(value, inner, here, problems));
+        node[key] = fmt::format("{}", found.back().value.value_or(middle(found.back().lower, found.back().upper)));
+      } else {
+        walk(value, inner, here, found, problems);
+      }
+    }
+  } else if (node.IsSequence()) {
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      const std::string entry = node[i].IsMap() && node[i]["name"] ? node[i]["name"].as<std::string>("") : "";
+      walk(node[i], name + "." + entry, line, found, problems);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Calibrated> take_calibrated(YAML::Node model, Problems& problems) {
+  std::vector<Calibrated> found;
+  walk(model, "", line_of(model), found, problems);
+  return found;
+}
+
+void add_missing_parameters(YAML::Node model) {
+  YAML::Node list = model["effects"];
+  if (!list || !list.IsSequence()) return;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].IsScalar()) {
+      YAML::Node entry(YAML::NodeType::Map);
+      entry["name"] = list[i].Scalar();
+      list[i] = entry;
+    }
+    YAML::Node entry = list[i];
+    const dynamics::Effect* effect =
+        entry.IsMap() && entry["name"] ? effects::find(entry["name"].as<std::string>("")) : nullptr;
+    if (!effect) continue;
+    for (const auto& parameter : effect->parameters) {
+      if (entry[parameter.name] || parameter.fallback) continue;
+      YAML::Node range(YAML::NodeType::Map);
+      range["calibrate"].push_back(parameter.low);
+      range["calibrate"].push_back(parameter.high);
+      entry[parameter.name] = range;
+    }
+  }
+}
+
+void sweep_model(YAML::Node root, Problems& problems) {
+  if (!root.IsMap() || !root["model"] || !root["model"].IsMap()) return;
+  const YAML::Node model = root["model"];
+  for (const Calibrated& c : take_calibrated(model, problems))
+    if (!c.value)
+      problems.add(0,
+                   fmt::format("{} is not fitted yet (a sweep needs its value): let `freestand compare` or `add` fit "
+                               "it, or give a number",
+                               c.name));
+  for (const char* key : {"model", "measurements", "ladder"}) root.remove(key);
+  for (const auto& pair : model) root[pair.first.Scalar()] = pair.second;
+}
+
+}  // namespace freestand::study

@@ -1,0 +1,26 @@
+// {calibrate: [a, b]} in the model of a study file.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <vector>
+
+#include "study/problems.hpp"
+#include "study/read_validation.hpp"
+
+namespace freestand::study {
+
+// Replaces every {calibrate: ...} below `model` by a number, its value or the middle of its range, and returns what
+// stood there, in the order of the file.
+std::vector<Calibrated> take_calibrated(YAML::Node model, Problems&);
+
+// Entries of `effects` that are a name alone become mappings; parameters of catalogued effects that are absent and have
+// no default become {calibrate: [low, high]} of the catalogue.
+void add_missing_parameters(YAML::Node model);
+
+// A study file whose `model` is a mapping, as a sweep reads it: the keys of the model on the level of the file, numbers
+// that were calibrated at their values, what belongs to measurements left out; numbers that were not fitted yet are
+// problems. Any other file is left as it is.
+void sweep_model(YAML::Node root, Problems&);
+
+}  // namespace freestand::study
