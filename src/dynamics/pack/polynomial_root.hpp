@@ -65,7 +65,9 @@ double first_fall(const double* c, double end, int depth = 0) {
       double curve[M - 1];
       for (int k = 0; k + 1 < M; ++k) curve[k] = (k + 1) * slope[k + 1];
       const double curve_end = evaluate<M - 2>(curve, end);
-      if (depth < 3 && slope[0] * slope_end >= 0 && curve[0] * curve_end < 0) {
+      const double change = curve[0] * end;  // twice what the slope can change before its rate turns, and more
+      if (depth < 3 && slope[0] * slope_end >= 0 && curve[0] * curve_end < 0 &&
+          slope[0] * slope[0] <= change * change) {
         const double middle = sign_change<M - 2>(curve, end), first = first_fall<M>(c, middle, 3);
         if (first <= middle) return first;
         double p[M + 1];

@@ -44,9 +44,12 @@ class RockLanes {
   struct Lane {
     const BatchCase* sample = nullptr;
     std::size_t number = 0;
-    double done = 0;                    // part of the interval that lies behind, when the lane stands aside
-    double kept = 0;                    // of the rate, at the next impact
-    double hop_here = 0, hop_next = 0;  // rotation of a hop by omega^2, on this corner and on the other
+    struct Side {
+      double arm, gravity, push;  // as in the rows
+      double kept;                // of the rate, at the impact that ends the stay on this side
+      double hop;                 // rotation of a hop by omega^2
+    } left{}, right{};
+    double kept = 0, hop_here = 0;  // of the side on which it stands
     int events = 0, impacts = 0;
     bool after = false;  // the record is over
   };
@@ -72,7 +75,8 @@ class RockLanes {
       const std::size_t number = taken_++;
       const BatchCase& c = cases_[number];
       Lane& lane = lanes_[i];
-      lane = Lane{.sample = &c, .number = number};
+      lane = Lane{
+          .sample = &c, .number = number, .left = side_of(c, -c.left, c.right), .right = side_of(c, c.right, -c.left)};
       r_.peak[i] = r_.force2[i] = 0;
       r_.weight[i] = c.scale * c.table->step_s * c.table->step_s;
       if (c.scale == 0) {
@@ -161,19 +165,23 @@ class RockLanes {
   }
 
   void stand_on(int i, int side) {
-    const BatchCase& c = *lanes_[i].sample;
-    const double h2 = c.table->step_s * c.table->step_s;
-    const double arm = side > 0 ? c.right : -c.left, inertia = c.k2 + c.h * c.h + arm * arm;
-    const double other = side > 0 ? -c.left : c.right, other_inertia = c.k2 + c.h * c.h + other * other;
+    Lane& lane = lanes_[i];
+    const Lane::Side& here = side > 0 ? lane.right : lane.left;
     r_.side[i] = side;
-    r_.rx[i] = -arm;
-    r_.ry[i] = c.h;
-    r_.gravity[i] = c.g * h2 / inertia;
-    r_.push[i] = c.scale * h2 / inertia;
+    r_.rx[i] = -here.arm;
+    r_.ry[i] = lane.sample->h;
+    r_.gravity[i] = here.gravity;
+    r_.push[i] = here.push;
+    lane.kept = here.kept;
+    lane.hop_here = here.hop;
+  }
+
+  static Lane::Side side_of(const BatchCase& c, double arm, double other) {
+    const double h2 = c.table->step_s * c.table->step_s;
+    const double inertia = c.k2 + c.h * c.h + arm * arm, other_inertia = c.k2 + c.h * c.h + other * other;
     const double kept = (c.k2 + c.h * c.h + arm * other) / other_inertia;
-    lanes_[i].kept = c.factor * (kept > 0 ? kept : 0.0);
-    lanes_[i].hop_here = inertia / (2 * c.g * magnitude(arm) * h2);
-    lanes_[i].hop_next = other_inertia / (2 * c.g * magnitude(other) * h2);
+    return {arm, c.g * h2 / inertia, c.scale * h2 / inertia, c.factor * (kept > 0 ? kept : 0.0),
+            inertia / (2 * c.g * magnitude(arm) * h2)};
   }
 
   void stand_aside(int i) {

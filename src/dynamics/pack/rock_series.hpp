@@ -98,8 +98,9 @@ struct RockEnd {
   Pack omega, rx, ry, a;
 };
 template <int N>
-Pack watch_force(const RockSeries<N>& y, const Pack& weight, const Pack& gravity, const Pack& push, const Pack& a,
-                 const Pack& rate_a, const RockEnd& end, const Pack& part, const Pack& seen, bool always) {
+[[gnu::always_inline]] inline Pack watch_force(const RockSeries<N>& y, const Pack& weight, const Pack& gravity,
+                                               const Pack& push, const Pack& a, const Pack& rate_a, const RockEnd& end,
+                                               const Pack& part, const Pack& seen, bool always) {
   const Pack two(2.0), zero(0.0), omega2 = y.omega[0] * y.omega[0];
   const Pack fx = y.ry[0] * y.omega[1] - y.rx[0] * omega2 + weight * a;
   const Pack fy = y.rx[0] * y.omega[1] + y.ry[0] * omega2;

@@ -180,30 +180,34 @@ class SlideRock : SlideRockLife {
   }
 
   void watch(const CornerSeries<N>& y, double x, double hs, double a1, const Forces& begin) {
-    const double theta = value(y.theta, x), omega = value(y.omega, x);
-    const Forces end = forces(value(y.rx, x), value(y.ry, x), omega / hs, a_ + (a1 - a_) * x);
-    if (mode_ == Mode::slide_rock && !(end.fy > 0)) return decline();
+    const double theta = value(y.theta, x), omega = value(y.omega, x), rx = value(y.rx, x), ry = value(y.ry, x);
+    const Forces end = forces(rx, ry, omega / hs, a_ + (a1 - a_) * x);
     if (!(end.fy > 0)) return decline();
     feel(begin.fx, begin.fy);
     feel(end.fx, end.fy);
+    // Displacement of the midpoint: u = xi + s B (1 - cos theta), cos theta = (h r_y - c r_x)/(h^2 + c^2).
+    const double c = arm(side_), lever = side_ * half_base_ / (c_.h * c_.h + c * c);
+    const auto slip = [&](double at) {
+      return value(y.xi, at) + side_ * half_base_ - lever * (c_.h * value(y.ry, at) - c * value(y.rx, at));
+    };
     if (y.omega[0] * omega < 0) {
       const double top = sign_change<N + 1>(y.omega, x);
       see_rotation(value(y.theta, top));
-      see_slip(slip_of(value(y.xi, top), value(y.theta, top)));
+      see_slip(slip(top));
       const Forces f = forces(value(y.rx, top), value(y.ry, top), 0.0, a_ + (a1 - a_) * top);
       feel(f.fx, f.fy);
     }
     feel_top(y, x, hs, a1, begin, end);
     see_rotation(theta);
-    const double lever = side_ * half_base_ / (rx_ * rx_ + ry_ * ry_), c = arm(side_);
-    double u[N + 1];
-    for (int k = 1; k <= N; ++k) u[k] = k * (y.xi[k] - lever * (c_.h * y.ry[k] - c * y.rx[k]));
-    double rate = u[N];
-    for (int k = N - 1; k >= 1; --k) rate = rate * x + u[k];
-    see_slip(slip_of(value(y.xi, x), theta));
-    if (rate * u[1] < 0) {
-      const double top = sign_change<N - 1>(u + 1, x);
-      see_slip(slip_of(value(y.xi, top), value(y.theta, top)));
+    const double u = value(y.xi, x) + side_ * half_base_ - lever * (c_.h * ry - c * rx);
+    see_slip(u);
+    // u' = w + s B sin(theta) omega, sin theta = (h r_x + c r_y)/(h^2 + c^2).
+    const double before = y.w[0] + lever * (c_.h * rx_ + c * ry_) * y.omega[0];
+    const double after = (mode_ == Mode::rock ? 0.0 : value(y.w, x)) + lever * (c_.h * rx + c * ry) * omega;
+    if (before * after < 0 && magnitude(u) + magnitude(before) + magnitude(after) > peak_slip_) {
+      double rate[N + 1];
+      for (int k = 1; k <= N; ++k) rate[k] = k * (y.xi[k] - lever * (c_.h * y.ry[k] - c * y.rx[k]));
+      see_slip(slip(sign_change<N - 1>(rate + 1, x)));
     }
   }
 
