@@ -32,6 +32,7 @@ std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
   MotionTable& t = *table;
   const std::size_t n = motion.segments(), all = (n + 1 + table_tail + 31) / 32 * 32;
   const double h = t.step_s = motion.knot_s[1];
+  t.rate_hz = 1 / h;
   t.knots = static_cast<int>(n + 1);
   for (auto* row : {&t.acceleration, &t.velocity, &t.displacement, &t.margin}) row->assign(all, 0.0);
   for (std::size_t j = 0; j < n; ++j) t.acceleration[j] = motion.horizontal_mps2[2 * j];

@@ -19,7 +19,7 @@ inline constexpr int table_run = 8;    // knots a run
 inline constexpr int table_tail = 96;  // entries after the last knot
 
 struct MotionTable {
-  double step_s = 0;
+  double step_s = 0, rate_hz = 0;    // h and 1/h
   int knots = 0;                     // n + 1
   std::vector<double> acceleration;  // a_j [m/s2]
   std::vector<double> velocity;      // V_j [m/s]

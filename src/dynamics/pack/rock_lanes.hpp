@@ -145,7 +145,10 @@ class RockLanes {
     const double unit = r_.weight[i] * r_.weight[i], bound = bound_between(t, m, end);
     if (bound * bound * unit <= r_.force2[i]) return;
     double most = magnitude(done > 0 ? a[m] + (a[m + 1] - a[m]) * done : a[m]);
-    for (int j = m + 1; j < end; ++j) most = larger(most, magnitude(a[j]));
+    if (end == t.knots)
+      most = larger(most, peak_from(t, m + 1));
+    else
+      for (int j = m + 1; j < end; ++j) most = larger(most, magnitude(a[j]));
     r_.force2[i] = larger(r_.force2[i], most * most * unit);
   }
 

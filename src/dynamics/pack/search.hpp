@@ -35,6 +35,15 @@ inline int first_above(const MotionTable& t, int from, double limit) {
   return run * table_run + __builtin_ctz(found);
 }
 
+// max |a_j| over all j >= from.
+inline double peak_from(const MotionTable& t, int from) {
+  const int run = (from + table_run - 1) / table_run;
+  double most = t.later_peak[static_cast<std::size_t>(run)];
+  for (int j = from; j < run * table_run; ++j)
+    most = larger(most, magnitude(t.acceleration[static_cast<std::size_t>(j)]));
+  return most;
+}
+
 // max |a_j|, j = from ... to - 1, by whole runs (an upper bound).
 inline double bound_between(const MotionTable& t, int from, int to) {
   double most = 0;

@@ -45,7 +45,7 @@ struct Instant {
 
 inline Instant instant(const MotionTable& t, int m, double tau) {
   const auto i = static_cast<std::size_t>(m);
-  const double a = t.acceleration[i], slope = (t.acceleration[i + 1] - a) / t.step_s;
+  const double a = t.acceleration[i], slope = (t.acceleration[i + 1] - a) * t.rate_hz;
   return {m, tau, a + slope * tau, t.velocity[i] + tau * (a + 0.5 * slope * tau),
           t.displacement[i] + tau * (t.velocity[i] + tau * (0.5 * a + slope * tau * (1.0 / 6)))};
 }
@@ -97,7 +97,7 @@ class Slide {
   bool slip() {
     const double h = t_.step_s;
     const auto first = static_cast<std::size_t>(start_.m);
-    const double left = h - start_.tau, slope = (t_.acceleration[first + 1] - t_.acceleration[first]) / h;
+    const double left = h - start_.tau, slope = (t_.acceleration[first + 1] - t_.acceleration[first]) * t_.rate_hz;
     const double rate = -sigma_ * start_.a - gk_, half = -0.5 * sigma_ * slope;
     const double next = left * (rate + half * left);  // sigma w at the first knot
     if (next < 0) {
@@ -113,7 +113,7 @@ class Slide {
   // The same for a slip that lives at the first knot after its start, with speed `next` there.
   bool slip_past(double next) {
     const double h = t_.step_s;
-    const Slip s{start_.V, start_.m + start_.tau / h, sigma_, gk_ * h};
+    const Slip s{start_.V, start_.m + start_.tau * t_.rate_hz, sigma_, gk_ * h};
     for (int j = start_.m + 1;; ++j) {
       j = first_stop(t_, j, s);
       if (j > last_) return false;
@@ -127,7 +127,7 @@ class Slide {
   bool ends_in(int m, double w, double w_next) {
     const double h = t_.step_s;
     const auto i = static_cast<std::size_t>(m);
-    const double slope = (t_.acceleration[i + 1] - t_.acceleration[i]) / h;
+    const double slope = (t_.acceleration[i + 1] - t_.acceleration[i]) * t_.rate_hz;
     const double rate = -sigma_ * t_.acceleration[i] - gk_, half = -0.5 * sigma_ * slope;
     if (w_next > 0 && rate >= 0) return false;
     const double square = rate * rate - 4 * half * w;
@@ -174,9 +174,7 @@ class Slide {
     fill(out, events_ > 0 ? Outcome::moved : Outcome::at_rest);
     out.end_time_s = last_ * t_.step_s;
     if (!broke_) {
-      double most = std::abs(now_.a);
-      for (int j = now_.m + 1; j < t_.knots; ++j)
-        most = larger(most, std::abs(t_.acceleration[static_cast<std::size_t>(j)]));
+      const double most = larger(std::abs(now_.a), peak_from(t_, now_.m + 1));
       out.peak_acceleration_mps2 = larger(out.peak_acceleration_mps2, most * std::abs(scale_));
     }
     return true;

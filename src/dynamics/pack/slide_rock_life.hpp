@@ -111,6 +111,7 @@ class SlideRockLife {
     const double bound = bound_between(t_, m_, end) * c_.scale;
     if (bound * bound <= force2_) return;
     feel(a_, c_.g);
+    if (end == t_.knots) return feel(c_.scale * peak_from(t_, m_ + 1), c_.g);
     for (int j = m_ + 1; j < end; ++j) feel(floor_at(j), c_.g);
   }
 
