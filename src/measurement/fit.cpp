@@ -89,10 +89,10 @@ std::vector<Values> sobol_starts(const std::vector<Free>& free, std::size_t coun
   return points;
 }
 
-std::vector<Fitted> screen(const std::vector<Values>& points, const std::vector<Free>& free, const Objective& objective,
-                           std::size_t keep) {
+std::vector<Fitted> best_apart(const std::vector<Values>& points, const std::vector<double>& scores,
+                               const std::vector<Free>& free, std::size_t keep) {
   std::vector<Fitted> all, kept;
-  for (const Values& x : points) all.push_back({x, objective(x), 1});
+  for (std::size_t i = 0; i < points.size(); ++i) all.push_back({points[i], scores[i], 1});
   std::stable_sort(all.begin(), all.end(), [](const Fitted& a, const Fitted& b) { return a.score < b.score; });
   for (const Fitted& one : all) {
     const bool alike = std::any_of(kept.begin(), kept.end(), [&](const Fitted& k) { return !far(one.x, k.x, free); });

@@ -23,9 +23,10 @@ struct Fitted {
 // The n-th of the Sobol points in the box between low and high. Same dimension, same points.
 std::vector<Values> sobol_starts(const std::vector<Free>&, std::size_t count);
 
-// The best of these points; `keep` of them that differ by more than a tenth of the box, best first.
-std::vector<Fitted> screen(const std::vector<Values>& points, const std::vector<Free>&, const Objective&,
-                           std::size_t keep);
+// The best of these points by their scores: at most `keep` of them that lie more than a tenth of the box apart, best
+// first.
+std::vector<Fitted> best_apart(const std::vector<Values>& points, const std::vector<double>& scores,
+                               const std::vector<Free>&, std::size_t keep);
 
 // Downhill from x. step: edge of the first simplex, as a share of the box. At most `budget` evaluations.
 Fitted simplex(const std::vector<Free>&, const Objective&, const Values& x, double step, int budget);

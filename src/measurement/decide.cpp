@@ -1,0 +1,204 @@
+#include "measurement/decide.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace freestand::measurement {
+namespace {
+
+double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+// n ln(mean e^2) + k ln n over all samples of the calibration tests.
+double bic(const std::vector<double>& samples, const ModelFit& fit) {
+  double n = 0, square = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    n += samples[i];
+    square += samples[i] * fit.calibration[i].noise_units * fit.calibration[i].noise_units;
+  }
+  return n * std::log(square / n) + static_cast<double>(fit.x.size()) * std::log(n);
+}
+
+// Paired difference of the left-out scores, a - b.
+Pooled paired(const ModelFit& a, const ModelFit& b) {
+  const auto n = static_cast<double>(a.left_out.size());
+  double mean = 0, variance = 0;
+  for (std::size_t i = 0; i < a.left_out.size(); ++i) mean += (a.left_out[i].score - b.left_out[i].score) / n;
+  for (std::size_t i = 0; i < a.left_out.size(); ++i)
+    variance += std::pow(a.left_out[i].score - b.left_out[i].score - mean, 2) / std::max(n - 1, 1.0);
+  return {mean, std::sqrt(variance / std::max(n, 1.0))};
+}
+
+bool practical(const ModelFit& fit, std::size_t base_numbers) {
+  for (std::size_t i = base_numbers; i < fit.x.size(); ++i) {
+    const Free& free = fit.model.free[i];
+    if (free.logarithmic && (fit.x[i] < free.low / 3 || fit.x[i] > 3 * free.high)) return false;
+  }
+  return true;
+}
+
+class Decision {
+ public:
+  Decision(const Bench& bench, Diagnosis& d) : bench_(bench), d_(d), histories_(kind_of_set(bench) == Kind::history) {}
+
+  void take() {
+    sort();
+    Candidate* best = find_best();
+    mark(best);
+    if (!better_than_base(best)) return finish_without(best);
+    for (Candidate& c : d_.candidates) c.rival = &c == best || is_rival(c, *best);
+    drop_needless();
+    std::vector<const Candidate*> rivals;
+    for (const Candidate& c : d_.candidates)
+      if (c.rival) rivals.push_back(&c);
+    if (!good_enough(*best)) {
+      d_.verdict = Verdict::unknown;
+      say(
+          fmt::format("the best effect, {}, still leaves an error of {:.2f} where noise explains 1: none of the "
+                      "catalogue is the one; look at the recovered force, and write its law as a formula",
+                      joined(best->effects), best->explained));
+      return;
+    }
+    d_.verdict = rivals.size() > 1 ? Verdict::ambiguous : Verdict::missing;
+    for (const Candidate* rival : rivals)
+      for (const auto& effect : rival->effects)
+        if (std::find(d_.effects.begin(), d_.effects.end(), effect) == d_.effects.end()) d_.effects.push_back(effect);
+    say(rivals.size() > 1
+            ? fmt::format("{} cannot be told apart on these tests: each brings the error to the noise",
+                          joined(d_.effects))
+            : fmt::format("{} brings the left-out error from {:.3g} to {:.3g}, and every rival is worse by more than "
+                          "chance",
+                          joined(best->effects), pooled_left_out(d_.base), pooled_left_out(*best)));
+  }
+
+ private:
+  static std::string joined(const std::vector<std::string>& words) {
+    return fmt::format("{}", fmt::join(words, " and "));
+  }
+  void say(std::string sentence) { d_.sentences.push_back(std::move(sentence)); }
+  double pooled_left_out(const Candidate& c) const {
+    return pooled(bench_, tests_of(bench_.data(), Role::calibration), c.fit.left_out).error;
+  }
+
+  void sort() {
+    std::stable_sort(d_.candidates.begin(), d_.candidates.end(), [](const Candidate& a, const Candidate& b) {
+      return a.visible != b.visible ? a.visible : a.fit.mean_left_out() < b.fit.mean_left_out();
+    });
+    for (Candidate& c : d_.candidates) c.practical = practical(c.fit, d_.base.fit.x.size());
+  }
+
+  // Of the candidates, by misfit (histories) or left-out score; simple and practical ones first where the rest cannot be
+  // told from them.
+  Candidate* find_best() {
+    Candidate* best = nullptr;
+    for (Candidate& c : d_.candidates) {
+      if (!c.visible || !c.fit.left_out_refitted) continue;
+      if (!best) {
+        best = &c;
+        continue;
+      }
+      const double gain = histories_ ? best->misfit - c.misfit : best->fit.mean_left_out() - c.fit.mean_left_out();
+      const bool simpler = c.effects.size() < best->effects.size() || (c.practical && !best->practical);
+      const bool harder = c.effects.size() > best->effects.size() || (!c.practical && best->practical);
+      if (harder ? worse(*best, c) : simpler ? !worse(c, *best) : gain > 0) best = &c;
+    }
+    return best;
+  }
+
+  // Is a worse than b by more than chance?
+  bool worse(const Candidate& a, const Candidate& b) const {
+    if (histories_) {
+      const double left = std::max(0.0, b.misfit - samples_of(b) - 3 * std::sqrt(2 * samples_of(b)));
+      return a.misfit - b.misfit > chance_misfit + 0.5 * left;
+    }
+    const Pooled difference = paired(a.fit, b.fit);
+    const double n = static_cast<double>(a.fit.left_out.size());
+    return difference.error > gsl_cdf_tdist_Pinv(0.975, n - 1) * difference.standard_error && difference.error > 1e-9;
+  }
+  static double samples_of(const Candidate& c) { return c.misfit / (c.explained * c.explained); }
+
+  bool is_rival(const Candidate& c, const Candidate& best) const {
+    if (!c.visible || !c.fit.left_out_refitted || !c.practical || c.effects.size() > best.effects.size()) return false;
+    return !worse(c, best) && (!histories_ || c.explained <= std::max(at_noise, 1.1 * best.explained));
+  }
+
+  bool better_than_base(const Candidate* best) const { return best && worse(d_.base, *best); }
+
+  // A pair that holds a rival single effect is no rival of its own.
+  void drop_needless() {
+    for (Candidate& c : d_.candidates) {
+      if (!c.rival || c.effects.size() < 2) continue;
+      for (const Candidate& single : d_.candidates)
+        if (single.rival && single.effects.size() == 1 && single.effects[0] == c.effects[0]) c.rival = false;
+    }
+  }
+
+  bool good_enough(const Candidate& c) const { return !histories_ || c.explained <= at_noise; }
+
+  void finish_without(const Candidate* best) {
+    if (good_enough(d_.base)) {
+      d_.verdict = Verdict::none;
+      say(best ? fmt::format(
+                     "no effect beats the base by more than chance (the best, {}, changes the left-out error from "
+                     "{:.4g} to {:.4g})",
+                     joined(best->effects), pooled_left_out(d_.base), pooled_left_out(*best))
+               : std::string("no effect lowers the error of the base"));
+    } else {
+      d_.verdict = Verdict::unknown;
+      say(
+          fmt::format("the model misses the measurements by {:.3g} where noise explains 1, and no effect of the "
+                      "catalogue lowers that by more than chance: look at the recovered force",
+                      d_.base.explained));
+    }
+  }
+
+  void mark(const Candidate* best) {
+    if (!best) return;
+    for (Candidate& c : d_.candidates) {
+      const Pooled difference = paired(c.fit, best->fit);
+      c.difference = difference.error;
+      c.difference_se = difference.standard_error;
+    }
+    const Pooled difference = paired(d_.base.fit, best->fit);
+    d_.base.difference = difference.error;
+    d_.base.difference_se = difference.standard_error;
+  }
+
+  const Bench& bench_;
+  Diagnosis& d_;
+  bool histories_;
+};
+
+}  // namespace
+
+Kind kind_of_set(const Bench& bench) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  return tests.empty() ? Kind::history : kind(bench.test(tests.front()));
+}
+
+void judge_histories(const Bench&, const Judge& judge, Diagnosis& d, const Jobs& jobs) {
+  std::vector<Candidate*> all = {&d.base};
+  for (Candidate& c : d.candidates) all.push_back(&c);
+  const double n = total(judge.samples());
+  const double base_bic = bic(judge.samples(), d.base.fit);
+  const auto answers = jobs("judging", all.size(), [&](std::size_t i) { return judge.misfit(all[i]->fit); });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    Candidate& c = *all[i];
+    if (!c.visible) {
+      c.misfit = d.base.misfit;
+      c.explained = d.base.explained;
+      continue;
+    }
+    c.misfit = total(answers[i]);
+    c.explained = std::sqrt(c.misfit / n);
+    c.delta_bic = bic(judge.samples(), c.fit) - base_bic;
+  }
+}
+
+void decide(const Bench& bench, Diagnosis& d) { Decision(bench, d).take(); }
+
+}  // namespace freestand::measurement

@@ -1,0 +1,22 @@
+// From fitted candidates to a verdict.
+#pragma once
+
+#include "measurement/diagnose.hpp"
+
+namespace freestand::measurement {
+
+// sqrt(G/samples) above which a model is not at the noise; below which a second effect is not looked for; of a base
+// below which nothing is missing whatever fits better.
+inline constexpr double at_noise = 1.3, may_hide_another = 1.04, base_at_noise = 1.01;
+// Differences of G that chance makes between two models.
+inline constexpr double chance_misfit = 30;
+
+Kind kind_of_set(const Bench&);  // of its first calibration test
+
+// Fills misfit, explained and delta_bic of base and candidates.
+void judge_histories(const Bench&, const Judge&, Diagnosis&, const Jobs&);
+
+// Sorts the candidates and fills verdict, effects, differences, rivals, sentences.
+void decide(const Bench&, Diagnosis&);
+
+}  // namespace freestand::measurement

@@ -1,0 +1,250 @@
+#include "measurement/diagnose.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+#include <limits>
+
+#include "measurement/decide.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+using Catalogue = std::vector<const dynamics::Effect*>;
+constexpr double no_gain = 0.02;  // of the mean score: less is not worth a fit with tests left out
+
+class Diagnoser {
+ public:
+  Diagnoser(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue, const DiagnosisOptions& options,
+            const Jobs& jobs)
+      : bench_(bench), base_(base), catalogue_(catalogue), options_(options), jobs_(jobs) {}
+
+  Diagnosis run() {
+    fit_base();
+    fit_singles();
+    judge();
+    if (second_effect_wanted()) {
+      fit_pairs();
+      judge();
+    }
+    decide(bench_, out_);
+    return std::move(out_);
+  }
+
+ private:
+  Effort wide() const {
+    Effort effort = options_.effort;
+    effort.screened_per_number *= 2;
+    return effort;
+  }
+
+  void fit_base() {
+    FitTask task{.model = base_};
+    if (!options_.start.empty()) task.starts = {options_.start};
+    auto fits = fit_models(bench_, {task}, wide(), jobs_);
+    polish(bench_, {&fits[0]}, options_.effort, 0.05, jobs_);
+    leave_out(bench_, {&fits[0]}, options_.effort, jobs_);
+    out_.base.fit = std::move(fits[0]);
+  }
+
+  // The base with its starts drawn together around where it fitted: effects move its numbers, but not anywhere.
+  ModelSpec narrowed(const ModelFit& fit) const {
+    ModelSpec model = fit.model;
+    for (std::size_t i = 0; i < model.free.size(); ++i) {
+      Free& free = model.free[i];
+      if (free.name.rfind("effects.", 0) == 0) continue;
+      const double z = to_unit(free, fit.x[i]);
+      const double half = free.logarithmic ? std::log(1.6) / std::log(free.high / free.low) : 0.15;
+      const double low = from_unit(free, z - half), high = from_unit(free, z + half);
+      free.low = low;
+      free.high = high;
+    }
+    return model;
+  }
+
+  // Does the effect change any prediction, anywhere in its range, with the rest of the model as fitted?
+  std::vector<bool> visible(const ModelFit& fit, const std::vector<const dynamics::Effect*>& effects) const {
+    const auto tests = tests_of(bench_.data(), Role::calibration);
+    const auto answers = jobs_("looking for effects that the tests can see", effects.size(), [&](std::size_t i) {
+      const ModelSpec model = with_effect(fit.model, *effects[i], bench_.reach());
+      const std::vector<Free> own(model.free.begin() + static_cast<long>(fit.model.free.size()), model.free.end());
+      double most = 0;
+      for (Values x : sobol_starts(own, 5)) {
+        x.insert(x.begin(), fit.x.begin(), fit.x.end());
+        for (std::size_t t = 0; t < tests.size() && most < 1e-2; ++t)
+          most = std::max(most, std::abs(test_error(bench_, tests[t], model, x).score - fit.calibration[t].score));
+      }
+      return Values{most};
+    });
+    std::vector<bool> seen;
+    for (const Values& answer : answers) seen.push_back(answer[0] >= 1e-3);
+    return seen;
+  }
+
+  void fit_singles() {
+    std::vector<const dynamics::Effect*> effects;
+    for (const auto* effect : catalogue_)
+      if (goes_with(base_, *effect) && allowed(*effect)) effects.push_back(effect);
+    const std::vector<bool> seen = visible(out_.base.fit, effects);
+    std::vector<FitTask> tasks;
+    std::vector<std::size_t> of_task;
+    const ModelSpec base = narrowed(out_.base.fit);
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      Candidate candidate{.effects = {effects[i]->name}, .fit = out_.base.fit, .visible = seen[i]};
+      candidate.fit.model = with_effect(base_, *effects[i], bench_.reach());
+      out_.candidates.push_back(std::move(candidate));
+      if (!seen[i]) continue;
+      FitTask task{.model = with_effect(base, *effects[i], bench_.reach())};
+      if (const auto neutral = neutral_start(*effects[i])) task.starts.push_back(*neutral);
+      tasks.push_back(std::move(task));
+      of_task.push_back(i);
+    }
+    auto fits = fit_models(bench_, tasks, options_.effort, jobs_);
+    for (std::size_t k = 0; k < fits.size(); ++k) out_.candidates[of_task[k]].fit = std::move(fits[k]);
+    finish(0);
+  }
+
+  // More numbers than tests: nothing could be left out.
+  bool allowed(const dynamics::Effect& effect) const {
+    return base_.free.size() + effect.parameters.size() < tests_of(bench_.data(), Role::calibration).size();
+  }
+
+  // The base fit with the effect at nothing.
+  std::optional<Values> neutral_start(const dynamics::Effect& effect) const {
+    Values x = out_.base.fit.x;
+    for (const auto& p : effect.parameters) {
+      const double nothing =
+          p.neutral && std::isfinite(*p.neutral) ? *p.neutral : p.fallback.value_or(0.5 * (p.low + p.high));
+      x.push_back(std::clamp(nothing, p.low > 0 ? 0.001 * p.low : p.lower, p.upper));
+    }
+    return x;
+  }
+
+  // Polishes and leaves out, for the best candidates from `first` on that gain anything on the base.
+  void finish(std::size_t first) {
+    std::vector<ModelFit*> gaining, rest;
+    for (std::size_t i = first; i < out_.candidates.size(); ++i) {
+      Candidate& c = out_.candidates[i];
+      if (c.visible) (c.fit.score < out_.base.fit.score - no_gain ? gaining : rest).push_back(&c.fit);
+    }
+    std::stable_sort(gaining.begin(), gaining.end(),
+                     [](const ModelFit* a, const ModelFit* b) { return a->score < b->score; });
+    while (gaining.size() > options_.finals) {
+      rest.push_back(gaining.back());
+      gaining.pop_back();
+    }
+    polish(bench_, gaining, options_.effort, 0.05, jobs_);
+    leave_out(bench_, gaining, options_.effort, jobs_);
+    evaluate(bench_, rest, jobs_);
+  }
+
+  const Candidate& best() const {
+    const Candidate* found = &out_.base;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible && c.fit.mean_left_out() < found->fit.mean_left_out()) found = &c;
+    return *found;
+  }
+
+  void judge() {
+    if (kind_of_set(bench_) == Kind::history) {
+      const ModelFit& reference = best().fit;
+      const Judge judge(bench_, reference.model, reference.x, jobs_);
+      out_.noise_floor = judge.expected();
+      judge_histories(bench_, judge, out_, jobs_);
+    }
+  }
+
+  bool second_effect_wanted() const {
+    if (tests_of(bench_.data(), Role::calibration).size() < 4 || kind_of_set(bench_) != Kind::history) return false;
+    const double at = best().explained, base = out_.base.explained;
+    return base > base_at_noise && at > may_hide_another;
+  }
+
+  void fit_pairs() {
+    std::vector<const Candidate*> order;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible && c.fit.left_out_refitted) order.push_back(&c);
+    std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
+      return a->fit.mean_left_out() < b->fit.mean_left_out();
+    });
+    order.resize(std::min(order.size(), options_.pair_seeds));
+    std::vector<Candidate> pairs;
+    std::vector<FitTask> tasks;
+    for (const Candidate* seed : order) {
+      std::vector<const dynamics::Effect*> others;
+      for (const auto* effect : catalogue_)
+        if (goes_with(seed->fit.model, *effect) && allowed(*effect)) others.push_back(effect);
+      const std::vector<bool> seen = visible(seed->fit, others);
+      for (std::size_t i = 0; i < others.size(); ++i) {
+        if (!seen[i] || known_pair(pairs, seed->effects[0], others[i]->name)) continue;
+        pairs.push_back({.effects = {seed->effects[0], others[i]->name}, .fit = seed->fit});
+        tasks.push_back({.model = with_effect(narrowed(seed->fit), *others[i], bench_.reach())});
+        tasks.back().starts = seeded_starts(*seed, tasks.back().model);
+        tasks.back().screened = false;
+        pairs.back().fit.model = tasks.back().model;
+      }
+    }
+    Effort quick = options_.effort;
+    quick.starts = 2;
+    auto fits = fit_models(bench_, tasks, quick, jobs_);
+    for (std::size_t i = 0; i < fits.size(); ++i) pairs[i].fit = std::move(fits[i]);
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.fit.score < b.fit.score; });
+    pairs.resize(std::min(pairs.size(), options_.pair_finals));
+    const std::size_t first = out_.candidates.size();
+    for (Candidate& pair : pairs) out_.candidates.push_back(std::move(pair));
+    std::vector<ModelFit*> finals;
+    for (std::size_t i = first; i < out_.candidates.size(); ++i) finals.push_back(&out_.candidates[i].fit);
+    polish(bench_, finals, options_.effort, 0.15, jobs_);
+    finish(first);
+  }
+
+  static bool known_pair(const std::vector<Candidate>& pairs, const std::string& a, const std::string& b) {
+    return std::any_of(pairs.begin(), pairs.end(), [&](const Candidate& c) {
+      return (c.effects[0] == a && c.effects[1] == b) || (c.effects[0] == b && c.effects[1] == a);
+    });
+  }
+
+  // The first effect as fitted, the second anywhere in its range.
+  std::vector<Values> seeded_starts(const Candidate& seed, const ModelSpec& pair) const {
+    const std::size_t known = seed.fit.x.size();
+    const std::vector<Free> own(pair.free.begin() + static_cast<long>(known), pair.free.end());
+    std::vector<Values> starts;
+    for (const Values& x : sobol_starts(own, 24 * own.size())) {
+      starts.push_back(seed.fit.x);
+      starts.back().insert(starts.back().end(), x.begin(), x.end());
+    }
+    return starts;
+  }
+
+  const Bench& bench_;
+  const ModelSpec& base_;
+  const Catalogue& catalogue_;
+  const DiagnosisOptions& options_;
+  const Jobs& jobs_;
+  Diagnosis out_;
+};
+
+}  // namespace
+
+const char* name(Verdict verdict) {
+  constexpr const char* names[] = {"none", "missing", "ambiguous", "unknown"};
+  return names[static_cast<int>(verdict)];
+}
+
+Diagnosis diagnose(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue,
+                   const DiagnosisOptions& options, const Jobs& jobs) {
+  const std::size_t tests = tests_of(bench.data(), Role::calibration).size();
+  if (tests < 3 || tests <= base.free.size())
+    throw Error(
+        fmt::format("{} has {} calibration tests for {} numbers to be calibrated (a diagnosis leaves tests out, "
+                    "and needs three and more than there are numbers): add tests, or fix numbers",
+                    bench.data().name, tests, base.free.size()),
+        Exit::data);
+  return Diagnoser(bench, base, catalogue, options, jobs).run();
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,60 @@
+// Which effect does the model lack?
+//
+//   1. The base model is fitted. Every effect of the catalogue that changes any predicted history is fitted with the
+//      base parameters, and judged by the error of the calibration tests left out.
+//   2. Where the best of them leaves an error above the noise, or may hide a second one, pairs are fitted: each of the
+//      best few with every other.
+//   3. Histories: models are compared by their misfit G = r^T C^-1 r of the tests left out (judge.hpp), where a wrong
+//      model shows as some tens and more, and chance as a few. Peaks and outcomes: by paired differences of the
+//      left-out scores with their standard error.
+//
+//   none       no model beats the base by more than chance
+//   missing    one does and is at the noise, and every rival is worse by more than chance
+//   ambiguous  rivals at the noise cannot be told apart
+//   unknown    the base is worse than the noise and so is everything else
+//
+// A rival that needs a parameter far from where its effect is met (three times beyond the catalogue's range) to imitate
+// another is not held to be one.
+#pragma once
+
+#include "measurement/judge.hpp"
+#include "measurement/model_fit.hpp"
+
+namespace freestand::measurement {
+
+enum class Verdict { none, missing, ambiguous, unknown };
+const char* name(Verdict);
+
+struct Candidate {
+  std::vector<std::string> effects;  // joined to the base, in order
+  ModelFit fit;
+  bool visible = true;                       // the data can see it
+  bool practical = true;                     // its parameters lie where it is met
+  double misfit = 0;                         // G, of the tests left out; nan: not judged
+  double explained = 0;                      // sqrt(G/samples): 1 where sensor and floor noise explain all
+  double delta_bic = 0;                      // against the base; negative: better
+  double difference = 0, difference_se = 0;  // of the left-out score to the best one's, paired over the tests
+  bool rival = false;                        // cannot be told from the best
+};
+
+struct Diagnosis {
+  Verdict verdict = Verdict::none;
+  std::vector<std::string> effects;  // to add, in order; ambiguous: the rivals
+  Candidate base;
+  std::vector<Candidate> candidates;  // best first by the left-out error
+  std::vector<double> noise_floor;    // error that the best model itself would show, of each calibration test
+  std::vector<std::string> sentences;
+};
+
+struct DiagnosisOptions {
+  Effort effort;
+  std::size_t finals = 7;      // best single effects that are fitted to the end, with tests left out
+  std::size_t pair_seeds = 3;  // best single effects that others are joined to
+  std::size_t pair_finals = 4;
+  Values start;  // of the base's free numbers; empty: screened
+};
+
+Diagnosis diagnose(const Bench&, const ModelSpec& base, const std::vector<const dynamics::Effect*>& catalogue,
+                   const DiagnosisOptions&, const Jobs&);
+
+}  // namespace freestand::measurement

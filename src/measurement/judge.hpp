@@ -1,0 +1,36 @@
+// How far a model is from the measured histories when the noise of the measured floor motion is allowed for, in full:
+// the residual r (in units of the sensors' noise) is judged by the covariance C = 1 + A A^T, where the columns of A are
+// the changes that replays of the floor's noise make, over sqrt(their count). Directions in which that noise fans the
+// motion out say nothing; all others count. r^T C^-1 r by Woodbury's identity; its expectation is the number of samples.
+//
+// A comes from one reference model, so that rivals are judged alike.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "measurement/model_fit.hpp"
+
+namespace freestand::measurement {
+
+class Judge {
+ public:
+  // Replays of the calibration tests under the reference model with x; the bench's replays are used.
+  Judge(const Bench&, const ModelSpec& reference, const Values& x, const Jobs&);
+
+  // Misfit of each calibration test, left out where the model was refitted without it; histories only.
+  std::vector<double> misfit(const ModelFit&) const;
+  // Number of samples of each calibration test.
+  const std::vector<double>& samples() const { return samples_; }
+  // Of the reference: expected_error() of each calibration test.
+  const std::vector<double>& expected() const { return expected_; }
+
+ private:
+  struct Parts;
+  const Bench& bench_;
+  std::vector<std::size_t> tests_;
+  std::vector<double> samples_, expected_;
+  std::shared_ptr<const Parts> parts_;
+};
+
+}  // namespace freestand::measurement

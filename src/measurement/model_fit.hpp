@@ -1,0 +1,77 @@
+// Fits of whole models to the calibration tests, each with the errors of tests left out. The work is a list of jobs that
+// may be spread over processes; the answer does not depend on how.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "measurement/fit.hpp"
+#include "measurement/score.hpp"
+
+namespace freestand::measurement {
+
+// Runs job(0) ... job(n - 1), anywhere and in any order, and returns their answers in order. `what`: for progress.
+using Job = std::function<Values(std::size_t)>;
+using Jobs = std::function<std::vector<Values>(const std::string& what, std::size_t n, const Job&)>;
+
+// One after the other, here.
+std::vector<Values> run_here(const std::string& what, std::size_t n, const Job& job);
+
+struct Effort {
+  std::size_t screened_per_number = 32;  // points, times the count of free numbers
+  std::size_t starts = 3;                // descents from the best of them
+  int budget = 80;                       // evaluations of each descent
+  int polish = 160;                      // of one more, from the best of the descents
+  int fold_budget = 45;                  // of a fit with tests left out, from the fit to all
+};
+
+struct Interval {
+  double lower = 0, upper = 0;
+};
+
+struct ModelFit {
+  ModelSpec model;
+  Values x;
+  double score = 0;  // mean over the calibration tests
+  int evaluations = 0;
+  bool left_out_refitted = false;           // else left_out is what the fit to all gives
+  std::vector<Values> fold_x;               // of each fold
+  std::vector<TestError> calibration = {};  // of each calibration test, with x
+  std::vector<TestError> left_out = {};     // of each calibration test, with the fit that did not see it
+  std::vector<Interval> intervals = {};     // 95 %, of each free number: jackknife over the folds, Student's t
+
+  double mean_left_out() const;
+};
+
+// What is to be fitted: a model, points to start from beside those of the screening, and a point where nothing is
+// screened but that one (a fit that goes on).
+struct FitTask {
+  ModelSpec model;
+  std::vector<Values> starts = {};
+  bool screened = true;
+};
+
+// Folds of n calibration tests: every test alone where there are up to 12, else 10 groups. Fold of each test.
+std::vector<std::size_t> fold_of(std::size_t n);
+
+// Screens and descends; no folds yet. In the order of the tasks.
+std::vector<ModelFit> fit_models(const Bench&, const std::vector<FitTask>&, const Effort&, const Jobs&);
+
+// One more descent for each, from where it stands, with a simplex of edge `step`.
+void polish(const Bench&, std::vector<ModelFit*>, const Effort&, double step, const Jobs&);
+
+// Fits with each fold left out; fills fold_x, left_out, intervals.
+void leave_out(const Bench&, std::vector<ModelFit*>, const Effort&, const Jobs&);
+
+// Errors of the calibration tests with x; left_out the same, without a refit.
+void evaluate(const Bench&, std::vector<ModelFit*>, const Jobs&);
+
+// Root mean square of the errors in noise units (histories), of the ln ratios (peaks), or mean Brier score (outcomes);
+// and its standard error over the tests.
+struct Pooled {
+  double error = 0, standard_error = 0;
+};
+Pooled pooled(const Bench&, const std::vector<std::size_t>& tests, const std::vector<TestError>&);
+
+}  // namespace freestand::measurement
