@@ -1,5 +1,7 @@
 """The same study gives the same numbers, to the bit, on any number of ranks, in one run or in two halves."""
 
+import json
+import math
 import unittest
 
 from support import InFolder, datasets, result, study_text
@@ -17,6 +19,30 @@ class SameBits(InFolder):
             self.assertEqual(len(results[1][0]["samples/outcome"][1]), 4 * 1500)
             for ranks in (2, 3, 5):
                 self.assertEqual(results[ranks], results[1], f"{design}: {ranks} ranks differ from one")
+
+    def test_records_packs_and_effects(self):
+        """Records go through the packs, effects through the text for single samples; a run of dimensions each."""
+        for number, pitch in enumerate((1.3, 2.1)):
+            rows = "".join(f"{i / 100:.2f},{4 * math.sin(pitch * i / 10) * math.exp(-i / 300):.6f}\n" for i in range(800))
+            (self.folder / f"floor{number}.csv").write_text("time_s,floor_acceleration_mps2\n" + rows, encoding="utf-8")
+        records = 'motions:\n  - {records: "floor*.csv", scale_to: {pta_g: {uniform: [0.1, 0.9]}}}\n'
+        effects = ("effects:\n  - {name: rate_weakening, drop: {uniform: [0.1, 0.5]}, speed_mps: 0.1}\n"
+                   "  - {name: moving_contents, mass_ratio: 0.2, frequency_hz: 2}\n")
+        text = study_text(samples=600, block_size=48).replace("impact: {law: coulomb}\n", "")
+        text = text[:text.index("motions:")] + records + text[text.index("fragility:"):]
+        for name, study in (("packs", text), ("effects", text + effects)):
+            results = {}
+            for ranks in (1, 2, 3):
+                folder = self.folder / f"{name}-{ranks}"
+                self.succeed(["run", self.write(f"{name}.yaml", study), "-o", folder, "--quiet"], ranks)
+                accuracy = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["accuracy"]
+                self.assertEqual(accuracy["samples_checked"], 200)
+                results[ranks] = result(folder), accuracy
+            for ranks in (2, 3):
+                self.assertEqual(results[ranks], results[1], f"{name}: {ranks} ranks differ from one")
+            other = self.folder / f"{name}-blocks"
+            self.succeed(["run", self.write("b.yaml", study.replace("block_size: 48", "block_size: 64")), "-o", other, "--quiet"])
+            self.assertEqual(result(other), results[1][0], f"{name}: the size of the blocks changes the numbers")
 
     def test_block_size_and_halves_change_nothing(self):
         whole = self.folder / "whole"
