@@ -5,6 +5,8 @@
 #include <cstring>
 #include <vector>
 
+#include "base/units.hpp"
+#include "dynamics/bouc_wen.hpp"
 #include "dynamics/integration.hpp"
 
 namespace freestand::dynamics {
@@ -46,13 +48,28 @@ const BatchKernels* pick() {
 
 constexpr double least_tolerance = 1e-10;
 
+bool covered_bouc_wen(const Setup& setup, const Settings& settings, BatchCase& c) {
+  const auto& [specimen, shaking, floor] = setup;
+  if (!admissible_bouc_wen(setup, settings) || !(specimen.friction.mu_k > 0)) return false;
+  c = {};
+  c.table = shaking.motion->table.get();
+  c.scale = shaking.scale;
+  c.g = standard_gravity_mps2 * floor.gravity_factor;
+  c.free_vibration_s = settings.free_vibration_s;
+  c.contact = bouc_wen_contact(specimen.friction.mu_k, specimen.bouc_wen, settings.tolerance);
+  c.tolerance = settings.tolerance;
+  const double ringing = std::sqrt(c.contact.strength * c.g / c.contact.yield);
+  return c.contact.kappa == 0 && c.table->step_s * ringing < 500;
+}
+
 // False: no kernel covers it.
 bool covered(const Setup& setup, const Settings& settings, BatchCase& c) {
   const auto& [specimen, shaking, floor] = setup;
   if (has_laws(specimen) || !shaking.motion || !shaking.motion->table || shaking.stretch != 1) return false;
   if (floor.push_mps2 != 0 || (shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty())) return false;
-  if (!admissible(setup, settings) || settings.tolerance < least_tolerance || settings.event_limit < 10000)
-    return false;
+  if (settings.tolerance < least_tolerance || settings.event_limit < 10000) return false;
+  if (specimen.model == Model::bouc_wen) return covered_bouc_wen(setup, settings, c);
+  if (!admissible(setup, settings)) return false;
   if (specimen.model != Model::slide && specimen.impact.law != ImpactLaw::housner) return false;
   const Rig rig(specimen, settings, floor);
   c = {shaking.motion->table.get(),
@@ -67,7 +84,9 @@ bool covered(const Setup& setup, const Settings& settings, BatchCase& c) {
        rig.impact.factor,
        rig.rest_rotation,
        rig.told_rotation,
-       settings.free_vibration_s};
+       settings.free_vibration_s,
+       {},
+       settings.tolerance};
   return true;
 }
 
@@ -82,6 +101,7 @@ double step_in_own_time(const BatchCase& c) {
 // Null: one by one.
 BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, const BatchCase& c) {
   if (specimen.model == Model::slide) return kernels.slide;
+  if (specimen.model == Model::bouc_wen) return kernels.bouc_wen;
   if (specimen.model != Model::rock && specimen.model != Model::slide_rock) return nullptr;
   const double step = step_in_own_time(c);
   if (!(step < coarse_step)) return nullptr;

@@ -8,6 +8,7 @@
 #include <freestand/simulate.hpp>
 
 #include "base/motion_table.hpp"
+#include "dynamics/bouc_wen_contact.hpp"
 
 namespace freestand::dynamics {
 
@@ -19,6 +20,8 @@ struct BatchCase {
   double mu_s, mu_k, g;
   double factor;  // times Housner's rate
   double rest_rotation, told_rotation, free_vibration_s;
+  BoucWenContact contact;  // model bouc_wen
+  double tolerance;
 };
 
 // Computes `count` samples; sets declined[i] where sample i needs the text for single samples.
@@ -29,6 +32,7 @@ struct BatchKernels {
   BatchKernel slide;
   BatchKernel rock, rock_coarse, slide_rock,
       slide_rock_coarse;  // steps short against the block's own time, and longer ones
+  BatchKernel bouc_wen;   // with kappa = 0
 };
 
 }  // namespace freestand::dynamics

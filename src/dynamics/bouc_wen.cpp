@@ -66,7 +66,7 @@ class BoucWenIntegrator {
     BoucWenArc<N> arc;
     arc.v[0] = 0;
     arc.zeta[0] = life_.zeta;
-    advance<ContactPhase::elastic>(arc, floor.a, force, !life_.vertical, contact_);
+    fill<ContactPhase::elastic>(arc, floor.a, force, !life_.vertical, contact_);
     return sign_after(arc.v, {1, life_.force_zero()});
   }
 
@@ -77,9 +77,10 @@ class BoucWenIntegrator {
     arc.v[0] = s * life_.v;
     arc.zeta[0] = s * life_.zeta;
     arc.q[0] = life_.q;
-    advance<phase>(arc, scaled(s, floor.a), force, !life_.vertical, contact_);
+    fill<phase>(arc, scaled(s, floor.a), force, !life_.vertical, contact_);
 
     h = std::min(h, phase == ContactPhase::sliding ? stopping_time(arc) : accurate_step(arc, force[0]));
+    if (phase == ContactPhase::yielding || phase == ContactPhase::returning) h = converging_step(arc, h);
     double tau = h;
     const bool turns = first_root(arc.v, h, {1, life_.force_zero()}, tau);
     bool passes = false;
@@ -107,6 +108,12 @@ class BoucWenIntegrator {
     const double rate = std::sqrt(std::max(force, 1e-6 * life_.gravity) / contact_.yield);
     const double last = std::max(std::abs(arc.zeta[N]), std::abs(arc.v[N]) / (rate * contact_.yield));
     return last > 0 ? std::pow(life_.settings.tolerance / last, 1.0 / N) : 1 / rate;
+  }
+
+  // The series of q are, at worst, those of exp(n ln zeta), of which order N sees no more than this.
+  double converging_step(const BoucWenArc<N>& arc, double h) const {
+    const double fastest = arc.v[0] + 0.5 * std::abs(arc.v[1]) * h;
+    return std::min(h, 6 * contact_.yield * std::abs(arc.zeta[0]) / (contact_.n * fastest));
   }
 
   // Sliding is exact over any time; twice the time to the stop is enough, where the floor is still.

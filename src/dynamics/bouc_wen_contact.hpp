@@ -55,8 +55,8 @@ struct BoucWenArc {
 // Coefficients of one step. a: acceleration of the floor, force: G [m/s2], both in the direction of the motion (G > 0).
 // The start, arc.v[0], arc.zeta[0], arc.q[0], is set; arc.slip[0] = 0.
 template <ContactPhase phase, int N>
-void advance(BoucWenArc<N>& arc, const Series<double, N>& a, const Series<double, N>& force, bool constant_force,
-             const BoucWenContact& contact) {
+void fill(BoucWenArc<N>& arc, const Series<double, N>& a, const Series<double, N>& force, bool constant_force,
+          const BoucWenContact& contact) {
   const double over_yield = 1 / contact.yield;
   const double f = phase == ContactPhase::returning ? contact.kappa : 1.0;
   const bool curved = phase == ContactPhase::yielding || phase == ContactPhase::returning;

@@ -91,7 +91,7 @@ RandomCase random_case(const CaseFamily& family, std::uint64_t number) {
 }
 
 std::string RandomCase::text() const {
-  constexpr const char* models[] = {"slide", "rock", "slide_rock"};
+  constexpr const char* models[] = {"slide", "rock", "slide_rock", "bouc_wen"};
   const Block& b = specimen.block;
   char line[200];
   std::snprintf(line, sizeof line, "b_l %.3f b_r %.3f h %.3f k2 %.3f mu_s %.3f mu_k %.3f %s%s%s dt %.3f end %.1f s",

@@ -1,5 +1,6 @@
 // Compiled once per instruction set; everything in it has internal linkage but the one name that it gives out.
 #include "dynamics/batch.hpp"
+#include "dynamics/pack/bouc_wen.hpp"
 #include "dynamics/pack/rock.hpp"
 #include "dynamics/pack/slide.hpp"
 #include "dynamics/pack/slide_rock.hpp"
@@ -7,7 +8,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 
 extern const BatchKernels kernels;
-const BatchKernels kernels{FREESTAND_ISA_NAME, slide_samples,         rock_samples<5>,
-                           rock_samples<8>,    slide_rock_samples<5>, slide_rock_samples<8>};
+const BatchKernels kernels{FREESTAND_ISA_NAME,    slide_samples,         rock_samples<5>, rock_samples<8>,
+                           slide_rock_samples<5>, slide_rock_samples<8>, bouc_wen_samples};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA
