@@ -26,5 +26,7 @@ void add_fit(CLI::App& parser, Work& work);
 void add_simulate(CLI::App& parser, Work& work);
 void add_motion(CLI::App& parser, Work& work);
 void add_effects(CLI::App& parser, Work& work);
+void add_compare(CLI::App& parser, Work& work);
+void add_diagnose(CLI::App& parser, Work& work);
 
 }  // namespace freestand::app

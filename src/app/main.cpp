@@ -29,6 +29,8 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
   freestand::app::add_simulate(parser, work);
   freestand::app::add_motion(parser, work);
   freestand::app::add_effects(parser, work);
+  freestand::app::add_compare(parser, work);
+  freestand::app::add_diagnose(parser, work);
   try {
     parser.parse(argc, argv);
     return static_cast<int>(work({world, freestand::io::command_line(argc, argv)}));

@@ -36,7 +36,7 @@ struct ModelFit {
   double score = 0;  // mean over the calibration tests
   int evaluations = 0;
   bool left_out_refitted = false;           // else left_out is what the fit to all gives
-  std::vector<Values> fold_x;               // of each fold
+  std::vector<Values> fold_x = {};          // of each fold
   std::vector<TestError> calibration = {};  // of each calibration test, with x
   std::vector<TestError> left_out = {};     // of each calibration test, with the fit that did not see it
   std::vector<Interval> intervals = {};     // 95 %, of each free number: jackknife over the folds, Student's t

@@ -1,0 +1,67 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+#include "io/output_folder.hpp"
+#include "io/text_files.hpp"
+#include "study/validation.hpp"
+
+namespace freestand::app {
+namespace {
+
+struct Options {
+  std::string study, measurements, folder;
+  bool overwrite = false, quiet = false;
+};
+
+void tell(const nlohmann::ordered_json& json, const std::string& file) {
+  fmt::print("{:<12} {:<12} {:>12} {:>10} {:>10}\n", "test", "role", "noise units", "expected", "relative");
+  const auto text = [](const nlohmann::ordered_json& value) {
+    return value.is_null() ? std::string("-") : fmt::format("{:.3g}", value.get<double>());
+  };
+  for (const auto& test : json["tests"])
+    if (json["tests"].size() <= 40)
+      fmt::print("{:<12} {:<12} {:>12} {:>10} {:>10}\n", test["id"].get<std::string>(), test["role"].get<std::string>(),
+                 text(test["error_noise_units"]), text(test["error_expected"]), text(test["error_relative"]));
+  for (const char* role : {"calibration", "holdout"})
+    if (!json[role].is_null())
+      fmt::print("{:<25} {:>12} {:>10} {:>10}\n", role, text(json[role]["error_noise_units"]),
+                 text(json[role]["error_expected"]), text(json[role]["error_relative"]));
+  for (const auto& p : json["parameters"])
+    fmt::print("{} = {:.5g} {}{}\n", p["name"].get<std::string>(), p["value"].get<double>(),
+               p["unit"] == "1" ? "" : p["unit"].get<std::string>(),
+               p["interval"].is_null()
+                   ? ""
+                   : fmt::format(" [{:.5g}, {:.5g}]", p["interval"][0].get<double>(), p["interval"][1].get<double>()));
+  for (const auto& finding : json["findings"]) fmt::print("* {}\n", finding.get<std::string>());
+  fmt::print("results in {}\n", file);
+}
+
+Exit compare(const Context& context, const Options& options) {
+  const std::filesystem::path folder = options.folder;
+  context.world.on_root(
+      [&] { io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse); });
+  const auto json =
+      study::compare(context.world, {options.study, options.measurements, context.command_line, options.quiet});
+  context.world.on_root([&] {
+    io::write_text(folder / "comparison.json", io::json_text(json));
+    if (!options.quiet) tell(json, (folder / "comparison.json").string());
+  });
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& parser, Work& work) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = parser.add_subcommand("compare", "hold the model against measurements: comparison.json");
+  verb->add_option("study", options->study, "study of a validation")->required();
+  verb->add_option("--measurements", options->measurements, "data set in place of the study's");
+  verb->add_option("-o,--output", options->folder, "folder for the results")->required();
+  verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder");
+  verb->add_flag("--quiet", options->quiet, "no progress, no summary");
+  verb->callback([options, &work] { work = [options](const Context& context) { return compare(context, *options); }; });
+}
+
+}  // namespace freestand::app

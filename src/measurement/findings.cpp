@@ -1,0 +1,181 @@
+#include "measurement/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace freestand::measurement {
+namespace {
+
+class Findings {
+ public:
+  Findings(const Bench& bench, const ModelSpec& model, std::span<const double> x, const Comparison& c)
+      : bench_(bench), model_(model), x_(x), c_(c) {}
+
+  std::vector<std::string> all(const Quality& quality) {
+    said_ = quality.findings;
+    errors();
+    peaks();
+    outcomes();
+    where();
+    drift();
+    whiteness();
+    chaotic();
+    numbers();
+    return std::move(said_);
+  }
+
+ private:
+  template <class... T>
+  void say(fmt::format_string<T...> text, T&&... values) {
+    said_.push_back(fmt::format(text, std::forward<T>(values)...));
+  }
+
+  void errors() {
+    for (const Role role : {Role::calibration, Role::holdout}) {
+      double square = 0, expected = 0, n = 0;
+      for (const TestComparison& t : c_.tests) {
+        if (bench_.test(t.test).role != role || !bench_.test(t.test).has_history()) continue;
+        square += t.error.noise_units * t.error.noise_units;
+        expected += t.expected * t.expected;
+        ++n;
+      }
+      if (n == 0) continue;
+      const double error = std::sqrt(square / n), floor = std::sqrt(expected / n);
+      say("{} tests are missed by {:.3g} noise units (root mean square); the noise of sensors and floor alone would "
+          "make "
+          "{:.3g}{}",
+          role == Role::calibration ? "calibration" : "held-out", error, floor,
+          error < 1.2 * floor ? ": nothing is left to explain" : "");
+    }
+    if (c_.worst.empty()) return;
+    const TestComparison& worst = c_.tests[c_.worst.front()];
+    if (worst.error.noise_units > 2)
+      say("the worst test is {} with {:.3g} noise units, {:.0f} % of its measured peak", bench_.test(worst.test).id,
+          worst.error.noise_units, 100 * worst.error.relative);
+  }
+
+  void peaks() {
+    const PeakRatio ratio = peak_ratio(bench_, c_.tests);
+    if (ratio.count < 3) return;
+    const double bias = std::exp(ratio.bias_ln), se = ratio.scatter_ln / std::sqrt(static_cast<double>(ratio.count));
+    if (std::abs(ratio.bias_ln) > 2 * se && std::abs(ratio.bias_ln) > 0.03)
+      say("the model {} the peak slip: predicted over measured {:.2f} (geometric mean of {} tests, scatter {:.2f} in "
+          "ln), so that its resistance is too {}",
+          bias < 1 ? "underpredicts" : "overpredicts", bias, ratio.count, ratio.scatter_ln, bias < 1 ? "high" : "low");
+    else if (ratio.scatter_ln > 0.05)
+      say("peak slips have no bias (predicted over measured {:.2f}) but scatter by {:.2f} in ln over {} tests: their "
+          "input or a missing effect, not the mean resistance",
+          bias, ratio.scatter_ln, ratio.count);
+  }
+
+  void outcomes() {
+    std::size_t n = 0, missed = 0, false_alarms = 0, silent = 0;
+    double brier = 0;
+    for (const TestComparison& t : c_.tests) {
+      const auto& overturned = bench_.test(t.test).peaks.overturned;
+      if (!overturned || bench_.test(t.test).has_history()) continue;
+      ++n;
+      brier += t.error.score;
+      const bool says = t.error.probability > 0.5;
+      missed += says != *overturned;
+      false_alarms += says && !*overturned;
+      silent += !says && *overturned;
+    }
+    if (n > 0)
+      say("{} of {} outcomes are missed ({:.1f} %): {} that stood were predicted to overturn, {} that overturned to "
+          "stand; Brier score {:.4f}",
+          missed, n, 100.0 * static_cast<double>(missed) / static_cast<double>(n), false_alarms, silent,
+          brier / static_cast<double>(n));
+  }
+
+  // The phase and the bins in which the residual grows most.
+  void where() {
+    for (const ErrorTable& table : c_.calibration) {
+      double mean = 0, n = 0;
+      for (std::size_t b = 0; b < table.count.size(); ++b)
+        if (table.count[b] > 0) mean += table.count[b] * table.growth[b] * table.growth[b], n += table.count[b];
+      mean = std::sqrt(mean / std::max(n, 1.0));
+      std::size_t most = 0;
+      for (std::size_t b = 0; b < table.count.size(); ++b)
+        if (table.count[b] > 0.01 * n && !(table.growth[b] <= table.growth[most] && table.count[most] > 0.01 * n))
+          most = b;
+      if (mean < 3 || !(table.growth[most] > 1.8 * mean)) continue;
+      if (table.variable == "phase")
+        say("the misfit grows most in phase \"{}\": {:.1f} noise units within 0.1 s, against {:.1f} on the average",
+            table.label[most], table.growth[most], mean);
+      else
+        say("the misfit grows with {}: {:.1f} noise units within 0.1 s at {:.3g} {}, against {:.1f} on the average",
+            table.variable, table.growth[most], table.centre[most], table.unit, mean);
+    }
+  }
+
+  // Residual slips of the model end on one side of the measured ones.
+  void drift() {
+    int right = 0, left = 0;
+    for (const TestComparison& t : c_.tests) {
+      const Test& test = bench_.test(t.test);
+      if (test.slip_m.empty() || t.model.failed() || test.role != Role::calibration) continue;
+      const double end = t.model.slip_m.back() - test.slip_m.back();
+      if (std::abs(end) > 6 * bench_.noise(Channel::slip)) ++(end > 0 ? right : left);
+    }
+    if (right + left >= 4 && std::max(right, left) >= 0.85 * (right + left))
+      say("in {} of {} tests that are missed the block ends further to the {} than the model: a bias of direction, as "
+          "of "
+          "a tilted floor or of friction that depends on direction",
+          std::max(right, left), right + left, right > left ? "left" : "right");
+  }
+
+  void whiteness() {
+    std::size_t coloured = 0, n = 0;
+    for (const TestComparison& t : c_.tests)
+      for (const ChannelError& channel : t.channels) {
+        ++n;
+        coloured += channel.autocorrelation > 0.5;
+      }
+    if (coloured > 0)
+      say("{} of {} residuals are not white (autocorrelation above 0.5 from step to step): there is structure in what "
+          "is "
+          "missed",
+          coloured, n);
+  }
+
+  void chaotic() {
+    std::vector<std::string> ids;
+    for (const TestComparison& t : c_.tests)
+      if (t.expected > 5) ids.push_back(bench_.test(t.test).id);
+    if (!ids.empty())
+      say("the noise of the measured floor motion fans out in {}: parts of these histories cannot be predicted by any "
+          "model, and say nothing for or against one",
+          fmt::join(ids, ", "));
+  }
+
+  void numbers() {
+    const std::size_t tests = tests_of(bench_.data(), Role::calibration).size();
+    if (!model_.free.empty() && tests <= model_.free.size())
+      say("{} calibration tests for {} calibrated numbers: the fit is not determined by them", tests,
+          model_.free.size());
+    for (std::size_t i = 0; i < model_.free.size() && i < x_.size(); ++i) {
+      const Free& free = model_.free[i];
+      const double z = to_unit(free, x_[i]), low = to_unit(free, free.lower), high = to_unit(free, free.upper);
+      if (z < low + 1e-3 * (high - low) || z > high - 1e-3 * (high - low))
+        say("{} ends at the bound of its range ({:.4g}): widen the range, or doubt the model", free.name, x_[i]);
+    }
+  }
+
+  const Bench& bench_;
+  const ModelSpec& model_;
+  std::span<const double> x_;
+  const Comparison& c_;
+  std::vector<std::string> said_;
+};
+
+}  // namespace
+
+std::vector<std::string> findings(const Bench& bench, const ModelSpec& model, std::span<const double> x,
+                                  const Comparison& comparison, const Quality& quality) {
+  return Findings(bench, model, x, comparison).all(quality);
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,11 @@
+// What a comparison says, one plain sentence a finding; the weightiest first.
+#pragma once
+
+#include "measurement/compare.hpp"
+
+namespace freestand::measurement {
+
+std::vector<std::string> findings(const Bench&, const ModelSpec&, std::span<const double> x, const Comparison&,
+                                  const Quality&);
+
+}  // namespace freestand::measurement

@@ -1,0 +1,129 @@
+#include "measurement/quality.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace freestand::measurement {
+namespace {
+
+constexpr double much_closer = 1.0;  // of the mean score: the error falls to 60 %
+constexpr double still_seconds = 0.15;
+
+double greatest(const std::vector<double>& samples) {
+  double most = 0;
+  for (const double s : samples) most = std::max(most, std::abs(s));
+  return most;
+}
+
+// A data set like this one, but for its signs and times.
+Dataset changed(const Dataset& data, bool mirror_slip, bool mirror_rotation, int late) {
+  Dataset other = data;
+  for (Test& test : other.tests)
+    for (std::vector<double>* samples : {&test.slip_m, &test.rotation_rad, &test.block_acceleration_mps2}) {
+      const bool mirror = samples == &test.rotation_rad ? mirror_rotation : mirror_slip;
+      if (mirror)
+        for (double& s : *samples) s = -s;
+      const std::vector<double> before = *samples;
+      const auto n = static_cast<int>(before.size());
+      for (int i = 0; i < n; ++i)
+        (*samples)[static_cast<std::size_t>(i)] = before[static_cast<std::size_t>(std::clamp(i + late, 0, n - 1))];
+    }
+  return other;
+}
+
+void look_at_channels(const Bench& bench, Quality& quality) {
+  for (std::size_t i = 0; i < bench.size(); ++i) {
+    const Test& test = bench.test(i);
+    if (!test.has_history()) continue;
+    bool moved = false;
+    for (int c = 0; c < channel_count; ++c) {
+      const auto channel = static_cast<Channel>(c);
+      const auto& samples = history(test, channel);
+      if (channel != Channel::block_acceleration) moved |= greatest(samples) > 8 * bench.noise(channel);
+      if (clipped(samples, bench.noise(channel)))
+        quality.findings.push_back(
+            fmt::format("{} of test {} stays at its extreme value for several samples: the sensor looks clipped",
+                        name(channel), test.id));
+    }
+    quality.moving += moved;
+    if (!moved)
+      quality.findings.push_back(
+          fmt::format("test {} shows no motion above the noise: it bounds friction and slenderness "
+                      "from below, and says nothing else",
+                      test.id));
+  }
+}
+
+// Mean score of the base with its numbers fitted again to changed data.
+double refitted(const Bench& bench, const ModelFit& fit, const Effort& effort) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const Objective objective = [&](std::span<const double> x) { return mean_score(bench, tests, fit.model, x); };
+  double best = objective(fit.x);
+  for (const Values& x : sobol_starts(fit.model.free, 12)) best = std::min(best, objective(x));
+  return std::min(best, simplex(fit.model.free, objective, fit.x, 0.1, effort.fold_budget).score);
+}
+
+}  // namespace
+
+bool clipped(const std::vector<double>& samples, double noise) {
+  if (samples.empty()) return false;
+  const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+  for (const double extreme : {*least, *most}) {
+    if (std::abs(extreme) < 10 * noise || *least == *most) continue;
+    int run = 0, longest = 0;
+    for (const double s : samples) longest = std::max(longest, run = s == extreme ? run + 1 : 0);
+    if (longest >= 5) return true;
+  }
+  return false;
+}
+
+Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, const Jobs& jobs) {
+  Quality quality;
+  look_at_channels(bench, quality);
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  if (tests.empty() || !bench.test(tests.front()).has_history() || fit.score < 2 * std::log(2.0)) return quality;
+  const double dt = bench.test(tests.front()).dt_s;
+  const int most = std::max(1, static_cast<int>(still_seconds / dt));
+  std::vector<int> lags;
+  for (int late = -most; late <= most; late += std::max(1, most / 15)) lags.push_back(late);
+  bool rotates = false;
+  for (const std::size_t i : tests)
+    rotates |= greatest(bench.test(i).rotation_rad) > 8 * bench.noise(Channel::rotation);
+
+  // Cases: slip mirrored, rotation mirrored, then the lags.
+  const auto scores = jobs("signs and times of the channels", 2 + lags.size(), [&](std::size_t i) {
+    if (i == 1 && !rotates) return Values{fit.score};
+    const Dataset data = changed(bench.data(), i == 0, i == 1, i < 2 ? 0 : lags[i - 2]);
+    return Values{refitted(Bench(data, 0), fit, effort)};
+  });
+  if (scores[0][0] < fit.score - much_closer) {
+    quality.mirrored_slip = true;
+    quality.findings.push_back(
+        fmt::format("the slip looks mirrored: with its sign turned round the model comes {:.1f} "
+                    "times closer; check the sign of slip_m against that of the floor",
+                    std::exp((fit.score - scores[0][0]) / 2)));
+  }
+  if (scores[1][0] < fit.score - much_closer) {
+    quality.mirrored_rotation = true;
+    quality.findings.push_back(
+        fmt::format("the rotation looks mirrored: with its sign turned round the model comes "
+                    "{:.1f} times closer; rotation_rad is positive clockwise",
+                    std::exp((fit.score - scores[1][0]) / 2)));
+  }
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < lags.size(); ++i)
+    if (scores[2 + i][0] < scores[2 + best][0]) best = i;
+  if (lags[best] != 0 && scores[2 + best][0] < fit.score - much_closer && !quality.mirrored_slip) {
+    quality.late_steps = lags[best];
+    quality.findings.push_back(
+        fmt::format("the response runs {:.3f} s {} the floor's channel: shifted by that the model "
+                    "comes {:.1f} times closer; check the clocks of the channels",
+                    std::abs(lags[best]) * dt, lags[best] > 0 ? "behind" : "ahead of",
+                    std::exp((fit.score - scores[2 + best][0]) / 2)));
+  }
+  return quality;
+}
+
+}  // namespace freestand::measurement

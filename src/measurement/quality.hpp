@@ -1,0 +1,29 @@
+// What may be wrong with measurements that are formally in order.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measurement/model_fit.hpp"
+
+namespace freestand::measurement {
+
+struct Quality {
+  std::vector<std::string> findings;
+  bool mirrored_slip = false, mirrored_rotation = false;
+  int late_steps = 0;      // steps by which the response lags behind the floor's channel, beyond what the model gives
+  std::size_t moving = 0;  // tests with a history in which anything moved
+
+  // No verdict on an effect can be drawn from such data.
+  bool spoilt() const { return mirrored_slip || mirrored_rotation || late_steps != 0; }
+};
+
+// Clipped sensors and tests without motion are read off the histories. Signs and times are judged by the model: with
+// the floor mirrored, a rotation mirrored, or the histories shifted by up to 0.15 s, and its free numbers fitted again,
+// does it come much closer?
+Quality examine(const Bench&, const ModelFit&, const Effort&, const Jobs&);
+
+// At least five samples in a row at one and the same extreme value.
+bool clipped(const std::vector<double>& samples, double noise);
+
+}  // namespace freestand::measurement

@@ -1,0 +1,34 @@
+// What the measured motion itself says of the forces, without any model of an effect.
+//
+// While the block slips, mu_eff = -(u'' + a) sigma/g' and the force that the model lacks is
+// F = u'' + a + sigma mu_k g' [m/s2], u'' from the smoothed slip within one slip of one direction, so that starts and
+// stops stay sharp. Rotating blocks are left out: there f_y is not known without a model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measurement/bench.hpp"
+
+namespace freestand::measurement {
+
+// Mean over the samples of a bin with their standard deviation and a band of 95 % for the mean; neighbouring samples
+// are not independent (they share a window), which the band allows for.
+struct RecoveredTable {
+  std::string variable, unit;  // speed_mps, path_m, direction, position_m, normal_g, time_s
+  std::vector<double> edge, centre, mu, mu_deviation, mu_lower, mu_upper, force_mps2, force_lower_mps2,
+      force_upper_mps2;
+  std::vector<double> count;
+  double share_explained = 0;  // of the variance of mu_eff among its samples, by the bins
+};
+
+struct Recovered {
+  std::size_t samples = 0;
+  double mean_mu = 0, sample_noise_mu = 0;  // of single samples, from the sensor's noise
+  std::vector<RecoveredTable> tables;
+};
+
+// Of the calibration tests. mu_k: of the base model. vertical: does the vertical channel count in g'?
+Recovered recover(const Bench&, double mu_k, bool vertical);
+
+}  // namespace freestand::measurement

@@ -1,0 +1,183 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.hpp"
+#include "study/spread_jobs.hpp"
+#include "study/validation_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+using namespace measurement;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t most_points = 2000;
+const char* const roles[] = {"calibration", "holdout"};
+const char* const kinds[] = {"history", "peaks", "outcome"};
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double v : values) list.push_back(number_or_null(v));
+  return list;
+}
+
+// Measured and predicted peaks, of what was measured.
+Json peaks_json(const Test& test, const Response& r) {
+  Json list = Json::array();
+  const auto add = [&](const char* key, double measured, double model) {
+    list.push_back({{"name", key}, {"measured", number_or_null(measured)}, {"model", number_or_null(model)}});
+  };
+  const auto greatest = [](const std::vector<double>& values) {
+    double most = 0;
+    for (const double v : values) most = std::max(most, std::abs(v));
+    return most;
+  };
+  if (test.peaks.peak_slip_m || !test.slip_m.empty())
+    add("peak_slip_m", test.peaks.peak_slip_m.value_or(greatest(test.slip_m)), r.peak_slip_m);
+  if (test.peaks.residual_slip_m || !test.slip_m.empty())
+    add("residual_slip_m", test.peaks.residual_slip_m ? *test.peaks.residual_slip_m : test.slip_m.back(),
+        r.residual_slip_m);
+  if (test.peaks.peak_rotation_rad || !test.rotation_rad.empty())
+    add("peak_rotation_rad", test.peaks.peak_rotation_rad.value_or(greatest(test.rotation_rad)), r.peak_rotation_rad);
+  if (test.peaks.peak_acceleration_g)
+    add("peak_acceleration_g", *test.peaks.peak_acceleration_g, r.peak_acceleration_mps2 / standard_gravity_mps2);
+  return list;
+}
+
+Json test_json(const Bench& bench, const TestComparison& t) {
+  const Test& test = bench.test(t.test);
+  Json json = {{"id", test.id},
+               {"role", roles[static_cast<int>(test.role)]},
+               {"kind", kinds[static_cast<int>(kind(test))]},
+               {"source", test.source},
+               {"error_noise_units", number_or_null(t.error.noise_units)},
+               {"error_relative", number_or_null(t.error.relative)},
+               {"error_explained", number_or_null(t.explained)},
+               {"error_expected", number_or_null(t.expected)},
+               {"score", number_or_null(t.error.score)},
+               {"outcome", name(t.model.response.outcome)},
+               {"peaks", peaks_json(test, t.model.response)}};
+  json["channels"] = Json::array();
+  for (const ChannelError& c : t.channels)
+    json["channels"].push_back({{"name", name(c.channel)},
+                                {"error_noise_units", number_or_null(c.noise_units)},
+                                {"error_relative", number_or_null(c.relative)},
+                                {"bias", c.bias},
+                                {"autocorrelation", c.autocorrelation}});
+  if (test.peaks.overturned) {
+    json["overturned_measured"] = *test.peaks.overturned;
+    json["overturned_probability"] = t.error.probability;
+  }
+  return json;
+}
+
+Json history_json(const Bench& bench, const TestComparison& t) {
+  const Test& test = bench.test(t.test);
+  const std::size_t n = t.model.slip_m.size(), stride = std::max<std::size_t>(1, (n + most_points - 1) / most_points);
+  Json json = {{"id", test.id}, {"role", roles[static_cast<int>(test.role)]}, {"dt_s", test.dt_s}};
+  const auto thinned = [&](auto&& value) {
+    Json list = Json::array();
+    for (std::size_t k = 0; k < n; k += stride) list.push_back(number_or_null(value(k)));
+    return list;
+  };
+  json["time_s"] = thinned([&](std::size_t k) { return static_cast<double>(k) * test.dt_s; });
+  json["floor_acceleration_mps2"] = thinned(
+      [&](std::size_t k) { return horizontal_acceleration(test.shaking(), static_cast<double>(k) * test.dt_s); });
+  for (int c = 0; c < channel_count; ++c) {
+    const auto channel = static_cast<Channel>(c);
+    const auto& measured = history(test, channel);
+    if (measured.empty()) continue;
+    const auto& model = t.model.channel(channel);
+    const auto& spread = t.spread[static_cast<std::size_t>(c)];
+    json[name(channel)] = {{"noise", bench.noise(channel)},
+                           {"measured", thinned([&](std::size_t k) { return measured[k]; })},
+                           {"model", thinned([&](std::size_t k) { return model[k]; })},
+                           {"residual", thinned([&](std::size_t k) { return model[k] - measured[k]; })},
+                           {"spread", thinned([&](std::size_t k) { return std::sqrt(spread[k]); })}};
+  }
+  return json;
+}
+
+Json tables_json(const std::vector<ErrorTable>& tables) {
+  Json list = Json::array();
+  for (const ErrorTable& t : tables)
+    list.push_back({{"variable", t.variable},
+                    {"unit", t.unit},
+                    {"label", t.label},
+                    {"edge", numbers(t.edge)},
+                    {"centre", numbers(t.centre)},
+                    {"count", numbers(t.count)},
+                    {"error_noise_units", numbers(t.noise_units)},
+                    {"growth_noise_units", numbers(t.growth)},
+                    {"bias_noise_units", numbers(t.bias)}});
+  return list;
+}
+
+Json role_json(const Bench& bench, const std::vector<TestComparison>& tests, Role role) {
+  const RoleError e = role_error(bench, tests, role);
+  if (e.tests == 0) return nullptr;
+  return {{"error_noise_units", number_or_null(e.noise_units)},
+          {"error_relative", number_or_null(e.relative)},
+          {"error", number_or_null(e.error)},
+          {"error_expected", number_or_null(e.expected)},
+          {"tests", e.tests}};
+}
+
+Json parameters_json(const ModelFit& fit, bool calibrated) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < fit.x.size(); ++i) {
+    const Free& free = fit.model.free[i];
+    Json interval = nullptr;
+    if (i < fit.intervals.size()) interval = {fit.intervals[i].lower, fit.intervals[i].upper};
+    list.push_back({{"name", free.name},
+                    {"unit", free.unit},
+                    {"value", fit.x[i]},
+                    {"lower", free.lower},
+                    {"upper", free.upper},
+                    {"interval", interval},
+                    {"calibrated", calibrated}});
+  }
+  return list;
+}
+
+}  // namespace
+
+Json compare(const parallel::Communicator& world, const ValidationRun& run) {
+  const auto p = prepare(world, run, 16);
+  const Bench& bench = *p->bench;
+  const Jobs jobs = spread_jobs(world, run.quiet);
+  const ModelFit fit = fitted(*p, false, jobs);
+  const bool calibrated = fit.left_out_refitted || fit.evaluations > 0;
+  Effort effort;
+  const Quality quality = examine(bench, fit, effort, jobs);
+  const Comparison c = measurement::compare(bench, fit.model, fit.x, compare_tests(bench, fit, jobs), quality);
+
+  std::vector<std::string> effects;
+  for (const EffectTerm& term : fit.model.effects) effects.push_back(term.effect->name);
+  const PeakRatio ratio = peak_ratio(bench, c.tests);
+  Json json = {{"format", "freestand-comparison/1"},
+               {"study", run.study},
+               {"measurements", p->measurements},
+               {"name", p->data.name},
+               {"effects", effects},
+               {"error_unit", error_unit(bench)},
+               {"method", calibration_method},
+               {"findings", c.findings},
+               {"calibration", role_json(bench, c.tests, Role::calibration)},
+               {"holdout", role_json(bench, c.tests, Role::holdout)},
+               {"parameters", parameters_json(fit, calibrated)},
+               {"peak_ratio",
+                {{"count", ratio.count},
+                 {"ratio", number_or_null(std::exp(ratio.bias_ln))},
+                 {"bias_ln", number_or_null(ratio.bias_ln)},
+                 {"scatter_ln", number_or_null(ratio.scatter_ln)}}}};
+  json["tests"] = Json::array();
+  for (const TestComparison& t : c.tests) json["tests"].push_back(test_json(bench, t));
+  json["histories"] = Json::array();
+  for (const std::size_t i : c.worst) json["histories"].push_back(history_json(bench, c.tests[i]));
+  json["error_tables"] = {{"calibration", tables_json(c.calibration)}, {"holdout", tables_json(c.holdout)}};
+  json["ladder"] = ladder_json(p->validation.ladder);
+  return json;
+}
+
+}  // namespace freestand::study

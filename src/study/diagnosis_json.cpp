@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.hpp"
+#include "effects/effects.hpp"
+#include "measurement/decide.hpp"
+#include "measurement/quality.hpp"
+#include "measurement/recover.hpp"
+#include "measurement/suggest.hpp"
+#include "study/spread_jobs.hpp"
+#include "study/validation_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+using namespace measurement;
+using Json = nlohmann::ordered_json;
+
+Json numbers(const std::vector<double>& values) {
+  Json list = Json::array();
+  for (const double v : values) list.push_back(number_or_null(v));
+  return list;
+}
+
+Json candidate_json(const Bench& bench, const Candidate& c) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const Pooled in = pooled(bench, tests, c.fit.calibration), out = pooled(bench, tests, c.fit.left_out);
+  Json parameters = Json::object();
+  for (std::size_t i = 0; i < c.fit.x.size() && c.visible; ++i) {
+    const Free& free = c.fit.model.free[i];
+    Json interval = nullptr;
+    if (i < c.fit.intervals.size()) interval = {c.fit.intervals[i].lower, c.fit.intervals[i].upper};
+    parameters[free.name] = {{"value", c.fit.x[i]}, {"unit", free.unit}, {"interval", interval}};
+  }
+  return {{"effect", fmt::format("{}", fmt::join(c.effects, "+"))},
+          {"effects", c.effects},
+          {"visible", c.visible},
+          {"parameters", parameters},
+          {"error_calibration", number_or_null(in.error)},
+          {"error_left_out", number_or_null(out.error)},
+          {"error_left_out_se", number_or_null(out.standard_error)},
+          {"error_explained", number_or_null(c.explained)},
+          {"misfit", number_or_null(c.misfit)},
+          {"delta_bic", number_or_null(c.delta_bic)},
+          {"difference", number_or_null(c.difference)},
+          {"difference_se", number_or_null(c.difference_se)},
+          {"rival", c.rival},
+          {"practical", c.practical},
+          {"left_out_refitted", c.fit.left_out_refitted},
+          {"evaluations", c.fit.evaluations}};
+}
+
+// Friction of the model at the centre of a bin of speed or direction, where its effects make it a function of that
+// alone.
+double law_mu(const ModelFit& fit, const std::string& variable, double at) {
+  double mu = fit.model.mu_k.of(fit.x);
+  for (const EffectTerm& term : fit.model.effects) {
+    std::vector<double> p;
+    for (const Number& number : term.parameters) p.push_back(number.of(fit.x));
+    const std::string& effect = term.effect->name;
+    const double settled = effect == "rate_weakening" ? -1 : effect == "rate_strengthening" ? 1 : 0;
+    if (variable == "speed_mps" && settled != 0) mu *= 1 + settled * p[0] * (1 - std::exp(-at / p[1]));
+    if (variable == "direction" && effect == "directional_friction") mu *= 1 + p[0] * at;
+    if (variable == "direction" && effect == "floor_tilt") mu += at * std::tan(p[0]);
+    if (variable == "path_m" && effect == "friction_wear") mu *= p[0] + (1 - p[0]) * std::exp(-at / p[1]);
+    if (variable == "normal_g" && effect == "pressure_friction") mu *= std::pow(std::max(at, 1e-6), p[0]);
+    if (variable == "speed_mps" && effect == "viscous_drag") mu += p[0] * at / standard_gravity_mps2;
+  }
+  return mu;
+}
+
+Json recovered_json(const Bench& bench, const Diagnosis& d, const Candidate& best) {
+  const ModelFit& base = d.base.fit;
+  const double mu = base.model.mu_k.of(base.x);
+  const Recovered r = recover(bench, mu, best.fit.model.has("vertical_shaking"));
+  Json json = {{"samples", r.samples},
+               {"base_mu", mu},
+               {"mean_mu", number_or_null(r.mean_mu)},
+               {"sample_noise_mu", number_or_null(r.sample_noise_mu)},
+               {"tables", Json::array()}};
+  for (const RecoveredTable& t : r.tables) {
+    std::vector<double> law;
+    for (const double centre : t.centre) law.push_back(law_mu(best.fit, t.variable, centre));
+    json["tables"].push_back({{"variable", t.variable},
+                              {"unit", t.unit},
+                              {"edge", numbers(t.edge)},
+                              {"centre", numbers(t.centre)},
+                              {"count", numbers(t.count)},
+                              {"mu", numbers(t.mu)},
+                              {"mu_deviation", numbers(t.mu_deviation)},
+                              {"mu_lower", numbers(t.mu_lower)},
+                              {"mu_upper", numbers(t.mu_upper)},
+                              {"force_mps2", numbers(t.force_mps2)},
+                              {"force_lower_mps2", numbers(t.force_lower_mps2)},
+                              {"force_upper_mps2", numbers(t.force_upper_mps2)},
+                              {"share_explained", number_or_null(t.share_explained)},
+                              {"law", {{"effects", best.effects}, {"mu", numbers(law)}}}});
+  }
+  return json;
+}
+
+Json suggestion_json(const Bench& bench, const Diagnosis& d, const Jobs& jobs) {
+  std::vector<ModelFit> rivals;
+  for (const Candidate& c : d.candidates)
+    if (c.rival) rivals.push_back(c.fit);
+  if (rivals.size() < 2) return nullptr;
+  const Suggestion s = suggest(bench, rivals, effects::find("vertical_shaking"), jobs);
+  Json specimen = nullptr;
+  if (s.friction_factor != 1)
+    specimen = fmt::format("surfaces with about {:.2g} times the friction", s.friction_factor);
+  return {{"between", d.effects},
+          {"motion",
+           {{"pulse", s.pulse},
+            {"period_s", s.period_s},
+            {"peak_acceleration_g", s.peak_acceleration_g},
+            {"vertical_peak_acceleration_g", s.vertical_share * s.peak_acceleration_g}}},
+          {"specimen", specimen},
+          {"separation_noise_units", number_or_null(s.separation)},
+          {"sentence", s.sentence}};
+}
+
+double noise_floor(const Diagnosis& d) {
+  double square = 0;
+  for (const double e : d.noise_floor) square += e * e / static_cast<double>(d.noise_floor.size());
+  return d.noise_floor.empty() ? std::nan("") : std::sqrt(square);
+}
+
+// A verdict is only as good as the data.
+void withdraw_if_spoilt(const Quality& quality, Diagnosis& d) {
+  if (!quality.spoilt()) return;
+  d.verdict = Verdict::unknown;
+  d.effects.clear();
+  for (Candidate& c : d.candidates) c.rival = false;
+  d.sentences = {
+      "the measurements look wrong in a sign or in time (see the findings): no effect can be named before "
+      "that is settled"};
+}
+
+}  // namespace
+
+Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
+  const auto p = prepare(world, run, 32);
+  const Bench& bench = *p->bench;
+  const Jobs jobs = spread_jobs(world, run.quiet);
+  std::vector<const dynamics::Effect*> catalogue;
+  for (const auto& effect : effects::all()) catalogue.push_back(&effect);
+  DiagnosisOptions options;
+  options.start = known_values(p->validation);
+  if (options.start.size() != p->model.free.size()) options.start.clear();
+
+  bool moved = measurement::kind_of_set(bench) != Kind::history;
+  for (const Test& test : p->data.tests)
+    for (const Channel channel : {Channel::slip, Channel::rotation})
+      for (const double value : history(test, channel)) moved |= std::abs(value) > 8 * bench.noise(channel);
+  if (!moved)
+    throw Error(fmt::format("{}: no test shows motion above the noise (there is nothing to diagnose): shake harder",
+                            p->measurements),
+                Exit::data);
+
+  Diagnosis d = measurement::diagnose(bench, p->model, catalogue, options, jobs);
+  const Quality quality = examine(bench, d.base.fit, options.effort, jobs);
+  withdraw_if_spoilt(quality, d);
+  const Candidate* best = &d.base;
+  for (const Candidate& c : d.candidates)
+    if (c.visible && c.fit.mean_left_out() < best->fit.mean_left_out()) best = &c;
+
+  Json json = {{"format", "freestand-diagnosis/1"},
+               {"study", run.study},
+               {"measurements", p->measurements},
+               {"name", p->data.name},
+               {"error_unit", error_unit(bench)},
+               {"verdict", name(d.verdict)},
+               {"effects", d.effects},
+               {"sentences", d.sentences},
+               {"findings", quality.findings},
+               {"noise_floor", number_or_null(noise_floor(d))},
+               {"base", candidate_json(bench, d.base)}};
+  json["candidates"] = Json::array();
+  for (const Candidate& c : d.candidates) json["candidates"].push_back(candidate_json(bench, c));
+  json["recovered_force"] = recovered_json(bench, d, *best);
+  json["suggested_motion"] = d.verdict == Verdict::ambiguous ? suggestion_json(bench, d, jobs) : Json(nullptr);
+  return json;
+}
+
+}  // namespace freestand::study

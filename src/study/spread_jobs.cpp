@@ -1,0 +1,91 @@
+#include "study/spread_jobs.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <chrono>
+#include <memory>
+#include <numeric>
+
+#include "parallel/progress.hpp"
+#include "parallel/schedule.hpp"
+
+namespace freestand::study {
+namespace {
+
+using measurement::Values;
+using parallel::Words;
+
+// What is going on: a line that is rewritten on a terminal, one plain line a minute elsewhere.
+class Display {
+ public:
+  Display(bool quiet) : quiet_(quiet), terminal_(parallel::on_terminal()) {}
+  ~Display() {
+    if (open_) fmt::print(stderr, "\n");
+  }
+  Display(const Display&) = delete;
+  Display& operator=(const Display&) = delete;
+
+  void show(const std::string& what, std::size_t done, std::size_t total) {
+    const auto now = Clock::now();
+    const double since = std::chrono::duration<double>(now - last_).count();
+    if (quiet_ || since < (terminal_ ? 0.2 : 60)) return;
+    last_ = now;
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const std::string line = fmt::format("{}: {}/{}, {} so far", what, done, total, parallel::duration_text(elapsed));
+    if (terminal_)
+      fmt::print(stderr, "\r\033[K{}", line);
+    else
+      fmt::print(stderr, "{}\n", line);
+    std::fflush(stderr);
+    open_ = terminal_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool quiet_, terminal_, open_ = false;
+  Clock::time_point start_ = Clock::now(), last_ = Clock::now();
+};
+
+// Every rank's answers on every rank: lengths first, then the bits of the numbers, each written by one rank.
+std::vector<Values> share(const parallel::Communicator& world, const std::vector<Values>& mine) {
+  Words lengths;
+  for (const Values& values : mine) lengths.push_back(static_cast<std::int64_t>(values.size()));
+  world.sum_in_place(lengths);
+  Words bits(static_cast<std::size_t>(std::accumulate(lengths.begin(), lengths.end(), std::int64_t{0})), 0);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < mine.size(); ++i) {
+    for (std::size_t k = 0; k < mine[i].size(); ++k) bits[at + k] = std::bit_cast<std::int64_t>(mine[i][k]);
+    at += static_cast<std::size_t>(lengths[i]);
+  }
+  world.sum_in_place(bits);
+  std::vector<Values> all;
+  auto next = bits.begin();
+  for (const std::int64_t length : lengths) {
+    Values values;
+    for (std::int64_t k = 0; k < length; ++k) values.push_back(std::bit_cast<double>(*next++));
+    all.push_back(std::move(values));
+  }
+  return all;
+}
+
+}  // namespace
+
+measurement::Jobs spread_jobs(const parallel::Communicator& world, bool quiet) {
+  const auto display = std::make_shared<Display>(quiet || !world.is_root());
+  return [world, display](const std::string& what, std::size_t n, const measurement::Job& job) {
+    std::vector<Values> mine(n);
+    std::vector<std::int64_t> todo(n);
+    std::iota(todo.begin(), todo.end(), 0);
+    const auto compute = [&](std::int64_t i, const parallel::Beat&) {
+      mine[static_cast<std::size_t>(i)] = job(static_cast<std::size_t>(i));
+      display->show(what, static_cast<std::size_t>(i), n);
+      return parallel::Counts{.samples = 1};
+    };
+    if (!parallel::for_each_block(world, todo, compute))
+      throw Error("stopped on request (nothing of the fits is kept): start again", Exit::resumable);
+    return world.size() == 1 ? mine : share(world, mine);
+  };
+}
+
+}  // namespace freestand::study

@@ -1,0 +1,162 @@
+#include "study/validation.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "study/problems.hpp"
+#include "study/read_measurements.hpp"
+#include "study/validation_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+using namespace measurement;
+
+void check_dimensions(const Prepared& p) {
+  Problems problems(p.measurements);
+  for (const Test& test : p.data.tests)
+    if (const std::string missing = missing_dimension(p.model, test); !missing.empty())
+      problems.add(0, fmt::format("test {} has no {} (neither the specimen nor the study gives it): add it to the "
+                                  "specimen, or block: {{{}: {{calibrate: [lower, upper]}}}} to the model",
+                                  test.id, missing, missing));
+  problems.throw_if_any();
+}
+
+// Outcomes are judged by probabilities: placements scatter.
+void add_placement_scatter(Prepared& p) {
+  bool outcomes = false;
+  for (const Test& test : p.data.tests) outcomes |= kind(test) == Kind::outcome;
+  if (!outcomes) return;
+  p.model.placement_scatter = Number{.value = 0, .free = static_cast<int>(p.model.free.size())};
+  p.model.free.push_back({.name = "placement_scatter",
+                          .unit = "1",
+                          .lower = 0.001,
+                          .upper = 0.5,
+                          .low = 0.02,
+                          .high = 0.3,
+                          .logarithmic = true});
+}
+
+}  // namespace
+
+const char* const calibration_method =
+    "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and Mead descends (GSL "
+    "nmsimplex2), and once more from the best of those; the mean of ln(error^2) of the calibration tests is made "
+    "least; "
+    "intervals of 95 % by the jackknife over the tests";
+
+nlohmann::ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+std::unique_ptr<Prepared> prepare(const parallel::Communicator& world, Validation validation, const ValidationRun& run,
+                                  int replays) {
+  auto p = std::make_unique<Prepared>();
+  p->validation = std::move(validation);
+  p->measurements = run.measurements.empty() ? p->validation.measurements.string() : run.measurements;
+  if (p->measurements.empty())
+    throw Error(
+        fmt::format("{} names no measurements (what is the model held against?): add measurements: "
+                    "dataset.yaml, or give --measurements",
+                    p->validation.file.string()));
+  world.on_root([&] { read_measurements(p->measurements); });
+  p->data = read_measurements(p->measurements);
+  p->model = model_spec(p->validation, false);
+  check_dimensions(*p);
+  add_placement_scatter(*p);
+  p->bench = std::make_unique<Bench>(p->data, replays);
+  return p;
+}
+
+std::unique_ptr<Prepared> prepare(const parallel::Communicator& world, const ValidationRun& run, int replays) {
+  world.on_root([&] { read_validation(run.study); });
+  return prepare(world, read_validation(run.study), run, replays);
+}
+
+ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
+  const Bench& bench = *p.bench;
+  Values known = known_values(p.validation);
+  const bool all_known = known.size() == p.model.free.size();
+  if (p.model.free.empty() || (all_known && !refit)) {
+    ModelFit fit{.model = p.model, .x = known, .score = 0};
+    fit.score = mean_score(bench, tests_of(p.data, Role::calibration), fit.model, fit.x);
+    evaluate(bench, {&fit}, jobs);
+    return fit;
+  }
+  if (tests_of(p.data, Role::calibration).empty())
+    throw Error(fmt::format("{} has no calibration test (the model has numbers to be calibrated): give some tests "
+                            "role: calibration",
+                            p.measurements),
+                Exit::data);
+  Effort effort;
+  effort.screened_per_number = 64;
+  FitTask task{.model = p.model};
+  if (all_known) task.starts = {known};
+  auto fits = fit_models(bench, {task}, effort, jobs);
+  polish(bench, {&fits[0]}, effort, 0.05, jobs);
+  leave_out(bench, {&fits[0]}, effort, jobs);
+  return std::move(fits[0]);
+}
+
+std::vector<TestComparison> compare_tests(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
+  // The replays are the work; each test's variances travel, the prediction is made again.
+  const auto spreads = jobs("replays of the floor's noise", bench.size(), [&](std::size_t i) {
+    Values all;
+    if (!bench.test(i).has_history()) return all;
+    for (const auto& channel : bench.spread(fit.model, i, fit.x, predict(fit.model, bench.test(i), fit.x)))
+      all.insert(all.end(), channel.begin(), channel.end());
+    return all;
+  });
+  std::vector<TestComparison> tests;
+  for (std::size_t i = 0; i < bench.size(); ++i) {
+    Spread spread(channel_count);
+    auto at = spreads[i].begin();
+    for (int c = 0; c < channel_count && bench.test(i).has_history(); ++c) {
+      const auto n = static_cast<long>(history(bench.test(i), static_cast<Channel>(c)).size());
+      spread[static_cast<std::size_t>(c)].assign(at, at + n);
+      at += n;
+    }
+    tests.push_back(compare_test(bench, i, fit.model, fit.x, std::move(spread)));
+  }
+  return tests;
+}
+
+RoleError role_error(const Bench& bench, const std::vector<TestComparison>& tests, Role role) {
+  RoleError out;
+  std::vector<TestError> errors;
+  std::vector<std::size_t> places;
+  double relative = 0, expected = 0, noise = 0;
+  for (const TestComparison& t : tests) {
+    if (bench.test(t.test).role != role) continue;
+    errors.push_back(t.error);
+    places.push_back(t.test);
+    relative += t.error.relative * t.error.relative;
+    expected += t.expected * t.expected;
+    noise += t.error.noise_units * t.error.noise_units;
+  }
+  out.tests = errors.size();
+  const auto n = static_cast<double>(errors.size());
+  out.error = pooled(bench, places, errors).error;
+  out.relative = std::sqrt(relative / n);
+  out.expected = std::sqrt(expected / n);
+  out.noise_units = std::sqrt(noise / n);
+  return out;
+}
+
+const char* error_unit(const Bench& bench) {
+  const Kind judged = bench.size() == 0 ? Kind::history : kind(bench.test(0));
+  return judged == Kind::history ? "noise units" : judged == Kind::peaks ? "ln ratio" : "Brier";
+}
+
+nlohmann::ordered_json ladder_json(const std::vector<LadderStep>& ladder) {
+  auto json = nlohmann::ordered_json::array();
+  for (const LadderStep& step : ladder)
+    json.push_back({{"step", step.step},
+                    {"error_calibration", number_or_null(step.error_calibration)},
+                    {"error_holdout", number_or_null(step.error_holdout)},
+                    {"noise_floor", number_or_null(step.noise_floor)}});
+  return json;
+}
+
+}  // namespace freestand::study

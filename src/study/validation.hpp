@@ -1,0 +1,61 @@
+// The verbs that hold the model against measurements.
+//
+// comparison.json
+//   format "freestand-comparison/1", study, measurements, specimen_model (effects of the model), error_unit ("noise units",
+//   "ln ratio", "Brier"), method (of the calibration, a sentence)
+//   tests: [{id, role, kind (history|peaks|outcome), error_noise_units, error_relative, error_explained (the same with
+//     the floor's noise allowed for), error_expected (what noise alone would make), channels: [{name, error_noise_units,
+//     error_relative, bias, autocorrelation}], peaks: [{name, measured, model}], overturned_measured,
+//     overturned_probability, outcome}]
+//   calibration, holdout: {error_noise_units, error_relative, error, error_expected, tests}; error in error_unit;
+//     null where there are no such tests
+//   parameters: [{name, unit, value, lower, upper, interval: [l, u] or null, calibrated (by this run)}]
+//   peak_ratio: {count, bias_ln, scatter_ln, ratio}: predicted over measured peak slips
+//   findings: [sentence]
+//   histories: of the five worst: [{id, dt_s, time_s: [], floor_acceleration_mps2: [], CHANNEL: {measured: [], model: [],
+//     residual: [], noise, spread: [] (standard deviation that the floor's noise makes)}}], at most 2000 points each
+//   error_tables: {calibration: [{variable, unit, label, edge, centre, count, error_noise_units, growth_noise_units,
+//     bias_noise_units}], holdout: [...]}; variables phase, speed_mps, path_m, position_m, direction, normal_g, time_s,
+//     floor_g; growth: change of the residual within 0.1 s
+//   ladder: [{step, error_calibration, error_holdout, noise_floor}] of the study
+//
+// diagnosis.json
+//   format "freestand-diagnosis/1", study, measurements, error_unit, verdict, effects, sentences, findings
+//   base, candidates: [{effect (two joined by "+"), effects: [], visible, parameters: {NAME: {value, interval, unit}},
+//     error_calibration, error_left_out, error_left_out_se, error_explained, misfit, delta_bic, difference (of the mean
+//     left-out score to the best's), difference_se, rival, practical, left_out_refitted}], best first; of `base` no effect
+//   noise_floor: error that sensor and floor noise alone would make
+//   recovered_force: {samples, mean_mu, sample_noise_mu, base_mu, tables: [{variable, unit, edge, centre, count, mu, mu_deviation,
+//     mu_lower, mu_upper, force_mps2, force_lower_mps2, force_upper_mps2, share_explained, law: {effect, mu}}]}; `law`:
+//     the friction of the best effect through the same samples where it has one
+//   suggested_motion: where the verdict is ambiguous, else null: {between: [], motion: {pulse, period_s,
+//     peak_acceleration_g}, specimen (a sentence; null: the same), separation_noise_units, sentence}
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "measurement/compare.hpp"
+#include "measurement/diagnose.hpp"
+#include "parallel/communicator.hpp"
+#include "study/read_validation.hpp"
+
+namespace freestand::study {
+
+struct ValidationRun {
+  std::string study;         // file
+  std::string measurements;  // file in place of the study's; empty: the study's
+  std::string command;       // command line
+  bool quiet = false;
+};
+
+// The three, whole: read, work on all ranks, the document on every rank. Collective. Throw Error.
+nlohmann::ordered_json compare(const parallel::Communicator&, const ValidationRun&);
+nlohmann::ordered_json diagnose(const parallel::Communicator&, const ValidationRun&);
+
+// The study with the effect in it, fitted, as YAML text. effect: a name of the catalogue, a mapping in YAML
+// ("{name: bumps, friction: ..., parameters: {a: {calibrate: [0, 1]}}}"), or a file that holds one.
+std::string add(const parallel::Communicator&, const ValidationRun&, const std::string& effect);
+
+}  // namespace freestand::study

@@ -1,0 +1,46 @@
+// What compare, diagnose and add have in common. Internal to src/study.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "measurement/model_fit.hpp"
+#include "study/validation.hpp"
+
+namespace freestand::study {
+
+// A validation with its measurements, read and checked on every rank.
+struct Prepared {
+  Validation validation;
+  measurement::Dataset data;
+  measurement::ModelSpec model;  // numbers to be calibrated free, those with a value too
+  std::string measurements;      // file
+  std::unique_ptr<measurement::Bench> bench;
+};
+std::unique_ptr<Prepared> prepare(const parallel::Communicator&, const ValidationRun&, int replays);
+std::unique_ptr<Prepared> prepare(const parallel::Communicator&, Validation, const ValidationRun&, int replays);
+
+// The model fitted to the calibration tests: where every number has its value and refit is false, at those values.
+measurement::ModelFit fitted(const Prepared&, bool refit, const measurement::Jobs&);
+
+// Errors of one role: root mean square and so on, as comparison.json says.
+struct RoleError {
+  std::size_t tests = 0;
+  double error = 0;  // in the unit of the set
+  double relative = 0, expected = 0, noise_units = 0;
+};
+RoleError role_error(const measurement::Bench&, const std::vector<measurement::TestComparison>&, measurement::Role);
+
+// All tests compared, spread over the ranks.
+std::vector<measurement::TestComparison> compare_tests(const measurement::Bench&, const measurement::ModelFit&,
+                                                       const measurement::Jobs&);
+
+const char* error_unit(const measurement::Bench&);
+nlohmann::ordered_json ladder_json(const std::vector<LadderStep>&);
+
+// null where it is not finite.
+nlohmann::ordered_json number_or_null(double value);
+
+extern const char* const calibration_method;
+
+}  // namespace freestand::study
