@@ -61,6 +61,15 @@ void for_each_witness(const Rig& rig, const State& state, const Arc<double, N>& 
   }
 }
 
+// Friction on the base. Of a block that is pressed against a wall friction takes what it can, and the wall, through the
+// centre of mass, the rest.
+template <int N>
+Series<double, N> friction_at_wall(const State& state, const LawArc<N>& arc) {
+  if (state.wall > 0 && arc.fx[0] < -arc.limit_left[0]) return scaled(-1.0, arc.limit_left);
+  if (state.wall < 0 && arc.fx[0] > arc.limit_right[0]) return arc.limit_right;
+  return arc.fx;
+}
+
 // The same with laws: friction's limits differ by direction, a wall takes what presses against it, and kinks are watched.
 template <int N, class Visit>
 void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, Visit&& visit) {
@@ -89,7 +98,7 @@ void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, 
   }
   if (state.pivot == 0) {
     if (rig.can_rock) {  // N_right (b_l + b_r) = b_l f_y - h f_x + T
-      Series<double, N> lean = combination(-1.0, arc.fx, 1 / rig.h, arc.moment);
+      Series<double, N> lean = combination(-1.0, friction_at_wall(state, arc), 1 / rig.h, arc.moment);
       visit(Witness::flat_right, combination(rig.left / rig.h, arc.fy, 1.0, lean), force);
       visit(Witness::flat_left, combination(rig.right / rig.h, arc.fy, -1.0, lean), force);
     } else {

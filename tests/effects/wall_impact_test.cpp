@@ -35,5 +35,20 @@ TEST(WallImpact, HoldsWhatPressesAgainstIt) {
     }
 }
 
+// What presses a squat block against the wall acts through the centre of mass, so that it does not tip the block.
+TEST(WallImpact, APressedBlockDoesNotTip) {
+  const FloorMotion push = staircase({1.0, 0.5}, {-14, 0});
+  Specimen squat = sliding(0.2, {effect("wall_impact", {0.05, 0.0})});
+  squat.model = Model::slide_rock;
+  squat.block.left_m = squat.block.right_m = 0.4;
+  ASSERT_LT(g * 0.4 / 0.4, 14);  // a hinge at the base would let it tip
+  for (const Solver& solver : both_solvers) {
+    const Path r = run(solver, squat, {&push});
+    EXPECT_EQ(r.points.at(900).mode, Mode::rest) << solver.name;
+    EXPECT_EQ(r.response.peak_rotation_rad, 0) << solver.name;
+    EXPECT_NEAR(r.response.peak_slip_m, 0.05, 1e-12) << solver.name;
+  }
+}
+
 }  // namespace
 }  // namespace freestand::test
