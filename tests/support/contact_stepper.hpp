@@ -1,24 +1,4 @@
-// Independent simulator of the freestanding rigid block: time-stepping with contact impulses.
-//
-// It shares nothing with src/dynamics. State: centre of mass (X, Y) and rotation theta (clockwise) in the frame of the
-// floor; no modes, no pivots, no events. In every step of fixed length dt the velocity v = (X', Y', theta') changes by
-//   v+ = v + dt (-a, -(g + v_floor), 0) + M^-1 J^T p,     M = m diag(1, 1, k^2),
-// where p are the impulses at the corners that are closed (or would close) in the step. They obey, corner by corner,
-//   normal:   0 <= p_n  perpendicular to  J_n v+ >= 0                     (plastic: no rebound)
-//   friction: p_t = -mu p_n sgn(J_t v+), or J_t v+ = 0 and |p_t| <= mu p_n  (Coulomb)
-// (Moreau 1988, Stewart & Trinkle 1996). The problem has at most two corners; it is solved exactly by trying the cases
-// {no corner, left, right, both} x {stick, slip to the right, slip to the left} and taking the consistent one.
-// J is taken at the middle of the step for the impulses and at its end for the velocities, so smooth motion is followed
-// to second order in dt. A step in which a corner meets the floor, or slip begins, stops or reverses, is cut there.
-// A corner that carries is put back on the floor after each step, one that sticks is put back to where it stuck.
-//
-// Static friction above kinetic friction (mu_s > mu_k), stated since Coulomb's law with two coefficients has no unique
-// form. A contact that stuck, or that closes in this step (an impact), tries to stick with mu_s first, then slips with
-// mu_k. A contact that slipped goes on slipping with mu_k in its direction while that is consistent; when it would
-// reverse it tries to stick with mu_s, and reverses with mu_k otherwise. Both corners closed and stuck: only the sum of
-// the two friction forces is determined, and it is bounded by mu_s times the sum of the normal forces.
-//
-// Impact law: the `coulomb` one, always; Specimen::impact and Specimen::model are not read.
+// The plain block of a Specimen by the contact stepper (moreau_stepper.hpp), for tests of src/dynamics.
 #pragma once
 
 #include <freestand/floor_motion.hpp>
@@ -66,6 +46,7 @@ struct StepperResult {
   std::vector<StepperPoint> points;
 };
 
+// Of the plain block, impact law `coulomb` always; Specimen::impact, model and effects are not read.
 StepperResult step_contacts(const Specimen& specimen, const FloorAt& floor, const StepperSettings& settings);
 
 }  // namespace freestand::test

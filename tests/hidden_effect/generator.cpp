@@ -1,0 +1,226 @@
+#include "hidden_effect/generator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "support/moreau_stepper.hpp"
+
+namespace freestand::test {
+namespace {
+
+struct Rules {
+  ContactBody body;
+  ContactLaws laws;
+};
+using Values = std::vector<double>;
+
+struct Law {
+  std::string name;
+  std::vector<std::string> keys;
+  std::vector<double> defaults;  // of the last keys
+  std::function<void(Rules&, const Values&)> act;
+};
+
+double squared(double x) { return x * x; }
+double circular(double frequency_hz) { return 2 * pi * frequency_hz; }
+
+const std::vector<Law>& laws() {
+  static const std::vector<Law> all{
+      {"static_friction", {"ratio"}, {}, [](Rules& r, const Values& p) { r.laws.mu_s = p[0] * r.laws.mu_k; }},
+      {"rate_weakening",
+       {"drop", "speed_mps"},
+       {},
+       [](Rules& r, const Values& p) {
+         r.laws.rates.push_back({-p[0], p[1]});
+       }},
+      {"rate_strengthening",
+       {"rise", "speed_mps"},
+       {},
+       [](Rules& r, const Values& p) {
+         r.laws.rates.push_back({p[0], p[1]});
+       }},
+      {"friction_wear",
+       {"ratio", "path_m"},
+       {},
+       [](Rules& r, const Values& p) { r.laws.wear_ratio = p[0], r.laws.wear_path_m = p[1]; }},
+      {"directional_friction", {"asymmetry"}, {}, [](Rules& r, const Values& p) { r.laws.asymmetry = p[0]; }},
+      {"pressure_friction", {"exponent"}, {}, [](Rules& r, const Values& p) { r.laws.pressure_exponent = p[0]; }},
+      {"viscous_drag", {"rate_per_s"}, {}, [](Rules& r, const Values& p) { r.laws.drag_per_s = p[0]; }},
+      {"floor_tilt",
+       {"angle_rad"},
+       {},
+       [](Rules& r, const Values& p) {
+         r.laws.push_mps2 = standard_gravity_mps2 * std::sin(p[0]);
+         r.laws.gravity_mps2 = standard_gravity_mps2 * std::cos(p[0]);
+       }},
+      {"vertical_shaking", {"scale"}, {1}, [](Rules& r, const Values& p) { r.laws.vertical_scale = p[0]; }},
+      {"flexible_legs",
+       {"frequency_hz", "damping"},
+       {0.02},
+       [](Rules& r, const Values& p) { r.laws.legs_radps = circular(p[0]), r.laws.legs_damping = p[1]; }},
+      {"slack_tether",
+       {"slack_m", "frequency_hz", "rate_per_s"},
+       {0},
+       [](Rules& r, const Values& p) {
+         r.laws.tethers.push_back({p[0], squared(circular(p[1])), p[2]});
+       }},
+      {"centering_spring",
+       {"frequency_hz"},
+       {},
+       [](Rules& r, const Values& p) { r.laws.spring_per_s2 = squared(circular(p[0])); }},
+      {"wall_impact",
+       {"gap_m", "restitution"},
+       {0},
+       [](Rules& r, const Values& p) { r.laws.wall_gap_m = p[0], r.laws.wall_restitution = p[1]; }},
+      {"moving_contents",
+       {"mass_ratio", "frequency_hz", "damping"},
+       {0.02},
+       [](Rules& r, const Values& p) {
+         r.laws.contents_ratio = p[0], r.laws.contents_radps = circular(p[1]), r.laws.contents_damping = p[2];
+       }},
+      {"impact_loss", {"factor"}, {}, [](Rules& r, const Values& p) { r.body.impact_factor *= p[0]; }},
+      {"reduced_base",
+       {"ratio"},
+       {},
+       [](Rules& r, const Values& p) { r.body.left_m *= 1 - p[0], r.body.right_m *= 1 - p[0]; }},
+      {"offset_mass",
+       {"eccentricity"},
+       {},
+       [](Rules& r, const Values& p) { r.body.left_m *= 1 + p[0], r.body.right_m *= 1 - p[0]; }},
+      // Of no catalogue.
+      {"rough_floor",
+       {"ratio", "length_m"},
+       {},
+       [](Rules& r, const Values& p) { r.laws.roughness = p[0], r.laws.roughness_length_m = p[1]; }},
+      {"friction_heating",
+       {"rise", "time_s"},
+       {},
+       [](Rules& r, const Values& p) { r.laws.heating = p[0], r.laws.heating_time_s = p[1]; }},
+      {"stick_ageing",
+       {"rise", "time_s"},
+       {},
+       [](Rules& r, const Values& p) { r.laws.ageing = p[0], r.laws.ageing_time_s = p[1]; }},
+  };
+  return all;
+}
+constexpr std::size_t in_catalogue = 17;
+
+Values values_of(const Law& law, const TruthEffect& effect) {
+  for (const auto& [key, value] : effect.parameters)
+    if (std::find(law.keys.begin(), law.keys.end(), key) == law.keys.end())
+      throw std::invalid_argument(law.name + " has no parameter " + key);
+  Values values;
+  const std::size_t needed = law.keys.size() - law.defaults.size();
+  for (std::size_t i = 0; i < law.keys.size(); ++i) {
+    const auto given = effect.parameters.find(law.keys[i]);
+    if (given == effect.parameters.end() && i < needed)
+      throw std::invalid_argument(law.name + " needs its parameter " + law.keys[i]);
+    values.push_back(given == effect.parameters.end() ? law.defaults[i - needed] : given->second);
+  }
+  return values;
+}
+
+Rules rules_of(const Truth& truth) {
+  Rules rules;
+  rules.body = {truth.left_m, truth.right_m, truth.height_m, truth.gyration2_m2};
+  rules.body.can_slip = truth.model != TruthModel::rock;
+  rules.body.can_tip = truth.model != TruthModel::slide;
+  rules.body.housner = truth.impact == TruthImpact::housner;
+  rules.body.impact_factor = truth.impact_factor;
+  rules.laws.mu_s = truth.mu_s;
+  rules.laws.mu_k = truth.mu_k;
+  for (const TruthEffect& effect : truth.effects) {
+    const auto law = std::find_if(laws().begin(), laws().end(), [&](const Law& l) { return l.name == effect.name; });
+    if (law == laws().end()) throw std::invalid_argument("no effect is called " + effect.name);
+    law->act(rules, values_of(*law, effect));
+  }
+  return rules;
+}
+
+std::vector<std::string> names(std::size_t from, std::size_t to) {
+  std::vector<std::string> result;
+  for (std::size_t i = from; i < to; ++i) result.push_back(laws()[i].name);
+  return result;
+}
+
+class Run {
+ public:
+  Run(const Rules& rules, const FloorSamples& floor, double step_s)
+      : stepper_(rules.body, rules.laws), floor_(floor), splits_(std::ceil(floor.dt_s / step_s - 1e-9)) {}
+
+  TruthHistory operator()() {
+    history_.dt_s = floor_.dt_s;
+    history_.outcome = "at_rest";
+    std::size_t i = 0;
+    note();
+    while (i + 1 < floor_.horizontal_mps2.size() && interval(i)) ++i, note();
+    while (history_.slip_m.size() < floor_.horizontal_mps2.size()) note();
+    history_.residual_slip_m = stepper_.slip();
+    history_.slid_path_m = stepper_.path();
+    return history_;
+  }
+
+ private:
+  // False: the run is over.
+  bool interval(std::size_t i) {
+    const auto& a = floor_.horizontal_mps2;
+    const auto& v = floor_.vertical_mps2;
+    const double dt = floor_.dt_s, t = static_cast<double>(i) * dt;
+    FloorLine line{t, a[i], 0, (a[i + 1] - a[i]) / dt, 0};
+    if (!v.empty()) line.v = v[i], line.v_rate = (v[i + 1] - v[i]) / dt;
+    if (stepper_.rest(line, t, dt)) return true;
+    for (double k = 0; k < splits_; ++k) {
+      if (!stepper_.step(line, t + k * dt / splits_, dt / splits_)) return over("painleve");
+      history_.peak_slip_m = std::max(history_.peak_slip_m, std::abs(stepper_.slip()));
+      history_.peak_rotation_rad = std::max(history_.peak_rotation_rad, std::abs(stepper_.rotation()));
+      if (std::abs(stepper_.rotation()) > pi / 2) return over("overturned");
+    }
+    if (stepper_.slips() || stepper_.path() > 0 || stepper_.rotation() != 0 || stepper_.flies())
+      history_.outcome = "moved";
+    return true;
+  }
+  bool over(const char* outcome) {
+    history_.outcome = outcome;
+    return false;
+  }
+  void note() {
+    history_.slip_m.push_back(stepper_.slip());
+    history_.rotation_rad.push_back(stepper_.rotation());
+    history_.block_acceleration_mps2.push_back(stepper_.acceleration());
+  }
+
+  MoreauStepper stepper_;
+  const FloorSamples& floor_;
+  double splits_;
+  TruthHistory history_;
+};
+
+}  // namespace
+
+Truth rectangular_truth(double width_m, double height_m, double mu, std::vector<TruthEffect> effects) {
+  Truth truth;
+  truth.left_m = truth.right_m = 0.5 * width_m;
+  truth.height_m = 0.5 * height_m;
+  truth.gyration2_m2 = (squared(width_m) + squared(height_m)) / 12;
+  truth.mu_s = truth.mu_k = mu;
+  truth.effects = std::move(effects);
+  return truth;
+}
+
+TruthHistory simulate(const Truth& truth, const FloorSamples& floor, double step_s) {
+  return Run(rules_of(truth), floor, step_s)();
+}
+
+const std::vector<std::string>& catalogue_effects() {
+  static const std::vector<std::string> result = names(0, in_catalogue);
+  return result;
+}
+
+const std::vector<std::string>& outside_effects() {
+  static const std::vector<std::string> result = names(in_catalogue, laws().size());
+  return result;
+}
+
+}  // namespace freestand::test

@@ -1,0 +1,59 @@
+// Generator of measurements with a hidden effect: what a specimen that obeys a known truth does on a shaken floor.
+//
+// It steps contact impulses (support/moreau_stepper.hpp) and shares nothing with src/dynamics and src/effects: the
+// program does not mark its own homework. The laws are those of PHYSICS section 5, their names and the keys of their
+// parameters as well, and three that stand in no catalogue:
+//   rough_floor      mu (1 + r sin(2 pi u/L)): ratio, length_m
+//   friction_heating mu (1 + d (1 - exp(-t/T))): rise, time_s
+//   stick_ageing     mu_s (1 + d ln(1 + tau/T)), tau = time since the contact stuck, from 0 at the start: rise, time_s
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace freestand::test {
+
+enum class TruthModel { slide, rock, slide_rock };
+enum class TruthImpact { housner, coulomb };
+
+struct TruthEffect {
+  std::string name;
+  std::map<std::string, double> parameters;  // missing ones: the defaults of PHYSICS, or an error
+};
+
+struct Truth {
+  double left_m = 0, right_m = 0, height_m = 0, gyration2_m2 = 0;  // as freestand::Block
+  double mu_s = 0, mu_k = 0;
+  TruthModel model = TruthModel::slide_rock;
+  TruthImpact impact = TruthImpact::housner;
+  double impact_factor = 1;
+  std::vector<TruthEffect> effects;
+};
+
+// Uniform rectangle.
+Truth rectangular_truth(double width_m, double height_m, double mu, std::vector<TruthEffect> effects = {});
+
+// Acceleration of the floor at equal steps, linear between them [m/s2]. vertical may be empty.
+struct FloorSamples {
+  double dt_s = 0.005;
+  std::vector<double> horizontal_mps2, vertical_mps2;
+};
+
+// At the times of the floor's samples, from 0.
+struct TruthHistory {
+  double dt_s = 0;
+  std::vector<double> slip_m, rotation_rad, block_acceleration_mps2;  // as in a measurement, without noise
+  std::string outcome;  // at_rest | moved | overturned | painleve; the last two hold the values of their last instant
+  double peak_slip_m = 0, residual_slip_m = 0, slid_path_m = 0, peak_rotation_rad = 0;
+};
+
+// step_s: of the stepper, at most; it divides the floor's. Throws std::invalid_argument on effects and parameters that
+// do not exist.
+TruthHistory simulate(const Truth& truth, const FloorSamples& floor, double step_s = 2e-5);
+
+// Effects of the catalogue, in the order of PHYSICS, and those outside of it.
+const std::vector<std::string>& catalogue_effects();
+const std::vector<std::string>& outside_effects();
+
+}  // namespace freestand::test

@@ -1,0 +1,40 @@
+// A truth of the generator as the specimen of freestand, for tests that hold one against the other.
+#pragma once
+
+#include <freestand/floor_motion.hpp>
+#include <freestand/specimen.hpp>
+#include <stdexcept>
+
+#include "effects/effects.hpp"
+#include "hidden_effect/generator.hpp"
+
+namespace freestand::test {
+
+inline EffectUse effect_use(const TruthEffect& truth) {
+  const effects::Effect* effect = effects::find(truth.name);
+  if (!effect) throw std::invalid_argument(truth.name);
+  EffectUse use{effect, {}};
+  for (const auto& parameter : effect->parameters) {
+    const auto given = truth.parameters.find(parameter.name);
+    use.parameters.push_back(given != truth.parameters.end() ? given->second : parameter.fallback.value());
+  }
+  return use;
+}
+
+inline Specimen specimen_of(const Truth& truth) {
+  static constexpr Model models[] = {Model::slide, Model::rock, Model::slide_rock};
+  Specimen specimen;
+  specimen.block = {truth.left_m, truth.right_m, truth.height_m, truth.gyration2_m2, 1};
+  specimen.friction = {truth.mu_s, truth.mu_k};
+  specimen.model = models[static_cast<int>(truth.model)];
+  specimen.impact = {truth.impact == TruthImpact::housner ? ImpactLaw::housner : ImpactLaw::coulomb,
+                     truth.impact_factor};
+  for (const TruthEffect& effect : truth.effects) specimen.effects.push_back(effect_use(effect));
+  return specimen;
+}
+
+inline FloorMotion motion_of(const FloorSamples& floor) {
+  return piecewise_linear("samples", floor.dt_s, floor.horizontal_mps2, floor.vertical_mps2);
+}
+
+}  // namespace freestand::test

@@ -1,0 +1,215 @@
+// Where the stepper cuts its steps, and what happens there: blows of no duration.
+#include <algorithm>
+#include <cmath>
+
+#include "support/moreau_stepper.hpp"
+
+namespace freestand::test {
+namespace {
+
+constexpr double instant = 1e-13;  // [s]
+
+Corner other(Corner k) { return k == left ? right : left; }
+
+// First time in [0, dt] at which a quantity falls through zero, taken as the parabola with these ends and first rate.
+double crossing(double start, double rate, double end, double dt) {
+  if (start <= 0 && rate <= 0) return 0;
+  const double bend = (end - start - rate * dt) / (dt * dt);
+  const double root = std::sqrt(std::max(0.0, rate * rate - 4 * bend * start));
+  const double time = rate < 0 ? 2 * start / (root - rate) : bend < 0 ? (rate + root) / (-2 * bend) : dt;
+  return std::clamp(time, 0.0, dt);
+}
+
+}  // namespace
+
+bool MoreauStepper::step(const FloorLine& floor, double t, double dt) {
+  closing_speed_ = 0;
+  const double end = t + dt;
+  for (int cut = 0; cut < 60; ++cut) {
+    Refused refused;
+    State after = state_;
+    if (!advance(after, floor, t, end - t, {}, refused)) return false;
+    const Event event = first_event(state_, after, t, end - t, refused);
+    if (event.kind == Event::Kind::none) {
+      state_ = after;
+      return true;
+    }
+    if (event.after > instant) {
+      std::optional<Grip> forced;
+      if (event.kind == Event::Kind::slip_end || event.kind == Event::Kind::grip_break) forced = state_.grip;
+      if (!advance(state_, floor, t, event.after, forced, refused)) return false;
+    }
+    t += event.after;
+    meet(event, t, dt);
+    if (end - t < instant) return true;
+  }
+  // Rattling: both corners down, whatever is left of the step.
+  if (state_.closed[left] != state_.closed[right] && std::abs(state_.theta) < 1e-9) lie_down();
+  Refused refused;
+  return advance(state_, floor, t, end - t, {}, refused);
+}
+
+MoreauStepper::Event MoreauStepper::first_event(const State& before, const State& after, double t, double dt,
+                                                const Refused& refused) const {
+  Event event;
+  const auto earlier = [&](Event::Kind kind, double time) {
+    if (event.kind == Event::Kind::none || time < event.after) event = {kind, time};
+  };
+  for (const Corner k : {left, right}) {
+    if (before.closed[k]) continue;
+    const double end = gap(after, k);
+    const double rate = before.v.y - before.v.q * arm(k, before.c, before.s).x;
+    if (end < 0) earlier(Event::Kind::closing, crossing(gap(before, k), rate, end, dt));
+  }
+  const bool carried = before.grip != Grip::none && after.grip != Grip::none;
+  if (laws_.wall_gap_m != 0 && before.wall == 0 && carried) {
+    const double side = laws_.wall_gap_m > 0 ? 1 : -1;
+    const double start = side * (laws_.wall_gap_m - contact_position(before));
+    const double end = side * (laws_.wall_gap_m - contact_position(after));
+    if (end < 0 && side * after.w > 0) earlier(Event::Kind::wall, crossing(start, -side * before.w, end, dt));
+  }
+  if (direction(before.grip) != 0 && carried && after.grip != before.grip && std::isfinite(refused.slip))
+    earlier(Event::Kind::slip_end, std::clamp(dt * before.w / (before.w - refused.slip), 0.0, dt));
+  if (before.grip == Grip::stuck && carried && std::isfinite(before.margin)) {
+    const double time = grip_breaks_after(before, after.grip == Grip::stuck ? after.margin : refused.margin, t, dt);
+    if (time > instant && time < dt) earlier(Event::Kind::grip_break, time);
+  }
+  return event;
+}
+
+// The margin of grip falls on a line through its values in the middle of the last step and of this one.
+double MoreauStepper::grip_breaks_after(const State& before, double margin, double t, double dt) const {
+  const double rate = (margin - before.margin) / (t + 0.5 * dt - before.margin_time);
+  if (!(rate < 0)) return dt;
+  return before.margin_time - before.margin / rate - t;
+}
+
+void MoreauStepper::meet(const Event& event, double t, double dt) {
+  switch (event.kind) {
+    case Event::Kind::closing:
+      return collide(t, dt);
+    case Event::Kind::wall:
+      return meet_wall(t, dt);
+    case Event::Kind::slip_end:
+      if (laws_.legs_radps == 0) state_.v.x -= state_.w;
+      return hold(t);
+    default:
+      state_.margin = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+// The contact sticks where it is.
+void MoreauStepper::hold(double t) {
+  state_.grip = Grip::stuck;
+  state_.w = state_.w_rate = 0;
+  state_.margin = std::numeric_limits<double>::quiet_NaN();
+  state_.foot = contact_position(state_) - (laws_.legs_radps > 0 ? state_.legs : 0);
+  state_.stuck_since = t;
+}
+
+void MoreauStepper::lie_down() {
+  const double position = contact_position(state_);
+  const double speed = state_.v.x - state_.v.q * body_.height_m;
+  state_.theta = state_.s = 0;
+  state_.c = 1;
+  state_.closed = {true, true};
+  state_.x = position;
+  state_.y = body_.height_m;
+  state_.v = {speed, 0, 0};
+}
+
+void MoreauStepper::collide(double t, double dt) {
+  constexpr double touching = 1e-9;  // [m]
+  const State before = state_;
+  Step step;
+  step.t = t;
+  step.near = state_.closed;
+  step.blow = true;
+  bool any = false;
+  for (const Corner k : {left, right}) {
+    step.push[k] = step.stop[k] = arm(k, state_.c, state_.s);
+    const double speed = -(state_.v.y - state_.v.q * step.stop[k].x);
+    if (state_.closed[k] || gap(state_, k) > touching || speed < 0) continue;
+    step.near[k] = any = true;
+    closing_speed_ = std::max(closing_speed_, speed);
+  }
+  if (!any) return;
+  const bool flat = step.near[left] && step.near[right], struck = state_.grip != Grip::none;
+  if (flat && struck) {
+    // The base meets the floor: from here on it is flat to the last bit.
+    state_.x = contact_position(state_);
+    state_.y = body_.height_m;
+    state_.theta = state_.s = 0;
+    state_.c = 1;
+    for (const Corner k : {left, right}) step.push[k] = step.stop[k] = arm(k, 1, 0);
+  }
+  if (flat && struck && body_.housner) {
+    strike(carrier(before));
+  } else {
+    step.free = state_.v;
+    step.speed = std::abs(state_.w);
+    step.place.u_m = slip();
+    step.place.path_m = state_.path;
+    step.place.time_s = t;
+    Case c;
+    Refused refused;
+    if (!choose(step, state_, c, true, refused)) return;
+    if (state_.grip == Grip::none) return;
+    state_.v = c.next;
+    state_.w = c.slip;
+    if (laws_.legs_radps > 0) {
+      // Legs keep the grip of the foot as it was; a foot in the air has none and sticks.
+      state_.grip = before.grip == Grip::none ? Grip::stuck : before.grip;
+      state_.w = before.w;
+    }
+    if (state_.closed[left] && state_.closed[right]) {
+      state_.theta = state_.s = 0;
+      state_.c = 1;
+      state_.y = body_.height_m;
+    }
+    if (state_.grip == Grip::stuck && before.grip != Grip::stuck) hold(t);
+  }
+  if (state_.closed[left] != state_.closed[right] && state_.theta == 0 && short_hop(dt)) lie_down();
+  state_.margin = std::numeric_limits<double>::quiet_NaN();
+  state_.w_rate = state_.corner_rate = state_.base_rate = 0;
+  state_.contents_v -= state_.v.x - before.v.x;
+}
+
+// Housner's impact: the rate that angular momentum about the new corner keeps, and the slip goes on.
+void MoreauStepper::strike(Corner from) {
+  const Corner to = other(from);
+  const double h = body_.height_m, along = body_.gyration2_m2 + laws_.carried() * h * h;
+  const double arm_to = to == left ? body_.left_m : body_.right_m;
+  const double kept = (along - body_.left_m * body_.right_m) / (along + arm_to * arm_to);
+  const double slip = state_.v.x - h * state_.v.q;
+  const double rate = body_.impact_factor * std::max(0.0, kept) * state_.v.q;
+  state_.closed = {to == left, to == right};
+  state_.v = {slip + h * rate, rate * (to == left ? -arm_to : arm_to), rate};
+}
+
+// Whether the hop that begins flat on one corner lasts a hundredth of a step at most.
+bool MoreauStepper::short_hop(double dt) const {
+  const double h = body_.height_m, lever = state_.closed[left] ? body_.left_m : body_.right_m;
+  const double inertia = body_.gyration2_m2 + laws_.carried() * h * h + lever * lever;
+  return 200 * std::abs(state_.v.q) * inertia < laws_.gravity_mps2 * lever * dt;
+}
+
+void MoreauStepper::meet_wall(double t, double dt) {
+  const double before = state_.v.x, speed = state_.w;
+  state_.x += laws_.wall_gap_m - contact_position(state_);
+  const double back = laws_.wall_restitution * speed;
+  state_.v.x -= speed + back;
+  state_.w_rate = state_.corner_rate = state_.base_rate = 0;
+  state_.contents_v -= state_.v.x - before;
+  if (std::abs(back) < standard_gravity_mps2 * dt) {
+    state_.v.x += back;
+    state_.contents_v -= back;
+    state_.wall = laws_.wall_gap_m > 0 ? 1 : -1;
+    hold(t);
+    return;
+  }
+  state_.w = -back;
+  state_.grip = state_.w > 0 ? Grip::to_right : Grip::to_left;
+}
+
+}  // namespace freestand::test
