@@ -30,11 +30,7 @@ class BoucWenIntegrator {
     const auto floor = life_.cursor.local<N>();
     double h = life_.time_left();
     const Series force = holding_force(floor, h);
-    if (life_.direction == 0) {
-      const int towards = direction(floor, force);
-      if (towards == 0) return life_.stand();
-      life_.set_out(towards);
-    }
+    if (life_.direction == 0 && !set_out(floor, force, h)) return;
     switch (life_.phase) {
       case ContactPhase::elastic:
         return move_on<ContactPhase::elastic>(floor, force, h);
@@ -61,52 +57,117 @@ class BoucWenIntegrator {
     return presses ? scaled(contact_.strength, floor.g) : Series::zero();
   }
 
-  // Where the block is about to move that does not move now; 0: nowhere.
-  int direction(const Floor<double, N>& floor, const Series& force) const {
-    BoucWenArc<N> arc;
-    arc.v[0] = 0;
-    arc.zeta[0] = life_.zeta;
-    fill<ContactPhase::elastic>(arc, floor.a, force, !life_.vertical, contact_);
-    return sign_after(arc.v, {1, life_.force_zero()});
-  }
-
-  template <ContactPhase phase>
-  void move_on(const Floor<double, N>& floor, const Series& force, double h) {
+  // The arc of the present motion, by the law of the contact or with those of effects besides; calls use(arc, hold), hold
+  // null without effects.
+  template <ContactPhase phase, class Use>
+  void with_arc(const Floor<double, N>& floor, const Series& force, Use&& use) const {
     const double s = life_.direction;
     BoucWenArc<N> arc;
     arc.v[0] = s * life_.v;
     arc.zeta[0] = s * life_.zeta;
     arc.q[0] = life_.q;
-    fill<phase>(arc, scaled(s, floor.a), force, !life_.vertical, contact_);
+    arc.slip[0] = 0;
+    const Series push = scaled(s, floor.a);
+    if (life_.laws) {
+      const BoucWenStart start{life_.cursor.time(), life_.slip, life_.path(), life_.direction,
+                               phase == ContactPhase::returning};
+      BoucWenLawHold<N> hold(*life_.laws, life_.law_state, start, contact_, arc, force, floor.g);
+      fill<phase>(arc, push, contact_, hold);
+      use(arc, &hold);
+    } else {
+      const bool constant = !life_.vertical;
+      fill<phase>(arc, push, contact_,
+                  [&](int k) { return constant ? force[0] * arc.zeta[k] : product(force, arc.zeta, k); });
+      use(arc, static_cast<const BoucWenLawHold<N>*>(nullptr));
+    }
+  }
 
-    h = std::min(h, phase == ContactPhase::sliding ? stopping_time(arc) : accurate_step(arc, force[0]));
+  // From a standstill. False: nothing moves, up to the next knot or kink of a law.
+  bool set_out(const Floor<double, N>& floor, const Series& force, double h) {
+    life_.direction = 1;
+    life_.law_state.side = (life_.zeta > 0) - (life_.zeta < 0);
+    int towards = 0, kink = -1;
+    with_arc<ContactPhase::elastic>(floor, force, [&](const auto& arc, const auto* hold) {
+      towards = sign_after(arc.v, {1, life_.force_zero()});
+      if (towards == 0 && hold) kink = first_kink(*hold, h);
+    });
+    life_.direction = 0;
+    if (towards != 0) {
+      life_.set_out(towards);
+      return true;
+    }
+    life_.stand(h);
+    if (kink >= 0) life_.law_state.turn_kink(kink);
+    return false;
+  }
+
+  // The first kink of a law within tau, which becomes its time; -1: none.
+  int first_kink(const BoucWenLawHold<N>& hold, double& tau) const {
+    int first = -1;
+    for (int j = 0; j < life_.laws->tape.kink_count(); ++j) {
+      double at = tau;
+      if (j != life_.law_state.held_kink && first_root(hold.kink(j), tau, {0, 0.0}, at) && (first < 0 || at < tau))
+        first = j, tau = at;
+    }
+    return first;
+  }
+
+  template <ContactPhase phase>
+  void move_on(const Floor<double, N>& floor, const Series& force, double h) {
+    with_arc<phase>(floor, force,
+                    [&](const auto& arc, const auto* hold) { advance<phase>(floor, force, h, arc, hold); });
+  }
+
+  enum class What { none, turns, passes, crosses_zero, kink };
+
+  template <ContactPhase phase>
+  void advance(const Floor<double, N>& floor, const Series& force, double h, const BoucWenArc<N>& arc,
+               const BoucWenLawHold<N>* hold) {
+    const bool exact = phase == ContactPhase::sliding && !hold;
+    h = std::min(h, exact ? stopping_time(arc) : accurate_step(arc, force[0], hold));
     if (phase == ContactPhase::yielding || phase == ContactPhase::returning) h = converging_step(arc, h);
     double tau = h;
-    const bool turns = first_root(arc.v, h, {1, life_.force_zero()}, tau);
-    bool passes = false;
-    if constexpr (phase == ContactPhase::elastic || phase == ContactPhase::returning) {
-      Series below = scaled(-1.0, arc.zeta);
-      below[0] += phase == ContactPhase::elastic ? contact_.linear : -contact_.linear;
+    What what = What::none;
+    const auto watch = [&](What event, const Series& series, ZeroTolerance zero) {
       double at = tau;
-      passes = first_root(below, tau, {2, life_.force_zero() / contact_.yield}, at) && at < tau;
-      if (passes) tau = at;
+      if (first_root(series, tau, zero, at) && (what == What::none || at < tau)) what = event, tau = at;
+    };
+    watch(What::turns, arc.v, {1, life_.force_zero()});
+    if constexpr (phase == ContactPhase::elastic || phase == ContactPhase::returning) {
+      const ZeroTolerance zero{2, life_.force_zero() / contact_.yield};
+      Series below = scaled(-1.0, arc.zeta);
+      if (hold && below[0] > 0) watch(What::crosses_zero, below, zero);
+      below[0] += phase == ContactPhase::elastic ? contact_.linear : -contact_.linear;
+      watch(What::passes, below, zero);
     }
-    const bool at_knot = !passes && !turns && h == life_.cursor.left();
+    const int kink = hold ? first_kink(*hold, tau) : -1;
+    if (kink >= 0) what = What::kink;
+    const bool at_knot = what == What::none && h == life_.cursor.left();
+    if (hold)
+      for (int i = 0; i < life_.laws->states; ++i)
+        life_.law_state.states[static_cast<std::size_t>(i)] = hold->state_at(i, tau);
     life_.arrive(arc, floor, tau);
-    if (passes) {
-      life_.pass();
-    } else if (turns) {
-      life_.turn();
-    } else if (phase == ContactPhase::yielding && 1 - life_.q <= contact_.saturated) {
-      life_.saturate();
-    }
+    resolve<phase>(what, kink);
     if (at_knot) life_.next_segment();
   }
 
+  template <ContactPhase phase>
+  void resolve(What what, int kink) {
+    if (what == What::passes) return life_.pass();
+    if (what == What::turns) return life_.turn();
+    if (what == What::crosses_zero) {
+      life_.zeta = 0;
+      life_.law_state.side = life_.direction;
+    }
+    if (what == What::kink) life_.law_state.turn_kink(kink);
+    if (phase == ContactPhase::yielding && 1 - life_.q <= contact_.saturated) life_.saturate();
+  }
+
   // Largest step at which the last terms of the series are within the tolerance.
-  double accurate_step(const BoucWenArc<N>& arc, double force) const {
+  double accurate_step(const BoucWenArc<N>& arc, double force, const BoucWenLawHold<N>* hold) const {
     const double rate = std::sqrt(std::max(force, 1e-6 * life_.gravity) / contact_.yield);
-    const double last = std::max(std::abs(arc.zeta[N]), std::abs(arc.v[N]) / (rate * contact_.yield));
+    double last = std::max(std::abs(arc.zeta[N]), std::abs(arc.v[N]) / (rate * contact_.yield));
+    if (hold) last = std::max(last, hold->last_state(contact_.yield * std::max(1.0, rate)));
     return last > 0 ? std::pow(life_.settings.tolerance / last, 1.0 / N) : 1 / rate;
   }
 

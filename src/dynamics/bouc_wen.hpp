@@ -11,6 +11,10 @@
 //   outcome                 at_rest when it never slid in this sense; what moved elastically is reported all the same
 //   end_time_s              when nothing was left but ringing
 // A floor that falls faster than g' = 0 lets go of the block: no force acts then, and z follows u as before.
+//
+// Effects (bouc_wen_laws.hpp) act on the friction, as forces, or as contents that move; walls and legs do not go with the
+// model. With them, or on a tilted floor, there is no closed form of the ringing: the sample ends when a swing slips less
+// than a millionth of u_y, and the residual slip is the middle of that swing.
 #pragma once
 
 #include <freestand/simulate.hpp>

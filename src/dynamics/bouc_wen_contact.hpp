@@ -50,13 +50,14 @@ struct BoucWenArc {
   Series<double, N> zeta;  // [1]
   Series<double, N> slip;  // u_p since the start of the step [m]
   Series<double, N> q;     // |zeta|^n, where it is not constant [1]
+  Series<double, N> hold;  // what holds the block back, per mass, to order N - 1 [m/s2]
 };
 
-// Coefficients of one step. a: acceleration of the floor, force: G [m/s2], both in the direction of the motion (G > 0).
-// The start, arc.v[0], arc.zeta[0], arc.q[0], is set; arc.slip[0] = 0.
-template <ContactPhase phase, int N>
-void fill(BoucWenArc<N>& arc, const Series<double, N>& a, const Series<double, N>& force, bool constant_force,
-          const BoucWenContact& contact) {
+// Coefficients of one step. a: acceleration of the floor, in the direction of the motion. hold(k): coefficient k of what
+// holds the block back, G zeta and the forces of effects, from the coefficients 0 ... k of the arc. The start, arc.v[0],
+// arc.zeta[0], arc.q[0], is set; arc.slip[0] = 0.
+template <ContactPhase phase, int N, class Hold>
+void fill(BoucWenArc<N>& arc, const Series<double, N>& a, const BoucWenContact& contact, Hold&& hold) {
   const double over_yield = 1 / contact.yield;
   const double f = phase == ContactPhase::returning ? contact.kappa : 1.0;
   const bool curved = phase == ContactPhase::yielding || phase == ContactPhase::returning;
@@ -64,10 +65,8 @@ void fill(BoucWenArc<N>& arc, const Series<double, N>& a, const Series<double, N
   arc.slip[0] = 0;
   for (int k = 0; k < N; ++k) {
     const double over = 1.0 / (k + 1);
-    const double hold = phase == ContactPhase::sliding ? force[k]
-                        : constant_force               ? force[0] * arc.zeta[k]
-                                                       : product(force, arc.zeta, k);
-    arc.v[k + 1] = -(a[k] + hold) * over;
+    arc.hold[k] = hold(k);
+    arc.v[k + 1] = -(a[k] + arc.hold[k]) * over;
     if constexpr (phase == ContactPhase::sliding) {
       arc.slip[k + 1] = arc.v[k] * over;
       arc.zeta[k + 1] = 0;
@@ -84,6 +83,7 @@ void fill(BoucWenArc<N>& arc, const Series<double, N>& a, const Series<double, N
       arc.q[k + 1] = sum * over * over_zeta;
     }
   }
+  arc.hold[N] = 0;
 }
 
 }  // namespace freestand::dynamics

@@ -32,10 +32,13 @@ BoucWenLife::BoucWenLife(const Setup& setup, const Settings& settings_, History*
       push(setup.floor.push_mps2),
       vertical(shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty()),
       contact(bouc_wen_contact(setup.specimen.friction.mu_k, setup.specimen.bouc_wen, settings.tolerance)),
+      laws(has_laws(setup.specimen) ? std::optional<Laws>(std::in_place, setup.specimen) : std::nullopt),
       cursor(shaking, gravity, push),
       history_(history) {
   if (history_) history_->points.clear(), history_->events.clear();
-  if (cursor.motion_over() && push == 0) finish(Outcome::moved);
+  if (laws) law_state.sides = laws->initial_sides();
+  if (laws && (laws->tape.overflow() || !(laws->carried_mass > 0))) finish(Outcome::not_finite);
+  if (cursor.motion_over() && push == 0 && !laws) finish(Outcome::moved);
 }
 
 double BoucWenLife::time_left() const {
@@ -45,6 +48,7 @@ double BoucWenLife::time_left() const {
 
 void BoucWenLife::set_out(int towards) {
   direction = towards;
+  law_state.side = zeta == 0 ? towards : zeta > 0 ? 1 : -1;
   const double along = direction * zeta;
   if (std::abs(zeta) <= contact.linear) {
     phase = ContactPhase::elastic;
@@ -73,11 +77,25 @@ void BoucWenLife::turn() {
   v = 0;
   direction = 0;
   response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(displacement()));
-  if (!vertical) observe_acceleration(contact.strength * gravity * zeta, 0);
+  if (simple()) observe_acceleration(contact.strength * gravity * zeta, 0);
   if (slides_) event(cursor.time(), Mode::slide, Mode::rest);
   if (++turns_ > 20L * settings.event_limit) finish(Outcome::step_limit);
-  if (finished_ || !cursor.motion_over() || push != 0 || contact.strength == 0) return;
-  if (can_ring_out(contact, contact.q(zeta))) ring();
+  if (finished_ || !cursor.motion_over() || contact.strength == 0) return;
+  if (push == 0 && !laws) {
+    if (can_ring_out(contact, contact.q(zeta))) ring();
+  } else if (settled()) {
+    residual_ = 0.5 * (displacement() + last_turn_u_);
+    return finish(Outcome::moved);
+  }
+  last_turn_u_ = displacement();
+  last_turn_slip_ = slip;
+}
+
+// With forces besides the floor's the ringing has no closed form. It is left when a swing slips no more than this.
+bool BoucWenLife::settled() {
+  constexpr double settled_slip = 1e-6;
+  const double since = std::max(shaking.duration_s(), last_slide_s_) + (laws ? laws->settling_s : 0);
+  return cursor.time() > since && std::abs(slip - last_turn_slip_) <= settled_slip * contact.yield;
 }
 
 // All that follows is symmetric: the swings begin against the side on which the block turned.
@@ -91,32 +109,27 @@ void BoucWenLife::ring() {
   finish(Outcome::moved);
 }
 
-void BoucWenLife::stand() {
-  const double a = contact.strength * zeta;
-  const double length = time_left();
-  if (vertical && !cursor.motion_over()) {
-    const auto floor = cursor.local<max_floor_degree>();
-    BoucWenArc<max_floor_degree> still{};
-    still.zeta[0] = zeta;
-    direction = 1;
-    phase = ContactPhase::elastic;
-    arrive(still, floor, length);
-    direction = 0;
-  } else {
-    const double start = cursor.time();
-    record(std::min(length, shaking.duration_s() - start), [&](double t) {
-      return HistoryPoint{start + t, horizontal_acceleration(shaking, start + t) + push, displacement(), 0, 0, 0,
-                          Mode::rest};
-    });
-    if (!vertical) observe_acceleration(a * gravity, 0);
-  }
-  if (cursor.motion_over()) return finish(Outcome::moved);
-  next_segment();
+void BoucWenLife::stand(double tau) {
+  const bool to_knot = tau == cursor.left();
+  const auto floor = cursor.local<max_floor_degree>();
+  BoucWenArc<max_floor_degree> still{};
+  still.zeta[0] = zeta;
+  for (int k = 0; k < max_floor_degree; ++k) still.hold[k] = -floor.a[k];
+  direction = 1;
+  phase = ContactPhase::elastic;
+  const double told = cursor.motion_over() ? 0 : tau;
+  arrive(still, floor, told);
+  direction = 0;
+  if (simple()) observe_acceleration(contact.strength * gravity * zeta, 0);
+  if (cursor.motion_over() && !(laws && laws->evolve_at_rest())) return finish(Outcome::moved);
+  cursor.advance(tau - told);
+  check();
+  if (to_knot) next_segment();
 }
 
 void BoucWenLife::next_segment() {
   cursor.next_segment();
-  if (cursor.motion_over() && v == 0 && zeta == 0 && push == 0) finish(Outcome::moved);
+  if (cursor.motion_over() && v == 0 && zeta == 0 && push == 0 && !laws) finish(Outcome::moved);
 }
 
 double BoucWenLife::next_output() const {
@@ -130,6 +143,7 @@ void BoucWenLife::begin_slide(double time) {
 
 void BoucWenLife::event(double time, Mode from, Mode to) {
   slides_ = to == Mode::slide;
+  last_slide_s_ = time;
   moved_ = true;
   if (++response_.events >= settings.event_limit) finish(Outcome::step_limit);
   if (history_) history_->events.push_back({time, from, to, 0, false});
@@ -150,12 +164,13 @@ void BoucWenLife::finish(Outcome failure) {
   finished_ = true;
   failure_ = failure;
   response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(displacement()));
-  if (!vertical) observe_acceleration(contact.strength * gravity * zeta, 0);
+  if (simple()) observe_acceleration(contact.strength * gravity * zeta, 0);
 }
 
 Response BoucWenLife::result() {
   response_.outcome = failure_ != Outcome::moved ? failure_ : moved_ ? Outcome::moved : Outcome::at_rest;
-  response_.residual_slip_m = displacement();
+  response_.residual_slip_m = residual_.value_or(displacement());
+  response_.connection_failed = laws && laws->broken(law_state.sides);
   response_.end_time_s = cursor.time();
   return response_;
 }

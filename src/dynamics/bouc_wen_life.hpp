@@ -3,10 +3,11 @@
 #pragma once
 
 #include <freestand/simulate.hpp>
+#include <optional>
 
 #include "dynamics/bouc_wen_contact.hpp"
+#include "dynamics/bouc_wen_laws.hpp"
 #include "dynamics/floor_cursor.hpp"
-#include "dynamics/laws.hpp"
 #include "dynamics/roots.hpp"
 
 namespace freestand::dynamics {
@@ -20,6 +21,7 @@ class BoucWenLife {
   const double gravity, push;  // across and along the floor [m/s2]
   const bool vertical;
   const BoucWenContact contact;
+  const std::optional<Laws> laws;  // of effects within the equations of motion
   FloorCursor cursor;
 
   // The state. Signs: positive to the right.
@@ -28,17 +30,19 @@ class BoucWenLife {
   double q = 0;            // |zeta|^n while yielding or returning
   int direction = 0;       // of the motion, or of the motion that is about to begin; 0: none
   ContactPhase phase = ContactPhase::elastic;
+  BoucWenLawState law_state;
 
   bool finished() const { return finished_; }
   double displacement() const { return slip + contact.yield * zeta; }
   double force_zero() const { return 1e-11 * gravity; }  // accelerations below are round-off [m/s2]
-  double time_left() const;                              // to the next knot, or to the end of the sample [s]
+  bool simple() const { return !vertical && !laws && push == 0; }
+  double time_left() const;  // to the next knot, or to the end of the sample [s]
 
   void set_out(int towards);  // v = 0, and the motion begins
   void pass();                // |zeta| = contact.linear
   void saturate();            // zeta = 1
   void turn();                // v = 0
-  void stand();               // nothing moves until the next knot
+  void stand(double tau);     // nothing moves for so long
   void next_segment();
 
   // Goes to the instant tau of the arc; history and peaks are taken from the arc.
@@ -53,6 +57,7 @@ class BoucWenLife {
   void record(double tau, Point&& point);  // point(t since now) -> HistoryPoint
   void observe_acceleration(double horizontal, double lift);
   void add_path(double length) { response_.slid_path_m += length; }
+  double path() const { return response_.slid_path_m; }
   void begin_slide(double time);
   void check();  // ends the sample when its time is over or its state is no number
 
@@ -60,12 +65,15 @@ class BoucWenLife {
   void event(double time, Mode from, Mode to);
   void finish(Outcome failure);
   void ring();
+  bool settled();
 
   History* history_;
   Response response_;
   long points_ = 0;
   long turns_ = 0;
   bool slides_ = false, moved_ = false, finished_ = false;
+  double last_slide_s_ = 0, last_turn_u_ = 0, last_turn_slip_ = 0;
+  std::optional<double> residual_;
   Outcome failure_ = Outcome::moved;
 };
 
@@ -91,14 +99,12 @@ void BoucWenLife::arrive(const BoucWenArc<N>& arc, const Floor<double, N>& floor
                         0,
                         loading && z > contact.sliding ? Mode::slide : Mode::rest};
   });
-  if (vertical) {
-    Series<double, N> square;
-    Series<double, N> hold = Series<double, N>::zero(), lift = floor.g;
-    const bool presses = sign_after(floor.g, {0, force_zero()}) > 0;
-    for (int k = 0; k <= N; ++k) hold[k] = presses ? contact.strength * product(floor.g, arc.zeta, k) : 0.0;
-    if (!presses) lift = Series<double, N>::zero();
+  if (!simple()) {
+    Series<double, N> square, along = arc.hold, lift = floor.g;
+    along[0] += s * push;
+    if (sign_after(floor.g, {0, force_zero()}) <= 0) lift = Series<double, N>::zero();
     lift[0] -= gravity;
-    for (int k = 0; k <= N; ++k) square[k] = product(hold, hold, k) + product(lift, lift, k);
+    for (int k = 0; k <= N; ++k) square[k] = product(along, along, k) + product(lift, lift, k);
     const double peak = response_.peak_acceleration_mps2;
     response_.peak_acceleration_mps2 = std::sqrt(max_abs(square, tau, peak * peak));
   }
@@ -117,6 +123,7 @@ void BoucWenLife::arrive(const BoucWenArc<N>& arc, const Floor<double, N>& floor
   }
   if (phase == ContactPhase::yielding || phase == ContactPhase::returning) q = contact.q(zeta);
   cursor.advance(tau);
+  if (tau > 0) law_state.left_instant();
   check();
 }
 

@@ -22,8 +22,8 @@
 namespace freestand::dynamics {
 namespace {
 
-enum : int { u, v, z, path, state_size };
-enum : int { turns, accelerates, crosses_zero, root_count };
+enum : int { u, v, z, path, own, state_size = own + max_states };  // own: states of effects
+enum : int { turns, accelerates, crosses_zero, kinks, root_count = kinks + max_kinks };
 
 struct Delete {
   void operator()(_SUNContext* context) const { SUNContext_Free(&context); }
@@ -61,10 +61,10 @@ class Reference {
   Response run() {
     while (!life_.finished()) {
       floor_ = life_.cursor.local<max_floor_degree>();
-      if (sigma_ == 0 && !set_out())
-        life_.stand();
-      else
+      if (sigma_ != 0 || set_out())
         go();
+      else
+        stand();
     }
     return life_.result();
   }
@@ -83,31 +83,48 @@ class Reference {
     absolute[u] = absolute[path] = tolerance * law_.yield_displacement_m;
     absolute[v] = tolerance * law_.yield_displacement_m * rate_;
     absolute[z] = tolerance;
+    for (int i = 0; i < max_states; ++i) absolute[own + i] = absolute[v];
     check(ERKStepSVtolerances(ark, tolerance, tolerances_.get()), "ERKStepSVtolerances");
     check(ERKStepSetUserData(ark, this), "ERKStepSetUserData");
     check(ERKStepSetMaxNumSteps(ark, 1000000), "ERKStepSetMaxNumSteps");
-    // Peaks of vertical shaking are taken at the ends of steps.
-    check(ERKStepSetMaxStep(ark, std::min(0.1 / rate_, life_.vertical ? 5e-4 : 1e9)), "ERKStepSetMaxStep");
+    // Peaks of the acceleration that are not at turns are taken at the ends of steps.
+    check(ERKStepSetMaxStep(ark, std::min(0.1 / rate_, life_.simple() ? 1e9 : 5e-4)), "ERKStepSetMaxStep");
     return arkode;
   }
 
   double a(double tau) const { return floor_.a.at(tau); }
   double hold(double tau) const { return mu_ * std::max(0.0, floor_.g.at(tau)); }
 
-  // The direction in which the block leaves a turn: that of its first acceleration that is not zero. False: none.
+  // The direction in which the block leaves a turn: that of its first acceleration that is not zero. False: none. What
+  // changes slowly, the floor and the states of effects, is looked at again a microsecond later.
   bool set_out() {
     const double zero = life_.force_zero();
-    double push = -(floor_.a[0] + hold(0) * z_now());
-    for (int k = 1; std::abs(push) <= zero && k <= max_floor_degree; ++k) {
-      push = -(floor_.a[k] + (floor_.g[0] > 0 ? mu_ * floor_.g[k] * z_now() : 0));
-      if (std::abs(push) <= zero * std::pow(1000.0, k)) push = 0;
+    sigma_ = 0;
+    side_ = (life_.zeta > 0) - (life_.zeta < 0);
+    write();
+    double rates[state_size], later[state_size];
+    derivatives(0, N_VGetArrayPointer(y_.get()), rates);
+    double push = rates[v];
+    if (std::abs(push) <= zero) {
+      constexpr double soon = 1e-6;
+      std::copy_n(N_VGetArrayPointer(y_.get()), static_cast<int>(state_size), later);
+      for (int i = own; i < state_size; ++i) later[i] += soon * rates[i];
+      derivatives(soon, later, rates);
+      push = std::abs(rates[v]) <= 1e-3 * zero ? 0 : rates[v];
     }
     sigma_ = (push > 0) - (push < 0);
     life_.direction = sigma_;
     side_ = z_now() == 0 ? sigma_ : z_now() > 0 ? 1 : -1;
+    life_.law_state.side = side_;
     held_ = sigma_ * z_now() >= strongest_;
     if (side_ == sigma_ && std::abs(life_.zeta) > life_.contact.sliding) life_.begin_slide(life_.cursor.time());
     return sigma_ != 0;
+  }
+  // Nothing moves; looked at again at least every millisecond where a law may begin to.
+  void stand() {
+    record();
+    const double h = std::min(life_.time_left(), life_.next_output());
+    life_.stand(life_.laws && !life_.cursor.motion_over() ? std::min(h, 1e-3) : h);
   }
   double z_now() const { return life_.zeta * strongest_; }
 
@@ -126,7 +143,9 @@ class Reference {
       check(flag, "ERKStepEvolve");
       int found[root_count] = {};
       if (flag == ARK_ROOT_RETURN) check(ERKStepGetRootInfo(stepper_.get(), found), "ERKStepGetRootInfo");
-      const int event = found[turns] ? turns : found[crosses_zero] ? crosses_zero : root_count;
+      int event = found[turns] ? turns : found[crosses_zero] ? crosses_zero : root_count;
+      for (int j = 0; j < max_kinks; ++j)
+        if (event == root_count && found[kinks + j]) event = kinks + j;
       if (flag == ARK_ROOT_RETURN) tau = locate(event, from, before, tau, h);
       N_VDestroy(from);
       if (arrive(tau, before, event)) return;
@@ -153,15 +172,29 @@ class Reference {
     check(ERKStepSetStopTime(ark, end), "ERKStepSetStopTime");
   }
 
-  // Newton's method on u' or z, each time integrated anew from the start of the step. Leaves the state there in y.
+  void integrate_again(N_Vector from, double before, double tau) {
+    N_VScale(1, from, y_.get());
+    double reached = before;
+    if (!(tau > before)) return;
+    start_at(locator_.get(), before, tau);
+    check(ERKStepEvolve(locator_.get(), tau, y_.get(), &reached, ARK_NORMAL), "ERKStepEvolve");
+  }
+
+  // Newton's method on u' or z, bisection on the argument of a kink, each time integrated anew from the start of the
+  // step. Leaves the state there in y.
   double locate(int event, N_Vector from, double before, double tau, double h) {
-    for (int i = 0; i < 10; ++i) {
-      N_VScale(1, from, y_.get());
-      double reached = before;
-      if (tau > before) {
-        start_at(locator_.get(), before, tau);
-        check(ERKStepEvolve(locator_.get(), tau, y_.get(), &reached, ARK_NORMAL), "ERKStepEvolve");
+    if (event >= kinks && event < root_count) {
+      double low = before, high = std::min(h, tau + 1e-3 * (tau - before));
+      for (int i = 0; i < 60 && high - low > 1e-16; ++i) {
+        tau = 0.5 * (low + high);
+        integrate_again(from, before, tau);
+        (kink(event - kinks, tau, N_VGetArrayPointer(y_.get())) > 0 ? low : high) = tau;
       }
+      integrate_again(from, before, high);
+      return high;
+    }
+    for (int i = 0; i < 10; ++i) {
+      integrate_again(from, before, tau);
       if (event == root_count) break;
       double rates[state_size];
       derivatives(tau, N_VGetArrayPointer(y_.get()), rates);
@@ -183,10 +216,16 @@ class Reference {
     life_.v = y[v];
     life_.zeta = y[z] / strongest_;
     life_.slip = y[u] - law_.yield_displacement_m * y[z];
+    for (int i = 0; i < max_states; ++i) life_.law_state.states[static_cast<std::size_t>(i)] = y[own + i];
+    if (tau > before) life_.law_state.left_instant();
     const double half = life_.contact.sliding;
     if (side_ == sigma_ && earlier <= half && std::abs(life_.zeta) > half)
       life_.begin_slide(life_.cursor.time() + 0.5 * (before + tau));
-    if (life_.vertical) life_.observe_acceleration(hold(tau) * y[z], std::max(0.0, floor_.g.at(tau)) - life_.gravity);
+    if (!life_.simple()) {
+      double rates[state_size];
+      derivatives(tau, y, rates);
+      life_.observe_acceleration(rates[v] + a(tau) - life_.push, std::max(0.0, floor_.g.at(tau)) - life_.gravity);
+    }
     const bool saturates = side_ == sigma_ && !held_ && held_is_right(y[z]);
     if (event == root_count && !saturates) return false;
     life_.cursor.advance(tau);
@@ -194,7 +233,9 @@ class Reference {
       life_.turn();
       sigma_ = 0;
     } else if (event == crosses_zero) {
-      side_ = sigma_;
+      side_ = life_.law_state.side = sigma_;
+    } else if (event < root_count) {
+      life_.law_state.turn_kink(event - kinks);
     } else {
       held_ = true;
     }
@@ -211,6 +252,7 @@ class Reference {
     y[v] = life_.v;
     y[z] = z_now();
     path_ = y[path] = 0;
+    for (int i = 0; i < max_states; ++i) y[own + i] = life_.law_state.states[static_cast<std::size_t>(i)];
   }
 
   void derivatives(double tau, const double* y, double* rates) const {
@@ -218,8 +260,39 @@ class Reference {
         held_ ? 1 : (law_.beta + law_.gamma * sigma_ * side_) * std::pow(std::max(0.0, side_ * y[z]), law_.exponent);
     rates[u] = y[v];
     rates[v] = -a(tau) - hold(tau) * y[z];
+    std::fill(rates + own, rates + state_size, 0.0);
+    if (life_.laws)
+      with_laws(tau, y, [&](double hold, const auto& laws) {
+        rates[v] = -a(tau) - hold;
+        for (int i = 0; i < life_.laws->states; ++i) rates[own + i] = laws.state_rate(i);
+      });
     rates[z] = y[v] * (1 - yields) / law_.yield_displacement_m;
     rates[path] = std::abs(y[v] * yields);
+  }
+
+  // use(what holds the block back [m/s2], the laws at this instant).
+  template <class Use>
+  void with_laws(double tau, const double* y, Use&& use) const {
+    const double s = sigma_ == 0 ? 1 : sigma_;
+    BoucWenArc<1> arc{};
+    arc.v[0] = s * y[v];
+    arc.zeta[0] = s * y[z] / strongest_;
+    const BoucWenStart start{life_.cursor.time() + tau, y[u] - law_.yield_displacement_m * y[z],
+                             life_.path() + y[path] - path_, s > 0 ? 1 : -1, false};
+    const Series<double, 1> force{hold(tau) * strongest_, 0}, g{floor_.g.at(tau), 0};
+    BoucWenLawState state = life_.law_state;
+    for (int i = 0; i < max_states; ++i) state.states[static_cast<std::size_t>(i)] = y[own + i];
+    BoucWenLawHold<1> laws(*life_.laws, state, start, life_.contact, arc, force, g);
+    use(s * laws(0), laws);
+  }
+
+  // The argument of kink j, positive on its present side.
+  double kink(int j, double tau, const double* y) const {
+    double argument = 1;
+    if (life_.laws && j < life_.laws->tape.kink_count() && j != life_.law_state.held_kink &&
+        !life_.laws->tape.latched(j, life_.law_state.sides))
+      with_laws(tau, y, [&](double, const auto& laws) { argument = laws.kink_now(j); });
+    return argument;
   }
 
   static int derivative(double tau, N_Vector y, N_Vector rates, void* self) {
@@ -231,8 +304,11 @@ class Reference {
     const auto& me = *static_cast<Reference*>(self);
     const double* state = N_VGetArrayPointer(y);
     g[turns] = state[v];
-    g[accelerates] = me.a(tau) + me.hold(tau) * state[z];
+    double rates[state_size];
+    me.derivatives(tau, state, rates);
+    g[accelerates] = rates[v];
     g[crosses_zero] = me.side_ == me.sigma_ ? 1 : state[z];
+    for (int j = 0; j < max_kinks; ++j) g[kinks + j] = me.kink(j, tau, state);
     return 0;
   }
 

@@ -6,21 +6,6 @@ namespace freestand::dynamics {
 namespace {
 constexpr int wait_order = max_floor_degree + 1;  // witnesses at rest are the floor's own polynomials
 
-// On which side of their kinks the laws are when nothing has moved yet.
-std::uint32_t initial_sides(const Laws& laws) {
-  Series<double, 0> values[max_nodes];
-  for (int i = 0; i < input_count; ++i) values[i][0] = 0;
-  values[static_cast<int>(Input::normal)][0] = 1;
-  std::uint32_t sides = 0;
-  for (int j = 0, from = input_count; j <= laws.tape.kink_count(); ++j) {
-    const int to = j < laws.tape.kink_count() ? laws.tape.kink_node(j) : laws.tape.size();
-    laws.tape.advance(from, to, 0, sides, values);
-    from = to;
-    if (j < laws.tape.kink_count() && values[laws.tape.kink_argument(j)][0] < 0) sides |= 1U << j;
-  }
-  return sides;
-}
-
 // Horizontal velocity of the centre of mass relative to the floor.
 double centre_speed(const Rig& rig, const State& state) {
   if (state.mode == Mode::flight) return state.vx;
@@ -55,7 +40,7 @@ Integration::Integration(const Setup& setup, const Settings& settings_, History*
       recorder(history, rig) {
   if (!rig.laws) return;
   if (rig.laws->tape.overflow() || !(rig.laws->carried_mass > 0)) stop(Outcome::not_finite);
-  state.sides = initial_sides(*rig.laws);
+  state.sides = rig.laws->initial_sides();
 }
 
 Rig::AtRest Integration::laws_at_rest() const {

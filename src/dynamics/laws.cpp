@@ -68,6 +68,20 @@ bool Laws::uses(Input input) const {
   return false;
 }
 
+std::uint32_t Laws::initial_sides() const {
+  Series<double, 0> values[max_nodes];
+  for (int i = 0; i < input_count; ++i) values[i][0] = 0;
+  values[static_cast<int>(Input::normal)][0] = 1;
+  std::uint32_t sides = 0;
+  for (int j = 0, from = input_count; j <= tape.kink_count(); ++j) {
+    const int to = j < tape.kink_count() ? tape.kink_node(j) : tape.size();
+    tape.advance(from, to, 0, sides, values);
+    from = to;
+    if (j < tape.kink_count() && values[tape.kink_argument(j)][0] < 0) sides |= 1U << j;
+  }
+  return sides;
+}
+
 bool Laws::broken(std::uint32_t sides) const {
   for (int kink = 0; kink < tape.kink_count(); ++kink)
     if (tape.latched(kink, sides)) return true;

@@ -28,6 +28,8 @@ struct Laws {
   // States go on moving while the block rests.
   bool evolve_at_rest() const { return states > 0 || legs.frequency_radps > 0; }
   bool uses(Input input) const;
+  // On which side of their kinks the laws are when nothing has moved yet.
+  std::uint32_t initial_sides() const;
   // Something has broken.
   bool broken(std::uint32_t sides) const;
 };

@@ -20,6 +20,7 @@ const Register static_friction{{
              .low = 1.05,
              .high = 1.8},
         },
+    .excludes = {"bouc_wen"},
     .specimen = [](Specimen& s, const Parameters& p) { s.friction.mu_s = p[0] * s.friction.mu_k; },
 }};
 

@@ -26,7 +26,7 @@ const Register wall_impact{{
              .low = 0,
              .high = 0.8},
         },
-    .excludes = {"rock", "flexible_legs"},
+    .excludes = {"rock", "bouc_wen", "flexible_legs"},
     .twins = "slack_tether, where it is stiff.",
     .wall =
         [](Wall& wall, const Parameters& p) {

@@ -128,12 +128,7 @@ void check_company(Section& section, const EffectPart& part, const std::vector<E
   const auto excluded = [](const Effect& effect, const std::string& name) {
     return std::find(effect.excludes.begin(), effect.excludes.end(), name) != effect.excludes.end();
   };
-  if (model == Model::bouc_wen && part.effect->dynamic())
-    section.problem("name",
-                    fmt::format("effect {} does not go with model bouc_wen (its equation takes no further law): "
-                                "remove it, or choose another model",
-                                part.name));
-  else if (excluded(*part.effect, in_model))
+  if (excluded(*part.effect, in_model))
     section.problem("name", fmt::format("effect {} does not go with model {} (it has nothing to act on there): remove "
                                         "it, or choose another model",
                                         part.name, in_model));

@@ -74,6 +74,18 @@ TEST(BoucWenStudy, CasesRunOnBothIntegrators) {
     EXPECT_NEAR(fast.history.points[i].slip_m, slow.history.points[i].slip_m, 1e-9) << i;
 }
 
+TEST(BoucWenStudy, EffectsThatHaveNothingToActOnAreRefused) {
+  for (const std::string effect : {"static_friction, ratio: 1.2", "flexible_legs, frequency_hz: 4",
+                                   "wall_impact, gap_m: 0.1", "offset_mass, eccentricity: 0.1"})
+    EXPECT_THAT(
+        problems(block + friction + motions + samples + fragility + contact + "effects:\n  - {name: " + effect + "}\n"),
+        testing::HasSubstr("does not go with model bouc_wen"))
+        << effect;
+  const Study study = parse(block + friction + motions + samples + fragility + contact +
+                            "effects:\n  - {name: rate_weakening, drop: 0.4, speed_mps: 0.1}\n");
+  EXPECT_EQ(study.model.effects.size(), 1U);
+}
+
 TEST(BoucWenStudy, CasesTakeNoDistributions) {
   EXPECT_THAT(case_problems(block + friction +
                             "model: bouc_wen\nbouc_wen: {yield_displacement_m: 0.001, exponent: {uniform: [2, 3]}}\n"
