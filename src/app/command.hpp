@@ -28,5 +28,6 @@ void add_motion(CLI::App& parser, Work& work);
 void add_effects(CLI::App& parser, Work& work);
 void add_compare(CLI::App& parser, Work& work);
 void add_diagnose(CLI::App& parser, Work& work);
+void add_add(CLI::App& parser, Work& work);
 
 }  // namespace freestand::app

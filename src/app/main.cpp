@@ -31,6 +31,7 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
   freestand::app::add_effects(parser, work);
   freestand::app::add_compare(parser, work);
   freestand::app::add_diagnose(parser, work);
+  freestand::app::add_add(parser, work);
   try {
     parser.parse(argc, argv);
     return static_cast<int>(work({world, freestand::io::command_line(argc, argv)}));

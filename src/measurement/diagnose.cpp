@@ -29,6 +29,7 @@ class Diagnoser {
     if (second_effect_wanted()) {
       fit_pairs();
       judge();
+      if (fit_parts_of_best_pair()) judge();
     }
     decide(bench_, out_);
     return std::move(out_);
@@ -98,6 +99,7 @@ class Diagnoser {
       out_.candidates.push_back(std::move(candidate));
       if (!seen[i]) continue;
       FitTask task{.model = with_effect(base, *effects[i], bench_.reach())};
+      task.starts = anywhere(out_.candidates.back().fit.model);
       if (const auto neutral = neutral_start(*effects[i])) task.starts.push_back(*neutral);
       tasks.push_back(std::move(task));
       of_task.push_back(i);
@@ -105,6 +107,11 @@ class Diagnoser {
     auto fits = fit_models(bench_, tasks, options_.effort, jobs_);
     for (std::size_t k = 0; k < fits.size(); ++k) out_.candidates[of_task[k]].fit = std::move(fits[k]);
     finish(0);
+  }
+
+  // Points of the whole range that the study allows, since an effect may have led the base far astray.
+  std::vector<Values> anywhere(const ModelSpec& model) const {
+    return sobol_starts(model.free, options_.effort.screened_per_number / 2 * model.free.size());
   }
 
   // More numbers than tests: nothing could be left out.
@@ -200,6 +207,36 @@ class Diagnoser {
     for (std::size_t i = first; i < out_.candidates.size(); ++i) finals.push_back(&out_.candidates[i].fit);
     polish(bench_, finals, options_.effort, 0.15, jobs_);
     finish(first);
+  }
+
+  // Would one of the two do, from where the pair stands? Its own fit may have stuck elsewhere.
+  bool fit_parts_of_best_pair() {
+    const Candidate pair = best();
+    if (pair.effects.size() < 2) return false;
+    std::vector<FitTask> tasks;
+    std::vector<Candidate*> singles;
+    const std::size_t base = base_.free.size();
+    for (Candidate& c : out_.candidates) {
+      if (c.effects.size() != 1 || !c.visible) continue;
+      const bool first = c.effects[0] == pair.effects[0];
+      if (!first && c.effects[0] != pair.effects[1]) continue;
+      const std::size_t own = c.fit.model.free.size() - base, skip = first ? 0 : pair.fit.x.size() - base - own;
+      Values x(pair.fit.x.begin(), pair.fit.x.begin() + static_cast<long>(base));
+      const auto from = pair.fit.x.begin() + static_cast<long>(base + skip);
+      x.insert(x.end(), from, from + static_cast<long>(own));
+      tasks.push_back({.model = c.fit.model, .starts = {c.fit.x, x}, .screened = false});
+      singles.push_back(&c);
+    }
+    auto fits = fit_models(bench_, tasks, options_.effort, jobs_);
+    std::vector<ModelFit*> better;
+    for (std::size_t i = 0; i < fits.size(); ++i) {
+      if (fits[i].score > singles[i]->fit.score - no_gain) continue;
+      singles[i]->fit = std::move(fits[i]);
+      better.push_back(&singles[i]->fit);
+    }
+    polish(bench_, better, options_.effort, 0.05, jobs_);
+    leave_out(bench_, better, options_.effort, jobs_);
+    return !better.empty();
   }
 
   static bool known_pair(const std::vector<Candidate>& pairs, const std::string& a, const std::string& b) {

@@ -95,14 +95,44 @@ void add_missing_parameters(YAML::Node model) {
 void sweep_model(YAML::Node root, Problems& problems) {
   if (!root.IsMap() || !root["model"] || !root["model"].IsMap()) return;
   const YAML::Node model = root["model"];
+  add_missing_parameters(model);
   for (const Calibrated& c : take_calibrated(model, problems))
-    if (!c.value)
-      problems.add(0,
-                   fmt::format("{} is not fitted yet (a sweep needs its value): let `freestand compare` or `add` fit "
-                               "it, or give a number",
-                               c.name));
+    if (!c.value && c.name != "placement_scatter")
+      problems.add(0, fmt::format("{} is not fitted yet (a sweep needs its value): let `freestand add` fit it, or give "
+                                  "a number",
+                                  c.name));
   for (const char* key : {"model", "measurements", "ladder"}) root.remove(key);
-  for (const auto& pair : model) root[pair.first.Scalar()] = pair.second;
+  for (const auto& pair : model)
+    if (pair.first.Scalar() != "placement_scatter") root[pair.first] = pair.second;
+}
+
+void write_fitted(YAML::Node node, const std::string& name, const std::vector<FittedNumber>& numbers) {
+  if (node.IsMap()) {
+    for (auto pair : node) {
+      const std::string key = pair.first.Scalar();
+      const std::string inner = key == "parameters" ? name : name.empty() ? key : name + "." + key;
+      YAML::Node value = pair.second;
+      if (!is_calibrate(value)) {
+        write_fitted(value, inner, numbers);
+        continue;
+      }
+      for (const FittedNumber& number : numbers) {
+        if (number.name != inner) continue;
+        value["value"] = fmt::format("{}", number.value);
+        value.remove("interval");
+        if (number.lower <= number.upper) {
+          value["interval"].push_back(fmt::format("{:.6g}", number.lower));
+          value["interval"].push_back(fmt::format("{:.6g}", number.upper));
+        }
+        value.SetStyle(YAML::EmitterStyle::Flow);
+      }
+    }
+  } else if (node.IsSequence()) {
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      const std::string entry = node[i].IsMap() && node[i]["name"] ? node[i]["name"].as<std::string>("") : "";
+      write_fitted(node[i], name + "." + entry, numbers);
+    }
+  }
 }
 
 }  // namespace freestand::study

@@ -23,4 +23,14 @@ void add_missing_parameters(YAML::Node model);
 // problems. Any other file is left as it is.
 void sweep_model(YAML::Node root, Problems&);
 
+// A number that was fitted, with its interval; lower > upper: none.
+struct FittedNumber {
+  std::string name;
+  double value = 0, lower = 1, upper = 0;
+};
+
+// Writes value and interval into every {calibrate: ...} below `node` that has its number. name: dotted name of the node,
+// "" for the model itself.
+void write_fitted(YAML::Node node, const std::string& name, const std::vector<FittedNumber>& numbers);
+
 }  // namespace freestand::study

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "study/calibrate_keys.hpp"
 #include "study/read_parts.hpp"
 
 namespace freestand::study {
@@ -116,6 +117,7 @@ Study parse_study(const std::string& text, const std::filesystem::path& path, co
   Problems problems(path.string());
   Study study;
   if (const auto root = parse_yaml(text, problems)) {
+    sweep_model(*root, problems);
     Section file(*root, "", 1, problems);
     problems.throw_if_any();
     read_common(file, path, study);

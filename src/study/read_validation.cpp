@@ -81,6 +81,7 @@ void read_all(const YAML::Node& root, Validation& v, Problems& problems) {
   fill_dimensions(model, v);
   Section section(model, "model", file.line("model"), problems);
   v.model = read_model(section);
+  v.placement_scatter = section.optional_number("placement_scatter", range::not_negative);
   section.finish();
   if (v.model.chain)
     problems.add(section.line("chain"),
@@ -174,6 +175,8 @@ ModelSpec model_spec(const Validation& v, bool as_fitted) {
     const auto fixed = [](const Quantity& q) { return std::get<sampling::Fixed>(q.value).value; };
     spec.bouc_wen = {fixed(b->yield_displacement), fixed(b->exponent), fixed(b->gamma), fixed(b->beta)};
   }
+  if (v.placement_scatter)
+    spec.placement_scatter = number(Quantity{"placement_scatter", "1", sampling::Fixed{*v.placement_scatter}});
   for (const EffectPart& part : m.effects) {
     measurement::EffectTerm term{.effect = part.effect.get(), .parameters = {}};
     for (const Quantity& q : part.parameters) term.parameters.push_back(number(q));

@@ -9,6 +9,9 @@
 // catalogued effect that are left out and have no default are calibrated within the catalogue's range. Dimensions that
 // the model does not give are the specimen's of each test.
 //
+// Where outcomes are all that was measured, model.placement_scatter is the standard deviation of ln(width) from test to
+// test; calibrated where it is not given.
+//
 // A sweep takes the same file: keys of `model` then stand for the study's own (sweep_model).
 #pragma once
 
@@ -42,6 +45,7 @@ struct Validation {
   std::filesystem::path file, measurements;
   ModelPart model;  // numbers to be calibrated stand there with their value, or with the middle of their range
   bool width_given = false, height_given = false, mass_given = false;
+  std::optional<double> placement_scatter;
   std::vector<Calibrated> calibrated;
   std::vector<LadderStep> ladder;
   std::string text;  // of the file

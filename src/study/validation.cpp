@@ -27,7 +27,7 @@ void check_dimensions(const Prepared& p) {
 void add_placement_scatter(Prepared& p) {
   bool outcomes = false;
   for (const Test& test : p.data.tests) outcomes |= kind(test) == Kind::outcome;
-  if (!outcomes) return;
+  if (!outcomes || p.model.placement_scatter) return;
   p.model.placement_scatter = Number{.value = 0, .free = static_cast<int>(p.model.free.size())};
   p.model.free.push_back({.name = "placement_scatter",
                           .unit = "1",

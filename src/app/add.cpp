@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+#include "io/output_folder.hpp"
+#include "study/validation.hpp"
+
+namespace freestand::app {
+namespace {
+
+struct Options {
+  std::string study, effect, measurements, file;
+  bool overwrite = false, quiet = false;
+};
+
+void tell(const std::string& file, const std::string& text) {
+  const study::Validation v = study::parse_validation(text, file);
+  fmt::print("{:<28} {:>12} {:>12} {:>12}\n", "model", "calibration", "held out", "noise floor");
+  for (const auto& step : v.ladder)
+    fmt::print("{:<28} {:>12.3g} {:>12.3g} {:>12.3g}\n", (step.step == "base" ? "" : "+ ") + step.step,
+               step.error_calibration, step.error_holdout, step.noise_floor);
+  for (const auto& c : v.calibrated)
+    if (c.value) fmt::print("{} = {:.5g}\n", c.name, *c.value);
+  fmt::print("study in {}\n", file);
+}
+
+// A path of the study beside another folder: relative keys of the study must still be found.
+void check_target(const Options& options) {
+  const std::filesystem::path target = options.file;
+  if (std::filesystem::exists(target) && !options.overwrite)
+    throw Error(
+        fmt::format("{} exists already (it would be lost): choose another name, or give --overwrite", options.file));
+  const auto folder = [](const std::filesystem::path& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file)).parent_path();
+  };
+  if (folder(target) != folder(options.study))
+    throw Error(
+        fmt::format("{} lies in another folder than {} (what the study names lies relative to it): write it "
+                    "beside the study",
+                    options.file, options.study));
+}
+
+Exit add(const Context& context, const Options& options) {
+  context.world.on_root([&] { check_target(options); });
+  const std::string text = study::add(
+      context.world, {options.study, options.measurements, context.command_line, options.quiet}, options.effect);
+  context.world.on_root([&] {
+    io::write_text(options.file, "# " + context.command_line + "\n" + text);
+    if (!options.quiet) tell(options.file, text);
+  });
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_add(CLI::App& parser, Work& work) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      parser.add_subcommand("add", "the study with one more effect in it, fitted, and the ladder of errors");
+  verb->add_option("study", options->study, "study of a validation")->required();
+  verb->add_option("effect", options->effect, "name of the catalogue; or a formula, as YAML text or in a file")
+      ->required();
+  verb->add_option("-o,--output", options->file, "study to be written, in the same folder")->required();
+  verb->add_option("--measurements", options->measurements, "data set in place of the study's");
+  verb->add_flag("--overwrite", options->overwrite, "replace the file if it is there");
+  verb->add_flag("--quiet", options->quiet, "no progress, no summary");
+  verb->callback([options, &work] { work = [options](const Context& context) { return add(context, *options); }; });
+}
+
+}  // namespace freestand::app

@@ -1,0 +1,187 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "effects/effects.hpp"
+#include "study/calibrate_keys.hpp"
+#include "study/section.hpp"
+#include "study/spread_jobs.hpp"
+#include "study/validation_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+using namespace measurement;
+
+std::string number(double value) { return fmt::format("{}", value); }
+
+YAML::Node range_node(double lower, double upper) {
+  YAML::Node node(YAML::NodeType::Map);
+  node["calibrate"].push_back(number(lower));
+  node["calibrate"].push_back(number(upper));
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  return node;
+}
+
+// All that a parameter may be without leaving what is plausible: ten times beyond the catalogue's range to both sides;
+// of numbers with a sign, all that is allowed.
+YAML::Node catalogue_range(const dynamics::Parameter& p) {
+  if (p.low > 0) return range_node(std::max(p.lower, p.low / 10), std::min(p.upper, 10 * p.high));
+  return range_node(std::max(p.lower, -1e3), std::min(p.upper, 1e3));
+}
+
+// The entry of `effects`: from a name of the catalogue, YAML text, or a file.
+YAML::Node effect_node(const std::string& effect) {
+  std::string text = effect;
+  if (text.find_first_of("{:\n") == std::string::npos) {
+    if (const dynamics::Effect* known = effects::find(text)) {
+      YAML::Node node(YAML::NodeType::Map);
+      node["name"] = text;
+      for (const auto& p : known->parameters) node[p.name] = catalogue_range(p);
+      return node;
+    }
+    std::ifstream stream(text);
+    if (!stream) {
+      std::vector<std::string> names;
+      for (const auto& e : effects::all()) names.push_back(e.name);
+      throw Error(
+          fmt::format("effect {} is not known ({}): choose one of `freestand effects`, or give a formula as a "
+                      "YAML mapping or in a file",
+                      text, hint(text, names)));
+    }
+    std::ostringstream content;
+    content << stream.rdbuf();
+    text = content.str();
+  }
+  try {
+    YAML::Node node = YAML::Load(text);
+    if (node.IsMap() && node["name"]) return node;
+  } catch (const YAML::Exception&) {
+  }
+  throw Error(fmt::format("\"{}\" is no effect (a mapping with a name is needed): write {}", effect,
+                          "{name: bumps, friction: \"mu*(1 + a*sin(2*pi*u/l))\", parameters: {a: {calibrate: [0, 1]}, "
+                          "l_m: {calibrate: [0.01, 1]}}}"));
+}
+
+// What every test's specimen has in common, so that a sweep can take the study as it is.
+void add_block(YAML::Node model, const Prepared& p) {
+  const Dimensions& d = p.data.specimen;
+  const bool own = std::any_of(p.data.tests.begin(), p.data.tests.end(), [&](const Test& t) {
+    return t.specimen.width_m != d.width_m || t.specimen.height_m != d.height_m || t.specimen.mass_kg != d.mass_kg;
+  });
+  if (own) return;
+  YAML::Node block = model["block"];
+  if (!block) model["block"] = block = YAML::Node(YAML::NodeType::Map);
+  if (!p.validation.width_given && d.width_m) block["width_m"] = number(*d.width_m);
+  if (!p.validation.height_given && d.height_m) block["height_m"] = number(*d.height_m);
+  if (!p.validation.mass_given && d.mass_kg) block["mass_kg"] = number(*d.mass_kg);
+  block.SetStyle(YAML::EmitterStyle::Flow);
+}
+
+std::string emitted(YAML::Node root) {
+  root.SetStyle(YAML::EmitterStyle::Block);
+  root["model"].SetStyle(YAML::EmitterStyle::Block);
+  for (auto pair : root["model"])
+    if (pair.second.IsMap()) pair.second.SetStyle(YAML::EmitterStyle::Flow);
+  root["model"]["effects"].SetStyle(YAML::EmitterStyle::Block);
+  for (auto effect : root["model"]["effects"]) effect.SetStyle(YAML::EmitterStyle::Flow);
+  YAML::Emitter out;
+  out << root;
+  return std::string(out.c_str()) + "\n";
+}
+
+// Effects of the catalogue start within the catalogue's range, not within all that is allowed; numbers that were fitted
+// before, near where they stood.
+ModelSpec starting(const Prepared& before, const ModelFit& fit, const Prepared& after) {
+  ModelSpec model = after.model;
+  const EffectTerm& added = model.effects.back();
+  for (std::size_t i = 0; i < added.parameters.size(); ++i) {
+    const int place = added.parameters[i].free;
+    const dynamics::Effect* known = effects::find(added.effect->name);
+    if (place < 0 || !known) continue;
+    Free& free = model.free[static_cast<std::size_t>(place)];
+    const Free range = free_parameter(*known, known->parameters[i], after.bench->reach());
+    free.low = range.low;
+    free.high = range.high;
+    free.logarithmic = range.logarithmic;
+  }
+  for (Free& free : model.free)
+    for (std::size_t i = 0; i < before.model.free.size(); ++i) {
+      if (before.model.free[i].name != free.name || !(fit.x[i] > 0) || !free.logarithmic) continue;
+      free.low = std::max(free.lower, fit.x[i] / 1.6);
+      free.high = std::min(free.upper, fit.x[i] * 1.6);
+    }
+  return model;
+}
+
+LadderStep step_of(const std::string& step, const Prepared& p, const ModelFit& fit, const Jobs& jobs) {
+  const auto tests = compare_tests(*p.bench, fit, jobs);
+  const RoleError in = role_error(*p.bench, tests, Role::calibration), out = role_error(*p.bench, tests, Role::holdout);
+  return {step, in.error, out.tests ? out.error : std::nan(""), in.expected};
+}
+
+YAML::Node ladder_node(const std::vector<LadderStep>& ladder) {
+  YAML::Node list(YAML::NodeType::Sequence);
+  for (const LadderStep& s : ladder) {
+    YAML::Node step(YAML::NodeType::Map);
+    step["step"] = s.step;
+    const auto put = [&](const char* key, double value) {
+      if (std::isfinite(value)) step[key] = fmt::format("{:.6g}", value);
+    };
+    put("error_calibration", s.error_calibration);
+    put("error_holdout", s.error_holdout);
+    put("noise_floor", s.noise_floor);
+    step.SetStyle(YAML::EmitterStyle::Flow);
+    list.push_back(step);
+  }
+  return list;
+}
+
+std::vector<FittedNumber> numbers_of(const ModelFit& fit) {
+  std::vector<FittedNumber> numbers;
+  for (std::size_t i = 0; i < fit.x.size(); ++i) {
+    numbers.push_back({.name = fit.model.free[i].name, .value = fit.x[i]});
+    if (i < fit.intervals.size())
+      numbers.back().lower = fit.intervals[i].lower, numbers.back().upper = fit.intervals[i].upper;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::string add(const parallel::Communicator& world, const ValidationRun& run, const std::string& effect) {
+  const Jobs jobs = spread_jobs(world, run.quiet);
+  const auto before = prepare(world, run, 16);
+  world.on_root([&] { effect_node(effect); });
+  const YAML::Node entry = effect_node(effect);
+
+  YAML::Node root = YAML::Load(before->validation.text);
+  YAML::Node model = root["model"];
+  add_block(model, *before);
+  if (before->model.placement_scatter && !model["placement_scatter"])
+    model["placement_scatter"] = range_node(0.001, 0.5);
+  if (!model["effects"] || !model["effects"].IsSequence()) model["effects"] = YAML::Node(YAML::NodeType::Sequence);
+  model["effects"].push_back(entry);
+  model["effects"].SetStyle(YAML::EmitterStyle::Block);
+  const auto after = prepare(world, parse_validation(emitted(root), before->validation.file), run, 16);
+
+  const ModelFit base = fitted(*before, false, jobs);
+  Effort effort;
+  effort.screened_per_number = 64;
+  auto fits = fit_models(*after->bench, {{.model = starting(*before, base, *after)}}, effort, jobs);
+  polish(*after->bench, {&fits[0]}, effort, 0.15, jobs);
+  polish(*after->bench, {&fits[0]}, effort, 0.05, jobs);
+  leave_out(*after->bench, {&fits[0]}, effort, jobs);
+
+  std::vector<LadderStep> ladder = before->validation.ladder;
+  if (ladder.empty()) ladder.push_back(step_of("base", *before, base, jobs));
+  ladder.push_back(step_of(entry["name"].as<std::string>(), *after, fits[0], jobs));
+  write_fitted(model, "", numbers_of(fits[0]));
+  root["ladder"] = ladder_node(ladder);
+  return emitted(root);
+}
+
+}  // namespace freestand::study
