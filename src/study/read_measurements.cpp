@@ -49,15 +49,16 @@ measurement::Noise read_noise(Section& file) {
   return noise;
 }
 
+// With a pulse, peak_acceleration_g is the pulse's, whose sign is its direction; the block's own peak is then not given.
 void read_peaks(Section& section, measurement::Peaks& peaks) {
   peaks.peak_slip_m = section.optional_number("peak_slip_m", range::not_negative);
   peaks.residual_slip_m = section.optional_number("residual_slip_m", range::any);
   peaks.peak_rotation_rad = section.optional_number("peak_rotation_rad", range::not_negative);
-  peaks.peak_acceleration_g = section.optional_number("peak_acceleration_g", range::not_negative);
+  if (!section.has("pulse"))
+    peaks.peak_acceleration_g = section.optional_number("peak_acceleration_g", range::not_negative);
   if (section.has("overturned")) peaks.overturned = section.flag("overturned", false);
 }
 
-// With a pulse, peak_acceleration_g is the peak of the pulse; the block's own peak is then not given.
 void read_pulse(Section& section, Test& test) {
   const std::string name = section.text("pulse", "");
   test.stretch = section.number("period_s", 1, size_range);
@@ -103,7 +104,6 @@ void read_input(Section& section, const Dataset& set, Test& test) {
     section.problem("id", error.what());
   }
   read_peaks(section, test.peaks);
-  if (!test.pulse.empty()) test.peaks.peak_acceleration_g.reset();
   const bool any_peak = std::any_of(peak_keys.begin(), peak_keys.end(),
                                     [&](const auto& key) { return section.has(key) && key != "peak_acceleration_g"; });
   if (!section.has("file") && !any_peak && !test.peaks.peak_acceleration_g)
