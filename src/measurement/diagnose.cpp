@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "measurement/decide.hpp"
+#include "measurement/starts.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -66,22 +67,13 @@ class Diagnoser {
     return model;
   }
 
-  // Does the effect change any prediction, anywhere in its range, with the rest of the model as fitted?
   std::vector<bool> visible(const ModelFit& fit, const std::vector<const dynamics::Effect*>& effects) const {
-    const auto tests = tests_of(bench_.data(), Role::calibration);
+    const auto vantage = vantage_points(fit);
     const auto answers = jobs_("looking for effects that the tests can see", effects.size(), [&](std::size_t i) {
-      const ModelSpec model = with_effect(fit.model, *effects[i], bench_.reach());
-      const std::vector<Free> own(model.free.begin() + static_cast<long>(fit.model.free.size()), model.free.end());
-      double most = 0;
-      for (Values x : sobol_starts(own, 5)) {
-        x.insert(x.begin(), fit.x.begin(), fit.x.end());
-        for (std::size_t t = 0; t < tests.size() && most < 1e-2; ++t)
-          most = std::max(most, std::abs(test_error(bench_, tests[t], model, x).score - fit.calibration[t].score));
-      }
-      return Values{most};
+      return Values{changes_predictions(bench_, fit, vantage, *effects[i]) ? 1.0 : 0.0};
     });
     std::vector<bool> seen;
-    for (const Values& answer : answers) seen.push_back(answer[0] >= 1e-3);
+    for (const Values& answer : answers) seen.push_back(answer[0] > 0);
     return seen;
   }
 
@@ -98,10 +90,8 @@ class Diagnoser {
       candidate.fit.model = with_effect(base_, *effects[i], bench_.reach());
       out_.candidates.push_back(std::move(candidate));
       if (!seen[i]) continue;
-      FitTask task{.model = with_effect(base, *effects[i], bench_.reach())};
-      task.starts = anywhere(out_.candidates.back().fit.model);
-      if (const auto neutral = neutral_start(*effects[i])) task.starts.push_back(*neutral);
-      tasks.push_back(std::move(task));
+      tasks.push_back({.model = with_effect(base, *effects[i], bench_.reach()),
+                       .starts = starts_of(*effects[i], out_.candidates.back().fit.model)});
       of_task.push_back(i);
     }
     auto fits = fit_models(bench_, tasks, options_.effort, jobs_);
@@ -109,25 +99,18 @@ class Diagnoser {
     finish(0);
   }
 
-  // Points of the whole range that the study allows, since an effect may have led the base far astray.
-  std::vector<Values> anywhere(const ModelSpec& model) const {
-    return sobol_starts(model.free, options_.effort.screened_per_number / 2 * model.free.size());
+  std::vector<Values> starts_of(const dynamics::Effect& effect, const ModelSpec& model) const {
+    auto starts = starts_anywhere(model, options_.effort.screened_per_number / 2);
+    auto ends = vantage_points(out_.base.fit);
+    ends.erase(ends.begin());
+    for (Values& x : starts_from(ends, model, 16 * effect.parameters.size())) starts.push_back(std::move(x));
+    starts.push_back(start_at_nothing(out_.base.fit, effect));
+    return starts;
   }
 
   // More numbers than tests: nothing could be left out.
   bool allowed(const dynamics::Effect& effect) const {
     return base_.free.size() + effect.parameters.size() < tests_of(bench_.data(), Role::calibration).size();
-  }
-
-  // The base fit with the effect at nothing.
-  std::optional<Values> neutral_start(const dynamics::Effect& effect) const {
-    Values x = out_.base.fit.x;
-    for (const auto& p : effect.parameters) {
-      const double nothing =
-          p.neutral && std::isfinite(*p.neutral) ? *p.neutral : p.fallback.value_or(0.5 * (p.low + p.high));
-      x.push_back(std::clamp(nothing, p.low > 0 ? 0.001 * p.low : p.lower, p.upper));
-    }
-    return x;
   }
 
   // Polishes and leaves out, for the best candidates from `first` on that gain anything on the base.
@@ -189,7 +172,7 @@ class Diagnoser {
         if (!seen[i] || known_pair(pairs, seed->effects[0], others[i]->name)) continue;
         pairs.push_back({.effects = {seed->effects[0], others[i]->name}, .fit = seed->fit});
         tasks.push_back({.model = with_effect(narrowed(seed->fit), *others[i], bench_.reach())});
-        tasks.back().starts = seeded_starts(*seed, tasks.back().model);
+        tasks.back().starts = starts_from({seed->fit.x}, tasks.back().model, 24 * others[i]->parameters.size());
         tasks.back().screened = false;
         pairs.back().fit.model = tasks.back().model;
       }
@@ -225,6 +208,11 @@ class Diagnoser {
       const auto from = pair.fit.x.begin() + static_cast<long>(base + skip);
       x.insert(x.end(), from, from + static_cast<long>(own));
       tasks.push_back({.model = c.fit.model, .starts = {c.fit.x, x}, .screened = false});
+      for (std::size_t i = 0; i < base; ++i)
+        for (const double end : {c.fit.model.free[i].upper, c.fit.model.free[i].lower}) {
+          tasks.back().starts.push_back(x);
+          tasks.back().starts.back()[i] = end;
+        }
       singles.push_back(&c);
     }
     auto fits = fit_models(bench_, tasks, options_.effort, jobs_);
@@ -243,18 +231,6 @@ class Diagnoser {
     return std::any_of(pairs.begin(), pairs.end(), [&](const Candidate& c) {
       return (c.effects[0] == a && c.effects[1] == b) || (c.effects[0] == b && c.effects[1] == a);
     });
-  }
-
-  // The first effect as fitted, the second anywhere in its range.
-  std::vector<Values> seeded_starts(const Candidate& seed, const ModelSpec& pair) const {
-    const std::size_t known = seed.fit.x.size();
-    const std::vector<Free> own(pair.free.begin() + static_cast<long>(known), pair.free.end());
-    std::vector<Values> starts;
-    for (const Values& x : sobol_starts(own, 24 * own.size())) {
-      starts.push_back(seed.fit.x);
-      starts.back().insert(starts.back().end(), x.begin(), x.end());
-    }
-    return starts;
   }
 
   const Bench& bench_;

@@ -178,8 +178,10 @@ void leave_out(const Bench& bench, std::vector<ModelFit*> fits, const Effort& ef
     Values answer =
         packed(simplex(fit.model.free, objective(bench, fit.model, seen_without(k)), fit.x, 0.02, effort.fold_budget));
     const Values x = unpacked(answer).x;
+    std::vector<std::size_t> unseen;
     for (std::size_t t = 0; t < tests.size(); ++t)
-      if (fold[t] == k) append(answer, test_error(bench, tests[t], fit.model, x));
+      if (fold[t] == k) unseen.push_back(tests[t]);
+    for (const TestError& error : test_errors(bench, unseen, fit.model, x)) append(answer, error);
     return answer;
   });
   for (std::size_t f = 0; f < fits.size(); ++f) {
@@ -204,7 +206,7 @@ void evaluate(const Bench& bench, std::vector<ModelFit*> fits, const Jobs& jobs)
   const auto tests = tests_of(bench.data(), Role::calibration);
   const auto answers = jobs("errors", fits.size(), [&](std::size_t i) {
     Values values;
-    for (const std::size_t t : tests) append(values, test_error(bench, t, fits[i]->model, fits[i]->x));
+    for (const TestError& error : test_errors(bench, tests, fits[i]->model, fits[i]->x)) append(values, error);
     return values;
   });
   for (std::size_t i = 0; i < fits.size(); ++i) {

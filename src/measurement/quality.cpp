@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/timing.hpp"
+
 namespace freestand::measurement {
 namespace {
 
@@ -56,6 +58,48 @@ void look_at_channels(const Bench& bench, Quality& quality) {
   }
 }
 
+std::string clock_sentence(const std::string& whose, int late_steps, double dt_s) {
+  return fmt::format("{} runs {:.3f} s {} the floor's channel: check the clocks of the channels", whose,
+                     std::abs(late_steps) * dt_s, late_steps > 0 ? "behind" : "ahead of");
+}
+
+constexpr const char* check_sign = "looks mirrored: check the sign of slip_m against that of the floor";
+
+// Signs and clocks of the slips by themselves. True: enough tests could be judged, so that no model is needed.
+bool look_at_slips(const Bench& bench, Quality& quality) {
+  std::vector<std::size_t> wrong, mirrored;
+  std::vector<int> late;
+  std::size_t judged = 0;
+  std::vector<Timing> timings;
+  for (std::size_t i = 0; i < bench.size(); ++i) {
+    const double dt = bench.test(i).dt_s;
+    timings.push_back(dt > 0 ? slip_timing(bench, i, static_cast<int>(still_seconds / dt)) : Timing{});
+    judged += timings[i].judged();
+    if (!timings[i].wrong()) continue;
+    wrong.push_back(i);
+    if (timings[i].mirrored) mirrored.push_back(i);
+    late.push_back(timings[i].late_steps);
+  }
+  quality.doubtful = wrong.size();
+  const auto most = [&](std::size_t count) { return count > 1 && 10 * count >= 7 * judged; };
+  if (most(mirrored.size())) {
+    quality.mirrored_slip = true;
+    quality.findings.push_back(fmt::format("the slip {}", check_sign));
+  } else if (most(wrong.size())) {
+    std::nth_element(late.begin(), late.begin() + static_cast<long>(late.size() / 2), late.end());
+    quality.late_steps = late[late.size() / 2];
+    quality.findings.push_back(clock_sentence("the response", quality.late_steps, bench.test(wrong[0]).dt_s));
+  } else {
+    for (const std::size_t i : wrong) {
+      const Test& test = bench.test(i);
+      const std::string whose = "the slip of test " + test.id;
+      quality.findings.push_back(timings[i].mirrored ? fmt::format("{} {}", whose, check_sign)
+                                                     : clock_sentence(whose, timings[i].late_steps, test.dt_s));
+    }
+  }
+  return judged > 1 && 2 * judged >= bench.size();
+}
+
 // Mean score of the base with its numbers fitted again to changed data.
 double refitted(const Bench& bench, const ModelFit& fit, const Effort& effort) {
   const auto tests = tests_of(bench.data(), Role::calibration);
@@ -82,6 +126,7 @@ bool clipped(const std::vector<double>& samples, double noise) {
 Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, const Jobs& jobs) {
   Quality quality;
   look_at_channels(bench, quality);
+  const bool settled = look_at_slips(bench, quality);
   const auto tests = tests_of(bench.data(), Role::calibration);
   if (tests.empty() || !bench.test(tests.front()).has_history() || fit.score < 2 * std::log(2.0)) return quality;
   const double dt = bench.test(tests.front()).dt_s;
@@ -92,18 +137,18 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   for (const std::size_t i : tests)
     rotates |= greatest(bench.test(i).rotation_rad) > 8 * bench.noise(Channel::rotation);
 
+  if (settled) lags.clear();
+
   // Cases: slip mirrored, rotation mirrored, then the lags.
   const auto scores = jobs("signs and times of the channels", 2 + lags.size(), [&](std::size_t i) {
-    if (i == 1 && !rotates) return Values{fit.score};
+    if (i == 0 ? settled : i == 1 && !rotates) return Values{fit.score};
     const Dataset data = changed(bench.data(), i == 0, i == 1, i < 2 ? 0 : lags[i - 2]);
     return Values{refitted(Bench(data, 0), fit, effort)};
   });
   if (scores[0][0] < fit.score - much_closer) {
     quality.mirrored_slip = true;
-    quality.findings.push_back(
-        fmt::format("the slip looks mirrored: with its sign turned round the model comes {:.1f} "
-                    "times closer; check the sign of slip_m against that of the floor",
-                    std::exp((fit.score - scores[0][0]) / 2)));
+    quality.findings.push_back(fmt::format("the slip {}; with it turned round the model comes {:.1f} times closer",
+                                           check_sign, std::exp((fit.score - scores[0][0]) / 2)));
   }
   if (scores[1][0] < fit.score - much_closer) {
     quality.mirrored_rotation = true;
@@ -112,16 +157,15 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
                     "{:.1f} times closer; rotation_rad is positive clockwise",
                     std::exp((fit.score - scores[1][0]) / 2)));
   }
+  if (settled) return quality;
   std::size_t best = 0;
   for (std::size_t i = 0; i < lags.size(); ++i)
     if (scores[2 + i][0] < scores[2 + best][0]) best = i;
   if (lags[best] != 0 && scores[2 + best][0] < fit.score - much_closer && !quality.mirrored_slip) {
     quality.late_steps = lags[best];
-    quality.findings.push_back(
-        fmt::format("the response runs {:.3f} s {} the floor's channel: shifted by that the model "
-                    "comes {:.1f} times closer; check the clocks of the channels",
-                    std::abs(lags[best]) * dt, lags[best] > 0 ? "behind" : "ahead of",
-                    std::exp((fit.score - scores[2 + best][0]) / 2)));
+    quality.findings.push_back(fmt::format("{}; shifted by that the model comes {:.1f} times closer",
+                                           clock_sentence("the response", lags[best], dt),
+                                           std::exp((fit.score - scores[2 + best][0]) / 2)));
   }
   return quality;
 }

@@ -7,7 +7,7 @@
 
 #include "base/units.hpp"
 #include "measurement/score.hpp"
-#include "measurement/smooth.hpp"
+#include "measurement/slips.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -22,29 +22,6 @@ struct Sample {
 
 constexpr std::array<const char*, 6> names = {"speed_mps", "path_m", "direction", "position_m", "normal_g", "time_s"};
 constexpr std::array<const char*, 6> units = {"m/s", "m", "1", "m", "g", "s"};
-
-// Runs of samples that slip one way, [from, to).
-struct Slip {
-  std::size_t from, to;
-  double sigma;
-};
-
-std::vector<Slip> slips(const Test& test, const Smooth& motion, double least_speed, double rotation_noise) {
-  std::vector<Slip> found;
-  const auto direction = [&](std::size_t i) {
-    const bool turned = !test.rotation_rad.empty() && std::abs(test.rotation_rad[i]) > 6 * rotation_noise;
-    return turned || std::abs(motion.rate[i]) < least_speed ? 0.0 : motion.rate[i] > 0 ? 1.0 : -1.0;
-  };
-  for (std::size_t i = 0; i < motion.rate.size(); ++i) {
-    const double sigma = direction(i);
-    if (sigma == 0) continue;
-    if (!found.empty() && found.back().to == i && found.back().sigma == sigma)
-      ++found.back().to;
-    else
-      found.push_back({i, i + 1, sigma});
-  }
-  return found;
-}
 
 void sample_slip(const Test& test, const Slip& slip, std::size_t half, double mu_k, bool vertical, double& path,
                  std::vector<Sample>& samples) {

@@ -1,10 +1,10 @@
 #include "measurement/score.hpp"
 
-#include <gsl/gsl_cdf.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "measurement/placements.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -12,7 +12,6 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double failed_error = 1e4;  // of a sample without a history, in noise units
 constexpr double ln_ratio_limit = 3;
-constexpr int placements = 9;
 
 // visit(channel, noise, measured, predicted) for the channels that can be judged.
 template <class Visit>
@@ -80,23 +79,12 @@ TestError peak_error(const Bench& bench, std::size_t i, const Prediction& predic
   return error;
 }
 
-// Share of the placements that overturn.
-double overturning_probability(const ModelSpec& model, const Test& test, std::span<const double> x) {
-  const auto falls = [&](const Specimen& body) {
-    return respond(body, test.shaking(), {.tolerance = 1e-8}).outcome == Outcome::overturned;
-  };
-  const Specimen middle = specimen(model, test, x);
-  const double scatter = model.placement_scatter ? model.placement_scatter->of(x) : 0;
-  if (scatter <= 0) return falls(middle);
-  double share = 0;
-  for (int k = 0; k < placements; ++k) {
-    Specimen body = middle;
-    const double factor = std::exp(scatter * gsl_cdf_ugaussian_Pinv((k + 0.5) / placements));
-    body.block.left_m *= factor;
-    body.block.right_m *= factor;
-    share += falls(body) ? 1.0 / placements : 0.0;
-  }
-  return share;
+TestError outcome_error(const Test& test, double probability) {
+  const double y = test.peaks.overturned.value_or(false) ? 1 : 0;
+  return {.score = (probability - y) * (probability - y),
+          .noise_units = unknown,
+          .relative = unknown,
+          .probability = probability};
 }
 
 }  // namespace
@@ -113,19 +101,32 @@ TestError test_error(const Bench& bench, std::size_t i, const Prediction& predic
 }
 
 TestError test_error(const Bench& bench, std::size_t i, const ModelSpec& model, std::span<const double> x) {
-  const Test& test = bench.test(i);
-  if (kind(test) != Kind::outcome) return test_error(bench, i, predict(model, test, x));
-  TestError error{.score = 0, .noise_units = unknown, .relative = unknown};
-  error.probability = overturning_probability(model, test, x);
-  const double y = test.peaks.overturned.value_or(false) ? 1 : 0;
-  error.score = (error.probability - y) * (error.probability - y);
-  return error;
+  return test_errors(bench, {i}, model, x).front();
+}
+
+std::vector<TestError> test_errors(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
+                                   std::span<const double> x) {
+  std::vector<TestError> errors(tests.size());
+  std::vector<std::size_t> outcomes, places;
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const Test& test = bench.test(tests[k]);
+    if (kind(test) != Kind::outcome) {
+      errors[k] = test_error(bench, tests[k], predict(model, test, x));
+      continue;
+    }
+    outcomes.push_back(tests[k]);
+    places.push_back(k);
+  }
+  const auto probabilities = overturning_probabilities(bench, outcomes, model, x);
+  for (std::size_t k = 0; k < outcomes.size(); ++k)
+    errors[places[k]] = outcome_error(bench.test(outcomes[k]), probabilities[k]);
+  return errors;
 }
 
 double mean_score(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
                   std::span<const double> x) {
   double sum = 0;
-  for (const std::size_t i : tests) sum += test_error(bench, i, model, x).score;
+  for (const TestError& error : test_errors(bench, tests, model, x)) sum += error.score;
   return sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1));
 }
 

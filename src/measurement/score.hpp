@@ -25,6 +25,10 @@ struct TestError {
 TestError test_error(const Bench&, std::size_t test, const Prediction&);  // histories and peaks
 TestError test_error(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x);
 
+// Of these tests, in their order; outcomes as one batch.
+std::vector<TestError> test_errors(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
+                                   std::span<const double> x);
+
 // Mean score over these tests: what fits minimise.
 double mean_score(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&, std::span<const double> x);
 

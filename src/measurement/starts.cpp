@@ -1,0 +1,66 @@
+#include "measurement/starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace freestand::measurement {
+namespace {
+
+std::vector<Free> own_numbers(const ModelSpec& model, std::size_t known) {
+  return {model.free.begin() + static_cast<long>(known), model.free.end()};
+}
+
+Values joined(Values x, const Values& own) {
+  x.insert(x.end(), own.begin(), own.end());
+  return x;
+}
+
+}  // namespace
+
+std::vector<Values> vantage_points(const ModelFit& fit) {
+  std::vector<Values> points = {fit.x};
+  for (std::size_t i = 0; i < fit.x.size(); ++i)
+    for (const double end : {fit.model.free[i].upper, fit.model.free[i].lower}) {
+      points.push_back(fit.x);
+      points.back()[i] = end;
+    }
+  return points;
+}
+
+std::vector<Values> starts_from(const std::vector<Values>& vantage, const ModelSpec& model, std::size_t count) {
+  std::vector<Values> starts;
+  for (const Values& known : vantage)
+    for (const Values& own : sobol_starts(own_numbers(model, known.size()), count))
+      starts.push_back(joined(known, own));
+  return starts;
+}
+
+std::vector<Values> starts_anywhere(const ModelSpec& model, std::size_t per_number) {
+  return sobol_starts(model.free, per_number * model.free.size());
+}
+
+Values start_at_nothing(const ModelFit& fit, const dynamics::Effect& effect) {
+  Values x = fit.x;
+  for (const auto& p : effect.parameters) {
+    const double nothing =
+        p.neutral && std::isfinite(*p.neutral) ? *p.neutral : p.fallback.value_or(0.5 * (p.low + p.high));
+    x.push_back(std::clamp(nothing, p.low > 0 ? 0.001 * p.low : p.lower, p.upper));
+  }
+  return x;
+}
+
+bool changes_predictions(const Bench& bench, const ModelFit& fit, const std::vector<Values>& vantage,
+                         const dynamics::Effect& effect) {
+  constexpr std::size_t points = 5;
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const ModelSpec model = with_effect(fit.model, effect, bench.reach());
+  for (const Values& known : vantage) {
+    const auto without = test_errors(bench, tests, fit.model, known);
+    for (const Values& x : starts_from({known}, model, points))
+      for (std::size_t t = 0; t < tests.size(); ++t)
+        if (std::abs(test_error(bench, tests[t], model, x).score - without[t].score) >= seen_change) return true;
+  }
+  return false;
+}
+
+}  // namespace freestand::measurement

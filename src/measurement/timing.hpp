@@ -1,0 +1,23 @@
+// Sign and clock of the slip channel, without a model: while a block slips one way, u'' + a hardly changes, whatever the
+// law of friction, since it is the acceleration that friction gives it. With the slip mirrored, or behind the floor, the
+// sum still holds what the floor does.
+#pragma once
+
+#include "measurement/bench.hpp"
+
+namespace freestand::measurement {
+
+struct Timing {
+  bool mirrored = false;
+  int late_steps = 0;   // by which the slip lags behind the floor's channel
+  double gain = 1;      // variance of u'' + a as measured, over that with the slip turned round and shifted by these
+  double samples = 0;   // independent ones
+  bool judged() const;  // there was slip enough
+  bool wrong() const;   // more than chance
+};
+
+// Among lags of up to most_steps either way and both signs, the one in which u'' + a varies least about its mean of each
+// direction, over the slips of one test; both smoothed alike.
+Timing slip_timing(const Bench&, std::size_t test, int most_steps);
+
+}  // namespace freestand::measurement
