@@ -1,0 +1,63 @@
+// make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20]: measurement sets
+// DIR/<effect>-<seed>/, and what is hidden in them in DIR/answers.json.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+
+#include "hidden_effect/default_effects.hpp"
+#include "hidden_effect/make_set.hpp"
+
+namespace freestand::test {
+namespace {
+
+struct Options {
+  std::filesystem::path folder;
+  std::vector<std::string> effects = default_effects();
+  std::uint64_t seeds = 5, first = 1;
+  int tests = 10;
+  double duration_s = 20;
+};
+
+nlohmann::ordered_json known_answers(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return stream ? nlohmann::ordered_json::parse(stream) : nlohmann::ordered_json::object();
+}
+
+void make(const Options& options) {
+  std::filesystem::create_directories(options.folder);
+  const std::filesystem::path file = options.folder / "answers.json";
+  nlohmann::ordered_json answers = known_answers(file);
+  for (std::uint64_t seed = options.first; seed < options.first + options.seeds; ++seed)
+    for (const std::string& effects : options.effects) {
+      const MadeSet set = make_set({split_effects(effects), seed, options.tests, options.duration_s});
+      write_set(set, options.folder / set.name);
+      answers[set.name] = answer_of(set);
+      std::ofstream(file) << answers.dump(1) << '\n';
+      fmt::print("{:<40} plain model {:8.2f} noise units, weakest effect {:8.2f}\n", set.name, set.plain_error,
+                 set.weakest_error);
+      std::fflush(stdout);
+    }
+}
+
+}  // namespace
+}  // namespace freestand::test
+
+int main(int count, char** words) {
+  freestand::test::Options options;
+  CLI::App parser("measurement sets with hidden effects");
+  parser.add_option("-o,--output", options.folder, "folder of the sets")->required();
+  parser.add_option("--effects", options.effects, "a,b,c+d: none, an effect, or several at once")->delimiter(',');
+  parser.add_option("--seeds", options.seeds, "sets of each");
+  parser.add_option("--first", options.first, "first seed");
+  parser.add_option("--tests", options.tests, "tests of a set")->check(CLI::Range(2, 99));
+  parser.add_option("--duration", options.duration_s, "mean length of a stochastic motion [s]");
+  CLI11_PARSE(parser, count, words);
+  try {
+    freestand::test::make(options);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+  return 0;
+}
