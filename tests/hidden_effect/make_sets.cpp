@@ -1,5 +1,5 @@
 // make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20]: measurement sets
-// DIR/<effect>-<seed>/, and what is hidden in them in DIR/answers.json.
+// DIR/<effect>-<seed>/, and what is hidden in them in DIR/answers.json. make_sets --list: what is hidden by default.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -17,6 +17,7 @@ struct Options {
   std::uint64_t seeds = 5, first = 1;
   int tests = 10;
   double duration_s = 20;
+  bool list = false;
 };
 
 nlohmann::ordered_json known_answers(const std::filesystem::path& file) {
@@ -46,13 +47,22 @@ void make(const Options& options) {
 int main(int count, char** words) {
   freestand::test::Options options;
   CLI::App parser("measurement sets with hidden effects");
-  parser.add_option("-o,--output", options.folder, "folder of the sets")->required();
+  parser.add_option("-o,--output", options.folder, "folder of the sets");
+  parser.add_flag("--list", options.list, "names of what can be hidden, and nothing made");
   parser.add_option("--effects", options.effects, "a,b,c+d: none, an effect, or several at once")->delimiter(',');
   parser.add_option("--seeds", options.seeds, "sets of each");
   parser.add_option("--first", options.first, "first seed");
   parser.add_option("--tests", options.tests, "tests of a set")->check(CLI::Range(2, 99));
   parser.add_option("--duration", options.duration_s, "mean length of a stochastic motion [s]");
   CLI11_PARSE(parser, count, words);
+  if (options.list) {
+    for (const std::string& effects : freestand::test::default_effects()) fmt::print("{}\n", effects);
+    return 0;
+  }
+  if (options.folder.empty()) {
+    fmt::print(stderr, "no folder (the sets need a place): give -o DIR\n");
+    return 2;
+  }
   try {
     freestand::test::make(options);
   } catch (const std::exception& error) {
