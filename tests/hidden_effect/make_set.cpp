@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "base/units.hpp"
 #include "hidden_effect/shaking.hpp"
@@ -85,28 +86,34 @@ class Maker {
  private:
   KeyedRandom numbers(std::uint64_t stream) const { return {request_.seed, key_ ^ (stream << 32)}; }
 
-  // Strong enough to pass what holds the block by 1.3 to 3.2 times, then scaled.
+  // A motion that moves the specimen as it should, out of as many as it takes.
   void shake(KeyedRandom& random, const DrawnTruth& d, bool vertical, MadeTest& test) const {
+    for (int motion = 0; motion < 50; ++motion) {
+      test.floor = draw_floor(random, d, vertical);
+      for (int trial = 0; trial < 8; ++trial) {
+        test.truth = simulate(d.truth, test.floor, step_s);
+        const double factor = rescaling(d, test.truth);
+        if (factor == 0) return;
+        scale(test.floor, factor);
+      }
+    }
+    throw std::runtime_error(set_name(request_) + ": no floor motion moves the specimen without overturning it");
+  }
+
+  // Strong enough to pass what holds the block by 1.3 to 3.2 times.
+  FloorSamples draw_floor(KeyedRandom& random, const DrawnTruth& d, bool vertical) const {
     const double which = random.unit();
     const Shaking kind = which < 0.35 ? Shaking::pulse : which < 0.8 ? Shaking::stochastic : Shaking::both;
-    FloorSamples& floor = test.floor;
-    floor = {dt_s, draw_shaking(random, kind, {}, dt_s, request_.duration_s), {}};
+    FloorSamples floor{dt_s, draw_shaking(random, kind, {}, dt_s, request_.duration_s), {}};
     const double hold_mps2 = standard_gravity_mps2 * std::min(d.truth.mu_s, d.width_m / d.height_m);
     const double peak_mps2 = hold_mps2 * random.uniform(1.3, 3.2);
     scale(floor, peak_mps2);
+    if (!vertical) return floor;
     const bool still = kind == Shaking::pulse && random.chance(0.5);
-    if (vertical) {
-      floor.vertical_mps2 = draw_vertical(random, dt_s, floor.horizontal_mps2.size());
-      const double peak = still ? 0 : std::min(6.0, std::max(2.0, peak_mps2) * random.uniform(0.5, 0.9));
-      for (double& value : floor.vertical_mps2) value *= peak;
-    }
-    for (int trial = 0; trial < 20; ++trial) {
-      test.truth = simulate(d.truth, floor, step_s);
-      const double factor = rescaling(d, test.truth);
-      if (factor == 0) return;
-      scale(floor, factor);
-    }
-    test.truth = simulate(d.truth, floor, step_s);
+    floor.vertical_mps2 = draw_vertical(random, dt_s, floor.horizontal_mps2.size());
+    const double peak = still ? 0 : std::min(6.0, std::max(2.0, peak_mps2) * random.uniform(0.5, 0.9));
+    for (double& value : floor.vertical_mps2) value *= peak;
+    return floor;
   }
 
   const SetRequest& request_;
