@@ -10,32 +10,47 @@ from .problem import USAGE, Problem
 def _arguments(what, argv):
     parser = argparse.ArgumentParser(prog=f"postprocess/{what}", description={
         "figures": "Draws every picture of a result folder into DIR/figures, as SVG and PNG.",
-        "report": "Writes DIR/report.html, one self-contained page, from a result folder."}[what])
-    parser.add_argument("folder", metavar="DIR", type=pathlib.Path, help="folder written by freestand run, fit or simulate")
+        "report": "Writes DIR/report.html, one self-contained page, from a result folder."}[what] + " Several folders: a "
+        "validation, as compared, diagnosed and compared again, in the order of the ladder, and the sweeps before and after.")
+    parser.add_argument("folders", metavar="DIR", type=pathlib.Path, nargs="+",
+                        help="folder written by freestand run, fit, simulate, compare or diagnose")
     parser.add_argument("--history", metavar="DIR", type=pathlib.Path, help="folder of one freestand simulate, shown beside the sweep")
     parser.add_argument("-o", "--output", metavar="PATH", type=pathlib.Path,
-                        help="where to write (default: DIR/figures, DIR/report.html)")
+                        help="where to write (default: figures or report.html in the last DIR)")
     return parser.parse_args(argv)
 
 
-def read(folder, history=None):
-    """What there is to draw: a list of Sweep and History values."""
+def read(folders, history=None):
+    """What there is to draw: one Validation where a folder holds a comparison or a diagnosis, else Sweep and History values."""
     from . import reading
-    folder = reading.existing_folder(folder)
-    found = []
-    if reading.is_sweep(folder) or not reading.is_history(folder):
-        found.append(reading.read_sweep(folder))
-    if reading.is_history(folder):
-        found.append(reading.read_history(folder))
+    from .reading_validation import COMPARISON, DIAGNOSIS, read_comparison, read_diagnosis
+    from .validation import Validation
+    folders = [reading.existing_folder(folder) for folder in folders]
+    held, found = Validation(), []
+    for folder in folders:
+        compared, diagnosed = (folder / COMPARISON).exists(), (folder / DIAGNOSIS).exists()
+        if compared:
+            held.comparisons.append(read_comparison(folder))
+        if diagnosed:
+            held.diagnoses.append(read_diagnosis(folder))
+        if reading.is_sweep(folder) or not (reading.is_history(folder) or compared or diagnosed):
+            held.sweeps.append(reading.read_sweep(folder))
+        if reading.is_history(folder):
+            found.append(reading.read_history(folder))
     if history is not None:
         found.append(reading.read_history(history))
-    return found
+    if held.comparisons or held.diagnoses:
+        return [held] + found
+    if len(folders) > 1:
+        raise Problem("several folders, and none of them holds a comparison or a diagnosis: give one folder, or add those of "
+                      "`freestand compare` and `freestand diagnose`", USAGE)
+    return held.sweeps + found
 
 
 def _figures(arguments):
     from . import pictures, style
-    results = read(arguments.folder, arguments.history)
-    target = arguments.output or arguments.folder / "figures"
+    results = read(arguments.folders, arguments.history)
+    target = arguments.output or arguments.folders[-1] / "figures"
     target.mkdir(parents=True, exist_ok=True)
     style.apply()
     captions = {}
@@ -50,8 +65,8 @@ def _figures(arguments):
 
 def _report(arguments):
     from . import report
-    results = read(arguments.folder, arguments.history)
-    target = arguments.output or arguments.folder / "report.html"
+    results = read(arguments.folders, arguments.history)
+    target = arguments.output or arguments.folders[-1] / "report.html"
     target.write_text(report.page(results), encoding="utf-8")
     print(target.resolve())
 

@@ -5,6 +5,7 @@ import re
 import warnings
 
 import matplotlib
+import numpy as np
 from matplotlib import font_manager, patheffects, ticker
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap
@@ -154,3 +155,28 @@ def plain_log(axis, crowd=1):
     axis.set_major_locator(ticker.LogLocator(base=10, subs=subs, numticks=20 if len(subs) > 1 else max(3, round(8 / crowd))))
     axis.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_locator(ticker.NullLocator())
+
+
+def error_scale(ax, which, values):
+    """An axis of errors: logarithmic where they span more than a factor of three, with room around them."""
+    values = np.asarray(values, float)
+    values = values[np.isfinite(values)]
+    axis, limits = getattr(ax, f"{which}axis"), getattr(ax, f"set_{which}lim")
+    if not values.size:
+        return
+    low, high = values.min(), values.max()
+    if low > 0 and high / low > 3:
+        getattr(ax, f"set_{which}scale")("log")
+        limits(low / 1.35, high * 1.35)
+        plain_log(axis)
+    else:
+        room = 0.12 * (high - low) or 0.1 * abs(high) or 1.0
+        limits(max(low - room, 0.0) if low >= 0 else low - room, high + room)
+
+
+def spread_on(ax, values, share):
+    """Heights in data units at which labels of these values keep apart by a share of the axis, linear or logarithmic."""
+    low, high = (math.log(limit) if ax.get_yscale() == "log" else limit for limit in ax.get_ylim())
+    height = [((math.log(value) if ax.get_yscale() == "log" else value) - low) / (high - low) for value in values]
+    placed = [low + at * (high - low) for at in spread(height, share, 1.0, 0.0)]
+    return [math.exp(at) for at in placed] if ax.get_yscale() == "log" else placed

@@ -1,0 +1,84 @@
+"""The candidates of a diagnosis by left-out error, with standard errors, between the base and the floor of the noise."""
+import numpy as np
+
+from .. import style, validation, words
+from ..validation import Validation
+from . import Picture
+
+order = 110
+SHOWN = 10
+CAPTION = ("Each point: root mean square error of one model on tests left out of its fit, in turn; bar: one standard error. Filled: the "
+           "best and those that chance does not part from it; hollow: worse by more than chance. Models at the grey line gain nothing over "
+           "the base.")
+
+
+def pictures(results):
+    if isinstance(results, Validation):
+        for k, diagnosis in enumerate(results.diagnoses):
+            if any(np.isfinite(row["error_left_out"]) for row in diagnosis.candidates):
+                yield _picture(diagnosis, k)
+
+
+def _picture(diagnosis, k):
+    rows = [row for row in diagnosis.candidates if np.isfinite(row["error_left_out"])]
+    rows.sort(key=lambda row: (not row["rival"], row["error_left_out"]))
+    more, rows = len(rows) - SHOWN, rows[:SHOWN]
+    value = np.array([row["error_left_out"] for row in rows])
+    error = np.nan_to_num([row["error_left_out_se"] for row in rows])
+    base, floor = diagnosis.base.get("error_left_out", np.nan), diagnosis.noise_floor
+    fig = style.figure(7.4, 1.75 + 0.27 * len(rows))
+    ax = fig.subplots()
+    y = -np.arange(len(rows), dtype=float)
+    for level, colour, form in ((base, style.GREY, "-"), (floor, style.GREEN, (0, (4, 2)))):
+        if np.isfinite(level):
+            ax.axvline(level, color=colour, lw=1.4, ls=form, zorder=1)
+    for i, row in enumerate(rows):
+        colour = style.BLUE if row["rival"] else style.MUTED
+        low = min(error[i], 0.7 * value[i])
+        ax.errorbar(value[i], y[i], xerr=[[low], [error[i]]], fmt="o", ms=7, color=colour, mfc=colour if row["rival"] else "white",
+                    mec=colour, mew=1.3, elinewidth=1.4, capsize=2.5, zorder=3)
+    style.error_scale(ax, "x", np.concatenate([value + error, value - np.minimum(error, 0.7 * value), [base, floor]]))
+    ax.set(yticks=y, ylim=(y[-1] - 0.6, 0.6), xlabel=f"error on left-out tests ({diagnosis.unit})")
+    ax.set_yticklabels([validation.effect(row["effect"]) for row in rows])
+    for label, row in zip(ax.get_yticklabels(), rows):
+        label.set(weight="bold" if row["rival"] else "normal", color=style.BLUE if row["rival"] else style.INK)
+    ax.tick_params(axis="y", length=0)
+    for i, row in enumerate(rows):
+        ax.text(1.02, y[i], validation.error(value[i]), transform=ax.get_yaxis_transform(), va="center", size=8.8,
+                color=style.BLUE if row["rival"] else style.MUTED, weight="bold" if row["rival"] else "normal")
+    style.grid(ax, "x")
+    _name_lines(ax, base, floor)
+    finding = _finding(diagnosis, rows)
+    lines = [f"green dashed: noise floor {validation.error(floor)}" if np.isfinite(floor) else "",
+             f"grey: base model {validation.error(base)}" if np.isfinite(base) else ""]
+    tail = f" {words.plural(more, 'more candidate')} not shown." if more > 0 else ""
+    style.headline(fig, finding, words.capitalised("; ".join(line for line in lines if line)) + "; bars: one standard error." + tail)
+    return Picture("ranking" if k == 0 else f"ranking_{k + 1}", fig, finding, CAPTION, "ranking")
+
+
+def _name_lines(ax, base, floor):
+    """The names of the two lines above them, where both have room."""
+    if not (np.isfinite(base) and np.isfinite(floor)):
+        return
+    at = [ax.transLimits.transform(ax.transScale.transform((level, 0)))[0] for level in (floor, base)]
+    if abs(at[1] - at[0]) < 0.3:
+        return
+    for level, place, text, colour in ((floor, at[0], "noise floor", style.GREEN), (base, at[1], "base model", style.MUTED)):
+        ax.text(level, 1.01, text, transform=ax.get_xaxis_transform(), color=colour, size=8.8, weight="bold", va="bottom",
+                ha="left" if place < 0.12 else "right" if place > 0.88 else "center")
+
+
+def _finding(diagnosis, rows):
+    best, base = rows[0]["error_left_out"], diagnosis.base.get("error_left_out", np.nan)
+    rivals = [row["effect"] for row in rows if row["rival"]]
+    if diagnosis.verdict == "none":
+        return "No candidate predicts the tests left out better than the base does"
+    if diagnosis.verdict == "ambiguous" and len(rivals) > 1:
+        return words.capitalised(f"{validation.effects(rivals)} predict equally well; every other candidate is worse")
+    if diagnosis.verdict == "unknown":
+        return (f"The best candidate, {validation.effect(rows[0]['effect'])}, still misses the tests left out by "
+                f"{validation.error(best)} {diagnosis.unit}")
+    others = [row["error_left_out"] for row in rows if row["effect"] != rows[0]["effect"]]
+    tail = f"; the next best leaves {validation.error(min(others))}" if others else ""
+    return (f"{words.capitalised(validation.effect(rows[0]['effect']))} brings the left-out error from {validation.error(base)} to "
+            f"{validation.error(best)} {diagnosis.unit}{tail}")

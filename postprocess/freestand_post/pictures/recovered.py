@@ -1,0 +1,107 @@
+"""The friction recovered from the measured motion itself, against what it may depend on, with the law of the best effect."""
+import numpy as np
+
+from .. import style, validation, words
+from ..validation import Validation
+from . import Picture
+
+order = 120
+COLUMNS, SHOWN = 3, 6
+TELLS = 0.05  # share of the scatter that a variable must explain to be worth a panel beyond the first three
+CAPTION = ("Recovered without any effect model: the friction coefficient that balances the measured acceleration while the block slips. "
+           "Points: mean of a bin; band: 95 % interval of that mean; dashed: the constant of the base model; line: the law of the best candidate "
+           "through the same samples. Percentages: share of the scatter that the variable explains; the most telling comes first.")
+
+
+def pictures(results):
+    if isinstance(results, Validation):
+        for k, diagnosis in enumerate(results.diagnoses):
+            tables = _telling(diagnosis)
+            if tables:
+                yield _picture(diagnosis, tables, k)
+
+
+def _telling(diagnosis):
+    known = [table for table in diagnosis.recovered if np.isfinite(table.columns["mu"]).sum() > 1]
+    known.sort(key=lambda table: -np.nan_to_num(table.share_explained))
+    telling = [table for table in known if table.share_explained >= TELLS]
+    return (telling if len(telling) > 4 else telling[:3] if len(telling) > 2 else known[:3])[:SHOWN]
+
+
+def _picture(diagnosis, tables, k):
+    rows = -(-len(tables) // COLUMNS)
+    fig = style.figure(8.6, 1.15 + 2.15 * rows)
+    axes = fig.subplots(rows, COLUMNS, sharey=True, squeeze=False)
+    for ax in axes.flat[len(tables):]:
+        ax.set_axis_off()
+    for ax, table in zip(axes.flat, tables):
+        _panel(ax, table, diagnosis.base_mu)
+    for row in axes:
+        row[0].set_ylabel("friction coefficient μ")
+    axes[0, 0].set_ylim(*_range(diagnosis, tables))
+    finding = _finding(diagnosis, tables)
+    law = tables[0].law_effects
+    line = (f"blue: law of {validation.effects(law)}; " if law and any(law) else "blue: law of the model; ") if _has_law(tables) else ""
+    left_out = len([table for table in diagnosis.recovered if np.isfinite(table.columns["mu"]).any()]) - len(tables)
+    style.headline(fig, finding, f"Black: recovered from the measured motion; band: 95 % interval; {line}dashed: base model."
+                   + (f" Not shown: {words.plural(left_out, 'variable')} that tell less." if left_out > 0 else ""))
+    return Picture("recovered" if k == 0 else f"recovered_{k + 1}", fig, finding, CAPTION, "recovered")
+
+
+def _has_law(tables):
+    return any("law" in table.columns and np.isfinite(table.columns["law"]).any() for table in tables)
+
+
+def _panel(ax, table, base):
+    mu, x = table.columns["mu"], table.centre
+    good = np.isfinite(mu) & np.isfinite(x)
+    low, high = table.columns["mu_lower"], table.columns["mu_upper"]
+    if np.isfinite(base):
+        ax.axhline(base, color=style.MUTED, lw=1.0, ls=(0, (4, 2)), zorder=1)
+    law = table.columns.get("law", np.full(mu.size, np.nan))
+    if table.variable == "direction":
+        error = np.vstack([mu - low, high - mu])[:, good]
+        ax.errorbar(x[good], mu[good], yerr=np.nan_to_num(np.maximum(error, 0)), fmt="o", ms=5.5, color=style.INK, elinewidth=6, alpha=0.9,
+                    ecolor="#cfd4da", mec="white", mew=0.8, zorder=3)
+        ax.plot(x[good], law[good], "_", ms=34, mew=2.2, color=style.BLUE, zorder=4)
+        ax.set(xlim=(-1.8, 1.8), xticks=[-1, 1], xticklabels=["towards −", "towards +"], xlabel=validation.short_variable(table))
+    else:
+        ax.fill_between(x[good], low[good], high[good], color="#dfe3e8", lw=0, zorder=0)
+        ax.plot(x[good], mu[good], "o", ms=4.5, color=style.INK, mec="white", mew=0.6, zorder=3)
+        ax.plot(x[good], law[good], color=style.BLUE, lw=2.0, zorder=2)
+        ax.set_xlabel(validation.variable(table))
+    share = table.share_explained
+    ax.set_title(f"{words.capitalised(validation.short_variable(table))}: {words.percent(max(share, 0.0))}" if np.isfinite(share) else
+                 words.capitalised(validation.short_variable(table)), size=8.8, weight="bold",
+                 color=style.INK if share >= TELLS else style.MUTED, pad=4)
+    style.grid(ax)
+
+
+def _range(diagnosis, tables):
+    """Holds every mean and law, and the bands where they are not far wider than those."""
+    shown = np.concatenate([[diagnosis.base_mu]] + [table.columns[key] for table in tables for key in ("mu", "law") if key in table.columns])
+    low, high = np.nanmin(shown), np.nanmax(shown)
+    room = max(0.35 * (high - low), 0.06 * max(abs(high), 1e-3))
+    return low - room, high + room
+
+
+def _finding(diagnosis, tables):
+    top = tables[0]
+    share = top.share_explained
+    if not share >= TELLS:
+        return "While it slips, the recovered friction follows none of these: what is missing, if anything, acts elsewhere"
+    mu, x = top.columns["mu"], top.centre
+    good = np.flatnonzero(np.isfinite(mu))
+    first, last = mu[good[0]], mu[good[-1]]
+    name = validation.short_variable(top)
+    if top.variable == "direction":
+        return f"Recovered friction is {words.number(last)} one way and {words.number(first)} the other"
+    ends = [good[:3], good[-3:]]
+    inner = [np.nanmean(mu[end]) for end in ends]
+    band = max(np.nanmean(top.columns["mu_upper"][end] - top.columns["mu_lower"][end]) / 2 for end in ends)
+    if abs(inner[1] - inner[0]) < max(band, 0.3 * (np.nanmax(mu) - np.nanmin(mu))):
+        return (f"Recovered friction scatters most with the {name} ({words.percent(share)} explained), without a clear trend")
+    verb = "falls" if inner[1] < inner[0] else "rises"
+    return (f"Recovered friction {verb} with the {name}: about {words.number(inner[0])} below "
+            f"{words.quantity(x[good[min(2, good.size - 1)]], top.unit)}, {words.number(inner[1])} above "
+            f"{words.quantity(x[good[-min(3, good.size)]], top.unit)}")

@@ -1,0 +1,101 @@
+"""Where a model fails: its error, and how fast it grows, against the phase of motion, the speed and the path slid."""
+import numpy as np
+
+from .. import style, validation, words
+from ..validation import Validation
+from . import Picture
+
+order = 140
+SHOWN = ("phase", "speed_mps", "path_m")
+FEW = 5  # points below which a bin says nothing
+ROWS = (("error_noise_units", "error\n({})"), ("growth_noise_units", "grows in 0.1 s by\n({})"))
+CAPTION = ("Above: root mean square error of all instants of a phase, or of a range of speed or path. Once the model is off it stays off, "
+           "so the lower row tells more: by how much the error changes within 0.1 s there. Dashed: what sensor noise alone would make.")
+
+
+def pictures(results):
+    if isinstance(results, Validation) and any(_tables(comparison) for comparison in results.comparisons):
+        yield _picture(results)
+
+
+def _tables(comparison):
+    """Of the calibration tests, or of those held out where there are no others."""
+    for role in ("calibration", "holdout"):
+        found = {table.variable: table for table in comparison.tables[role] if np.isfinite(table.columns["error_noise_units"]).any()}
+        if found:
+            return found
+    return {}
+
+
+def _picture(results):
+    shown = [name for name in SHOWN if any(name in _tables(comparison) for comparison in results.comparisons)]
+    fig = style.figure(8.6, 4.6)
+    axes = fig.subplots(2, max(len(shown), 1), sharey="row", sharex="col", squeeze=False)
+    values = {key: [np.array([1.0])] for key, _ in ROWS}
+    for comparison, label, colour in zip(results.comparisons, results.labels, results.colours):
+        for j, name in enumerate(shown):
+            table = _tables(comparison).get(name)
+            for i, (key, _) in enumerate(ROWS):
+                if table:
+                    values[key].append(_line(axes[i, j], table, key, colour, label))
+    for i, (key, label) in enumerate(ROWS):
+        for ax in axes[i]:
+            ax.axhline(1.0 if i == 0 else np.sqrt(2), color=style.MUTED, lw=1.0, ls=(0, (4, 2)), zorder=1)
+            style.grid(ax)
+        style.error_scale(axes[i, 0], "y", np.concatenate(values[key]))
+        for ax in axes[i, 1:]:
+            ax.set_yscale(axes[i, 0].get_yscale())
+        if axes[i, 0].get_yscale() == "log":
+            style.plain_log(axes[i, 0].yaxis, crowd=1.6)
+        axes[i, 0].set_ylabel(label.format(results.unit))
+    for j, name in enumerate(shown):
+        tables = [_tables(comparison)[name] for comparison in results.comparisons if name in _tables(comparison)]
+        _foot(axes[1, j], tables)
+    if len(results.comparisons) > 1:
+        handles, labels = axes[0, 0].get_legend_handles_labels()
+        axes[0, 0].legend(handles, labels, ncol=len(labels), frameon=False, loc="lower left", bbox_to_anchor=(-0.02, 1.0),
+                          borderaxespad=0, fontsize=8.8, handlelength=1.2)
+    fig.align_ylabels(axes[:, 0])
+    finding = _finding(results)
+    style.headline(fig, finding, "Error of the calibration tests (above), and how fast it grows (below); dashed: sensor noise alone.")
+    return Picture("where", fig, finding, CAPTION, "where")
+
+
+def _present(table, key):
+    return np.isfinite(table.columns[key]) & (np.nan_to_num(table.count) >= FEW)
+
+
+def _line(ax, table, key, colour, label):
+    good = _present(table, key)
+    value = np.where(good, table.columns[key], np.nan)
+    if table.label:
+        ax.plot(np.arange(value.size)[good], value[good], "o", ms=6, color=colour, mec="white", mew=0.6, label=label)
+        ax.vlines(np.arange(value.size)[good], 1.0, value[good], color=colour, lw=1.0, alpha=0.35)
+    else:
+        ax.plot(table.centre[good], value[good], "-o", ms=4, lw=1.6, color=colour, mec="white", mew=0.5, label=label)
+    return value
+
+
+def _foot(ax, tables):
+    table = tables[0]
+    if table.label:
+        used = np.flatnonzero(np.any([_present(other, "error_noise_units") for other in tables], axis=0))
+        ax.set(xticks=used, xlim=(-0.6 + used.min(initial=0), 0.6 + used.max(initial=0)))
+        ax.set_xticklabels([table.label[i] for i in used], rotation=90, size=8)
+        ax.set_xlabel("")
+    else:
+        ax.set_xlabel(validation.variable(table))
+
+
+def _finding(results):
+    table = _tables(results.first).get("phase")
+    key = "growth_noise_units"
+    if table is None or not _present(table, key).any():
+        return "Where the model is off"
+    value = np.where(_present(table, key), table.columns[key], np.nan)
+    top = int(np.nanargmax(value))
+    if value[top] < 1.2 * np.sqrt(2):
+        return "In no phase does the error grow faster than sensor noise explains"
+    by = "" if len(results.comparisons) == 1 else " of the base model" if results.labels[0] == "base" else f" ({results.labels[0]})"
+    return (f"The error{by} grows fastest in the phase “{table.label[top]}”, by {validation.error(value[top])} {results.unit} within 0.1 s"
+            if table.label else words.capitalised(f"the error{by} against speed and path"))

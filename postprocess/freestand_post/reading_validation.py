@@ -1,0 +1,256 @@
+"""comparison.json and diagnosis.json as plain values; null is nan. Whatever cannot be used is one Problem with the file in it."""
+import json
+import pathlib
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from .problem import Problem
+
+COMPARISON, DIAGNOSIS = "comparison.json", "diagnosis.json"
+CHANNELS = ("slip_m", "rotation_rad", "block_acceleration_mps2")
+
+
+@dataclass
+class Channel:
+    name: str
+    noise: float             # standard deviation of the sensor
+    measured: np.ndarray
+    model: np.ndarray
+    residual: np.ndarray
+    spread: np.ndarray       # standard deviation that the floor's noise makes
+
+
+@dataclass
+class MeasuredHistory:
+    id: str
+    role: str
+    time: np.ndarray
+    floor: np.ndarray        # m/s²
+    channels: list
+
+
+@dataclass
+class Table:
+    """Something against a variable, by bins: of the error, or of the recovered friction."""
+    variable: str
+    unit: str
+    label: list              # names of the bins, where they have names
+    edge: np.ndarray
+    centre: np.ndarray
+    count: np.ndarray
+    columns: dict            # name -> values
+    share_explained: float = np.nan
+    law_effects: list = field(default_factory=list)
+
+
+@dataclass
+class Comparison:
+    folder: pathlib.Path
+    raw: dict
+    name: str
+    effects: list
+    unit: str                # noise units | ln ratio | Brier
+    findings: list
+    tests: list              # of dict
+    calibration: dict        # error, error_expected, tests ...; empty without such tests
+    holdout: dict
+    parameters: list         # of dict
+    peak_ratio: dict
+    histories: list
+    tables: dict             # calibration, holdout -> [Table]
+    ladder: list             # of dict
+
+
+@dataclass
+class Diagnosis:
+    folder: pathlib.Path
+    raw: dict
+    name: str
+    verdict: str
+    effects: list
+    unit: str
+    sentences: list
+    findings: list
+    base: dict
+    candidates: list         # of dict, best first
+    noise_floor: float
+    base_mu: float
+    recovered: list          # of Table
+    suggestion: dict         # empty where nothing is suggested
+
+
+class _Node:
+    """One object of a file; every access that finds something else than it should is a Problem that names the key."""
+
+    def __init__(self, path, value, where=""):
+        self.path, self.value, self.where = path, value, where
+        if not isinstance(value, dict):
+            self.wrong("", "an object")
+
+    def wrong(self, key, wanted):
+        place = f"{self.where}{key}".rstrip(".") or "the whole"
+        raise Problem(f"{self.path}: {place} is not {wanted}: the file is damaged or of another version of freestand; run "
+                      f"`freestand {'diagnose' if self.path.name == DIAGNOSIS else 'compare'}` again")
+
+    def number(self, key, default=np.nan):
+        value = self.value.get(key)
+        if value is None:
+            return default
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            self.wrong(key, "a number")
+        return float(value)
+
+    def text(self, key, default=""):
+        value = self.value.get(key)
+        if value is None:
+            return default
+        return value if isinstance(value, str) else self.wrong(key, "a text")
+
+    def items(self, key, needed=False):
+        value = self.value.get(key)
+        if value is None and not needed:
+            return []
+        return value if isinstance(value, list) else self.wrong(key, "a list")
+
+    def texts(self, key):
+        return [item if isinstance(item, str) else self.wrong(key, "a list of texts") for item in self.items(key)]
+
+    def numbers(self, key, size=None):
+        try:
+            values = np.array([np.nan if item is None else item for item in self.items(key)], dtype=float)
+        except (TypeError, ValueError):
+            self.wrong(key, "a list of numbers")
+        if values.ndim != 1 or (size is not None and values.size not in (0, size)):
+            self.wrong(key, f"a list of {size} numbers")
+        return values if values.size or not size else np.full(size, np.nan)
+
+    def node(self, key):
+        """None where the key is null or missing."""
+        value = self.value.get(key)
+        return None if value is None else _Node(self.path, value, f"{self.where}{key}.")
+
+    def nodes(self, key, needed=False):
+        return [_Node(self.path, item, f"{self.where}{key}[{i}].") for i, item in enumerate(self.items(key, needed))]
+
+    def row(self, numbers="", texts="", flags=""):
+        row = {key: self.number(key) for key in numbers.split()}
+        row.update({key: self.text(key) for key in texts.split()})
+        row.update({key: self.value.get(key) is True for key in flags.split()})
+        return row
+
+    def interval(self, key):
+        pair = self.numbers(key)
+        return (float(pair[0]), float(pair[1])) if pair.size == 2 else (np.nan, np.nan)
+
+
+def _root(folder, name, form):
+    path = pathlib.Path(folder) / name
+    try:
+        value = json.loads(path.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as why:
+        raise Problem(f"{path} is not readable as JSON ({str(why).splitlines()[0][:120]}): it is truncated or still being written; "
+                      f"run `freestand {'compare' if name == COMPARISON else 'diagnose'}` again") from None
+    root = _Node(path, value)
+    if root.value.get("format") != form:
+        raise Problem(f'{path} says format "{root.value.get("format", "")}", not "{form}": it is another file, or of another '
+                      "version of freestand")
+    return root
+
+
+def _table(node, columns):
+    label = node.texts("label")
+    size = len(label) or len(node.items("centre"))
+    table = Table(node.text("variable"), node.text("unit", "1"), label, node.numbers("edge"), node.numbers("centre", size),
+                  node.numbers("count", size), {key: node.numbers(key, size) for key in columns.split()},
+                  node.number("share_explained"))
+    law = node.node("law")
+    if law:
+        table.columns["law"] = law.numbers("mu", size)
+        table.law_effects = law.texts("effects") or [law.text("effect")]
+    return table
+
+
+def _history(node):
+    time = node.numbers("time_s")
+    channels = []
+    for name in CHANNELS:
+        found = node.node(name)
+        if found:
+            channels.append(Channel(name, found.number("noise"), *(found.numbers(key, time.size) for key in
+                                                                   ("measured", "model", "residual", "spread"))))
+    return MeasuredHistory(node.text("id"), node.text("role"), time, node.numbers("floor_acceleration_mps2", time.size), channels)
+
+
+def _test(node):
+    row = node.row("error_noise_units error_relative error_explained error_expected score overturned_probability floor_peak_g",
+                   "id role kind outcome source")
+    row["overturned_measured"] = node.value.get("overturned_measured")
+    row["peaks"] = {peak.text("name"): (peak.number("measured"), peak.number("model")) for peak in node.nodes("peaks")}
+    return row
+
+
+def _role(node):
+    return node.row("error_noise_units error_relative error error_expected tests") if node else {}
+
+
+def _ladder(root):
+    return [node.row("error_calibration error_holdout noise_floor", "step") for node in root.nodes("ladder")]
+
+
+def read_comparison(folder):
+    root = _root(folder, COMPARISON, "freestand-comparison/1")
+    tests = [_test(node) for node in root.nodes("tests", needed=True)]
+    parameters = []
+    for node in root.nodes("parameters"):
+        parameters.append(node.row("value lower upper", "name unit", "calibrated") | {"interval": node.interval("interval")})
+    ratio, tables = root.node("peak_ratio"), root.node("error_tables")
+    columns = "error_noise_units growth_noise_units bias_noise_units"
+    return Comparison(
+        pathlib.Path(folder), root.value, _name(root, folder), root.texts("effects"), root.text("error_unit", "noise units"),
+        root.texts("findings"), tests, _role(root.node("calibration")), _role(root.node("holdout")), parameters,
+        ratio.row("count ratio bias_ln scatter_ln") if ratio else {}, [_history(node) for node in root.nodes("histories")],
+        {role: [_table(node, columns) for node in tables.nodes(role)] if tables else [] for role in ("calibration", "holdout")},
+        _ladder(root))
+
+
+def _candidate(node):
+    row = node.row("error_calibration error_left_out error_left_out_se error_explained delta_bic difference difference_se",
+                   "effect", "rival visible")
+    row["effects"] = node.texts("effects") or [part for part in row["effect"].split("+") if part]
+    parameters = node.node("parameters")
+    row["parameters"] = []
+    for name in parameters.value if parameters else ():
+        found = parameters.node(name)
+        if found:
+            row["parameters"].append(found.row("value", "unit") | {"name": name, "interval": found.interval("interval")})
+    return row
+
+
+def read_diagnosis(folder):
+    root = _root(folder, DIAGNOSIS, "freestand-diagnosis/1")
+    verdict = root.text("verdict")
+    if verdict not in ("none", "missing", "ambiguous", "unknown"):
+        root.wrong("verdict", "one of none, missing, ambiguous, unknown")
+    base, recovered, suggestion = root.node("base"), root.node("recovered_force"), root.node("suggested_motion")
+    columns = "mu mu_deviation mu_lower mu_upper"
+    suggested = {}
+    if suggestion:
+        motion, specimen = suggestion.node("motion"), suggestion.value.get("specimen")
+        suggested = suggestion.row("separation_noise_units", "sentence") | {
+            "between": suggestion.texts("between"), "specimen": specimen if isinstance(specimen, str) else "",
+            "motion": motion.row("period_s peak_acceleration_g vertical_peak_acceleration_g", "pulse") if motion else {}}
+    return Diagnosis(
+        pathlib.Path(folder), root.value, _name(root, folder), verdict, root.texts("effects"), root.text("error_unit", "noise units"),
+        root.texts("sentences"), root.texts("findings"), _candidate(base) if base else {},
+        [_candidate(node) for node in root.nodes("candidates", needed=True)], root.number("noise_floor"),
+        recovered.number("base_mu") if recovered else np.nan,
+        [_table(node, columns) for node in recovered.nodes("tables")] if recovered else [], suggested)
+
+
+def _name(root, folder):
+    given = root.text("name")
+    if given:
+        return given
+    path = pathlib.Path(root.text("measurements"))
+    return path.parent.name or path.stem or pathlib.Path(folder).resolve().name

@@ -1,0 +1,107 @@
+"""A validation: comparisons in the order of the ladder, what a diagnosis said between them, and sweeps before and after."""
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from . import style, words
+
+
+@dataclass
+class Validation:
+    comparisons: list = field(default_factory=list)
+    diagnoses: list = field(default_factory=list)
+    sweeps: list = field(default_factory=list)
+
+    @property
+    def first(self):
+        return self.comparisons[0] if self.comparisons else None
+
+    @property
+    def last(self):
+        return self.comparisons[-1] if self.comparisons else None
+
+    @property
+    def diagnosis(self):
+        return self.diagnoses[0] if self.diagnoses else None
+
+    @property
+    def name(self):
+        return (self.first or self.diagnosis).name
+
+    @property
+    def unit(self):
+        return (self.first or self.diagnosis).unit
+
+    @property
+    def labels(self):
+        """What the comparisons are called, by their effects; by folder where two have the same."""
+        names = [model_name(comparison.effects) for comparison in self.comparisons]
+        return [name if names.count(name) == 1 else comparison.folder.resolve().name
+                for name, comparison in zip(names, self.comparisons)]
+
+    @property
+    def colours(self):
+        """The last model blue, the first vermilion, those between in other hues."""
+        n = len(self.comparisons)
+        between = [style.ORANGE, style.PURPLE, style.SKY]
+        return [style.BLUE if i == n - 1 else style.VERMILION if i == 0 else between[(i - 1) % 3] for i in range(n)]
+
+    def ladder(self):
+        """[{step, error_calibration, error_holdout, noise_floor}] of the folders, or of the study where it holds more."""
+        shown = [{"step": label, "error_calibration": c.calibration.get("error", np.nan),
+                  "error_holdout": c.holdout.get("error", np.nan), "noise_floor": c.calibration.get("error_expected", np.nan)}
+                 for label, c in zip(self.labels, self.comparisons)]
+        kept = [dict(row, step=model_name([] if row["step"] == "base" else [row["step"]])) for row in self.last.ladder] if self.last else []
+        return kept if len(kept) > len(shown) else shown
+
+    def after_found(self):
+        """Whether the last comparison has an effect that the first lacks."""
+        return len(self.comparisons) > 1 and bool(set(self.last.effects) - set(self.first.effects))
+
+
+def effect(name):
+    return name.replace("_", " ").replace("+", " + ")
+
+
+def effects(names, last=" and "):
+    shown = [effect(name) for name in names]
+    return shown[0] if len(shown) == 1 else ", ".join(shown[:-1]) + last + shown[-1] if shown else ""
+
+
+def model_name(names):
+    return f"with {effects(names)}" if names else "base"
+
+
+def by(label):
+    """A model in a sentence: "with the base model", "with static friction", "in FOLDER"."""
+    return "with the base model" if label == "base" else label if label.startswith("with ") else f"in {label}"
+
+
+def error(value, unit=""):
+    """"17.4", "1.03", "0.081", with its unit if wanted."""
+    if not math.isfinite(value):
+        return "–"
+    return words.number(value, 2 if value >= 100 else 3) + (f" {unit}" if unit else "")
+
+
+def parameter(name):
+    """"effects.static_friction.ratio" -> "static friction: ratio", "friction.mu" -> "friction: μ"."""
+    parts = name.removeprefix("effects.").split(".")
+    last = words.split_unit(parts[-1])[0]
+    last = {"mu": "μ", "mu_k": "μk", "mu_s": "μs"}.get(last, last.replace("_", " "))
+    return ": ".join([" ".join(parts[:-1]).replace("_", " "), last]) if len(parts) > 1 else last
+
+
+VARIABLES = {"phase": "phase of motion", "speed_mps": "sliding speed", "path_m": "path slid", "position_m": "position",
+             "direction": "direction of sliding", "normal_g": "normal force over mass", "time_s": "time",
+             "floor_g": "floor acceleration"}
+
+
+def variable(table):
+    """Axis label of the variable of a table."""
+    return words.with_unit(VARIABLES.get(table.variable, words.split_unit(table.variable)[0].replace("_", " ")), table.unit)
+
+
+def short_variable(table):
+    return VARIABLES.get(table.variable, words.split_unit(table.variable)[0].replace("_", " "))
