@@ -7,10 +7,11 @@ import jinja2
 import numpy as np
 from markupsafe import Markup
 
-from . import pictures, style, words
+from . import pictures, style, validation, validation_report, words
 from .model import kept_fits
 from .pictures.coverage import classes, swept
 from .reading import COUNTED, FITTED, OUTCOMES, REJECTED, TOO_FEW, Sweep
+from .validation import Validation
 
 HERE = pathlib.Path(__file__).parent
 PROVENANCE = (("created_utc", "written (UTC)"), ("version", "freestand"), ("git_commit", "commit"), ("command", "command"),
@@ -18,20 +19,33 @@ PROVENANCE = (("created_utc", "written (UTC)"), ("version", "freestand"), ("git_
 
 
 def page(results):
-    """Html text from a list of Sweep and History values."""
+    """Html text from a list of Sweep and History values, or of a Validation before them."""
     style.apply()
+    figures = [_figure(picture) for result in results for picture in pictures.draw(result)]
+    if isinstance(results[0], Validation):
+        figures += [_figure(picture) for picture in _of_one_sweep(results[0])]
+        return _render("validation.html", validation_report.content(results[0], figures))
     sweep = next((result for result in results if isinstance(result, Sweep)), None)
     history = next((result for result in results if not isinstance(result, Sweep)), None)
-    drawn = [picture for result in results for picture in pictures.draw(result)]
+    return _render("page.html", _content(sweep, history, figures))
+
+
+def _of_one_sweep(results):
+    """The main fragility and overturning, where a validation comes with a single sweep."""
+    if len(results.sweeps) != 1:
+        return []
+    wanted = [f"fragility_{edp.name}" for edp in results.sweeps[0].continuous()[:1]] + ["overturning"]
+    return [picture for picture in pictures.draw(results.sweeps[0]) if picture.name in wanted]
+
+
+def _render(template, content):
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True, trim_blocks=True, lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)
-    environment.filters.update(number=words.number, p=words.p_value, fixed=words.fixed, count=words.count)
-    return environment.get_template("page.html").render(
-        css=Markup((HERE / "page.css").read_text(encoding="utf-8")), **_content(sweep, history, drawn))
+    environment.filters.update(number=words.number, p=words.p_value, fixed=words.fixed, count=words.count, error=validation.error)
+    return environment.get_template(template).render(css=Markup((HERE / "page.css").read_text(encoding="utf-8")), **content)
 
 
-def _content(sweep, history, drawn):
-    figures = [_figure(picture) for picture in drawn]
+def _content(sweep, history, figures):
     edps = [edp.name for edp in sweep.continuous()] if sweep else []
     main = edps[0] if edps else ""
     of = {name: [figure for figure in figures if figure["edp"] == name] for name in edps}
@@ -58,7 +72,7 @@ def _title(sweep, history):
 
 def _figure(picture):
     svg = style.inline_svg(style.svg(picture.figure), picture.name.replace("_", "-"), picture.finding)
-    return {"name": picture.name, "edp": picture.edp, "svg": Markup(svg), "caption": picture.caption}
+    return {"name": picture.name, "edp": picture.edp, "section": picture.section, "finding": picture.finding, "svg": Markup(svg), "caption": picture.caption}
 
 
 def _headline(sweep, main):

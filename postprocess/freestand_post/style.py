@@ -158,7 +158,7 @@ def plain_log(axis, crowd=1):
 
 
 def error_scale(ax, which, values):
-    """An axis of errors: logarithmic where they span more than a factor of three, with room around them."""
+    """An axis of errors: logarithmic where they span more than a factor of three, else so wide that small differences look small."""
     values = np.asarray(values, float)
     values = values[np.isfinite(values)]
     axis, limits = getattr(ax, f"{which}axis"), getattr(ax, f"set_{which}lim")
@@ -170,7 +170,7 @@ def error_scale(ax, which, values):
         limits(low / 1.35, high * 1.35)
         plain_log(axis)
     else:
-        room = 0.12 * (high - low) or 0.1 * abs(high) or 1.0
+        room = max(0.12 * (high - low), 0.2 * abs(high) - 0.5 * (high - low)) or 1.0
         limits(max(low - room, 0.0) if low >= 0 else low - room, high + room)
 
 

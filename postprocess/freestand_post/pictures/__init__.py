@@ -1,5 +1,5 @@
 """One file per picture. Each module has `order` (place on the page) and `pictures(results)`, which yields Picture values;
-`results` is a Sweep or a History, and a module yields nothing for what it does not draw."""
+`results` is a Sweep, a History or a Validation, and a module yields nothing for what it does not draw."""
 import importlib
 import pkgutil
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ class Picture:
     figure: Figure
     finding: str     # one sentence, the title
     caption: str     # how to read it
-    section: str     # sweep | history
+    section: str     # of the page: sweep | history, and of a validation: ladder | ranking | recovered | worst | where | peaks ...
     edp: str = ""    # of which demand parameter, if of one
 
 
@@ -23,5 +23,5 @@ def modules():
 
 
 def draw(results):
-    """All pictures of a Sweep or a History, in the order of the page."""
+    """All pictures of a Sweep, a History or a Validation, in the order of the page."""
     return [picture for module in modules() for picture in module.pictures(results)]

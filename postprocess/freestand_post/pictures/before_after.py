@@ -60,7 +60,7 @@ def names(results):
 def _picture(before, after):
     common, over = _common(before, after), _both_overturn(before, after)
     panels = (len(common[2]) if common else 0) + over
-    fig = style.figure(max(3.0 * panels, 4.2) if panels < 3 else 8.6, 3.9)
+    fig = style.figure(7.4 if panels < 3 else 8.6, 3.9)
     axes = fig.subplots(1, panels, sharey=True, squeeze=False)[0]
     sides = list(zip((before, after), (style.VERMILION, style.BLUE), names([before, after])))
     for k, (i, j) in enumerate(common[2] if common else ()):

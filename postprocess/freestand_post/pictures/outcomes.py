@@ -32,12 +32,11 @@ def _picture(results, k, tests):
     fig = style.figure(7.4, 3.9)
     ax, strip = fig.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [5, 0.8]})
     ax.axhspan(0.5, 1.04, color="#fdf1e9", lw=0, zorder=0)
-    ax.plot(x[~over], p[~over], "o", ms=6, mfc="none", mec=style.BLUE, mew=1.3, label="stood", zorder=3)
-    ax.plot(x[over], p[over], "o", ms=6, color=style.VERMILION, mec="white", mew=0.6, label="overturned", zorder=3)
+    ax.plot(x[~over], p[~over], "o", ms=6, mfc="none", mec=style.BLUE, mew=1.3, label="measured: stood", zorder=3)
+    ax.plot(x[over], p[over], "o", ms=6, color=style.VERMILION, mec="white", mew=0.6, label="measured: overturned", zorder=3)
     ax.axhline(0.5, color=style.MUTED, lw=0.8, ls=(0, (1, 2)))
     ax.set(ylim=(-0.04, 1.04), ylabel="P(overturned) of the model")
-    ax.legend(frameon=False, loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncol=2, borderaxespad=0, fontsize=8.8, handletextpad=0.3,
-              title="measured:", title_fontsize=8.8, alignment="left")
+    ax.legend(frameon=False, loc="lower left", bbox_to_anchor=(-0.01, 1.0), ncol=2, borderaxespad=0, fontsize=8.8, handletextpad=0.3)
     strip.vlines(x[over], 0.5, 1, color=style.VERMILION, lw=1.2)
     strip.vlines(x[~over], 0, 0.5, color=style.BLUE, lw=1.2)
     strip.set(ylim=(0, 1), yticks=[0.25, 0.75], yticklabels=["stood", "overturned"],

@@ -38,7 +38,7 @@ def _ratio(measured, model):
 
 def _picture(results, name, found):
     factor, title, unit = QUANTITY[name]
-    fig = style.figure(6.0, 5.6)
+    fig = style.figure(7.4, 5.8)
     ax = fig.subplots()
     every = factor * np.concatenate([np.concatenate([measured, model[model > 0]]) for measured, model in found])
     low, high = every.min() / 1.5, every.max() * 1.5
@@ -56,7 +56,8 @@ def _picture(results, name, found):
            xlabel=f"measured {title} ({unit})", ylabel=f"predicted {title} ({unit})")
     for axis in (ax.xaxis, ax.yaxis):
         style.plain_log(axis, crowd=1.4)
-    ax.legend(frameon=False, loc="upper left", fontsize=8.8, title="predicted over measured", title_fontsize=8.8, alignment="left",
+    above = np.median(np.concatenate([model / measured for measured, model in found])) > 1
+    ax.legend(frameon=False, loc="lower right" if above else "upper left", fontsize=8.8, title="predicted over measured", title_fontsize=8.8, alignment="left",
               handletextpad=0.3, borderaxespad=0.2)
     finding = _finding(results, found, title)
     style.headline(fig, finding, "Black: right; grey band: a factor of two; dashed: mean of predicted over measured.")
@@ -68,10 +69,8 @@ def _finding(results, found, title):
     bias, scatter = _ratio(measured, model)
     if not np.isfinite(bias):
         return f"The model does not move in any of the {words.plural(measured.size, 'test')}"
-    step = "The model" if len(found) == 1 else f"The model {validation.by(results.labels[-1])}"
     share = f"predicts {words.number(bias)} of the measured {title}" if abs(np.log(bias)) > 0.1 else f"predicts the {title} without bias"
-    before = ""
-    if len(found) > 1 and np.isfinite(_ratio(*found[0])[0]):
-        before = f", {validation.by(results.labels[0])} {words.number(_ratio(*found[0])[0])}"
-    tail = f", with a scatter of {words.number(scatter)} in ln" if np.isfinite(scatter) and not before else ""
-    return f"{step} {share}{before}{tail}"
+    before = _ratio(*found[0])[0]
+    if len(found) > 1 and np.isfinite(before):
+        return f"{words.capitalised(validation.by(results.labels[-1]))} the model {share}, {validation.by(results.labels[0])} {words.number(before)}"
+    return f"The model {share}" + (f", with a scatter of {words.number(scatter)} in ln" if np.isfinite(scatter) else "")

@@ -23,9 +23,24 @@ def pictures(results):
 
 def _telling(diagnosis):
     known = [table for table in diagnosis.recovered if np.isfinite(table.columns["mu"]).sum() > 1]
-    known.sort(key=lambda table: -np.nan_to_num(table.share_explained))
-    telling = [table for table in known if table.share_explained >= TELLS]
+    known.sort(key=lambda table: (not _varies(table), -np.nan_to_num(table.share_explained)))
+    telling = [table for table in known if table.share_explained >= TELLS or _varies(table)]
     return (telling if len(telling) > 4 else telling[:3] if len(telling) > 2 else known[:3])[:SHOWN]
+
+
+def _varies(table):
+    """Whether the law of the best candidate is a function of this variable."""
+    law = table.columns.get("law", np.zeros(0))
+    law = law[np.isfinite(law)]
+    return law.size > 1 and np.ptp(law) > 1e-6 * np.abs(law).max()
+
+
+def _laws(diagnosis, tables):
+    """Of each panel: its law where one is to be drawn. A law of one variable says nothing in the panels of the others."""
+    drawn = [table.columns.get("law", np.full(table.centre.size, np.nan)) for table in tables]
+    some = any(_varies(table) for table in diagnosis.recovered)
+    return [law if diagnosis.verdict != "none" and (_varies(table) or not some) else np.full(law.size, np.nan)
+            for law, table in zip(drawn, tables)]
 
 
 def _picture(diagnosis, tables, k):
@@ -34,31 +49,27 @@ def _picture(diagnosis, tables, k):
     axes = fig.subplots(rows, COLUMNS, sharey=True, squeeze=False)
     for ax in axes.flat[len(tables):]:
         ax.set_axis_off()
-    for ax, table in zip(axes.flat, tables):
-        _panel(ax, table, diagnosis.base_mu)
+    laws = _laws(diagnosis, tables)
+    for ax, table, law in zip(axes.flat, tables, laws):
+        _panel(ax, table, law, diagnosis.base_mu)
     for row in axes:
         row[0].set_ylabel("friction coefficient μ")
-    axes[0, 0].set_ylim(*_range(diagnosis, tables))
+    axes[0, 0].set_ylim(*_range(diagnosis, tables, laws))
     finding = _finding(diagnosis, tables)
-    law = tables[0].law_effects
-    line = (f"blue: law of {validation.effects(law)}; " if law and any(law) else "blue: law of the model; ") if _has_law(tables) else ""
+    law = [name for name in tables[0].law_effects if name]
+    line = f"blue: law of {validation.effects(law) or 'the model'}; " if any(np.isfinite(law).any() for law in laws) else ""
     left_out = len([table for table in diagnosis.recovered if np.isfinite(table.columns["mu"]).any()]) - len(tables)
     style.headline(fig, finding, f"Black: recovered from the measured motion; band: 95 % interval; {line}dashed: base model."
                    + (f" Not shown: {words.plural(left_out, 'variable')} that tell less." if left_out > 0 else ""))
     return Picture("recovered" if k == 0 else f"recovered_{k + 1}", fig, finding, CAPTION, "recovered")
 
 
-def _has_law(tables):
-    return any("law" in table.columns and np.isfinite(table.columns["law"]).any() for table in tables)
-
-
-def _panel(ax, table, base):
+def _panel(ax, table, law, base):
     mu, x = table.columns["mu"], table.centre
     good = np.isfinite(mu) & np.isfinite(x)
     low, high = table.columns["mu_lower"], table.columns["mu_upper"]
     if np.isfinite(base):
         ax.axhline(base, color=style.MUTED, lw=1.0, ls=(0, (4, 2)), zorder=1)
-    law = table.columns.get("law", np.full(mu.size, np.nan))
     if table.variable == "direction":
         error = np.vstack([mu - low, high - mu])[:, good]
         ax.errorbar(x[good], mu[good], yerr=np.nan_to_num(np.maximum(error, 0)), fmt="o", ms=5.5, color=style.INK, elinewidth=6, alpha=0.9,
@@ -77,9 +88,9 @@ def _panel(ax, table, base):
     style.grid(ax)
 
 
-def _range(diagnosis, tables):
+def _range(diagnosis, tables, laws):
     """Holds every mean and law, and the bands where they are not far wider than those."""
-    shown = np.concatenate([[diagnosis.base_mu]] + [table.columns[key] for table in tables for key in ("mu", "law") if key in table.columns])
+    shown = np.concatenate([[diagnosis.base_mu]] + [table.columns["mu"] for table in tables] + laws)
     low, high = np.nanmin(shown), np.nanmax(shown)
     room = max(0.35 * (high - low), 0.06 * max(abs(high), 1e-3))
     return low - room, high + room
@@ -88,6 +99,9 @@ def _range(diagnosis, tables):
 def _finding(diagnosis, tables):
     top = tables[0]
     share = top.share_explained
+    if _varies(top) and diagnosis.verdict != "none":
+        return (f"Against the {validation.short_variable(top)}, the law of {validation.effects(top.law_effects)} beside the friction "
+                "recovered from the motion itself")
     if not share >= TELLS:
         return "While it slips, the recovered friction follows none of these: what is missing, if anything, acts elsewhere"
     mu, x = top.columns["mu"], top.centre

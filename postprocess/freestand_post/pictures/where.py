@@ -32,12 +32,13 @@ def _picture(results):
     fig = style.figure(8.6, 4.6)
     axes = fig.subplots(2, max(len(shown), 1), sharey="row", sharex="col", squeeze=False)
     values = {key: [np.array([1.0])] for key, _ in ROWS}
+    used = {name: _used(results, name) for name in shown}
     for comparison, label, colour in zip(results.comparisons, results.labels, results.colours):
         for j, name in enumerate(shown):
             table = _tables(comparison).get(name)
             for i, (key, _) in enumerate(ROWS):
                 if table:
-                    values[key].append(_line(axes[i, j], table, key, colour, label))
+                    values[key].append(_line(axes[i, j], table, key, used[name], colour, label))
     for i, (key, label) in enumerate(ROWS):
         for ax in axes[i]:
             ax.axhline(1.0 if i == 0 else np.sqrt(2), color=style.MUTED, lw=1.0, ls=(0, (4, 2)), zorder=1)
@@ -49,8 +50,7 @@ def _picture(results):
             style.plain_log(axes[i, 0].yaxis, crowd=1.6)
         axes[i, 0].set_ylabel(label.format(results.unit))
     for j, name in enumerate(shown):
-        tables = [_tables(comparison)[name] for comparison in results.comparisons if name in _tables(comparison)]
-        _foot(axes[1, j], tables)
+        _foot(axes[1, j], next(_tables(comparison)[name] for comparison in results.comparisons if name in _tables(comparison)), used[name])
     if len(results.comparisons) > 1:
         handles, labels = axes[0, 0].get_legend_handles_labels()
         axes[0, 0].legend(handles, labels, ncol=len(labels), frameon=False, loc="lower left", bbox_to_anchor=(-0.02, 1.0),
@@ -65,24 +65,28 @@ def _present(table, key):
     return np.isfinite(table.columns[key]) & (np.nan_to_num(table.count) >= FEW)
 
 
-def _line(ax, table, key, colour, label):
+def _used(results, name):
+    """Positions of the named bins in which any model has points."""
+    tables = [_tables(comparison)[name] for comparison in results.comparisons if name in _tables(comparison)]
+    return np.flatnonzero(np.any([_present(table, "error_noise_units") for table in tables if table.count.size == tables[0].count.size], axis=0))
+
+
+def _line(ax, table, key, used, colour, label):
     good = _present(table, key)
     value = np.where(good, table.columns[key], np.nan)
     if table.label:
-        ax.plot(np.arange(value.size)[good], value[good], "o", ms=6, color=colour, mec="white", mew=0.6, label=label)
-        ax.vlines(np.arange(value.size)[good], 1.0, value[good], color=colour, lw=1.0, alpha=0.35)
+        used = used[used < value.size]
+        ax.plot(np.arange(used.size), value[used], "o", ms=6, color=colour, mec="white", mew=0.6, label=label)
+        ax.vlines(np.arange(used.size), 1.0, value[used], color=colour, lw=1.0, alpha=0.35)
     else:
         ax.plot(table.centre[good], value[good], "-o", ms=4, lw=1.6, color=colour, mec="white", mew=0.5, label=label)
     return value
 
 
-def _foot(ax, tables):
-    table = tables[0]
+def _foot(ax, table, used):
     if table.label:
-        used = np.flatnonzero(np.any([_present(other, "error_noise_units") for other in tables], axis=0))
-        ax.set(xticks=used, xlim=(-0.6 + used.min(initial=0), 0.6 + used.max(initial=0)))
+        ax.set(xticks=np.arange(used.size), xlim=(-0.6, used.size - 0.4))
         ax.set_xticklabels([table.label[i] for i in used], rotation=90, size=8)
-        ax.set_xlabel("")
     else:
         ax.set_xlabel(validation.variable(table))
 

@@ -27,8 +27,15 @@ def pictures(results):
             if history.time.size > 1 and history.channels:
                 seen.setdefault(history.id, []).append((k, history))
     ranked = sorted(seen.values(), key=lambda found: (found[0][0], -len(found)))
+    ranked = [found for found in ranked if found[0][0] == 0 or _missed(results, *found[0])]
     for found in ranked[:SHOWN]:
         yield _picture(results, [found[0], found[-1]] if len(found) > 1 else found)
+
+
+def _missed(results, k, history):
+    """Whether a later model misses a test, that the first did better, by more than noise."""
+    test = next((test for test in results.comparisons[k].tests if test["id"] == history.id), None)
+    return test is None or not test["error_explained"] < 1.5 * test["error_expected"]
 
 
 def _picture(results, found):
@@ -95,4 +102,5 @@ def _finding(results, found):
     relative = tests[0].get("error_relative", np.nan)
     share = f", {words.percent(relative)} of the measured peak" if np.isfinite(relative) else ""
     by = "" if len(results.comparisons) == 1 else f" {validation.by(results.labels[found[0][0]])}"
-    return f"Test {name}{role} is missed by {validation.error(error[0])} noise units{by}{share}"
+    far = _missed(results, *found[0])
+    return f"Test {name}{role}{' is missed by' if far else ':'} {validation.error(error[0])} noise units{by}{share}"
