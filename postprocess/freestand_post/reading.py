@@ -232,7 +232,7 @@ def _read_sweep(folder):
     folder = existing_folder(folder)
     path = folder / "fragility.h5"
     if not path.exists():
-        hint = "run `freestand fit` on it first" if (folder / "samples.h5").exists() else "give the folder of `freestand run`"
+        hint = "run `freestand fit` on it first" if (folder / "samples.h5").exists() else "give the folder of `freestand run`, `compare` or `diagnose`"
         raise Problem(f"{folder} has no fragility.h5: {hint}")
     summary = _json(folder / "summary.json")
     with _open(path, "freestand-fragility/1") as root:

@@ -79,6 +79,12 @@ class Diagnosis:
     recovered: list          # of Table
     suggestion: dict         # empty where nothing is suggested
 
+    @property
+    def best(self):
+        """The first that counts as best; of none the one with the least left-out error; empty without candidates."""
+        known = [row for row in self.candidates if np.isfinite(row["error_left_out"])]
+        return next((row for row in known if row["rival"]), None) or min(known, key=lambda row: row["error_left_out"], default={})
+
 
 class _Node:
     """One object of a file; every access that finds something else than it should is a Problem that names the key."""
@@ -241,8 +247,8 @@ def read_diagnosis(folder):
             "between": suggestion.texts("between"), "specimen": specimen if isinstance(specimen, str) else "",
             "motion": motion.row("period_s peak_acceleration_g vertical_peak_acceleration_g", "pulse") if motion else {}}
     return Diagnosis(
-        pathlib.Path(folder), root.value, _name(root, folder), verdict, root.texts("effects"), root.text("error_unit", "noise units"),
-        root.texts("sentences"), root.texts("findings"), _candidate(base) if base else {},
+        pathlib.Path(folder), root.value, _name(root, folder), verdict, root.texts("effects"),
+        root.text("error_unit", "noise units"), root.texts("sentences"), root.texts("findings"), _candidate(base) if base else {},
         [_candidate(node) for node in root.nodes("candidates", needed=True)], root.number("noise_floor"),
         recovered.number("base_mu") if recovered else np.nan,
         [_table(node, columns) for node in recovered.nodes("tables")] if recovered else [], suggested)

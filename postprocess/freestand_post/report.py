@@ -72,7 +72,8 @@ def _title(sweep, history):
 
 def _figure(picture):
     svg = style.inline_svg(style.svg(picture.figure), picture.name.replace("_", "-"), picture.finding)
-    return {"name": picture.name, "edp": picture.edp, "section": picture.section, "finding": picture.finding, "svg": Markup(svg), "caption": picture.caption}
+    return {"name": picture.name, "edp": picture.edp, "section": picture.section, "finding": picture.finding, "svg": Markup(svg),
+            "caption": picture.caption}
 
 
 def _headline(sweep, main):

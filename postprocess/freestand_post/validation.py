@@ -52,7 +52,10 @@ class Validation:
         shown = [{"step": label, "error_calibration": c.calibration.get("error", np.nan),
                   "error_holdout": c.holdout.get("error", np.nan), "noise_floor": c.calibration.get("error_expected", np.nan)}
                  for label, c in zip(self.labels, self.comparisons)]
-        kept = [dict(row, step=model_name([] if row["step"] == "base" else [row["step"]])) for row in self.last.ladder] if self.last else []
+        kept = [dict(row, step=model_name([] if row["step"] == "base" else [row["step"]]))
+                for row in (self.last.ladder if self.last else [])]
+        if len({frozenset(comparison.effects) for comparison in self.comparisons}) < len(shown):
+            shown = []  # not steps of one ladder, but for example two sets of numbers for one model
         return kept if len(kept) > len(shown) else shown
 
     def after_found(self):

@@ -1,16 +1,11 @@
-"""What the page of a validation says: the verdict, the numbers beside it, the tables."""
+"""What the page of a validation says: the verdict, the numbers beside it, the sentences."""
 import math
 
-import numpy as np
-
 from . import validation, words
-from .pictures import before_after
-from .pictures.peaks import QUANTITY
+from . import validation_tables as tables
+from .pictures import before_after, outcomes
 
-FAR = 1.5      # times the error that noise alone would make, from which a test counts as missed
-MANY = 30      # tests from which the table is folded
 SECTIONS = ("ladder", "ranking", "recovered", "worst", "where", "peaks", "outcomes", "before_after", "sweep", "history")
-ROLES = {"calibration": "calibration", "holdout": "held out"}
 
 
 def content(results, figures):
@@ -22,8 +17,8 @@ def content(results, figures):
         of[hero["section"]] = of[hero["section"]][1:]
     return {
         "title": _title(results), "lead": _lead(results), "headline": _headline(results), "hero": hero, "of": of,
-        "sentences": _sentences(results), "suggestion": _suggestion(results), "tests": _tests(results),
-        "parameters": _parameters(results), "candidates": _candidates(results), "sweep_note": before_after.mismatch(results),
+        "sentences": _sentences(results), "suggestion": _suggestion(results), "tests": tables.tests(results),
+        "parameters": tables.parameters(results), "candidates": tables.candidates(results), "sweep_note": before_after.mismatch(results),
         "provenance": _provenance(results),
     }
 
@@ -56,13 +51,16 @@ def _compared(comparison):
         return f"the model misses its tests by {validation.error(value)} times the sensor noise"
     if comparison.unit == "ln ratio" and math.isfinite(ratio):
         return f"the model predicts {words.number(ratio)} of the measured peaks"
+    right, known = outcomes.score(comparison)
+    if known:
+        return f"the model gets {right} of {known} outcomes right"
     return f"model against measurement, error {validation.error(value)} ({comparison.unit})"
 
 
 def _lead(results):
     """What was asked, of what."""
     tests = results.last.tests if results.last else []
-    roles = [(sum(test["role"] == role for test in tests), label) for role, label in ROLES.items()]
+    roles = [(sum(test["role"] == role for test in tests), label) for role, label in tables.ROLES.items()]
     parts = [f"{n} {label if label != 'calibration' else 'for calibration'}" for n, label in roles if n]
     number = f"{words.plural(len(tests), 'test')} ({words.listing(parts)})" if tests else "its measurements"
     if results.diagnoses:
@@ -79,17 +77,23 @@ def _headline(results):
     diagnosis, first, last = results.diagnosis, results.first, results.last
     found = []
     if diagnosis:
-        best = next((row for row in diagnosis.candidates if row["rival"]), None) or min(
-            diagnosis.candidates, key=lambda row: row["error_left_out"], default={})
+        best = diagnosis.best
         found.append((diagnosis.base.get("error_left_out", math.nan), "base model, on tests left out of the fit"))
-        found.append((best.get("error_left_out", math.nan), f"with {validation.effect(best.get('effect', ''))}, on tests left out of the fit"))
+        found.append((best.get("error_left_out", math.nan), f"with {validation.effect(best.get('effect', ''))}, on tests left out of the fit"
+                      + (": no better than chance" if diagnosis.verdict == "none" else "")))
     else:
-        found.append((first.calibration.get("error", math.nan), f"on calibration tests{_of(results, 0)}"))
-        if last is not first:
-            found.append((last.calibration.get("error", math.nan), f"on calibration tests{_of(results, -1)}"))
+        for k in sorted({0, len(results.comparisons) - 1}):
+            comparison = results.comparisons[k]
+            if comparison.unit == "ln ratio":
+                found.append((comparison.peak_ratio.get("ratio", math.nan), f"predicted over measured peak{_of(results, k)}"))
+                found.append((comparison.peak_ratio.get("scatter_ln", math.nan), f"scatter of its logarithm{_of(results, k)}"))
+            else:
+                unit = "Brier score " if comparison.unit == "Brier" else ""
+                found.append((comparison.calibration.get("error", math.nan), f"{unit}on calibration tests{_of(results, k)}"))
     if last:
         found.append((last.holdout.get("error", math.nan), f"on held-out tests, which no fit has seen{_of(results, -1)}"))
-    found.append((diagnosis.noise_floor if diagnosis else last.calibration.get("error_expected", math.nan), "noise floor: what noise alone would make"))
+    floor = diagnosis.noise_floor if diagnosis else last.calibration.get("error_expected", math.nan)
+    found.append((floor, "noise floor: what noise alone would make"))
     return [(validation.error(value), what) for value, what in found if math.isfinite(value)]
 
 
@@ -102,24 +106,31 @@ def _sentences(results):
     """[(heading, [sentence])]: verdict and findings, each once."""
     groups, said = [], set()
     for k, diagnosis in enumerate(results.diagnoses):
-        groups.append(("Diagnosis", diagnosis.sentences + diagnosis.findings))
+        groups.append(("Diagnosis" if k == 0 else f"Diagnosis {k + 1}", diagnosis.sentences + diagnosis.findings))
     for label, comparison in zip(results.labels, results.comparisons):
         groups.append(("" if len(results.comparisons) == 1 else "Base model" if label == "base" else
-                       words.capitalised(f"model {label}" if label.startswith("with ") else label), comparison.findings))
+                       f"Model {label}" if label.startswith("with ") else label, comparison.findings))
     kept = []
     for heading, sentences in groups:
-        fresh = [words.capitalised(sentence) + ("" if sentence.endswith(".") else ".") for sentence in sentences if sentence not in said]
+        fresh = [_capitalised(sentence) + ("" if sentence.endswith(".") else ".") for sentence in sentences if sentence not in said]
         said.update(sentences)
         if fresh:
             kept.append((heading, [_named(results, sentence) for sentence in fresh]))
     return kept
 
 
+def _capitalised(sentence):
+    """A sentence that starts with a key keeps it."""
+    first = sentence.split(" ", 1)[0]
+    return sentence if "." in first else words.capitalised(sentence)
+
+
 def _named(results, sentence):
     """Names of effects as a reader wants to see them."""
     known = {name for diagnosis in results.diagnoses for row in diagnosis.candidates for name in row["effects"]}
     for name in sorted(known, key=len, reverse=True):
-        sentence = sentence.replace(name, validation.effect(name)).replace(words.capitalised(name), words.capitalised(validation.effect(name)))
+        shown = validation.effect(name)
+        sentence = sentence.replace(name, shown).replace(words.capitalised(name), words.capitalised(shown))
     return sentence
 
 
@@ -138,96 +149,6 @@ def _suggestion(results):
     if math.isfinite(found["separation_noise_units"]):
         rows.append(("parts them by", f"{validation.error(found['separation_noise_units'])} noise units"))
     return {"between": validation.effects(found["between"]), "sentence": words.capitalised(found["sentence"]), "rows": rows}
-
-
-def _tests(results):
-    """The table of tests: columns, one error column per model, folded where it is long."""
-    if not results.last:
-        return None
-    last = results.last
-    kinds = {test["kind"] for test in last.tests}
-    quantities = [name for name in QUANTITY if name != "residual_slip_m" and any(name in test["peaks"] for test in last.tests)]
-    earlier = [{test["id"]: test for test in comparison.tests} for comparison in results.comparisons]
-    table = {"labels": results.labels, "several": len(results.comparisons) > 1, "history": "history" in kinds, "outcome": "outcome" in kinds,
-             "quantities": [words.with_unit(QUANTITY[name][1], QUANTITY[name][2]) for name in quantities], "rows": [],
-             "missed": 0, "many": len(last.tests) > MANY, "count": len(last.tests)}
-    for test in last.tests:
-        found = [tests.get(test["id"]) for tests in earlier]
-        row = {"id": test["id"], "role": ROLES.get(test["role"], test["role"]), "relative": words.percent(test["error_relative"])
-               if math.isfinite(test["error_relative"]) else "–", "explained": test["error_explained"], "expected": test["error_expected"],
-               "errors": [other["error_noise_units"] if other else math.nan for other in found],
-               "peaks": [_peak(test, found, name) for name in quantities], "measured": "", "probabilities": [], "far": _far(test)}
-        if test["kind"] == "outcome" or isinstance(test["overturned_measured"], bool):
-            row["measured"] = "overturned" if test["overturned_measured"] else "stood"
-        row["probabilities"] = [words.probability(other["overturned_probability"]) if other else "–" for other in found]
-        table["missed"] += row["far"]
-        table["rows"].append(row)
-    return table
-
-
-def _peak(test, found, name):
-    """Measured, and what every model gives."""
-    factor = QUANTITY[name][0]
-    measured = test["peaks"].get(name, (math.nan, math.nan))[0]
-    models = [other["peaks"].get(name, (math.nan, math.nan))[1] if other else math.nan for other in found]
-    return {"measured": words.number(factor * abs(measured), 3), "models": [words.number(factor * abs(model), 3) for model in models]}
-
-
-def _far(test):
-    if test["kind"] == "history":
-        value = test["error_explained"] if math.isfinite(test["error_explained"]) else test["error_noise_units"]
-        return value > FAR * np.nan_to_num(test["error_expected"], nan=1.0)
-    if test["kind"] == "outcome":
-        return isinstance(test["overturned_measured"], bool) and (test["overturned_probability"] > 0.5) != test["overturned_measured"]
-    measured, model = test["peaks"].get("peak_slip_m", (math.nan, math.nan))
-    return math.isfinite(measured) and measured != 0 and not 0.5 < abs(model / measured) < 2
-
-
-def _parameters(results):
-    """Of the last model, with what the diagnosis knows of its intervals; of the best candidate where there is no comparison."""
-    rows = [dict(row) for row in results.last.parameters] if results.last else []
-    effects = results.last.effects if results.last else []
-    candidates = [row for diagnosis in results.diagnoses for row in [diagnosis.base] + diagnosis.candidates if row]
-    same = next((row for row in candidates if set(row["effects"]) == set(effects)), None)
-    if same:
-        known = {entry["name"]: entry["interval"] for entry in same["parameters"]}
-        for row in rows:
-            if not math.isfinite(row["interval"][0]) and math.isclose(row["value"], next(
-                    (entry["value"] for entry in same["parameters"] if entry["name"] == row["name"]), math.nan), rel_tol=1e-2):
-                row["interval"] = known.get(row["name"], row["interval"])
-    elif not rows and candidates:
-        rows = []
-    return [_parameter(row) for row in rows]
-
-
-def _parameter(row):
-    low, high = row["interval"]
-    unit = "" if row["unit"] in ("", "1") else words.UNITS.get(row["unit"], row["unit"])
-    bounds = [row.get("lower", math.nan), row.get("upper", math.nan)]
-    return {"name": validation.parameter(row["name"]), "value": words.number(row["value"], 4), "unit": unit,
-            "interval": f"{words.number(low, 4)} to {words.number(high, 4)}" if math.isfinite(low) and math.isfinite(high) else "–",
-            "bounds": f"{words.plain(bounds[0])} to {words.plain(bounds[1])}" if np.isfinite(bounds).all() else "–"}
-
-
-def _candidates(results):
-    """Every candidate of the first diagnosis with its numbers."""
-    if not results.diagnosis:
-        return []
-    rows = []
-    base = dict(results.diagnosis.base, effect="") if results.diagnosis.base else None
-    for row in ([base] if base else []) + results.diagnosis.candidates:
-        values = [_parameter(entry) for entry in row["parameters"]]
-        rows.append({"name": validation.effect(row["effect"]) or "base model", "visible": row["visible"], "rival": row["rival"] and row is not base,
-                     "calibration": row["error_calibration"], "left_out": row["error_left_out"], "se": row["error_left_out_se"],
-                     "delta_bic": words.count(row["delta_bic"]).replace("-", "−") if math.isfinite(row["delta_bic"]) else "–",
-                     "values": "; ".join(_short(value) for value in values)})
-    return rows
-
-
-def _short(value):
-    name = value["name"].split(": ")[-1]
-    return f"{name} {value['value']}" + (f" {value['unit']}" if value["unit"] else "") + \
-        (f" ({value['interval']})" if value["interval"] != "–" else "")
 
 
 PROVENANCE = (("created_utc", "written (UTC)"), ("version", "freestand"), ("git_commit", "commit"), ("command", "command"),

@@ -106,5 +106,5 @@ def _finding(before, after, common, name):
     if abs(change[at]) < 0.02:
         return f"{words.capitalised(validation.by(name))} {what} changes by less than 0.02 at every intensity"
     verb = "rises" if change[at] > 0 else "falls"
-    return (f"{words.capitalised(validation.by(name))} {what} {verb} by up to {words.number(abs(change[at]))}, from {words.probability(p[at])} to "
-            f"{words.probability(p[at] + change[at])} {words.is_(f'at {before.im_symbol}', before.centre[at], before.im_unit)}")
+    return (f"{words.capitalised(validation.by(name))} {what} {verb} by up to {words.number(abs(change[at]))}, from "
+            f"{words.probability(p[at])} to {words.probability(p[at] + change[at])} {words.is_(f'at {before.im_symbol}', before.centre[at], before.im_unit)}")

@@ -41,7 +41,7 @@ def _picture(results, steps):
 def _labels(ax, values, last):
     """The name and last value of every line at its right end; the first values left of their points."""
     for at, side in ((last, 1), (0, -1)):
-        shown = [(values[key][at], f"{name}  {validation.error(values[key][at])}" if side > 0 else validation.error(values[key][at]), colour)
+        shown = [(values[key][at], f"{name}  " * (side > 0) + validation.error(values[key][at]), colour)
                  for key, name, colour, _ in LINES if math.isfinite(values[key][at]) and (side > 0 or key != "noise_floor")]
         for (value, text, colour), y in zip(shown, style.spread_on(ax, [entry[0] for entry in shown], 0.075)):
             ax.annotate(text, (at, y), xytext=(10 * side, 0), textcoords="offset points", ha="left" if side > 0 else "right",
@@ -53,6 +53,7 @@ def _finding(results, steps):
     key = "error_holdout" if math.isfinite(first["error_holdout"]) and math.isfinite(last["error_holdout"]) else "error_calibration"
     what = "held-out" if key == "error_holdout" else "calibration"
     verb = "falls" if last[key] < first[key] else "rises"
-    return (f"{words.capitalised(validation.by(last['step']))} the {what} error {verb} from {validation.error(first[key])} to {validation.error(last[key], results.unit)}"
-            + (f", at the noise floor of {validation.error(last['noise_floor'])}" if last[key] < 1.2 * last["noise_floor"] else
-               f"; the noise floor is {validation.error(last['noise_floor'])}" if math.isfinite(last["noise_floor"]) else ""))
+    step = words.capitalised(validation.by(last["step"]))
+    return (f"{step} the {what} error {verb} from {validation.error(first[key])} to {validation.error(last[key], results.unit)}" + 
+        f", at the noise floor of {validation.error(last['noise_floor'])}" if last[key] < 1.2 * last["noise_floor"] else
+        f"; the noise floor is {validation.error(last['noise_floor'])}" if math.isfinite(last["noise_floor"]) else "")

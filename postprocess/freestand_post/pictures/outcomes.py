@@ -23,6 +23,12 @@ def _outcomes(comparison):
             and np.isfinite(test["overturned_probability"])]
 
 
+def score(comparison):
+    """How many outcomes the model gets right, of how many."""
+    tests = _outcomes(comparison)
+    return sum((test["overturned_probability"] > 0.5) == test["overturned_measured"] for test in tests), len(tests)
+
+
 def _picture(results, k, tests):
     by_intensity = all(np.isfinite(test["floor_peak_g"]) for test in tests)
     tests = sorted(tests, key=lambda test: test["floor_peak_g"] if by_intensity else test["overturned_probability"])
@@ -46,7 +52,7 @@ def _picture(results, k, tests):
     if by_intensity and x.min() > 0 and x.max() / x.min() > 3:
         strip.set_xscale("log")
         style.plain_log(strip.xaxis)
-    right, brier = int(((p > 0.5) == over).sum()), float(((p - over) ** 2).mean())
+    (right, _), brier = score(results.comparisons[k]), float(((p - over) ** 2).mean())
     label = results.labels[k]
     step = "The model" if len(results.comparisons) == 1 else "The base model" if label == "base" else f"The model {validation.by(label)}"
     finding = f"{step} gets {right} of {p.size} outcomes right (Brier score {words.number(brier)})"

@@ -45,11 +45,11 @@ def _picture(results, name, found):
     line = np.array([low, high])
     ax.fill_between(line, line / 2, line * 2, color=style.EMPTY, lw=0, zorder=0)
     ax.plot(line, line, color=style.INK, lw=1.0, zorder=1)
-    for (measured, model), label, colour, form in zip(found, results.labels, results.colours, "os^Dv"):
+    for (measured, model), name, colour, form in zip(found, results.labels, results.colours, "os^Dv"):
         bias, scatter = _ratio(measured, model)
+        label = f"{name}: {validation.error(bias)}" + (f", scatter {words.number(scatter)} in ln" if np.isfinite(scatter) else "")
         moved = model > 0
-        ax.plot(factor * measured[moved], factor * model[moved], form, ms=6.5, color=colour, mec="white", mew=0.8, zorder=3,
-                label=f"{label}: {validation.error(bias)}" + (f", scatter {words.number(scatter)} in ln" if np.isfinite(scatter) else ""))
+        ax.plot(factor * measured[moved], factor * model[moved], form, ms=6.5, color=colour, mec="white", mew=0.8, zorder=3, label=label)
         ax.plot(factor * measured[~moved], np.full((~moved).sum(), low * 1.06), "v", ms=7, color=colour, mec="white", mew=0.8, zorder=3)
         ax.plot(line, bias * line, color=colour, lw=1.3, ls=(0, (4, 2)), zorder=2)
     ax.set(xscale="log", yscale="log", xlim=(low, high), ylim=(low, high), aspect="equal",
@@ -57,8 +57,8 @@ def _picture(results, name, found):
     for axis in (ax.xaxis, ax.yaxis):
         style.plain_log(axis, crowd=1.4)
     above = np.median(np.concatenate([model / measured for measured, model in found])) > 1
-    ax.legend(frameon=False, loc="lower right" if above else "upper left", fontsize=8.8, title="predicted over measured", title_fontsize=8.8, alignment="left",
-              handletextpad=0.3, borderaxespad=0.2)
+    ax.legend(frameon=False, loc="lower right" if above else "upper left", fontsize=8.8, title="predicted over measured",
+              title_fontsize=8.8, alignment="left", handletextpad=0.3, borderaxespad=0.2)
     finding = _finding(results, found, title)
     style.headline(fig, finding, "Black: right; grey band: a factor of two; dashed: mean of predicted over measured.")
     return Picture(f"peaks_{name}", fig, finding, CAPTION, "peaks")
@@ -72,5 +72,6 @@ def _finding(results, found, title):
     share = f"predicts {words.number(bias)} of the measured {title}" if abs(np.log(bias)) > 0.1 else f"predicts the {title} without bias"
     before = _ratio(*found[0])[0]
     if len(found) > 1 and np.isfinite(before):
-        return f"{words.capitalised(validation.by(results.labels[-1]))} the model {share}, {validation.by(results.labels[0])} {words.number(before)}"
+        step = words.capitalised(validation.by(results.labels[-1]))
+        return f"{step} the model {share}, {validation.by(results.labels[0])} {words.number(before)}"
     return f"The model {share}" + (f", with a scatter of {words.number(scatter)} in ln" if np.isfinite(scatter) else "")

@@ -9,8 +9,8 @@ order = 120
 COLUMNS, SHOWN = 3, 6
 TELLS = 0.05  # share of the scatter that a variable must explain to be worth a panel beyond the first three
 CAPTION = ("Recovered without any effect model: the friction coefficient that balances the measured acceleration while the block slips. "
-           "Points: mean of a bin; band: 95 % interval of that mean; dashed: the constant of the base model; line: the law of the best candidate "
-           "through the same samples. Percentages: share of the scatter that the variable explains; the most telling comes first.")
+           "Points: mean of a bin; band: 95 % interval of that mean; dashed: the constant of the base model; line: the law of the "
+           "best candidate. Percentages: share of the scatter that the variable explains; the most telling comes first.")
 
 
 def pictures(results):
@@ -99,15 +99,18 @@ def _range(diagnosis, tables, laws):
 def _finding(diagnosis, tables):
     top = tables[0]
     share = top.share_explained
-    if _varies(top) and diagnosis.verdict != "none":
-        return (f"Against the {validation.short_variable(top)}, the law of {validation.effects(top.law_effects)} beside the friction "
-                "recovered from the motion itself")
-    if not share >= TELLS:
+    follows = _varies(top) and diagnosis.verdict != "none"
+    if not share >= TELLS and not follows:
         return "While it slips, the recovered friction follows none of these: what is missing, if anything, acts elsewhere"
     mu, x = top.columns["mu"], top.centre
     good = np.flatnonzero(np.isfinite(mu))
     first, last = mu[good[0]], mu[good[-1]]
     name = validation.short_variable(top)
+    if follows:
+        law, ends = top.columns["law"], (good[:1], good[-1:]) if top.variable == "direction" else (good[:2], good[-2:])
+        return (f"Over the {name} the recovered friction goes from {words.number(np.nanmean(mu[ends[0]]))} to "
+                f"{words.number(np.nanmean(mu[ends[1]]))}; the law of {validation.effects(top.law_effects)} from "
+                f"{words.number(np.nanmean(law[ends[0]]))} to {words.number(np.nanmean(law[ends[1]]))}")
     if top.variable == "direction":
         return f"Recovered friction is {words.number(last)} one way and {words.number(first)} the other"
     ends = [good[:3], good[-3:]]

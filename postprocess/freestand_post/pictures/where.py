@@ -1,7 +1,7 @@
 """Where a model fails: its error, and how fast it grows, against the phase of motion, the speed and the path slid."""
 import numpy as np
 
-from .. import style, validation, words
+from .. import style, validation
 from ..validation import Validation
 from . import Picture
 
@@ -50,7 +50,8 @@ def _picture(results):
             style.plain_log(axes[i, 0].yaxis, crowd=1.6)
         axes[i, 0].set_ylabel(label.format(results.unit))
     for j, name in enumerate(shown):
-        _foot(axes[1, j], next(_tables(comparison)[name] for comparison in results.comparisons if name in _tables(comparison)), used[name])
+        found = (_tables(comparison).get(name) for comparison in results.comparisons)
+        _foot(axes[1, j], next(table for table in found if table), used[name])
     if len(results.comparisons) > 1:
         handles, labels = axes[0, 0].get_legend_handles_labels()
         axes[0, 0].legend(handles, labels, ncol=len(labels), frameon=False, loc="lower left", bbox_to_anchor=(-0.02, 1.0),
@@ -68,7 +69,8 @@ def _present(table, key):
 def _used(results, name):
     """Positions of the named bins in which any model has points."""
     tables = [_tables(comparison)[name] for comparison in results.comparisons if name in _tables(comparison)]
-    return np.flatnonzero(np.any([_present(table, "error_noise_units") for table in tables if table.count.size == tables[0].count.size], axis=0))
+    tables = [table for table in tables if table.count.size == tables[0].count.size]
+    return np.flatnonzero(np.any([_present(table, "error_noise_units") for table in tables], axis=0))
 
 
 def _line(ax, table, key, used, colour, label):
@@ -101,5 +103,7 @@ def _finding(results):
     if value[top] < 1.2 * np.sqrt(2):
         return "In no phase does the error grow faster than sensor noise explains"
     by = "" if len(results.comparisons) == 1 else " of the base model" if results.labels[0] == "base" else f" ({results.labels[0]})"
-    return (f"The error{by} grows fastest in the phase “{table.label[top]}”, by {validation.error(value[top])} {results.unit} within 0.1 s"
-            if table.label else words.capitalised(f"the error{by} against speed and path"))
+    if not table.label:
+        return f"The error{by} against speed and path"
+    return (f"The error{by} grows fastest in the phase “{table.label[top]}”, by {validation.error(value[top], results.unit)} "
+            "within 0.1 s")

@@ -11,8 +11,8 @@ order = 130
 GRAVITY = 9.80665
 SHOWN = 6
 MEASURED = "#aab2bd"
-SCALE = {"slip_m": (100, "slip (cm)", "the slip"), "rotation_rad": (180 / np.pi, "rotation (°)", "the rotation"),
-         "block_acceleration_mps2": (1 / GRAVITY, "block acc. (g)", "the acceleration of the block")}
+SCALE = {"slip_m": (100, "slip (cm)"), "rotation_rad": (180 / np.pi, "rotation (°)"),
+         "block_acceleration_mps2": (1 / GRAVITY, "block acc. (g)")}
 CAPTION = ("Grey: measured; lines: model. Under each: model minus measured in units of the sensor's noise; light band: two standard "
            "deviations of what sensor and floor noise alone would make. Each axis shows its own range.")
 
@@ -54,27 +54,28 @@ def _picture(results, found):
     axes[-1].set(xlim=(first.time[0], first.time[-1]), xlabel="time (s)")
     fig.align_ylabels(axes)
     handles = axes[1].get_legend_handles_labels()
-    axes[0].legend(*handles, ncol=len(handles[0]), frameon=False, loc="lower left", bbox_to_anchor=(-0.005, 1.0), borderaxespad=0,
+    axes[0].legend(*handles, ncol=3, frameon=False, loc="lower left", bbox_to_anchor=(-0.005, 1.0), borderaxespad=0,
                    fontsize=8.8, handlelength=1.4, columnspacing=1.4, handletextpad=0.5)
     finding = _finding(results, found)
-    style.headline(fig, finding, "Top: floor acceleration. Below: measured and computed motion, and their difference in units of the noise.")
+    style.headline(fig, finding, "Top: floor acceleration. Below: measured and computed motion, and their difference in noise units.")
     return Picture(f"worst_{re.sub(r'[^A-Za-z0-9]+', '_', first.id)}", fig, finding, CAPTION, "worst")
 
 
 def _motion(ax, first, channel, lines):
-    factor, label, _ = SCALE[channel.name]
+    factor, axis = SCALE[channel.name]
     ax.plot(first.time, factor * channel.measured, color=MEASURED, lw=4.0, label="measured", solid_capstyle="butt")
     for name, colour, history in lines:
         other = _channel(history, channel.name)
         if other:
-            ax.plot(history.time, factor * other.model, color=colour, lw=1.3, label="model" if len(lines) == 1 and name == "base" else f"model, {name}")
-    ax.set_ylabel(label)
+            label = "model" if len(lines) == 1 and name == "base" else f"model, {name}"
+            ax.plot(history.time, factor * other.model, color=colour, lw=1.3, label=label)
+    ax.set_ylabel(axis)
     ax.margins(y=0.12)
 
 
 def _residual(ax, channel, lines):
     noise = channel.noise if channel.noise > 0 else 1.0
-    top = 3.0
+    low, high = -3.0, 3.0
     for k, (_, colour, history) in enumerate(lines):
         other = _channel(history, channel.name)
         if not other:
@@ -83,9 +84,9 @@ def _residual(ax, channel, lines):
             allowed = 2 * np.sqrt(1 + np.nan_to_num(other.spread / noise) ** 2)
             ax.fill_between(history.time, -allowed, allowed, color=style.FAINT, lw=0, zorder=0)
         ax.plot(history.time, other.residual / noise, color=colour, lw=0.9)
-        finite = np.abs(other.residual[np.isfinite(other.residual)]) / noise
-        top = max(top, 1.15 * finite.max()) if finite.size else top
-    ax.set(ylim=(-top, top), ylabel="residual\n(noise units)")
+        finite = other.residual[np.isfinite(other.residual)] / noise
+        low, high = min(low, 1.15 * finite.min(initial=low)), max(high, 1.15 * finite.max(initial=high))
+    ax.set(ylim=(low, high), ylabel="residual\n(noise units)")
 
 
 def _channel(history, name):

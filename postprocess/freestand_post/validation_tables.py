@@ -1,0 +1,101 @@
+"""The tables on the page of a validation: tests, fitted numbers, candidates."""
+import math
+
+import numpy as np
+
+from . import validation, words
+from .pictures.peaks import QUANTITY
+
+FAR = 1.5      # times the error that noise alone would make, from which a test counts as missed
+MANY = 30      # tests from which the table is folded
+ROLES = {"calibration": "calibration", "holdout": "held out"}
+
+
+def tests(results):
+    """The table of tests: columns, one error column per model, folded where it is long."""
+    if not results.last:
+        return None
+    last = results.last
+    kinds = {test["kind"] for test in last.tests}
+    quantities = [name for name in QUANTITY if name != "residual_slip_m" and any(name in test["peaks"] for test in last.tests)]
+    earlier = [{test["id"]: test for test in comparison.tests} for comparison in results.comparisons]
+    table = {"labels": results.labels, "several": len(results.comparisons) > 1, "history": "history" in kinds,
+             "outcome": "outcome" in kinds, "quantities": [words.with_unit(QUANTITY[name][1], QUANTITY[name][2]) for name in quantities], "rows": [],
+             "missed": 0, "many": len(last.tests) > MANY, "count": len(last.tests)}
+    for test in last.tests:
+        found = [tests.get(test["id"]) for tests in earlier]
+        row = {"id": test["id"], "role": ROLES.get(test["role"], test["role"]),
+               "relative": words.percent(test["error_relative"]) if math.isfinite(test["error_relative"]) else "–",
+               "explained": test["error_explained"], "expected": test["error_expected"],
+               "errors": [other["error_noise_units"] if other else math.nan for other in found],
+               "peaks": [_peak(test, found, name) for name in quantities], "measured": "", "probabilities": [], "far": _far(test)}
+        if test["kind"] == "outcome" or isinstance(test["overturned_measured"], bool):
+            row["measured"] = "overturned" if test["overturned_measured"] else "stood"
+        row["probabilities"] = [words.probability(other["overturned_probability"]) if other else "–" for other in found]
+        table["missed"] += row["far"]
+        table["rows"].append(row)
+    return table
+
+
+def _peak(test, found, name):
+    """Measured, and what every model gives."""
+    factor = QUANTITY[name][0]
+    measured = test["peaks"].get(name, (math.nan, math.nan))[0]
+    models = [other["peaks"].get(name, (math.nan, math.nan))[1] if other else math.nan for other in found]
+    return {"measured": words.number(factor * abs(measured), 3), "models": [words.number(factor * abs(model), 3) for model in models]}
+
+
+def _far(test):
+    if test["kind"] == "history":
+        value = test["error_explained"] if math.isfinite(test["error_explained"]) else test["error_noise_units"]
+        return value > FAR * np.nan_to_num(test["error_expected"], nan=1.0)
+    if test["kind"] == "outcome":
+        return isinstance(test["overturned_measured"], bool) and (test["overturned_probability"] > 0.5) != test["overturned_measured"]
+    measured, model = test["peaks"].get("peak_slip_m", (math.nan, math.nan))
+    return math.isfinite(measured) and measured != 0 and not 0.5 < abs(model / measured) < 2
+
+
+def parameters(results):
+    """Of the last model, with what the diagnosis knows of its intervals; of the best candidate where there is no comparison."""
+    if not results.last:
+        return [_parameter(row) for row in results.diagnosis.best.get("parameters", [])]
+    rows = [dict(row) for row in results.last.parameters]
+    fitted = [row for diagnosis in results.diagnoses for row in [diagnosis.base] + diagnosis.candidates if row]
+    same = next((row for row in fitted if set(row["effects"]) == set(results.last.effects)), None)
+    if same:
+        known = {entry["name"]: entry["interval"] for entry in same["parameters"]}
+        for row in rows:
+            if not math.isfinite(row["interval"][0]) and math.isclose(row["value"], next(
+                    (entry["value"] for entry in same["parameters"] if entry["name"] == row["name"]), math.nan), rel_tol=1e-2):
+                row["interval"] = known.get(row["name"], row["interval"])
+    return [_parameter(row) for row in rows]
+
+
+def _parameter(row):
+    low, high = row["interval"]
+    unit = "" if row["unit"] in ("", "1") else words.UNITS.get(row["unit"], row["unit"])
+    bounds = [row.get("lower", math.nan), row.get("upper", math.nan)]
+    return {"name": validation.parameter(row["name"]), "value": words.number(row["value"], 4), "unit": unit,
+            "interval": f"{words.number(low, 4)} to {words.number(high, 4)}" if math.isfinite(low) and math.isfinite(high) else "–",
+            "bounds": f"{words.plain(bounds[0])} to {words.plain(bounds[1])}" if np.isfinite(bounds).all() else "–"}
+
+
+def candidates(results):
+    """Every candidate of the first diagnosis with its numbers."""
+    if not results.diagnosis:
+        return []
+    rows = []
+    base = dict(results.diagnosis.base, effect="") if results.diagnosis.base else None
+    for row in ([base] if base else []) + results.diagnosis.candidates:
+        values = [_parameter(entry) for entry in row["parameters"]]
+        rows.append({"name": validation.effect(row["effect"]) or "base model", "visible": row["visible"],
+                     "rival": row["rival"] and row is not base, "calibration": row["error_calibration"], "left_out": row["error_left_out"], "se": row["error_left_out_se"],
+                     "delta_bic": words.count(row["delta_bic"]).replace("-", "−") if math.isfinite(row["delta_bic"]) else "–",
+                     "values": "; ".join(_short(value) for value in values)})
+    return rows
+
+
+def _short(value):
+    name = value["name"].split(": ")[-1]
+    return f"{name} {value['value']}" + (f" {value['unit']}" if value["unit"] else "") + \
+        (f" ({value['interval']})" if value["interval"] != "–" else "")
