@@ -12,15 +12,24 @@ def content(results, figures):
     of = {name: [] for name in SECTIONS}
     for figure in figures:
         of[figure["section"]].append(figure)
-    hero = next((of[name][0] for name in ("ladder", "ranking", "outcomes", "peaks", "worst") if of[name]), None)
+    unknown = results.diagnosis is not None and results.diagnosis.verdict == "unknown"
+    hero = next((of[name][0] for name in ("recovered",) * unknown + ("ladder", "ranking", "outcomes", "peaks", "worst") if of[name]), None)
     if hero:
         of[hero["section"]] = of[hero["section"]][1:]
     return {
         "title": _title(results), "lead": _lead(results), "headline": _headline(results), "hero": hero, "of": of,
         "sentences": _sentences(results), "suggestion": _suggestion(results), "tests": tables.tests(results),
         "parameters": tables.parameters(results), "candidates": tables.candidates(results), "sweep_note": before_after.mismatch(results),
-        "provenance": _provenance(results),
+        "candidates_text": f"All {words.plural(len(results.diagnosis.candidates), 'candidate')}" if results.diagnosis else "",
+        "fitted_model": _fitted_model(results), "provenance": _provenance(results),
     }
+
+
+def _fitted_model(results):
+    """Whose numbers the page shows, where it is not plain."""
+    if results.last:
+        return results.labels[-1] if len(results.comparisons) > 1 else ""
+    return validation.model_name(results.diagnosis.best.get("effects", [])) if results.diagnosis.effects else "base model"
 
 
 def _title(results):
@@ -30,12 +39,12 @@ def _title(results):
         return f"{name}: the model {validation.model_name(last.effects)}, held against the measurements"
     if diagnosis is None:
         return f"{name}: {_compared(last)}"
-    effects = validation.effects(diagnosis.effects)
+    several, was = len(diagnosis.effects) > 1, results.after_found()
     if diagnosis.verdict == "missing":
-        was = "was" if results.after_found() else "is" if len(diagnosis.effects) == 1 else "are"
-        return f"{name}: {effects} {'were' if was == 'was' and len(diagnosis.effects) > 1 else was} missing from the model"
+        verb = ("were" if was else "are") if several else ("was" if was else "is")
+        return f"{name}: the missing effect{'s' * several} {verb} {validation.effects(diagnosis.effects)}"
     if diagnosis.verdict == "ambiguous":
-        return f"{name}: {validation.effects(diagnosis.effects, ' or ')} is missing, and these tests cannot tell which"
+        return f"{name}: the missing effect is {validation.effects(diagnosis.effects, ' or ')}, and these tests cannot tell which"
     if diagnosis.verdict == "unknown":
         return f"{name}: the model lacks something that no effect of the catalogue explains"
     return f"{name}: no effect is missing from the model"
@@ -128,6 +137,7 @@ def _capitalised(sentence):
 def _named(results, sentence):
     """Names of effects as a reader wants to see them."""
     known = {name for diagnosis in results.diagnoses for row in diagnosis.candidates for name in row["effects"]}
+    known.update(name for comparison in results.comparisons for name in comparison.effects)
     for name in sorted(known, key=len, reverse=True):
         shown = validation.effect(name)
         sentence = sentence.replace(name, shown).replace(words.capitalised(name), words.capitalised(shown))

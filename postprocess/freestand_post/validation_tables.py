@@ -56,9 +56,11 @@ def _far(test):
 
 
 def parameters(results):
-    """Of the last model, with what the diagnosis knows of its intervals; of the best candidate where there is no comparison."""
+    """Of the last model, with what the diagnosis knows of its intervals; without a comparison of the effect that the diagnosis
+    names, or of the base."""
     if not results.last:
-        return [_parameter(row) for row in results.diagnosis.best.get("parameters", [])]
+        named = results.diagnosis.best if results.diagnosis.effects else results.diagnosis.base
+        return [_parameter(row) for row in named.get("parameters", [])]
     rows = [dict(row) for row in results.last.parameters]
     fitted = [row for diagnosis in results.diagnoses for row in [diagnosis.base] + diagnosis.candidates if row]
     same = next((row for row in fitted if set(row["effects"]) == set(results.last.effects)), None)

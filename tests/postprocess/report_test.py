@@ -193,7 +193,8 @@ class MissingAndBroken(Temporary):
     def test_usage(self):
         for program in ("report", "figures"):
             self.assertEqual(support.run(program).returncode, 2)
-            self.assertEqual(support.run(program, "a", "b").returncode, 2)
+            self.assertEqual(support.run(program, "a", "--nothing").returncode, 2)
+            self.assertEqual(support.run(program, "a", "b").returncode, 3)
             self.assertEqual(support.run(program, "--help").returncode, 0)
 
     @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")

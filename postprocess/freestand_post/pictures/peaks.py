@@ -45,9 +45,9 @@ def _picture(results, name, found):
     line = np.array([low, high])
     ax.fill_between(line, line / 2, line * 2, color=style.EMPTY, lw=0, zorder=0)
     ax.plot(line, line, color=style.INK, lw=1.0, zorder=1)
-    for (measured, model), name, colour, form in zip(found, results.labels, results.colours, "os^Dv"):
+    for (measured, model), step, colour, form in zip(found, results.labels, results.colours, "os^Dv"):
         bias, scatter = _ratio(measured, model)
-        label = f"{name}: {validation.error(bias)}" + (f", scatter {words.number(scatter)} in ln" if np.isfinite(scatter) else "")
+        label = f"{step}: {validation.error(bias)}" + (f", scatter {words.number(scatter)} in ln" if np.isfinite(scatter) else "")
         moved = model > 0
         ax.plot(factor * measured[moved], factor * model[moved], form, ms=6.5, color=colour, mec="white", mew=0.8, zorder=3, label=label)
         ax.plot(factor * measured[~moved], np.full((~moved).sum(), low * 1.06), "v", ms=7, color=colour, mec="white", mew=0.8, zorder=3)

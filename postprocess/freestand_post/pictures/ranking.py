@@ -80,5 +80,5 @@ def _finding(diagnosis, rows):
                 f"{validation.error(best)} {diagnosis.unit}")
     others = [row["error_left_out"] for row in rows if row["effect"] != rows[0]["effect"]]
     tail = f"; the next best leaves {validation.error(min(others))}" if others else ""
-    return (f"{words.capitalised(validation.effect(rows[0]['effect']))} brings the left-out error from {validation.error(base)} to "
+    return (f"With {validation.effect(rows[0]['effect'])} the left-out error falls from {validation.error(base)} to "
             f"{validation.error(best)} {diagnosis.unit}{tail}")

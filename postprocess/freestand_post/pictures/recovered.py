@@ -8,6 +8,7 @@ from . import Picture
 order = 120
 COLUMNS, SHOWN = 3, 6
 TELLS = 0.05  # share of the scatter that a variable must explain to be worth a panel beyond the first three
+NAMED = ("missing", "ambiguous")  # verdicts that name an effect, so that there is a law to draw
 CAPTION = ("Recovered without any effect model: the friction coefficient that balances the measured acceleration while the block slips. "
            "Points: mean of a bin; band: 95 % interval of that mean; dashed: the constant of the base model; line: the law of the "
            "best candidate. Percentages: share of the scatter that the variable explains; the most telling comes first.")
@@ -23,8 +24,9 @@ def pictures(results):
 
 def _telling(diagnosis):
     known = [table for table in diagnosis.recovered if np.isfinite(table.columns["mu"]).sum() > 1]
-    known.sort(key=lambda table: (not _varies(table), -np.nan_to_num(table.share_explained)))
-    telling = [table for table in known if table.share_explained >= TELLS or _varies(table)]
+    named = diagnosis.verdict in NAMED
+    known.sort(key=lambda table: (not (named and _varies(table)), -np.nan_to_num(table.share_explained)))
+    telling = [table for table in known if table.share_explained >= TELLS or (named and _varies(table))]
     return (telling if len(telling) > 4 else telling[:3] if len(telling) > 2 else known[:3])[:SHOWN]
 
 
@@ -39,7 +41,7 @@ def _laws(diagnosis, tables):
     """Of each panel: its law where one is to be drawn. A law of one variable says nothing in the panels of the others."""
     drawn = [table.columns.get("law", np.full(table.centre.size, np.nan)) for table in tables]
     some = any(_varies(table) for table in diagnosis.recovered)
-    return [law if diagnosis.verdict != "none" and (_varies(table) or not some) else np.full(law.size, np.nan)
+    return [law if diagnosis.verdict in NAMED and (_varies(table) or not some) else np.full(law.size, np.nan)
             for law, table in zip(drawn, tables)]
 
 
@@ -99,7 +101,7 @@ def _range(diagnosis, tables, laws):
 def _finding(diagnosis, tables):
     top = tables[0]
     share = top.share_explained
-    follows = _varies(top) and diagnosis.verdict != "none"
+    follows = _varies(top) and diagnosis.verdict in NAMED
     if not share >= TELLS and not follows:
         return "While it slips, the recovered friction follows none of these: what is missing, if anything, acts elsewhere"
     mu, x = top.columns["mu"], top.centre
@@ -116,6 +118,10 @@ def _finding(diagnosis, tables):
     ends = [good[:3], good[-3:]]
     inner = [np.nanmean(mu[end]) for end in ends]
     band = max(np.nanmean(top.columns["mu_upper"][end] - top.columns["mu_lower"][end]) / 2 for end in ends)
+    spread, half = np.nanmax(mu) - np.nanmin(mu), np.nanmedian(top.columns["mu_upper"][good] - top.columns["mu_lower"][good]) / 2
+    if spread > 2 * half and abs(inner[1] - inner[0]) < 0.5 * spread and share > 0.3:
+        return (f"Recovered friction goes up and down with the {name}, between {words.number(np.nanmin(mu))} and "
+                f"{words.number(np.nanmax(mu))}: {words.percent(share)} of its scatter")
     if abs(inner[1] - inner[0]) < max(band, 0.3 * (np.nanmax(mu) - np.nanmin(mu))):
         return (f"Recovered friction scatters most with the {name} ({words.percent(share)} explained), without a clear trend")
     verb = "falls" if inner[1] < inner[0] else "rises"

@@ -1,0 +1,316 @@
+#!/usr/bin/python3
+"""Comparisons and diagnoses: what is read and refused, the pictures drawn of them, and the page."""
+import json
+import math
+import pathlib
+import tempfile
+import unittest
+
+import support
+from pictures_test import overlaps
+from report_test import Page
+
+import h5py
+import make_validation as make
+import numpy as np
+from freestand_post import command, pictures, reading_validation, style
+from freestand_post.problem import USAGE, Problem
+
+
+class Temporary(unittest.TestCase):
+    def setUp(self):
+        kept = tempfile.TemporaryDirectory()
+        self.addCleanup(kept.cleanup)
+        self.folder = pathlib.Path(kept.name)
+
+    def change(self, folder, name, change):
+        path = folder / name
+        value = json.loads(path.read_text())
+        change(value)
+        path.write_text(json.dumps(value))
+
+
+class Reads(Temporary):
+    def test_comparison(self):
+        found = reading_validation.read_comparison(make.comparison(self.folder, ["static_friction"]))
+        self.assertEqual((found.name, found.effects, found.unit), ("bench", ["static_friction"], "noise units"))
+        self.assertEqual([test["id"] for test in found.tests], ["t01", "t02", "t03", "t04"])
+        self.assertEqual(found.tests[0]["peaks"]["peak_slip_m"][0], 0.04)
+        self.assertEqual((found.calibration["error"], found.holdout["error_expected"]), (17.4, 1.04))
+        self.assertEqual(found.parameters[0]["interval"], (0.284, 0.314))
+        self.assertTrue(all(map(math.isnan, found.parameters[1]["interval"])))
+        (channel,) = found.histories[0].channels
+        np.testing.assert_allclose(channel.residual, channel.model - channel.measured)
+        self.assertEqual(found.tables["calibration"][0].label[2], "slipping")
+
+    def test_null_is_nan_or_nothing(self):
+        found = reading_validation.read_comparison(make.peaks(self.folder))
+        self.assertEqual((found.holdout, found.histories), ({}, []))
+        self.assertTrue(math.isnan(found.tests[0]["error_noise_units"]))
+        self.assertTrue(math.isnan(found.calibration["error_expected"]))
+        table = reading_validation.read_comparison(make.comparison(self.folder)).tables["calibration"][0]
+        np.testing.assert_array_equal(np.isnan(table.columns["error_noise_units"]), [False] * 4 + [True] * 2 + [False])
+
+    def test_diagnosis(self):
+        found = reading_validation.read_diagnosis(make.diagnosis(self.folder, "ambiguous"))
+        self.assertEqual((found.verdict, found.effects), ("ambiguous", ["rate_weakening", "static_friction"]))
+        self.assertEqual(found.best["effect"], "rate_weakening")
+        self.assertEqual(found.suggestion["motion"]["pulse"], "C2")
+        self.assertEqual(found.suggestion["specimen"], "")
+        self.assertEqual([table.variable for table in found.recovered], ["time_s", "speed_mps", "direction", "normal_g"])
+        self.assertEqual(reading_validation.read_diagnosis(make.diagnosis(self.folder, "none")).suggestion, {})
+
+    def test_missing_parts_are_empty(self):
+        make.write(self.folder, "diagnosis.json", {"format": "freestand-diagnosis/1", "verdict": "none", "candidates": []})
+        found = reading_validation.read_diagnosis(self.folder)
+        self.assertEqual((found.base, found.best, found.recovered), ({}, {}, []))
+        self.assertTrue(math.isnan(found.noise_floor))
+
+
+class Refuses(Temporary):
+    def refused(self, read, *needles):
+        with self.assertRaises(Problem) as caught:
+            read(self.folder)
+        text = str(caught.exception)
+        self.assertEqual((caught.exception.exit_code, len(text.splitlines())), (3, 1), text)
+        for needle in needles:
+            self.assertIn(needle, text)
+
+    def test_truncated_anywhere(self):
+        path = make.comparison(self.folder) / "comparison.json"
+        whole = path.read_text()
+        for share in (0.0, 0.01, 0.3, 0.7, 0.999):
+            path.write_text(whole[:int(share * len(whole))])
+            self.refused(reading_validation.read_comparison, "comparison.json", "not readable as JSON", "freestand compare")
+
+    def test_not_text_and_no_object(self):
+        path = self.folder / "diagnosis.json"
+        path.write_bytes(b"\xff\xfe\x00\x81" * 20)
+        self.refused(reading_validation.read_diagnosis, "not readable")
+        path.write_text("[1, 2]")
+        self.refused(reading_validation.read_diagnosis, "the whole is not an object", "freestand diagnose")
+
+    def test_other_format(self):
+        make.comparison(self.folder, format="freestand-comparison/9")
+        self.refused(reading_validation.read_comparison, '"freestand-comparison/9"', '"freestand-comparison/1"')
+
+    def test_wrong_kinds_are_named(self):
+        for change, place in ((lambda v: v["tests"][1].update(error_relative="big"), "tests[1].error_relative is not a number"),
+                              (lambda v: v.update(tests=None), "tests is not a list"),
+                              (lambda v: v.update(findings=[3]), "findings is not a list of texts"),
+                              (lambda v: v["calibration"].update(error=True), "calibration.error is not a number"),
+                              (lambda v: v["histories"][0]["slip_m"].update(model=[1, 2]), "histories[0].slip_m.model"),
+                              (lambda v: v["histories"][1]["slip_m"].update(noise={}), "histories[1].slip_m.noise"),
+                              (lambda v: v["error_tables"]["calibration"][1].update(count=["a"]), "error_tables.calibration[1].count"),
+                              (lambda v: v.update(parameters=["mu"]), "parameters[0] is not an object")):
+            with self.subTest(place):
+                make.comparison(self.folder)
+                self.change(self.folder, "comparison.json", change)
+                self.refused(reading_validation.read_comparison, place)
+
+    def test_verdict_that_is_none_of_the_four(self):
+        make.diagnosis(self.folder, verdict="perhaps")
+        self.refused(reading_validation.read_diagnosis, "verdict", "ambiguous")
+
+    def test_through_the_program_it_is_one_line(self):
+        (self.folder / "comparison.json").write_text("{")
+        for program in ("report", "figures"):
+            result = support.run(program, self.folder)
+            self.assertEqual((result.returncode, result.stdout, len(result.stderr.strip().splitlines())), (3, "", 1), result.stderr)
+        self.assertFalse((self.folder / "report.html").exists())
+
+    def test_several_folders_without_a_validation(self):
+        for name in ("one", "two"):
+            (self.folder / name).mkdir()
+        with self.assertRaises(Problem):
+            command.read([self.folder / "one", self.folder / "two"])
+        with self.assertRaises(Problem) as caught:
+            command.read([support.sweep(), support.sweep()])
+        self.assertEqual(caught.exception.exit_code, USAGE)
+
+
+class Drawn(Temporary):
+    def setUp(self):
+        super().setUp()
+        style.apply()
+
+    def draw(self, *folders):
+        """All pictures of a validation by name; none of them crowded, all of them said in words."""
+        drawn = {picture.name: picture for picture in pictures.draw(command.read(folders)[0])}
+        for name, picture in drawn.items():
+            with self.subTest(name):
+                self.assertEqual(overlaps(picture.figure), [])
+                self.assertGreater(len(picture.finding), 15)
+                self.assertNotRegex(picture.finding + picture.caption, r"\bnan\b|\{|\}|_")
+                self.assertTrue(picture.caption.endswith("."))
+        return drawn
+
+    def test_whole_ladder(self):
+        before = make.comparison(self.folder / "before", channels=("slip_m", "rotation_rad"))
+        after = make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01, channels=("slip_m", "rotation_rad"))
+        drawn = self.draw(before, make.diagnosis(self.folder / "diag"), after)
+        self.assertEqual(set(drawn), {"ladder", "ranking", "recovered", "worst_t02", "worst_t04", "where"})
+        self.assertIn("held-out error falls from 13.8 to 1.01 noise units, at the noise floor", drawn["ladder"].finding)
+        self.assertIn("falls from 17.7 to 1.20", drawn["ranking"].finding)
+        self.assertIn("“slipping”", drawn["where"].finding)
+        self.assertIn("with the base model", drawn["worst_t02"].finding)
+        labels = [axes.get_ylabel() for axes in drawn["worst_t02"].figure.axes]
+        self.assertEqual(labels, ["floor (g)", "slip (cm)", "residual\n(noise units)", "rotation (°)", "residual\n(noise units)"])
+
+    def test_history_shows_the_numbers_of_the_file(self):
+        folder = make.comparison(self.folder / "one")
+        value = json.loads((folder / "comparison.json").read_text())["histories"][0]
+        _, slip, residual = self.draw(folder)["worst_t02"].figure.axes
+        shown = [line.get_ydata() for line in slip.get_lines()]
+        np.testing.assert_allclose(shown[0], 100 * np.array(value["slip_m"]["measured"]))
+        np.testing.assert_allclose(shown[1], 100 * np.array(value["slip_m"]["model"]))
+        np.testing.assert_allclose(residual.get_lines()[0].get_ydata(), np.array(value["slip_m"]["residual"]) / make.NOISE)
+
+    def test_a_test_that_only_the_last_model_lists_is_shown_if_missed(self):
+        before = make.comparison(self.folder / "before", histories=[make.history("t02", 17)])
+        after = make.comparison(self.folder / "after", ["wall_impact"], 1.0, 1.0, histories=[make.history("t03", 1)])
+        self.assertNotIn("worst_t03", self.draw(before, after))
+        after = make.comparison(self.folder / "after", ["wall_impact"], 9.0, 9.0, histories=[make.history("t03", 9)])
+        self.assertIn("worst_t03", self.draw(before, after))
+
+    def test_ranking_shows_ten_and_says_how_many_more(self):
+        drawn = self.draw(make.diagnosis(self.folder, "ambiguous"))["ranking"]
+        (axes,) = drawn.figure.axes
+        names = [label.get_text() for label in axes.get_yticklabels()]
+        self.assertEqual((len(names), names[:3]), (10, ["rate weakening", "static friction", "floor tilt"]))
+        self.assertEqual([label.get_weight() for label in axes.get_yticklabels()[:3]], ["bold", "bold", "normal"])
+        self.assertIn("3 more candidates", " ".join(text.get_text() for text in drawn.figure.texts))
+        self.assertEqual(axes.get_xscale(), "log")
+
+    def test_law_is_drawn_where_it_is_a_law_of_that_variable(self):
+        drawn = self.draw(make.diagnosis(self.folder))["recovered"]
+        panels = {axes.get_xlabel(): axes for axes in drawn.figure.axes}
+        self.assertEqual(list(panels)[0], "sliding speed (m/s)")
+        self.assertNotIn("normal force over mass (g)", panels)
+        blue = {name: [line for line in axes.get_lines() if line.get_color() == style.BLUE and np.isfinite(line.get_ydata()).any()]
+                for name, axes in panels.items()}
+        self.assertEqual({name for name, lines in blue.items() if lines}, {"sliding speed (m/s)"})
+        self.assertRegex(drawn.finding, r"sliding speed .* from 0\.2\d to 0\.20; the law of rate weakening from 0\.2\d to 0\.20")
+
+    def test_no_law_is_drawn_where_no_effect_is_named(self):
+        for verdict in ("none", "unknown"):
+            figure = self.draw(make.diagnosis(self.folder / verdict, verdict))["recovered"].figure
+            self.assertFalse([line for axes in figure.axes for line in axes.get_lines()
+                              if line.get_color() == style.BLUE and np.isfinite(line.get_ydata()).any()])
+
+    def test_verdict_none_keeps_small_differences_small(self):
+        base = make.candidate("", 1.02)
+        near = [make.candidate(name, value) for name, value in (("wall_impact", 1.01), ("floor_tilt", 1.02))]
+        (axes,) = self.draw(make.diagnosis(self.folder, "none", candidates=near, base=base, noise_floor=1.04))["ranking"].figure.axes
+        low, high = axes.get_xlim()
+        self.assertGreater(high - low, 0.3)
+
+    def test_peaks(self):
+        slow, fitted = make.peaks(self.folder / "slow", 0.2, stuck=2), make.peaks(self.folder / "fitted", 0.95)
+        picture = self.draw(slow, fitted)["peaks_peak_slip_m"]
+        self.assertRegex(picture.finding, r"In fitted the model predicts .* in slow 0\.\d+")
+        (axes,) = picture.figure.axes
+        self.assertEqual((axes.get_xscale(), axes.get_yscale()), ("log", "log"))
+        self.assertEqual((axes.get_xlabel(), axes.get_ylabel()), ("measured peak slip (cm)", "predicted peak slip (cm)"))
+        stuck = [line for line in axes.get_lines() if line.get_marker() == "v" and line.get_xdata().size]
+        self.assertEqual([line.get_xdata().size for line in stuck], [2])
+
+    def test_model_that_never_moves(self):
+        self.assertIn("does not move in any of the 9 tests", self.draw(make.peaks(self.folder, 0.2, stuck=9))["peaks_peak_slip_m"].finding)
+
+    def test_outcomes_in_order_of_intensity_or_probability(self):
+        for intensity, label in ((True, "peak floor acceleration (g)"), (False, "tests, by the probability that the model gives")):
+            picture = self.draw(make.outcomes(self.folder, intensity))["outcomes"]
+            self.assertEqual(picture.figure.axes[-1].get_xlabel(), label)
+            self.assertIn("36 of 40 outcomes right", picture.finding)
+
+    def test_fragility_before_and_after(self):
+        changed = support.sweep_copy(self.folder / "changed")
+        with h5py.File(changed / "fragility.h5", "a") as root:
+            root.attrs["effects"] = json.dumps([{"name": "static_friction", "parameters": []}])
+            for key in ("probability", "lower", "upper"):
+                root[f"edp/delta/surface/{key}"][...] *= 0.5
+        picture = self.draw(make.comparison(self.folder / "one"), support.sweep(), changed)["before_after"]
+        self.assertRegex(picture.finding, r"With static friction P\(Δ.>.0\.5\) falls by up to 0\.50")
+        self.assertEqual(picture.figure.axes[-1].get_title(loc="left"), "P(overturned)")
+
+    def test_sweeps_that_cannot_be_compared_say_why(self):
+        other = support.sweep_copy(self.folder / "other")
+        with h5py.File(other / "fragility.h5", "a") as root:
+            root.attrs["im"] = "pga_g"
+        folders = [make.comparison(self.folder / "one"), support.sweep(), other]
+        self.assertNotIn("before_after", self.draw(*folders))
+        self.assertEqual(support.run("report", *folders, "-o", self.folder / "page.html").returncode, 0)
+        self.assertIn("not drawn together", Page((self.folder / "page.html").read_text()).text)
+
+    def test_nothing_known_draws_nothing(self):
+        make.comparison(self.folder, tests=[], histories=[], error_tables=None, calibration=None, holdout=None, peak_ratio=None)
+        make.diagnosis(self.folder, "none", candidates=[], base=None, recovered_force=None, noise_floor=None)
+        self.assertEqual(self.draw(self.folder), {})
+        self.assertEqual(support.run("report", self.folder).returncode, 0)
+
+
+class ThePage(Temporary):
+    def page(self, *folders):
+        result = support.run("report", *folders, "-o", self.folder / "page.html")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        text = (self.folder / "page.html").read_text(encoding="utf-8")
+        page = Page(text)
+        self.assertEqual((page.unbalanced, page.open), ([], []))
+        self.assertEqual(len(page.ids), len(set(page.ids)))
+        self.assertEqual([address for address in page.addresses if not address.startswith("#")], [])
+        self.assertNotRegex(page.text, r"\bnan\b")
+        return page, text
+
+    def test_before_diagnosis_after(self):
+        diagnosis = make.diagnosis(self.folder / "diag", candidates=[make.candidate("static_friction", 1.2, True)],
+                                   effects=["static_friction"], sentences=["static_friction brings it down"])
+        page, text = self.page(make.comparison(self.folder / "before"), diagnosis,
+                               make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01))
+        for needle in ("bench: the missing effect was static friction", "17.7 base model", "1.20 with static friction",
+                       "1.01 on held-out tests", "1.08 noise floor", "4 tests (3 for calibration and 1 held out)",
+                       "Static friction brings it down.", "friction: μ 0.2991", "static friction: ratio 1.800", "All 1 candidate and", "t03",
+                       "simplex method"):
+            self.assertIn(needle, page.text)
+        self.assertEqual(text.count('<tr class="missed">'), 0)
+        self.assertLessEqual({"ladder", "ranking", "recovered", "worst_t02", "where"}, set(page.ids))
+
+    def test_one_comparison(self):
+        page, text = self.page(make.comparison(self.folder / "before"))
+        self.assertIn("bench: the model misses its tests by 17.4 times the sensor noise", page.text)
+        self.assertEqual(text.count('<tr class="missed">'), 4)
+        self.assertNotIn("ladder", page.ids)
+
+    def test_verdicts_in_the_headline(self):
+        for verdict, needle in (("none", "no effect is missing"), ("unknown", "no effect of the catalogue explains"),
+                                ("ambiguous", "the missing effect is rate weakening or static friction"),
+                                ("missing", "the missing effect is rate weakening")):
+            with self.subTest(verdict):
+                page, _ = self.page(make.diagnosis(self.folder / verdict, verdict))
+                self.assertIn(needle, page.text)
+                self.assertEqual("would part them by 41.9 noise units" in page.text, verdict == "ambiguous")
+
+    def test_peaks_and_outcomes(self):
+        page, _ = self.page(make.peaks(self.folder / "peaks"))
+        self.assertIn("the model predicts 0.20 of the measured peaks", page.text)
+        page, text = self.page(make.outcomes(self.folder / "outcomes"))
+        self.assertIn("the model gets 36 of 40 outcomes right", page.text)
+        self.assertIn("All 40 tests, 4 of them missed", page.text)
+        self.assertEqual(text.count('<tr class="missed">'), 4)
+
+    def test_text_from_files_is_escaped(self):
+        _, text = self.page(make.comparison(self.folder / "one", name="<b>bench</b>", findings=["<script>alert(1)</script>"]))
+        self.assertNotIn("<script>alert", text)
+        self.assertNotIn("<b>bench", text)
+
+    def test_figures_writes_them_as_files(self):
+        folder = make.comparison(self.folder / "one")
+        result = support.run("figures", folder)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        captions = json.loads((folder / "figures/captions.json").read_text())
+        self.assertEqual(set(captions), {"worst_t02", "worst_t04", "where"})
+        self.assertTrue(all((folder / f"figures/{name}.{kind}").exists() for name in captions for kind in ("svg", "png")))
+
+
+if __name__ == "__main__":
+    unittest.main()
