@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace freestand {
 namespace {
@@ -11,6 +12,11 @@ bool constant_step(const FloorMotion& motion) {
   for (std::size_t i = 0; i < motion.knot_s.size(); ++i)
     if (std::abs(motion.knot_s[i] - static_cast<double>(i) * h) > 1e-12 * motion.duration_s()) return false;
   return true;
+}
+
+float at_least(double x) {
+  const float near = static_cast<float>(x);
+  return near < x ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;
 }
 
 bool continuous(const FloorMotion& motion) {
@@ -48,6 +54,15 @@ std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
   t.run_peak.assign(all / table_run + table_tail, 0.0);
   for (std::size_t j = 0; j < all; ++j)
     t.run_peak[j / table_run] = std::max(t.run_peak[j / table_run], std::abs(t.acceleration[j]));
+  t.columns.reserve(all * table_columns);
+  for (std::size_t j = 0; j < all; ++j)
+    for (const double value : {t.acceleration[j], t.velocity[j], t.displacement[j], 0.0}) t.columns.push_back(value);
+  for (auto* row : {&t.size, &t.above, &t.below}) row->assign((all + table_search) / table_search * table_search, 0.0F);
+  for (std::size_t j = 0; j < all; ++j) {
+    t.size[j] = static_cast<float>(std::abs(t.acceleration[j]));
+    t.above[j] = at_least(t.margin[j] + t.velocity[j]);
+    t.below[j] = at_least(t.margin[j] - t.velocity[j]);
+  }
   t.later_peak = t.run_peak;
   for (std::size_t r = t.later_peak.size() - 1; r-- > 0;)
     t.later_peak[r] = std::max(t.later_peak[r], t.later_peak[r + 1]);

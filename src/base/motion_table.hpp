@@ -11,22 +11,44 @@
 #include <cstddef>
 #include <freestand/floor_motion.hpp>
 #include <memory>
+#include <new>
 #include <vector>
 
 namespace freestand {
 
+// Rows start where a cache line does, so that a pack of a run never lies across two.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+  LineAllocator() = default;
+  template <class U>
+  LineAllocator(const LineAllocator<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
+  bool operator==(const LineAllocator&) const = default;
+};
+using Row = std::vector<double, LineAllocator<double>>;
+using FloatRow = std::vector<float, LineAllocator<float>>;
+
 inline constexpr int table_run = 8;    // knots a run
 inline constexpr int table_tail = 96;  // entries after the last knot
+inline constexpr int table_columns = 4;
+inline constexpr int table_search = 64;  // knots that a search looks at together
 
 struct MotionTable {
-  double step_s = 0, rate_hz = 0;    // h and 1/h
-  int knots = 0;                     // n + 1
-  std::vector<double> acceleration;  // a_j [m/s2]
-  std::vector<double> velocity;      // V_j [m/s]
-  std::vector<double> displacement;  // D_j [m]
-  std::vector<double> margin;        // M_j [m/s]
-  std::vector<double> run_peak;      // max |a_j| over j = 8 r ... 8 r + 7 [m/s2]
-  std::vector<double> later_peak;    // max |a_j| over all j >= 8 r [m/s2]
+  double step_s = 0, rate_hz = 0;  // h and 1/h
+  int knots = 0;                   // n + 1
+  Row acceleration;                // a_j [m/s2]
+  Row velocity;                    // V_j [m/s]
+  Row displacement;                // D_j [m]
+  Row margin;                      // M_j [m/s]
+  Row run_peak;                    // max |a_j| over j = 8 r ... 8 r + 7 [m/s2]
+  Row later_peak;                  // max |a_j| over all j >= 8 r [m/s2]
+  Row columns;                     // a_j, V_j, D_j and a zero, knot by knot
+  // For searches, rounded so that none passes over a knot:
+  FloatRow size;          // |a_j|, to the nearest
+  FloatRow above, below;  // at least M_j + V_j and M_j - V_j
 };
 
 // Null where the motion is not piecewise linear with a constant step.

@@ -33,24 +33,44 @@ static inline unsigned bits(const PackMask& mask) {
 #endif
 }
 
-// Lane i: *p[i].
-static inline Pack fetch(const double* const* p) {
+// A pack of floats, for searches that something exact follows.
+using Floats = xsimd::batch<float>;
+inline constexpr int float_lanes = static_cast<int>(Floats::size);
+
+// Bit i: lane i holds.
+static inline std::uint64_t bits(const Floats::batch_bool_type& mask) {
 #if defined(__AVX512F__)
-  return _mm512_i64gather_pd(_mm512_load_si512(p), nullptr, 1);
+  return static_cast<std::uint64_t>(mask.data);
+#elif defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_ps(mask));
+#elif defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_ps(mask));
+#else
+  std::uint64_t all = 0;
+  for (int i = 0; i < float_lanes; ++i) all |= std::uint64_t{mask.get(static_cast<std::size_t>(i))} << i;
+  return all;
+#endif
+}
+
+// Lane i: p[i][offset].
+static inline Pack fetch(const double* const* p, int offset = 0) {
+#if defined(__AVX512F__)
+  const __m512i bytes = _mm512_set1_epi64(static_cast<long long>(sizeof(double)) * offset);
+  return _mm512_i64gather_pd(_mm512_add_epi64(_mm512_load_si512(p), bytes), nullptr, 1);
 #else
   alignas(64) double values[pack_lanes];
-  for (int i = 0; i < pack_lanes; ++i) values[i] = *p[i];
+  for (int i = 0; i < pack_lanes; ++i) values[i] = p[i][offset];
   return load(values);
 #endif
 }
 
-// ++p[i], where bit i of `lanes` is set.
-static inline void advance(const double** p, unsigned lanes) {
+// p[i] += by, where bit i of `lanes` is set.
+static inline void advance(const double** p, unsigned lanes, int by = 1) {
 #if defined(__AVX512F__)
-  const __m512i at = _mm512_load_si512(p);
-  _mm512_store_si512(p, _mm512_mask_add_epi64(at, static_cast<__mmask8>(lanes), at, _mm512_set1_epi64(sizeof(double))));
+  const __m512i at = _mm512_load_si512(p), bytes = _mm512_set1_epi64(static_cast<long long>(sizeof(double)) * by);
+  _mm512_store_si512(p, _mm512_mask_add_epi64(at, static_cast<__mmask8>(lanes), at, bytes));
 #else
-  for (int i = 0; i < pack_lanes; ++i) p[i] += lanes >> i & 1U;
+  for (int i = 0; i < pack_lanes; ++i) p[i] += (lanes >> i & 1U) ? by : 0;
 #endif
 }
 

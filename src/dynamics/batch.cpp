@@ -1,5 +1,6 @@
 #include "dynamics/batch.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -70,7 +71,16 @@ bool covered(const Setup& setup, const Settings& settings, BatchCase& c) {
   if (settings.tolerance < least_tolerance || settings.event_limit < 10000) return false;
   if (specimen.model == Model::bouc_wen) return covered_bouc_wen(setup, settings, c);
   if (!admissible(setup, settings)) return false;
-  if (specimen.model != Model::slide && specimen.impact.law != ImpactLaw::housner) return false;
+  if (specimen.model == Model::slide) {
+    c.table = shaking.motion->table.get();
+    c.scale = shaking.scale;
+    c.mu_s = specimen.friction.mu_s;
+    c.mu_k = specimen.friction.mu_k;
+    c.g = standard_gravity_mps2 * floor.gravity_factor;
+    c.free_vibration_s = settings.free_vibration_s;
+    return true;
+  }
+  if (specimen.impact.law != ImpactLaw::housner) return false;
   const Rig rig(specimen, settings, floor);
   c = {shaking.motion->table.get(),
        shaking.scale,
@@ -126,23 +136,44 @@ class Queues {
     queue->at.push_back(sample);
   }
 
-  // Samples that a kernel declined are added to `single`.
-  void compute(std::span<Response> responses, std::vector<std::size_t>& single) const {
-    for (const Queue& queue : queues_) {
-      std::vector<Response> answers(queue.at.size());
-      std::vector<std::uint8_t> declined(queue.at.size());
-      queue.kernel(queue.cases.data(), queue.at.size(), answers.data(), declined.data());
-      for (std::size_t i = 0; i < queue.at.size(); ++i)
-        if (declined[i])
+  // Samples that a kernel declined are added to `single`. The queues are empty then.
+  void compute(std::span<Response> responses, std::vector<std::size_t>& single) {
+    for (Queue& queue : queues_) {
+      const std::size_t count = queue.at.size();
+      answers_.resize(std::max(count, answers_.size()));
+      declined_.assign(count, 0);
+      queue.kernel(queue.cases.data(), count, answers_.data(), declined_.data());
+      for (std::size_t i = 0; i < count; ++i)
+        if (declined_[i])
           single.push_back(queue.at[i]);
         else
-          responses[queue.at[i]] = answers[i];
+          responses[queue.at[i]] = answers_[i];
+      queue.cases.clear();
+      queue.at.clear();
     }
   }
 
  private:
   std::vector<Queue> queues_;
+  std::vector<Response> answers_;
+  std::vector<std::uint8_t> declined_;
 };
+
+// As many samples as stay in the cache with all that belongs to them, those of one record next to each other.
+constexpr std::size_t group = 2048;
+
+void sort_by_record(std::span<const Shaking> shakings, std::vector<std::size_t>& order) {
+  constexpr std::size_t bins = 64;
+  const auto bin = [&](std::size_t i) {
+    return static_cast<std::size_t>(
+        (reinterpret_cast<std::uintptr_t>(shakings[i].motion) >> 4) * 0x9e3779b97f4a7c15ULL >> 58);
+  };
+  std::size_t starts[bins + 1] = {};
+  for (std::size_t i = 0; i < shakings.size(); ++i) ++starts[bin(i) + 1];
+  for (std::size_t k = 0; k < bins; ++k) starts[k + 1] += starts[k];
+  order.resize(shakings.size());
+  for (std::size_t i = 0; i < shakings.size(); ++i) order[starts[bin(i)]++] = i;
+}
 
 }  // namespace
 }  // namespace freestand::dynamics
@@ -154,16 +185,20 @@ void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking>
   using namespace dynamics;
   const BatchKernels* kernels = pick();
   Queues queues;
-  std::vector<std::size_t> single;
-  for (std::size_t i = 0; i < specimens.size(); ++i) {
-    BatchCase c{};
-    const bool packs = kernels && covered(set_up(specimens[i], shakings[i]), settings, c);
-    if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c) : nullptr)
-      queues.add(kernel, c, i);
-    else
-      single.push_back(i);
+  std::vector<std::size_t> single, order;
+  for (std::size_t first = 0; first < specimens.size(); first += group) {
+    sort_by_record(shakings.subspan(first, std::min(group, specimens.size() - first)), order);
+    for (const std::size_t place : order) {
+      const std::size_t i = first + place;
+      BatchCase c{};
+      const bool packs = kernels && covered(set_up(specimens[i], shakings[i]), settings, c);
+      if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c) : nullptr)
+        queues.add(kernel, c, i);
+      else
+        single.push_back(i);
+    }
+    queues.compute(responses, single);
   }
-  queues.compute(responses, single);
   for (const std::size_t i : single) responses[i] = respond(specimens[i], shakings[i], settings);
 }
 

@@ -40,6 +40,18 @@ TEST(MotionTable, PeaksBoundTheirRuns) {
   }
 }
 
+TEST(MotionTable, SearchRowsPassOverNoKnot) {
+  const FloorMotion motion = record();
+  const MotionTable& t = *motion.table;
+  for (std::size_t j = 0; j < t.velocity.size(); ++j) {
+    EXPECT_GE(double{t.above[j]}, t.margin[j] + t.velocity[j]);
+    EXPECT_GE(double{t.below[j]}, t.margin[j] - t.velocity[j]);
+    EXPECT_NEAR(t.above[j] - t.below[j], 2 * t.velocity[j], 1e-5);
+    EXPECT_EQ(t.size[j], static_cast<float>(std::abs(t.acceleration[j])));
+    EXPECT_EQ(t.columns[j * table_columns + 2], t.displacement[j]);
+  }
+}
+
 TEST(MotionTable, PulsesAndOddStepsHaveNone) {
   FloorMotion motion = record();
   motion.knot_s[7] += 0.001;

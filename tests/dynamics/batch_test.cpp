@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "base/units.hpp"
+#include "support/keyed_random.hpp"
 #include "support/random_cases.hpp"
 
 namespace freestand::test {
@@ -220,6 +222,36 @@ TEST(BatchOfAnything, FallsBackToSingleSamples) {
   respond_batch(specimens, shakings, {.tolerance = 1e-12}, responses);
   for (std::size_t i = 0; i < specimens.size(); ++i)
     EXPECT_TRUE(same_bits(responses[i], respond(specimens[i], shakings[i], {.tolerance = 1e-12}))) << i;
+}
+
+// White noise between knots 0.02 s apart: a slip may end and begin again within one interval, and its speed dip to zero
+// between two knots at which it is positive.
+TEST(BatchOfRoughRecords, SlidesAsSingleSamplesDo) {
+  std::vector<FloorMotion> records;
+  for (std::uint64_t k = 0; k < 20; ++k) {
+    KeyedRandom random(81, k);
+    std::vector<double> a(401);
+    for (double& value : a) value = random.normal();
+    records.push_back(piecewise_linear("noise", 0.02, a));
+  }
+  std::vector<Specimen> specimens(2000);
+  std::vector<Shaking> shakings(2000);
+  for (std::size_t i = 0; i < 2000; ++i) {
+    KeyedRandom random(82, i);
+    specimens[i].block = Block::rectangular(0.6, 1.8, 100);
+    specimens[i].model = Model::slide;
+    const double mu = random.uniform(0.05, 0.5);
+    specimens[i].friction = {mu * random.uniform(1, 1.2), mu};
+    shakings[i] = {&records[i % 20], mu * standard_gravity_mps2 * random.log_uniform(0.3, 3)};
+  }
+  std::vector<Response> responses(2000);
+  respond_batch(specimens, shakings, {}, responses);
+  int wrong = 0;
+  for (std::size_t i = 0; i < 2000; ++i) {
+    const Response truth = respond(specimens[i], shakings[i], {.tolerance = 1e-12});
+    wrong += !close(responses[i], truth) || responses[i].events != truth.events;
+  }
+  EXPECT_EQ(wrong, 0);
 }
 
 }  // namespace

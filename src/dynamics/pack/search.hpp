@@ -35,6 +35,23 @@ inline int first_above(const MotionTable& t, int from, double limit) {
   return run * table_run + __builtin_ctz(found);
 }
 
+// The same, for one that is expected within the next 50 knots or so: those are looked at all together, so that the
+// processor can go on to the next search meanwhile.
+inline int next_above(const MotionTable& t, int from, double limit) {
+  const int start = from & ~15;
+  const Floats bound(static_cast<float>(limit));
+  const float* size = t.size.data() + start;
+  std::uint64_t found = 0;
+  for (int i = 0; i < table_search; i += float_lanes) found |= bits(Floats::load_aligned(size + i) >= bound) << i;
+  found &= ~std::uint64_t{0} << (from - start);
+  if (found) {
+    const int j = start + __builtin_ctzll(found);
+    if (magnitude(t.columns[static_cast<std::size_t>(j) * table_columns]) > limit) return j;
+    return first_above(t, j + 1, limit);
+  }
+  return first_above(t, start + table_search, limit);
+}
+
 // max |a_j| over all j >= from.
 inline double peak_from(const MotionTable& t, int from) {
   const int run = (from + table_run - 1) / table_run;

@@ -1,8 +1,9 @@
-// Pure sliding under a piecewise linear record is arithmetic, not integration. In units of the scale, while the block
-// slips in direction sigma from t_0 on,
-//     w(t) = C - V(t) - sigma mu_k g (t - t_0),   C = V(t_0) + w(t_0),   V = int a dt from the table,
-// so that a slip ends where V(t) crosses a line: searched 8 knots at a time, one quadratic at the end. The displacement
-// follows from D = int V dt; |u| has its peaks where w = 0 only. At rest the search is for |a| > mu_s g.
+// Pure sliding in packs. Under a piecewise linear record it is arithmetic, not integration: at rest the search is for
+// |a| > mu_s g, while slipping for the knot at which a line is crossed (dynamics/pack/slide_stop.hpp), with one quadratic
+// at the end. The displacement follows from D = int int a; |u| has its peaks where the slip ends only.
+//
+// Every lane carries its own sample. One round takes each from rest to rest: the searches lane by lane, each with whole
+// packs of knots, the arithmetic of the breaks and stops for all lanes at once. All in units of the scale.
 #pragma once
 
 #include <cmath>
@@ -10,202 +11,294 @@
 #include "base/pack.hpp"
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/search.hpp"
+#include "dynamics/pack/slide_stop.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-struct Slip {
-  double C, x0, sigma, G;  // w_j = C - V_j - sigma G (j - x0)
+constexpr int slide_slots = 16;
+alignas(64) const double still_knot[2 * table_columns] = {};
+
+struct SlideRows {
+  alignas(64) double gs[slide_slots], gk[slide_slots];  // friction limits in units of |scale|
+  alignas(64) double step[slide_slots], rate[slide_slots];
+  // Where the lane is: tau after knot m, with the floor's acceleration and its integrals there.
+  alignas(64) const double* knot[slide_slots];
+  alignas(64) double m[slide_slots], tau[slide_slots], a[slide_slots], V[slide_slots], D[slide_slots];
+  alignas(64) double pushed[slide_slots];  // 1: |a| > mu_s g here, so that a slip starts at once
+  alignas(64) double sigma[slide_slots], G[slide_slots], next[slide_slots];  // the slip
+  alignas(64) const double* stop[slide_slots];                               // and its end
+  alignas(64) double stop_m[slide_slots], stop_tau[slide_slots];             // tau < 0: to be found
+  alignas(64) double u[slide_slots], path[slide_slots], peak[slide_slots];
 };
 
-// First knot j >= from at which sigma w_j <= margin; table's end: none.
-inline int first_stop(const MotionTable& t, int from, const Slip& s) {
-  const double *V = t.velocity.data(), *M = t.margin.data();
-  const Pack sigma(s.sigma), A(s.sigma * s.C + s.G * s.x0), G(s.G);
-  alignas(64) static constexpr double ramp[] = {0, 1, 2, 3, 4, 5, 6, 7};
-  int j = from / table_run * table_run;
-  unsigned keep = 0xffU << (from - j);
-  for (; j < t.knots; j += table_run, keep = 0xff) {
-    unsigned found = 0;
-    for (int i = 0; i < table_run; i += pack_lanes) {
-      const Pack at = load(ramp + i) + Pack(static_cast<double>(j));
-      found |= bits((A - sigma * load_any(V + j + i)) - G * at <= load_any(M + j + i)) << i;
-    }
-    found &= keep;
-    if (found) return j + __builtin_ctz(found);
+// The floor within an interval.
+struct Within {
+  Pack a, slope, V, D;
+  Within(const double* const* knot, const Pack& rate_hz)
+      : a(fetch(knot, 0)), slope((fetch(knot, table_columns) - a) * rate_hz), V(fetch(knot, 1)), D(fetch(knot, 2)) {}
+  Pack acceleration(const Pack& tau) const { return a + slope * tau; }
+  Pack velocity(const Pack& tau) const { return V + tau * (a + Pack(0.5) * slope * tau); }
+  Pack displacement(const Pack& tau) const {
+    return D + tau * (V + tau * (Pack(0.5) * a + slope * tau * Pack(1.0 / 6)));
   }
-  return t.knots;
-}
-
-// A point inside interval m (between knots m and m + 1).
-struct Instant {
-  int m;
-  double tau, a, V, D;
 };
 
-inline Instant instant(const MotionTable& t, int m, double tau) {
-  const auto i = static_cast<std::size_t>(m);
-  const double a = t.acceleration[i], slope = (t.acceleration[i + 1] - a) * t.rate_hz;
-  return {m, tau, a + slope * tau, t.velocity[i] + tau * (a + 0.5 * slope * tau),
-          t.displacement[i] + tau * (t.velocity[i] + tau * (0.5 * a + slope * tau * (1.0 / 6)))};
-}
-
-class Slide {
+class SlidePool {
  public:
-  Slide(const BatchCase& sample)
-      : t_(*sample.table),
-        scale_(sample.scale),
-        gs_(sample.mu_s * sample.g / std::abs(sample.scale)),
-        gk_(sample.mu_k * sample.g / std::abs(sample.scale)),
-        last_(t_.knots - 1),
-        free_vibration_s_(sample.free_vibration_s) {}
+  SlidePool(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined)
+      : cases_(cases), count_(count), responses_(responses), declined_(declined) {
+    for (int i = 0; i < slide_slots; ++i) {
+      r_.gs[i] = r_.gk[i] = r_.step[i] = r_.rate[i] = r_.tau[i] = r_.m[i] = r_.pushed[i] = 1;
+      r_.a[i] = r_.u[i] = r_.path[i] = r_.peak[i] = 0;
+      r_.knot[i] = still_knot;
+    }
+  }
 
-  // False: not covered.
-  bool run(Response& out) {
-    now_ = instant(t_, 0, 0.0);
-    bool slips = std::abs(now_.a) > gs_;
-    if (slips) begin_slip();
-    for (;;) {
-      if (slips) {
-        if (!slip()) return finish_after_motion(out);
-        slips = std::abs(now_.a) > gs_;
-        ++events_;
-        if (slips) begin_slip(), --events_;
-      } else {
-        const int j = first_above(t_, now_.m + 1, gs_);
-        if (j >= t_.knots) return finish_at_rest(out);
-        const auto i = static_cast<std::size_t>(j);
-        const double before = t_.acceleration[i - 1], after = t_.acceleration[i];
-        const double tau = (std::copysign(gs_, after) - before) * t_.step_s / (after - before);
-        now_ = instant(t_, j - 1, tau);
-        now_.a = std::copysign(gs_, after);
-        broke_ = true;
-        begin_slip();
-        slips = true;
-      }
+  void run() {
+    for (int i = 0; i < slide_slots; ++i) take(i);
+    while (leave_rest()) {
+      for (int i = 0; i < slide_slots; i += pack_lanes) set_out(i);
+      for (int i = 0; i < slide_slots; ++i) find_end(i);
+      for (int i = 0; i < slide_slots; i += pack_lanes) end(i);
+      for (; vacant_; vacant_ &= vacant_ - 1) take(__builtin_ctz(vacant_));
     }
   }
 
  private:
-  void begin_slip() {
-    start_ = now_;
-    sigma_ = now_.a > 0 ? -1.0 : 1.0;
-    ++events_;
-  }
+  struct Lane {
+    const BatchCase* sample = nullptr;  // null: none
+    int events = 0;
+    bool broke = false;  // a rest ended because the floor pushed hard enough
+    int at = 0;          // knot before
+    bool rises = false;  // the speed still does at the first knot of the slip
+  };
 
-  // To the end of the slip; false: it outlasts the record.
-  bool slip() {
-    const double h = t_.step_s;
-    const auto first = static_cast<std::size_t>(start_.m);
-    const double left = h - start_.tau, slope = (t_.acceleration[first + 1] - t_.acceleration[first]) * t_.rate_hz;
-    const double rate = -sigma_ * start_.a - gk_, half = -0.5 * sigma_ * slope;
-    const double next = left * (rate + half * left);  // sigma w at the first knot
-    if (next < 0) {
-      const double tau = start_.tau + (rate > 0 ? -rate / half : 0.0);
-      now_ = instant(t_, start_.m, tau < h ? tau : h);
-    } else if (!slip_past(next)) {
-      return false;
-    }
-    end_slip();
-    return true;
-  }
-
-  // The same for a slip that lives at the first knot after its start, with speed `next` there.
-  bool slip_past(double next) {
-    const double h = t_.step_s;
-    const Slip s{start_.V, start_.m + start_.tau * t_.rate_hz, sigma_, gk_ * h};
-    for (int j = start_.m + 1;; ++j) {
-      j = first_stop(t_, j, s);
-      if (j > last_) return false;
-      const double w = j == start_.m + 1 ? next : speed_at(j);
-      if (j > start_.m + 1 && ends_in(j - 1, j == start_.m + 2 ? next : speed_at(j - 1), w)) return true;
-      if (j < last_ && ends_in(j, w, speed_at(j + 1))) return true;
+  // The next sample, at rest at the record's start.
+  void take(int i) {
+    Lane& lane = lanes_[i];
+    lane.sample = nullptr;
+    for (; taken_ < count_; ++taken_) {
+      const BatchCase& c = cases_[taken_];
+      const std::size_t number = taken_;
+      declined_[number] = !(c.mu_k > 0) || c.scale == 0;
+      if (declined_[number]) continue;
+      const double size = magnitude(c.scale);
+      lane = Lane{.sample = &c};
+      r_.gs[i] = c.mu_s * c.g / size;
+      r_.gk[i] = c.mu_k * c.g / size;
+      r_.step[i] = c.table->step_s;
+      r_.rate[i] = c.table->rate_hz;
+      r_.m[i] = r_.tau[i] = r_.u[i] = r_.path[i] = r_.peak[i] = 0;
+      r_.a[i] = c.table->acceleration[0];
+      r_.knot[i] = c.table->columns.data();
+      r_.pushed[i] = magnitude(r_.a[i]) > r_.gs[i];
+      lane.events = r_.pushed[i] > 0;
+      ++taken_;
+      return;
     }
   }
 
-  // Does sigma w, from w > 0 at knot m to w_next at the next one, have a zero there? Then now_ is set to it.
-  bool ends_in(int m, double w, double w_next) {
-    const double h = t_.step_s;
-    const auto i = static_cast<std::size_t>(m);
-    const double slope = (t_.acceleration[i + 1] - t_.acceleration[i]) * t_.rate_hz;
-    const double rate = -sigma_ * t_.acceleration[i] - gk_, half = -0.5 * sigma_ * slope;
-    if (w_next > 0 && rate >= 0) return false;
-    const double square = rate * rate - 4 * half * w;
-    if (w_next > 0 && square < 0) return false;
-    const double below = std::sqrt(square > 0 ? square : 0.0) - rate;
-    const double tau = w > 0 ? 2 * w / below : 0.0;
-    if (w_next > 0 && !(tau <= h)) return false;
-    now_ = instant(t_, m, tau < h ? tau : h);
-    return true;
+  // Every lane to its next slip. False: no samples are left.
+  bool leave_rest() {
+    bool any = false;
+    for (int i = 0; i < slide_slots; ++i) {
+      Lane& lane = lanes_[i];
+      while (lane.sample && !(r_.pushed[i] > 0)) {
+        const MotionTable& t = *lane.sample->table;
+        const int j = next_above(t, lane.at + 1, r_.gs[i]);
+        if (j < t.knots) {
+          r_.m[i] = lane.at = j - 1;
+          r_.knot[i] = t.columns.data() + static_cast<std::size_t>(j - 1) * table_columns;
+          lane.broke = true;
+          ++lane.events;
+          break;
+        }
+        finish_at_rest(i);
+        take(i);
+      }
+      any = any || lane.sample;
+    }
+    return any;
   }
 
-  // sigma w at knot j.
-  double speed_at(int j) const {
-    const double time = (j - start_.m) * t_.step_s - start_.tau;
-    return sigma_ * (start_.V - t_.velocity[static_cast<std::size_t>(j)]) - gk_ * time;
+  // The start of the slips: when, and their lines.
+  void set_out(int first) {
+    const Pack one(1.0), zero(0.0), h = load(r_.step + first), rate_hz = load(r_.rate + first);
+    const Pack gs = load(r_.gs + first), gk = load(r_.gk + first);
+    const Within floor(r_.knot + first, rate_hz);
+    const PackMask pushed = load(r_.pushed + first) > zero;
+    const Pack a_next = fetch(r_.knot + first, table_columns), limit = choose(a_next < zero, zero - gs, gs);
+    const Pack tau = choose(pushed, load(r_.tau + first), (limit - floor.a) * h / (a_next - floor.a));
+    const Pack a = choose(pushed, load(r_.a + first), limit), V = floor.velocity(tau);
+    const Pack sigma = choose(a > zero, zero - one, one), G = gk * h, left = h - tau;
+    const Pack rate = zero - sigma * a - gk, half = Pack(-0.5) * sigma * floor.slope;
+    const Pack next = left * (rate + half * left);
+    const PackMask brief = next < zero;  // ends before the first knot
+    Pack stop_tau = zero - one;
+    if (bits(brief))
+      stop_tau = choose(brief, xsimd::min(tau + choose(rate > zero, zero - rate / half, zero), h), stop_tau);
+    const unsigned rises = bits(zero - sigma * a_next - gk >= zero);
+    for (int l = 0; l < pack_lanes; ++l) lanes_[first + l].rises = rises >> l & 1U;
+    store(r_.tau + first, tau);
+    store(r_.V + first, V);
+    store(r_.D + first, floor.displacement(tau));
+    store(r_.sigma + first, sigma);
+    store(r_.G + first, G);
+    store(r_.next + first, next);
+    store(r_.stop_tau + first, stop_tau);
   }
 
-  void end_slip() {
-    const double time = (now_.m - start_.m) * t_.step_s + (now_.tau - start_.tau);
-    const double moved = time * (start_.V - 0.5 * sigma_ * gk_ * time) - (now_.D - start_.D);
-    u_ += moved;
-    path_ += std::abs(moved);
-    peak_ = larger(peak_, std::abs(u_));
+  Slip slip(int i) const {
+    return {lanes_[i].sample->table, lanes_[i].at, r_.tau[i], r_.V[i], r_.sigma[i], r_.gk[i], r_.G[i], r_.next[i]};
   }
 
-  bool finish_after_motion(Response& out) {
-    const double w = speed_at(last_), time = w / gk_;
-    if (!(time < free_vibration_s_)) return false;
+  // The knot around which the slip may end.
+  void find_end(int i) {
+    Lane& lane = lanes_[i];
+    r_.stop[i] = r_.knot[i];
+    r_.stop_m[i] = lane.at;
+    if (!lane.sample || r_.stop_tau[i] >= 0) return;
+    const MotionTable& t = *lane.sample->table;
+    const int j = first_stop(slip(i), lane.at + (lane.rises ? 2 : 1));
+    if (j >= t.knots - 1) return look_closer(i, j);  // the floor may jump at the last knot
+    set_stop(i, j);
+  }
+
+  // A knot that may be an alarm for nothing.
+  void look_closer(int i, int j) {
+    double tau = 0;
+    const int before = lanes_[i].sample ? find_stop(slip(i), j, tau) : -1;
+    r_.stop_tau[i] = tau;
+    if (before >= 0)
+      set_stop(i, before);
+    else if (lanes_[i].sample)
+      finish_after_motion(i);
+  }
+
+  void set_stop(int i, int j) {
+    r_.stop[i] = lanes_[i].sample->table->columns.data() + static_cast<std::size_t>(j) * table_columns;
+    r_.stop_m[i] = j;
+  }
+
+  // The ends of the slips: in the interval before the knot that was found, or after it.
+  void end(int first) {
+    const Pack one(1.0), zero(0.0), two(2.0), h = load(r_.step + first), gk = load(r_.gk + first);
+    const Pack start_m = load(r_.m + first), start = load(r_.tau + first), next = load(r_.next + first);
+    const Pack sigma = load(r_.sigma + first), start_V = load(r_.V + first), found = load(r_.stop_tau + first);
+    const auto speed = [&](const Pack& V, const Pack& intervals) {
+      return choose(intervals == one, next, sigma * (start_V - V) - gk * (intervals * h - start));
+    };
+    const Pack knot = load(r_.stop_m + first) - start_m;
+    const PackMask open = found < zero, past = open & (speed(fetch(r_.stop + first, 1), knot) <= zero);
+    advance(r_.stop + first, bits(past), -table_columns);
+    const Pack intervals = knot - choose(past, one, zero), m = start_m + intervals;
+    const Within floor(r_.stop + first, load(r_.rate + first));
+    const Pack w = speed(floor.V, intervals);
+    const Pack w_next = speed(fetch(r_.stop + first, table_columns + 1), intervals + one);
+    const Pack rate = zero - sigma * floor.a - gk, half = Pack(-0.5) * sigma * floor.slope;
+    // A knot passed above zero while the speed rises again: it may have been lower before.
+    const PackMask doubt = open & ((w_next > zero) | (knot == one) | ((rate > zero) & (intervals == knot)));
+    if (bits(doubt)) {
+      advance(r_.stop + first, bits(past), table_columns);
+      for (unsigned lanes = bits(doubt); lanes; lanes &= lanes - 1) {
+        const int i = first + __builtin_ctz(lanes);
+        look_closer(i, static_cast<int>(r_.stop_m[i]));
+      }
+      return end(first);
+    }
+    const Pack square = xsimd::max(rate * rate - Pack(4.0) * half * w, zero);
+    const Pack fall = choose(w > zero, two * w / (xsimd::sqrt(square) - rate), zero);
+    const Pack tau = choose(open, xsimd::min(fall, h), found);
+    const Pack time = intervals * h + (tau - start), a = floor.acceleration(tau);
+    const Pack moved =
+        time * (start_V - Pack(0.5) * sigma * gk * time) - (floor.displacement(tau) - load(r_.D + first));
+    const Pack u = load(r_.u + first) + moved;
+    store(r_.u + first, u);
+    store(r_.path + first, load(r_.path + first) + xsimd::abs(moved));
+    store(r_.peak + first, xsimd::max(load(r_.peak + first), xsimd::abs(u)));
+    store(r_.m + first, m);
+    store(r_.tau + first, tau);
+    store(r_.a + first, a);
+    store(r_.pushed + first, choose(xsimd::abs(a) > load(r_.gs + first), one, zero));
+    for (int l = 0; l < pack_lanes; ++l) {
+      const int i = first + l;
+      lanes_[i].at = static_cast<int>(r_.m[i]);
+      lanes_[i].events += lanes_[i].sample != nullptr;
+      r_.knot[i] = r_.stop[i];
+    }
+  }
+
+  // Friction alone brings the block to rest.
+  void finish_after_motion(int i) {
+    Lane& lane = lanes_[i];
+    const Slip slip = this->slip(i);
+    const BatchCase& c = *lane.sample;
+    const int last = c.table->knots - 1;
+    const double w = slip.speed_at(last), coast = w / slip.gk;
+    vacant_ |= 1U << i;
+    if (!(coast < c.free_vibration_s)) {
+      declined_[number(lane)] = 1;
+      lane.sample = nullptr;
+      return;
+    }
     if (w > 0) {
-      now_ = instant(t_, last_, 0.0);
-      end_slip();
-      const double moved = 0.5 * sigma_ * w * time;
-      u_ += moved;
-      path_ += std::abs(moved);
-      peak_ = larger(peak_, std::abs(u_));
+      const double time = (last - slip.m) * c.table->step_s - slip.tau;
+      move(i, time * (slip.V - 0.5 * slip.sigma * slip.gk * time) -
+                  (c.table->displacement[static_cast<std::size_t>(last)] - r_.D[i]));
+      move(i, 0.5 * slip.sigma * w * coast);
     }
-    ++events_;
-    fill(out, Outcome::moved);
-    out.end_time_s = last_ * t_.step_s + time;
-    return true;
+    ++lane.events;
+    finish(i, last * c.table->step_s + coast);
   }
 
-  bool finish_at_rest(Response& out) {
-    fill(out, events_ > 0 ? Outcome::moved : Outcome::at_rest);
-    out.end_time_s = last_ * t_.step_s;
-    if (!broke_) {
-      const double most = larger(std::abs(now_.a), peak_from(t_, now_.m + 1));
-      out.peak_acceleration_mps2 = larger(out.peak_acceleration_mps2, most * std::abs(scale_));
-    }
-    return true;
+  void move(int i, double moved) {
+    r_.u[i] += moved;
+    r_.path[i] += magnitude(moved);
+    r_.peak[i] = larger(r_.peak[i], magnitude(r_.u[i]));
   }
 
-  void fill(Response& out, Outcome outcome) {
-    const double size = std::abs(scale_);
+  void finish_at_rest(int i) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    const MotionTable& t = *c.table;
+    Response& out = responses_[number(lane)];
+    const bool broke = lane.broke;
+    finish(i, (t.knots - 1) * t.step_s);
+    if (broke) return;
+    const double most = larger(magnitude(r_.a[i]), peak_from(t, lane.at + 1));
+    out.peak_acceleration_mps2 = larger(out.peak_acceleration_mps2, most * magnitude(c.scale));
+  }
+
+  void finish(int i, double time) {
+    Lane& lane = lanes_[i];
+    const double scale = lane.sample->scale, size = magnitude(scale);
+    Response& out = responses_[number(lane)];
     out = Response{};
-    out.outcome = outcome;
-    out.peak_slip_m = peak_ * size;
-    out.residual_slip_m = u_ * scale_;
-    out.slid_path_m = path_ * size;
-    out.peak_acceleration_mps2 = (broke_ ? gs_ : events_ > 0 ? gk_ : 0.0) * size;
-    out.events = events_;
+    out.outcome = lane.events > 0 ? Outcome::moved : Outcome::at_rest;
+    out.peak_slip_m = r_.peak[i] * size;
+    out.residual_slip_m = r_.u[i] * scale;
+    out.slid_path_m = r_.path[i] * size;
+    out.peak_acceleration_mps2 = (lane.broke ? r_.gs[i] : lane.events > 0 ? r_.gk[i] : 0.0) * size;
+    out.events = lane.events;
+    out.end_time_s = time;
+    lane.sample = nullptr;
   }
 
-  const MotionTable& t_;
-  double scale_, gs_, gk_;  // signed scale; friction limits in units of |scale|
-  int last_;
-  double free_vibration_s_;
-  Instant now_{}, start_{};
-  double sigma_ = 1, u_ = 0, path_ = 0, peak_ = 0;
-  int events_ = 0;
-  bool broke_ = false;  // a rest ended because the floor pushed hard enough
+  std::size_t number(const Lane& lane) const { return static_cast<std::size_t>(lane.sample - cases_); }
+
+  const BatchCase* cases_;
+  std::size_t count_;
+  Response* responses_;
+  std::uint8_t* declined_;
+  std::size_t taken_ = 0;
+  unsigned vacant_ = 0;  // bit i: slot i's sample has ended within the round
+  SlideRows r_;
+  Lane lanes_[slide_slots];
 };
 
 inline void slide_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const BatchCase& c = cases[i];
-    declined[i] = !(c.mu_k > 0) || c.scale == 0 || !Slide(c).run(responses[i]);
-  }
+  SlidePool(cases, count, responses, declined).run();
 }
 
 }  // namespace
