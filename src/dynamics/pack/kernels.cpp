@@ -3,7 +3,7 @@
 #include "dynamics/pack/bouc_wen.hpp"
 #include "dynamics/pack/rock.hpp"
 #include "dynamics/pack/slide.hpp"
-#include "dynamics/pack/slide_rock.hpp"
+#include "dynamics/pack/slide_rock_pool.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 

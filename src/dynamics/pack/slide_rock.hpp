@@ -1,7 +1,7 @@
-// Slide-rock, one sample at a time, written for speed: one Taylor step per knot interval without sines, polynomials as
-// their own dense output, and mode changes decided from the values at the instant (who was violated says what cannot
-// follow). Whatever is not decided beyond doubt - a corner that lifts off, Painleve's paradox - is declined and left to
-// the general text (dynamics/mode_logic.hpp).
+// Slide-rock, one sample by itself: one Taylor step per knot interval without sines, polynomials as their own dense
+// output, and mode changes decided from the values at the instant (who was violated says what cannot follow). Whatever is
+// not decided beyond doubt - a corner that lifts off, Painleve's paradox - is declined and left to the general text
+// (dynamics/mode_logic.hpp). Intervals of rocking in which nothing happens go in packs (dynamics/pack/slide_rock_pool.hpp).
 #pragma once
 
 #include <cmath>
@@ -16,18 +16,22 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 template <int N>
-class SlideRock : SlideRockLife {
+class SlideRock : public SlideRockLife {
  public:
   using SlideRockLife::SlideRockLife;
 
-  // False: declined.
-  bool run(Response& out) {
+  void begin() {
     a_ = floor_at(0);
     if (magnitude(a_) > quiet(a_)) {
       event();
       choose_flat();
     }
-    while (!declined_ && !ended_) {
+    if (!marches()) go_on();
+  }
+
+  // Step by step, one at least, until the block rocks from a knot on, or to its end.
+  void go_on() {
+    do {
       switch (mode_) {
         case Mode::rest:
           rest();
@@ -38,10 +42,7 @@ class SlideRock : SlideRockLife {
         default:
           corner();
       }
-    }
-    if (declined_) return false;
-    fill(out);
-    return true;
+    } while (!ended() && !marches());
   }
 
  private:
@@ -145,7 +146,7 @@ class SlideRock : SlideRockLife {
   // Where the grip, which holds at both ends of the step, is lost in between; the end: nowhere.
   double weakest(const CornerSeries<N>& y, double x, double hs, double a1, const Forces& begin, double last) const {
     const double first = c_.mu_s * begin.fy - magnitude(begin.fx);
-    if (std::fmin(first, last) > 0.05 * c_.g) return x;
+    if (smaller(first, last) > 0.05 * c_.g) return x;
     const double middle = 0.5 * x, here = grip(y, middle, hs, a1);
     if (here < 0) return middle;
     const double bend = 2 * (first + last - 2 * here), slope = last - first - bend;  // of the parabola, in part/x
@@ -249,14 +250,6 @@ class SlideRock : SlideRockLife {
     end_ = now() + hs * hi;
   }
 };
-
-template <int N>
-void slide_rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const BatchCase& c = cases[i];
-    declined[i] = !(c.mu_k > 0) || c.scale == 0 || !SlideRock<N>(c).run(responses[i]);
-  }
-}
 
 }  // namespace
 }  // namespace freestand::dynamics::FREESTAND_ISA

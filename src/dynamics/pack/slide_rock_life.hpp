@@ -3,81 +3,20 @@
 
 #include <cmath>
 
-#include "base/units.hpp"
-#include "dynamics/batch.hpp"
 #include "dynamics/pack/polynomial_root.hpp"
 #include "dynamics/pack/search.hpp"
+#include "dynamics/pack/slide_rock_hops.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-class SlideRockLife {
- public:
-  explicit SlideRockLife(const BatchCase& c)
-      : c_(c), t_(*c.table), h_(t_.step_s), last_(t_.knots - 1), half_base_(0.5 * (c.left + c.right)) {}
-
+class SlideRockLife : public SlideRockHops {
  protected:
-  struct Forces {
-    double alpha, slip, fx, fy;
-  };
-
-  // ---- the floor
-  double floor_at(int knot) const {
-    return knot <= last_ && !after_ ? c_.scale * t_.acceleration[static_cast<std::size_t>(knot)] : 0.0;
-  }
-  double next_floor() const { return m_ < last_ ? floor_at(m_ + 1) : 0.0; }
-  double now() const { return h_ * (m_ + 1 - left_); }
-  void next_knot() {
-    ++m_;
-    left_ = 1;
-    a_ = m_ < last_ ? floor_at(m_) : 0.0;
-    if (m_ > last_ && now() >= h_ * last_ + c_.free_vibration_s) declined_ = true;
-  }
-  // Forward by a part x of what is left of the interval.
-  void forward(double x) {
-    if (x >= 1 || left_ * (1 - x) < 1e-12) return next_knot();
-    a_ += (next_floor() - a_) * x;
-    left_ -= left_ * x;
-  }
-
-  // ---- limits
-  double arm(int side) const { return side > 0 ? c_.right : -c_.left; }
-  double tips_at(double a) const { return (a > 0 ? c_.left : c_.right) / c_.h * c_.g; }
-  double slips_at() const { return c_.mu_s * c_.g; }
-  double quiet(double a) const { return std::fmin(tips_at(a), slips_at()); }
-
-  Forces rocking(double rx, double ry, double omega, double a) const {
-    const double alpha = (rx * c_.g - ry * a) / (c_.k2 + rx * rx + ry * ry);
-    return {alpha, 0, ry * alpha - rx * omega * omega + a, c_.g - rx * alpha - ry * omega * omega};
-  }
-  Forces slipping(double rx, double ry, double omega, double a) const {
-    const double sm = sigma_ * c_.mu_k, q = rx + sm * ry, n = c_.g - ry * omega * omega, d = c_.k2 + rx * q;
-    const double alpha = n * q / d, fy = n * c_.k2 / d;
-    return {alpha, -sm * fy - a - ry * alpha + rx * omega * omega, -sm * fy, d > 1e-3 * c_.k2 ? fy : -1.0};
-  }
-  Forces forces(double rx, double ry, double omega, double a) const {
-    return mode_ == Mode::rock ? rocking(rx, ry, omega, a) : slipping(rx, ry, omega, a);
-  }
-
-  // ---- peaks
-  void feel(double fx, double fy) {
-    const double lift = fy - c_.g, square = fx * fx + lift * lift;
-    if (square > force2_) force2_ = square;
-  }
-  double slip_of(double xi, double theta) const {
-    const double half = std::sin(0.5 * theta);
-    return xi + side_ * half_base_ * 2 * half * half;
-  }
-  void see_slip(double u) { peak_slip_ = larger(peak_slip_, magnitude(u)); }
-  void see_rotation(double theta) { peak_rotation_ = larger(peak_rotation_, magnitude(theta)); }
-
-  void event() {
-    if (++events_ > 10000) declined_ = true;
-  }
+  using SlideRockHops::SlideRockHops;
 
   // ---- rest
   void rest() {
-    const double size = magnitude(c_.scale), least = std::fmin(std::fmin(quiet(1), quiet(-1)) / size, 1e300);
+    const double size = magnitude(c_.scale), least = smaller(smaller(quiet(1), quiet(-1)) / size, 1e300);
     if (m_ < last_) {
       for (int j = m_ + 1;; ++j) {
         j = first_above(t_, j, least);
@@ -87,7 +26,7 @@ class SlideRockLife {
         feel_rest(j);
         const double before = c_.scale * t_.acceleration[static_cast<std::size_t>(j) - 1];
         const double breaks = after > 0 ? limit : -limit, part = (breaks - before) / (after - before);
-        left_ = j - 1 == m_ ? std::fmin(left_, 1 - part) : 1 - part;
+        left_ = j - 1 == m_ ? smaller(left_, 1 - part) : 1 - part;
         m_ = j - 1;
         a_ = breaks;
         if (left_ < 1e-9 && m_ + 1 < last_) next_knot();
@@ -105,7 +44,7 @@ class SlideRockLife {
       feel_rest(t_.knots);
     }
     ended_ = true;
-    end_ = m_ < last_ ? h_ * last_ : now();
+    end_ = m_ < last_ ? h_ * last_ : now() + hopping_;
   }
   void feel_rest(int end) {
     const double bound = bound_between(t_, m_, end) * c_.scale;
@@ -132,15 +71,6 @@ class SlideRockLife {
       event();
       choose_flat();
     }
-  }
-
-  void stand(Mode mode, int side) {
-    mode_ = mode;
-    side_ = side;
-    theta_ = omega_ = 0;
-    rx_ = -arm(side);
-    ry_ = c_.h;
-    if (mode == Mode::rock) sigma_ = 0;
   }
 
   // ---- what follows
@@ -190,14 +120,6 @@ class SlideRockLife {
     sigma_ = 0;
     if (magnitude(f.fx) > c_.mu_s * f.fy) slip_on_corner(f.fx);
   }
-  double hop(int side, double omega) const {
-    const double b = arm(side);
-    return (c_.k2 + c_.h * c_.h + b * b) * omega * omega / (2 * c_.g * magnitude(b));
-  }
-  double kept(int from, int to) const {
-    const double b = arm(to), kept = (c_.k2 + c_.h * c_.h + arm(from) * b) / (c_.k2 + c_.h * c_.h + b * b);
-    return c_.factor * (kept > 0 ? kept : 0.0);
-  }
   void strike() {
     event();
     if (hop(side_, omega_) >= c_.told_rotation) ++impacts_;
@@ -210,8 +132,11 @@ class SlideRockLife {
     }
     stand(mode_, to);
     omega_ = omega;
+    if (w_ == 0 && dies_out()) return stand(Mode::rest, 0);
     choose_on_corner();
+    if (mode_ == Mode::rock && hop_on()) choose_flat();
   }
+
   // As in dynamics/impact.cpp: two geometric series.
   double slip_after_hops(int side, double rate) const {
     const double ratio = kept(side, -side), rows = 1 / (1 - ratio * kept(-side, side));
@@ -220,35 +145,6 @@ class SlideRockLife {
     const double after = w_ + rows * (2 * c_.h * rate * (1 - ratio) + 2 * sigma * c_.mu_k * arms * magnitude(rate));
     return sigma * after > 0 ? after : 0;
   }
-
-  void decline() { declined_ = true; }
-
-  void fill(Response& out) const {
-    out = Response{};
-    out.outcome = overturned_ ? Outcome::overturned : events_ > 0 ? Outcome::moved : Outcome::at_rest;
-    out.peak_slip_m = peak_slip_;
-    out.residual_slip_m = theta_ == 0 ? xi_ : slip_of(xi_, theta_);
-    out.slid_path_m = path_;
-    out.peak_rotation_rad = peak_rotation_;
-    out.residual_rotation_rad = theta_;
-    out.peak_acceleration_mps2 = std::sqrt(force2_);
-    out.impacts = impacts_;
-    out.events = events_;
-    out.end_time_s = end_;
-  }
-
-  const BatchCase& c_;
-  const MotionTable& t_;
-  double h_;
-  int last_;
-  double half_base_;
-  Mode mode_ = Mode::rest;
-  int m_ = 0, side_ = 0, sigma_ = 0;
-  double left_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now
-  double theta_ = 0, omega_ = 0, rx_ = 0, ry_ = 0, xi_ = 0, w_ = 0;
-  double peak_slip_ = 0, peak_rotation_ = 0, force2_ = 0, path_ = 0, end_ = 0;
-  int events_ = 0, impacts_ = 0;
-  bool after_ = false, ended_ = false, declined_ = false, overturned_ = false;
 };
 
 }  // namespace

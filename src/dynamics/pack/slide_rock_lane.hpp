@@ -1,0 +1,196 @@
+// One sample of slide-rock: where it is, the floor under it, its limits, forces and peaks, and its place in the packs.
+#pragma once
+
+#include <cmath>
+
+#include "base/units.hpp"
+#include "dynamics/batch.hpp"
+#include "dynamics/pack/search.hpp"
+#include "dynamics/pack/slide_rock_rows.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+inline double smaller(double a, double b) { return b < a ? b : a; }
+
+class SlideRockLane {
+ public:
+  explicit SlideRockLane(const BatchCase& c)
+      : c_(c), t_(*c.table), h_(t_.step_s), last_(t_.knots - 1), half_base_(0.5 * (c.left + c.right)) {}
+
+  bool declined() const { return declined_; }
+  bool ended() const { return declined_ || ended_; }
+
+  // ---- in packs
+  // Knot up to which the floor is watched.
+  int patience() const { return last_ + static_cast<int>(smaller(c_.free_vibration_s / h_, still_intervals)) - 4; }
+  bool marches() const { return mode_ == Mode::rock && left_ == 1 && (m_ < last_ || m_ < patience()); }
+
+  // From a knot on, rocking. How many intervals there are to go: 1 at least.
+  int enter(SlideRockRows& r, int i) {
+    const double s = side_, h2 = h_ * h_, b = magnitude(arm(side_)), size2 = c_.h * c_.h + b * b;
+    const double per_inertia = h2 / (c_.k2 + size2), unit = s * c_.scale;
+    r.theta[i] = s * theta_;
+    r.omega[i] = s * omega_ * h_;
+    r.rx[i] = s * rx_;
+    r.ry[i] = ry_;
+    const bool over = m_ >= last_;
+    const double* row = over ? still_ground : t_.acceleration.data() + m_;
+    const int free = over ? patience() - m_ : last_ - m_;
+    r.a[i] = *row;
+    r.next[i] = entry_ = row + 1;
+    r.stop[i] = row + free;
+    r.gravity[i] = c_.g * per_inertia;
+    r.push[i] = unit * per_inertia;
+    r.weight[i] = unit * h2;
+    r.weight_g[i] = c_.g * h2;
+    r.mu[i] = c_.mu_s;
+    const Forces f = rocking(rx_, ry_, omega_, a_);
+    const double lift = f.fy - c_.g;
+    r.grip[i] = (c_.mu_s * f.fy - magnitude(f.fx)) * h2;
+    r.square[i] = (f.fx * f.fx + lift * lift) * (h2 * h2);
+    r.seen[i] = force2_ * (h2 * h2);
+    // Rotations that add less than peak_slip - s xi to the slip; 1 - cos(theta) <= theta^2/2.
+    const double room = larger(peak_slip_ - s * xi_, 0);
+    r.look[i] = smaller(peak_rotation_, std::sqrt(2 * room / half_base_));
+    bound_bends(r, i, size2, per_inertia);
+    return free;
+  }
+
+  // The forces are almost straight within an interval, as the floor's acceleration is. With r = |r|, E = (g + |a|) h^2/J,
+  // |Omega'| <= E r and |Omega| <= |Omega_0| + E r,
+  //     |f''| <= r^2 (4 E^2 r + 5 E Omega^2 + 6 (h^2/J) |da| |Omega|) + smaller terms,
+  // and f leaves its chord by |f''|/8 at most; here times 1.5 or 1 + mu, for both forces.
+  void bound_bends(SlideRockRows& r, int i, double size2, double per_inertia) const {
+    const double size = std::sqrt(size2), most = magnitude(c_.scale) * t_.later_peak[0];
+    const double field = (c_.g + most) * per_inertia, share = (c_.mu_s > 0.5 ? 1 + c_.mu_s : 1.5) / 8;
+    r.bend0[i] = share * 17 * size2 * field * field * size;
+    r.bend1[i] = share * 6.6 * size2 * magnitude(c_.scale) * per_inertia;
+    r.bend2[i] = share * 17 * size2 * field;
+  }
+
+  // Back from the packs, at a knot.
+  void leave(const SlideRockRows& r, int i) {
+    const double s = side_;
+    theta_ = s * r.theta[i];
+    omega_ = s * r.omega[i] / h_;
+    rx_ = s * r.rx[i];
+    ry_ = r.ry[i];
+    m_ += static_cast<int>(r.next[i] - entry_);
+    a_ = m_ < last_ ? floor_at(m_) : 0.0;
+  }
+
+  void fill(Response& out) const {
+    out = Response{};
+    out.outcome = overturned_ ? Outcome::overturned : events_ > 0 ? Outcome::moved : Outcome::at_rest;
+    out.peak_slip_m = peak_slip_;
+    out.residual_slip_m = theta_ == 0 ? xi_ : slip_of(xi_, theta_);
+    out.slid_path_m = path_;
+    out.peak_rotation_rad = peak_rotation_;
+    out.residual_rotation_rad = theta_;
+    out.peak_acceleration_mps2 = std::sqrt(force2_);
+    out.impacts = impacts_;
+    out.events = events_;
+    out.end_time_s = end_;
+  }
+
+ protected:
+  struct Forces {
+    double alpha, slip, fx, fy;
+  };
+
+  // ---- the floor
+  double floor_at(int knot) const {
+    return knot <= last_ && !after_ ? c_.scale * t_.acceleration[static_cast<std::size_t>(knot)] : 0.0;
+  }
+  double next_floor() const { return m_ < last_ ? floor_at(m_ + 1) : 0.0; }
+  double now() const { return h_ * (m_ + 1 - left_); }
+  void next_knot() {
+    ++m_;
+    left_ = 1;
+    a_ = m_ < last_ ? floor_at(m_) : 0.0;
+    if (m_ > last_ && now() >= h_ * last_ + c_.free_vibration_s) declined_ = true;
+  }
+  // Forward by a part x of what is left of the interval.
+  void forward(double x) {
+    if (x >= 1 || left_ * (1 - x) < 1e-12) return next_knot();
+    a_ += (next_floor() - a_) * x;
+    left_ -= left_ * x;
+  }
+
+  // ---- limits
+  double arm(int side) const { return side > 0 ? c_.right : -c_.left; }
+  double tips_at(double a) const { return (a > 0 ? c_.left : c_.right) / c_.h * c_.g; }
+  double slips_at() const { return c_.mu_s * c_.g; }
+  double quiet(double a) const { return smaller(tips_at(a), slips_at()); }
+
+  Forces rocking(double rx, double ry, double omega, double a) const {
+    const double alpha = (rx * c_.g - ry * a) / (c_.k2 + rx * rx + ry * ry);
+    return {alpha, 0, ry * alpha - rx * omega * omega + a, c_.g - rx * alpha - ry * omega * omega};
+  }
+  Forces slipping(double rx, double ry, double omega, double a) const {
+    const double sm = sigma_ * c_.mu_k, q = rx + sm * ry, n = c_.g - ry * omega * omega, d = c_.k2 + rx * q;
+    const double alpha = n * q / d, fy = n * c_.k2 / d;
+    return {alpha, -sm * fy - a - ry * alpha + rx * omega * omega, -sm * fy, d > 1e-3 * c_.k2 ? fy : -1.0};
+  }
+  Forces forces(double rx, double ry, double omega, double a) const {
+    return mode_ == Mode::rock ? rocking(rx, ry, omega, a) : slipping(rx, ry, omega, a);
+  }
+
+  // ---- peaks
+  void feel(double fx, double fy) {
+    const double lift = fy - c_.g, square = fx * fx + lift * lift;
+    if (square > force2_) force2_ = square;
+  }
+  double slip_of(double xi, double theta) const {
+    const double half = std::sin(0.5 * theta);
+    return xi + side_ * half_base_ * 2 * half * half;
+  }
+  void see_slip(double u) { peak_slip_ = larger(peak_slip_, magnitude(u)); }
+  void see_rotation(double theta) { peak_rotation_ = larger(peak_rotation_, magnitude(theta)); }
+
+  void event() {
+    if (++events_ > 10000) declined_ = true;
+  }
+
+  void stand(Mode mode, int side) {
+    mode_ = mode;
+    side_ = side;
+    theta_ = omega_ = 0;
+    rx_ = -arm(side);
+    ry_ = c_.h;
+    if (mode == Mode::rock || mode == Mode::rest) sigma_ = 0;
+  }
+
+  double hop(int side, double omega) const {
+    const double b = arm(side);
+    return (c_.k2 + c_.h * c_.h + b * b) * omega * omega / (2 * c_.g * magnitude(b));
+  }
+  double kept(int from, int to) const {
+    const double b = arm(to), kept = (c_.k2 + c_.h * c_.h + arm(from) * b) / (c_.k2 + c_.h * c_.h + b * b);
+    return c_.factor * (kept > 0 ? kept : 0.0);
+  }
+  void decline() { declined_ = true; }
+
+  static constexpr double small_rotation = 1e-3;  // in angles of slenderness
+  static constexpr double longest_row = 80;       // intervals
+  static constexpr double least_slip = 1e-10;     // [m]
+
+  const BatchCase& c_;
+  const MotionTable& t_;
+  double h_;
+  int last_;
+  double half_base_;
+  Mode mode_ = Mode::rest;
+  int m_ = 0, side_ = 0, sigma_ = 0;
+  double left_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now
+  double theta_ = 0, omega_ = 0, rx_ = 0, ry_ = 0, xi_ = 0, w_ = 0;
+  double peak_slip_ = 0, peak_rotation_ = 0, force2_ = 0, path_ = 0, end_ = 0;
+  double hopping_ = 0;  // time that the hops take that were not gone through
+  const double* entry_ = nullptr;
+  int events_ = 0, impacts_ = 0;
+  bool after_ = false, ended_ = false, declined_ = false, overturned_ = false;
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
