@@ -15,7 +15,7 @@ struct Options {
   bool overwrite = false, quiet = false;
 };
 
-void tell(const nlohmann::ordered_json& json, const std::string& file) {
+void tell(const nlohmann::ordered_json& json, const std::string& folder) {
   fmt::print("{:<12} {:<12} {:>12} {:>10} {:>10}\n", "test", "role", "noise units", "expected", "relative");
   const auto text = [](const nlohmann::ordered_json& value) {
     return value.is_null() ? std::string("-") : fmt::format("{:.3g}", value.get<double>());
@@ -35,18 +35,20 @@ void tell(const nlohmann::ordered_json& json, const std::string& file) {
                    ? ""
                    : fmt::format(" [{:.5g}, {:.5g}]", p["interval"][0].get<double>(), p["interval"][1].get<double>()));
   for (const auto& finding : json["findings"]) fmt::print("* {}\n", finding.get<std::string>());
-  fmt::print("results in {}\n", file);
+  fmt::print("results in {0}: comparison.json, and the study with the numbers that were fitted, {0}/fitted.yaml\n",
+             folder);
 }
 
 Exit compare(const Context& context, const Options& options) {
   const std::filesystem::path folder = options.folder;
   context.world.on_root(
       [&] { io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse); });
-  const auto json =
-      study::compare(context.world, {options.study, options.measurements, context.command_line, options.quiet});
-  context.world.on_root([&] {
+  const auto [json, fitted] =
+      study::compare(context.world, {options.study, options.measurements, context.command_line, options.quiet}, folder);
+  context.world.on_root([&, &json = json, &fitted = fitted] {
     io::write_text(folder / "comparison.json", io::json_text(json));
-    if (!options.quiet) tell(json, (folder / "comparison.json").string());
+    io::write_text(folder / "fitted.yaml", "# " + context.command_line + "\n" + fitted);
+    if (!options.quiet) tell(json, folder.string());
   });
   return Exit::done;
 }

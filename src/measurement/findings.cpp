@@ -90,8 +90,15 @@ class Findings {
           brier / static_cast<double>(n));
   }
 
-  // The phase and the bins in which the residual grows most.
+  // Where the residual grows most: the phase, and the two variables that part the bad from the good best.
   void where() {
+    struct Peak {
+      const ErrorTable* table;
+      std::size_t bin;
+      double mean;
+      double contrast() const { return table->growth[bin] / mean; }
+    };
+    std::vector<Peak> peaks;
     for (const ErrorTable& table : c_.calibration) {
       double mean = 0, n = 0;
       for (std::size_t b = 0; b < table.count.size(); ++b)
@@ -106,8 +113,17 @@ class Findings {
         say("the misfit grows most in phase \"{}\": {:.1f} noise units within 0.1 s, against {:.1f} on the average",
             table.label[most], table.growth[most], mean);
       else
-        say("the misfit grows with {}: {:.1f} noise units within 0.1 s at {:.3g} {}, against {:.1f} on the average",
-            table.variable, table.growth[most], table.centre[most], table.unit, mean);
+        peaks.push_back({&table, most, mean});
+    }
+    std::stable_sort(peaks.begin(), peaks.end(),
+                     [](const Peak& a, const Peak& b) { return a.contrast() > b.contrast(); });
+    peaks.resize(std::min<std::size_t>(peaks.size(), 2));
+    for (const auto& [table, bin, mean] : peaks) {
+      const std::string at = table->variable == "direction"
+                                 ? fmt::format("slipping to the {}", table->centre[bin] > 0 ? "right" : "left")
+                                 : fmt::format("{} about {:.3g} {}", table->variable, table->centre[bin], table->unit);
+      say("the misfit grows most with {}: {:.1f} noise units within 0.1 s, against {:.1f} on the average", at,
+          table->growth[bin], mean);
     }
   }
 

@@ -7,6 +7,7 @@
 
 #include "effects/effects.hpp"
 #include "study/calibrate_keys.hpp"
+#include "study/fitted_study.hpp"
 #include "study/section.hpp"
 #include "study/spread_jobs.hpp"
 #include "study/validation_parts.hpp"
@@ -66,33 +67,6 @@ YAML::Node effect_node(const std::string& effect) {
                           "l_m: {calibrate: [0.01, 1]}}}"));
 }
 
-// What every test's specimen has in common, so that a sweep can take the study as it is.
-void add_block(YAML::Node model, const Prepared& p) {
-  const Dimensions& d = p.data.specimen;
-  const bool own = std::any_of(p.data.tests.begin(), p.data.tests.end(), [&](const Test& t) {
-    return t.specimen.width_m != d.width_m || t.specimen.height_m != d.height_m || t.specimen.mass_kg != d.mass_kg;
-  });
-  if (own) return;
-  YAML::Node block = model["block"];
-  if (!block) model["block"] = block = YAML::Node(YAML::NodeType::Map);
-  if (!p.validation.width_given && d.width_m) block["width_m"] = number(*d.width_m);
-  if (!p.validation.height_given && d.height_m) block["height_m"] = number(*d.height_m);
-  if (!p.validation.mass_given && d.mass_kg) block["mass_kg"] = number(*d.mass_kg);
-  block.SetStyle(YAML::EmitterStyle::Flow);
-}
-
-std::string emitted(YAML::Node root) {
-  root.SetStyle(YAML::EmitterStyle::Block);
-  root["model"].SetStyle(YAML::EmitterStyle::Block);
-  for (auto pair : root["model"])
-    if (pair.second.IsMap()) pair.second.SetStyle(YAML::EmitterStyle::Flow);
-  root["model"]["effects"].SetStyle(YAML::EmitterStyle::Block);
-  for (auto effect : root["model"]["effects"]) effect.SetStyle(YAML::EmitterStyle::Flow);
-  YAML::Emitter out;
-  out << root;
-  return std::string(out.c_str()) + "\n";
-}
-
 // Effects of the catalogue start within the catalogue's range, not within all that is allowed; numbers that were fitted
 // before, near where they stood.
 ModelSpec starting(const Prepared& before, const ModelFit& fit, const Prepared& after) {
@@ -140,16 +114,6 @@ YAML::Node ladder_node(const std::vector<LadderStep>& ladder) {
   return list;
 }
 
-std::vector<FittedNumber> numbers_of(const ModelFit& fit) {
-  std::vector<FittedNumber> numbers;
-  for (std::size_t i = 0; i < fit.x.size(); ++i) {
-    numbers.push_back({.name = fit.model.free[i].name, .value = fit.x[i]});
-    if (i < fit.intervals.size())
-      numbers.back().lower = fit.intervals[i].lower, numbers.back().upper = fit.intervals[i].upper;
-  }
-  return numbers;
-}
-
 }  // namespace
 
 std::string add(const parallel::Communicator& world, const ValidationRun& run, const std::string& effect) {
@@ -160,13 +124,13 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
 
   YAML::Node root = YAML::Load(before->validation.text);
   YAML::Node model = root["model"];
-  add_block(model, *before);
+  write_block(root, *before);
   if (before->model.placement_scatter && !model["placement_scatter"])
     model["placement_scatter"] = range_node(0.001, 0.5);
   if (!model["effects"] || !model["effects"].IsSequence()) model["effects"] = YAML::Node(YAML::NodeType::Sequence);
   model["effects"].push_back(entry);
   model["effects"].SetStyle(YAML::EmitterStyle::Block);
-  const auto after = prepare(world, parse_validation(emitted(root), before->validation.file), run, 16);
+  const auto after = prepare(world, parse_validation(study_text(root), before->validation.file), run, 16);
 
   const ModelFit base = fitted(*before, false, jobs);
   Effort effort;
@@ -179,9 +143,9 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   std::vector<LadderStep> ladder = before->validation.ladder;
   if (ladder.empty()) ladder.push_back(step_of("base", *before, base, jobs));
   ladder.push_back(step_of(entry["name"].as<std::string>(), *after, fits[0], jobs));
-  write_fitted(model, "", numbers_of(fits[0]));
+  write_numbers(root, fits[0]);
   root["ladder"] = ladder_node(ladder);
-  return emitted(root);
+  return study_text(root);
 }
 
 }  // namespace freestand::study

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "study/fitted_study.hpp"
 #include "study/spread_jobs.hpp"
 #include "study/validation_parts.hpp"
 
@@ -142,7 +143,7 @@ Json parameters_json(const ModelFit& fit, bool calibrated) {
 
 }  // namespace
 
-Json compare(const parallel::Communicator& world, const ValidationRun& run) {
+Compared compare(const parallel::Communicator& world, const ValidationRun& run, const std::filesystem::path& folder) {
   const auto p = prepare(world, run, 16);
   const Bench& bench = *p->bench;
   const Jobs jobs = spread_jobs(world, run.quiet);
@@ -177,7 +178,7 @@ Json compare(const parallel::Communicator& world, const ValidationRun& run) {
   for (const std::size_t i : c.worst) json["histories"].push_back(history_json(bench, c.tests[i]));
   json["error_tables"] = {{"calibration", tables_json(c.calibration)}, {"holdout", tables_json(c.holdout)}};
   json["ladder"] = ladder_json(p->validation.ladder);
-  return json;
+  return {std::move(json), fitted_study(*p, fit, folder)};
 }
 
 }  // namespace freestand::study

@@ -51,7 +51,11 @@ struct ValidationRun {
 };
 
 // The three, whole: read, work on all ranks, the document on every rank. Collective. Throw Error.
-nlohmann::ordered_json compare(const parallel::Communicator&, const ValidationRun&);
+struct Compared {
+  nlohmann::ordered_json json;
+  std::string fitted;  // the study with the numbers that were fitted, for a file in `folder`: a sweep takes it as it is
+};
+Compared compare(const parallel::Communicator&, const ValidationRun&, const std::filesystem::path& folder);
 nlohmann::ordered_json diagnose(const parallel::Communicator&, const ValidationRun&);
 
 // The study with the effect in it, fitted, as YAML text. effect: a name of the catalogue, a mapping in YAML

@@ -1,0 +1,66 @@
+#include "study/fitted_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "study/calibrate_keys.hpp"
+
+namespace freestand::study {
+namespace {
+
+using namespace measurement;
+
+std::string number(double value) { return fmt::format("{}", value); }
+
+std::vector<FittedNumber> numbers_of(const ModelFit& fit) {
+  std::vector<FittedNumber> numbers;
+  for (std::size_t i = 0; i < fit.x.size(); ++i) {
+    numbers.push_back({.name = fit.model.free[i].name, .value = fit.x[i]});
+    if (i < fit.intervals.size())
+      numbers.back().lower = fit.intervals[i].lower, numbers.back().upper = fit.intervals[i].upper;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+void write_block(YAML::Node root, const Prepared& p) {
+  YAML::Node model = root["model"];
+  const Dimensions& d = p.data.specimen;
+  const bool own = std::any_of(p.data.tests.begin(), p.data.tests.end(), [&](const Test& t) {
+    return t.specimen.width_m != d.width_m || t.specimen.height_m != d.height_m || t.specimen.mass_kg != d.mass_kg;
+  });
+  if (own) return;
+  YAML::Node block = model["block"];
+  if (!block) model["block"] = block = YAML::Node(YAML::NodeType::Map);
+  if (!p.validation.width_given && d.width_m) block["width_m"] = number(*d.width_m);
+  if (!p.validation.height_given && d.height_m) block["height_m"] = number(*d.height_m);
+  if (!p.validation.mass_given && d.mass_kg) block["mass_kg"] = number(*d.mass_kg);
+  block.SetStyle(YAML::EmitterStyle::Flow);
+}
+
+void write_numbers(YAML::Node root, const ModelFit& fit) { write_fitted(root["model"], "", numbers_of(fit)); }
+
+std::string study_text(YAML::Node root) {
+  root.SetStyle(YAML::EmitterStyle::Block);
+  root["model"].SetStyle(YAML::EmitterStyle::Block);
+  for (auto pair : root["model"])
+    if (pair.second.IsMap()) pair.second.SetStyle(YAML::EmitterStyle::Flow);
+  if (!root["model"]["effects"]) root["model"]["effects"] = YAML::Node(YAML::NodeType::Sequence);
+  if (root["model"]["effects"].size() > 0) root["model"]["effects"].SetStyle(YAML::EmitterStyle::Block);
+  for (auto effect : root["model"]["effects"]) effect.SetStyle(YAML::EmitterStyle::Flow);
+  YAML::Emitter out;
+  out << root;
+  return std::string(out.c_str()) + "\n";
+}
+
+std::string fitted_study(const Prepared& p, const ModelFit& fit, const std::filesystem::path& folder) {
+  YAML::Node root = YAML::Load(p.validation.text);
+  write_block(root, p);
+  write_numbers(root, fit);
+  root["measurements"] = std::filesystem::proximate(p.measurements, folder).generic_string();
+  return study_text(root);
+}
+
+}  // namespace freestand::study

@@ -1,0 +1,24 @@
+// A study of a validation, written again with the numbers that were fitted. Internal to src/study.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+
+#include "study/validation_parts.hpp"
+
+namespace freestand::study {
+
+// Dimensions that all tests have in common and the model does not give: with them a sweep can take the study as it is.
+void write_block(YAML::Node root, const Prepared&);
+
+// Values and intervals into every {calibrate: ...} of the model.
+void write_numbers(YAML::Node root, const measurement::ModelFit&);
+
+// The file, one line for each part of the model.
+std::string study_text(YAML::Node root);
+
+// The study as it was read, fitted, for a file in another folder.
+std::string fitted_study(const Prepared&, const measurement::ModelFit&, const std::filesystem::path& folder);
+
+}  // namespace freestand::study
