@@ -19,8 +19,9 @@ const Register directional_friction{{
              .low = -0.3,
              .high = 0.3},
         },
-    .twins = "floor_tilt, for a block that only slides without vertical shaking: g sin(beta) = mu d g is the same "
-             "equation. Parted by another mu, by rocking, or by a vertical channel.",
+    .twins =
+        "floor_tilt, for a block that only slides without vertical shaking: g sin(beta) = mu d g is the same "
+        "equation, d = tan(beta)/mu. Parted by another mu, by rocking, by a vertical channel, or by static friction.",
     .friction = [](const At& at, const Parameters& p) { return 1.0 + p[0] * at.sigma; },
 }};
 

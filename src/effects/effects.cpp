@@ -1,6 +1,6 @@
-#include <algorithm>
-
 #include "effects/effects.hpp"
+
+#include <algorithm>
 
 namespace freestand::effects {
 

@@ -19,8 +19,9 @@ const Register floor_tilt{{
              .low = -0.06,
              .high = 0.06},
         },
-    .twins = "directional_friction, for a block that only slides without vertical shaking. Parted by another mu, by "
-             "rocking, or by a vertical channel.",
+    .twins =
+        "directional_friction, for a block that only slides without vertical shaking: tan(beta) = mu d is the same "
+        "equation. Parted by another mu, by rocking, by a vertical channel, or by static friction.",
     .floor =
         [](FloorInput& floor, const Parameters& p) {
           floor.push_mps2 += standard_gravity_mps2 * std::sin(p[0]);

@@ -29,8 +29,7 @@ const Register rate_weakening{{
              .low = 0.02,
              .high = 0.5},
         },
-    .twins = "A slip-rate law over a small speed c is a lower (higher) kinetic friction: static_friction parts them by "
-             "when slips start.",
+    .twins = "static_friction, where c is small: r = 1/(1 - d). Parted by slow slips.",
     .friction = [](const At& at, const Parameters& p) { return 1.0 - p[0] * (1.0 - exp(-at.speed / p[1])); },
 }};
 

@@ -21,6 +21,7 @@ const Register static_friction{{
              .high = 1.8},
         },
     .excludes = {"bouc_wen"},
+    .twins = "rate_weakening, where its speed_mps is small: r = 1/(1 - d). Parted by slow slips.",
     .specimen = [](Specimen& s, const Parameters& p) { s.friction.mu_s = p[0] * s.friction.mu_k; },
 }};
 

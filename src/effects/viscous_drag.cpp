@@ -19,7 +19,9 @@ const Register viscous_drag{{
              .low = 0.2,
              .high = 8},
         },
-    .twins = "rate_strengthening, where speeds stay well below its speed_mps.",
+    .twins = "rate_strengthening, where speeds stay well below its speed_mps: mu g d/c is the rate. Parted by fast "
+             "slips, or "
+             "by a vertical channel.",
     .force = [](const At& at, const Parameters& p) { return -p[0] * at.v; },
 }};
 

@@ -27,7 +27,9 @@ const Register wall_impact{{
              .high = 0.8},
         },
     .excludes = {"rock", "bouc_wen", "flexible_legs"},
-    .twins = "slack_tether, where it is stiff.",
+    .twins =
+        "slack_tether, where it is stiff: without a dashpot it is a wall that gives back all. Parted by the length of "
+        "the rebound, 1/(2 f).",
     .wall =
         [](Wall& wall, const Parameters& p) {
           wall.gap_m = p[0];
