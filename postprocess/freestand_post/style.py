@@ -6,7 +6,7 @@ import warnings
 
 import matplotlib
 import numpy as np
-from matplotlib import font_manager, patheffects, ticker
+from matplotlib import font_manager, patheffects, ticker, transforms
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
@@ -157,6 +157,19 @@ def plain_log(axis, crowd=1):
     axis.set_minor_locator(ticker.NullLocator())
 
 
+def legend_above(axes, **options):
+    """A legend over the first of a row of axes, above its title, that may be wider than it; a blank line over the title of the
+    last one keeps its room."""
+    first, last = axes[0], axes[-1]
+    titled = bool(first.get_title(loc="left"))
+    above = transforms.ScaledTranslation(0, (18 if titled else 4) / 72, first.figure.dpi_scale_trans)
+    made = first.legend(frameon=False, loc="lower left", borderaxespad=0, fontsize=8.8, handlelength=1.4, columnspacing=1.4,
+                        handletextpad=0.5, bbox_to_anchor=(-0.005, 1.0), bbox_transform=first.transAxes + above, **options)
+    if last is not first:
+        last.set_title("\u00a0\n" + last.get_title(loc="left") if titled else "\u00a0", weight="bold", pad=5)
+        made.set_in_layout(False)
+
+
 def error_scale(ax, which, values):
     """An axis of errors: logarithmic where they span more than a factor of three, else so wide that small differences look small."""
     values = np.asarray(values, float)
@@ -178,5 +191,5 @@ def spread_on(ax, values, share):
     """Heights in data units at which labels of these values keep apart by a share of the axis, linear or logarithmic."""
     low, high = (math.log(limit) if ax.get_yscale() == "log" else limit for limit in ax.get_ylim())
     height = [((math.log(value) if ax.get_yscale() == "log" else value) - low) / (high - low) for value in values]
-    placed = [low + at * (high - low) for at in spread(height, share, 1.0, 0.0)]
+    placed = [low + at * (high - low) for at in spread(height, share, 1.0, 0.05)]
     return [math.exp(at) for at in placed] if ax.get_yscale() == "log" else placed

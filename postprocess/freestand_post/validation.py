@@ -48,14 +48,24 @@ class Validation:
         return [style.BLUE if i == n - 1 else style.VERMILION if i == 0 else between[(i - 1) % 3] for i in range(n)]
 
     def ladder(self):
-        """[{step, error_calibration, error_holdout, noise_floor}] of the folders, or of the study where it holds more."""
-        shown = [{"step": label, "error_calibration": c.calibration.get("error", np.nan),
-                  "error_holdout": c.holdout.get("error", np.nan), "noise_floor": c.calibration.get("error_expected", np.nan)}
-                 for label, c in zip(self.labels, self.comparisons)]
-        kept = [dict(row, step=model_name([] if row["step"] == "base" else [row["step"]]))
-                for row in (self.last.ladder if self.last else [])]
+        """[{step, model, error_calibration, error_holdout, noise_floor}] of the folders, or of the study where it holds more."""
+        if not self.last:
+            return []
+        shown, before = [], None
+        for comparison in self.comparisons:
+            fresh = [name for name in comparison.effects if before and name not in before.effects]
+            grown = before is not None and set(before.effects) < set(comparison.effects)
+            shown.append({"step": f"+ {effects(fresh)}" if grown else model_name(comparison.effects),
+                          "model": model_name(comparison.effects), "error_calibration": comparison.calibration.get("error", np.nan),
+                          "error_holdout": comparison.holdout.get("error", np.nan),
+                          "noise_floor": comparison.calibration.get("error_expected", np.nan)})
+            before = comparison
         if len({frozenset(comparison.effects) for comparison in self.comparisons}) < len(shown):
             shown = []  # not steps of one ladder, but for example two sets of numbers for one model
+        kept, held = [], []
+        for row in self.last.ladder:
+            held = held + [row["step"]] * (row["step"] != "base")
+            kept.append(row | {"step": f"+ {effect(row['step'])}" if row["step"] != "base" else "base", "model": model_name(held)})
         return kept if len(kept) > len(shown) else shown
 
     def after_found(self):
@@ -91,7 +101,7 @@ def error(value, unit=""):
 def parameter(name):
     """"effects.static_friction.ratio" -> "static friction: ratio", "friction.mu" -> "friction: μ"."""
     parts = name.removeprefix("effects.").split(".")
-    last = words.split_unit(parts[-1])[0]
+    last = words.split_unit(parts[-1])[0].removesuffix("_per")
     last = {"mu": "μ", "mu_k": "μk", "mu_s": "μs"}.get(last, last.replace("_", " "))
     return ": ".join([" ".join(parts[:-1]).replace("_", " "), last]) if len(parts) > 1 else last
 
@@ -101,9 +111,10 @@ VARIABLES = {"phase": "phase of motion", "speed_mps": "sliding speed", "path_m":
              "floor_g": "floor acceleration"}
 
 
-def variable(table):
-    """Axis label of the variable of a table."""
-    return words.with_unit(VARIABLES.get(table.variable, words.split_unit(table.variable)[0].replace("_", " ")), table.unit)
+def scaled(table):
+    """Factor and axis label of the variable of a table; short lengths in millimetres."""
+    name, largest = short_variable(table), np.nanmax(np.abs(table.centre), initial=0.0)
+    return (1000.0, f"{name} (mm)") if table.unit == "m" and 0 < largest < 0.02 else (1.0, words.with_unit(name, table.unit))
 
 
 def short_variable(table):

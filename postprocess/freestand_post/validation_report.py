@@ -1,5 +1,6 @@
 """What the page of a validation says: the verdict, the numbers beside it, the sentences."""
 import math
+import re
 
 from . import validation, words
 from . import validation_tables as tables
@@ -88,8 +89,9 @@ def _headline(results):
     if diagnosis:
         best = diagnosis.best
         found.append((diagnosis.base.get("error_left_out", math.nan), "base model, on tests left out of the fit"))
-        found.append((best.get("error_left_out", math.nan), f"with {validation.effect(best.get('effect', ''))}, on tests left out of the fit"
-                      + (": no better than chance" if diagnosis.verdict == "none" else "")))
+        name = validation.effect(best.get("effect", ""))
+        found.append((best.get("error_left_out", math.nan), f"best candidate, {name}: better by no more than chance"
+                      if diagnosis.verdict == "none" else f"with {name}, on tests left out of the fit"))
     else:
         for k in sorted({0, len(results.comparisons) - 1}):
             comparison = results.comparisons[k]
@@ -135,12 +137,15 @@ def _capitalised(sentence):
 
 
 def _named(results, sentence):
-    """Names of effects as a reader wants to see them."""
+    """Names of effects and variables as a reader wants to see them."""
     known = {name for diagnosis in results.diagnoses for row in diagnosis.candidates for name in row["effects"]}
     known.update(name for comparison in results.comparisons for name in comparison.effects)
     for name in sorted(known, key=len, reverse=True):
         shown = validation.effect(name)
         sentence = sentence.replace(name, shown).replace(words.capitalised(name), words.capitalised(shown))
+    for name in validation.VARIABLES:
+        if "_" in name:
+            sentence = re.sub(rf"(?<![\w.]){name}(?![\w.])", validation.VARIABLES[name], sentence)
     return sentence
 
 

@@ -38,7 +38,7 @@ def tables(error):
     centre = [0.1, 0.2, 0.3, 0.4]
     return [table("phase", "1", phases, [], [error, 1.1 * error, 2 * error, error, None, None, error]),
             table("speed_mps", "m/s", [], centre, [error, 1.5 * error, None, error]),
-            table("path_m", "m", [], centre, [error, error, 1.2 * error, error])]
+            table("path_m", "m", [], [0.00003, 0.00006, 0.00011, 0.00015], [error, error, 1.2 * error, error])]
 
 
 def history_tests(error):

@@ -153,9 +153,22 @@ class Drawn(Temporary):
         self.assertIn("held-out error falls from 13.8 to 1.01 noise units, at the noise floor", drawn["ladder"].finding)
         self.assertIn("falls from 17.7 to 1.20", drawn["ranking"].finding)
         self.assertIn("“slipping”", drawn["where"].finding)
+        self.assertIn("path slid (mm)", [axes.get_xlabel() for axes in drawn["where"].figure.axes])
         self.assertIn("with the base model", drawn["worst_t02"].finding)
         labels = [axes.get_ylabel() for axes in drawn["worst_t02"].figure.axes]
         self.assertEqual(labels, ["floor (g)", "slip (cm)", "residual\n(noise units)", "rotation (°)", "residual\n(noise units)"])
+
+    def test_ladder_of_the_study_is_longer_than_the_folders(self):
+        rows = [{"step": step, "error_calibration": error, "error_holdout": None, "noise_floor": 1.0}
+                for step, error in (("base", 70.1), ("impact_loss", 9.0), ("viscous_drag", 1.04))]
+        before = make.comparison(self.folder / "before")
+        after = make.comparison(self.folder / "after", ["impact_loss", "viscous_drag"], 1.04, 1.02, ladder=rows)
+        drawn = self.draw(before, after)["ladder"]
+        (axes,) = drawn.figure.axes
+        self.assertEqual([label.get_text() for label in axes.get_xticklabels()], ["base", "+ impact loss", "+ viscous drag"])
+        self.assertIn("With impact loss and viscous drag the calibration error falls from 70.1 to 1.04", drawn.finding)
+        one = self.draw(before, make.comparison(self.folder / "after", ["impact_loss"], 1.04, 1.02))["ladder"]
+        self.assertEqual([label.get_text() for label in one.figure.axes[0].get_xticklabels()], ["base", "+ impact loss"])
 
     def test_history_shows_the_numbers_of_the_file(self):
         folder = make.comparison(self.folder / "one")
@@ -232,7 +245,7 @@ class Drawn(Temporary):
                 root[f"edp/delta/surface/{key}"][...] *= 0.5
         picture = self.draw(make.comparison(self.folder / "one"), support.sweep(), changed)["before_after"]
         self.assertRegex(picture.finding, r"With static friction P\(Δ.>.0\.5\) falls by up to 0\.50")
-        self.assertEqual(picture.figure.axes[-1].get_title(loc="left"), "P(overturned)")
+        self.assertEqual(picture.figure.axes[-1].get_title(loc="left").strip(), "P(overturned)")
 
     def test_sweeps_that_cannot_be_compared_say_why(self):
         other = support.sweep_copy(self.folder / "other")

@@ -77,7 +77,7 @@ def _picture(before, after):
         ax.set(xlim=(low, high), ylim=(0, 1.015), xlabel=words.with_unit(before.im_symbol, before.im_unit))
         style.grid(ax)
     axes[0].set_ylabel("probability")
-    axes[0].legend(ncol=2, frameon=False, loc="lower left", bbox_to_anchor=(-0.03, 1.08), borderaxespad=0, fontsize=9, handlelength=1.4)
+    style.legend_above(axes, ncol=2)
     finding = _finding(before, after, common, sides[1][2])
     style.headline(fig, finding, "The same sweep with both models; bands: 95 % intervals.")
     text = CAPTION.format(symbol=common[0].label if common else "demand", im=before.im_symbol)

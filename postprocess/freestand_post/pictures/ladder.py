@@ -27,7 +27,7 @@ def _picture(results, steps):
     for key, _, colour, form in LINES:
         ax.plot(x, values[key], form, color=colour, ms=6, mec="white", mew=0.8, lw=1.2 if key == "noise_floor" else 2.0)
     style.error_scale(ax, "y", np.concatenate(list(values.values())))
-    ax.set(xticks=x, xticklabels=[step["step"].replace("with ", "with\n", 1) for step in steps], xlim=(-0.3, len(steps) - 0.7),
+    ax.set(xticks=x, xticklabels=[step["step"].replace(" and ", "\nand ") for step in steps], xlim=(-0.3, len(steps) - 0.7),
            ylabel=f"error ({results.unit})")
     ax.tick_params(axis="x", length=0, pad=6)
     style.grid(ax)
@@ -53,7 +53,7 @@ def _finding(results, steps):
     key = "error_holdout" if math.isfinite(first["error_holdout"]) and math.isfinite(last["error_holdout"]) else "error_calibration"
     what = "held-out" if key == "error_holdout" else "calibration"
     verb = "falls" if last[key] < first[key] else "rises"
-    step = words.capitalised(validation.by(last["step"]))
+    step = words.capitalised(validation.by(last["model"]))
     return (f"{step} the {what} error {verb} from {validation.error(first[key])} to {validation.error(last[key], results.unit)}" + 
         f", at the noise floor of {validation.error(last['noise_floor'])}" if last[key] < 1.2 * last["noise_floor"] else
         f"; the noise floor is {validation.error(last['noise_floor'])}" if math.isfinite(last["noise_floor"]) else "")

@@ -67,7 +67,8 @@ def _picture(diagnosis, tables, k):
 
 
 def _panel(ax, table, law, base):
-    mu, x = table.columns["mu"], table.centre
+    factor, label = validation.scaled(table)
+    mu, x = table.columns["mu"], factor * table.centre
     good = np.isfinite(mu) & np.isfinite(x)
     low, high = table.columns["mu_lower"], table.columns["mu_upper"]
     if np.isfinite(base):
@@ -82,7 +83,8 @@ def _panel(ax, table, law, base):
         ax.fill_between(x[good], low[good], high[good], color="#dfe3e8", lw=0, zorder=0)
         ax.plot(x[good], mu[good], "o", ms=4.5, color=style.INK, mec="white", mew=0.6, zorder=3)
         ax.plot(x[good], law[good], color=style.BLUE, lw=2.0, zorder=2)
-        ax.set_xlabel(validation.variable(table))
+        ax.set_xlabel(label)
+        ax.locator_params(axis="x", nbins=5)
     share = table.share_explained
     ax.set_title(f"{words.capitalised(validation.short_variable(table))}: {words.percent(max(share, 0.0))}" if np.isfinite(share) else
                  words.capitalised(validation.short_variable(table)), size=8.8, weight="bold",

@@ -53,9 +53,7 @@ def _picture(results):
         found = (_tables(comparison).get(name) for comparison in results.comparisons)
         _foot(axes[1, j], next(table for table in found if table), used[name])
     if len(results.comparisons) > 1:
-        handles, labels = axes[0, 0].get_legend_handles_labels()
-        axes[0, 0].legend(handles, labels, ncol=len(labels), frameon=False, loc="lower left", bbox_to_anchor=(-0.02, 1.0),
-                          borderaxespad=0, fontsize=8.8, handlelength=1.2)
+        style.legend_above(axes[0], ncol=3)
     fig.align_ylabels(axes[:, 0])
     finding = _finding(results)
     style.headline(fig, finding, "Error of the calibration tests (above), and how fast it grows (below); dashed: sensor noise alone.")
@@ -81,7 +79,7 @@ def _line(ax, table, key, used, colour, label):
         ax.plot(np.arange(used.size), value[used], "o", ms=6, color=colour, mec="white", mew=0.6, label=label)
         ax.vlines(np.arange(used.size), 1.0, value[used], color=colour, lw=1.0, alpha=0.35)
     else:
-        ax.plot(table.centre[good], value[good], "-o", ms=4, lw=1.6, color=colour, mec="white", mew=0.5, label=label)
+        ax.plot(validation.scaled(table)[0] * table.centre[good], value[good], "-o", ms=4, lw=1.6, color=colour, mec="white", mew=0.5, label=label)
     return value
 
 
@@ -90,7 +88,8 @@ def _foot(ax, table, used):
         ax.set(xticks=np.arange(used.size), xlim=(-0.6, used.size - 0.4))
         ax.set_xticklabels([table.label[i] for i in used], rotation=90, size=8)
     else:
-        ax.set_xlabel(validation.variable(table))
+        ax.set_xlabel(validation.scaled(table)[1])
+        ax.locator_params(axis="x", nbins=5)
 
 
 def _finding(results):

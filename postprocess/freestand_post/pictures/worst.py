@@ -101,7 +101,8 @@ def _finding(results, found):
         return (f"Test {name}{role}: {validation.error(error[0])} noise units {validation.by(results.labels[found[0][0]])}, "
                 f"{validation.error(error[1])} {validation.by(results.labels[found[1][0]])}")
     relative = tests[0].get("error_relative", np.nan)
-    share = f", {words.percent(relative)} of the measured peak" if np.isfinite(relative) else ""
+    share = (f", {words.number(relative)} times the measured peak" if relative > 2 else
+             f", {words.percent(relative)} of the measured peak" if np.isfinite(relative) else "")
     by = "" if len(results.comparisons) == 1 else f" {validation.by(results.labels[found[0][0]])}"
     far = _missed(results, *found[0])
     return f"Test {name}{role}{' is missed by' if far else ':'} {validation.error(error[0])} noise units{by}{share}"
