@@ -71,9 +71,10 @@ def _title(sweep, history):
 
 
 def _figure(picture):
+    title, subtitle = style.take_headline(picture.figure)
     svg = style.inline_svg(style.svg(picture.figure), picture.name.replace("_", "-"), picture.finding)
-    return {"name": picture.name, "edp": picture.edp, "section": picture.section, "finding": picture.finding, "svg": Markup(svg),
-            "caption": picture.caption}
+    return {"name": picture.name, "edp": picture.edp, "section": picture.section, "finding": title or picture.finding,
+            "reading": subtitle, "svg": Markup(svg), "caption": picture.caption}
 
 
 def _headline(sweep, main):

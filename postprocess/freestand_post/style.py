@@ -78,14 +78,28 @@ def headline(fig, title, subtitle=""):
     """The finding in bold over the picture, how to read it underneath; makes room for both."""
     width, height = fig.get_size_inches()
     margin, y = 0.12, height - 0.1
+    shown = []
     for text, size, weight, colour, step in ((title, 12, "bold", INK, 0.215), (subtitle, 8.6, "normal", MUTED, 0.165)):
         if not text:
             continue
         for line in _wrapped(fig, text, size, weight, width - 2 * margin):
-            fig.text(margin / width, y / height, line, size=size, weight=weight, color=colour, va="top")
+            shown.append(fig.text(margin / width, y / height, line, size=size, weight=weight, color=colour, va="top"))
             y -= step
         y -= 0.03
     fig.get_layout_engine().set(rect=(0.005, 0, 0.99, (y - 0.05) / height), w_pad=0.08, h_pad=0.06)
+    fig.headline = (title, subtitle, shown, y - 0.05)
+
+
+def take_headline(fig):
+    """(title, subtitle) out of a figure, which shrinks by as much: a page sets them as its own text."""
+    title, subtitle, shown, height = getattr(fig, "headline", ("", "", [], fig.get_size_inches()[1]))
+    for text in shown:
+        text.remove()
+    whole = height + 0.1
+    fig.set_size_inches(fig.get_size_inches()[0], whole)
+    fig.get_layout_engine().set(rect=(0.005, 0, 0.99, height / whole))
+    fig.headline = ("", "", [], height)
+    return title, subtitle
 
 
 def spread(positions, gap, high=float("inf"), low=-float("inf")):

@@ -143,6 +143,8 @@ class Drawn(Temporary):
                 self.assertGreater(len(picture.finding), 15)
                 self.assertNotRegex(picture.finding + picture.caption, r"\bnan\b|\{|\}|_")
                 self.assertTrue(picture.caption.endswith("."))
+                title, _ = style.take_headline(picture.figure)  # as the page shows it
+                self.assertEqual((title, overlaps(picture.figure)), (picture.finding, []))
         return drawn
 
     def test_whole_ladder(self):
@@ -192,7 +194,6 @@ class Drawn(Temporary):
         names = [label.get_text() for label in axes.get_yticklabels()]
         self.assertEqual((len(names), names[:3]), (10, ["rate weakening", "static friction", "floor tilt"]))
         self.assertEqual([label.get_weight() for label in axes.get_yticklabels()[:3]], ["bold", "bold", "normal"])
-        self.assertIn("3 more candidates", " ".join(text.get_text() for text in drawn.figure.texts))
         self.assertEqual(axes.get_xscale(), "log")
 
     def test_law_is_drawn_where_it_is_a_law_of_that_variable(self):
@@ -255,6 +256,16 @@ class Drawn(Temporary):
         self.assertNotIn("before_after", self.draw(*folders))
         self.assertEqual(support.run("report", *folders, "-o", self.folder / "page.html").returncode, 0)
         self.assertIn("not drawn together", Page((self.folder / "page.html").read_text()).text)
+
+    def test_headline_stands_in_the_picture_until_a_page_takes_it(self):
+        (picture,) = (item for item in pictures.draw(command.read([make.diagnosis(self.folder)])[0]) if item.name == "ranking")
+        said = " ".join(text.get_text() for text in picture.figure.texts)
+        self.assertIn("With rate weakening the left-out error falls", said)
+        height = picture.figure.get_size_inches()[1]
+        _, reading = style.take_headline(picture.figure)
+        self.assertIn("3 more candidates", reading)
+        self.assertEqual(len(picture.figure.texts), 0)
+        self.assertLess(picture.figure.get_size_inches()[1], height)
 
     def test_nothing_known_draws_nothing(self):
         make.comparison(self.folder, tests=[], histories=[], error_tables=None, calibration=None, holdout=None, peak_ratio=None)
