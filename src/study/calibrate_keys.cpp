@@ -20,8 +20,8 @@ double middle(double lower, double upper) {
 Calibrated read_one(const YAML::Node& node, const std::string& name, int line, Problems& problems) {
   Section section(node, name, line, problems);
   const std::vector<double> range = section.numbers("calibrate");
-  Calibrated c{.name = name, .lower = 0, .upper = 1, .value = section.optional_number("value")};
-  section.numbers("interval");
+  Calibrated c{.name = name, .lower = 0, .upper = 1, .value = section.optional_number("value"), .interval = {}};
+  if (section.has("interval")) c.interval = section.numbers("interval");
   section.finish();
   if (range.size() == 2 && range[0] < range[1]) {
     c.lower = range[0];

@@ -45,12 +45,24 @@ Json peaks_json(const Test& test, const Response& r) {
   return list;
 }
 
+// At the knots of a record, and at the ends of short steps of a pulse.
+double floor_peak_g(const Test& test) {
+  const double end = test.motion.knot_s.back() * test.stretch;
+  const std::size_t n = std::max<std::size_t>(400, test.motion.segments());
+  double most = 0;
+  for (std::size_t i = 0; i <= n; ++i)
+    most = std::max(
+        most, std::abs(horizontal_acceleration(test.shaking(), end * static_cast<double>(i) / static_cast<double>(n))));
+  return most / standard_gravity_mps2;
+}
+
 Json test_json(const Bench& bench, const TestComparison& t) {
   const Test& test = bench.test(t.test);
   Json json = {{"id", test.id},
                {"role", roles[static_cast<int>(test.role)]},
                {"kind", kinds[static_cast<int>(kind(test))]},
                {"source", test.source},
+               {"floor_peak_g", floor_peak_g(test)},
                {"error_noise_units", number_or_null(t.error.noise_units)},
                {"error_relative", number_or_null(t.error.relative)},
                {"error_explained", number_or_null(t.explained)},
@@ -129,7 +141,8 @@ Json parameters_json(const ModelFit& fit, bool calibrated) {
   for (std::size_t i = 0; i < fit.x.size(); ++i) {
     const Free& free = fit.model.free[i];
     Json interval = nullptr;
-    if (i < fit.intervals.size()) interval = {fit.intervals[i].lower, fit.intervals[i].upper};
+    if (i < fit.intervals.size() && std::isfinite(fit.intervals[i].lower))
+      interval = {fit.intervals[i].lower, fit.intervals[i].upper};
     list.push_back({{"name", free.name},
                     {"unit", free.unit},
                     {"value", fit.x[i]},
@@ -178,6 +191,7 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
   for (const std::size_t i : c.worst) json["histories"].push_back(history_json(bench, c.tests[i]));
   json["error_tables"] = {{"calibration", tables_json(c.calibration)}, {"holdout", tables_json(c.holdout)}};
   json["ladder"] = ladder_json(p->validation.ladder);
+  add_provenance(json, world, run);
   return {std::move(json), fitted_study(*p, fit, folder)};
 }
 

@@ -181,6 +181,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
   for (const Candidate& c : d.candidates) json["candidates"].push_back(candidate_json(bench, c));
   json["recovered_force"] = recovered_json(bench, d, *best);
   json["suggested_motion"] = d.verdict == Verdict::ambiguous ? suggestion_json(bench, d, jobs) : Json(nullptr);
+  add_provenance(json, world, run);
   return json;
 }
 

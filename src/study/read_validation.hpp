@@ -32,6 +32,7 @@ struct Calibrated {
   std::string name;  // friction.mu, effects.floor_tilt.angle_rad, block.width_m ...
   double lower = 0, upper = 0;
   std::optional<double> value;
+  std::vector<double> interval;  // lower, upper; empty: none
 };
 
 // One step of the ladder: the errors of the model with these effects, in noise units.

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
+#include "io/provenance.hpp"
 #include "study/problems.hpp"
 #include "study/read_measurements.hpp"
 #include "study/validation_parts.hpp"
@@ -12,6 +14,8 @@ namespace freestand::study {
 namespace {
 
 using namespace measurement;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 void check_dimensions(const Prepared& p) {
   Problems problems(p.measurements);
@@ -50,6 +54,17 @@ nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
+void add_provenance(nlohmann::ordered_json& document, const parallel::Communicator& world, const ValidationRun& run) {
+  const io::Provenance p = io::provenance_here(run.command, world.size());
+  document["created_utc"] = p.created_utc;
+  document["version"] = p.version;
+  document["git_commit"] = p.git_commit;
+  document["command"] = p.command;
+  document["compiler"] = p.compiler;
+  document["host"] = p.host;
+  document["ranks"] = p.ranks;
+}
+
 std::unique_ptr<Prepared> prepare(const parallel::Communicator& world, Validation validation, const ValidationRun& run,
                                   int replays) {
   auto p = std::make_unique<Prepared>();
@@ -82,6 +97,9 @@ ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
     ModelFit fit{.model = p.model, .x = known, .score = 0};
     fit.score = mean_score(bench, tests_of(p.data, Role::calibration), fit.model, fit.x);
     evaluate(bench, {&fit}, jobs);
+    for (const Calibrated& c : p.validation.calibrated)
+      fit.intervals.push_back(c.interval.size() == 2 ? Interval{c.interval[0], c.interval[1]}
+                                                     : Interval{unknown, unknown});
     return fit;
   }
   if (tests_of(p.data, Role::calibration).empty())

@@ -3,7 +3,7 @@
 // comparison.json
 //   format "freestand-comparison/1", study, measurements, specimen_model (effects of the model), error_unit ("noise units",
 //   "ln ratio", "Brier"), method (of the calibration, a sentence)
-//   tests: [{id, role, kind (history|peaks|outcome), error_noise_units, error_relative, error_explained (the same with
+//   tests: [{id, role, kind (history|peaks|outcome), floor_peak_g, error_noise_units, error_relative, error_explained (the same with
 //     the floor's noise allowed for), error_expected (what noise alone would make), channels: [{name, error_noise_units,
 //     error_relative, bias, autocorrelation}], peaks: [{name, measured, model}], overturned_measured,
 //     overturned_probability, outcome}]
@@ -26,10 +26,11 @@
 //     left-out score to the best's), difference_se, rival, practical, left_out_refitted}], best first; of `base` no effect
 //   noise_floor: error that sensor and floor noise alone would make
 //   recovered_force: {samples, mean_mu, sample_noise_mu, base_mu, tables: [{variable, unit, edge, centre, count, mu, mu_deviation,
-//     mu_lower, mu_upper, force_mps2, force_lower_mps2, force_upper_mps2, share_explained, law: {effect, mu}}]}; `law`:
+//     mu_lower, mu_upper, force_mps2, force_lower_mps2, force_upper_mps2, share_explained, law: {effects, mu}}]}; `law`:
 //     the friction of the best effect through the same samples where it has one
 //   suggested_motion: where the verdict is ambiguous, else null: {between: [], motion: {pulse, period_s,
 //     peak_acceleration_g}, specimen (a sentence; null: the same), separation_noise_units, sentence}
+// Both end with created_utc, version, git_commit, command, compiler, host, ranks.
 #pragma once
 
 #include <filesystem>

@@ -38,6 +38,9 @@ std::vector<measurement::TestComparison> compare_tests(const measurement::Bench&
 const char* error_unit(const measurement::Bench&);
 nlohmann::ordered_json ladder_json(const std::vector<LadderStep>&);
 
+// created_utc, version, git_commit, command, compiler, host, ranks: at the end of a document.
+void add_provenance(nlohmann::ordered_json& document, const parallel::Communicator&, const ValidationRun&);
+
 // null where it is not finite.
 nlohmann::ordered_json number_or_null(double value);
 
