@@ -51,7 +51,7 @@ class AgainstKernel : public testing::TestWithParam<std::string> {};
 TEST_P(AgainstKernel, HasTheSameHistories) {
   std::size_t compared = 0, samples = 0;
   for (const std::uint64_t seed : {1, 2}) {
-    const MadeSet set = make_set({split_effects(GetParam()), seed, 4, 10, 0});
+    const MadeSet set = make_set({split_effects(GetParam()), seed, 3, 8, 0});
     for (const MadeTest& test : set.tests) {
       const Agreement a = agreement(set.drawn.truth, test.floor);
       EXPECT_LE(a.worst, 1) << set.name << ' ' << test.id << ", after " << a.compared << " samples";

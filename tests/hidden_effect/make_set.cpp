@@ -6,15 +6,16 @@
 #include <stdexcept>
 
 #include "base/units.hpp"
+#include "hidden_effect/set_errors.hpp"
 #include "hidden_effect/shaking.hpp"
 #include "support/keyed_random.hpp"
 
 namespace freestand::test {
 namespace {
 
-constexpr double dt_s = 0.005;       // of the sensors
-constexpr double step_s = 2.5e-5;    // of the stepper
-constexpr double coarse_s = 2.5e-4;  // while the plain model's mu is looked for
+constexpr double dt_s = 0.005;     // of the sensors
+constexpr double step_s = 2.5e-5;  // of the stepper
+constexpr double followed = 1.15;  // [noise units] error of the truth on the floor as measured
 
 // FNV-1a: effects of other names draw other numbers.
 std::uint64_t key_of(const std::vector<std::string>& effects) {
@@ -61,43 +62,51 @@ class Maker {
       MadeTest test;
       test.id = (i < 9 ? "t0" : "t") + std::to_string(i + 1);
       test.holdout = i >= request_.tests - held_out;
-      KeyedRandom own = numbers(static_cast<std::uint64_t>(i) + 1);
-      shake(own, set.drawn, vertical, test);
-      set.tests.push_back(test);
+      set.tests.push_back(made(set, std::move(test), vertical, numbers(static_cast<std::uint64_t>(i) + 1)));
     }
     return set;
-  }
-
-  void measure(MadeSet& set) const {
-    for (std::size_t i = 0; i < set.tests.size(); ++i) {
-      KeyedRandom random = numbers(1000 + i);
-      const auto noisy = [&](std::vector<double> values, double deviation) {
-        for (double& value : values) value += deviation * random.normal();
-        return values;
-      };
-      MadeTest& test = set.tests[i];
-      test.measured_floor = {dt_s, noisy(test.floor.horizontal_mps2, set.floor_noise_mps2),
-                             noisy(test.floor.vertical_mps2, set.floor_noise_mps2)};
-      test.slip_m = noisy(test.truth.slip_m, set.slip_noise_m);
-      if (set.drawn.habit != Habit::slides) test.rotation_rad = noisy(test.truth.rotation_rad, set.rotation_noise_rad);
-    }
   }
 
  private:
   KeyedRandom numbers(std::uint64_t stream) const { return {request_.seed, key_ ^ (stream << 32)}; }
 
-  // A motion that moves the specimen as it should, out of as many as it takes.
-  void shake(KeyedRandom& random, const DrawnTruth& d, bool vertical, MadeTest& test) const {
-    for (int motion = 0; motion < 50; ++motion) {
-      test.floor = draw_floor(random, d, vertical);
-      for (int trial = 0; trial < 8; ++trial) {
-        test.truth = simulate(d.truth, test.floor, step_s);
-        const double factor = rescaling(d, test.truth);
-        if (factor == 0) return;
-        scale(test.floor, factor);
-      }
+  // With a motion that moves the specimen as it should, and that a model can follow: out of as many as it takes, or the
+  // one out of many that can be followed best.
+  MadeTest made(const MadeSet& set, MadeTest test, bool vertical, KeyedRandom random) const {
+    const bool any = !test.holdout && random.chance(0.2);
+    MadeTest best;
+    best.truth_error = std::numeric_limits<double>::infinity();
+    for (int motion = 0; motion < 60 && best.truth_error > (any ? 1e9 : followed); ++motion) {
+      if (!shake(random, set.drawn, vertical, test)) continue;
+      measure(random, set, test);
+      test.truth_error = error_of(set, test, simulate(set.drawn.truth, test.measured_floor, step_s));
+      if (test.truth_error < best.truth_error) best = test;
     }
-    throw std::runtime_error(set_name(request_) + ": no floor motion moves the specimen without overturning it");
+    if (best.id.empty())
+      throw std::runtime_error(set.name + ": no floor motion moves the specimen without overturning it");
+    return best;
+  }
+
+  static void measure(KeyedRandom& random, const MadeSet& set, MadeTest& test) {
+    const auto noisy = [&](std::vector<double> values, double deviation) {
+      for (double& value : values) value += deviation * random.normal();
+      return values;
+    };
+    test.measured_floor = {dt_s, noisy(test.floor.horizontal_mps2, set.floor_noise_mps2),
+                           noisy(test.floor.vertical_mps2, set.floor_noise_mps2)};
+    test.slip_m = noisy(test.truth.slip_m, set.slip_noise_m);
+    if (set.drawn.habit != Habit::slides) test.rotation_rad = noisy(test.truth.rotation_rad, set.rotation_noise_rad);
+  }
+
+  bool shake(KeyedRandom& random, const DrawnTruth& d, bool vertical, MadeTest& test) const {
+    test.floor = draw_floor(random, d, vertical);
+    for (int trial = 0; trial < 8; ++trial) {
+      test.truth = simulate(d.truth, test.floor, step_s);
+      const double factor = rescaling(d, test.truth);
+      if (factor == 0) return true;
+      scale(test.floor, factor);
+    }
+    return false;
   }
 
   // Strong enough to pass what holds the block by 1.3 to 3.2 times.
@@ -120,51 +129,6 @@ class Maker {
   std::uint64_t key_;
 };
 
-double squared_error(const MadeSet& set, const Truth& model) {
-  double sum = 0;
-  for (const MadeTest& test : set.tests) {
-    const TruthHistory history = simulate(model, test.floor, coarse_s);
-    double own = 0;
-    for (std::size_t i = 0; i < history.slip_m.size(); ++i) {
-      const double slip = (history.slip_m[i] - test.truth.slip_m[i]) / set.slip_noise_m;
-      const double turn = (history.rotation_rad[i] - test.truth.rotation_rad[i]) / set.rotation_noise_rad;
-      own += set.drawn.habit == Habit::slides ? slip * slip : 0.5 * (slip * slip + turn * turn);
-    }
-    sum += own / static_cast<double>(history.slip_m.size() * set.tests.size());
-  }
-  return sum;
-}
-
-// With the effects that are given only, and the mu that suits them best: steps of 24, 12, 6, 3 % as long as they help.
-double error_with(const MadeSet& set, const std::vector<TruthEffect>& effects) {
-  Truth model = set.drawn.truth;
-  model.effects = effects;
-  double best_mu = model.mu_k, best = squared_error(set, model);
-  if (set.drawn.habit == Habit::rocks) return std::sqrt(best);
-  for (double width = 0.24; width > 0.02; width *= 0.5)
-    for (int walk = 0; walk < 4; ++walk) {
-      const double from = best_mu;
-      for (const double mu : {from * (1 - width), from * (1 + width)}) {
-        model.mu_s = model.mu_k = mu;
-        if (const double error = squared_error(set, model); error < best) best = error, best_mu = mu;
-      }
-      if (best_mu == from) break;
-    }
-  return std::sqrt(best);
-}
-
-// Least error of those models that lack one of the hidden effects: how far each of them shows.
-double weakest(const MadeSet& set) {
-  const auto& hidden = set.drawn.truth.effects;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < hidden.size(); ++i) {
-    std::vector<TruthEffect> others = hidden;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    least = std::min(least, error_with(set, others));
-  }
-  return least;
-}
-
 }  // namespace
 
 std::string set_name(const SetRequest& request) {
@@ -176,12 +140,10 @@ std::string set_name(const SetRequest& request) {
 MadeSet make_set(const SetRequest& request) {
   MadeSet set;
   for (std::uint64_t attempt = 0; attempt < 8; ++attempt) {
-    Maker maker(request, attempt);
-    set = maker();
-    maker.measure(set);
+    set = Maker(request, attempt)();
     if (request.effects.empty()) break;
     set.plain_error = error_with(set, {});
-    set.weakest_error = request.effects.size() == 1 ? set.plain_error : weakest(set);
+    set.weakest_error = request.effects.size() == 1 ? set.plain_error : weakest_error(set);
     if (set.plain_error >= request.least_error && set.weakest_error >= request.least_error) break;
   }
   return set;

@@ -70,6 +70,8 @@ nlohmann::ordered_json answer_of(const MadeSet& set) {
     parameters[effect.name] = effect.parameters;
     in_catalogue &= std::find(outside.begin(), outside.end(), effect.name) == outside.end();
   }
+  nlohmann::ordered_json truth_errors;
+  for (const MadeTest& test : set.tests) truth_errors[test.id] = test.truth_error;
   const Truth& t = set.drawn.truth;
   static constexpr const char* habits[] = {"slides", "rocks", "slides and rocks"};
   return {{"effects", effects},
@@ -84,6 +86,7 @@ nlohmann::ordered_json answer_of(const MadeSet& set) {
           {"floor_noise_mps2", set.floor_noise_mps2},
           {"plain_error_noise_units", set.plain_error},
           {"weakest_error_noise_units", set.weakest_error},
+          {"truth_error_noise_units", truth_errors},
           {"twins", has_twin(set) ? nlohmann::ordered_json{"floor_tilt", "directional_friction"}
                                   : nlohmann::ordered_json::array()}};
 }
