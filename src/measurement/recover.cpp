@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/units.hpp"
+#include "measurement/ground.hpp"
 #include "measurement/score.hpp"
 #include "measurement/slips.hpp"
 
@@ -23,8 +24,8 @@ struct Sample {
 constexpr std::array<const char*, 6> names = {"speed_mps", "path_m", "direction", "position_m", "normal_g", "time_s"};
 constexpr std::array<const char*, 6> units = {"m/s", "m", "1", "m", "g", "s"};
 
-void sample_slip(const Test& test, const Slip& slip, std::size_t half, double mu_k, bool vertical, double& path,
-                 std::vector<Sample>& samples) {
+void sample_slip(const Test& test, const std::vector<double>& floor, const Slip& slip, std::size_t half, double mu_k,
+                 bool vertical, double& path, std::vector<Sample>& samples) {
   const std::size_t n = slip.to - slip.from;
   const std::vector<double> part(test.slip_m.begin() + static_cast<long>(slip.from),
                                  test.slip_m.begin() + static_cast<long>(slip.to));
@@ -32,13 +33,16 @@ void sample_slip(const Test& test, const Slip& slip, std::size_t half, double mu
   path += std::abs(part.back() - part.front());
   if (n < 2 * half + 3) return;
   const Smooth motion = smooth(part, test.dt_s, half);
+  std::vector<double> absolute = part;
+  for (std::size_t k = 0; k < n; ++k) absolute[k] += floor[slip.from + k];
+  const std::vector<double> accelerations = smooth(absolute, test.dt_s, half).second;
   for (std::size_t k = half + 1; k + half + 1 < n; ++k) {
     const std::size_t i = slip.from + k;
     const double t = static_cast<double>(i) * test.dt_s;
     const double v = vertical && test.has_vertical() ? vertical_acceleration({&test.motion, 1, 1, 1}, t) : 0;
     const double gravity = standard_gravity_mps2 + v;
     if (gravity < 0.2 * standard_gravity_mps2) continue;
-    const double total = motion.second[k] + horizontal_acceleration(test.shaking(), t);
+    const double total = accelerations[k];
     samples.push_back({-slip.sigma * total / gravity,
                        total + slip.sigma * mu_k * gravity,
                        {std::abs(motion.rate[k]), before + std::abs(motion.value[k] - part.front()), slip.sigma,
@@ -111,9 +115,10 @@ Recovered recover(const Bench& bench, double mu_k, bool vertical) {
     const double noise = bench.noise(Channel::slip);
     const Smooth motion = smooth(test.slip_m, test.dt_s, std::max<std::size_t>(2, half / 3));
     const double least = 4 * noise * rate_noise(test.dt_s, std::max<std::size_t>(2, half / 3));
+    const std::vector<double> floor = floor_displacement(test);
     double path = 0;
     for (const Slip& slip : slips(test, motion, least, bench.noise(Channel::rotation)))
-      sample_slip(test, slip, half, mu_k, vertical, path, samples);
+      sample_slip(test, floor, slip, half, mu_k, vertical, path, samples);
     out.sample_noise_mu = noise * second_noise(test.dt_s, half) / standard_gravity_mps2;
   }
   out.samples = samples.size();

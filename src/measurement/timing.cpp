@@ -3,26 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/ground.hpp"
 #include "measurement/slips.hpp"
 
 namespace freestand::measurement {
 namespace {
 
 constexpr double half_window_s = 0.04;
-
-// Displacement of the floor at the samples of the histories [m], by the rule of trapezoids twice.
-std::vector<double> floor_displacement(const Test& test) {
-  std::vector<double> d(test.slip_m.size());
-  double velocity = 0;
-  for (std::size_t i = 1; i < d.size(); ++i) {
-    const double t = static_cast<double>(i - 1) * test.dt_s;
-    const double a0 = horizontal_acceleration(test.shaking(), t);
-    const double a1 = horizontal_acceleration(test.shaking(), t + test.dt_s);
-    d[i] = d[i - 1] + test.dt_s * velocity + test.dt_s * test.dt_s * (2 * a0 + a1) / 6;
-    velocity += test.dt_s * (a0 + a1) / 2;
-  }
-  return d;
-}
 
 struct Variance {
   double n = 0, sum = 0, square = 0;

@@ -1,0 +1,14 @@
+// The floor under a measured test, on the time steps of its histories.
+#pragma once
+
+#include <vector>
+
+#include "measurement/dataset.hpp"
+
+namespace freestand::measurement {
+
+// Displacement [m], from rest: the measured acceleration integrated twice, linear between samples. Added to the slip it
+// gives the block's own, whose second derivative is what friction and other forces do to it.
+std::vector<double> floor_displacement(const Test&);
+
+}  // namespace freestand::measurement

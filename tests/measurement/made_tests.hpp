@@ -1,0 +1,26 @@
+// Small data sets for the tests of this folder: histories of the program's own block, with noise from a fixed seed.
+// What the mechanics of fitting and judging need; that the diagnosis is right is shown by tests/hidden_effect, whose
+// histories are not the program's own.
+#pragma once
+
+#include <freestand/simulate.hpp>
+
+#include "measurement/bench.hpp"
+
+namespace freestand::test {
+
+inline constexpr double slip_noise_m = 3e-4, rotation_noise_rad = 3e-4;
+
+// Two swings of the floor to and fro of that peak [m/s2] and period [s], beginning at 0.5 s; 4 s at 0.005 s.
+FloorMotion swings(double peak_mps2, double period_s);
+
+// One test: the response of that specimen, with the noise of the sensors.
+measurement::Test made_test(const std::string& id, const Specimen&, const FloorMotion&, std::uint64_t seed);
+
+// Four tests for calibration and one held out, of different strengths and periods.
+measurement::Dataset made_dataset(const Specimen&);
+
+// A model whose friction is free within [0.03, 1.2].
+measurement::ModelSpec free_friction();
+
+}  // namespace freestand::test

@@ -1,0 +1,42 @@
+// Quadratics fitted to samples: exact on quadratics, and as noisy as the weights say.
+#include "measurement/smooth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+TEST(Smooth, IsExactOnAQuadraticUpToBothEnds) {
+  std::vector<double> samples;
+  for (int i = 0; i < 60; ++i) samples.push_back(1 + 2 * (0.01 * i) - 3 * (0.01 * i) * (0.01 * i));
+  const Smooth s = smooth(samples, 0.01, 7);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double t = 0.01 * static_cast<double>(i);
+    EXPECT_NEAR(s.value[i], samples[i], 1e-12);
+    EXPECT_NEAR(s.rate[i], 2 - 6 * t, 1e-10);
+    EXPECT_NEAR(s.second[i], -6, 1e-8);
+  }
+}
+
+TEST(Smooth, NoiseOfRateAndSecondIsThatOfTheWeights) {
+  constexpr std::size_t n = 40000, half = 6;
+  std::vector<double> noise;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto [a, b] = random::bits(11, i, 3);
+    noise.push_back(std::sqrt(12.0) * (random::unit_interval(a) - 0.5));  // of standard deviation 1
+  }
+  const Smooth s = smooth(noise, 0.005, half);
+  double rate = 0, second = 0;
+  for (std::size_t i = 0; i < n; ++i) rate += s.rate[i] * s.rate[i] / n, second += s.second[i] * s.second[i] / n;
+  EXPECT_NEAR(std::sqrt(rate) / rate_noise(0.005, half), 1, 0.03);
+  EXPECT_NEAR(std::sqrt(second) / second_noise(0.005, half), 1, 0.03);
+}
+
+TEST(Smooth, TooFewSamplesGiveZeros) { EXPECT_EQ(smooth({1, 2, 3}, 0.01, 2).rate, std::vector<double>(3, 0.0)); }
+
+}  // namespace
+}  // namespace freestand::measurement

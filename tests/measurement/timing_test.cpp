@@ -1,0 +1,96 @@
+// Sign and clock of a slip channel, found without a model, and what examine() says of them.
+#include "measurement/timing.hpp"
+
+#include <gmock/gmock.h>
+
+#include "measurement/made_tests.hpp"
+#include "measurement/quality.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Specimen cabinet(double mu) {
+  Specimen s;
+  s.block = Block::rectangular(0.8, 0.6, 100);
+  s.friction = {mu, mu};
+  s.model = Model::slide;
+  return s;
+}
+
+void mirror(Test& test) {
+  for (double& s : test.slip_m) s = -s;
+}
+
+void delay(Test& test, int steps) {
+  const std::vector<double> before = test.slip_m;
+  const int n = static_cast<int>(before.size());
+  for (int i = 0; i < n; ++i)
+    test.slip_m[static_cast<std::size_t>(i)] = before[static_cast<std::size_t>(std::clamp(i - steps, 0, n - 1))];
+}
+
+Quality examined(const Dataset& data) {
+  const Bench bench(data, 0);
+  ModelFit fit{.model = test::free_friction(), .x = {0.2}};
+  fit.score = mean_score(bench, tests_of(data, Role::calibration), fit.model, fit.x);
+  return examine(bench, fit, Effort{}, run_here);
+}
+
+TEST(Timing, OfAChannelInOrder) {
+  const Dataset data = test::made_dataset(cabinet(0.2));
+  const Bench bench(data, 0);
+  for (std::size_t i = 0; i < bench.size(); ++i) {
+    const Timing t = slip_timing(bench, i, 30);
+    EXPECT_TRUE(t.judged()) << i;
+    EXPECT_FALSE(t.wrong()) << i << " late " << t.late_steps << " gain " << t.gain;
+  }
+  EXPECT_THAT(examined(data).findings, IsEmpty());
+}
+
+TEST(Timing, FindsMirrorAndDelayWhateverTheFriction) {
+  for (const double mu : {0.1, 0.25}) {
+    Dataset data = test::made_dataset(cabinet(mu));
+    mirror(data.tests[0]);
+    delay(data.tests[1], 11);
+    delay(data.tests[2], -12);
+    const Bench bench(data, 0);
+    EXPECT_TRUE(slip_timing(bench, 0, 30).mirrored && slip_timing(bench, 0, 30).wrong());
+    EXPECT_NEAR(slip_timing(bench, 1, 30).late_steps, 11, 1);
+    EXPECT_NEAR(slip_timing(bench, 2, 30).late_steps, -12, 1);
+    for (const std::size_t i : {1U, 2U})
+      EXPECT_TRUE(slip_timing(bench, i, 30).wrong()) << "mu " << mu << " gain " << slip_timing(bench, i, 30).gain;
+  }
+}
+
+TEST(Quality, NamesTheTestThatIsWrong) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  mirror(data.tests[3]);
+  const Quality q = examined(data);
+  EXPECT_THAT(q.findings, Contains(HasSubstr("slip of test t4 looks mirrored")));
+  EXPECT_TRUE(q.spoilt());
+  EXPECT_FALSE(q.mirrored_slip);
+}
+
+TEST(Quality, SaysOnceWhatIsWrongWithAll) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  for (auto& t : data.tests) delay(t, 12);
+  const Quality q = examined(data);
+  EXPECT_NEAR(q.late_steps, 12, 1);
+  ASSERT_EQ(q.findings.size(), 1U);
+  EXPECT_THAT(q.findings[0], HasSubstr("behind the floor's channel"));
+}
+
+TEST(Quality, ClippedSensorsAndStillTests) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  for (double& s : data.tests[0].slip_m) s = std::clamp(s, -0.01, 0.01);
+  data.tests[1] = test::made_test("t2", cabinet(0.9), test::swings(4, 0.8), 9);
+  const Quality q = examined(data);
+  EXPECT_THAT(q.findings, Contains(HasSubstr("slip_m of test t1 stays at its extreme value")));
+  EXPECT_THAT(q.findings, Contains(HasSubstr("test t2 shows no motion above the noise")));
+}
+
+}  // namespace
+}  // namespace freestand::measurement
