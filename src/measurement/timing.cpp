@@ -22,7 +22,7 @@ struct Variance {
 bool Timing::judged() const { return samples >= 1.5; }
 
 // On measurements in order the gain stays under 3, with two independent samples; wrong signs and clocks make 9 to 400.
-bool Timing::wrong() const { return (mirrored || std::abs(late_steps) > 1) && judged() && gain > 5; }
+bool Timing::wrong() const { return (mirrored || std::abs(late_steps) > 1) && judged() && gain > 4; }
 
 Timing slip_timing(const Bench& bench, std::size_t i, int most_steps) {
   const Test& test = bench.test(i);

@@ -1,0 +1,107 @@
+"""compare, diagnose and add as their users run them: the same answer on any number of ranks, a sweep of what was fitted,
+a formula as an effect, and what is said of broken measurements."""
+
+import json
+import pathlib
+import shutil
+import unittest
+
+from support import CONFIGS, InFolder
+
+WALK = CONFIGS / "walkthrough"
+ABOUT_THE_RUN = ("created_utc", "command", "ranks", "host", "study", "measurements")
+
+
+def read(path):
+    document = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+    return {key: value for key, value in document.items() if key not in ABOUT_THE_RUN}
+
+
+class Validation(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.study = self.copy("all", None)
+
+    def copy(self, name, tests):
+        """The walk-through's study in a folder of its own, with some of its tests."""
+        folder = self.folder / name
+        shutil.copytree(WALK, folder)
+        if tests:
+            head, *entries = (folder / "dataset.yaml").read_text(encoding="utf-8").split("  - id: ")
+            kept = [entry for entry in entries if entry[:3] in tests]
+            (folder / "dataset.yaml").write_text(head + "".join("  - id: " + entry for entry in kept), encoding="utf-8")
+        return folder / "cabinet.yaml"
+
+    def test_any_number_of_ranks(self):
+        study = self.copy("few", ("t02", "t03", "t05", "t06"))
+        found = {}
+        for ranks in (1, 3):
+            out = self.folder / f"{ranks}"
+            self.succeed(["compare", study, "-o", out / "before", "--quiet"], ranks)
+            self.succeed(["diagnose", study, "-o", out / "diagnosis", "--quiet"], ranks)
+            after = study.with_name(f"with_{ranks}.yaml")
+            self.succeed(["add", study, "rate_weakening", "-o", after, "--quiet"], ranks)
+            found[ranks] = (read(out / "before" / "comparison.json"), read(out / "diagnosis" / "diagnosis.json"),
+                            after.read_text(encoding="utf-8").split("\n")[1:])
+        self.assertEqual(found[1], found[3])
+        self.assertEqual(len(found[1][1]["candidates"]), len({c["effect"] for c in found[1][1]["candidates"]}))
+
+    def test_ladder_and_sweep_of_what_was_fitted(self):
+        second = self.study.with_name("second.yaml")
+        self.succeed(["add", self.study, "rate_weakening", "-o", second, "--quiet"])
+        out = self.folder / "after"
+        self.succeed(["compare", second, "-o", out, "--quiet"])
+        comparison = read(out / "comparison.json")
+        self.assertLess(comparison["holdout"]["error_noise_units"], 1.2)
+        base, added = comparison["ladder"]
+        self.assertEqual((base["step"], added["step"]), ("base", "rate_weakening"))
+        self.assertGreater(base["error_holdout"], 20 * added["error_holdout"])
+        sweep = (out / "fitted.yaml").read_text(encoding="utf-8").replace("samples: 20000", "samples: 300")
+        self.succeed(["run", self.write("sweep.yaml", sweep), "-o", self.folder / "sweep", "--quiet"])
+        effects = (self.folder / "sweep" / "study.yaml").read_text(encoding="utf-8")
+        self.assertIn("rate_weakening", effects)
+
+    def test_a_formula_is_added_as_a_name_is(self):
+        law = ('{name: my_law, friction: "mu*(1 - d*(1 - exp(-abs(v)/c_mps)))", '
+               "parameters: {d: {calibrate: [0.1, 0.8]}, c_mps: {calibrate: [0.02, 0.3]}}}")
+        second = self.study.with_name("formula.yaml")
+        self.succeed(["add", self.study, law, "-o", second, "--quiet"])
+        self.succeed(["compare", second, "-o", self.folder / "formula", "--quiet"])
+        comparison = read(self.folder / "formula" / "comparison.json")
+        self.assertLess(comparison["holdout"]["error_noise_units"], 1.2)
+
+    def change(self, name, change):
+        study = self.copy(name, None)
+        file = study.with_name("t03.csv")
+        file.write_text("\n".join(change(file.read_text(encoding="utf-8").split("\n"))), encoding="utf-8")
+        return ["compare", study, "-o", self.folder / f"out_{name}", "--quiet"]
+
+    def test_broken_measurements_name_file_and_line(self):
+        def without(name):
+            def change(lines):
+                place = lines[0].split(",").index(name)
+                return [",".join(c for i, c in enumerate(line.split(",")) if i != place) for line in lines]
+            return change
+
+        def with_nan(lines):
+            return lines[:100] + [lines[100].rsplit(",", 1)[0] + ",nan"] + lines[101:]
+
+        self.fail_with(3, self.change("channel", without("slip_m")), "t03.csv:1", "no column slip_m")
+        self.fail_with(3, self.change("floor", without("floor_acceleration_mps2")), "t03.csv:1", "no column floor_acceleration_mps2")
+        self.fail_with(3, self.change("nan", with_nan), "t03.csv:101", "nan")
+        self.fail_with(3, self.change("gap", lambda lines: lines[:200] + lines[201:]), "t03.csv:201", "time jumps")
+        self.fail_with(3, self.change("cut", lambda lines: lines[:1]), "t03.csv")
+
+    def test_mistakes_in_the_study(self):
+        self.fail_with(2, ["add", self.study, "rate_weakning", "-o", self.study.with_name("x.yaml")], "is not known")
+        self.fail_with(2, ["add", self.study, "rate_weakening", "-o", self.study], "exists already")
+        self.fail_with(2, ["run", self.study, "-o", self.folder / "sweep"], "not fitted yet")
+        few = self.copy("two", ("t02", "t03"))
+        self.fail_with(3, ["diagnose", few, "-o", self.folder / "d", "--quiet"], "2 calibration tests for 1 number")
+        lost = self.study.with_name("lost.yaml")
+        lost.write_text(self.study.read_text(encoding="utf-8").replace("dataset.yaml", "nowhere.yaml"), encoding="utf-8")
+        self.fail_with(3, ["compare", lost, "-o", self.folder / "l", "--quiet"], "nowhere.yaml")
+
+
+if __name__ == "__main__":
+    unittest.main()
