@@ -32,8 +32,8 @@ class WholeWay(unittest.TestCase):
     def read(self, *path):
         return json.loads(self.folder.joinpath(*path).read_text())
 
-    def make(self, effects, seed=1):
-        self.run_in_folder(MAKE_SETS, "-o", ".", "--effects", effects, "--first", seed, "--seeds", 1, "--tests", 5,
+    def make(self, effects, tests, seed=1):
+        self.run_in_folder(MAKE_SETS, "-o", ".", "--effects", effects, "--first", seed, "--seeds", 1, "--tests", tests,
                            "--duration", 8)
         (self.folder / "study.yaml").write_text(STUDY.format(f"{effects}-{seed}"))
 
@@ -46,7 +46,7 @@ class WholeWay(unittest.TestCase):
         return self.read("diagnosis", "diagnosis.json")
 
     def test_the_hidden_effect_is_named_and_takes_the_error_to_the_noise(self):
-        self.make("static_friction")
+        self.make("static_friction", 7)
         before = self.compared("study.yaml", "before")
         self.assertGreater(before["calibration"]["error_noise_units"], 4)
         self.assertGreater(before["holdout"]["error_noise_units"], 4)
@@ -58,14 +58,14 @@ class WholeWay(unittest.TestCase):
         self.assertLessEqual(after["calibration"]["error_noise_units"], AT_NOISE)
 
     def test_a_plain_block_lacks_nothing(self):
-        self.make("none")
+        self.make("none", 5)
         before = self.compared("study.yaml", "before")
         self.assertLessEqual(before["holdout"]["error_noise_units"], AT_NOISE)
         diagnosis = self.diagnosed()
         self.assertEqual((diagnosis["verdict"], diagnosis["effects"]), ("none", []))
 
     def test_a_law_of_no_catalogue_stays_unknown(self):
-        self.make("rough_floor")
+        self.make("rough_floor", 5)
         diagnosis = self.diagnosed()
         self.assertEqual((diagnosis["verdict"], diagnosis["effects"]), ("unknown", []))
 
