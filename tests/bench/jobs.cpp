@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "base/units.hpp"
+#include "effects/effects.hpp"
 #include "support/keyed_random.hpp"
 
 namespace freestand::bench {
@@ -75,7 +76,7 @@ void random_specimen(KeyedRandom& random, Model model, Specimen& specimen, doubl
 
 Job make_job(const char* name, const char* title, Model model, std::uint64_t seed, double most,
              const std::vector<FloorMotion>& records, std::size_t samples) {
-  Job job{name, title, std::vector<Specimen>(samples), std::vector<Shaking>(samples), {}};
+  Job job{name, title, std::vector<Specimen>(samples), std::vector<Shaking>(samples), {}, samples, samples};
   if (model != Model::rock) job.demands.push_back("slip");
   if (model != Model::slide) job.demands.push_back("rotation");
   for (std::size_t i = 0; i < samples; ++i) {
@@ -85,6 +86,32 @@ Job make_job(const char* name, const char* title, Model model, std::uint64_t see
     const double peak = standard_gravity_mps2 * threshold * random.log_uniform(0.9, most);
     job.shakings[i] = {&records[i % records.size()], random.chance(0.5) ? peak : -peak};
   }
+  return job;
+}
+
+Job bouc_wen_job(const char* name, const char* title, double yield_m, std::size_t for_cvode, std::size_t for_odeint,
+                 const std::vector<FloorMotion>& records, std::size_t samples) {
+  Job job = make_job(name, title, Model::slide, 4, 5, records, samples);
+  for (Specimen& specimen : job.specimens) {
+    specimen.model = Model::bouc_wen;
+    specimen.bouc_wen = {yield_m, 20, 0.5, 0.5};
+    specimen.friction.mu_s = specimen.friction.mu_k;
+  }
+  job.for_cvode = std::min(for_cvode, samples);
+  job.for_odeint = std::min(for_odeint, samples);
+  return job;
+}
+
+Job effects_job(const std::vector<FloorMotion>& records, std::size_t samples) {
+  Job job = make_job("P5", "slide-rock with effects", Model::slide_rock, 5, 3, records, samples);
+  for (std::size_t i = 0; i < samples; ++i) {
+    KeyedRandom random(6, i);
+    job.specimens[i].effects = {
+        {effects::find("static_friction"), {random.uniform(1.05, 1.4)}},
+        {effects::find("rate_weakening"), {random.uniform(0.1, 0.4), random.uniform(0.05, 0.5)}},
+        {effects::find("impact_loss"), {random.uniform(0.8, 1)}}};
+  }
+  job.for_cvode = std::min<std::size_t>(240, samples);
   return job;
 }
 
@@ -106,7 +133,10 @@ std::vector<FloorMotion> benchmark_records() {
 std::vector<Job> benchmark_jobs(const std::vector<FloorMotion>& records, std::size_t samples) {
   return {make_job("P1", "sliding", Model::slide, 1, 5, records, samples),
           make_job("P2", "rocking", Model::rock, 2, 3, records, samples),
-          make_job("P3", "slide-rock", Model::slide_rock, 3, 3, records, samples)};
+          make_job("P3", "slide-rock", Model::slide_rock, 3, 3, records, samples),
+          bouc_wen_job("P4", "Bouc-Wen", 2.54e-3, 96, samples, records, samples),
+          bouc_wen_job("P4s", "Bouc-Wen, stiff", 2.54e-7, 8, 8, records, std::min<std::size_t>(16, samples)),
+          effects_job(records, samples)};
 }
 
 }  // namespace freestand::bench

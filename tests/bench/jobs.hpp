@@ -4,6 +4,9 @@
 //   P1 sliding      block that only slides, constant mu_s >= mu_k
 //   P2 rocking      block that only rocks, Housner's impacts
 //   P3 slide-rock   both, mu_s and mu_k close to the slenderness, Housner's impacts
+//   P4 Bouc-Wen     slides on an elastoplastic contact, n = 20, u_y = 0.1 in; P4s: 1e-5 in, a few samples only, because
+//                   of the peers
+//   P5 effects      P3 with static_friction, rate_weakening and impact_loss
 //
 // The motions are 20 records of 20 s at 0.005 s: noise through the filters of Kanai & Tajimi and of Clough & Penzien
 // under an envelope of build-up, plateau and decay; every second one carries a velocity pulse. A sample scales its
@@ -24,7 +27,8 @@ struct Job {
   std::string title;  // "sliding"
   std::vector<Specimen> specimens;
   std::vector<Shaking> shakings;
-  std::vector<std::string> demands;  // the demands whose error counts: "slip", "rotation"
+  std::vector<std::string> demands;   // the demands whose error counts: "slip", "rotation"
+  std::size_t for_cvode, for_odeint;  // samples that are enough to time the peers: the first ones
 
   std::size_t samples() const { return specimens.size(); }
 };

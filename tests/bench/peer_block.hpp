@@ -1,6 +1,9 @@
 // The block as the peers compute it: the same modes, inequalities and impacts as the program (uniform block, no vertical
 // shaking, Housner's impacts), written anew as straight-line scalar code, the way one writes it for a fast loop by hand.
 //
+// Of the effects it knows those of job P5: static_friction and impact_loss change its numbers, rate_weakening makes both
+// coefficients of friction mu(w) = mu (1 - d (1 - exp(-|w|/c))).
+//
 // A mode change is decided from the values at the instant alone: who was violated says what cannot follow.
 #pragma once
 
@@ -10,11 +13,12 @@
 #include <freestand/specimen.hpp>
 
 #include "base/units.hpp"
+#include "dynamics/effect.hpp"
 
 namespace freestand::bench {
 
 enum class PeerMode { rest, slide, rock, slide_rock };
-enum class PeerEvent { none, impact, overturned, grip, stop, lift };
+enum class PeerEvent { none, impact, overturned, grip, stop, lift, tip };
 
 struct PeerState {
   PeerMode mode = PeerMode::rest;
@@ -43,14 +47,24 @@ struct PeerBlock {
         kept(specimen.impact.factor * std::fmax(0.0, (k2 + h * h - b * b) / inertia)),
         can_slip(specimen.model != Model::rock),
         can_rock(specimen.model != Model::slide),
-        quiet(std::fmin(can_slip ? mu_s * g : 1e300, can_rock ? b / h * g : 1e300)),
-        last_rate2(tolerance * 2 * g * b / inertia) {}
+        last_rate2(tolerance * 2 * g * b / inertia) {
+    for (const EffectUse& use : specimen.effects) {
+      if (use.effect->name == "static_friction") mu_s = use.parameters[0] * mu_k;
+      if (use.effect->name == "impact_loss") kept *= use.parameters[0];
+      if (use.effect->name == "rate_weakening") drop = use.parameters[0], over_speed = 1 / use.parameters[1];
+    }
+    quiet = std::fmin(can_slip ? mu_s * g : 1e300, can_rock ? b / h * g : 1e300);
+  }
 
   double b, h, k2, inertia, mu_s, mu_k, kept;
   bool can_slip, can_rock;
-  double quiet, last_rate2;  // |a| that moves nothing; a hop whose omega^2 is less than this ends the rocking
+  double quiet = 0, last_rate2;  // |a| that moves nothing; a hop whose omega^2 is less than this ends the rocking
+  double drop = 0, over_speed = 0;
   static constexpr double g = standard_gravity_mps2;
 
+  double mu_at(double w) const {
+    return drop == 0 ? mu_k : mu_k * (1 - drop * (1 - std::exp(-std::abs(w) * over_speed)));
+  }
   double rock_alpha(double s, double theta, double a) const {
     const double sine = std::sin(theta), cosine = std::cos(theta), c = s * b;
     return ((h * sine - c * cosine) * g - (c * sine + h * cosine) * a) / inertia;
@@ -61,8 +75,8 @@ struct PeerBlock {
     const double alpha = (rx * g - ry * a) / inertia;
     return {alpha, 0, ry * alpha - rx * omega * omega + a, g - rx * alpha - ry * omega * omega};
   }
-  PeerForces slide_rock_forces(double s, double sigma, double theta, double omega, double a) const {
-    const double sine = std::sin(theta), cosine = std::cos(theta), c = s * b, sm = sigma * mu_k;
+  PeerForces slide_rock_forces(double s, double sigma, double theta, double omega, double w, double a) const {
+    const double sine = std::sin(theta), cosine = std::cos(theta), c = s * b, sm = sigma * mu_at(w);
     const double rx = h * sine - c * cosine, ry = c * sine + h * cosine;
     const double q = rx + sm * ry, n = g - ry * omega * omega, d = k2 + rx * q;
     const double alpha = n * q / d, fy = n * k2 / d;
@@ -78,7 +92,7 @@ struct PeerBlock {
     if (y.w != 0) {
       y.sigma = y.w > 0 ? 1 : -1;
       y.mode = PeerMode::slide;
-      if (can_rock && mu_k * h > b) y = {PeerMode::slide_rock, y.sigma, y.sigma, 0, 0, y.xi, y.w};
+      if (can_rock && mu_at(y.w) * h > b) y = {PeerMode::slide_rock, y.sigma, y.sigma, 0, 0, y.xi, y.w};
       return;
     }
     const bool slips = can_slip && std::abs(a) > mu_s * g, tips = can_rock && h * std::abs(a) > b * g;
@@ -133,8 +147,8 @@ struct PeerBlock {
     if (y.omega * y.omega < last_rate2) {
       if (y.w != 0) {  // the rest of the hops at once: two geometric series
         const double before = y.w > 0 ? 1 : -1;
-        y.w +=
-            (2 * h * y.omega * (1 - kept) + 2 * before * mu_k * b * (1 + kept) * std::abs(y.omega)) / (1 - kept * kept);
+        y.w += (2 * h * y.omega * (1 - kept) + 2 * before * mu_at(y.w) * b * (1 + kept) * std::abs(y.omega)) /
+               (1 - kept * kept);
         if (y.w * before < 0) y.w = 0;
       }
       y.omega = 0;
@@ -156,6 +170,9 @@ struct PeerBlock {
         return false;
       case PeerEvent::grip:
         slip_on_corner(y, rock_forces(y.s, y.theta, y.omega, a).fx);
+        return true;
+      case PeerEvent::tip:
+        y = {PeerMode::slide_rock, y.sigma, y.sigma, 0, 0, y.xi, y.w};
         return true;
       case PeerEvent::stop:
         y.w = 0;

@@ -12,7 +12,7 @@
 namespace freestand::bench {
 namespace {
 
-constexpr int roots = 6;  // s theta, sigma w, grip, fy; omega and u' for the peaks
+constexpr int roots = 7;  // s theta, sigma w, grip, fy, tipping; omega and u' for the peaks
 
 void check(int flag) {
   if (flag < 0) throw std::runtime_error("CVODE failed");
@@ -42,14 +42,14 @@ struct CvodePeer::Solver {
     switch (me.now.mode) {
       case PeerMode::slide:
         d[0] = d[1] = 0;
-        d[3] = -a - me.now.sigma * me.block->mu_k * PeerBlock::g;
+        d[3] = -a - me.now.sigma * me.block->mu_at(y[3]) * PeerBlock::g;
         break;
       case PeerMode::rock:
         d[1] = me.block->rock_alpha(me.now.s, y[0], a);
         d[2] = d[3] = 0;
         break;
       default:
-        const PeerForces f = me.block->slide_rock_forces(me.now.s, me.now.sigma, y[0], y[1], a);
+        const PeerForces f = me.block->slide_rock_forces(me.now.s, me.now.sigma, y[0], y[1], y[3], a);
         d[1] = f.alpha;
         d[3] = f.slip_acceleration;
     }
@@ -63,16 +63,18 @@ struct CvodePeer::Solver {
     const PeerMode mode = me.now.mode;
     if (mode != PeerMode::slide) {
       g[0] = me.now.s * y[0];
-      g[4] = y[1];
+      g[5] = y[1];
     }
     if (mode != PeerMode::rock) g[1] = me.now.sigma * y[3];
+    if (mode == PeerMode::slide && me.block->can_rock && me.block->drop > 0)
+      g[4] = me.block->b - me.block->mu_at(y[3]) * me.block->h;
     if (mode == PeerMode::rock && me.block->can_slip) {
       const PeerForces f = me.block->rock_forces(me.now.s, y[0], y[1], me.acceleration(t));
       g[2] = me.block->mu_s * f.fy - std::abs(f.fx);
     }
     if (mode == PeerMode::slide_rock) {
-      g[3] = me.block->slide_rock_forces(me.now.s, me.now.sigma, y[0], y[1], me.acceleration(t)).fy;
-      g[5] = me.block->slip_rate(me.state(y));
+      g[3] = me.block->slide_rock_forces(me.now.s, me.now.sigma, y[0], y[1], y[3], me.acceleration(t)).fy;
+      g[6] = me.block->slip_rate(me.state(y));
     }
     return 0;
   }
@@ -94,9 +96,9 @@ void CvodePeer::Solver::observe(PeerResponse& response, double t) {
   response.rotation_rad = std::max(response.rotation_rad, std::abs(now.theta));
   response.slip_m = std::max(response.slip_m, std::abs(block->slip(now)));
   const double a = acceleration(t);
-  PeerForces f{0, 0, block->mu_k * PeerBlock::g, PeerBlock::g};
+  PeerForces f{0, 0, block->mu_at(now.w) * PeerBlock::g, PeerBlock::g};
   if (now.mode == PeerMode::rock) f = block->rock_forces(now.s, now.theta, now.omega, a);
-  if (now.mode == PeerMode::slide_rock) f = block->slide_rock_forces(now.s, now.sigma, now.theta, now.omega, a);
+  if (now.mode == PeerMode::slide_rock) f = block->slide_rock_forces(now.s, now.sigma, now.theta, now.omega, now.w, a);
   response.acceleration_mps2 = std::max(response.acceleration_mps2, std::hypot(f.fx, f.fy - PeerBlock::g));
 }
 
@@ -132,8 +134,8 @@ PeerResponse CvodePeer::Solver::run() {
     if (flag == CV_ROOT_RETURN) {
       int found[roots];
       check(CVodeGetRootInfo(cvode, found));
-      const PeerEvent kinds[] = {PeerEvent::impact, PeerEvent::stop, PeerEvent::grip, PeerEvent::lift};
-      for (int i = 0; i < 4; ++i) {
+      const PeerEvent kinds[] = {PeerEvent::impact, PeerEvent::stop, PeerEvent::grip, PeerEvent::lift, PeerEvent::tip};
+      for (int i = 0; i < 5; ++i) {
         if (!found[i]) continue;
         if (!block->resolve(kinds[i], now, acceleration(t), response)) return response;
         if (now.mode != PeerMode::rest) restart(t);
@@ -163,7 +165,7 @@ CvodePeer::CvodePeer(double tolerance) : solver_(new Solver) {
   s.fixed_point = SUNNonlinSol_FixedPoint(s.y, 0, s.context);
   check(CVodeSetNonlinearSolver(s.cvode, s.fixed_point));
   check(CVodeRootInit(s.cvode, roots, &Solver::witnesses));
-  int direction[roots] = {-1, -1, -1, -1, 0, 0};
+  int direction[roots] = {-1, -1, -1, -1, -1, 0, 0};
   check(CVodeSetRootDirection(s.cvode, direction));
   check(CVodeSetNoInactiveRootWarn(s.cvode));
   check(CVodeSetMaxNumSteps(s.cvode, 100000));

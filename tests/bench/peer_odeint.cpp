@@ -152,20 +152,39 @@ class Sample {
     return true;
   }
 
+  // The same, where an event has been found at `when` already: an earlier one takes its place.
+  template <class F>
+  void earlier(PeerEvent other, F&& f, double f_begin, double f_when, double begin, double& when, PeerEvent& event) {
+    double at = when;
+    if (!crossing(f, f_begin, f_when, begin, when, at) || (event != PeerEvent::none && at >= when)) return;
+    when = at;
+    event = other;
+  }
+
   bool slide() {
     using X = Values<2>;
-    const double friction = -y_.sigma * block_.mu_k * PeerBlock::g, sigma = y_.sigma;
-    observe_forces(friction, PeerBlock::g);
+    const double sigma = y_.sigma, pull = -sigma * PeerBlock::g;
+    const bool may_tip = block_.can_rock && block_.drop > 0;
+    const auto tipping = [&](double w) { return block_.b - block_.mu_at(w) * block_.h; };
+    observe_forces(pull * block_.mu_k, PeerBlock::g);
     return march<2>(
         X{y_.xi, y_.w},
         [&](const X& x, X& dx, double t) {
           dx[0] = x[1];
-          dx[1] = friction - acceleration(t);
+          dx[1] = pull * block_.mu_at(x[1]) - acceleration(t);
         },
         [](const X& x, PeerState& y) { y.xi = x[0], y.w = x[1]; },
         [&](const X& x, const X& next, auto& dense, double begin, double end, double& when) {
           const auto witness = [&](double t) { return sigma * dense(t)[1]; };
-          return crossing(witness, sigma * x[1], sigma * next[1], begin, end, when) ? PeerEvent::stop : PeerEvent::none;
+          PeerEvent event = PeerEvent::none;
+          if (crossing(witness, sigma * x[1], sigma * next[1], begin, end, when)) event = PeerEvent::stop;
+          if (may_tip) {
+            const double w_end = when == end ? next[1] : dense(when)[1];
+            earlier(
+                PeerEvent::tip, [&](double t) { return tipping(dense(t)[1]); }, tipping(x[1]), tipping(w_end), begin,
+                when, event);
+          }
+          return event;
         },
         [&](const X&, const X& next, auto& dense, double, double when) {
           const double xi = when == record_.dt ? next[0] : dense(when)[0];
@@ -198,8 +217,8 @@ class Sample {
           observe_forces(observed_.fx, observed_.fy);
           if (block_.can_slip) {
             const double after = when == end ? grip_after : grip(dense(when), when);
-            if (crossing([&](double t) { return grip(dense(t), t); }, grip_before, after, begin, when, when))
-              event = PeerEvent::grip;
+            earlier(
+                PeerEvent::grip, [&](double t) { return grip(dense(t), t); }, grip_before, after, begin, when, event);
             grip_before = grip_after;
           }
           return event;
@@ -210,16 +229,21 @@ class Sample {
         });
   }
 
-  // Peak of the rotation inside a step.
+  // Peak of the rotation inside a step, and what it moves the base by where the corner is stuck.
   template <std::size_t D, class Dense>
   void turn(const Values<D>& x, const Values<D>& next, Dense& dense, double begin, double when) {
     if (x[1] * next[1] < 0) {
       const double sign = x[1] > 0 ? 1 : -1;
       const double top =
           illinois([&](double t) { return sign * dense(t)[1]; }, begin, sign * x[1], when, sign * next[1], 1e-9);
-      observe_rotation(dense(top)[0]);
+      observe_turn<D>(dense(top)[0]);
     }
-    observe_rotation(next[0]);
+    observe_turn<D>(next[0]);
+  }
+  template <std::size_t D>
+  void observe_turn(double theta) {
+    observe_rotation(theta);
+    if (D == 2) observe_slip({PeerMode::rock, y_.s, 0, theta, 0, y_.xi, 0});
   }
 
   bool slide_rock() {
@@ -229,7 +253,7 @@ class Sample {
     return march<4>(
         X{y_.theta, y_.omega, y_.xi, y_.w},
         [&](const X& x, X& dx, double t) {
-          const PeerForces f = block_.slide_rock_forces(s, sigma, x[0], x[1], acceleration(t));
+          const PeerForces f = block_.slide_rock_forces(s, sigma, x[0], x[1], x[3], acceleration(t));
           dx = {x[1], f.alpha, x[3], f.slip_acceleration};
         },
         [](const X& x, PeerState& y) { y.theta = x[0], y.omega = x[1], y.xi = x[2], y.w = x[3]; },
@@ -238,10 +262,11 @@ class Sample {
           if (crossing([&](double t) { return s * dense(t)[0]; }, s * x[0], s * next[0], begin, when, when))
             event = PeerEvent::impact;
           const double w_end = when == end ? next[3] : dense(when)[3];
-          if (crossing([&](double t) { return sigma * dense(t)[3]; }, sigma * x[3], sigma * w_end, begin, when, when))
-            event = PeerEvent::stop;
+          earlier(
+              PeerEvent::stop, [&](double t) { return sigma * dense(t)[3]; }, sigma * x[3], sigma * w_end, begin, when,
+              event);
           if (std::abs(next[0]) > pi / 2) return PeerEvent::overturned;
-          const PeerForces f = block_.slide_rock_forces(s, sigma, next[0], next[1], acceleration(end));
+          const PeerForces f = block_.slide_rock_forces(s, sigma, next[0], next[1], next[3], acceleration(end));
           if (f.fy <= 0 && event == PeerEvent::none) return PeerEvent::lift;
           observe_forces(f.fx, f.fy);
           return event;

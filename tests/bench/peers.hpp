@@ -23,4 +23,8 @@ class CvodePeer {
 // Illinois method on its dense output, quiet waits skipped knot by knot.
 PeerResponse odeint_peer(const Specimen& specimen, const Shaking& shaking);
 
+// The same two on model bouc_wen: dopri5 with its step chosen by its error, and CVODE, BDF where the contact is stiff.
+PeerResponse odeint_bouc_wen(const Specimen& specimen, const Shaking& shaking);
+PeerResponse cvode_bouc_wen(const Specimen& specimen, const Shaking& shaking);
+
 }  // namespace freestand::bench
