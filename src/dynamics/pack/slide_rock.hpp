@@ -29,23 +29,37 @@ class SlideRock : public SlideRockLife {
     if (!marches()) go_on();
   }
 
+  // Back from the packs: strikes the floor after a part x of what is left of the interval, with a rate per interval.
+  void strike_at(const SlideRockRows& r, int i, double x, double rate) {
+    leave(r, i);
+    theta_ = 0;
+    omega_ = side_ * rate / h_;
+    see_slip(xi_);
+    forward(x);
+    strike();
+    while (!ended() && !marches()) step();
+  }
+
   // Step by step, one at least, until the block rocks from a knot on, or to its end.
   void go_on() {
-    do {
-      switch (mode_) {
-        case Mode::rest:
-          rest();
-          break;
-        case Mode::slide:
-          slide();
-          break;
-        default:
-          corner();
-      }
-    } while (!ended() && !marches());
+    do step();
+    while (!ended() && !marches());
   }
 
  private:
+  void step() {
+    switch (mode_) {
+      case Mode::rest:
+        rest();
+        break;
+      case Mode::slide:
+        slide();
+        break;
+      default:
+        corner();
+    }
+  }
+
   // ---- one corner
   void corner() {
     const double hs = h_ * left_, hs2 = hs * hs, a1 = next_floor();

@@ -24,9 +24,9 @@ class SlideRockLane {
   // ---- in packs
   // Knot up to which the floor is watched.
   int patience() const { return last_ + static_cast<int>(smaller(c_.free_vibration_s / h_, still_intervals)) - 4; }
-  bool marches() const { return mode_ == Mode::rock && left_ == 1 && (m_ < last_ || m_ < patience()); }
+  bool marches() const { return mode_ == Mode::rock && left_ > 1e-9 && (m_ < last_ || m_ < patience()); }
 
-  // From a knot on, rocking. How many intervals there are to go: 1 at least.
+  // Rocking. How many intervals there are to go: 1 at least.
   int enter(SlideRockRows& r, int i) {
     const double s = side_, h2 = h_ * h_, b = magnitude(arm(side_)), size2 = c_.h * c_.h + b * b;
     const double per_inertia = h2 / (c_.k2 + size2), unit = s * c_.scale;
@@ -37,7 +37,8 @@ class SlideRockLane {
     const bool over = m_ >= last_;
     const double* row = over ? still_ground : t_.acceleration.data() + m_;
     const int free = over ? patience() - m_ : last_ - m_;
-    r.a[i] = *row;
+    r.a[i] = left_ == 1 ? *row : a_ / c_.scale;
+    r.left[i] = left_;
     r.next[i] = entry_ = row + 1;
     r.stop[i] = row + free;
     r.gravity[i] = c_.g * per_inertia;
@@ -69,15 +70,18 @@ class SlideRockLane {
     r.bend2[i] = share * 17 * size2 * field;
   }
 
-  // Back from the packs, at a knot.
+  // Back from the packs.
   void leave(const SlideRockRows& r, int i) {
     const double s = side_;
+    force2_ = larger(force2_, r.seen[i] / (h_ * h_ * h_ * h_));
+    if (r.next[i] == entry_) return;
     theta_ = s * r.theta[i];
     omega_ = s * r.omega[i] / h_;
     rx_ = s * r.rx[i];
     ry_ = r.ry[i];
     m_ += static_cast<int>(r.next[i] - entry_);
     a_ = m_ < last_ ? floor_at(m_) : 0.0;
+    left_ = 1;
   }
 
   void fill(Response& out) const {

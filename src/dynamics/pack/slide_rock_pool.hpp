@@ -22,67 +22,151 @@ class SlideRockPool {
  public:
   SlideRockPool(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined)
       : cases_(cases), count_(count), responses_(responses), declined_(declined) {
-    for (int slot = 0; slot < march_slots; ++slot) {
-      r_.clear(slot);
-      lane_of_[slot] = slot;
+    for (int slot = 0; slot < march_slots; ++slot) r_.clear(slot);
+    for (; top_ < march_slots && taken_ < count_; ++top_) {
+      lane_of_[top_] = top_;
+      refill(top_);
     }
-    while (top_ < march_slots && taken_ < count_) refill(top_++);
   }
 
   void run() {
     while (top_ > 0) {
+      if (gaps_ > 0) close_gaps();
+      if (waiting_ >= pack_lanes || waiting_ == top_) {
+        strike();
+        continue;
+      }
       if (free_ == 0 && !count_free()) continue;
       --free_;
       const int packs = (top_ + pack_lanes - 1) / pack_lanes;
-      unsigned apart[march_slots / pack_lanes];
-      for (int p = 0; p < packs; ++p) apart[p] = march(p);
-      for (int p = packs; p-- > 0;)
-        for (int l = pack_lanes; l-- > 0;)  // downwards, as the last slot may fill a gap
-          if (apart[p] >> l & 1U) alone(p * pack_lanes + l);
+      Apart apart[march_slots / pack_lanes];
+      for (int p = 0; p < packs; ++p) apart[p] = !alive_[p] ? Apart{} : partial_[p] ? march<false>(p) : march<true>(p);
+      for (int p = 0; p < packs; ++p)
+        for (int l = 0; l < pack_lanes && apart[p].all >> l; ++l)
+          if (apart[p].strikes >> l & 1U)
+            wait(p * pack_lanes + l);
+          else if (apart[p].all >> l & 1U)
+            alone(p * pack_lanes + l);
     }
   }
 
  private:
-  // One interval for every lane in which nothing happens; bits of the others.
-  unsigned march(int p) {
+  // Bits of the lanes in which something happens; of those that strike the floor, and nothing else.
+  struct Apart {
+    unsigned all = 0, strikes = 0;
+  };
+
+  // One interval, or what is left of it, for every lane in which nothing happens.
+  template <bool Whole>
+  Apart march(int p) {
     const int i = p * pack_lanes;
-    const Pack zero(0.0);
+    const Pack zero(0.0), one(1.0), left = Whole ? one : load(r_.left + i);
     RockSeries<N> y;
-    y.theta[0] = load(r_.theta + i);
-    y.omega[0] = load(r_.omega + i);
-    y.rx[0] = load(r_.rx + i);
-    y.ry[0] = load(r_.ry + i);
     const Pack a = load(r_.a + i), a_next = fetch(r_.next + i), change = a_next - a;
-    const Pack push = load(r_.push + i), gravity = load(r_.gravity + i);
-    y.expand(gravity, push * a, push * change);
-    const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), rx = y.sum(y.rx), ry = y.sum(y.ry);
+    const Pack push = load(r_.push + i), gravity = load(r_.gravity + i), omega0 = load(r_.omega + i);
+    expand<Whole>(y, i, left, omega0, gravity, push, a, change);
+    const Pack theta = y.sum(y.theta), rx = y.sum(y.rx), ry = y.sum(y.ry);
+    Pack omega = y.sum(y.omega);
 
     const Pack rate = xsimd::abs(y.omega[0]), reach = rate + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
     const Pack low = xsimd::min(y.theta[0], theta), high = xsimd::max(y.theta[0], theta);
     const PackMask matters = (high + reach > load(r_.look + i)) | (low < reach);
     const PackMask turns = (y.omega[0] * omega <= zero) | turns_twice(y, omega);
-    const PackMask rotates =
-        (turns & matters) | (theta <= zero) | ~(theta < Pack(1.5)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
+    const PackMask strange = (turns & matters) | ~(theta < Pack(1.5)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
+    if constexpr (!Whole) omega = omega * (one / left);
 
-    const Pack weight_g = load(r_.weight_g + i);
+    const Pack weight_g = load(r_.weight_g + i), weight = load(r_.weight + i);
     const Pack alpha = rx * gravity - ry * (push * a_next), omega2 = omega * omega;
-    const Pack fx = ry * alpha - rx * omega2 + load(r_.weight + i) * a_next, lift = zero - rx * alpha - ry * omega2;
-    const Pack grip = load(r_.mu + i) * (weight_g + lift) - xsimd::abs(fx), square = fx * fx + lift * lift;
+    const Pack fx = ry * alpha - rx * omega2 + weight * a_next, lift = zero - rx * alpha - ry * omega2;
+    const Pack grip0 = load(r_.grip + i), grip = load(r_.mu + i) * (weight_g + lift) - xsimd::abs(fx);
+    const Pack square0 = load(r_.square + i), square = fx * fx + lift * lift;
     const Pack bend = load(r_.bend0 + i) + (load(r_.bend1 + i) * xsimd::abs(change) + load(r_.bend2 + i) * rate) * rate;
-    const Pack most = xsimd::max(load(r_.square + i), square) * Pack(1 + 1.0 / 256) + Pack(257.0) * (bend * bend);
-    const PackMask feels = (xsimd::min(load(r_.grip + i), grip) <= bend) | (most > load(r_.seen + i));
+    const Pack most = xsimd::max(square0, square) * Pack(1 + 1.0 / 256) + Pack(257.0) * (bend * bend);
+    const Pack seen = load(r_.seen + i);
+    const PackMask slips = xsimd::min(grip0, grip) <= bend, tops = most > seen, falls = theta <= zero;
+    const PackMask stays = strange | slips | falls;
+    if (const PackMask feels = tops & ~stays; bits(feels)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, feels);
 
-    const PackMask stays = rotates | feels;
-    const unsigned apart = bits(stays) & alive_[p];
     store(r_.theta + i, choose(stays, y.theta[0], theta));
-    store(r_.omega + i, choose(stays, y.omega[0], omega));
+    store(r_.omega + i, choose(stays, omega0, omega));
     store(r_.rx + i, choose(stays, y.rx[0], rx));
     store(r_.ry + i, choose(stays, y.ry[0], ry));
     store(r_.a + i, choose(stays, a, a_next));
-    store(r_.grip + i, choose(stays, load(r_.grip + i), grip));
-    store(r_.square + i, choose(stays, load(r_.square + i), square));
-    advance(r_.next + i, alive_[p] & ~apart);
-    return apart;
+    store(r_.grip + i, choose(stays, grip0, grip));
+    store(r_.square + i, choose(stays, square0, square));
+    const unsigned all = bits(stays) & alive_[p];
+    if constexpr (!Whole) {
+      store(r_.left + i, choose(stays, left, one));
+      partial_[p] &= all;
+    }
+    advance(r_.next + i, alive_[p] & ~all);
+    return {all, bits(falls & ~strange & ~slips & ~tops & (y.omega[0] < zero)) & all};
+  }
+
+  template <bool Whole>
+  void expand(RockSeries<N>& y, int i, const Pack& left, const Pack& omega, const Pack& gravity, const Pack& push,
+              const Pack& a, const Pack& change) const {
+    y.theta[0] = load(r_.theta + i);
+    y.rx[0] = load(r_.rx + i);
+    y.ry[0] = load(r_.ry + i);
+    if constexpr (Whole) {
+      y.omega[0] = omega;
+      y.expand(gravity, push * a, push * change);
+    } else {
+      const Pack left2 = left * left, pushed = push * left2;
+      y.omega[0] = omega * left;
+      y.expand(gravity * left2, pushed * a, pushed * change);
+    }
+  }
+
+  // The squared acceleration may have a new peak.
+  template <bool Whole>
+  void watch(const RockSeries<N>& y, int i, const Pack& left, const RockEnd& end, const PackMask& feels) {
+    const Pack seen = load(r_.seen + i), a = load(r_.a + i), left2 = left * left, left4 = left2 * left2;
+    RockEnd there = end;
+    there.omega = end.omega * left;
+    const Pack top = watch_force(y, load(r_.weight + i) * left2, load(r_.gravity + i) * left2,
+                                 load(r_.push + i) * left2, a, end.a - a, there, Pack(1.0), seen * left4, true);
+    store(r_.seen + i, choose(feels, Whole ? top : top / left4, seen));
+  }
+
+  void wait(int slot) {
+    set(alive_, slot, false);
+    queue_[waiting_++] = slot;
+  }
+
+  // Impacts, for a pack of the lanes that wait.
+  void strike() {
+    int slots[pack_lanes];
+    const int count = waiting_ < pack_lanes ? waiting_ : pack_lanes;
+    waiting_ -= count;
+    for (int l = 0; l < pack_lanes; ++l) slots[l] = queue_[waiting_ + (l < count ? l : 0)];
+    const auto gathered = [&](const double* row) {
+      alignas(64) double values[pack_lanes];
+      for (int l = 0; l < pack_lanes; ++l) values[l] = row[slots[l]];
+      return load(values);
+    };
+    alignas(64) double nexts[pack_lanes];
+    for (int l = 0; l < pack_lanes; ++l) nexts[l] = *r_.next[slots[l]];
+    const Pack left = gathered(r_.left), left2 = left * left, a = gathered(r_.a);
+    const Pack push = gathered(r_.push) * left2;
+    RockSeries<N> y;
+    y.theta[0] = gathered(r_.theta);
+    y.omega[0] = gathered(r_.omega) * left;
+    y.rx[0] = gathered(r_.rx);
+    y.ry[0] = gathered(r_.ry);
+    y.expand(gathered(r_.gravity) * left2, push * a, push * (load(nexts) - a));
+    const Pack zero(0.0), one(1.0), end = y.sum(y.theta), guess = first_zero(y.theta[0], y.omega[0], end);
+    const Pack part = bracketed_root<N + 1>(y.theta, one, zero, one, guess, end <= zero);
+    alignas(64) double parts[pack_lanes], rates[pack_lanes];
+    store(parts, part);
+    store(rates, y.at(y.omega, part) / left);
+    for (int l = 0; l < count; ++l) {
+      const int slot = slots[l];
+      lanes_[lane_of_[slot]]->strike_at(r_, slot, parts[l], rates[l]);
+      set(alive_, slot, true);
+    }
+    for (int l = 0; l < count; ++l) settle(slots[l]);
   }
 
   void alone(int slot) {
@@ -101,6 +185,7 @@ class SlideRockPool {
     }
     const int free = lane.enter(r_, slot);
     if (free < free_) free_ = free;
+    if (r_.left[slot] < 1) set(partial_, slot, true);
   }
 
   void hand_out(int lane) {
@@ -121,19 +206,39 @@ class SlideRockPool {
       lanes_[lane].emplace(c);
       lanes_[lane]->begin();
       if (!lanes_[lane]->ended()) {
-        alive_[slot / pack_lanes] |= 1U << (slot % pack_lanes);
+        set(alive_, slot, true);
         return settle(slot);
       }
       hand_out(lane);
     }
-    --top_;
-    if (slot != top_) {
-      r_.copy(top_, slot);
-      lane_of_[slot] = lane_of_[top_];
-      lane_of_[top_] = lane;
+    r_.clear(slot);
+    set(alive_, slot, false);
+    lane_of_[slot] = none;
+    ++gaps_;
+  }
+
+  // No more samples: the lanes of the last slots fill the gaps before them, so that few packs are left to march.
+  void close_gaps() {
+    for (int slot = 0; gaps_ > 0; ++slot) {
+      while (gaps_ > 0 && lane_of_[top_ - 1] == none) --top_, --gaps_;
+      if (gaps_ == 0 || lane_of_[slot] != none) continue;
+      const int last = --top_;
+      --gaps_;
+      r_.copy(last, slot);
+      lane_of_[slot] = lane_of_[last];
+      set(alive_, slot, is_set(alive_, last));
+      set(partial_, slot, is_set(partial_, last));
+      for (int k = 0; k < waiting_; ++k)
+        if (queue_[k] == last) queue_[k] = slot;
+      r_.clear(last);
+      set(alive_, last, false);
     }
-    r_.clear(top_);
-    alive_[top_ / pack_lanes] &= ~(1U << (top_ % pack_lanes));
+  }
+
+  static bool is_set(const unsigned* bits, int slot) { return bits[slot / pack_lanes] >> (slot % pack_lanes) & 1U; }
+  static void set(unsigned* bits, int slot, bool on) {
+    const unsigned bit = 1U << (slot % pack_lanes);
+    bits[slot / pack_lanes] = on ? bits[slot / pack_lanes] | bit : bits[slot / pack_lanes] & ~bit;
   }
 
   // How many intervals every lane can go before one meets the end of its record. False: one has met it, and was seen to.
@@ -158,10 +263,14 @@ class SlideRockPool {
   std::size_t taken_ = 0;
   SlideRockRows r_;
   std::optional<SlideRock<N>> lanes_[march_slots];
-  std::size_t number_[march_slots];  // of the lane's sample
-  int lane_of_[march_slots];         // of the slot
-  unsigned alive_[march_slots / pack_lanes] = {};
-  int top_ = 0, free_ = 0;  // slots in use; intervals until a record may end
+  std::size_t number_[march_slots];                  // of the lane's sample
+  static constexpr int none = -1;
+  int lane_of_[march_slots];  // of the slot
+  unsigned alive_[march_slots / pack_lanes] = {};    // bits of the lanes that march
+  unsigned partial_[march_slots / pack_lanes] = {};  // from somewhere within an interval
+  int queue_[march_slots], waiting_ = 0;
+  int top_ = 0, gaps_ = 0;  // slots in use, and those of them without a lane
+  int free_ = 0;            // intervals until a record may end
 };
 
 template <int N>

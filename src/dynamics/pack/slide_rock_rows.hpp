@@ -16,6 +16,7 @@ alignas(64) const double still_ground[still_intervals] = {};  // the floor after
 struct SlideRockRows {
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double a[march_slots];                              // unit record, at the knot
+  alignas(64) double left[march_slots];                           // part of the interval that lies ahead
   alignas(64) double grip[march_slots], square[march_slots];      // mu_s f_y - |f_x|, squared acceleration, there
   alignas(64) double gravity[march_slots], push[march_slots];     // g h^2/J, scale h^2/J
   alignas(64) double weight[march_slots], weight_g[march_slots];  // scale h^2, g h^2
@@ -32,14 +33,14 @@ struct SlideRockRows {
     omega[i] = rx[i] = ry[i] = a[i] = square[i] = 0;
     gravity[i] = push[i] = weight[i] = bend0[i] = bend1[i] = bend2[i] = 0;
     theta[i] = 0.5;
-    grip[i] = weight_g[i] = mu[i] = 1;
+    grip[i] = weight_g[i] = mu[i] = left[i] = 1;
     look[i] = seen[i] = 1e300;
     next[i] = stop[i] = still_ground;
   }
 
   void copy(int from, int to) {
-    for (double* row :
-         {theta, omega, rx, ry, a, grip, square, gravity, push, weight, weight_g, mu, look, seen, bend0, bend1, bend2})
+    for (double* row : {theta, omega, rx, ry, a, left, grip, square, gravity, push, weight, weight_g, mu, look, seen,
+                        bend0, bend1, bend2})
       row[to] = row[from];
     next[to] = next[from];
     stop[to] = stop[from];
