@@ -61,6 +61,18 @@ inline double peak_from(const MotionTable& t, int from) {
   return most;
 }
 
+// max |a_j|, j = from ... to - 1.
+inline double peak_between(const MotionTable& t, int from, int to) {
+  double most = 0;
+  for (int j = from; j < to;) {
+    const bool run = j % table_run == 0 && j + table_run <= to;
+    const auto i = static_cast<std::size_t>(j);
+    most = larger(most, run ? t.run_peak[i / table_run] : magnitude(t.acceleration[i]));
+    j += run ? table_run : 1;
+  }
+  return most;
+}
+
 // max |a_j|, j = from ... to - 1, by whole runs (an upper bound).
 inline double bound_between(const MotionTable& t, int from, int to) {
   double most = 0;

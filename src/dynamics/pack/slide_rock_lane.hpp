@@ -6,17 +6,22 @@
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/search.hpp"
+#include "dynamics/pack/slide_rock_ground.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-inline double smaller(double a, double b) { return b < a ? b : a; }
-
 class SlideRockLane {
  public:
   explicit SlideRockLane(const BatchCase& c)
-      : c_(c), t_(*c.table), h_(t_.step_s), last_(t_.knots - 1), half_base_(0.5 * (c.left + c.right)) {}
+      : c_(c),
+        t_(*c.table),
+        h_(t_.step_s),
+        last_(t_.knots - 1),
+        half_base_(0.5 * (c.left + c.right)),
+        ground_{{c, -1}, {c, 1}},
+        bounds_(c, ground_[0], ground_[1]) {}
 
   bool declined() const { return declined_; }
   bool ended() const { return declined_ || ended_; }
@@ -28,8 +33,9 @@ class SlideRockLane {
 
   // Rocking. How many intervals there are to go: 1 at least.
   int enter(SlideRockRows& r, int i) {
-    const double s = side_, h2 = h_ * h_, b = magnitude(arm(side_)), size2 = c_.h * c_.h + b * b;
-    const double per_inertia = h2 / (c_.k2 + size2), unit = s * c_.scale;
+    const double s = side_, h2 = h_ * h_, unit = s * c_.scale;
+    const Ground& ground = on(side_);
+    const double per_inertia = h2 * ground.per_inertia;
     r.theta[i] = s * theta_;
     r.omega[i] = s * omega_ * h_;
     r.rx[i] = s * rx_;
@@ -46,28 +52,18 @@ class SlideRockLane {
     r.weight[i] = unit * h2;
     r.weight_g[i] = c_.g * h2;
     r.mu[i] = c_.mu_s;
-    const Forces f = rocking(rx_, ry_, omega_, a_);
-    const double lift = f.fy - c_.g;
-    r.grip[i] = (c_.mu_s * f.fy - magnitude(f.fx)) * h2;
-    r.square[i] = (f.fx * f.fx + lift * lift) * (h2 * h2);
+    const double alpha = (rx_ * c_.g - ry_ * a_) * ground.per_inertia, omega2 = omega_ * omega_;
+    const double fx = ry_ * alpha - rx_ * omega2 + a_, lift = 0 - rx_ * alpha - ry_ * omega2;
+    r.grip[i] = (c_.mu_s * (c_.g + lift) - magnitude(fx)) * h2;
+    r.square[i] = (fx * fx + lift * lift) * (h2 * h2);
     r.seen[i] = force2_ * (h2 * h2);
     // Rotations that add less than peak_slip - s xi to the slip; 1 - cos(theta) <= theta^2/2.
     const double room = larger(peak_slip_ - s * xi_, 0);
     r.look[i] = smaller(peak_rotation_, std::sqrt(2 * room / half_base_));
-    bound_bends(r, i, size2, per_inertia);
+    r.bend0[i] = ground.bend0;
+    r.bend1[i] = ground.bend1;
+    r.bend2[i] = ground.bend2;
     return free;
-  }
-
-  // The forces are almost straight within an interval, as the floor's acceleration is. With r = |r|, E = (g + |a|) h^2/J,
-  // |Omega'| <= E r and |Omega| <= |Omega_0| + E r,
-  //     |f''| <= r^2 (4 E^2 r + 5 E Omega^2 + 6 (h^2/J) |da| |Omega|) + smaller terms,
-  // and f leaves its chord by |f''|/8 at most; here times 1.5 or 1 + mu, for both forces.
-  void bound_bends(SlideRockRows& r, int i, double size2, double per_inertia) const {
-    const double size = std::sqrt(size2), most = magnitude(c_.scale) * t_.later_peak[0];
-    const double field = (c_.g + most) * per_inertia, share = (c_.mu_s > 0.5 ? 1 + c_.mu_s : 1.5) / 8;
-    r.bend0[i] = share * 17 * size2 * field * field * size;
-    r.bend1[i] = share * 6.6 * size2 * magnitude(c_.scale) * per_inertia;
-    r.bend2[i] = share * 17 * size2 * field;
   }
 
   // Back from the packs.
@@ -123,7 +119,8 @@ class SlideRockLane {
   }
 
   // ---- limits
-  double arm(int side) const { return side > 0 ? c_.right : -c_.left; }
+  const Ground& on(int side) const { return ground_[side > 0]; }
+  double arm(int side) const { return on(side).arm; }
   double tips_at(double a) const { return (a > 0 ? c_.left : c_.right) / c_.h * c_.g; }
   double slips_at() const { return c_.mu_s * c_.g; }
   double quiet(double a) const { return smaller(tips_at(a), slips_at()); }
@@ -166,25 +163,21 @@ class SlideRockLane {
     if (mode == Mode::rock || mode == Mode::rest) sigma_ = 0;
   }
 
-  double hop(int side, double omega) const {
-    const double b = arm(side);
-    return (c_.k2 + c_.h * c_.h + b * b) * omega * omega / (2 * c_.g * magnitude(b));
-  }
-  double kept(int from, int to) const {
-    const double b = arm(to), kept = (c_.k2 + c_.h * c_.h + arm(from) * b) / (c_.k2 + c_.h * c_.h + b * b);
-    return c_.factor * (kept > 0 ? kept : 0.0);
-  }
+  // Of a free hop that starts flat.
+  double hop(int side, double omega) const { return 0.5 * omega * omega * on(side).per_weight; }
+
   void decline() { declined_ = true; }
 
-  static constexpr double small_rotation = 1e-3;  // in angles of slenderness
-  static constexpr double longest_row = 80;       // intervals
-  static constexpr double least_slip = 1e-10;     // [m]
+  static constexpr double longest_row = 80;    // intervals
+  static constexpr double least_slip = 1e-10;  // [m]
 
   const BatchCase& c_;
   const MotionTable& t_;
   double h_;
   int last_;
   double half_base_;
+  Ground ground_[2];  // on the left corner, on the right one
+  HopBounds bounds_;
   Mode mode_ = Mode::rest;
   int m_ = 0, side_ = 0, sigma_ = 0;
   double left_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now

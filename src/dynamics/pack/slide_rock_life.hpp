@@ -5,6 +5,7 @@
 
 #include "dynamics/pack/polynomial_root.hpp"
 #include "dynamics/pack/search.hpp"
+#include "dynamics/pack/slide.hpp"
 #include "dynamics/pack/slide_rock_hops.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
@@ -51,11 +52,13 @@ class SlideRockLife : public SlideRockHops {
     if (bound * bound <= force2_) return;
     feel(a_, c_.g);
     if (end == t_.knots) return feel(c_.scale * peak_from(t_, m_ + 1), c_.g);
-    for (int j = m_ + 1; j < end; ++j) feel(floor_at(j), c_.g);
+    feel(c_.scale * peak_between(t_, m_ + 1, end), c_.g);
   }
 
   // ---- sliding, exact
   void slide() {
+    if (left_ == 1) slide_past_knots();
+    if (declined_) return;
     const double hs = h_ * left_, a1 = next_floor(), friction = c_.mu_k * c_.g;
     double p[3] = {sigma_ * w_, -(sigma_ * a_ + friction) * hs, -0.5 * sigma_ * (a1 - a_) * hs};
     if (p[0] == 0 && p[1] < 0 && p[1] > -1e-9 * c_.g * hs) p[1] = 0;
@@ -71,6 +74,36 @@ class SlideRockLife : public SlideRockHops {
       event();
       choose_flat();
     }
+  }
+
+  // To the last knot up to which it is certain that the slip goes on (dynamics/pack/slide.hpp).
+  void slide_past_knots() {
+    const double friction = sigma_ * c_.mu_k * c_.g;
+    if (m_ >= last_) {
+      const int knots = static_cast<int>(smaller(magnitude(w_ / (friction * h_)) - 1, patience() - m_));
+      if (knots > 0) slide_to(m_ + knots, 0, 0, knots * h_, friction);
+      return;
+    }
+    const auto here = static_cast<std::size_t>(m_);
+    const Slip slip{t_.velocity[here] + w_ / c_.scale, static_cast<double>(m_),
+                    c_.scale > 0 ? 1.0 * sigma_ : -1.0 * sigma_, magnitude(friction * h_ / c_.scale)};
+    const int knot = first_stop(t_, m_, slip) - 1;
+    if (knot <= m_) return;
+    const auto there = static_cast<std::size_t>(knot);
+    const double time = (knot - m_) * h_, speed = t_.velocity[there] - t_.velocity[here];
+    const double moved = t_.displacement[there] - t_.displacement[here] - t_.velocity[here] * time;
+    slide_to(knot, c_.scale * speed, c_.scale * moved, time, friction);
+  }
+  // speed, moved: of the floor since.
+  void slide_to(int knot, double speed, double moved, double time, double friction) {
+    const double slid = time * (w_ - 0.5 * friction * time) - moved;
+    feel(friction, c_.g);
+    xi_ += slid;
+    path_ += magnitude(slid);
+    see_slip(xi_);
+    w_ -= speed + friction * time;
+    m_ = knot - 1;
+    next_knot();
   }
 
   // ---- what follows
@@ -124,7 +157,7 @@ class SlideRockLife : public SlideRockHops {
     event();
     if (hop(side_, omega_) >= c_.told_rotation) ++impacts_;
     const int from = side_, to = -side_;
-    const double omega = kept(from, to) * omega_;
+    const double omega = on(from).kept * omega_;
     const bool ends = hop(to, omega) < c_.rest_rotation;
     if (ends) {
       if (w_ != 0) w_ = slip_after_hops(to, omega);
@@ -139,7 +172,7 @@ class SlideRockLife : public SlideRockHops {
 
   // As in dynamics/impact.cpp: two geometric series.
   double slip_after_hops(int side, double rate) const {
-    const double ratio = kept(side, -side), rows = 1 / (1 - ratio * kept(-side, side));
+    const double ratio = on(side).kept, rows = 1 / (1 - ratio * on(-side).kept);
     const int sigma = w_ > 0 ? 1 : -1;
     const double arms = magnitude(arm(side)) + ratio * magnitude(arm(-side));
     const double after = w_ + rows * (2 * c_.h * rate * (1 - ratio) + 2 * sigma * c_.mu_k * arms * magnitude(rate));

@@ -263,9 +263,9 @@ class SlideRockPool {
   std::size_t taken_ = 0;
   SlideRockRows r_;
   std::optional<SlideRock<N>> lanes_[march_slots];
-  std::size_t number_[march_slots];                  // of the lane's sample
+  std::size_t number_[march_slots];  // of the lane's sample
   static constexpr int none = -1;
-  int lane_of_[march_slots];  // of the slot
+  int lane_of_[march_slots];                         // of the slot
   unsigned alive_[march_slots / pack_lanes] = {};    // bits of the lanes that march
   unsigned partial_[march_slots / pack_lanes] = {};  // from somewhere within an interval
   int queue_[march_slots], waiting_ = 0;

@@ -1,0 +1,86 @@
+// What a sample of slide-rock needs on either corner, computed once.
+#pragma once
+
+#include <cmath>
+
+#include "dynamics/batch.hpp"
+#include "dynamics/pack/search.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+inline double smaller(double a, double b) { return b < a ? b : a; }
+
+struct Ground {
+  double arm, per_inertia;  // signed, as c in dynamics/contact.hpp; 1/J
+  double weight, tip, kappa,
+      bend;                    // beta = weight + tip a pulls the block back; kappa - bend a: d theta''/d theta there
+  double kept;                 // of the rate, at the impact that ends the stay on this corner
+  double per_weight;           // 1/weight: a free hop with rate omega turns by omega^2/(2 weight)
+  double told, rests;          // squared rates of the hops at whose end an impact counts, or rest begins
+  double bend0, bend1, bend2;  // bounds of what the forces do within an interval, in rates per interval
+
+  Ground(const BatchCase& c, int side) {
+    const double b = side > 0 ? c.right : c.left, other = side > 0 ? c.left : c.right, size2 = c.h * c.h + b * b;
+    arm = side * b;
+    per_inertia = 1 / (c.k2 + size2);
+    weight = c.g * b * per_inertia;
+    tip = side * c.h * per_inertia;
+    kappa = c.g * c.h * per_inertia;
+    bend = side * b * per_inertia;
+    const double ratio = (c.k2 + c.h * c.h - b * other) / (c.k2 + c.h * c.h + other * other);
+    kept = c.factor * larger(ratio, 0);
+    per_weight = 1 / weight;
+    told = 2 * weight * c.told_rotation;
+    rests = 2 * weight * c.rest_rotation;
+    bound_bends(c, size2);
+  }
+
+  double pull(double a) const { return weight + tip * a; }
+
+ private:
+  // The forces are almost straight within an interval, as the floor's acceleration is. With r = |r|, E = (g + |a|) h^2/J,
+  // |Omega'| <= E r and |Omega| <= |Omega_0| + E r,
+  //     |f''| <= r^2 (4 E^2 r + 5 E Omega^2 + 6 (h^2/J) |da| |Omega|) + smaller terms,
+  // and f leaves its chord by |f''|/8 at most; here times 1.5 or 1 + mu, for both forces.
+  void bound_bends(const BatchCase& c, double size2) {
+    const double size = std::sqrt(size2), per = c.table->step_s * c.table->step_s * per_inertia;
+    const double most = magnitude(c.scale) * c.table->later_peak[0], field = (c.g + most) * per;
+    const double share = (c.mu_s > 0.5 ? 1 + c.mu_s : 1.5) / 8;
+    bend0 = share * 17 * size2 * field * field * size;
+    bend1 = share * 6.6 * size2 * magnitude(c.scale) * per;
+    bend2 = share * 17 * size2 * field;
+  }
+};
+
+// Bounds for small rotations on either corner.
+struct HopBounds {
+  double tips;               // |a| that comes close to tipping the block
+  double fx, fx1;            // |f_x| <= fx + fx1 |a|
+  double lift, lift1;        // |f_y - g| <= lift + lift1 |a|
+  double slow, slow1, fast;  // the block falls back with slow - slow1 |a| at least; changes of that: fast da
+  double row;                // a row of hops lasts row/slow times its first rate, at most
+  double limit2;             // squared rotation up to which the series of hops holds
+
+  HopBounds(const BatchCase& c, const Ground& left, const Ground& right) {
+    const double shorter = smaller(c.left, c.right), rim = larger(c.left, c.right), h2 = c.h * c.h;
+    const double most = larger(left.per_inertia, right.per_inertia),
+                 least = smaller(left.per_inertia, right.per_inertia);
+    tips = 0.98 * shorter * c.g / c.h;
+    fx = c.g * c.h * rim * most;
+    fx1 = larger(magnitude(1 - h2 * most), magnitude(1 - h2 * least));
+    lift = rim * c.g * rim * most;
+    lift1 = rim * c.h * most;
+    slow = shorter * c.g * least;
+    slow1 = c.h * least;
+    fast = c.h * most;
+    row = 2 / (1 - larger(left.kept, right.kept));
+    const double limit = small_rotation * shorter / c.h;
+    limit2 = limit * limit;
+  }
+
+  static constexpr double small_rotation = 1e-3;  // in angles of slenderness
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
