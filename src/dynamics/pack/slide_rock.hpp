@@ -26,7 +26,7 @@ class SlideRock : public SlideRockLife {
       event();
       choose_flat();
     }
-    if (!marches()) go_on();
+    if (!marches() && !slips()) go_on();
   }
 
   // Back from the packs: strikes the floor after a part x of what is left of the interval, with a rate per interval.
@@ -37,13 +37,13 @@ class SlideRock : public SlideRockLife {
     see_slip(xi_);
     forward(x);
     strike();
-    while (!ended() && !marches()) step();
+    while (!ended() && !marches() && !slips()) step();
   }
 
-  // Step by step, one at least, until the block rocks from a knot on, or to its end.
+  // Step by step, one at least, until the packs can take it, or to its end.
   void go_on() {
     do step();
-    while (!ended() && !marches());
+    while (!ended() && !marches() && !slips());
   }
 
  private:

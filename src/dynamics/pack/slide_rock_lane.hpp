@@ -29,28 +29,22 @@ class SlideRockLane {
   // ---- in packs
   // Knot up to which the floor is watched.
   int patience() const { return last_ + static_cast<int>(smaller(c_.free_vibration_s / h_, still_intervals)) - 4; }
-  bool marches() const { return mode_ == Mode::rock && left_ > 1e-9 && (m_ < last_ || m_ < patience()); }
+  bool in_packs() const { return left_ > 1e-9 && (m_ < last_ || m_ < patience()); }
+  bool marches() const { return mode_ == Mode::rock && in_packs(); }
+  bool slips() const { return mode_ == Mode::slide_rock && in_packs(); }
 
   // Rocking. How many intervals there are to go: 1 at least.
   int enter(SlideRockRows& r, int i) {
-    const double s = side_, h2 = h_ * h_, unit = s * c_.scale;
+    const double s = side_, h2 = h_ * h_;
     const Ground& ground = on(side_);
     const double per_inertia = h2 * ground.per_inertia;
     r.theta[i] = s * theta_;
     r.omega[i] = s * omega_ * h_;
     r.rx[i] = s * rx_;
     r.ry[i] = ry_;
-    const bool over = m_ >= last_;
-    const double* row = over ? still_ground : t_.acceleration.data() + m_;
-    const int free = over ? patience() - m_ : last_ - m_;
-    r.a[i] = left_ == 1 ? *row : a_ / c_.scale;
-    r.left[i] = left_;
-    r.next[i] = entry_ = row + 1;
-    r.stop[i] = row + free;
+    const int free = enter_floor(r, i);
     r.gravity[i] = c_.g * per_inertia;
-    r.push[i] = unit * per_inertia;
-    r.weight[i] = unit * h2;
-    r.weight_g[i] = c_.g * h2;
+    r.push[i] = s * c_.scale * per_inertia;
     r.mu[i] = c_.mu_s;
     const double alpha = (rx_ * c_.g - ry_ * a_) * ground.per_inertia, omega2 = omega_ * omega_;
     const double fx = ry_ * alpha - rx_ * omega2 + a_, lift = 0 - rx_ * alpha - ry_ * omega2;
@@ -66,18 +60,37 @@ class SlideRockLane {
     return free;
   }
 
+  // Slide-rocking.
+  void enter(SlipRows& r, int i) {
+    const double s = side_, h2 = h_ * h_, b = magnitude(arm(side_)), lever = half_base_ / (c_.h * c_.h + b * b);
+    r.theta[i] = s * theta_;
+    r.omega[i] = s * omega_ * h_;
+    r.rx[i] = s * rx_;
+    r.ry[i] = ry_;
+    r.xi[i] = s * xi_;
+    r.w[i] = s * w_ * h_;
+    enter_floor(r, i);
+    r.k2[i] = c_.k2;
+    r.size[i] = c_.h;
+    r.sigma[i] = side_ * sigma_;
+    r.friction[i] = side_ * sigma_ * c_.mu_k;
+    r.half_base[i] = half_base_;
+    r.lever_x[i] = lever * b;
+    r.lever_y[i] = lever * c_.h;
+    r.look[i] = peak_rotation_;
+    r.peak[i] = peak_slip_;
+    r.seen[i] = force2_ * (h2 * h2);
+  }
+
   // Back from the packs.
-  void leave(const SlideRockRows& r, int i) {
-    const double s = side_;
-    force2_ = larger(force2_, r.seen[i] / (h_ * h_ * h_ * h_));
-    if (r.next[i] == entry_) return;
-    theta_ = s * r.theta[i];
-    omega_ = s * r.omega[i] / h_;
-    rx_ = s * r.rx[i];
-    ry_ = r.ry[i];
-    m_ += static_cast<int>(r.next[i] - entry_);
-    a_ = m_ < last_ ? floor_at(m_) : 0.0;
-    left_ = 1;
+  void leave(const SlideRockRows& r, int i) { leave_rows(r, i); }
+  void leave(const SlipRows& r, int i) {
+    peak_slip_ = larger(peak_slip_, r.peak[i]);
+    if (!leave_rows(r, i)) return;
+    const double xi = side_ * r.xi[i];
+    path_ += magnitude(xi - xi_);
+    xi_ = xi;
+    w_ = side_ * r.w[i] / h_;
   }
 
   void fill(Response& out) const {
@@ -95,6 +108,35 @@ class SlideRockLane {
   }
 
  protected:
+  template <class Rows>
+  int enter_floor(Rows& r, int i) {
+    const bool over = m_ >= last_;
+    const double* row = over ? still_ground : t_.acceleration.data() + m_;
+    const int free = over ? patience() - m_ : last_ - m_;
+    r.a[i] = left_ == 1 ? *row : a_ / c_.scale;
+    r.left[i] = left_;
+    r.next[i] = entry_ = row + 1;
+    r.stop[i] = row + free;
+    r.weight[i] = side_ * c_.scale * (h_ * h_);
+    r.weight_g[i] = c_.g * (h_ * h_);
+    return free;
+  }
+  // False: it has not moved.
+  template <class Rows>
+  bool leave_rows(const Rows& r, int i) {
+    const double s = side_;
+    force2_ = larger(force2_, r.seen[i] / (h_ * h_ * h_ * h_));
+    if (r.next[i] == entry_) return false;
+    theta_ = s * r.theta[i];
+    omega_ = s * r.omega[i] / h_;
+    rx_ = s * r.rx[i];
+    ry_ = r.ry[i];
+    m_ += static_cast<int>(r.next[i] - entry_);
+    a_ = m_ < last_ ? floor_at(m_) : 0.0;
+    left_ = 1;
+    return true;
+  }
+
   struct Forces {
     double alpha, slip, fx, fy;
   };

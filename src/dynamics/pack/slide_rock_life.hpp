@@ -48,11 +48,8 @@ class SlideRockLife : public SlideRockHops {
     end_ = m_ < last_ ? h_ * last_ : now() + hopping_;
   }
   void feel_rest(int end) {
-    const double bound = bound_between(t_, m_, end) * c_.scale;
-    if (bound * bound <= force2_) return;
     feel(a_, c_.g);
-    if (end == t_.knots) return feel(c_.scale * peak_from(t_, m_ + 1), c_.g);
-    feel(c_.scale * peak_between(t_, m_ + 1, end), c_.g);
+    feel(c_.scale * (end == t_.knots ? peak_from(t_, m_ + 1) : peak_between(t_, m_ + 1, end)), c_.g);
   }
 
   // ---- sliding, exact

@@ -11,11 +11,10 @@
 #include "dynamics/pack/rock_series.hpp"
 #include "dynamics/pack/slide_rock.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
+#include "dynamics/pack/slide_rock_slips.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
-
-constexpr double neglected = 3e-11;  // least term of a series that counts
 
 template <int N>
 class SlideRockPool {
@@ -32,8 +31,13 @@ class SlideRockPool {
   void run() {
     while (top_ > 0) {
       if (gaps_ > 0) close_gaps();
-      if (waiting_ >= pack_lanes || waiting_ == top_) {
+      const int marching = top_ - waiting_ - slips_.count();
+      if (waiting_ >= pack_lanes || (waiting_ > 0 && marching == 0)) {
         strike();
+        continue;
+      }
+      if (slips_.count() >= slips_at_once || marching == 0) {
+        slip();
         continue;
       }
       if (free_ == 0 && !count_free()) continue;
@@ -164,9 +168,21 @@ class SlideRockPool {
     for (int l = 0; l < count; ++l) {
       const int slot = slots[l];
       lanes_[lane_of_[slot]]->strike_at(r_, slot, parts[l], rates[l]);
-      set(alive_, slot, true);
     }
     for (int l = 0; l < count; ++l) settle(slots[l]);
+  }
+
+  // One interval for the lanes that slide-rock.
+  void slip() {
+    const std::uint64_t apart = slips_.march();
+    for (int i = slips_.count(); i-- > 0;) {  // downwards, as the last one fills the gap
+      if (!(apart >> i & 1U)) continue;
+      const int slot = slips_.slot(i);
+      SlideRock<N>& lane = *lanes_[lane_of_[slot]];
+      slips_.remove(lane, i);
+      lane.go_on();
+      settle(slot);
+    }
   }
 
   void alone(int slot) {
@@ -183,6 +199,11 @@ class SlideRockPool {
       hand_out(lane_of_[slot]);
       return refill(slot);
     }
+    if (lane.slips()) {
+      set(alive_, slot, false);
+      return slips_.add(lane, slot);
+    }
+    set(alive_, slot, true);
     const int free = lane.enter(r_, slot);
     if (free < free_) free_ = free;
     if (r_.left[slot] < 1) set(partial_, slot, true);
@@ -206,7 +227,6 @@ class SlideRockPool {
       lanes_[lane].emplace(c);
       lanes_[lane]->begin();
       if (!lanes_[lane]->ended()) {
-        set(alive_, slot, true);
         return settle(slot);
       }
       hand_out(lane);
@@ -228,6 +248,7 @@ class SlideRockPool {
       lane_of_[slot] = lane_of_[last];
       set(alive_, slot, is_set(alive_, last));
       set(partial_, slot, is_set(partial_, last));
+      slips_.rename(last, slot);
       for (int k = 0; k < waiting_; ++k)
         if (queue_[k] == last) queue_[k] = slot;
       r_.clear(last);
@@ -245,6 +266,7 @@ class SlideRockPool {
   bool count_free() {
     int least = 1 << 30;
     for (int slot = 0; slot < top_; ++slot) {
+      if (!is_set(alive_, slot)) continue;
       const int free = static_cast<int>(r_.stop[slot] - r_.next[slot]) + 1;
       if (free <= 0) {
         alone(slot);
@@ -262,6 +284,8 @@ class SlideRockPool {
   std::uint8_t* declined_;
   std::size_t taken_ = 0;
   SlideRockRows r_;
+  SlideRockSlips<N> slips_;
+  static constexpr int slips_at_once = 8;
   std::optional<SlideRock<N>> lanes_[march_slots];
   std::size_t number_[march_slots];  // of the lane's sample
   static constexpr int none = -1;

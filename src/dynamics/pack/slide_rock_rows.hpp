@@ -1,4 +1,4 @@
-// Blocks of slide-rock that rock at present, side by side: what the packs march.
+// Blocks of slide-rock that rock at present, or slide-rock, side by side: what the packs march.
 //
 // Every lane is mirrored so that it stands on its right corner. Time is counted in intervals h: angular velocities are
 // times h, accelerations times h^2.
@@ -46,6 +46,38 @@ struct SlideRockRows {
     stop[to] = stop[from];
   }
 };
+
+struct SlipRows {
+  alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
+  alignas(64) double xi[march_slots], w[march_slots];             // of the corner
+  alignas(64) double a[march_slots];                              // unit record, at the knot
+  alignas(64) double left[march_slots];                           // part of the interval that lies ahead
+  alignas(64) double weight[march_slots], weight_g[march_slots];  // scale h^2, g h^2
+  alignas(64) double k2[march_slots], size[march_slots];          // gyration radius squared, height of the centre
+  alignas(64) double friction[march_slots], sigma[march_slots];   // sigma mu_k; direction of the slip
+  alignas(64) double half_base[march_slots], lever_x[march_slots], lever_y[march_slots];  // of the midpoint's slip
+  alignas(64) double look[march_slots];                     // no smaller rotation is a new peak
+  alignas(64) double peak[march_slots], seen[march_slots];  // slip, squared acceleration: largest so far
+  alignas(64) const double* next[march_slots];              // a at the end of the interval
+  const double* stop[march_slots];                          // the last such value
+
+  void clear(int i) {
+    for (double* row : {theta, omega, rx, xi, w, a, weight, weight_g, friction, half_base, lever_x, lever_y, seen})
+      row[i] = 0;
+    ry[i] = left[i] = k2[i] = size[i] = sigma[i] = look[i] = peak[i] = 1;
+    next[i] = stop[i] = still_ground;
+  }
+
+  void copy(int from, int to) {
+    for (double* row : {theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
+                        k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen})
+      row[to] = row[from];
+    next[to] = next[from];
+    stop[to] = stop[from];
+  }
+};
+
+constexpr double neglected = 3e-11;  // least term of a series that counts
 
 }  // namespace
 }  // namespace freestand::dynamics::FREESTAND_ISA
