@@ -61,29 +61,6 @@ inline double peak_from(const MotionTable& t, int from) {
   return most;
 }
 
-// max |a_j|, j = from ... to - 1.
-inline double peak_between(const MotionTable& t, int from, int to) {
-  double most = 0;
-  int j = from;
-  const auto step_to = [&](int end) {
-    for (; j < end; ++j) most = larger(most, magnitude(t.acceleration[static_cast<std::size_t>(j)]));
-  };
-  const int first = (from + table_run - 1) / table_run, last = to / table_run;
-  if (first >= last) {
-    step_to(to);
-    return most;
-  }
-  step_to(first * table_run);
-  Pack peaks(0.0);
-  int run = first;
-  for (; run + pack_lanes <= last; run += pack_lanes) peaks = xsimd::max(peaks, load_any(t.run_peak.data() + run));
-  for (; run < last; ++run) most = larger(most, t.run_peak[static_cast<std::size_t>(run)]);
-  for (int l = 0; l < pack_lanes; ++l) most = larger(most, peaks.get(static_cast<std::size_t>(l)));
-  j = last * table_run;
-  step_to(to);
-  return most;
-}
-
 // max |a_j|, j = from ... to - 1, by whole runs (an upper bound).
 inline double bound_between(const MotionTable& t, int from, int to) {
   double most = 0;

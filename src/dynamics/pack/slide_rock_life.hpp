@@ -5,8 +5,8 @@
 
 #include "dynamics/pack/polynomial_root.hpp"
 #include "dynamics/pack/search.hpp"
-#include "dynamics/pack/slide.hpp"
 #include "dynamics/pack/slide_rock_hops.hpp"
+#include "dynamics/pack/slide_rock_search.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -73,7 +73,7 @@ class SlideRockLife : public SlideRockHops {
     }
   }
 
-  // To the last knot up to which it is certain that the slip goes on (dynamics/pack/slide.hpp).
+  // To the last knot up to which it is certain that the slip goes on (dynamics/pack/slide_rock_search.hpp).
   void slide_past_knots() {
     const double friction = sigma_ * c_.mu_k * c_.g;
     if (m_ >= last_) {
@@ -82,9 +82,8 @@ class SlideRockLife : public SlideRockHops {
       return;
     }
     const auto here = static_cast<std::size_t>(m_);
-    const Slip slip{t_.velocity[here] + w_ / c_.scale, static_cast<double>(m_),
-                    c_.scale > 0 ? 1.0 * sigma_ : -1.0 * sigma_, magnitude(friction * h_ / c_.scale)};
-    const int knot = first_stop(t_, m_, slip) - 1;
+    const double way = c_.scale > 0 ? sigma_ : -sigma_;
+    const int knot = first_doubt(t_, m_, w_ / c_.scale, way, magnitude(friction * h_ / c_.scale)) - 1;
     if (knot <= m_) return;
     const auto there = static_cast<std::size_t>(knot);
     const double time = (knot - m_) * h_, speed = t_.velocity[there] - t_.velocity[here];

@@ -1,0 +1,55 @@
+// Searches along a record that only slide-rock asks for.
+#pragma once
+
+#include "dynamics/pack/search.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+// max |a_j|, j = from ... to - 1.
+inline double peak_between(const MotionTable& t, int from, int to) {
+  double most = 0;
+  int j = from;
+  const auto step_to = [&](int end) {
+    for (; j < end; ++j) most = larger(most, magnitude(t.acceleration[static_cast<std::size_t>(j)]));
+  };
+  const int first = (from + table_run - 1) / table_run, last = to / table_run;
+  if (first >= last) {
+    step_to(to);
+    return most;
+  }
+  step_to(first * table_run);
+  Pack peaks(0.0);
+  int run = first;
+  for (; run + pack_lanes <= last; run += pack_lanes) peaks = xsimd::max(peaks, load_any(t.run_peak.data() + run));
+  for (; run < last; ++run) most = larger(most, t.run_peak[static_cast<std::size_t>(run)]);
+  for (int l = 0; l < pack_lanes; ++l) most = larger(most, peaks.get(static_cast<std::size_t>(l)));
+  j = last * table_run;
+  step_to(to);
+  return most;
+}
+
+// A block that slides in direction sigma (of the unit record) from knot m on with speed sigma w > 0, slowed by friction
+// G = mu_k g h a knot, all over the record's scale: the first knot j >= m at which its speed
+//     sigma w_j = sigma (w + V_m - V_j) - G (j - m)
+// is not above the margin of the table, so that it certainly slides on up to knot j - 1.
+inline int first_doubt(const MotionTable& t, int m, double w, double sigma, double G) {
+  const double *V = t.velocity.data(), *M = t.margin.data();
+  const Pack way(sigma), start(sigma * (w + V[m])), slows(G);
+  alignas(64) static constexpr double ramp[] = {0, 1, 2, 3, 4, 5, 6, 7};
+  int j = m / table_run * table_run;
+  unsigned keep = 0xffU << (m - j);
+  for (; j < t.knots; j += table_run, keep = 0xff) {
+    unsigned found = 0;
+    for (int i = 0; i < table_run; i += pack_lanes) {
+      const Pack knots = load(ramp + i) + Pack(static_cast<double>(j - m));
+      found |= bits(start - way * load_any(V + j + i) - slows * knots <= load_any(M + j + i)) << i;
+    }
+    found &= keep;
+    if (found) return j + __builtin_ctz(found);
+  }
+  return t.knots;
+}
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
