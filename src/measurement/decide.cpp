@@ -91,12 +91,24 @@ class Decision {
     for (Candidate& c : d_.candidates) c.practical = practical(c.fit, d_.base.fit.x.size());
   }
 
+  // More numbers that do not even bring the fitted tests closer than those without them gain nothing on tests left out
+  // but by luck: one fit with a test left out stayed where another strayed.
+  bool brings_nothing(const Candidate& c) const {
+    if (!histories_) return false;
+    double least = d_.base.misfit_of_fit;
+    for (const Candidate& part : d_.candidates)
+      if (part.effects.size() < c.effects.size() && part.visible &&
+          std::find(c.effects.begin(), c.effects.end(), part.effects[0]) != c.effects.end())
+        least = std::min(least, part.misfit_of_fit);
+    return least - c.misfit_of_fit < chance_misfit;
+  }
+
   // Of the candidates, by misfit (histories) or left-out score; simple and practical ones first where the rest cannot be
   // told from them.
   Candidate* find_best() {
     Candidate* best = nullptr;
     for (Candidate& c : d_.candidates) {
-      if (!c.visible || !c.fit.left_out_refitted) continue;
+      if (!c.visible || !c.fit.left_out_refitted || brings_nothing(c)) continue;
       if (!best) {
         best = &c;
         continue;
@@ -123,6 +135,7 @@ class Decision {
 
   bool is_rival(const Candidate& c, const Candidate& best) const {
     if (!c.visible || !c.fit.left_out_refitted || !c.practical || c.effects.size() > best.effects.size()) return false;
+    if (brings_nothing(c)) return false;
     return !worse(c, best) && (!histories_ || c.explained <= std::max(at_noise, 1.1 * best.explained));
   }
 
@@ -185,15 +198,19 @@ void judge_histories(const Bench&, const Judge& judge, Diagnosis& d, const Jobs&
   for (Candidate& c : d.candidates) all.push_back(&c);
   const double n = total(judge.samples());
   const double base_bic = bic(judge.samples(), d.base.fit);
-  const auto answers = jobs("judging", all.size(), [&](std::size_t i) { return judge.misfit(all[i]->fit); });
+  const auto answers = jobs("judging", all.size(), [&](std::size_t i) {
+    return Values{total(judge.misfit(all[i]->fit)), total(judge.misfit_of_fit(all[i]->fit))};
+  });
   for (std::size_t i = 0; i < all.size(); ++i) {
     Candidate& c = *all[i];
     if (!c.visible) {
       c.misfit = d.base.misfit;
+      c.misfit_of_fit = d.base.misfit_of_fit;
       c.explained = d.base.explained;
       continue;
     }
-    c.misfit = total(answers[i]);
+    c.misfit = answers[i][0];
+    c.misfit_of_fit = answers[i][1];
     c.explained = std::sqrt(c.misfit / n);
     c.delta_bic = bic(judge.samples(), c.fit) - base_bic;
   }

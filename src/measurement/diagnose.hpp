@@ -31,6 +31,7 @@ struct Candidate {
   bool visible = true;                       // the data can see it
   bool practical = true;                     // its parameters lie where it is met
   double misfit = 0;                         // G, of the tests left out; nan: not judged
+  double misfit_of_fit = 0;                  // G, of the fit to all tests
   double explained = 0;                      // sqrt(G/samples): 1 where sensor and floor noise explain all
   double delta_bic = 0;                      // against the base; negative: better
   double difference = 0, difference_se = 0;  // of the left-out score to the best one's, paired over the tests

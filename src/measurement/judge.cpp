@@ -61,19 +61,27 @@ Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, co
   parts_ = std::move(parts);
 }
 
+double Judge::misfit(std::size_t i, const ModelFit& fit, const Values& x) const {
+  const Test& test = bench_.test(tests_[i]);
+  const Prediction model = predict(fit.model, test, x);
+  if (model.failed()) return 1e8;
+  const Eigen::VectorXd r = stacked(
+      bench_, test, model, [&](Channel c) -> const auto& { return history(test, c); });
+  const Eigen::VectorXd projected = parts_->A[i].transpose() * r;
+  return r.squaredNorm() - (projected.size() ? projected.dot(parts_->inner[i].solve(projected)) : 0.0);
+}
+
 std::vector<double> Judge::misfit(const ModelFit& fit) const {
   const auto fold = fold_of(tests_.size());
   std::vector<double> misfits;
-  for (std::size_t i = 0; i < tests_.size(); ++i) {
-    const Test& test = bench_.test(tests_[i]);
-    const Values& x = fit.left_out_refitted ? fit.fold_x[fold[i]] : fit.x;
-    const Prediction model = predict(fit.model, test, x);
-    const Eigen::VectorXd r = stacked(
-        bench_, test, model, [&](Channel c) -> const auto& { return history(test, c); });
-    const Eigen::VectorXd projected = parts_->A[i].transpose() * r;
-    const double square = r.squaredNorm() - (projected.size() ? projected.dot(parts_->inner[i].solve(projected)) : 0.0);
-    misfits.push_back(model.failed() ? 1e8 : square);
-  }
+  for (std::size_t i = 0; i < tests_.size(); ++i)
+    misfits.push_back(misfit(i, fit, fit.left_out_refitted ? fit.fold_x[fold[i]] : fit.x));
+  return misfits;
+}
+
+std::vector<double> Judge::misfit_of_fit(const ModelFit& fit) const {
+  std::vector<double> misfits;
+  for (std::size_t i = 0; i < tests_.size(); ++i) misfits.push_back(misfit(i, fit, fit.x));
   return misfits;
 }
 

@@ -20,6 +20,8 @@ class Judge {
 
   // Misfit of each calibration test, left out where the model was refitted without it; histories only.
   std::vector<double> misfit(const ModelFit&) const;
+  // With the fit to all of them.
+  std::vector<double> misfit_of_fit(const ModelFit&) const;
   // Number of samples of each calibration test.
   const std::vector<double>& samples() const { return samples_; }
   // Of the reference: expected_error() of each calibration test.
@@ -27,6 +29,7 @@ class Judge {
 
  private:
   struct Parts;
+  double misfit(std::size_t i, const ModelFit&, const Values& x) const;
   const Bench& bench_;
   std::vector<std::size_t> tests_;
   std::vector<double> samples_, expected_;

@@ -134,7 +134,8 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
 
   const ModelFit base = fitted(*before, false, jobs);
   Effort effort;
-  effort.screened_per_number = 64;
+  effort.screened_per_number = 256;
+  effort.starts = 6;
   auto fits = fit_models(*after->bench, {{.model = starting(*before, base, *after)}}, effort, jobs);
   polish(*after->bench, {&fits[0]}, effort, 0.15, jobs);
   polish(*after->bench, {&fits[0]}, effort, 0.05, jobs);
