@@ -143,7 +143,7 @@ MadeSet make_set(const SetRequest& request) {
     set = Maker(request, attempt)();
     if (request.effects.empty()) break;
     set.plain_error = error_with(set, {});
-    set.weakest_error = request.effects.size() == 1 ? set.plain_error : weakest_error(set);
+    set.weakest_error = weakest_error(set);
     if (set.plain_error >= request.least_error && set.weakest_error >= request.least_error) break;
   }
   return set;

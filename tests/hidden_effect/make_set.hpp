@@ -46,7 +46,7 @@ struct MadeSet {
   DrawnTruth drawn;
   double slip_noise_m = 0, rotation_noise_rad = 0, floor_noise_mps2 = 0;
   double plain_error = 0;    // [noise units] of the plain model with the best mu, noise aside, over all tests
-  double weakest_error = 0;  // the same of the truth without the one hidden effect that is missed least
+  double weakest_error = 0;  // see set_errors.hpp
   std::vector<MadeTest> tests;
 };
 

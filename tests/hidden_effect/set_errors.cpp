@@ -21,6 +21,11 @@ double mean_square(const MadeSet& set, const TruthHistory& history, const std::v
   return sum / static_cast<double>(slip_m.size() + rotation_rad.size());
 }
 
+bool in_catalogue(const std::string& effect) {
+  const auto& all = catalogue_effects();
+  return std::find(all.begin(), all.end(), effect) != all.end();
+}
+
 double squared_error(const MadeSet& set, const Truth& model) {
   double sum = 0;
   for (const MadeTest& test : set.tests)
@@ -59,6 +64,12 @@ double weakest_error(const MadeSet& set) {
     std::vector<TruthEffect> others = hidden;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     least = std::min(least, error_with(set, others));
+    if (!in_catalogue(hidden[i].name))
+      for (double ratio = 1.1; ratio < 2; ratio += 0.1) {
+        std::vector<TruthEffect> stand_in = others;
+        stand_in.push_back({"static_friction", {{"ratio", ratio}}});
+        least = std::min(least, error_with(set, stand_in));
+      }
   }
   return least;
 }
