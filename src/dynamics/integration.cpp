@@ -100,7 +100,7 @@ void Integration::reach_wall() {
   const Wall& wall = rig.laws->wall;
   const double speed = wall.restitution * state.w;
   state.xi = wall.gap_m;
-  state.w = speed * speed / (2 * rig.g) < settings.tolerance ? 0.0 : -speed;
+  state.w = speed * speed / (2 * rig.g) < rig.rest_height ? 0.0 : -speed;
   state.foot = state.w;
   if (state.w == 0) state.wall = state.sigma;
 }

@@ -25,6 +25,7 @@ struct Rig {
   double force_zero;     // accelerations smaller than this are round-off [m/s2]
   double turn_zero;      // angular accelerations smaller than this are round-off [rad/s2]
   double rest_rotation;  // a hop of less than this rotation ends the rocking [rad]
+  double rest_height;    // a rebound from a wall slower than a fall from this height stays at the wall [m]
   double told_rotation;  // an impact after a rotation of less than this is not counted [rad]
 
   Rig(const Specimen& specimen, const Settings& settings, const FloorInput& floor = {})
@@ -42,6 +43,7 @@ struct Rig {
         force_zero(1e-11 * g),
         turn_zero(force_zero / specimen.block.size_m()),
         rest_rotation(settings.tolerance),
+        rest_height(settings.tolerance * specimen.block.size_m()),
         told_rotation(1e-3 * specimen.block.alpha_rad()) {
     if (has_laws(specimen)) laws.emplace(specimen);
   }

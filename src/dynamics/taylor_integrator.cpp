@@ -113,8 +113,9 @@ class TaylorIntegrator {
   double local_error(const LawArc<N>& arc) const {
     const double pN = std::pow(p_, N);
     double states = std::max(std::abs(arc.path[N]), std::abs(arc.deflection[N])) / size_;
-    for (int i = 0; i < life_.rig.laws->states; ++i)
-      states = std::max(states, std::abs(arc.states[i][N]) / (size_ * std::max(1.0, p_)));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(life_.rig.laws->states); ++i)
+      states = std::max(states,
+                        std::abs(arc.states[i][N]) / (life_.rig.laws->relative_velocity[i] ? p_ * size_ : size_));
     return std::max(local_error(static_cast<const Arc<double, N>&>(arc)), states / pN);
   }
 
