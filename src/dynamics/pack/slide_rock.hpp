@@ -37,6 +37,12 @@ class SlideRock : public SlideRockLife {
     see_slip(xi_);
     forward(x);
     strike();
+    settle();
+  }
+
+  // Back from the hops, at rest or not.
+  void settle() {
+    if (mode_ == Mode::rest) choose_flat();
     while (!ended() && !marches() && !slips()) step();
   }
 

@@ -7,8 +7,62 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 class SlideRockHops : public SlideRockLane {
+ public:
+  using SlideRockLane::enter;
+  using SlideRockLane::leave;
+  bool hops() const { return hops_ && marches(); }
+
+  void enter(HopRows& r, int i) const {
+    const double h2 = h_ * h_, size = magnitude(c_.scale);
+    r.theta[i] = magnitude(theta_);
+    r.omega[i] = side_ * omega_ * h_;
+    r.side[i] = side_;
+    enter_floor(r, i);
+    for (int k = 0; k < 2; ++k) {
+      const Ground& ground = ground_[k];
+      r.weight[k][i] = ground.weight * h2;
+      r.tip[k][i] = ground.tip * c_.scale * h2;
+      r.kappa[k][i] = ground.kappa * h2;
+      r.bend[k][i] = ground.bend * c_.scale * h2;
+      r.kept[k][i] = ground.kept;
+      r.told[k][i] = ground.told * h2;
+      r.rests[k][i] = ground.rests * h2;
+    }
+    r.limit2[i] = limit2();
+    r.push[i] = largest_push() / size;
+    r.hops[i] = r.impacts[i] = r.ended[i] = 0;
+  }
+
+  void leave(const HopRows& r, int i) {
+    side_ = r.side[i] > 0 ? 1 : -1;
+    stand(Mode::rock, side_);
+    events_ += static_cast<int>(r.hops[i]);
+    impacts_ += static_cast<int>(r.impacts[i]);
+    if (events_ > most_events) declined_ = true;
+    m_ += static_cast<int>(r.next[i] - entry_);
+    left_ = r.left[i];
+    a_ = left_ < 1 ? c_.scale * r.a[i] : m_ < last_ ? floor_at(m_) : 0.0;
+    const double theta = r.theta[i];
+    theta_ = side_ * theta;
+    omega_ = side_ * r.omega[i] / h_;
+    const double sine = theta_ * (1 - theta * theta * (1.0 / 6)), lost = 0.5 * theta * theta;
+    rx_ = c_.h * sine - arm(side_) * (1 - lost);
+    ry_ = arm(side_) * sine + c_.h * (1 - lost);
+    hops_ = false;
+    if (r.ended[i] > 0 || (r.hops[i] >= 8 && dies_out())) return stand(Mode::rest, 0);
+    hops_ = r.hops[i] >= 8;
+  }
+
  protected:
   using SlideRockLane::SlideRockLane;
+
+  // The hops from here on are so small that their series (dynamics/pack/hop_series.hpp) is as good as that of rocking, slip
+  // nowhere and are no new peaks.
+  bool small_hops() const {
+    const double pull = on(side_).pull(a_), square = omega_ * omega_;
+    return square * square < limit2() * pull * pull && bounds_.fast * c_.g * h_ * h_ < 1e-3 &&
+           magnitude(a_) <= largest_push();
+  }
 
   // The hops that follow end before the floor could make one larger, or make it slip: they are counted, and the block
   // rests. While the block falls back with accelerations alpha(t) >= slow, a hop that starts with rate omega returns with
@@ -42,32 +96,23 @@ class SlideRockHops : public SlideRockLane {
     }
   }
 
-  // Hop by hop, while the hops are so small that, seen from the corner on which the block stands,
-  //     theta'' = -beta (1 - theta^2/2) + kappa theta,  beta = (g b + a h)/J,  kappa = (g h - a b)/J,
-  // to rest (true), or until something else may happen.
-  bool hop_on() {
-    double theta = 0, omega = magnitude(omega_);
+ private:
+  // Four times the squared rotation up to which hops are small.
+  double limit2() const {
     const double room = larger(peak_slip_ + least_slip - magnitude(xi_), 0) / half_base_;
-    const double limit2 = 4 * smaller(smaller(bounds_.limit2, peak_rotation_ * peak_rotation_), room);
-    const double pull = on(side_).pull(a_), square = omega * omega;
-    if (!(square * square < limit2 * pull * pull) || !(bounds_.fast * c_.g * h_ * h_ < 1e-3)) return false;
-    Hopping state = Hopping::on;
-    for (int hops = 0; state == Hopping::on && !declined_;) state = hop_to_knot(limit2, theta, omega, hops);
-    if (state == Hopping::ends) {
-      stand(Mode::rest, 0);
-      return true;
-    }
-    stand(Mode::rock, side_);
-    theta_ = side_ * theta;
-    omega_ = side_ * omega;
-    const double sine = theta_ * (1 - theta * theta * (1.0 / 6)), lost = 0.5 * theta * theta;
-    rx_ = c_.h * sine - arm(side_) * (1 - lost);
-    ry_ = arm(side_) * sine + c_.h * (1 - lost);
-    return false;
+    return 4 * smaller(smaller(bounds_.limit2, peak_rotation_ * peak_rotation_), room);
   }
 
- private:
-  enum class Hopping { on, ends, leaves };
+  // Of the floor, so that small hops are unnoticed and it tips the block nowhere; negative: none.
+  double largest_push() const {
+    const HopBounds& b = bounds_;
+    const double fx = b.fx + small_share * c_.g, lift = b.lift + small_share * c_.g;
+    const double grip = (c_.mu_s * (c_.g - lift) - fx) / (b.fx1 + c_.mu_s * b.lift1);
+    const double square = b.fx1 * b.fx1 + b.lift1 * b.lift1, slope = fx * b.fx1 + lift * b.lift1;
+    const double room = force2_ - fx * fx - lift * lift;
+    const double force = room > 0 ? (std::sqrt(slope * slope + square * room) - slope) / square : -1;
+    return smaller(smaller(grip, force), b.tips);
+  }
 
   // Is it certain that the floor does not tip the block while a row of hops lasts? span: the row's duration times slow,
   // in intervals. Sets the bounds.
@@ -100,90 +145,7 @@ class SlideRockHops : public SlideRockLane {
     return fx * fx + lift * lift < force2_ && fx < c_.mu_s * (c_.g - lift);
   }
 
-  // All hops up to the next knot.
-  Hopping hop_to_knot(double limit2, double& theta, double& omega, int& hops) {
-    const double a1 = next_floor(), rate = (a1 - a_) / (left_ * h_);
-    const double push = larger(magnitude(a_), magnitude(a1));
-    if (push > bounds_.tips || !unnoticed(push, 0.002 * c_.g)) return Hopping::leaves;
-    for (double T = left_ * h_;;) {
-      const Ground& ground = on(side_);
-      const double pull = ground.pull(a_), low = smaller(pull, ground.pull(a1)), top = omega * omega + 2 * theta * pull;
-      if (!(top * top < limit2 * low * low)) return Hopping::leaves;
-      const double pull1 = ground.tip * rate, kappa = ground.kappa - ground.bend * a_, kappa1 = -ground.bend * rate;
-      const HopSeries y = theta == 0 ? HopSeries(omega, pull, pull1, kappa, kappa1)
-                                     : HopSeries(theta, omega, pull, pull1, kappa, kappa1);
-      const double guess = y.parabola(), end = guess > 0.9 * T ? y.height(T) : 0;
-      if (end > 0) {
-        theta = end;
-        omega = y.speed(T);
-        next_knot();
-        return a_ == a1 ? Hopping::on : Hopping::leaves;
-      }
-      const double t = y.landing(guess, T);
-      if (!(t > 0 && t <= T)) return Hopping::leaves;
-      event();
-      const double falls = magnitude(y.speed(t));
-      if (falls * falls >= ground.told) ++impacts_;
-      omega = falls * ground.kept;
-      theta = 0;
-      side_ = -side_;
-      omega_ = side_ * omega;
-      a_ += rate * t;
-      T -= t;
-      left_ = T / h_;
-      if (left_ < 1e-12) next_knot();
-      if (omega * omega < on(side_).rests || (++hops % 8 == 0 && dies_out())) return Hopping::ends;
-      if (left_ == 1) return Hopping::on;
-    }
-  }
-
-  struct HopSeries {
-    double c0, c1, c2, c3, c4, c5, c6;
-
-    // pull: beta; pull1 and kappa1: rates.
-    HopSeries(double theta, double omega, double pull, double pull1, double kappa, double kappa1)
-        : c0(theta), c1(omega) {
-      const double chord = 1 - 0.5 * c0 * c0;
-      c2 = (1.0 / 2) * (kappa * c0 - pull * chord);
-      c3 = (1.0 / 6) * (kappa * c1 + pull * c0 * c1 + kappa1 * c0 - pull1 * chord);
-      const double square2 = c0 * c2 + 0.5 * c1 * c1, square3 = c0 * c3 + c1 * c2;
-      c4 = (1.0 / 12) * (kappa * c2 + pull * square2 + kappa1 * c1 + pull1 * c0 * c1);
-      c5 = (1.0 / 20) * (kappa * c3 + pull * square3 + kappa1 * c2 + pull1 * square2);
-      const double square4 = c0 * c4 + c1 * c3 + 0.5 * c2 * c2;
-      c6 = (1.0 / 30) * (kappa * c4 + pull * square4 + kappa1 * c3 + pull1 * square3);
-    }
-    // The same for theta = 0.
-    HopSeries(double omega, double pull, double pull1, double kappa, double kappa1) : c0(0), c1(omega) {
-      c2 = -0.5 * pull;
-      c3 = (1.0 / 6) * (kappa * c1 - pull1);
-      const double square2 = 0.5 * c1 * c1, square3 = c1 * c2, square4 = c1 * c3 + 0.5 * c2 * c2;
-      c4 = (1.0 / 12) * (kappa * c2 + pull * square2 + kappa1 * c1);
-      c5 = (1.0 / 20) * (kappa * c3 + pull * square3 + kappa1 * c2 + pull1 * square2);
-      c6 = (1.0 / 30) * (kappa * c4 + pull * square4 + kappa1 * c3 + pull1 * square3);
-    }
-    double height(double t) const {
-      const double t2 = t * t;
-      return (c0 + t * c1) + t2 * ((c2 + t * c3) + t2 * ((c4 + t * c5) + t2 * c6));
-    }
-    double speed(double t) const {
-      const double t2 = t * t;
-      return (c1 + t * (2 * c2)) + t2 * ((3 * c3 + t * (4 * c4)) + t2 * (5 * c5 + t * (6 * c6)));
-    }
-    // First zero after the start, about.
-    double parabola() const {
-      if (c0 != 0) return (c1 + std::sqrt(c1 * c1 - 4 * c2 * c0)) / (-2 * c2);
-      const double square = c2 * c2 - 4 * c3 * c1;
-      return 2 * c1 / (std::sqrt(square > 0 ? square : 0.0) - c2);
-    }
-    // Exactly, from there on; beyond T: none.
-    double landing(double t, double T) const {
-      for (double step = t; magnitude(step) > 1e-6 * t && t > 0 && t < 2 * T;) {
-        step = height(t) / speed(t);
-        t -= step;
-      }
-      return t;
-    }
-  };
+  static constexpr double small_share = 0.002;  // of gravity: what small rotations add to the forces
 };
 
 }  // namespace

@@ -43,6 +43,8 @@ class SlideRockLane {
     r.rx[i] = s * rx_;
     r.ry[i] = ry_;
     const int free = enter_floor(r, i);
+    r.weight[i] = side_ * c_.scale * h2;
+    r.weight_g[i] = c_.g * h2;
     r.gravity[i] = c_.g * per_inertia;
     r.push[i] = s * c_.scale * per_inertia;
     r.mu[i] = c_.mu_s;
@@ -70,6 +72,8 @@ class SlideRockLane {
     r.xi[i] = s * xi_;
     r.w[i] = s * w_ * h_;
     enter_floor(r, i);
+    r.weight[i] = side_ * c_.scale * h2;
+    r.weight_g[i] = c_.g * h2;
     r.k2[i] = c_.k2;
     r.size[i] = c_.h;
     r.sigma[i] = side_ * sigma_;
@@ -109,7 +113,7 @@ class SlideRockLane {
 
  protected:
   template <class Rows>
-  int enter_floor(Rows& r, int i) {
+  int enter_floor(Rows& r, int i) const {
     const bool over = m_ >= last_;
     const double* row = over ? still_ground : t_.acceleration.data() + m_;
     const int free = over ? patience() - m_ : last_ - m_;
@@ -117,8 +121,6 @@ class SlideRockLane {
     r.left[i] = left_;
     r.next[i] = entry_ = row + 1;
     r.stop[i] = row + free;
-    r.weight[i] = side_ * c_.scale * (h_ * h_);
-    r.weight_g[i] = c_.g * (h_ * h_);
     return free;
   }
   // False: it has not moved.
@@ -193,7 +195,7 @@ class SlideRockLane {
   void see_rotation(double theta) { peak_rotation_ = larger(peak_rotation_, magnitude(theta)); }
 
   void event() {
-    if (++events_ > 10000) declined_ = true;
+    if (++events_ > most_events) declined_ = true;
   }
 
   void stand(Mode mode, int side) {
@@ -210,6 +212,7 @@ class SlideRockLane {
 
   void decline() { declined_ = true; }
 
+  static constexpr int most_events = 10000;
   static constexpr double longest_row = 80;    // intervals
   static constexpr double least_slip = 1e-10;  // [m]
 
@@ -226,8 +229,9 @@ class SlideRockLane {
   double theta_ = 0, omega_ = 0, rx_ = 0, ry_ = 0, xi_ = 0, w_ = 0;
   double peak_slip_ = 0, peak_rotation_ = 0, force2_ = 0, path_ = 0, end_ = 0;
   double hopping_ = 0;  // time that the hops take that were not gone through
-  const double* entry_ = nullptr;
+  mutable const double* entry_ = nullptr;
   int events_ = 0, impacts_ = 0;
+  bool hops_ = false;  // small hops lie ahead
   bool after_ = false, ended_ = false, declined_ = false, overturned_ = false;
 };
 

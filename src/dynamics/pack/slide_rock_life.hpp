@@ -163,7 +163,7 @@ class SlideRockLife : public SlideRockHops {
     omega_ = omega;
     if (w_ == 0 && dies_out()) return stand(Mode::rest, 0);
     choose_on_corner();
-    if (mode_ == Mode::rock && hop_on()) choose_flat();
+    hops_ = mode_ == Mode::rock && small_hops();
   }
 
   // As in dynamics/impact.cpp: two geometric series.

@@ -10,6 +10,7 @@
 #include "base/pack.hpp"
 #include "dynamics/pack/rock_series.hpp"
 #include "dynamics/pack/slide_rock.hpp"
+#include "dynamics/pack/slide_rock_hopping.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 #include "dynamics/pack/slide_rock_slips.hpp"
 
@@ -31,12 +32,16 @@ class SlideRockPool {
   void run() {
     while (top_ > 0) {
       if (gaps_ > 0) close_gaps();
-      const int marching = top_ - waiting_ - slips_.count();
+      const int marching = top_ - waiting_ - slips_.count() - hopping_.count();
       if (waiting_ >= pack_lanes || (waiting_ > 0 && marching == 0)) {
         strike();
         continue;
       }
-      if (slips_.count() >= slips_at_once || marching == 0) {
+      if (hopping_.count() >= at_once || (hopping_.count() > 0 && marching == 0)) {
+        hop();
+        continue;
+      }
+      if (slips_.count() >= at_once || marching == 0) {
         slip();
         continue;
       }
@@ -175,12 +180,25 @@ class SlideRockPool {
   // One interval for the lanes that slide-rock.
   void slip() {
     const std::uint64_t apart = slips_.march();
-    for (int i = slips_.count(); i-- > 0;) {  // downwards, as the last one fills the gap
+    for (int i = slips_.count() < 64 ? slips_.count() : 64; i-- > 0;) {  // downwards, as the last one fills the gap
       if (!(apart >> i & 1U)) continue;
       const int slot = slips_.slot(i);
       SlideRock<N>& lane = *lanes_[lane_of_[slot]];
       slips_.remove(lane, i);
       lane.go_on();
+      settle(slot);
+    }
+  }
+
+  // To the next impact or knot for the lanes in small hops.
+  void hop() {
+    const std::uint64_t apart = hopping_.march();
+    for (int i = hopping_.count() < 64 ? hopping_.count() : 64; i-- > 0;) {
+      if (!(apart >> i & 1U)) continue;
+      const int slot = hopping_.slot(i);
+      SlideRock<N>& lane = *lanes_[lane_of_[slot]];
+      hopping_.remove(lane, i);
+      lane.settle();
       settle(slot);
     }
   }
@@ -202,6 +220,10 @@ class SlideRockPool {
     if (lane.slips()) {
       set(alive_, slot, false);
       return slips_.add(lane, slot);
+    }
+    if (lane.hops()) {
+      set(alive_, slot, false);
+      return hopping_.add(lane, slot);
     }
     set(alive_, slot, true);
     const int free = lane.enter(r_, slot);
@@ -249,6 +271,7 @@ class SlideRockPool {
       set(alive_, slot, is_set(alive_, last));
       set(partial_, slot, is_set(partial_, last));
       slips_.rename(last, slot);
+      hopping_.rename(last, slot);
       for (int k = 0; k < waiting_; ++k)
         if (queue_[k] == last) queue_[k] = slot;
       r_.clear(last);
@@ -285,7 +308,8 @@ class SlideRockPool {
   std::size_t taken_ = 0;
   SlideRockRows r_;
   SlideRockSlips<N> slips_;
-  static constexpr int slips_at_once = 8;
+  SlideRockHopping hopping_;
+  static constexpr int at_once = 8;
   std::optional<SlideRock<N>> lanes_[march_slots];
   std::size_t number_[march_slots];  // of the lane's sample
   static constexpr int none = -1;

@@ -9,7 +9,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-constexpr int march_slots = 64;
+constexpr int march_slots = 128;
 constexpr int still_intervals = 16384;
 alignas(64) const double still_ground[still_intervals] = {};  // the floor after the record
 
@@ -74,6 +74,37 @@ struct SlipRows {
       row[to] = row[from];
     next[to] = next[from];
     stop[to] = stop[from];
+  }
+};
+
+// Small hops; [0] on the left corner, [1] on the right one. Rotations are positive away from the floor.
+struct HopRows {
+  alignas(64) double theta[march_slots], omega[march_slots], side[march_slots];
+  alignas(64) double a[march_slots];                          // unit record, where the lane is
+  alignas(64) double left[march_slots];                       // part of the interval that lies ahead
+  alignas(64) double limit2[march_slots], push[march_slots];  // four times a squared rotation; |a| of the unit record
+  alignas(64) double weight[2][march_slots], tip[2][march_slots], kappa[2][march_slots], bend[2][march_slots];
+  alignas(64) double kept[2][march_slots], told[2][march_slots], rests[2][march_slots];  // squared rates but the first
+  alignas(64) double hops[march_slots], impacts[march_slots], ended[march_slots];        // impacts: those that count
+  alignas(64) const double* next[march_slots];                                           // a at the end of the interval
+  const double* stop[march_slots];                                                       // the last such value
+
+  void clear(int i) {
+    for_each([i](double* row) { row[i] = 1; });
+    next[i] = stop[i] = still_ground;
+  }
+  void copy(int from, int to) {
+    for_each([from, to](double* row) { row[to] = row[from]; });
+    next[to] = next[from];
+    stop[to] = stop[from];
+  }
+
+ private:
+  template <class Visit>
+  void for_each(Visit&& visit) {
+    for (double* row : {theta, omega, side, a, left, limit2, push, hops, impacts, ended}) visit(row);
+    for (int k = 0; k < 2; ++k)
+      for (double* row : {weight[k], tip[k], kappa[k], bend[k], kept[k], told[k], rests[k]}) visit(row);
   }
 };
 

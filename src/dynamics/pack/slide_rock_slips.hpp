@@ -4,55 +4,23 @@
 
 #include "base/pack.hpp"
 #include "dynamics/pack/corner_series.hpp"
+#include "dynamics/pack/slide_rock_group.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 template <int N>
-class SlideRockSlips {
+class SlideRockSlips : public SlideRockGroup<SlipRows> {
  public:
-  SlideRockSlips() {
-    for (int i = 0; i < march_slots; ++i) r_.clear(i);
-  }
-
-  int count() const { return count_; }
-  int slot(int i) const { return slot_[i]; }
-  void rename(int from, int to) {
-    for (int i = 0; i < count_; ++i)
-      if (slot_[i] == from) slot_[i] = to;
-  }
-
-  template <class Lane>
-  void add(Lane& lane, int slot) {
-    lane.enter(r_, count_);
-    slot_[count_++] = slot;
-  }
-  template <class Lane>
-  void remove(Lane& lane, int i) {
-    lane.leave(r_, i);
-    --count_;
-    r_.copy(count_, i);
-    slot_[i] = slot_[count_];
-    r_.clear(count_);
-  }
-
   // One interval for every block; bits of the blocks to which something happens, or whose record ends.
   std::uint64_t march() {
-    std::uint64_t apart = 0;
-    for (int i = 0; i < count_; i += pack_lanes) apart |= static_cast<std::uint64_t>(march(i)) << i;
-    return apart;
+    return each_pack([this](int i, unsigned here) { return march(i, here); });
   }
 
  private:
-  unsigned march(int i) {
+  unsigned march(int i, unsigned here) {
     const Pack zero(0.0), one(1.0), two(2.0), left = load(r_.left + i), left2 = left * left;
-    unsigned over = 0, here = 0;
-    for (int l = 0; l < pack_lanes; ++l) {
-      over |= static_cast<unsigned>(r_.next[i + l] > r_.stop[i + l]) << l;
-      here |= static_cast<unsigned>(i + l < count_) << l;
-    }
-    if (over & here) return over & here;  // first these; the others wait
     CornerSeries<N, Pack> y;
     y.theta[0] = load(r_.theta + i);
     y.rx[0] = load(r_.rx + i);
@@ -119,10 +87,6 @@ class SlideRockSlips {
     advance(r_.next + i, here & ~all);
     return all;
   }
-
-  SlipRows r_;
-  int slot_[march_slots];
-  int count_ = 0;
 };
 
 }  // namespace

@@ -1,0 +1,65 @@
+// Blocks that do the same thing at present, side by side in rows without gaps, while the slots of the pool wait for them.
+#pragma once
+
+#include <cstdint>
+
+#include "base/pack.hpp"
+#include "dynamics/pack/slide_rock_rows.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+template <class Rows>
+class SlideRockGroup {
+ public:
+  SlideRockGroup() {
+    for (int i = 0; i < march_slots; ++i) r_.clear(i);
+  }
+
+  int count() const { return count_; }
+  int slot(int i) const { return slot_[i]; }
+  void rename(int from, int to) {
+    for (int i = 0; i < count_; ++i)
+      if (slot_[i] == from) slot_[i] = to;
+  }
+
+  template <class Lane>
+  void add(Lane& lane, int slot) {
+    lane.enter(r_, count_);
+    slot_[count_++] = slot;
+  }
+  // The last one takes the place.
+  template <class Lane>
+  void remove(Lane& lane, int i) {
+    lane.leave(r_, i);
+    --count_;
+    r_.copy(count_, i);
+    slot_[i] = slot_[count_];
+    r_.clear(count_);
+  }
+
+ protected:
+  // Bits of the lanes for which march(first lane, bits of the lanes in use) says so, or whose record ends: these first.
+  template <class March>
+  std::uint64_t each_pack(March&& march) {
+    std::uint64_t apart = 0;
+    for (int i = 0; i < count_ && i < 64; i += pack_lanes) {
+      unsigned over = 0, here = 0;
+      for (int l = 0; l < pack_lanes && i + l < count_; ++l) {
+        over |= static_cast<unsigned>(r_.next[i + l] > r_.stop[i + l]) << l;
+        here |= 1U << l;
+      }
+      apart |= static_cast<std::uint64_t>(over ? over : march(i, here) & here) << i;
+    }
+    return apart;
+  }
+
+  Rows r_;
+
+ private:
+  int slot_[march_slots];
+  int count_ = 0;
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA

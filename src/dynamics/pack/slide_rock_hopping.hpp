@@ -1,0 +1,61 @@
+// Blocks that rock in small hops, side by side, in packs: from impact to knot to impact.
+#pragma once
+
+#include "base/pack.hpp"
+#include "dynamics/pack/hop_series.hpp"
+#include "dynamics/pack/slide_rock_group.hpp"
+#include "dynamics/pack/slide_rock_rows.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+class SlideRockHopping : public SlideRockGroup<HopRows> {
+ public:
+  // To the next impact or knot for every block; bits of those that come to rest, leave what the hops' equation covers, have
+  // hopped often enough to ask whether the row dies out, or are at the end of their record.
+  std::uint64_t march() {
+    return each_pack([this](int i, unsigned here) { return march(i, here); });
+  }
+
+ private:
+  unsigned march(int i, unsigned here) {
+    const Pack zero(0.0), one(1.0), two(2.0);
+    const Pack left = load(r_.left + i), theta = load(r_.theta + i), omega = load(r_.omega + i), a = load(r_.a + i);
+    const Pack a_next = fetch(r_.next + i), rate = (a_next - a) / left, side = load(r_.side + i);
+    const PackMask right = side > zero;
+    const auto on = [&](const double(&row)[2][march_slots]) {
+      return choose(right, load(row[1] + i), load(row[0] + i));
+    };
+    const Pack weight = on(r_.weight), tip = on(r_.tip), bend = on(r_.bend);
+    const Pack beta = weight + tip * a, low = xsimd::min(beta, weight + tip * a_next),
+               top = omega * omega + two * theta * beta;
+    const PackMask holds = (top * top < load(r_.limit2 + i) * (low * low)) &
+                           (xsimd::max(xsimd::abs(a), xsimd::abs(a_next)) <= load(r_.push + i));
+    const HopSeries y(theta, omega, beta, tip * rate, on(r_.kappa) - bend * a, zero - bend * rate);
+    const Pack end = y.height(left);
+    const PackMask crosses = holds & (end > zero);
+    PackMask open = holds & ~crosses;
+    const Pack landing = y.landing(open), t = choose(crosses, left, landing), speed = y.speed(t);
+    const PackMask lands = holds & ~crosses & ~open & (t > zero) & (t <= left), stays = ~(crosses | lands);
+
+    const Pack falls = xsimd::abs(speed), ahead = left - t, rises = falls * on(r_.kept);
+    const PackMask to_knot = crosses | (lands & (ahead < Pack(1e-12)));
+    const PackMask told = lands & (falls * falls >= on(r_.told));
+    const Pack rests = choose(right, load(r_.rests[0] + i), load(r_.rests[1] + i));
+    const PackMask ends = lands & (rises * rises < rests);
+    const Pack hops = load(r_.hops + i) + choose(lands, one, zero);
+    store(r_.theta + i, choose(stays, theta, choose(lands, zero, end)));
+    store(r_.omega + i, choose(stays, omega, choose(lands, rises, speed)));
+    store(r_.a + i, choose(stays, a, choose(to_knot, a_next, a + rate * t)));
+    store(r_.left + i, choose(stays, left, choose(to_knot, one, ahead)));
+    store(r_.side + i, choose(lands, zero - side, side));
+    store(r_.hops + i, hops);
+    store(r_.impacts + i, load(r_.impacts + i) + choose(told, one, zero));
+    store(r_.ended + i, choose(ends, one, zero));
+    advance(r_.next + i, bits(to_knot) & here);
+    return bits(stays | ends | (lands & (hops >= Pack(8.0))));
+  }
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
