@@ -29,9 +29,8 @@ class SlideRock : public SlideRockLife {
     if (!marches() && !slips()) go_on();
   }
 
-  // Back from the packs: strikes the floor after a part x of what is left of the interval, with a rate per interval.
-  void strike_at(const SlideRockRows& r, int i, double x, double rate) {
-    leave(r, i);
+  // Strikes the floor after a part x of what is left of the interval, with a rate per interval.
+  void strike_at(double x, double rate) {
     theta_ = 0;
     omega_ = side_ * rate / h_;
     see_slip(xi_);

@@ -1,4 +1,4 @@
-// Blocks that do the same thing at present, side by side in rows without gaps, while the slots of the pool wait for them.
+// Lanes whose blocks do the same thing at present, side by side in rows without gaps.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +17,24 @@ class SlideRockGroup {
   }
 
   int count() const { return count_; }
-  int slot(int i) const { return slot_[i]; }
-  void rename(int from, int to) {
-    for (int i = 0; i < count_; ++i)
-      if (slot_[i] == from) slot_[i] = to;
-  }
+  int lane(int i) const { return lane_[i]; }
 
   template <class Lane>
-  void add(Lane& lane, int slot) {
-    lane.enter(r_, count_);
-    slot_[count_++] = slot;
+  auto add(Lane& lane, int number) {
+    lane_[count_] = number;
+    return lane.enter(r_, count_++);
   }
   // The last one takes the place.
   template <class Lane>
   void remove(Lane& lane, int i) {
     lane.leave(r_, i);
-    --count_;
-    r_.copy(count_, i);
-    slot_[i] = slot_[count_];
-    r_.clear(count_);
+    close(i);
+  }
+  // As it is, from a group with the same rows.
+  void take(SlideRockGroup& other, int i) {
+    lane_[count_] = other.lane_[i];
+    copy_lane(r_, count_++, other.r_, i);
+    other.close(i);
   }
 
  protected:
@@ -57,7 +56,15 @@ class SlideRockGroup {
   Rows r_;
 
  private:
-  int slot_[march_slots];
+  void close(int i) {
+    if (--count_ != i) {
+      copy_lane(r_, i, r_, count_);
+      lane_[i] = lane_[count_];
+    }
+    r_.retire(count_);
+  }
+
+  int lane_[march_slots];
   int count_ = 0;
 };
 

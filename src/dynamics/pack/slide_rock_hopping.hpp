@@ -11,6 +11,11 @@ namespace {
 
 class SlideRockHopping : public SlideRockGroup<HopRows> {
  public:
+  template <class Lane>
+  static void release(Lane& lane) {
+    lane.settle();
+  }
+
   // To the next impact or knot for every block; bits of those that come to rest, leave what the hops' equation covers, have
   // hopped often enough to ask whether the row dies out, or are at the end of their record.
   std::uint64_t march() {

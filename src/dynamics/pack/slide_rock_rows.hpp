@@ -4,6 +4,8 @@
 // times h, accelerations times h^2.
 #pragma once
 
+#include <array>
+
 #include "base/pack.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
@@ -38,12 +40,14 @@ struct SlideRockRows {
     next[i] = stop[i] = still_ground;
   }
 
-  void copy(int from, int to) {
-    for (double* row : {theta, omega, rx, ry, a, left, grip, square, gravity, push, weight, weight_g, mu, look, seen,
-                        bend0, bend1, bend2})
-      row[to] = row[from];
-    next[to] = next[from];
-    stop[to] = stop[from];
+  // Out of use: it causes no work.
+  void retire(int i) {
+    left[i] = 1;
+    look[i] = seen[i] = 1e300;
+  }
+  auto all() {
+    return std::array{theta, omega,  rx,       ry, a,    left, grip,  square, gravity,
+                      push,  weight, weight_g, mu, look, seen, bend0, bend1,  bend2};
   }
 };
 
@@ -68,12 +72,10 @@ struct SlipRows {
     next[i] = stop[i] = still_ground;
   }
 
-  void copy(int from, int to) {
-    for (double* row : {theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
-                        k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen})
-      row[to] = row[from];
-    next[to] = next[from];
-    stop[to] = stop[from];
+  void retire(int i) { seen[i] = 1e300; }
+  auto all() {
+    return std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
+                      k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen};
   }
 };
 
@@ -89,24 +91,26 @@ struct HopRows {
   alignas(64) const double* next[march_slots];                                           // a at the end of the interval
   const double* stop[march_slots];                                                       // the last such value
 
+  void retire(int i) { push[i] = -1; }
+  auto all() {
+    return std::array{theta,    omega,     side,      a,        left,     limit2,  push,    hops,
+                      impacts,  ended,     weight[0], tip[0],   kappa[0], bend[0], kept[0], told[0],
+                      rests[0], weight[1], tip[1],    kappa[1], bend[1],  kept[1], told[1], rests[1]};
+  }
   void clear(int i) {
-    for_each([i](double* row) { row[i] = 1; });
+    for (double* row : all()) row[i] = 1;
     next[i] = stop[i] = still_ground;
   }
-  void copy(int from, int to) {
-    for_each([from, to](double* row) { row[to] = row[from]; });
-    next[to] = next[from];
-    stop[to] = stop[from];
-  }
-
- private:
-  template <class Visit>
-  void for_each(Visit&& visit) {
-    for (double* row : {theta, omega, side, a, left, limit2, push, hops, impacts, ended}) visit(row);
-    for (int k = 0; k < 2; ++k)
-      for (double* row : {weight[k], tip[k], kappa[k], bend[k], kept[k], told[k], rests[k]}) visit(row);
-  }
 };
+
+// Lane `from` of the other rows becomes lane `to` of these.
+template <class Rows>
+void copy_lane(Rows& rows, int to, Rows& other, int from) {
+  const auto mine = rows.all(), theirs = other.all();
+  for (std::size_t k = 0; k < mine.size(); ++k) mine[k][to] = theirs[k][from];
+  rows.next[to] = other.next[from];
+  rows.stop[to] = other.stop[from];
+}
 
 constexpr double neglected = 3e-11;  // least term of a series that counts
 

@@ -13,6 +13,11 @@ namespace {
 template <int N>
 class SlideRockSlips : public SlideRockGroup<SlipRows> {
  public:
+  template <class Lane>
+  static void release(Lane& lane) {
+    lane.go_on();
+  }
+
   // One interval for every block; bits of the blocks to which something happens, or whose record ends.
   std::uint64_t march() {
     return each_pack([this](int i, unsigned here) { return march(i, here); });
