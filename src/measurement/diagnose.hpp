@@ -17,6 +17,8 @@
 // another is not held to be one.
 #pragma once
 
+#include <limits>
+
 #include "measurement/judge.hpp"
 #include "measurement/model_fit.hpp"
 
@@ -25,14 +27,16 @@ namespace freestand::measurement {
 enum class Verdict { none, missing, ambiguous, unknown };
 const char* name(Verdict);
 
+inline constexpr double unjudged = std::numeric_limits<double>::quiet_NaN();
+
 struct Candidate {
   std::vector<std::string> effects;  // joined to the base, in order
   ModelFit fit;
   bool visible = true;                       // the data can see it
   bool practical = true;                     // its parameters lie where it is met
-  double misfit = 0;                         // G, of the tests left out; nan: not judged
-  double misfit_of_fit = 0;                  // G, of the fit to all tests
-  double explained = 0;                      // sqrt(G/samples): 1 where sensor and floor noise explain all
+  double misfit = unjudged;                  // G, of the tests left out; nan: not judged
+  double misfit_of_fit = unjudged;           // G, of the fit to all tests
+  double explained = unjudged;               // sqrt(G/samples): 1 where sensor and floor noise explain all
   double delta_bic = 0;                      // against the base; negative: better
   double difference = 0, difference_se = 0;  // of the left-out score to the best one's, paired over the tests
   bool rival = false;                        // cannot be told from the best
