@@ -46,7 +46,7 @@ class WholeWay(unittest.TestCase):
         return self.read("diagnosis", "diagnosis.json")
 
     def test_the_hidden_effect_is_named_and_takes_the_error_to_the_noise(self):
-        self.make("static_friction", 7)
+        self.make("static_friction", 6)
         before = self.compared("study.yaml", "before")
         self.assertGreater(before["calibration"]["error_noise_units"], 4)
         self.assertGreater(before["holdout"]["error_noise_units"], 4)
