@@ -33,6 +33,7 @@ class Diagnoser {
       if (fit_parts_of_best_pair()) judge();
     }
     decide(bench_, out_);
+    name_untried();
     return std::move(out_);
   }
 
@@ -106,6 +107,15 @@ class Diagnoser {
     for (Values& x : starts_from(ends, model, 16 * effect.parameters.size())) starts.push_back(std::move(x));
     starts.push_back(start_at_nothing(out_.base.fit, effect));
     return starts;
+  }
+
+  void name_untried() {
+    std::vector<std::string> names;
+    for (const auto* effect : catalogue_)
+      if (goes_with(base_, *effect) && !allowed(*effect)) names.push_back(effect->name);
+    if (!names.empty())
+      out_.sentences.push_back(fmt::format("not tried, since they have more numbers than so few tests can fix: {}",
+                                           fmt::join(names, ", ")));
   }
 
   // More numbers than tests: nothing could be left out.
