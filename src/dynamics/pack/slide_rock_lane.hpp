@@ -54,8 +54,10 @@ class SlideRockLane {
     r.square[i] = (fx * fx + lift * lift) * (h2 * h2);
     r.seen[i] = force2_ * (h2 * h2);
     // Rotations that add less than peak_slip - s xi to the slip; 1 - cos(theta) <= theta^2/2.
-    const double room = larger(peak_slip_ - s * xi_, 0);
-    r.look[i] = smaller(peak_rotation_, std::sqrt(2 * room / half_base_));
+    r.room[i] = room_ = larger(peak_slip_ - s * xi_, 0);
+    r.turned[i] = peak_rotation_;
+    r.look[i] = smaller(peak_rotation_, std::sqrt(2 * room_ / half_base_));
+    enter_midpoint(r, i);
     r.bend0[i] = ground.bend0;
     r.bend1[i] = ground.bend1;
     r.bend2[i] = ground.bend2;
@@ -64,7 +66,7 @@ class SlideRockLane {
 
   // Slide-rocking.
   void enter(SlipRows& r, int i) {
-    const double s = side_, h2 = h_ * h_, b = magnitude(arm(side_)), lever = half_base_ / (c_.h * c_.h + b * b);
+    const double s = side_, h2 = h_ * h_;
     r.theta[i] = s * theta_;
     r.omega[i] = s * omega_ * h_;
     r.rx[i] = s * rx_;
@@ -78,16 +80,18 @@ class SlideRockLane {
     r.size[i] = c_.h;
     r.sigma[i] = side_ * sigma_;
     r.friction[i] = side_ * sigma_ * c_.mu_k;
-    r.half_base[i] = half_base_;
-    r.lever_x[i] = lever * b;
-    r.lever_y[i] = lever * c_.h;
+    enter_midpoint(r, i);
     r.look[i] = peak_rotation_;
     r.peak[i] = peak_slip_;
     r.seen[i] = force2_ * (h2 * h2);
   }
 
   // Back from the packs.
-  void leave(const SlideRockRows& r, int i) { leave_rows(r, i); }
+  void leave(const SlideRockRows& r, int i) {
+    peak_rotation_ = larger(peak_rotation_, r.turned[i]);
+    if (r.room[i] > room_) peak_slip_ = larger(peak_slip_, r.room[i] + side_ * xi_);
+    leave_rows(r, i);
+  }
   void leave(const SlipRows& r, int i) {
     peak_slip_ = larger(peak_slip_, r.peak[i]);
     if (!leave_rows(r, i)) return;
@@ -122,6 +126,13 @@ class SlideRockLane {
     r.next[i] = entry_ = row + 1;
     r.stop[i] = row + free;
     return free;
+  }
+  template <class Rows>
+  void enter_midpoint(Rows& r, int i) const {
+    const double b = magnitude(arm(side_)), lever = half_base_ / (c_.h * c_.h + b * b);
+    r.half_base[i] = half_base_;
+    r.lever_x[i] = lever * b;
+    r.lever_y[i] = lever * c_.h;
   }
   // False: it has not moved.
   template <class Rows>
@@ -228,6 +239,7 @@ class SlideRockLane {
   double left_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now
   double theta_ = 0, omega_ = 0, rx_ = 0, ry_ = 0, xi_ = 0, w_ = 0;
   double peak_slip_ = 0, peak_rotation_ = 0, force2_ = 0, path_ = 0, end_ = 0;
+  double room_ = 0;     // peak slip less s xi, when it entered a pack
   double hopping_ = 0;  // time that the hops take that were not gone through
   mutable const double* entry_ = nullptr;
   int events_ = 0, impacts_ = 0;

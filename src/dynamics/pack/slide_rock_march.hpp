@@ -65,9 +65,13 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
 
     const Pack rate = xsimd::abs(y.omega[0]), reach = rate + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
     const Pack low = xsimd::min(y.theta[0], theta), high = xsimd::max(y.theta[0], theta);
-    const PackMask matters = (high + reach > load(r_.look + i)) | (low < reach);
-    const PackMask turns = (y.omega[0] * omega <= zero) | turns_twice(y, omega);
-    const PackMask strange = (turns & matters) | ~(theta < Pack(1.5)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
+    const PackMask matters = (high + reach > load(r_.look + i)) | (low < reach), falls = theta <= zero;
+    const PackMask turns = y.omega[0] * omega < zero,
+                   starts = (y.omega[0] == zero) & (y.omega[1] > Pack(-1e-11) * gravity);
+    const PackMask wavers = turns_twice(y, omega) | ((y.omega[0] * omega == zero) & ~(starts & (omega > zero)));
+    PackMask strange = (wavers & matters) | ~(theta < Pack(1.5)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
+    if (const PackMask tops = turns & matters & ~strange & ~falls; bits(tops))
+      strange = strange | turn(y, i, omega, tops);
     if constexpr (!Whole) omega = omega * (one / left);
 
     const Pack weight_g = load(r_.weight_g + i), weight = load(r_.weight + i);
@@ -78,7 +82,7 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
     const Pack bend = load(r_.bend0 + i) + (load(r_.bend1 + i) * xsimd::abs(change) + load(r_.bend2 + i) * rate) * rate;
     const Pack most = xsimd::max(square0, square) * Pack(1 + 1.0 / 256) + Pack(257.0) * (bend * bend);
     const Pack seen = load(r_.seen + i);
-    const PackMask slips = xsimd::min(grip0, grip) <= bend, tops = most > seen, falls = theta <= zero;
+    const PackMask slips = xsimd::min(grip0, grip) <= bend, tops = most > seen;
     const PackMask stays = strange | slips | falls;
     if (const PackMask feels = tops & ~stays; bits(feels)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, feels);
 
@@ -92,7 +96,7 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
     if constexpr (!Whole) store(r_.left + i, choose(stays, left, one));
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all);
-    return {all, bits(falls & ~strange & ~slips & ~tops & (y.omega[0] < zero)) & all};
+    return {all, bits(falls & ~strange & ~slips & ~tops & (omega0 < zero) & (omega < zero)) & all};
   }
 
   template <bool Whole>
@@ -109,6 +113,22 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
       y.omega[0] = omega * left;
       y.expand(gravity * left2, pushed * a, pushed * change);
     }
+  }
+
+  // The rotation turns, near a peak or the floor: the peaks. Lanes that touch the floor.
+  PackMask turn(const RockSeries<N>& y, int i, const Pack& omega, const PackMask& lanes) {
+    const Pack zero(0.0), one(1.0), sense = choose(y.omega[0] > zero, one, zero - one);
+    const Pack guess = first_zero(sense * y.omega[0], sense * y.omega[1], sense * omega);
+    const Pack x = bracketed_root<N + 1>(y.omega, sense, zero, one, guess, lanes), theta = y.at(y.theta, x);
+    const Pack base = load(r_.half_base + i), turned = load(r_.turned + i), room = load(r_.room + i);
+    const Pack adds = base - (load(r_.lever_y + i) * y.at(y.ry, x) - load(r_.lever_x + i) * y.at(y.rx, x));
+    const PackMask seen = lanes & (theta > zero);
+    const Pack most = choose(seen, xsimd::max(turned, theta), turned),
+               slid = choose(seen, xsimd::max(room, adds), room);
+    store(r_.turned + i, most);
+    store(r_.room + i, slid);
+    store(r_.look + i, choose(seen, xsimd::min(most, xsimd::sqrt(Pack(2.0) * slid / base)), load(r_.look + i)));
+    return lanes & ~seen;
   }
 
   // The squared acceleration may have a new peak.

@@ -25,6 +25,8 @@ struct SlideRockRows {
   alignas(64) double mu[march_slots];                             // mu_s
   alignas(64) double look[march_slots];                           // no smaller rotation is a new peak, nor its slip
   alignas(64) double seen[march_slots];                           // largest squared acceleration so far
+  alignas(64) double turned[march_slots], room[march_slots];      // largest rotation; slip less s xi
+  alignas(64) double half_base[march_slots], lever_x[march_slots], lever_y[march_slots];  // of the midpoint's slip
   alignas(64) double bend0[march_slots], bend1[march_slots],
       bend2[march_slots];                       // bound of what forces do within an interval
   alignas(64) const double* next[march_slots];  // a at the end of the interval
@@ -35,19 +37,22 @@ struct SlideRockRows {
     omega[i] = rx[i] = ry[i] = a[i] = square[i] = 0;
     gravity[i] = push[i] = weight[i] = bend0[i] = bend1[i] = bend2[i] = 0;
     theta[i] = 0.5;
-    grip[i] = weight_g[i] = mu[i] = left[i] = 1;
+    turned[i] = room[i] = lever_x[i] = lever_y[i] = 0;
+    grip[i] = weight_g[i] = mu[i] = left[i] = half_base[i] = 1;
     look[i] = seen[i] = 1e300;
     next[i] = stop[i] = still_ground;
   }
 
   // Out of use: it causes no work.
   void retire(int i) {
+    theta[i] = 0.5;
+    omega[i] = 0;
     left[i] = 1;
     look[i] = seen[i] = 1e300;
   }
   auto all() {
-    return std::array{theta, omega,  rx,       ry, a,    left, grip,  square, gravity,
-                      push,  weight, weight_g, mu, look, seen, bend0, bend1,  bend2};
+    return std::array{theta, omega, rx,   ry,    a,     left,  grip,   square, gravity,   push,    weight, weight_g,
+                      mu,    look,  seen, bend0, bend1, bend2, turned, room,   half_base, lever_x, lever_y};
   }
 };
 
