@@ -70,8 +70,7 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
                    starts = (y.omega[0] == zero) & (y.omega[1] > Pack(-1e-11) * gravity);
     const PackMask wavers = turns_twice(y, omega) | ((y.omega[0] * omega == zero) & ~(starts & (omega > zero)));
     PackMask strange = (wavers & matters) | ~(theta < Pack(1.5)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
-    if (const PackMask tops = turns & matters & ~strange & ~falls; bits(tops))
-      strange = strange | turn(y, i, omega, tops);
+    const Pack omega1 = omega;
     if constexpr (!Whole) omega = omega * (one / left);
 
     const Pack weight_g = load(r_.weight_g + i), weight = load(r_.weight + i);
@@ -83,6 +82,8 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
     const Pack most = xsimd::max(square0, square) * Pack(1 + 1.0 / 256) + Pack(257.0) * (bend * bend);
     const Pack seen = load(r_.seen + i);
     const PackMask slips = xsimd::min(grip0, grip) <= bend, tops = most > seen;
+    if (const PackMask about = turns & matters & ~(strange | slips | falls); bits(about))
+      strange = strange | turn(y, i, omega1, about);
     const PackMask stays = strange | slips | falls;
     if (const PackMask feels = tops & ~stays; bits(feels)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, feels);
 
