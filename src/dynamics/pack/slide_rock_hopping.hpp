@@ -58,7 +58,7 @@ class SlideRockHopping : public SlideRockGroup<HopRows> {
     store(r_.impacts + i, load(r_.impacts + i) + choose(told, one, zero));
     store(r_.ended + i, choose(ends, one, zero));
     advance(r_.next + i, bits(to_knot) & here);
-    return bits(stays | ends | (lands & (hops >= Pack(8.0))));
+    return bits(stays | ends | (lands & (hops >= Pack(hops_at_once))));
   }
 };
 

@@ -49,8 +49,8 @@ class SlideRockHops : public SlideRockLane {
     rx_ = c_.h * sine - arm(side_) * (1 - lost);
     ry_ = arm(side_) * sine + c_.h * (1 - lost);
     hops_ = false;
-    if (r.ended[i] > 0 || (r.hops[i] >= 8 && dies_out())) return stand(Mode::rest, 0);
-    hops_ = r.hops[i] >= 8;
+    if (r.ended[i] > 0 || (r.hops[i] >= hops_at_once && dies_out())) return stand(Mode::rest, 0);
+    hops_ = r.hops[i] >= hops_at_once;
   }
 
  protected:

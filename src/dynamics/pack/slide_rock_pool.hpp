@@ -54,11 +54,12 @@ class SlideRockPool {
     const int count = rocks_.count();
     rocks_.march(apart);
     for (int p = (count + pack_lanes - 1) / pack_lanes; p-- > 0;)
-      for (int l = pack_lanes; apart[p].all && l-- > 0;) {  // downwards, as the last one fills a gap
-        const int i = p * pack_lanes + l;
+      for (unsigned open = apart[p].all; open;) {  // downwards, as the last one fills a gap
+        const int l = 31 - __builtin_clz(open), i = p * pack_lanes + l;
+        open &= ~(1U << l);
         if (apart[p].strikes >> l & 1U)
           strikes_.take(rocks_, i);
-        else if (apart[p].all >> l & 1U)
+        else
           alone(i);
       }
   }

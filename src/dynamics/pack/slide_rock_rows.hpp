@@ -117,6 +117,7 @@ void copy_lane(Rows& rows, int to, Rows& other, int from) {
   rows.stop[to] = other.stop[from];
 }
 
+constexpr double hops_at_once = 16;  // until it is asked whether a row of hops dies out
 constexpr double neglected = 3e-11;  // least term of a series that counts
 
 }  // namespace
