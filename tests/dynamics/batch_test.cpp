@@ -29,13 +29,14 @@ struct Samples {
   std::vector<Shaking> shakings;
 };
 
-Samples random_block(Model model, std::uint64_t seed, std::size_t samples) {
+Samples random_block(Model model, std::uint64_t seed, std::size_t samples, bool slender = false) {
   CaseFamily family;
   family.seed = seed;
+  if (slender) family.alpha_low = family.mu_low = 0.05;
   family.one_model = 0;
   family.vertical = 0;
   family.coulomb = 0;
-  family.alpha_high = 0.8;
+  family.alpha_high = slender ? 0.3 : 0.8;
   Samples block;
   for (std::size_t i = 0; i < samples; ++i) {
     block.cases.push_back(random_case(family, i));
@@ -206,6 +207,15 @@ INSTANTIATE_TEST_SUITE_P(
     Models, Batch, testing::Values(Model::slide, Model::rock, Model::slide_rock), [](const auto& info) {
       return std::string(info.param == Model::slide ? "Slide" : info.param == Model::rock ? "Rock" : "SlideRock");
     });
+
+// Low friction, many hops that die out slowly.
+TEST(BatchOfSlenderBlocks, AgreesWithSingleSamples) {
+  const int samples = 500;
+  const Count count = compare("slender", random_block(Model::slide_rock, 143, samples, true));
+  EXPECT_LE(count.differ, 1);
+  EXPECT_LE(count.sensitive, 0.03 * samples);
+  EXPECT_LE(count.events, 0.05 * samples);
+}
 
 TEST(BatchOfAnything, FallsBackToSingleSamples) {
   std::vector<RandomCase> cases;

@@ -84,6 +84,7 @@ class SlideRockHops : public SlideRockLane {
     } else if (const double both = on(-1).kept * on(1).kept; both > 0) {  // in a steady field
       events_ += static_cast<int>(std::ceil(std::log(c_.rest_rotation / hop(side_, omega)) / std::log(both)));
     }
+    if (events_ > most_events) declined_ = true;
     return true;
   }
 

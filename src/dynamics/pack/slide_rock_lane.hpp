@@ -156,7 +156,7 @@ class SlideRockLane {
 
   // ---- the floor
   double floor_at(int knot) const {
-    return knot <= last_ && !after_ ? c_.scale * t_.acceleration[static_cast<std::size_t>(knot)] : 0.0;
+    return knot <= last_ ? c_.scale * t_.acceleration[static_cast<std::size_t>(knot)] : 0.0;
   }
   double next_floor() const { return m_ < last_ ? floor_at(m_ + 1) : 0.0; }
   double now() const { return h_ * (m_ + 1 - left_); }
@@ -244,7 +244,7 @@ class SlideRockLane {
   mutable const double* entry_ = nullptr;
   int events_ = 0, impacts_ = 0;
   bool hops_ = false;  // small hops lie ahead
-  bool after_ = false, ended_ = false, declined_ = false, overturned_ = false;
+  bool ended_ = false, declined_ = false, overturned_ = false;
 };
 
 }  // namespace
