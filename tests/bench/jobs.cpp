@@ -135,7 +135,7 @@ std::vector<Job> benchmark_jobs(const std::vector<FloorMotion>& records, std::si
           make_job("P2", "rocking", Model::rock, 2, 3, records, samples),
           make_job("P3", "slide-rock", Model::slide_rock, 3, 3, records, samples),
           bouc_wen_job("P4", "Bouc-Wen", 2.54e-3, 24, samples, records, samples),
-          bouc_wen_job("P4s", "Bouc-Wen, stiff", 2.54e-7, 4, 4, records, std::min<std::size_t>(16, samples)),
+          bouc_wen_job("P4s", "Bouc-Wen, stiff", 2.54e-7, 2, 4, records, std::min<std::size_t>(16, samples)),
           effects_job(records, samples)};
 }
 

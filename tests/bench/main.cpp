@@ -2,6 +2,7 @@
 //
 //   build/release/benchmark_kernel [--benchmark_filter=P2] [--benchmark_repetitions=9] ...
 //
+// Times are of the processor, so that other work on the machine counts little.
 // FREESTAND_BENCH_SAMPLES sets the number of samples per job. The runs are interleaved at random, medians are told.
 // Errors are medians over the samples of |demand - demand of a tight run| (tolerance 1e-12), relative to the latter,
 // among samples that moved and stand in both; `flips` counts samples with another outcome. Where a peer is too slow for
@@ -130,7 +131,7 @@ class Collector : public benchmark::BenchmarkReporter {
     for (const Run& run : runs)
       if (run.run_type == Run::RT_Iteration && !run.error_occurred)
         rows_.at(run.run_name.function_name)
-            ->seconds.push_back(run.real_accumulated_time / static_cast<double>(run.iterations));
+            ->seconds.push_back(run.cpu_accumulated_time / static_cast<double>(run.iterations));
   }
 
  private:
@@ -175,7 +176,6 @@ int run(int argc, char** argv) {
     auto* registered = benchmark::RegisterBenchmark(name.c_str(), [&row](benchmark::State& state) {
       for (auto _ : state) row.answers = row.solve(*row.job, row.count);
     });
-    registered->UseRealTime();
     if (row.slow) registered->Iterations(1)->Repetitions(1);
   }
   Collector collector(by_name);
