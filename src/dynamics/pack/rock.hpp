@@ -2,9 +2,9 @@
 // sample ends takes the next one.
 //
 // One Taylor step per knot interval (dynamics/pack/rock_series.hpp).
-// Lanes in which something may happen within the interval (impact, turning point near a new peak or near the floor,
-// overturning) stand aside before the step, are gathered, and gone through event by event, again in packs: roots by
-// Newton's method on the polynomials, kept in their brackets.
+// Lanes in which something may happen within the interval (impact, turning point near the floor, overturning) stand
+// aside before the step, are gathered, and gone through event by event, again in packs: roots by Halley's method on the
+// polynomials, kept in their brackets.
 #pragma once
 
 #include <cmath>
@@ -25,7 +25,7 @@ class RockPool : RockLanes {
 
   void run() {
     while (live_ > 0) {
-      if (waiting_ >= pack_lanes || waiting_ == live_)
+      if (waiting_ >= 2 * pack_lanes || waiting_ == live_)
         resolve();
       else
         march();
@@ -63,10 +63,14 @@ class RockPool : RockLanes {
     const Pack reach = xsimd::abs(y.omega[0]) + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
     const Pack before = side * y.theta[0], after = side * theta, high = xsimd::max(before, after);
     const PackMask near = xsimd::min(before, after) < reach;
-    const PackMask turns = (y.omega[0] * omega <= zero) & ((high + reach > peak) | near);
-    const PackMask twice = near & turns_twice(y, omega);
-    const PackMask live = load(r_.live + first) > zero;
-    const PackMask event = turns | twice | (after <= zero) | (after >= Pack(0.5 * pi));
+    const PackMask turns = y.omega[0] * omega <= zero, live = load(r_.live + first) > zero;
+    PackMask event = (near & (turns | turns_twice(y, omega))) | (after <= zero) | (after >= Pack(0.5 * pi));
+    const PackMask tops = live & turns & ~event & (high + reach > peak);
+    Pack highest = high;
+    if (bits(tops)) {
+      highest = choose(tops, xsimd::max(high, side * y.at(y.theta, turning_point(y, omega))), high);
+      event = event | (highest >= Pack(0.5 * pi));
+    }
     const PackMask moves = live & ~event;
 
     const Pack left4 = left2 * left2, seen = load(r_.force2 + first), over = load(r_.over + first), over2 = over * over;
@@ -74,7 +78,7 @@ class RockPool : RockLanes {
                                     {omega, rx, ry, a_next}, one, seen * left4, false) *
                         (over2 * over2);
     store(r_.force2 + first, choose(moves, force2, seen));
-    store(r_.peak + first, choose(moves, xsimd::max(peak, high), peak));
+    store(r_.peak + first, choose(moves, xsimd::max(peak, highest), peak));
     store(r_.theta + first, choose(moves, theta, y.theta[0]));
     store(r_.omega + first, choose(moves, omega * over, rate));
     store(r_.rx + first, choose(moves, rx, y.rx[0]));
@@ -86,12 +90,45 @@ class RockPool : RockLanes {
     return bits(live & event);
   }
 
-  // One round of events for a pack of lanes that stand aside.
-  void resolve() {
+  // Lanes that stand aside, and the interval of each.
+  struct Aside {
     int slots[pack_lanes];
-    const int count = waiting_ < pack_lanes ? waiting_ : pack_lanes;
-    waiting_ -= count;
-    for (int l = 0; l < pack_lanes; ++l) slots[l] = queue_[waiting_ + (l < count ? l : 0)];
+    int count;
+    Pack left, left2, a, rate, side, gravity, push;
+    RockSeries<N> y;
+    Pack last, theta_end, omega_end, sense;
+    PackMask turns, falls;
+  };
+
+  // One round of events for them, in two packs where they are so many.
+  void resolve() {
+    if (waiting_ > pack_lanes)
+      resolve_packs<2>();
+    else
+      resolve_packs<1>();
+  }
+
+  template <int count>
+  void resolve_packs() {
+    Aside aside[count];
+    Bracket turns[count], falls[count];
+    for (int q = 0; q < count; ++q) {
+      gather(aside[q]);
+      turns[q] = turn(aside[q]);
+    }
+    narrow_all<N + 1>(turns);
+    for (int q = 0; q < count; ++q) falls[q] = fall(aside[q], choose(aside[q].turns, turns[q].x, aside[q].last));
+    narrow_all<N + 1>(falls);
+    for (int q = 0; q < count; ++q)
+      settle_all(aside[q], choose(aside[q].turns, turns[q].x, aside[q].last),
+                 choose(aside[q].falls, falls[q].x, aside[q].last));
+  }
+
+  void gather(Aside& lanes) {
+    lanes.count = waiting_ < pack_lanes ? waiting_ : pack_lanes;
+    waiting_ -= lanes.count;
+    int(&slots)[pack_lanes] = lanes.slots;
+    for (int l = 0; l < pack_lanes; ++l) slots[l] = queue_[waiting_ + (l < lanes.count ? l : 0)];
     const auto gathered = [&](const double* row) {
       alignas(64) double values[pack_lanes];
       for (int l = 0; l < pack_lanes; ++l) values[l] = row[slots[l]];
@@ -99,55 +136,85 @@ class RockPool : RockLanes {
     };
     alignas(64) double nexts[pack_lanes];
     for (int l = 0; l < pack_lanes; ++l) nexts[l] = *r_.next[slots[l]];
-    const Pack zero(0.0), one(1.0), left = gathered(r_.left), left2 = left * left;
-    const Pack a = gathered(r_.a), rate = load(nexts) - a, side = gathered(r_.side);
-    const Pack gravity = gathered(r_.gravity) * left2, push = gathered(r_.push) * left2;
-    RockSeries<N> y;
+    lanes.left = gathered(r_.left);
+    lanes.left2 = lanes.left * lanes.left;
+    lanes.a = gathered(r_.a);
+    lanes.rate = load(nexts) - lanes.a;
+    lanes.side = gathered(r_.side);
+    lanes.gravity = gathered(r_.gravity) * lanes.left2;
+    lanes.push = gathered(r_.push) * lanes.left2;
+    RockSeries<N>& y = lanes.y;
     y.theta[0] = gathered(r_.theta);
-    y.omega[0] = gathered(r_.omega) * left;
+    y.omega[0] = gathered(r_.omega) * lanes.left;
     y.rx[0] = gathered(r_.rx);
     y.ry[0] = gathered(r_.ry);
-    y.expand(gravity, push * a, push * rate);
+    y.expand(lanes.gravity, lanes.push * lanes.a, lanes.push * lanes.rate);
+  }
 
-    // Where the angular velocity may turn twice, first to the point between where its rate is zero.
-    Pack last = one, theta_end = y.sum(y.theta), omega_end = y.sum(y.omega);
-    const PackMask twice = turns_twice(y, omega_end);
+  // The turning point. Where the angular velocity may turn twice, the step goes first to the point between where its
+  // rate is zero.
+  static Bracket turn(Aside& lanes) {
+    const Pack zero(0.0), one(1.0);
+    const RockSeries<N>& y = lanes.y;
+    lanes.last = one;
+    lanes.theta_end = y.sum(y.theta);
+    lanes.omega_end = y.sum(y.omega);
+    const PackMask twice = turns_twice(y, lanes.omega_end);
     if (bits(twice)) {
-      const Pack rate_end = y.sum(y.rx) * gravity - y.sum(y.ry) * (push * (a + rate));
+      const Pack rate_end = y.sum(y.rx) * lanes.gravity - y.sum(y.ry) * (lanes.push * (lanes.a + lanes.rate));
       const Pack middle = y.omega[1] / (y.omega[1] - rate_end);
-      last = choose(twice & (middle > zero) & (middle < one), middle, one);
-      theta_end = y.at(y.theta, last);
-      omega_end = y.at(y.omega, last);
+      lanes.last = choose(twice & (middle > zero) & (middle < one), middle, one);
+      lanes.theta_end = y.at(y.theta, lanes.last);
+      lanes.omega_end = y.at(y.omega, lanes.last);
     }
-    const Pack sense = choose((side * y.omega[0] > zero) | (y.omega[0] == zero), side, zero - side);
-    const PackMask turns = sense * omega_end < zero;
-    const Pack guess = last * first_zero(sense * y.omega[0], sense * y.omega[1] * last, sense * omega_end);
-    const Pack turn = choose(turns, bracketed_root<N + 1>(y.omega, sense, zero, last, guess, turns), last);
-    const Pack theta_turn = y.at(y.theta, turn), low_turn = side * theta_turn;
-    const PackMask dips = turns & (low_turn <= zero), rises = sense == side;
-    const PackMask falls = (side * theta_end <= zero) | dips;
-    const Pack from = choose(turns & rises, turn, zero), to = choose(dips, turn, last);
-    const Pack fall = last * first_zero(side * y.theta[0], side * y.omega[0] * last, side * theta_end);
-    const Pack part = choose(falls, bracketed_root<N + 1>(y.theta, side, from, to, fall, falls), last);
+    const Pack side = lanes.side, last = lanes.last;
+    lanes.sense = choose((side * y.omega[0] > zero) | (y.omega[0] == zero), side, zero - side);
+    lanes.turns = lanes.sense * lanes.omega_end < zero;
+    const Pack guess =
+        last * first_zero(lanes.sense * y.omega[0], lanes.sense * y.omega[1] * last, lanes.sense * lanes.omega_end);
+    return {y.omega, lanes.sense, zero, last, guess, lanes.turns};
+  }
 
-    const RockEnd end{y.at(y.omega, part), y.at(y.rx, part), y.at(y.ry, part), a + rate * part};
-    const Pack theta = y.at(y.theta, part);
-    const Pack left4 = left2 * left2, seen = gathered(r_.force2) * left4;
-    const Pack force2 =
-        watch_force(y, gathered(r_.weight) * left2, gravity, push, a, rate, end, part, seen, true) / left4;
-    const Pack highest = xsimd::max(side * y.theta[0], choose(turns & rises, low_turn, side * theta));
+  // The impact.
+  static Bracket fall(Aside& lanes, const Pack& turn) {
+    const Pack zero(0.0), side = lanes.side, last = lanes.last;
+    const RockSeries<N>& y = lanes.y;
+    const PackMask dips = lanes.turns & (side * y.at(y.theta, turn) <= zero), rises = lanes.sense == side;
+    lanes.falls = (side * lanes.theta_end <= zero) | dips;
+    const Pack from = choose(lanes.turns & rises, turn, zero), to = choose(dips, turn, last);
+    const Pack guess = last * first_zero(side * y.theta[0], side * y.omega[0] * last, side * lanes.theta_end);
+    return {y.theta, side, from, to, guess, lanes.falls};
+  }
+
+  // `part`: how far the lanes go.
+  void settle_all(const Aside& lanes, const Pack& turn, const Pack& part) {
+    const RockSeries<N>& y = lanes.y;
+    const Pack side = lanes.side;
+    const RockEnd end{y.at(y.omega, part), y.at(y.rx, part), y.at(y.ry, part), lanes.a + lanes.rate * part};
+    const Pack theta = y.at(y.theta, part), low_turn = side * y.at(y.theta, turn);
+    alignas(64) double seen[pack_lanes], weights[pack_lanes];
+    for (int l = 0; l < pack_lanes; ++l) {
+      seen[l] = r_.force2[lanes.slots[l]];
+      weights[l] = r_.weight[lanes.slots[l]];
+    }
+    const Pack left4 = lanes.left2 * lanes.left2;
+    const Pack force2 = watch_force(y, load(weights) * lanes.left2, lanes.gravity, lanes.push, lanes.a, lanes.rate, end,
+                                    part, load(seen) * left4, true) /
+                        left4;
+    const PackMask rises = lanes.sense == side;
+    const Pack highest = xsimd::max(side * y.theta[0], choose(lanes.turns & rises, low_turn, side * theta));
 
     Ends ends;
     store(ends.theta, theta);
-    store(ends.omega, end.omega / left);
+    store(ends.omega, end.omega / lanes.left);
     store(ends.rx, end.rx);
     store(ends.ry, end.ry);
     store(ends.part, part);
     store(ends.a, end.a);
     store(ends.force2, force2);
     store(ends.highest, highest);
-    const unsigned hits = bits(falls);
-    for (int l = 0; l < count; ++l) settle(slots[l], ends, l, hits >> l & 1U);
+    const unsigned hits = bits(lanes.falls);
+    for (int l = 0; l < lanes.count; ++l) settle(lanes.slots[l], ends, l, hits >> l & 1U);
   }
 
   struct Ends {

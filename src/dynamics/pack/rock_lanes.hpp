@@ -13,7 +13,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-constexpr int rock_slots = 64;
+constexpr int rock_slots = 128;
 constexpr int still_knots = 16384;
 alignas(64) const double still_floor[still_knots] = {};  // the floor after the record
 
@@ -51,6 +51,8 @@ class RockLanes {
     } left{}, right{};
     double kept = 0, hop_here = 0;  // of the side on which it stands
     int events = 0, impacts = 0;
+    double dying = 0;    // no row of hops dies out within `look` intervals that starts faster than this, per interval
+    int restless = -1;   // up to this knot the floor pushes too hard for hops to die out
     bool after = false;  // the record is over
   };
 
@@ -77,6 +79,7 @@ class RockLanes {
       Lane& lane = lanes_[i];
       lane = Lane{
           .sample = &c, .number = number, .left = side_of(c, -c.left, c.right), .right = side_of(c, c.right, -c.left)};
+      lane.dying = dying_rate(c, larger(1 - lane.left.kept, 1 - lane.right.kept));
       r_.peak[i] = r_.force2[i] = 0;
       r_.weight[i] = c.scale * c.table->step_s * c.table->step_s;
       if (c.scale == 0) {
@@ -299,35 +302,47 @@ class RockLanes {
     if (!leave_rest(i, knot(i), 1 - r_.left[i])) refill(i);
   }
 
+  static constexpr int look = 16;  // intervals
+
+  static double dying_rate(const BatchCase& c, double most_lost) {
+    const double arm = c.left < c.right ? c.left : c.right, longer = c.left < c.right ? c.right : c.left;
+    const double h = c.table->step_s, slowing = arm * c.g / (c.k2 + c.h * c.h + longer * longer);
+    return 0.25 * (look - 1) * h * h * slowing * most_lost * (1 + 1e-9);
+  }
+
   // The hops that follow end before the floor could make one larger: then they are counted, and the block rests.
   bool dies_out(int i) {
     Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
-    constexpr int look = 16;  // intervals
+    if (magnitude(r_.omega[i]) > lane.dying) return false;
+    const int m = knot(i);
+    if (lane.hop_here * r_.omega[i] * r_.omega[i] >= c.told_rotation || (!lane.after && m <= lane.restless))
+      return false;
     const double h = c.table->step_s, omega = magnitude(r_.omega[i]) / h;
     const double arm = c.left < c.right ? c.left : c.right, longer = c.left < c.right ? c.right : c.left;
     const double small = c.k2 + c.h * c.h + arm * arm, large = c.k2 + c.h * c.h + longer * longer;
-    if (2 * omega * large > look * h * arm * c.g) return false;
-    const int m = knot(i);
     const double push = lane.after ? 0.0 : magnitude(c.scale) * bound_between(*c.table, m, m + 1 + look);
-    const double slow = (arm * c.g - c.h * push) / large;
-    if (!(slow > 0.1 * arm * c.g / large)) return false;
-    // Within one hop the field changes by a factor of 1 + change at most, and with it the squared rate.
+    const auto slowing = [&](double a) { return (arm * c.g - c.h * a) / large; };
+    const auto too_hard = [&](double a) { return !(slowing(a) > 0.1 * arm * c.g / large); };
+    if (too_hard(push)) {
+      int run = (m + look) / table_run;
+      while (!too_hard(magnitude(c.scale) * c.table->run_peak[static_cast<std::size_t>(run)])) --run;
+      lane.restless = run * table_run + table_run - 1;
+      return false;
+    }
+    const double slow = slowing(push);
     const double kept = 0.5 * (1 + lane.kept);
-    double jump = 0;
-    if (!lane.after)
-      for (int j = m; j <= m + look; ++j) jump = larger(jump, c.table->margin[static_cast<std::size_t>(j)] * (8 / h));
-    const double change = magnitude(c.scale) * jump * c.h / small * 2 * omega / (h * slow * slow);
-    if (lane.kept * lane.kept * (1 + change) > kept * kept) return false;
     if (2 * omega > (look - 1) * h * slow * (1 - kept)) return false;
     const double rotation = omega * omega / (2 * slow);
-    if (rotation > r_.peak[i] || rotation > 0.001 * arm / c.h ||
-        lane.hop_here * r_.omega[i] * r_.omega[i] >= c.told_rotation)
-      return false;
+    if (rotation > r_.peak[i] || rotation > 0.001 * arm / c.h) return false;
     const double fast = (longer * c.g + c.h * push) / small;
     const double fx = push * magnitude(1 - c.h * c.h / large) + c.h * longer * c.g / small + 2 * c.h * omega * omega;
     const double fy = longer * fast + 2 * c.h * omega * omega;
     if ((fx * fx + fy * fy) * (h * h * h * h) > r_.force2[i]) return false;
+    // Within one hop the field changes by a factor of 1 + change at most, and with it the squared rate.
+    const double jump = lane.after ? 0.0 : largest(c.table->margin.data() + m, look + 1) * (8 / h);
+    const double change = magnitude(c.scale) * jump * c.h / small * 2 * omega / (h * slow * slow);
+    if (lane.kept * lane.kept * (1 + change) > kept * kept) return false;
     lane.events += hops_to_rest(i);
     return true;
   }

@@ -52,28 +52,52 @@ struct RockSeries {
   }
 };
 
-// Root in [lo, hi] of the polynomial c of order M, positive at lo (times sign) and not so at hi: Newton's method from x,
+// Root in [lo, hi] of the polynomial c of order M, positive at lo (times sign) and not so at hi: Halley's method from x,
 // kept in the bracket, in the lanes of `open`.
-template <int M>
-Pack bracketed_root(const Pack* c, const Pack& sign, Pack lo, Pack hi, Pack x, PackMask open) {
-  x = xsimd::min(xsimd::max(x, lo), hi);
-  for (int round = 0; round < 12 && bits(open); ++round) {
-    Pack value = c[M], slope(0.0);
+struct Bracket {
+  const Pack* c;
+  Pack sign, lo, hi, x;
+  PackMask open;
+
+  template <int M>
+  [[gnu::always_inline]] void narrow() {
+    Pack value = c[M], slope(0.0), bend(0.0);  // bend: half the second derivative
 #pragma GCC unroll 16
     for (int k = M - 1; k >= 0; --k) {
+      bend = bend * x + slope;
       slope = slope * x + value;
       value = value * x + c[k];
     }
     const PackMask above = sign * value > Pack(0.0);
     lo = choose(above, x, lo);
     hi = choose(above, hi, x);
-    const Pack newton = x - value / slope;
-    const Pack next = choose((newton >= lo) & (newton <= hi), newton, Pack(0.5) * (lo + hi));
-    const PackMask settled = xsimd::abs(next - x) <= Pack(1e-9);  // and the step after this one is within round-off
+    const Pack halley = x - value * slope / (slope * slope - value * bend);
+    const Pack next = choose((halley >= lo) & (halley <= hi), halley, Pack(0.5) * (lo + hi));
+    const PackMask settled = xsimd::abs(next - x) <= Pack(1e-6);  // and the step after this one is within round-off
     x = choose(open, next, x);
     open = open & ~settled;
   }
-  return x;
+};
+
+// Several packs side by side: where each operation waits for the one before, the packs fill each other's gaps.
+template <int M, int count>
+void narrow_all(Bracket (&roots)[count]) {
+#pragma GCC unroll 2
+  for (Bracket& root : roots) root.x = xsimd::min(xsimd::max(root.x, root.lo), root.hi);
+  for (int round = 0; round < 12; ++round) {
+    unsigned open = 0;
+    for (const Bracket& root : roots) open |= bits(root.open);
+    if (!open) return;
+#pragma GCC unroll 2
+    for (Bracket& root : roots) root.template narrow<M>();
+  }
+}
+
+template <int M>
+Pack bracketed_root(const Pack* c, const Pack& sign, const Pack& lo, const Pack& hi, const Pack& x, PackMask open) {
+  Bracket one[] = {{c, sign, lo, hi, x, open}};
+  narrow_all<M>(one);
+  return one[0].x;
 }
 
 // First zero on (0, 1] of the parabola from `start`, with `slope` there, to `end` at 1; the second where it starts at 0.
@@ -82,6 +106,23 @@ inline Pack first_zero(const Pack& start, const Pack& slope, const Pack& end) {
   const Pack root = xsimd::sqrt(xsimd::max(slope * slope - Pack(4.0) * bend * start, zero));
   const PackMask rises = slope > zero;
   return choose(rises, slope + root, Pack(2.0) * start) / choose(rises, Pack(-2.0) * bend, root - slope);
+}
+
+// Where the angular velocity, of one sign at the start and the other at the end, is zero: to about 1e-9, so that the
+// rotation there is exact.
+template <int N>
+Pack turning_point(const RockSeries<N>& y, const Pack& omega_end) {
+  const Pack one(1.0), zero(0.0), sense = choose(y.omega[0] > zero, one, zero - one);
+  const Pack x = xsimd::min(first_zero(sense * y.omega[0], sense * y.omega[1], sense * omega_end), one);
+  Pack value = y.omega[N + 1], slope(0.0), bend(0.0);
+#pragma GCC unroll 16
+  for (int k = N; k >= 0; --k) {
+    bend = bend * x + slope;
+    slope = slope * x + value;
+    value = value * x + y.omega[k];
+  }
+  const Pack next = x - value * slope / (slope * slope - value * bend);
+  return xsimd::min(xsimd::max(next, zero), one);
 }
 
 // May the angular velocity change its sign and change it back?

@@ -10,6 +10,17 @@ namespace {
 inline double larger(double a, double b) { return a < b ? b : a; }
 inline double magnitude(double x) { return x < 0 ? -x : x; }
 
+// Largest of p[0 ... n - 1], n >= 8.
+inline double largest(const double* p, int n) {
+  Pack most = load_any(p + n - pack_lanes);
+  for (int i = 0; i + pack_lanes < n; i += pack_lanes) most = xsimd::max(most, load_any(p + i));
+  alignas(64) double values[pack_lanes];
+  store(values, most);
+  double all = values[0];
+  for (int i = 1; i < pack_lanes; ++i) all = larger(all, values[i]);
+  return all;
+}
+
 // Bit i: |p[i]| > limit, i = 0 ... 7.
 inline unsigned greater_8(const double* p, const Pack& limit) {
   unsigned found = 0;
