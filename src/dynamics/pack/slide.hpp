@@ -179,6 +179,8 @@ class SlidePool {
   void set_stop(int i, int j) {
     r_.stop[i] = lanes_[i].sample->table->columns.data() + static_cast<std::size_t>(j) * table_columns;
     r_.stop_m[i] = j;
+    __builtin_prefetch(r_.stop[i] - table_columns);
+    __builtin_prefetch(r_.stop[i] + table_columns);
   }
 
   // The ends of the slips: in the interval before the knot that was found, or after it.
