@@ -44,8 +44,10 @@ Laws::Laws(const Specimen& specimen) {
   combine(&Effect::force, force, sum);
   combine(&Effect::moment, moment, sum);
   forces_end = tape.size();
+  tape.begin_section();
   combine(&Effect::friction, friction, [](Value a, Value b) { return a * b; });
   friction_end = tape.size();
+  tape.begin_section();
 
   int state = 0;
   for (std::size_t i = 0; i < specimen.effects.size(); ++i) {

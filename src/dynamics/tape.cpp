@@ -7,6 +7,7 @@ Tape::Tape() {
 }
 
 Value Tape::append(Op op, int a, int b, double value, double shift) {
+  if (const int same = find(op, a, b, value, shift); same >= 0) return {this, same};
   const bool kink = op == Op::abs || op == Op::positive || op == Op::step || op == Op::latch;
   if (size_ == max_nodes || (kink && kink_count_ == max_kinks)) {
     overflow_ = true;
@@ -23,8 +24,18 @@ Value Tape::append(Op op, int a, int b, double value, double shift) {
   return {this, node};
 }
 
+int Tape::find(Op op, int a, int b, double value, double shift) const {
+  const bool unary = op != Op::add && op != Op::subtract && op != Op::multiply && op != Op::divide;
+  for (int i = section_; i < size_; ++i) {
+    const Node& node = nodes_[at(i)];
+    if (node.op == op && node.a == a && (unary || node.b == b) && node.value == value && node.shift == shift) return i;
+  }
+  return -1;
+}
+
 // The two need each other's lower coefficients, so both are recorded.
 Value Tape::append_circular(Op op, int a) {
+  if (const int same = find(op, a, 0, 0, 0); same >= 0) return {this, same};
   const int first = size_;
   append(Op::sin, a, first + 1);
   append(Op::cos, a, first);

@@ -77,7 +77,9 @@ class Tape {
  public:
   Value input(Input which, int offset = 0) { return {this, static_cast<int>(which) + offset}; }
   Value constant(double value) { return append(Op::constant, 0, 0, value); }
+  // What is there already in this section is not recorded again: one kink, then, for a law that two hooks use.
   Value append(Op op, int a, int b, double value = 0, double shift = 0);
+  void begin_section() { section_ = size_; }
   // factor * x + shift; of constants and of other such values, again one node.
   Value affine(Value x, double factor, double shift);
   const Node* node(Value x) const { return x.node < input_count ? nullptr : &nodes_[at(x.node)]; }
@@ -100,12 +102,13 @@ class Tape {
   void advance(int from, int to, int k, std::uint32_t sides, Series<double, N>* values) const;
 
  private:
+  int find(Op op, int a, int b, double value, double shift) const;  // -1: none
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
   std::array<Node, max_nodes> nodes_;
   std::array<std::uint32_t, max_nodes> depends_;
   std::array<std::int16_t, max_kinks> kinks_;
-  int size_ = input_count;
+  int size_ = input_count, section_ = input_count;
   int kink_count_ = 0;
   bool overflow_ = false;
 

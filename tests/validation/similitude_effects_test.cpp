@@ -54,7 +54,7 @@ void compare(const Pair& pair, Spread& spread) {
   ++spread.runs;
   spread.bits += same_bits(both);
   spread.worst = std::max(spread.worst, off);
-  EXPECT_LT(off, 1e-10) << pair.text << text_of(both);
+  EXPECT_LT(off, 1e-9) << pair.text << text_of(both);
   EXPECT_EQ(both.large.events, both.small.events) << pair.text << text_of(both);
 }
 

@@ -85,6 +85,7 @@ TEST_P(Similitude, QuarterScaleGivesTheSameAnswer) {
     worst = std::max(worst, off);
     bits += same_bits(both);
     EXPECT_TRUE(same_bits(both) || off < GetParam().tolerance) << number << ' ' << pair.text << text_of(both);
+    EXPECT_NE(both.large.outcome, Outcome::step_limit) << number << ' ' << pair.text;
     moved += both.large.outcome == Outcome::moved;
     overturned += both.large.outcome == Outcome::overturned;
     failed += both.large.connection_failed;
