@@ -145,7 +145,14 @@ def svg(fig):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         fig.savefig(buffer, format="svg", dpi=RASTER_DPI, metadata={"Date": None, "Creator": None})
-    return buffer.getvalue()
+    return _clips_by_number(buffer.getvalue())
+
+
+def _clips_by_number(text):
+    """Matplotlib names some clip paths after addresses in memory: the same picture would be another file each time."""
+    for number, name in enumerate(re.findall(r'<clipPath id="([^"]+)"', text)):
+        text = text.replace(f'"{name}"', f'"clip{number}"').replace(f"#{name})", f"#clip{number})")
+    return text
 
 
 def inline_svg(text, prefix, label):
