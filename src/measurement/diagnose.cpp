@@ -102,9 +102,11 @@ class Diagnoser {
 
   std::vector<Values> starts_of(const dynamics::Effect& effect, const ModelSpec& model) const {
     auto starts = starts_anywhere(model, options_.effort.screened_per_number / 2);
+    const std::size_t own = effect.parameters.size();
     auto ends = vantage_points(out_.base.fit);
+    for (Values& x : starts_from({ends.front()}, model, 48 * own)) starts.push_back(std::move(x));
     ends.erase(ends.begin());
-    for (Values& x : starts_from(ends, model, 16 * effect.parameters.size())) starts.push_back(std::move(x));
+    for (Values& x : starts_from(ends, model, 16 * own)) starts.push_back(std::move(x));
     starts.push_back(start_at_nothing(out_.base.fit, effect));
     return starts;
   }
@@ -136,7 +138,7 @@ class Diagnoser {
       rest.push_back(gaining.back());
       gaining.pop_back();
     }
-    polish(bench_, gaining, options_.effort, 0.05, jobs_);
+    refine(bench_, gaining, options_.effort, jobs_);
     leave_out(bench_, gaining, options_.effort, jobs_);
     evaluate(bench_, rest, jobs_);
   }

@@ -164,6 +164,21 @@ void polish(const Bench& bench, std::vector<ModelFit*> fits, const Effort& effor
   }
 }
 
+void refine(const Bench& bench, std::vector<ModelFit*> fits, const Effort& effort, const Jobs& jobs) {
+  constexpr int most_rounds = 4;
+  constexpr double gain = 0.02;
+  for (int round = 0; round < most_rounds && !fits.empty(); ++round) {
+    std::vector<double> before;
+    for (const ModelFit* fit : fits) before.push_back(fit->score);
+    polish(bench, fits, effort, 0.05, jobs);
+    if (round > 0) polish(bench, fits, effort, 0.2, jobs);
+    std::vector<ModelFit*> moving;
+    for (std::size_t i = 0; i < fits.size(); ++i)
+      if (fits[i]->score < before[i] - gain) moving.push_back(fits[i]);
+    fits = std::move(moving);
+  }
+}
+
 void leave_out(const Bench& bench, std::vector<ModelFit*> fits, const Effort& effort, const Jobs& jobs) {
   evaluate(bench, fits, jobs);
   const auto tests = tests_of(bench.data(), Role::calibration);

@@ -61,6 +61,10 @@ std::vector<ModelFit> fit_models(const Bench&, const std::vector<FitTask>&, cons
 // One more descent for each, from where it stands, with a simplex of edge `step`.
 void polish(const Bench&, std::vector<ModelFit*>, const Effort&, double step, const Jobs&);
 
+// Descents with wide and narrow simplices in turn, until neither lowers a fit's score any more (bent valleys of several
+// numbers hold one simplex up).
+void refine(const Bench&, std::vector<ModelFit*>, const Effort&, const Jobs&);
+
 // Fits with each fold left out; fills fold_x, left_out, intervals.
 void leave_out(const Bench&, std::vector<ModelFit*>, const Effort&, const Jobs&);
 

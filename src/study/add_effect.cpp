@@ -138,7 +138,7 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   effort.starts = 6;
   auto fits = fit_models(*after->bench, {{.model = starting(*before, base, *after)}}, effort, jobs);
   polish(*after->bench, {&fits[0]}, effort, 0.15, jobs);
-  polish(*after->bench, {&fits[0]}, effort, 0.05, jobs);
+  refine(*after->bench, {&fits[0]}, effort, jobs);
   leave_out(*after->bench, {&fits[0]}, effort, jobs);
 
   std::vector<LadderStep> ladder = before->validation.ladder;
