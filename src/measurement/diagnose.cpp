@@ -103,11 +103,11 @@ class Diagnoser {
   std::vector<Values> starts_of(const dynamics::Effect& effect, const ModelSpec& model) const {
     auto starts = starts_anywhere(model, options_.effort.screened_per_number / 2);
     const std::size_t own = effect.parameters.size();
-    auto ends = vantage_points(out_.base.fit);
-    for (Values& x : starts_from({ends.front()}, model, 48 * own)) starts.push_back(std::move(x));
-    ends.erase(ends.begin());
+    const ModelFit& base = out_.base.fit;
+    const auto ends = at_the_ends(base.model, base.x, base.x.size());
+    for (Values& x : starts_from({base.x}, model, 48 * own)) starts.push_back(std::move(x));
     for (Values& x : starts_from(ends, model, 16 * own)) starts.push_back(std::move(x));
-    starts.push_back(start_at_nothing(out_.base.fit, effect));
+    starts.push_back(start_at_nothing(base, effect));
     return starts;
   }
 
@@ -116,8 +116,8 @@ class Diagnoser {
     for (const auto* effect : catalogue_)
       if (goes_with(base_, *effect) && !allowed(*effect)) names.push_back(effect->name);
     if (!names.empty())
-      out_.sentences.push_back(fmt::format("not tried, since they have more numbers than so few tests can fix: {}",
-                                           fmt::join(names, ", ")));
+      out_.sentences.push_back(
+          fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
   }
 
   // More numbers than tests: nothing could be left out.
@@ -220,11 +220,7 @@ class Diagnoser {
       const auto from = pair.fit.x.begin() + static_cast<long>(base + skip);
       x.insert(x.end(), from, from + static_cast<long>(own));
       tasks.push_back({.model = c.fit.model, .starts = {c.fit.x, x}, .screened = false});
-      for (std::size_t i = 0; i < base; ++i)
-        for (const double end : {c.fit.model.free[i].upper, c.fit.model.free[i].lower}) {
-          tasks.back().starts.push_back(x);
-          tasks.back().starts.back()[i] = end;
-        }
+      for (Values& end : at_the_ends(c.fit.model, x, base)) tasks.back().starts.push_back(std::move(end));
       singles.push_back(&c);
     }
     auto fits = fit_models(bench_, tasks, options_.effort, jobs_);

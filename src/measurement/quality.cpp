@@ -132,12 +132,10 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   const double dt = bench.test(tests.front()).dt_s;
   const int most = std::max(1, static_cast<int>(still_seconds / dt));
   std::vector<int> lags;
-  for (int late = -most; late <= most; late += std::max(1, most / 15)) lags.push_back(late);
+  for (int late = -most; late <= most && !settled; late += std::max(1, most / 15)) lags.push_back(late);
   bool rotates = false;
   for (const std::size_t i : tests)
     rotates |= greatest(bench.test(i).rotation_rad) > 8 * bench.noise(Channel::rotation);
-
-  if (settled) lags.clear();
 
   // Cases: slip mirrored, rotation mirrored, then the lags.
   const auto scores = jobs("signs and times of the channels", 2 + lags.size(), [&](std::size_t i) {

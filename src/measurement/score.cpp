@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/units.hpp"
 #include "measurement/placements.hpp"
 
 namespace freestand::measurement {
@@ -59,7 +60,7 @@ std::vector<PeakPair> peak_pairs(const Bench& bench, const Test& test, const Res
   add(p.peak_slip_m, r.peak_slip_m, bench.noise(Channel::slip));
   add(p.residual_slip_m, r.residual_slip_m, bench.noise(Channel::slip));
   add(p.peak_rotation_rad, r.peak_rotation_rad, bench.noise(Channel::rotation));
-  constexpr double g = 9.80665;
+  constexpr double g = standard_gravity_mps2;
   add(p.peak_acceleration_g, r.peak_acceleration_mps2 / g, bench.noise(Channel::block_acceleration) / g);
   return pairs;
 }

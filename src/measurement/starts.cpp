@@ -17,13 +17,19 @@ Values joined(Values x, const Values& own) {
 
 }  // namespace
 
-std::vector<Values> vantage_points(const ModelFit& fit) {
-  std::vector<Values> points = {fit.x};
-  for (std::size_t i = 0; i < fit.x.size(); ++i)
-    for (const double end : {fit.model.free[i].upper, fit.model.free[i].lower}) {
-      points.push_back(fit.x);
+std::vector<Values> at_the_ends(const ModelSpec& model, const Values& x, std::size_t numbers) {
+  std::vector<Values> points;
+  for (std::size_t i = 0; i < numbers; ++i)
+    for (const double end : {model.free[i].upper, model.free[i].lower}) {
+      points.push_back(x);
       points.back()[i] = end;
     }
+  return points;
+}
+
+std::vector<Values> vantage_points(const ModelFit& fit) {
+  std::vector<Values> points = at_the_ends(fit.model, fit.x, fit.x.size());
+  points.insert(points.begin(), fit.x);
   return points;
 }
 

@@ -7,8 +7,10 @@
 
 namespace freestand::measurement {
 
-// The fit's numbers, and these again with each of them in turn at either end of its range (friction at its upper end:
-// nothing slips).
+// x with each of its first `numbers` in turn at either end of its range (friction at its upper end: nothing slips).
+std::vector<Values> at_the_ends(const ModelSpec&, const Values& x, std::size_t numbers);
+
+// The fit's numbers, and these at the ends.
 std::vector<Values> vantage_points(const ModelFit&);
 
 // Of a model that ends in the numbers of one more effect: each of the vantage points of the fit without it, with the

@@ -17,12 +17,9 @@ namespace {
 
 using namespace measurement;
 
-std::string number(double value) { return fmt::format("{}", value); }
-
 YAML::Node range_node(double lower, double upper) {
   YAML::Node node(YAML::NodeType::Map);
-  node["calibrate"].push_back(number(lower));
-  node["calibrate"].push_back(number(upper));
+  for (const double end : {lower, upper}) node["calibrate"].push_back(fmt::format("{}", end));
   node.SetStyle(YAML::EmitterStyle::Flow);
   return node;
 }
