@@ -46,6 +46,14 @@ class HistoryRecorder {
     });
   }
 
+  // A block at rest for the time tau to come.
+  template <int N>
+  void rest(const State& state, const Floor<double, N>& floor, double start, double tau) {
+    each_point(start, tau, [&](double t) {
+      return HistoryPoint{start + t, floor.a.at(t) - rig_.push, state.xi, 0.0, state.theta, 0.0, state.mode};
+    });
+  }
+
   // The last state, held to the end of the motion: what rests, or has fallen, stays.
   void hold(const State& state, double slip, double end, const Shaking& shaking) {
     if (!wanted()) return;

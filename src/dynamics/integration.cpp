@@ -55,14 +55,15 @@ Rig::AtRest Integration::laws_at_rest() const {
 void Integration::wait() {
   const Rig::AtRest rest = laws_at_rest();
   const auto quiet = [&](FloorCursor::Bound bound) {
-    return !recorder.wanted() && !peaks.may_exceed(bound.a, bound.v) && rig.stays_put(bound.a, bound.v, rest);
+    return !peaks.may_exceed(bound.a, bound.v) && rig.stays_put(bound.a, bound.v, rest);
   };
   while (!cursor.motion_over()) {
-    if (cursor.run_starts_here() && quiet(cursor.run_bound())) {
+    if (!recorder.wanted() && cursor.run_starts_here() && quiet(cursor.run_bound())) {
       cursor.next_run();
       continue;
     }
     if (quiet(cursor.segment_bound())) {
+      if (recorder.wanted()) recorder.rest(state, cursor.local<wait_order>(), cursor.time(), cursor.left());
       cursor.next_segment();
       continue;
     }

@@ -29,7 +29,7 @@ void go_to(State& state, const LawArc<N>& arc, double tau) {
   state.path = arc.path.at(tau);
   state.deflection = arc.deflection.at(tau);
   state.foot = state.sigma == 0 ? 0.0 : arc.foot.at(tau);
-  for (int i = 0; i < max_states; ++i) state.states[i] = arc.states[i].at(tau);
+  for (int i = 0; i < arc.state_count; ++i) state.states[i] = arc.states[i].at(tau);
 }
 
 template <int N>
@@ -45,7 +45,7 @@ void go_to(State& state, const Flight<double, N>& flight, double tau) {
 template <int N>
 void go_to(State& state, const LawFlight<N>& flight, double tau) {
   go_to(state, static_cast<const Flight<double, N>&>(flight), tau);
-  for (int i = 0; i < max_states; ++i) state.states[i] = flight.states[i].at(tau);
+  for (int i = 0; i < flight.state_count; ++i) state.states[i] = flight.states[i].at(tau);
 }
 
 class Integration {

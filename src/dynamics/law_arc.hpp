@@ -25,7 +25,8 @@ struct LawArc : Arc<double, N> {
   Series<double, N> foot;                     // slip speed of the contact [m/s]
   Series<double, N> path;                     // [m]
   Series<double, N> deflection;               // of the legs [m]
-  Series<double, N> states[max_states];
+  Series<double, N> states[max_states];       // of the effects' own: `state_count` of them
+  int state_count;
   Series<double, N> kink[max_kinks];  // arguments, positive on the present side
 };
 
@@ -37,13 +38,14 @@ class LawStep {
         laws_(*rig.laws),
         state_(state),
         floor_(floor),
-        pivot_(state.pivot == 0 ? 1 : state.pivot),
+        turns_(state.pivot != 0),
+        pivot_(turns_ ? state.pivot : 1),
         body_(rig.corner(pivot_)),
         legs_(laws_.legs.frequency_radps > 0) {
     start_arc(y_, body_, state.theta, state.omega, state.xi, state.w);
     y_.path[0] = state.path;
     y_.deflection[0] = state.deflection;
-    for (int i = 0; i < max_states; ++i) y_.states[i] = Series<double, N>::zero();
+    y_.state_count = laws_.states;
     for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[0] = state.states[i];
     for (int k = 0; k <= N; ++k) {
       value(Input::t)[k] = k == 0 ? time : k == 1 ? 1.0 : 0.0;
@@ -55,7 +57,7 @@ class LawStep {
     if (laws_.friction < 0) factor_[0] = 1;
   }
 
-  LawArc<N> run() {
+  const LawArc<N>& run() {
     for (int k = 0; k < N; ++k) {
       kinematics(k);
       laws_.tape.advance(input_count, laws_.forces_end, k, state_.sides, values_);
@@ -72,13 +74,13 @@ class LawStep {
   Series<double, N>& value(Input input, int offset = 0) { return values_[static_cast<int>(input) + offset]; }
 
   void kinematics(int k) {
-    omega2_[k] = product(y_.omega, y_.omega, k);
-    y_.n[k] = floor_.g[k] - product(y_.ry, omega2_, k);
+    omega2_[k] = turns_ ? product(y_.omega, y_.omega, k) : 0.0;
+    y_.n[k] = turns_ ? floor_.g[k] - product(y_.ry, omega2_, k) : floor_.g[k];
     y_.d[k] = 0;
     Series<double, N>&u = value(Input::u), &v = value(Input::v);
     u[k] = y_.xi[k];
     v[k] = y_.w[k];
-    if (state_.pivot != 0) {
+    if (turns_) {
       const double c = body_.c, h = body_.h, to_angle = 1 / (h * h + c * c), B = state_.pivot * rig_.half_base();
       sine_[k] = (h * y_.rx[k] + c * y_.ry[k]) * to_angle;
       const double half = std::sin(0.5 * state_.theta);
@@ -102,7 +104,7 @@ class LawStep {
   void stuck(int k) {
     const double M = laws_.carried_mass;
     const double leg_force = legs_ ? -(square(W()) * y_.deflection[k] + 2 * z() * W() * y_.w[k]) : 0.0;
-    if (state_.pivot == 0) {
+    if (!turns_) {
       y_.alpha[k] = 0;
     } else {
       const double moved = legs_ ? 0 : M;
@@ -111,7 +113,7 @@ class LawStep {
       load_[k] = legs_ ? leg_force : M * (floor_.a[k] - product(y_.rx, omega2_, k)) - force_[k];
       y_.alpha[k] = quotient(product(y_.rx, y_.n, k) - product(y_.ry, ax0, k) + y_.moment[k], inertia_, k);
     }
-    y_.fy[k] = y_.n[k] - (state_.pivot == 0 ? 0.0 : product(y_.rx, y_.alpha, k));
+    y_.fy[k] = y_.n[k] - (turns_ ? product(y_.rx, y_.alpha, k) : 0.0);
     y_.fx[k] = legs_ ? leg_force : M * own_acceleration(k) - force_[k];
     y_.ax[k] = (y_.fx[k] + force_[k]) / M;
     acceleration_ = legs_ ? y_.ax[k] - own_acceleration(k) : 0.0;
@@ -122,7 +124,7 @@ class LawStep {
 
   // Acceleration of the centre of mass, the floor's included, that is not w'.
   double own_acceleration(int k) const {
-    if (state_.pivot == 0) return floor_.a[k];
+    if (!turns_) return floor_.a[k];
     return product(y_.ry, y_.alpha, k) - product(y_.rx, omega2_, k) + floor_.a[k];
   }
 
@@ -140,7 +142,7 @@ class LawStep {
   // Contact forces and theta'' for the factor F whose coefficient k is in factor_.
   void apply_factor(int k) {
     const double sigma_mu = state_.sigma * rig_.mu_k;
-    if (state_.pivot == 0) {
+    if (!turns_) {
       y_.alpha[k] = 0;
       y_.fy[k] = y_.n[k];
     } else {
@@ -191,8 +193,10 @@ class LawStep {
       value(Input::state, i)[k + 1] = values_[laws_.rate[static_cast<std::size_t>(i)]][k] * over;
     y_.path[k + 1] = state_.sigma * y_.foot[k] * over;
     y_.deflection[k + 1] = deflection_rate_ * over;
-    integrate_coefficient(y_, acceleration_, k);
-    if (state_.pivot == 0) y_.theta[k + 1] = y_.omega[k + 1] = y_.rx[k + 1] = y_.ry[k + 1] = 0;
+    if (turns_) return integrate_coefficient(y_, acceleration_, k);
+    y_.theta[k + 1] = y_.omega[k + 1] = y_.rx[k + 1] = y_.ry[k + 1] = 0;
+    y_.xi[k + 1] = y_.w[k] * over;
+    y_.w[k + 1] = acceleration_ * over;
   }
 
   void finish() {
@@ -234,6 +238,7 @@ class LawStep {
   const Laws& laws_;
   const State& state_;
   const Floor<double, N>& floor_;
+  bool turns_;  // on one corner
   int pivot_;
   Corner<double> body_;
   bool legs_;

@@ -11,6 +11,7 @@ namespace freestand::dynamics {
 template <int N>
 struct LawFlight : Flight<double, N> {
   Series<double, N> states[max_states];
+  int state_count;
   Series<double, N> kink[max_kinks];
 };
 
@@ -78,8 +79,8 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
   }
   f.gap_right = turning_gap(f, rig.right, h);
   f.gap_left = turning_gap(f, -rig.left, h);
-  for (int i = 0; i < max_states; ++i)
-    f.states[i] = i < laws.states ? value(Input::state, i) : Series<double, N>::zero();
+  f.state_count = laws.states;
+  for (int i = 0; i < laws.states; ++i) f.states[i] = value(Input::state, i);
   for (int j = 0; j < laws.tape.kink_count(); ++j) {
     const double side = state.sides >> j & 1U ? -1.0 : 1.0;
     f.kink[j] = scaled(side, values[laws.tape.kink_argument(j)]);

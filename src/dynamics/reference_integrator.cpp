@@ -313,11 +313,11 @@ class ReferenceIntegrator {
   static void law_rates(const LawArc<2>& arc, double* d) {
     d[0] = arc.path[1];
     d[1] = arc.deflection[1];
-    for (int i = 0; i < max_states; ++i) d[2 + i] = arc.states[i][1];
+    for (int i = 0; i < max_states; ++i) d[2 + i] = i < arc.state_count ? arc.states[i][1] : 0.0;
   }
   static void law_rates(const LawFlight<2>& flight, double* d) {
     d[0] = d[1] = 0;
-    for (int i = 0; i < max_states; ++i) d[2 + i] = flight.states[i][1];
+    for (int i = 0; i < max_states; ++i) d[2 + i] = i < flight.state_count ? flight.states[i][1] : 0.0;
   }
 
   static int roots(double tau, N_Vector y, double* g, void* self) {

@@ -67,7 +67,8 @@ class TaylorIntegrator {
     State end = before;
     go_to(end, arc, tau);
     const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
-    const LawArc<1> fresh = LawStep<1>(life_.rig, end, life_.cursor.time() + tau, there).run();
+    LawStep<1> there_on(life_.rig, end, life_.cursor.time() + tau, there);
+    const LawArc<1>& fresh = there_on.run();
     const double slip = std::abs(fresh.w[1] - derivative(arc.w).at(tau)) / (p_ * size_);
     const double turn = std::abs(fresh.omega[1] - derivative(arc.omega).at(tau)) / (p_ * alpha_);
     return std::max(slip, turn) * tau / life_.settings.tolerance;
@@ -104,24 +105,29 @@ class TaylorIntegrator {
   // less in the state.
   template <int M>
   double local_error(const Arc<double, M>& arc) const {
-    const double pN = std::pow(p_, M);
     return std::max({std::abs(arc.theta[M]) / alpha_, std::abs(arc.omega[M]) / (p_ * alpha_),
                      std::abs(arc.xi[M]) / size_, std::abs(arc.w[M]) / (p_ * size_)}) /
-           pN;
+           power<M>(p_);
   }
 
   double local_error(const LawArc<N>& arc) const {
-    const double pN = std::pow(p_, N);
     double states = std::max(std::abs(arc.path[N]), std::abs(arc.deflection[N])) / size_;
     for (std::size_t i = 0; i < static_cast<std::size_t>(life_.rig.laws->states); ++i)
       states = std::max(states,
                         std::abs(arc.states[i][N]) / (life_.rig.laws->relative_velocity[i] ? p_ * size_ : size_));
-    return std::max(local_error(static_cast<const Arc<double, N>&>(arc)), states / pN);
+    return std::max(local_error(static_cast<const Arc<double, N>&>(arc)), states / power<N>(p_));
+  }
+
+  template <int M>
+  static double power(double x) {
+    double result = x;
+    for (int i = 1; i < M; ++i) result *= x;
+    return result;
   }
 
   double step(double error_at_1p) const {
     double h = std::min(life_.left(), 1.0 / p_);
-    if (error_at_1p * std::pow(p_ * h, N) > life_.settings.tolerance)
+    if (error_at_1p * power<N>(p_ * h) > life_.settings.tolerance)
       h = std::pow(life_.settings.tolerance / error_at_1p, 1.0 / N) / p_;
     return h;
   }

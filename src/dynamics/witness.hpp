@@ -145,8 +145,9 @@ Arc<double, N> contact_arc(const Rig& rig, const State& state, const Floor<doubl
 // Calls use(arc) with the series of the state's mode, with laws or without.
 template <int N, class Use>
 auto with_contact_arc(const Rig& rig, const State& state, double time, const Floor<double, N>& floor, Use&& use) {
-  if (rig.laws) return use(LawStep<N>(rig, state, time, floor).run());
-  return use(contact_arc<N>(rig, state, floor));
+  if (!rig.laws) return use(contact_arc<N>(rig, state, floor));
+  LawStep<N> step(rig, state, time, floor);
+  return use(step.run());
 }
 
 // Slip speed of the contact.
