@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <deque>
+#include <optional>
 #include <vector>
 
 #include "base/units.hpp"
@@ -48,6 +50,7 @@ const BatchKernels* pick() {
 }
 
 constexpr double least_tolerance = 1e-10;
+constexpr double endless_base = 1e6;  // half of it, times the height: a block that only slides
 
 bool covered_bouc_wen(const Setup& setup, const Settings& settings, BatchCase& c) {
   const auto& [specimen, shaking, floor] = setup;
@@ -63,15 +66,16 @@ bool covered_bouc_wen(const Setup& setup, const Settings& settings, BatchCase& c
   return c.contact.kappa == 0 && c.table->step_s * ringing < 500;
 }
 
-// False: no kernel covers it.
-bool covered(const Setup& setup, const Settings& settings, BatchCase& c) {
+// False: no kernel covers it. `law`: of friction, where it has one.
+bool covered(const Setup& setup, const Settings& settings, BatchCase& c, std::optional<SpeedLaw>& law) {
   const auto& [specimen, shaking, floor] = setup;
-  if (has_laws(specimen) || !shaking.motion || !shaking.motion->table || shaking.stretch != 1) return false;
+  if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1) return false;
+  if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = speed_law(Laws(specimen))))) return false;
   if (floor.push_mps2 != 0 || (shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty())) return false;
   if (settings.tolerance < least_tolerance || settings.event_limit < 10000) return false;
   if (specimen.model == Model::bouc_wen) return covered_bouc_wen(setup, settings, c);
   if (!admissible(setup, settings)) return false;
-  if (specimen.model == Model::slide) {
+  if (specimen.model == Model::slide && !law) {
     c.table = shaking.motion->table.get();
     c.scale = shaking.scale;
     c.mu_s = specimen.friction.mu_s;
@@ -97,6 +101,8 @@ bool covered(const Setup& setup, const Settings& settings, BatchCase& c) {
        settings.free_vibration_s,
        {},
        settings.tolerance};
+  if (specimen.model == Model::slide) c.left = c.right = endless_base * c.h;
+  if (law) c.mu_s *= friction_factor(*law, 0);
   return true;
 }
 
@@ -109,31 +115,31 @@ double step_in_own_time(const BatchCase& c) {
 }
 
 // Null: one by one.
-BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, const BatchCase& c) {
-  if (specimen.model == Model::slide) return kernels.slide;
+BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, const BatchCase& c, bool law) {
+  if (specimen.model == Model::slide) return law ? kernels.slide_rock_by_speed : kernels.slide;
   if (specimen.model == Model::bouc_wen) return kernels.bouc_wen;
   if (specimen.model != Model::rock && specimen.model != Model::slide_rock) return nullptr;
   const double step = step_in_own_time(c);
   if (!(step < coarse_step)) return nullptr;
   if (specimen.model == Model::rock) return step < fine_step ? kernels.rock : kernels.rock_coarse;
+  if (law) return step < fine_step ? kernels.slide_rock_by_speed : kernels.slide_rock_by_speed_coarse;
   return step < fine_step ? kernels.slide_rock : kernels.slide_rock_coarse;
 }
 
 struct Queue {
   BatchKernel kernel = nullptr;
   std::vector<BatchCase> cases = {};
+  std::deque<SpeedLaw> laws = {};    // of the cases, one each or none at all
   std::vector<std::size_t> at = {};  // which sample each is
 };
 
 class Queues {
  public:
-  void add(BatchKernel kernel, const BatchCase& c, std::size_t sample) {
-    Queue* queue = nullptr;
-    for (Queue& other : queues_)
-      if (other.kernel == kernel) queue = &other;
-    if (!queue) queue = &queues_.emplace_back(Queue{kernel});
-    queue->cases.push_back(c);
-    queue->at.push_back(sample);
+  void add(BatchKernel kernel, const BatchCase& c, const std::optional<SpeedLaw>& law, std::size_t sample) {
+    Queue& queue = find(kernel, law);
+    queue.cases.push_back(c);
+    queue.at.push_back(sample);
+    if (law) queue.cases.back().law = &queue.laws.emplace_back(*law);
   }
 
   // Samples that a kernel declined are added to `single`. The queues are empty then.
@@ -149,12 +155,20 @@ class Queues {
         else
           responses[queue.at[i]] = answers_[i];
       queue.cases.clear();
+      queue.laws.clear();
       queue.at.clear();
     }
   }
 
  private:
-  std::vector<Queue> queues_;
+  // The queue of those that go through the kernel together.
+  Queue& find(BatchKernel kernel, const std::optional<SpeedLaw>& law) {
+    for (Queue& queue : queues_)
+      if (queue.kernel == kernel && (!law || queue.laws.empty() || same_shape(queue.laws.front(), *law))) return queue;
+    return queues_.emplace_back(Queue{kernel});
+  }
+
+  std::deque<Queue> queues_;  // which stay where they are, as cases point to laws
   std::vector<Response> answers_;
   std::vector<std::uint8_t> declined_;
 };
@@ -191,9 +205,10 @@ void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking>
     for (const std::size_t place : order) {
       const std::size_t i = first + place;
       BatchCase c{};
-      const bool packs = kernels && covered(set_up(specimens[i], shakings[i]), settings, c);
-      if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c) : nullptr)
-        queues.add(kernel, c, i);
+      std::optional<SpeedLaw> law;
+      const bool packs = kernels && covered(set_up(specimens[i], shakings[i]), settings, c, law);
+      if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c, law.has_value()) : nullptr)
+        queues.add(kernel, c, law, i);
       else
         single.push_back(i);
     }

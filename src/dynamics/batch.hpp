@@ -9,10 +9,11 @@
 
 #include "base/motion_table.hpp"
 #include "dynamics/bouc_wen_contact.hpp"
+#include "dynamics/speed_law.hpp"
 
 namespace freestand::dynamics {
 
-// One sample as the kernels read it. Constant friction, no vertical shaking, no dynamic effects, level floor.
+// One sample as the kernels read it. No vertical shaking, level floor, and of dynamic effects at most friction by speed.
 struct BatchCase {
   const MotionTable* table;
   double scale;               // of the record
@@ -22,6 +23,7 @@ struct BatchCase {
   double rest_rotation, told_rotation, free_vibration_s;
   BoucWenContact contact;  // model bouc_wen
   double tolerance;
+  const SpeedLaw* law;  // of friction; null: it is constant
 };
 
 // Computes `count` samples; sets declined[i] where sample i needs the text for single samples.
@@ -32,7 +34,9 @@ struct BatchKernels {
   BatchKernel slide;
   BatchKernel rock, rock_coarse, slide_rock,
       slide_rock_coarse;  // steps short against the block's own time, and longer ones
-  BatchKernel bouc_wen;   // with kappa = 0
+  // Friction follows the slip speed; all cases of a call have laws of one shape.
+  BatchKernel slide_rock_by_speed, slide_rock_by_speed_coarse;
+  BatchKernel bouc_wen;  // with kappa = 0
 };
 
 }  // namespace freestand::dynamics

@@ -86,7 +86,8 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     f.kink[j] = scaled(side, values[laws.tape.kink_argument(j)]);
     f.kink[j][N] = 0;
     if (state.turned_kink == j) f.kink[j][0] = 0;
-    if (laws.tape.latched(j, state.sides) || laws.tape.kink_node(j) >= laws.forces_end) f.kink[j] = Series<double, N>::zero();  // no friction in flight
+    if (laws.tape.latched(j, state.sides) || laws.tape.kink_node(j) >= laws.forces_end)
+      f.kink[j] = Series<double, N>::zero();  // no friction in flight
   }
   return f;
 }

@@ -113,8 +113,8 @@ class TaylorIntegrator {
   double local_error(const LawArc<N>& arc) const {
     double states = std::max(std::abs(arc.path[N]), std::abs(arc.deflection[N])) / size_;
     for (std::size_t i = 0; i < static_cast<std::size_t>(life_.rig.laws->states); ++i)
-      states = std::max(states,
-                        std::abs(arc.states[i][N]) / (life_.rig.laws->relative_velocity[i] ? p_ * size_ : size_));
+      states =
+          std::max(states, std::abs(arc.states[i][N]) / (life_.rig.laws->relative_velocity[i] ? p_ * size_ : size_));
     return std::max(local_error(static_cast<const Arc<double, N>&>(arc)), states / power<N>(p_));
   }
 

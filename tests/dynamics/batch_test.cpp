@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/units.hpp"
+#include "dynamics/effect.hpp"
 #include "support/keyed_random.hpp"
 #include "support/random_cases.hpp"
 
@@ -46,6 +47,22 @@ Samples random_block(Model model, std::uint64_t seed, std::size_t samples, bool 
     block.shakings.back().scale *= 1 + 0.01 * static_cast<double>(i % 7);
   }
   return block;
+}
+
+// Friction that follows the speed, in two shapes that come in turns; it falls, or it rises.
+const dynamics::Effect exponential{.name = "exponential", .friction = [](const dynamics::At& at, const auto& p) {
+                                     return 1.0 - p[0] * (1.0 - exp(-at.speed / p[1]));
+                                   }};
+const dynamics::Effect rational{.name = "rational", .friction = [](const dynamics::At& at, const auto& p) {
+                                  return (p[1] + (1 - p[0]) * at.speed) / (p[1] + at.speed);
+                                }};
+
+void add_speed_laws(Samples& block) {
+  for (std::size_t i = 0; i < block.specimens.size(); ++i) {
+    KeyedRandom random(171, i);
+    const double drop = random.uniform(-0.3, 0.6), speed = random.log_uniform(0.02, 0.5);
+    block.specimens[i].effects = {{i % 3 == 0 ? &rational : &exponential, {drop, speed}}};
+  }
 }
 
 std::vector<Response> compute(const Samples& block) {
@@ -134,10 +151,19 @@ class Isa {
   Isa& operator=(const Isa&) = delete;
 };
 
-class Batch : public testing::TestWithParam<Model> {
+struct Kind {
+  std::string name;
+  Model model;
+  bool by_speed = false;
+};
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
+
+class Batch : public testing::TestWithParam<Kind> {
  protected:
   Samples block(std::size_t samples) const {
-    return random_block(GetParam(), 40 + static_cast<std::uint64_t>(GetParam()), samples);
+    Samples all = random_block(GetParam().model, 40 + static_cast<std::uint64_t>(GetParam().model), samples);
+    if (GetParam().by_speed) add_speed_laws(all);
+    return all;
   }
 };
 
@@ -203,10 +229,11 @@ TEST_P(Batch, MirrorsWithTheShaking) {
   EXPECT_EQ(wrong, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Models, Batch, testing::Values(Model::slide, Model::rock, Model::slide_rock), [](const auto& info) {
-      return std::string(info.param == Model::slide ? "Slide" : info.param == Model::rock ? "Rock" : "SlideRock");
-    });
+INSTANTIATE_TEST_SUITE_P(Kinds, Batch,
+                         testing::Values(Kind{"Slide", Model::slide}, Kind{"Rock", Model::rock},
+                                         Kind{"SlideRock", Model::slide_rock}, Kind{"SlideBySpeed", Model::slide, true},
+                                         Kind{"SlideRockBySpeed", Model::slide_rock, true}),
+                         [](const auto& info) { return info.param.name; });
 
 // Low friction, many hops that die out slowly.
 TEST(BatchOfSlenderBlocks, AgreesWithSingleSamples) {

@@ -4,6 +4,16 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
+// 1 - cos(theta) without loss for small theta, to 1e-15 for |theta| <= 1.6.
+template <class Real>
+Real versine(const Real& theta) {
+  const Real square = theta * theta;
+  Real sum(1.0);
+#pragma GCC unroll 16
+  for (int k = 10; k >= 2; --k) sum = Real(1.0) - square * Real(1.0 / (2 * k * (2 * k - 1))) * sum;
+  return Real(0.5) * square * sum;
+}
+
 // Series over the part of an interval that lies ahead, in x = time/hs: rates times hs, accelerations times hs^2.
 template <int N, class Real = double>
 struct CornerSeries {
@@ -33,13 +43,17 @@ struct CornerSeries {
       integrate(k, alpha, Real(0.0));
     }
   }
-  // sigma_mu = sigma mu_k; gravity, a0, a1 times hs^2.
-  void slide_rock(const Real& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu) {
-    Real omega2[N + 1], q[N + 1], n[N + 1], d[N + 1], alpha[N + 1], per_d(1.0);
+  // sigma_mu = sigma mu_k; gravity, a0, a1 times hs^2. to_speed = sigma/hs makes w the speed |w| that the factor F on
+  // friction may ask for (dynamics/pack/friction.hpp).
+  template <class Factor>
+  void slide_rock(const Real& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu,
+                  const Real& to_speed, Factor& factor) {
+    Real omega2[N + 1], q[N + 1], n[N + 1], d[N + 1], alpha[N + 1], fy[N + 1], per_d(1.0);
 #pragma GCC unroll 16
     for (int k = 0; k <= N; ++k) {
+      factor.advance(k, to_speed * w[k]);
       omega2[k] = product(omega, omega, k);
-      q[k] = rx[k] + sigma_mu * ry[k];
+      q[k] = rx[k] + sigma_mu * factor.times(ry, k);
       n[k] = k == 0 ? gravity - product(ry, omega2, k) : Real(0.0) - product(ry, omega2, k);
       d[k] = product(rx, q, k);
       if (k == 0) d[k] = d[k] + k2, per_d = Real(1.0) / d[k];
@@ -47,8 +61,8 @@ struct CornerSeries {
 #pragma GCC unroll 16
       for (int i = 1; i <= k; ++i) numerator = numerator - d[i] * alpha[k - i];
       alpha[k] = numerator * per_d;
-      const Real fy = n[k] - product(rx, alpha, k);
-      Real slip = product(rx, omega2, k) - sigma_mu * fy - product(ry, alpha, k);
+      fy[k] = n[k] - product(rx, alpha, k);
+      Real slip = product(rx, omega2, k) - sigma_mu * factor.times(fy, k) - product(ry, alpha, k);
       if (k < 2) slip = slip - (k == 0 ? a0 : a1);
       integrate(k, alpha[k], slip);
     }

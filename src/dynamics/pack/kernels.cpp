@@ -8,7 +8,14 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 
 extern const BatchKernels kernels;
-const BatchKernels kernels{FREESTAND_ISA_NAME,    slide_samples,         rock_samples<5>, rock_samples<8>,
-                           slide_rock_samples<5>, slide_rock_samples<8>, bouc_wen_samples};
+const BatchKernels kernels{FREESTAND_ISA_NAME,
+                           slide_samples,
+                           rock_samples<5>,
+                           rock_samples<8>,
+                           slide_rock_samples<5>,
+                           slide_rock_samples<8>,
+                           slide_rock_samples<5, 8, BySpeed>,
+                           slide_rock_samples<8, 8, BySpeed>,
+                           bouc_wen_samples};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA

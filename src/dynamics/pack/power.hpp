@@ -17,6 +17,18 @@ inline Pack as_double(const PackBits& x) { return xsimd::bitwise_cast<Pack>(x); 
 constexpr std::uint64_t root_half_bits = 0x3fe6a09e667f3bcdULL;  // sqrt(1/2)
 constexpr double integer_shift = 6755399441055744.0;             // 1.5 * 2^52: adding it rounds to an integer
 
+// 2^y, -1000 < y < 1000.
+inline Pack power_of_two(const Pack& y) {
+  const Pack shifted = y + Pack(integer_shift);
+  const Pack f = (y - (shifted - Pack(integer_shift))) * Pack(0.69314718055994531);
+  const Pack f2 = f * f, f4 = f2 * f2;
+  const Pack e0 = (Pack(1.0) + f) + f2 * (Pack(1.0 / 2) + f * Pack(1.0 / 6));
+  const Pack e1 = (Pack(1.0 / 24) + f * Pack(1.0 / 120)) + f2 * (Pack(1.0 / 720) + f * Pack(1.0 / 5040));
+  const Pack e2 = (Pack(1.0 / 40320) + f * Pack(1.0 / 362880)) + f2 * (Pack(1.0 / 3628800) + f * Pack(1.0 / 39916800));
+  const Pack e = e0 + f4 * (e1 + f4 * e2);
+  return as_double(as_bits(e) + (as_bits(shifted) << 52));
+}
+
 inline Pack power_of(const Pack& x, const Pack& n) {
   // 1000 is added to the exponent so that it stays positive, and taken away as a double.
   const PackBits offset = as_bits(x) - PackBits(root_half_bits) + PackBits(1000ULL << 52);
@@ -27,16 +39,13 @@ inline Pack power_of(const Pack& x, const Pack& n) {
   constexpr double c = 2.8853900817779268;  // 2/ln 2
   const Pack low = (Pack(c) + Pack(c / 3) * t2) + t4 * (Pack(c / 5) + Pack(c / 7) * t2);
   const Pack high = (Pack(c / 9) + Pack(c / 11) * t2) + t4 * (Pack(c / 13) + Pack(c / 15) * t2);
-  const Pack y = xsimd::max(n * (k + t * (low + t4 * t4 * high)), Pack(-960.0));
+  return power_of_two(xsimd::max(n * (k + t * (low + t4 * t4 * high)), Pack(-960.0)));
+}
 
-  const Pack shifted = y + Pack(integer_shift);
-  const Pack f = (y - (shifted - Pack(integer_shift))) * Pack(0.69314718055994531);
-  const Pack f2 = f * f, f4 = f2 * f2;
-  const Pack e0 = (Pack(1.0) + f) + f2 * (Pack(1.0 / 2) + f * Pack(1.0 / 6));
-  const Pack e1 = (Pack(1.0 / 24) + f * Pack(1.0 / 120)) + f2 * (Pack(1.0 / 720) + f * Pack(1.0 / 5040));
-  const Pack e2 = (Pack(1.0 / 40320) + f * Pack(1.0 / 362880)) + f2 * (Pack(1.0 / 3628800) + f * Pack(1.0 / 39916800));
-  const Pack e = e0 + f4 * (e1 + f4 * e2);
-  return as_double(as_bits(e) + (as_bits(shifted) << 52));
+// e^x, to a few 1e-16 times 1 + |x|; below x = -660 it comes out as about 1e-287.
+inline Pack exponential_of(const Pack& x) {
+  constexpr double per_ln2 = 1.4426950408889634;
+  return power_of_two(xsimd::min(xsimd::max(x * Pack(per_ln2), Pack(-960.0)), Pack(960.0)));
 }
 
 inline double power_of_one(double x, double n) {

@@ -10,15 +10,15 @@
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/corner_series.hpp"
 #include "dynamics/pack/polynomial_root.hpp"
-#include "dynamics/pack/slide_rock_life.hpp"
+#include "dynamics/pack/slide_rock_sliding.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 template <int N>
-class SlideRock : public SlideRockLife {
+class SlideRock : public SlideRockSliding {
  public:
-  using SlideRockLife::SlideRockLife;
+  using SlideRockSliding::SlideRockSliding;
 
   void begin() {
     a_ = floor_at(0);
@@ -26,7 +26,7 @@ class SlideRock : public SlideRockLife {
       event();
       choose_flat();
     }
-    if (!marches() && !slips()) go_on();
+    if (!in_a_group()) go_on();
   }
 
   // Strikes the floor after a part x of what is left of the interval, with a rate per interval.
@@ -42,16 +42,18 @@ class SlideRock : public SlideRockLife {
   // Back from the hops, at rest or not.
   void settle() {
     if (mode_ == Mode::rest) choose_flat();
-    while (!ended() && !marches() && !slips()) step();
+    while (!ended() && !in_a_group()) step();
   }
 
   // Step by step, one at least, until the packs can take it, or to its end.
   void go_on() {
     do step();
-    while (!ended() && !marches() && !slips());
+    while (!ended() && !in_a_group());
   }
 
  private:
+  bool in_a_group() const { return marches() || slips() || slides(); }
+
   void step() {
     switch (mode_) {
       case Mode::rest:
@@ -76,16 +78,16 @@ class SlideRock : public SlideRockLife {
     y.ry[0] = ry_;
     y.xi[0] = xi_;
     y.w[0] = w_ * hs;
-    const Forces begin = forces(rx_, ry_, omega_, a_);
+    const Forces begin = forces(rx_, ry_, omega_, a_, w_);
     if (!(begin.fy > 0)) return decline();
     if (slips) {
-      y.slide_rock(c_.g * hs2, a_ * hs2, (a1 - a_) * hs2, c_.k2, sigma_ * c_.mu_k);
+      slide_rock(y, hs, a1);
     } else {
       const double over = hs2 / (c_.k2 + rx_ * rx_ + ry_ * ry_);
       y.rock(c_.g * over, a_ * over, (a1 - a_) * over);
     }
     // Which comes first?
-    const double reach = valid_part(y);
+    const double reach = valid_part(y.omega[N + 1], y.w[N + 1], N + 1);
     double x = reach;
     Cause cause = Cause::none;
     double p[N + 2];
@@ -141,10 +143,15 @@ class SlideRock : public SlideRockLife {
     }
   }
 
-  // Part of the step in which the terms left out are below about 1e-11.
-  double valid_part(const CornerSeries<N>& y) const {
-    const double last = larger(magnitude(y.omega[N + 1]), magnitude(y.w[N + 1]) / c_.h);
-    return last < 3e-11 ? 1 : larger(0.05, std::pow(3e-11 / last, 1.0 / (N + 1)));
+  void slide_rock(CornerSeries<N>& y, double hs, double a1) const {
+    const double hs2 = hs * hs, sigma_mu = sigma_ * c_.mu_k;
+    if (c_.law) {
+      OwnFactor<N> factor(*c_.law, {*c_.law});
+      y.slide_rock(c_.g * hs2, a_ * hs2, (a1 - a_) * hs2, c_.k2, sigma_mu, sigma_ / hs, factor);
+    } else {
+      NoFactor none;
+      y.slide_rock(c_.g * hs2, a_ * hs2, (a1 - a_) * hs2, c_.k2, sigma_mu, 0.0, none);
+    }
   }
 
   enum class Cause { none, impact, stop, grip };
@@ -199,27 +206,29 @@ class SlideRock : public SlideRockLife {
     return hi;
   }
 
+  Forces forces_at(const CornerSeries<N>& y, double x, double hs, double a1) const {
+    return forces(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, a_ + (a1 - a_) * x, value(y.w, x) / hs);
+  }
+
   void watch(const CornerSeries<N>& y, double x, double hs, double a1, const Forces& begin) {
     const double theta = value(y.theta, x), omega = value(y.omega, x), rx = value(y.rx, x), ry = value(y.ry, x);
-    const Forces end = forces(rx, ry, omega / hs, a_ + (a1 - a_) * x);
+    const Forces end = forces_at(y, x, hs, a1);
     if (!(end.fy > 0)) return decline();
     feel(begin.fx, begin.fy);
     feel(end.fx, end.fy);
-    // Displacement of the midpoint: u = xi + s B (1 - cos theta), cos theta = (h r_y - c r_x)/(h^2 + c^2).
+    // Displacement of the midpoint: u = xi + s B (1 - cos theta).
     const double c = arm(side_), lever = side_ * half_base_ / (c_.h * c_.h + c * c);
-    const auto slip = [&](double at) {
-      return value(y.xi, at) + side_ * half_base_ - lever * (c_.h * value(y.ry, at) - c * value(y.rx, at));
-    };
+    const auto slip = [&](double at) { return value(y.xi, at) + side_ * half_base_ * versine(value(y.theta, at)); };
     if (y.omega[0] * omega < 0) {
       const double top = sign_change<N + 1>(y.omega, x);
       see_rotation(value(y.theta, top));
       see_slip(slip(top));
-      const Forces f = forces(value(y.rx, top), value(y.ry, top), 0.0, a_ + (a1 - a_) * top);
+      const Forces f = forces_at(y, top, hs, a1);
       feel(f.fx, f.fy);
     }
     feel_top(y, x, hs, a1, begin, end);
     see_rotation(theta);
-    const double u = value(y.xi, x) + side_ * half_base_ - lever * (c_.h * ry - c * rx);
+    const double u = slip(x);
     see_slip(u);
     // u' = w + s B sin(theta) omega, sin theta = (h r_x + c r_y)/(h^2 + c^2).
     const double before = y.w[0] + lever * (c_.h * rx_ + c * ry_) * y.omega[0];
@@ -236,12 +245,9 @@ class SlideRock : public SlideRockLife {
     const auto square = [&](const Forces& f) { return f.fx * f.fx + (f.fy - c_.g) * (f.fy - c_.g); };
     const double first = square(begin), last = square(end), more = 0.01 * (first + last);
     if (larger(first, last) + more < force2_) return;
-    const auto at = [&](double part) {
-      return forces(value(y.rx, part), value(y.ry, part), value(y.omega, part) / hs, a_ + (a1 - a_) * part);
-    };
     double middle = 0.5 * x;
     for (int round = 0; round < 3; ++round) {
-      const double here = square(at(middle));
+      const double here = square(forces_at(y, middle, hs, a1));
       force2_ = larger(force2_, here);
       // Top of the parabola through both ends and the point between.
       const double left = (here - first) / middle, right = (last - here) / (x - middle), bend = (right - left) / x;
@@ -257,7 +263,7 @@ class SlideRock : public SlideRockLife {
       const double middle = 0.5 * (lo + hi);
       (side_ * value(y.theta, middle) < 0.5 * pi ? lo : hi) = middle;
     }
-    watch(y, hi, hs, a1, forces(rx_, ry_, omega_, a_));
+    watch(y, hi, hs, a1, forces(rx_, ry_, omega_, a_, w_));
     theta_ = side_ * 0.5 * pi;
     peak_rotation_ = 0.5 * pi;
     const double xi = value(y.xi, hi);

@@ -57,7 +57,7 @@ class SlideRockLane {
     r.room[i] = room_ = larger(peak_slip_ - s * xi_, 0);
     r.turned[i] = peak_rotation_;
     r.look[i] = smaller(peak_rotation_, std::sqrt(2 * room_ / half_base_));
-    enter_midpoint(r, i);
+    r.half_base[i] = half_base_;
     r.bend0[i] = ground.bend0;
     r.bend1[i] = ground.bend1;
     r.bend2[i] = ground.bend2;
@@ -65,7 +65,8 @@ class SlideRockLane {
   }
 
   // Slide-rocking.
-  void enter(SlipRows& r, int i) {
+  template <class Friction>
+  void enter(SlipRows<Friction>& r, int i) {
     const double s = side_, h2 = h_ * h_;
     r.theta[i] = s * theta_;
     r.omega[i] = s * omega_ * h_;
@@ -84,6 +85,7 @@ class SlideRockLane {
     r.look[i] = peak_rotation_;
     r.peak[i] = peak_slip_;
     r.seen[i] = force2_ * (h2 * h2);
+    r.law.enter(i, c_);
   }
 
   // Back from the packs.
@@ -92,7 +94,8 @@ class SlideRockLane {
     if (r.room[i] > room_) peak_slip_ = larger(peak_slip_, r.room[i] + side_ * xi_);
     leave_rows(r, i);
   }
-  void leave(const SlipRows& r, int i) {
+  template <class Friction>
+  void leave(const SlipRows<Friction>& r, int i) {
     peak_slip_ = larger(peak_slip_, r.peak[i]);
     if (!leave_rows(r, i)) return;
     const double xi = side_ * r.xi[i];
@@ -139,11 +142,17 @@ class SlideRockLane {
   bool leave_rows(const Rows& r, int i) {
     const double s = side_;
     force2_ = larger(force2_, r.seen[i] / (h_ * h_ * h_ * h_));
-    if (r.next[i] == entry_) return false;
+    if (!leave_floor(r, i)) return false;
     theta_ = s * r.theta[i];
     omega_ = s * r.omega[i] / h_;
     rx_ = s * r.rx[i];
     ry_ = r.ry[i];
+    return true;
+  }
+  // False: it has not moved.
+  template <class Rows>
+  bool leave_floor(const Rows& r, int i) {
+    if (r.next[i] == entry_) return false;
     m_ += static_cast<int>(r.next[i] - entry_);
     a_ = m_ < last_ ? floor_at(m_) : 0.0;
     left_ = 1;
@@ -180,17 +189,20 @@ class SlideRockLane {
   double slips_at() const { return c_.mu_s * c_.g; }
   double quiet(double a) const { return smaller(tips_at(a), slips_at()); }
 
+  // Of a slip with velocity w [m/s].
+  double mu_k(double w) const { return c_.law ? c_.mu_k * friction_factor(*c_.law, magnitude(w)) : c_.mu_k; }
+
   Forces rocking(double rx, double ry, double omega, double a) const {
     const double alpha = (rx * c_.g - ry * a) / (c_.k2 + rx * rx + ry * ry);
     return {alpha, 0, ry * alpha - rx * omega * omega + a, c_.g - rx * alpha - ry * omega * omega};
   }
-  Forces slipping(double rx, double ry, double omega, double a) const {
-    const double sm = sigma_ * c_.mu_k, q = rx + sm * ry, n = c_.g - ry * omega * omega, d = c_.k2 + rx * q;
+  Forces slipping(double rx, double ry, double omega, double a, double w) const {
+    const double sm = sigma_ * mu_k(w), q = rx + sm * ry, n = c_.g - ry * omega * omega, d = c_.k2 + rx * q;
     const double alpha = n * q / d, fy = n * c_.k2 / d;
     return {alpha, -sm * fy - a - ry * alpha + rx * omega * omega, -sm * fy, d > 1e-3 * c_.k2 ? fy : -1.0};
   }
-  Forces forces(double rx, double ry, double omega, double a) const {
-    return mode_ == Mode::rock ? rocking(rx, ry, omega, a) : slipping(rx, ry, omega, a);
+  Forces forces(double rx, double ry, double omega, double a, double w) const {
+    return mode_ == Mode::rock ? rocking(rx, ry, omega, a) : slipping(rx, ry, omega, a, w);
   }
 
   // ---- peaks

@@ -15,6 +15,13 @@ class SlideRockLife : public SlideRockHops {
  protected:
   using SlideRockHops::SlideRockHops;
 
+  // Part of a step in which the terms left out by series of this order are small enough; their last ones per size.
+  double valid_part(double omega, double w, int order) const {
+    const double last = larger(magnitude(omega), magnitude(w) / c_.h);
+    const double allowed = c_.law ? neglected_by_laws * left_ : neglected;
+    return last < allowed ? 1 : larger(1e-3, std::pow(allowed / last, 1.0 / (c_.law ? order - 1 : order)));
+  }
+
   // ---- rest
   void rest() {
     const double size = magnitude(c_.scale), least = smaller(smaller(quiet(1), quiet(-1)) / size, 1e300);
@@ -52,8 +59,8 @@ class SlideRockLife : public SlideRockHops {
     feel(c_.scale * (end == t_.knots ? peak_from(t_, m_ + 1) : peak_between(t_, m_ + 1, end)), c_.g);
   }
 
-  // ---- sliding, exact
-  void slide() {
+  // ---- sliding under a constant friction, exact
+  void slide_exactly() {
     if (left_ == 1) slide_past_knots();
     if (declined_) return;
     const double hs = h_ * left_, a1 = next_floor(), friction = c_.mu_k * c_.g;
@@ -112,7 +119,7 @@ class SlideRockLife : public SlideRockHops {
       const int way = w_ > 0 ? 1 : -1;
       mode_ = Mode::slide;
       sigma_ = way;
-      if (c_.mu_k * c_.h > magnitude(arm(way))) {
+      if (mu_k(w_) * c_.h > magnitude(arm(way))) {
         stand(Mode::slide_rock, way);
         sigma_ = way;
       }
@@ -128,7 +135,7 @@ class SlideRockLife : public SlideRockHops {
     stand(Mode::slide, over);
     side_ = 0;
     sigma_ = over;
-    if (c_.mu_k * c_.h > magnitude(arm(over))) {
+    if (mu_k(0) * c_.h > magnitude(arm(over))) {
       stand(Mode::slide_rock, over);
       sigma_ = over;
     }
@@ -171,7 +178,7 @@ class SlideRockLife : public SlideRockHops {
     const double ratio = on(side).kept, rows = 1 / (1 - ratio * on(-side).kept);
     const int sigma = w_ > 0 ? 1 : -1;
     const double arms = magnitude(arm(side)) + ratio * magnitude(arm(-side));
-    const double after = w_ + rows * (2 * c_.h * rate * (1 - ratio) + 2 * sigma * c_.mu_k * arms * magnitude(rate));
+    const double after = w_ + rows * (2 * c_.h * rate * (1 - ratio) + 2 * sigma * mu_k(w_) * arms * magnitude(rate));
     return sigma * after > 0 ? after : 0;
   }
 };

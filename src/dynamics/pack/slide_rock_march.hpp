@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/pack.hpp"
+#include "dynamics/pack/corner_series.hpp"
 #include "dynamics/pack/rock_series.hpp"
 #include "dynamics/pack/slide_rock_group.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
@@ -122,7 +123,7 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
     const Pack guess = first_zero(sense * y.omega[0], sense * y.omega[1], sense * omega);
     const Pack x = bracketed_root<N + 1>(y.omega, sense, zero, one, guess, lanes), theta = y.at(y.theta, x);
     const Pack base = load(r_.half_base + i), turned = load(r_.turned + i), room = load(r_.room + i);
-    const Pack adds = base - (load(r_.lever_y + i) * y.at(y.ry, x) - load(r_.lever_x + i) * y.at(y.rx, x));
+    const Pack adds = base * versine(theta);
     const PackMask seen = lanes & (theta > zero);
     const Pack most = choose(seen, xsimd::max(turned, theta), turned),
                slid = choose(seen, xsimd::max(room, adds), room);

@@ -9,12 +9,14 @@
 #include "dynamics/pack/slide_rock.hpp"
 #include "dynamics/pack/slide_rock_hopping.hpp"
 #include "dynamics/pack/slide_rock_march.hpp"
+#include "dynamics/pack/slide_rock_slides.hpp"
 #include "dynamics/pack/slide_rock_slips.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N>
+// Orders of the steps that rock, and that slip.
+template <int N, int M, class Friction>
 class SlideRockPool {
  public:
   SlideRockPool(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined)
@@ -31,6 +33,8 @@ class SlideRockPool {
         to_end(hops_);
       else if (ready(slips_, marching))
         to_end(slips_);
+      else if (slide(marching))
+        continue;
       else if (!marching)
         return;
       else
@@ -43,6 +47,15 @@ class SlideRockPool {
   template <class Group>
   static bool ready(const Group& group, bool marching) {
     return group.count() >= at_once || (group.count() > 0 && !marching);
+  }
+
+  bool slide(bool marching) {
+    if constexpr (Friction::by_speed) {
+      if (!ready(slides_, marching)) return false;
+      to_end(slides_);
+      return true;
+    }
+    return false;
   }
 
   void march() {
@@ -99,12 +112,14 @@ class SlideRockPool {
 
   // The lane goes on in a group, or with the next sample.
   void settle(int number) {
-    SlideRock<N>& lane = *lanes_[number];
+    SlideRock<M>& lane = *lanes_[number];
     if (lane.ended()) {
       hand_out(number);
       return refill(number);
     }
     if (lane.slips()) return slips_.add(lane, number);
+    if constexpr (Friction::by_speed)
+      if (lane.slides()) return slides_.add(lane, number);
     if (lane.hops()) return hops_.add(lane, number);
     const int free = rocks_.add(lane, number);
     if (free < free_) free_ = free;
@@ -139,16 +154,17 @@ class SlideRockPool {
   std::uint8_t* declined_;
   std::size_t taken_ = 0;
   SlideRockMarch<N> rocks_, strikes_;
-  SlideRockSlips<N> slips_;
+  SlideRockSlips<M, Friction> slips_;
+  SlideRockSlides<slide_order, Friction> slides_;
   SlideRockHopping hops_;
-  std::optional<SlideRock<N>> lanes_[march_slots];
+  std::optional<SlideRock<M>> lanes_[march_slots];
   std::size_t number_[march_slots];  // of the lane's sample
   int free_ = 0;                     // intervals until a record may end
 };
 
-template <int N>
+template <int N, int M = N, class Friction = Coulomb>
 void slide_rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  SlideRockPool<N>(cases, count, responses, declined).run();
+  SlideRockPool<N, M, Friction>(cases, count, responses, declined).run();
 }
 
 }  // namespace

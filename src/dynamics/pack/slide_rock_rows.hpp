@@ -26,7 +26,7 @@ struct SlideRockRows {
   alignas(64) double look[march_slots];                           // no smaller rotation is a new peak, nor its slip
   alignas(64) double seen[march_slots];                           // largest squared acceleration so far
   alignas(64) double turned[march_slots], room[march_slots];      // largest rotation; slip less s xi
-  alignas(64) double half_base[march_slots], lever_x[march_slots], lever_y[march_slots];  // of the midpoint's slip
+  alignas(64) double half_base[march_slots];
   alignas(64) double bend0[march_slots], bend1[march_slots],
       bend2[march_slots];                       // bound of what forces do within an interval
   alignas(64) const double* next[march_slots];  // a at the end of the interval
@@ -37,7 +37,7 @@ struct SlideRockRows {
     omega[i] = rx[i] = ry[i] = a[i] = square[i] = 0;
     gravity[i] = push[i] = weight[i] = bend0[i] = bend1[i] = bend2[i] = 0;
     theta[i] = 0.5;
-    turned[i] = room[i] = lever_x[i] = lever_y[i] = 0;
+    turned[i] = room[i] = 0;
     grip[i] = weight_g[i] = mu[i] = left[i] = half_base[i] = 1;
     look[i] = seen[i] = 1e300;
     next[i] = stop[i] = still_ground;
@@ -51,11 +51,21 @@ struct SlideRockRows {
     look[i] = seen[i] = 1e300;
   }
   auto all() {
-    return std::array{theta, omega, rx,   ry,    a,     left,  grip,   square, gravity,   push,    weight, weight_g,
-                      mu,    look,  seen, bend0, bend1, bend2, turned, room,   half_base, lever_x, lever_y};
+    return std::array{theta,    omega, rx,   ry,   a,     left,  grip,  square, gravity, push,     weight,
+                      weight_g, mu,    look, seen, bend0, bend1, bend2, turned, room,    half_base};
   }
 };
 
+// Two lists of rows, one after the other.
+template <std::size_t A, std::size_t B>
+auto joined(const std::array<double*, A>& a, const std::array<double*, B>& b) {
+  std::array<double*, A + B> all{};
+  for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
+  for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
+  return all;
+}
+
+template <class Friction>
 struct SlipRows {
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double xi[march_slots], w[march_slots];             // of the corner
@@ -69,6 +79,7 @@ struct SlipRows {
   alignas(64) double peak[march_slots], seen[march_slots];  // slip, squared acceleration: largest so far
   alignas(64) const double* next[march_slots];              // a at the end of the interval
   const double* stop[march_slots];                          // the last such value
+  typename Friction::Rows law;
 
   void clear(int i) {
     for (double* row : {theta, omega, rx, xi, w, a, weight, weight_g, friction, half_base, lever_x, lever_y, seen})
@@ -79,8 +90,35 @@ struct SlipRows {
 
   void retire(int i) { seen[i] = 1e300; }
   auto all() {
-    return std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
-                      k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen};
+    return joined(std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
+                             k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen},
+                  law.all());
+  }
+};
+
+// Flat on the floor, not mirrored.
+template <class Friction>
+struct FlatRows {
+  alignas(64) double xi[march_slots], w[march_slots];
+  alignas(64) double a[march_slots];                              // unit record, at the knot
+  alignas(64) double left[march_slots];                           // part of the interval that lies ahead
+  alignas(64) double weight[march_slots], weight_g[march_slots];  // scale h^2, g h^2
+  alignas(64) double size[march_slots];                           // height of the centre
+  alignas(64) double friction[march_slots];                       // sigma mu_k
+  alignas(64) double sigma[march_slots];                          // direction of the slip
+  alignas(64) double tips[march_slots];                           // F above which the block tips
+  alignas(64) double peak[march_slots], seen[march_slots];        // slip, squared acceleration: largest so far
+  alignas(64) const double* next[march_slots];                    // a at the end of the interval
+  const double* stop[march_slots];                                // the last such value
+  typename Friction::Rows law;
+
+  void clear(int i) {
+    for (double* row : all()) row[i] = 1;
+    next[i] = stop[i] = still_ground;
+  }
+  void retire(int i) { seen[i] = 1e300; }
+  auto all() {
+    return joined(std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen}, law.all());
   }
 };
 
@@ -118,7 +156,9 @@ void copy_lane(Rows& rows, int to, Rows& other, int from) {
 }
 
 constexpr double hops_at_once = 16;  // until it is asked whether a row of hops dies out
-constexpr double neglected = 3e-11;  // least term of a series that counts
+// Least last term of a series that counts. The series of laws may converge slowly; what they neglect is a speed, which
+// stays for good, so it is less the shorter the step.
+constexpr double neglected = 3e-11, neglected_by_laws = 3e-13;  // least term of a series that counts
 
 }  // namespace
 }  // namespace freestand::dynamics::FREESTAND_ISA

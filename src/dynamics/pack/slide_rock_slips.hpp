@@ -10,8 +10,11 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N>
-class SlideRockSlips : public SlideRockGroup<SlipRows> {
+template <int N, class Friction>
+class SlideRockSlips : public SlideRockGroup<SlipRows<Friction>> {
+  using Group = SlideRockGroup<SlipRows<Friction>>;
+  using Group::r_;
+
  public:
   template <class Lane>
   static void release(Lane& lane) {
@@ -20,7 +23,7 @@ class SlideRockSlips : public SlideRockGroup<SlipRows> {
 
   // One interval for every block; bits of the blocks to which something happens, or whose record ends.
   std::uint64_t march() {
-    return each_pack([this](int i, unsigned here) { return march(i, here); });
+    return Group::each_pack([this](int i, unsigned here) { return march(i, here); });
   }
 
  private:
@@ -36,7 +39,9 @@ class SlideRockSlips : public SlideRockGroup<SlipRows> {
     y.w[0] = w0 * left;
     const Pack a = load(r_.a + i), a_next = fetch(r_.next + i), weight = load(r_.weight + i) * left2;
     const Pack gravity = load(r_.weight_g + i) * left2, k2 = load(r_.k2 + i), friction = load(r_.friction + i);
-    y.slide_rock(gravity, weight * a, weight * (a_next - a), k2, friction);
+    const Pack sigma = load(r_.sigma + i), to_speed = r_.law.to_speed(i, sigma, left);
+    typename Friction::template Factor<N> factor(r_.law, i);
+    y.slide_rock(gravity, weight * a, weight * (a_next - a), k2, friction, to_speed, factor);
     const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), rx = y.sum(y.rx), ry = y.sum(y.ry);
     const Pack xi = y.sum(y.xi), w = y.sum(y.w);
 
@@ -46,35 +51,42 @@ class SlideRockSlips : public SlideRockGroup<SlipRows> {
                            ((y.omega[0] * y.omega[1] < zero) & (xsimd::abs(y.omega[1]) > two * xsimd::abs(y.omega[0])));
     const Pack size = load(r_.size + i), last = xsimd::max(xsimd::abs(y.omega[N + 1]) * size, xsimd::abs(y.w[N + 1]));
     PackMask stays = (turns & ((high + reach > load(r_.look + i)) | (low < reach))) | (theta <= zero) |
-                     ~(theta < Pack(1.5)) | ~(last < Pack(neglected) * size);
+                     ~(theta < Pack(1.5)) | ~(last < Friction::neglected(left) * size);
 
     // The slip leaves its chord by its higher terms at most.
-    const Pack sigma = load(r_.sigma + i), bow = xsimd::abs(y.w[2]) + xsimd::abs(y.w[3]) + xsimd::abs(y.w[4]);
+    const Pack bow = xsimd::abs(y.w[2]) + xsimd::abs(y.w[3]) + xsimd::abs(y.w[4]);
     stays = stays | ~(xsimd::min(sigma * y.w[0], sigma * w) > bow);
 
-    // Of the midpoint: u = xi + B - (lever_y r_y - lever_x r_x), u' = w + (lever_y r_x + lever_x r_y) omega.
+    // Of the midpoint: u = xi + B (1 - cos theta), u' = w + (lever_y r_x + lever_x r_y) omega.
     const Pack lever_x = load(r_.lever_x + i), lever_y = load(r_.lever_y + i);
-    const Pack u = xi + load(r_.half_base + i) - (lever_y * ry - lever_x * rx), peak = load(r_.peak + i);
+    const Pack u = xi + load(r_.half_base + i) * versine(theta), peak = load(r_.peak + i);
     const Pack before = y.w[0] + (lever_y * y.rx[0] + lever_x * y.ry[0]) * y.omega[0];
     const Pack after = w + (lever_y * rx + lever_x * ry) * omega, size_u = xsimd::abs(u);
     stays = stays | ((before * after < zero) & (size_u + xsimd::abs(before) + xsimd::abs(after) > peak));
 
-    const Pack q0 = y.rx[0] + friction * y.ry[0], n0 = gravity - y.ry[0] * y.omega[0] * y.omega[0];
-    const Pack q = rx + friction * ry, n = gravity - ry * omega * omega, d0 = k2 + y.rx[0] * q0, d = k2 + rx * q;
+    const Pack mu0 = friction * factor.first(), mu = friction * factor.last();
+    const Pack q0 = y.rx[0] + mu0 * y.ry[0], n0 = gravity - y.ry[0] * y.omega[0] * y.omega[0];
+    const Pack q = rx + mu * ry, n = gravity - ry * omega * omega, d0 = k2 + y.rx[0] * q0, d = k2 + rx * q;
     stays = stays | ~((xsimd::min(n0, n) > zero) & (xsimd::min(d0, d) > Pack(0.05) * k2));
-    const Pack fy0 = n0 * k2 / d0, fy = n * k2 / d, mu2 = friction * friction, seen = load(r_.seen + i);
+    const Pack fy0 = n0 * k2 / d0, fy = n * k2 / d, seen = load(r_.seen + i);
     const Pack lift0 = fy0 - gravity, lift = fy - gravity;
-    const Pack square = xsimd::max(mu2 * fy0 * fy0 + lift0 * lift0, mu2 * fy * fy + lift * lift) / (left2 * left2);
+    const Pack square =
+        xsimd::max(mu0 * mu0 * fy0 * fy0 + lift0 * lift0, mu * mu * fy * fy + lift * lift) / (left2 * left2);
     if (const PackMask feels = square * Pack(1.1) > seen; bits(feels)) {
       // Slope of the squared force at both ends, but for positive factors.
       const auto slope = [&](const Pack& x, const Pack& y1, const Pack& o, const Pack& n1, const Pack& d1,
-                             const Pack& q1, const Pack& f) {
+                             const Pack& q1, const Pack& f, const Pack& m, const Pack& m_rate) {
         const Pack alpha = n1 * q1 / d1, n_rate = x * o * o * o - two * y1 * o * alpha;
-        const Pack d_rate = o * (y1 * q1 + x * (y1 - friction * x));
-        return (n_rate * d1 - n1 * d_rate) * (mu2 * f + f - gravity);
+        Pack d_rate = o * (y1 * q1 + x * (y1 - m * x)), change(0.0);
+        if constexpr (Friction::by_speed) {
+          d_rate = d_rate + x * m_rate * y1;
+          change = m * m_rate * f * f * (d1 * d1 / k2);
+        }
+        return (n_rate * d1 - n1 * d_rate) * (m * m * f + f - gravity) + change;
       };
-      stays = stays | (feels & (slope(y.rx[0], y.ry[0], y.omega[0], n0, d0, q0, fy0) >= zero) &
-                       (slope(rx, ry, omega, n, d, q, fy) <= zero));
+      const Pack rate0 = friction * factor.first_rate(), rate = friction * factor.last_rate();
+      stays = stays | (feels & (slope(y.rx[0], y.ry[0], y.omega[0], n0, d0, q0, fy0, mu0, rate0) >= zero) &
+                       (slope(rx, ry, omega, n, d, q, fy, mu, rate) <= zero));
     }
 
     const Pack per_left = one / left;

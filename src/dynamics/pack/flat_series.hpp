@@ -1,0 +1,36 @@
+// The Taylor series of a block that slides flat under a friction that follows its speed (see dynamics/contact.hpp):
+//     w' = -a - sigma mu_k F(|w|) g
+#pragma once
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+// Over the part of an interval that lies ahead, in x = time/hs: speeds times hs, accelerations times hs^2.
+template <int N, class Real = double>
+struct FlatSeries {
+  Real xi[N + 2], w[N + 2];
+
+  // friction = sigma mu_k g hs^2; to_speed = sigma/hs makes w the speed |w|.
+  template <class Factor>
+  void slide(const Real& friction, const Real& a0, const Real& a1, const Real& to_speed, Factor& factor) {
+#pragma GCC unroll 16
+    for (int k = 0; k <= N; ++k) {
+      factor.advance(k, to_speed * w[k]);
+      Real slip = Real(0.0) - friction * factor.factor()[k];
+      if (k < 2) slip = slip - (k == 0 ? a0 : a1);
+      xi[k + 1] = w[k] * Real(1.0 / (k + 1));
+      w[k + 1] = slip * Real(1.0 / (k + 1));
+    }
+  }
+
+  template <int M>
+  static Real sum(const Real (&c)[M]) {
+    Real total = c[M - 1];
+#pragma GCC unroll 16
+    for (int k = M - 2; k >= 0; --k) total = total + c[k];
+    return total;
+  }
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA

@@ -1,0 +1,182 @@
+// The friction of a slip as its series ask for it: the factor F on mu_k over a step, coefficient by coefficient.
+//
+//   Coulomb  F = 1, and no work
+//   BySpeed  F(|w|), a law of the slip speed (dynamics/speed_law.hpp); all samples of a pool have laws of one shape, and
+//            every lane its own constants
+#pragma once
+
+#include <array>
+
+#include "base/pack.hpp"
+#include "dynamics/batch.hpp"
+#include "dynamics/pack/power.hpp"
+#include "dynamics/pack/slide_rock_rows.hpp"
+#include "dynamics/speed_law.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+struct NoFactor {
+  template <class Real>
+  void advance(int, const Real&) {}
+  template <class Real>
+  static Real times(const Real* y, int k) {
+    return y[k];
+  }
+};
+
+// F of the first N + 1 coefficients of the speed. Constants: value(i) and shift(i) of node i, and exponential(x).
+template <int N, class Real, class Constants>
+class SpeedFactor {
+ public:
+  SpeedFactor(const SpeedLaw& law, const Constants& constants) : law_(law), constants_(constants) {}
+
+  // speed: coefficient k of |w| [m/s]; those before k were given.
+  [[gnu::always_inline]] void advance(int k, const Real& speed) {
+    at_[0][k] = speed;
+    for (int i = 0; i < law_.count; ++i) {
+      const Node& node = law_.nodes[i];
+      const Real *x = at_[node.a], *y = at_[node.b];
+      Real* z = at_[i + 1];
+      switch (node.op) {
+        case Op::constant:
+          z[k] = k == 0 ? constants_.value(i) : Real(0.0);
+          break;
+        case Op::affine:
+          z[k] = constants_.value(i) * x[k];
+          if (k == 0) z[k] = z[k] + constants_.shift(i);
+          break;
+        case Op::add:
+          z[k] = x[k] + y[k];
+          break;
+        case Op::subtract:
+          z[k] = x[k] - y[k];
+          break;
+        case Op::multiply:
+          z[k] = product(x, y, k);
+          break;
+        case Op::divide:
+          z[k] = quotient(x, y, z, k);
+          break;
+        default:
+          z[k] = k == 0 ? constants_.exponential(x[0]) : exponential(x, z, k);
+      }
+    }
+  }
+
+  // Coefficient k of F y.
+  Real times(const Real* y, int k) const { return product(factor(), y, k); }
+  const Real* factor() const { return at_[law_.count]; }
+  Real first() const { return factor()[0]; }
+  Real first_rate() const { return factor()[1]; }
+  Real last() const {
+    Real sum = factor()[N];
+#pragma GCC unroll 16
+    for (int k = N - 1; k >= 0; --k) sum = sum + factor()[k];
+    return sum;
+  }
+  Real last_rate() const {
+    Real sum = Real(double(N)) * factor()[N];
+#pragma GCC unroll 16
+    for (int k = N - 1; k >= 1; --k) sum = sum + Real(double(k)) * factor()[k];
+    return sum;
+  }
+
+ private:
+  static Real product(const Real* a, const Real* b, int k) {
+    Real sum = a[0] * b[k];
+#pragma GCC unroll 16
+    for (int i = 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
+    return sum;
+  }
+  static Real quotient(const Real* x, const Real* y, const Real* z, int k) {
+    Real sum = x[k];
+#pragma GCC unroll 16
+    for (int i = 1; i <= k; ++i) sum = sum - y[i] * z[k - i];
+    return sum / y[0];
+  }
+  static Real exponential(const Real* x, const Real* z, int k) {
+    Real sum = x[1] * z[k - 1];
+#pragma GCC unroll 16
+    for (int i = 2; i <= k; ++i) sum = sum + Real(double(i)) * x[i] * z[k - i];
+    return sum * Real(1.0 / k);
+  }
+
+  const SpeedLaw& law_;
+  const Constants constants_;
+  Real at_[speed_law_nodes + 1][N + 1];
+};
+
+// Of one sample.
+struct OwnConstants {
+  const SpeedLaw& law;
+  double value(int i) const { return law.nodes[i].value; }
+  double shift(int i) const { return law.nodes[i].shift; }
+  static double exponential(double x) { return std::exp(x); }
+};
+template <int N>
+using OwnFactor = SpeedFactor<N, double, OwnConstants>;
+
+struct Coulomb {
+  static constexpr bool by_speed = false;
+  static Pack neglected(const Pack&) { return Pack(FREESTAND_ISA::neglected); }
+
+  struct Rows {
+    void enter(int, const BatchCase&) {}
+    static Pack to_speed(int, const Pack&, const Pack&) { return Pack(0.0); }
+    auto all() { return std::array<double*, 0>{}; }
+  };
+  template <int N>
+  struct Factor : NoFactor {
+    Factor(const Rows&, int) {}
+    static Pack first() { return Pack(1.0); }
+    static Pack last() { return Pack(1.0); }
+    static Pack first_rate() { return Pack(0.0); }
+    static Pack last_rate() { return Pack(0.0); }
+  };
+};
+
+struct BySpeed {
+  static constexpr bool by_speed = true;
+  static Pack neglected(const Pack& left) { return Pack(neglected_by_laws) * left; }
+
+  struct Rows {
+    const SpeedLaw* law = nullptr;
+    alignas(64) double value[speed_law_nodes][march_slots] = {}, shift[speed_law_nodes][march_slots] = {};
+    alignas(64) double per_step[march_slots] = {};  // 1/h
+
+    void enter(int i, const BatchCase& c) {
+      law = c.law;
+      for (int n = 0; n < law->count; ++n) {
+        value[n][i] = law->nodes[n].value;
+        shift[n][i] = law->nodes[n].shift;
+      }
+      per_step[i] = c.table->rate_hz;
+    }
+    // What makes the slip of a step |w|; left: its part of an interval.
+    Pack to_speed(int i, const Pack& sigma, const Pack& left) const { return sigma * load(per_step + i) / left; }
+    auto all() {
+      std::array<double*, 2 * speed_law_nodes + 1> rows;
+      rows[2 * speed_law_nodes] = per_step;
+      for (int n = 0; n < speed_law_nodes; ++n) {
+        rows[static_cast<std::size_t>(n)] = value[n];
+        rows[static_cast<std::size_t>(n + speed_law_nodes)] = shift[n];
+      }
+      return rows;
+    }
+  };
+  struct Constants {
+    const Rows& rows;
+    int lane;
+    Pack value(int i) const { return load(rows.value[i] + lane); }
+    Pack shift(int i) const { return load(rows.shift[i] + lane); }
+    static Pack exponential(const Pack& x) { return exponential_of(x); }
+  };
+  template <int N>
+  struct Factor : SpeedFactor<N, Pack, Constants> {
+    Factor(const Rows& rows, int lane) : SpeedFactor<N, Pack, Constants>(*rows.law, {rows, lane}) {}
+  };
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA

@@ -1,0 +1,79 @@
+#include "dynamics/speed_law.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace freestand::dynamics {
+namespace {
+
+bool binary(Op op) { return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide; }
+bool has_packs(Op op) { return binary(op) || op == Op::constant || op == Op::affine || op == Op::exp; }
+
+}  // namespace
+
+bool same_shape(const SpeedLaw& a, const SpeedLaw& b) {
+  if (a.count != b.count) return false;
+  for (int i = 0; i < a.count; ++i) {
+    const Node &x = a.nodes[i], &y = b.nodes[i];
+    if (x.op != y.op || x.a != y.a || x.b != y.b) return false;
+  }
+  return true;
+}
+
+std::optional<SpeedLaw> speed_law(const Laws& laws) {
+  const bool more = laws.force >= 0 || laws.moment >= 0 || laws.states > 0 || laws.wall.gap_m != 0 ||
+                    laws.legs.frequency_radps > 0 || laws.carried_mass != 1 || laws.tape.kink_count() > 0;
+  if (more || laws.friction < 0 || laws.tape.overflow()) return {};
+  constexpr int speed = static_cast<int>(Input::speed);
+  if (laws.tape.dependence(laws.friction) & ~(1U << speed)) return {};
+  // Where each node of the tape is in the law; -1: it takes no part.
+  std::array<int, max_nodes> place;
+  place.fill(-1);
+  place[speed] = 0;
+  SpeedLaw law;
+  for (int i = laws.forces_end; i <= laws.friction; ++i) {
+    const Node node = *laws.tape.node({nullptr, i});
+    const auto from = [&](int operand) { return place[static_cast<std::size_t>(operand)]; };
+    const bool used = node.op == Op::constant || (from(node.a) >= 0 && (!binary(node.op) || from(node.b) >= 0));
+    if (!used || !has_packs(node.op) || law.count == speed_law_nodes) return {};
+    const int a = node.op == Op::constant ? 0 : from(node.a), b = binary(node.op) ? from(node.b) : 0;
+    law.nodes[law.count] = {node.op, static_cast<std::int16_t>(a), static_cast<std::int16_t>(b), node.value,
+                            node.shift};
+    place[static_cast<std::size_t>(i)] = ++law.count;
+  }
+  return law;
+}
+
+double friction_factor(const SpeedLaw& law, double speed) {
+  double at[speed_law_nodes + 1] = {speed};
+  for (int i = 0; i < law.count; ++i) {
+    const Node& node = law.nodes[i];
+    const double x = at[node.a], y = at[node.b];
+    double& z = at[i + 1];
+    switch (node.op) {
+      case Op::constant:
+        z = node.value;
+        break;
+      case Op::affine:
+        z = node.value * x + node.shift;
+        break;
+      case Op::add:
+        z = x + y;
+        break;
+      case Op::subtract:
+        z = x - y;
+        break;
+      case Op::multiply:
+        z = x * y;
+        break;
+      case Op::divide:
+        z = x / y;
+        break;
+      default:
+        z = std::exp(x);
+    }
+  }
+  return at[law.count];
+}
+
+}  // namespace freestand::dynamics
