@@ -63,8 +63,11 @@ class AsideFile {
     }
   }
 
-  void close() {
+  void sync() const {
     if (::fsync(descriptor_) != 0 && errno != EINVAL) throw file_error("write", final_path_, errno);
+  }
+
+  void close() {
     const int result = ::close(descriptor_);
     descriptor_ = -1;
     if (result != 0) throw file_error("write", final_path_, errno);
@@ -88,8 +91,12 @@ void sync_path(const fs::path& path, int flags) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-void rename_and_sync(const fs::path& aside, const fs::path& path) {
+void rename_file(const fs::path& aside, const fs::path& path) {
   if (::rename(aside.c_str(), path.c_str()) != 0) throw file_error("write", path, errno);
+}
+
+void rename_and_sync(const fs::path& aside, const fs::path& path) {
+  rename_file(aside, path);
   sync_path(folder_of(path), O_RDONLY | O_DIRECTORY);
 }
 
@@ -124,8 +131,18 @@ void write_durably(const fs::path& path, std::span<const std::span<const std::by
   const fs::path aside = aside_name(path);
   AsideFile file(aside, path);
   for (const auto& piece : pieces) file.write(piece);
+  file.sync();
   file.close();
   rename_and_sync(aside, path);
+  file.keep();
+}
+
+void write_aside(const fs::path& path, std::span<const std::span<const std::byte>> pieces) {
+  const fs::path aside = aside_name(path);
+  AsideFile file(aside, path);
+  for (const auto& piece : pieces) file.write(piece);
+  file.close();
+  rename_file(aside, path);
   file.keep();
 }
 

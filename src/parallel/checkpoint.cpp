@@ -107,7 +107,7 @@ void BlockStore::write(std::int64_t block, const BlockRows& rows) const {
   const auto values = std::as_bytes(std::span(rows.values));
   header.checksum = checksum_of(header, values);
   const std::array<std::span<const std::byte>, 2> pieces{std::as_bytes(std::span(&header, 1)), values};
-  write_durably(file(block), pieces);
+  write_aside(file(block), pieces);
 }
 
 std::vector<std::int64_t> BlockStore::finished() const {

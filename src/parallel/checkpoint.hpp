@@ -1,8 +1,9 @@
 // Finished blocks of samples, one file each, that survive the end of the program at any moment.
 //
-// A block file is written aside, synced and renamed, so under its name it is whole. Layout, little endian: 8 bytes
-// magic, uint32 format, uint32 zero, int64 block, int64 rows, int64 columns, 64 bytes fingerprint (ASCII, zero padded),
-// uint64 checksum (FNV-1a over the header before it and the values), then rows x columns doubles, row by row.
+// A block file is written aside and renamed, so under its name it is whole; one that the end of the machine has torn is
+// known by its checksum. Layout, little endian: 8 bytes magic, uint32 format, uint32 zero, int64 block, int64 rows, int64
+// columns, 64 bytes fingerprint (ASCII, zero padded), uint64 checksum (FNV-1a over the header before it and the values),
+// then rows x columns doubles, row by row.
 #pragma once
 
 #include <cstdint>

@@ -34,10 +34,10 @@ void read_common(Section& file, const std::filesystem::path& path, Study& study)
   study.model = read_model(file);
 }
 
-// 1/1000 of the samples, a power of two between 64 and 8192: enough blocks to share among ranks, and whole nets of the
+// 1/1000 of the samples, a power of two between 256 and 8192: enough blocks to share among ranks, and whole nets of the
 // Sobol sequence.
 std::uint64_t default_block_size(std::uint64_t samples) {
-  return std::bit_floor(std::clamp<std::uint64_t>(samples / 1000, 64, 8192));
+  return std::bit_floor(std::clamp<std::uint64_t>(samples / 1000, 256, 8192));
 }
 
 constexpr std::uint64_t most_samples = 1ULL << 50;

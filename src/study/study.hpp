@@ -152,7 +152,7 @@ struct Study {
   sampling::Design design = sampling::Design::sobol;
   double tolerance = 1e-9;
   double free_vibration_s = 60;
-  std::uint64_t block_size = 0;  // samples a work unit; default: samples/1000 as a power of two within 64 and 8192
+  std::uint64_t block_size = 0;  // samples a work unit; default: samples/1000 as a power of two within 256 and 8192
   ModelPart model;
   std::vector<MotionSource> motions;
   FragilityPart fragility;

@@ -24,7 +24,7 @@ namespace freestand::study {
 namespace {
 
 // Samples that are integrated together between two beats.
-constexpr std::int64_t pack_samples = 256;
+constexpr std::int64_t pack_samples = 1024;
 
 using parallel::Communicator;
 using Clock = std::chrono::steady_clock;

@@ -27,7 +27,7 @@ TEST(Study, DefaultsAreFilledIn) {
   EXPECT_EQ(study.seed, 1U);
   EXPECT_EQ(study.samples, 1000U);
   EXPECT_EQ(study.design, sampling::Design::sobol);
-  EXPECT_EQ(study.block_size, 64U);
+  EXPECT_EQ(study.block_size, 256U);
   EXPECT_EQ(study.model.model, Model::slide_rock);
   EXPECT_EQ(study.model.impact.law, ImpactLaw::housner);
   EXPECT_EQ(fixed(study.model.impact.factor), 1);
