@@ -67,6 +67,7 @@ Free free_parameter(const dynamics::Effect& effect, const dynamics::Parameter& p
   if (p.unit == "m" && p.lower < 0 && reach.greatest_m > reach.least_m) {
     free.low = 1.1 * reach.least_m;
     free.high = 1.1 * reach.greatest_m;
+    free.landmarks = {reach.least_m, reach.greatest_m};
   }
   free.logarithmic = free.low > 0 && free.high / free.low >= 4;
   if (p.lower_open) free.lower = std::max(free.lower, 1e-3 * free.low);

@@ -18,7 +18,8 @@ struct Free {
   std::string unit;
   double lower = 0, upper = 0;
   double low = 0, high = 0;
-  bool logarithmic = false;  // spread starts and steps over the logarithm
+  bool logarithmic = false;            // spread starts and steps over the logarithm
+  std::vector<double> landmarks = {};  // values that the measurements themselves point to
 };
 
 // A number of the model: fixed, or the free one at that place.
@@ -57,7 +58,7 @@ Specimen specimen(const ModelSpec&, const Test&, std::span<const double> x);
 std::string missing_dimension(const ModelSpec&, const Test&);
 
 // The catalogue's range of a parameter as a free number. reach: least and greatest slip that was measured [m]; lengths
-// with a sign (gaps, slacks) start within it.
+// with a sign (gaps, slacks) start within it, and at its ends: there something may have stopped the block.
 struct Reach {
   double least_m = 0, greatest_m = 0;
 };

@@ -35,9 +35,16 @@ std::vector<Values> vantage_points(const ModelFit& fit) {
 
 std::vector<Values> starts_from(const std::vector<Values>& vantage, const ModelSpec& model, std::size_t count) {
   std::vector<Values> starts;
-  for (const Values& known : vantage)
-    for (const Values& own : sobol_starts(own_numbers(model, known.size()), count))
-      starts.push_back(joined(known, own));
+  for (const Values& known : vantage) {
+    const auto own = own_numbers(model, known.size());
+    for (const Values& x : sobol_starts(own, count)) starts.push_back(joined(known, x));
+    for (std::size_t i = 0; i < own.size(); ++i)
+      for (const double landmark : own[i].landmarks)
+        for (Values& x : sobol_starts(own, count / 4)) {
+          x[i] = landmark;
+          starts.push_back(joined(known, x));
+        }
+  }
   return starts;
 }
 
