@@ -6,6 +6,8 @@
 namespace freestand::measurement {
 namespace {
 
+constexpr double failed_residual = 1e4;  // [noise units]
+
 // Changes between two predictions, or a prediction and what was measured, one after the other channel, in noise units.
 template <class Of>
 Eigen::VectorXd stacked(const Bench& bench, const Test& test, const Prediction& model, Of&& other) {
@@ -21,16 +23,27 @@ Eigen::VectorXd stacked(const Bench& bench, const Test& test, const Prediction& 
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
+// (C^-1/2 - 1) between A and A^T: with A^T A = V L V^T it is V ((1 + L)^-1/2 - 1)/L V^T.
+Eigen::MatrixXd root_part(const Eigen::MatrixXd& gram) {
+  if (gram.size() == 0) return gram;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solved(gram);
+  const Eigen::VectorXd part = solved.eigenvalues().unaryExpr([](double l) {
+    const double root = std::sqrt(1 + std::max(l, 0.0));
+    return -1 / (root * (1 + root));
+  });
+  return solved.eigenvectors() * part.asDiagonal() * solved.eigenvectors().transpose();
+}
+
 }  // namespace
 
 struct Judge::Parts {
   std::vector<Eigen::MatrixXd> A;
   std::vector<Eigen::LLT<Eigen::MatrixXd>> inner;  // of 1 + A^T A
+  std::vector<Eigen::MatrixXd> root;               // C^-1/2 = 1 + A root A^T
 };
 
 Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, const Jobs& jobs)
     : bench_(bench), tests_(tests_of(bench.data(), Role::calibration)) {
-  auto parts = std::make_shared<Parts>();
   const auto columns = jobs("replays", tests_.size(), [&](std::size_t i) {
     const Test& test = bench.test(tests_[i]);
     const Prediction nominal = predict(reference, test, x);
@@ -44,21 +57,42 @@ Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, co
     }
     return all;
   });
+  take(columns);
+}
+
+Judge::Judge(const Bench& bench) : bench_(bench), tests_(tests_of(bench.data(), Role::calibration)) {
+  take(std::vector<Values>(tests_.size()));
+}
+
+void Judge::take(const std::vector<Values>& columns) {
+  auto parts = std::make_shared<Parts>();
   for (std::size_t i = 0; i < tests_.size(); ++i) {
-    const Test& test = bench.test(tests_[i]);
+    const Test& test = bench_.test(tests_[i]);
     Eigen::Index rows = 0;
     for (int c = 0; c < channel_count; ++c)
-      if (bench.noise(static_cast<Channel>(c)) > 0)
+      if (bench_.noise(static_cast<Channel>(c)) > 0)
         rows += static_cast<Eigen::Index>(history(test, static_cast<Channel>(c)).size());
     const Eigen::Index count = rows > 0 ? static_cast<Eigen::Index>(columns[i].size()) / rows : 0;
     Eigen::MatrixXd A = Eigen::Map<const Eigen::MatrixXd>(columns[i].data(), rows, count);
     A /= std::sqrt(std::max<double>(static_cast<double>(count), 1));
     samples_.push_back(static_cast<double>(rows));
     expected_.push_back(rows > 0 ? std::sqrt(1 + A.squaredNorm() / static_cast<double>(rows)) : 1);
-    parts->inner.emplace_back(Eigen::MatrixXd::Identity(count, count) + A.transpose() * A);
+    const Eigen::MatrixXd gram = A.transpose() * A;
+    parts->inner.emplace_back(Eigen::MatrixXd::Identity(count, count) + gram);
+    parts->root.push_back(root_part(gram));
     parts->A.push_back(std::move(A));
   }
   parts_ = std::move(parts);
+}
+
+std::vector<double> Judge::whitened(std::size_t i, const ModelSpec& model, std::span<const double> x) const {
+  const Test& test = bench_.test(tests_[i]);
+  const Prediction prediction = predict(model, test, x);
+  if (prediction.failed()) return std::vector<double>(static_cast<std::size_t>(samples_[i]), failed_residual);
+  Eigen::VectorXd r = stacked(
+      bench_, test, prediction, [&](Channel c) -> const auto& { return history(test, c); });
+  if (parts_->root[i].size()) r += parts_->A[i] * (parts_->root[i] * (parts_->A[i].transpose() * r));
+  return {r.begin(), r.end()};
 }
 
 double Judge::misfit(std::size_t i, const ModelFit& fit, const Values& x) const {

@@ -18,6 +18,11 @@ class Judge {
   // Replays of the calibration tests under the reference model with x; the bench's replays are used.
   Judge(const Bench&, const ModelSpec& reference, const Values& x, const Jobs&);
 
+  // Without replays: C = 1.
+  explicit Judge(const Bench&);
+
+  // C^-1/2 r of the i-th calibration test [noise units]; as many as samples(). G is the sum of its squares.
+  std::vector<double> whitened(std::size_t i, const ModelSpec&, std::span<const double> x) const;
   // Misfit of each calibration test, left out where the model was refitted without it; histories only.
   std::vector<double> misfit(const ModelFit&) const;
   // With the fit to all of them.
@@ -29,6 +34,7 @@ class Judge {
 
  private:
   struct Parts;
+  void take(const std::vector<Values>& columns);
   double misfit(std::size_t i, const ModelFit&, const Values& x) const;
   const Bench& bench_;
   std::vector<std::size_t> tests_;

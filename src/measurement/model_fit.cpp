@@ -180,29 +180,33 @@ void refine(const Bench& bench, std::vector<ModelFit*> fits, const Effort& effor
 }
 
 void leave_out(const Bench& bench, std::vector<ModelFit*> fits, const Effort& effort, const Jobs& jobs) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const Refit refit = [&](const ModelFit& fit, const std::vector<std::size_t>& seen) {
+    std::vector<std::size_t> seen_tests;
+    for (const std::size_t i : seen) seen_tests.push_back(tests[i]);
+    const Objective rest = objective(bench, fit.model, seen_tests);
+    Fitted found = simplex(fit.model.free, rest, fit.x, 0.02, effort.fold_budget);
+    if (const double score = rest(fit.x); found.score > score - chance_gain) found.x = fit.x, found.score = score;
+    return found;
+  };
+  leave_out(bench, std::move(fits), refit, jobs);
+}
+
+void leave_out(const Bench& bench, std::vector<ModelFit*> fits, const Refit& refit, const Jobs& jobs) {
   evaluate(bench, fits, jobs);
   const auto tests = tests_of(bench.data(), Role::calibration);
   const auto fold = fold_of(tests.size());
   const std::size_t folds = fold.empty() ? 0 : *std::max_element(fold.begin(), fold.end()) + 1;
   if (folds < 2) return;
-  const auto seen_without = [&](std::size_t k) {
-    std::vector<std::size_t> seen;
-    for (std::size_t i = 0; i < tests.size(); ++i)
-      if (fold[i] != k) seen.push_back(tests[i]);
-    return seen;
-  };
   const auto answers = jobs("leaving tests out", fits.size() * folds, [&](std::size_t i) {
     const ModelFit& fit = *fits[i / folds];
     const std::size_t k = i % folds;
-    const Objective rest = objective(bench, fit.model, seen_without(k));
-    Fitted found = simplex(fit.model.free, rest, fit.x, 0.02, effort.fold_budget);
-    if (const double score = rest(fit.x); found.score > score - chance_gain) found.x = fit.x, found.score = score;
-    const Values x = found.x;
-    Values answer = packed(found);
-    std::vector<std::size_t> unseen;
+    std::vector<std::size_t> seen, unseen;
     for (std::size_t t = 0; t < tests.size(); ++t)
-      if (fold[t] == k) unseen.push_back(tests[t]);
-    for (const TestError& error : test_errors(bench, unseen, fit.model, x)) append(answer, error);
+      (fold[t] == k ? unseen : seen).push_back(fold[t] == k ? tests[t] : t);
+    const Fitted found = refit(fit, seen);
+    Values answer = packed(found);
+    for (const TestError& error : test_errors(bench, unseen, fit.model, found.x)) append(answer, error);
     return answer;
   });
   for (std::size_t f = 0; f < fits.size(); ++f) {

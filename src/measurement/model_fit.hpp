@@ -68,6 +68,10 @@ void refine(const Bench&, std::vector<ModelFit*>, const Effort&, const Jobs&);
 // Fits with each fold left out; fills fold_x, left_out, intervals.
 void leave_out(const Bench&, std::vector<ModelFit*>, const Effort&, const Jobs&);
 
+// The same with another way to refit: from fit.x to these of the calibration tests (positions among them).
+using Refit = std::function<Fitted(const ModelFit& fit, const std::vector<std::size_t>& seen)>;
+void leave_out(const Bench&, std::vector<ModelFit*>, const Refit&, const Jobs&);
+
 // Errors of the calibration tests with x; left_out the same, without a refit.
 void evaluate(const Bench&, std::vector<ModelFit*>, const Jobs&);
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "effects/effects.hpp"
+#include "measurement/least_squares.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/fitted_study.hpp"
 #include "study/section.hpp"
@@ -136,7 +137,7 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   auto fits = fit_models(*after->bench, {{.model = starting(*before, base, *after)}}, effort, jobs);
   polish(*after->bench, {&fits[0]}, effort, 0.15, jobs);
   refine(*after->bench, {&fits[0]}, effort, jobs);
-  leave_out(*after->bench, {&fits[0]}, effort, jobs);
+  settle(*after->bench, fits[0], effort, jobs);
 
   std::vector<LadderStep> ladder = before->validation.ladder;
   if (ladder.empty()) ladder.push_back(step_of("base", *before, base, jobs));

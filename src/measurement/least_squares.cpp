@@ -1,0 +1,149 @@
+#include "measurement/least_squares.hpp"
+
+#include <gsl/gsl_blas.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multifit_nlinear.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace freestand::measurement {
+namespace {
+
+using Tests = std::vector<std::size_t>;
+constexpr double difference = 2e-5;  // of the box, for derivatives
+constexpr double slope_back = 1e3;   // of a residual beyond a bound, per box
+constexpr int iterations = 12;       // of one round
+constexpr int most_rounds = 6;
+
+struct Problem {
+  const Judge& judge;
+  const Tests& tests;
+  const ModelSpec& model;
+  std::vector<double> weights;  // sqrt(n/G0), of each test
+  std::size_t rows = 0;
+  int evaluations = 0;
+
+  Values point(const gsl_vector* z) const {
+    Values x;
+    for (std::size_t i = 0; i < model.free.size(); ++i) x.push_back(from_unit(model.free[i], gsl_vector_get(z, i)));
+    return x;
+  }
+
+  void residuals(const gsl_vector* z, gsl_vector* f) {
+    const Values x = point(z);
+    std::size_t row = 0;
+    for (std::size_t k = 0; k < tests.size(); ++k)
+      for (const double r : judge.whitened(tests[k], model, x)) gsl_vector_set(f, row++, weights[k] * r);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      gsl_vector_set(f, row++, slope_back * (gsl_vector_get(z, i) - to_unit(model.free[i], x[i])));
+    ++evaluations;
+  }
+};
+
+int residuals(const gsl_vector* z, void* problem, gsl_vector* f) {
+  static_cast<Problem*>(problem)->residuals(z, f);
+  return GSL_SUCCESS;
+}
+
+using Vector = std::unique_ptr<gsl_vector, decltype(&gsl_vector_free)>;
+Vector vector(std::size_t n) { return {gsl_vector_alloc(n), gsl_vector_free}; }
+
+// Differences inwards, where a bound is near.
+int derivatives(const gsl_vector* z, void* problem, gsl_matrix* J) {
+  auto& p = *static_cast<Problem*>(problem);
+  Vector at = vector(p.model.free.size()), f = vector(p.rows), other = vector(p.rows);
+  p.residuals(z, f.get());
+  for (std::size_t i = 0; i < p.model.free.size(); ++i) {
+    gsl_vector_memcpy(at.get(), z);
+    const double beyond = gsl_vector_get(z, i) + difference;
+    const bool inside = std::abs(to_unit(p.model.free[i], from_unit(p.model.free[i], beyond)) - beyond) < 1e-9;
+    const double step = inside ? difference : -difference;
+    gsl_vector_set(at.get(), i, gsl_vector_get(z, i) + step);
+    p.residuals(at.get(), other.get());
+    gsl_vector_sub(other.get(), f.get());
+    gsl_vector_scale(other.get(), 1 / step);
+    gsl_matrix_set_col(J, i, other.get());
+  }
+  return GSL_SUCCESS;
+}
+
+// One round of Levenberg and Marquardt from x.
+Values round_from(Problem& problem, const Values& x) {
+  const std::size_t n = problem.model.free.size();
+  Vector z = vector(n);
+  for (std::size_t i = 0; i < n; ++i) gsl_vector_set(z.get(), i, to_unit(problem.model.free[i], x[i]));
+  gsl_multifit_nlinear_fdf function{};
+  function.f = residuals;
+  function.df = derivatives;
+  function.n = problem.rows;
+  function.p = n;
+  function.params = &problem;
+  const auto parameters = gsl_multifit_nlinear_default_parameters();
+  const std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)> work(
+      gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, problem.rows, n), gsl_multifit_nlinear_free);
+  if (gsl_multifit_nlinear_init(z.get(), &function, work.get())) return x;
+  int info = 0;
+  gsl_multifit_nlinear_driver(iterations, 1e-6, 1e-9, 1e-9, nullptr, nullptr, &info, work.get());
+  return problem.point(gsl_multifit_nlinear_position(work.get()));
+}
+
+double misfit(const Judge& judge, std::size_t i, const ModelSpec& model, std::span<const double> x) {
+  const auto r = judge.whitened(i, model, x);
+  return std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
+}
+
+}  // namespace
+
+double least_squares_score(const Judge& judge, const Tests& tests, const ModelSpec& model, std::span<const double> x) {
+  double sum = 0;
+  for (const std::size_t i : tests) sum += std::log(std::max(misfit(judge, i, model, x) / judge.samples()[i], 1e-6));
+  return sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1));
+}
+
+Fitted least_squares(const Judge& judge, const Tests& tests, const ModelSpec& model, const Values& x, int rounds) {
+  Fitted best{x, least_squares_score(judge, tests, model, x), 1};
+  gsl_error_handler_t* const handler = gsl_set_error_handler_off();
+  for (int round = 0; round < rounds && !model.free.empty(); ++round) {
+    Problem problem{judge, tests, model, {}, model.free.size()};
+    for (const std::size_t i : tests) {
+      const double n = judge.samples()[i];
+      problem.weights.push_back(std::sqrt(n / std::max(misfit(judge, i, model, best.x), 1e-6 * n)));
+      problem.rows += static_cast<std::size_t>(n);
+    }
+    const Values found = round_from(problem, best.x);
+    const double score = least_squares_score(judge, tests, model, found), gain = best.score - score;
+    best.evaluations += problem.evaluations + 2;
+    if (gain > 0) best.x = found, best.score = score;
+    if (gain < 1e-5) break;
+  }
+  gsl_set_error_handler(handler);
+  return best;
+}
+
+void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs& jobs) {
+  const auto calibration = tests_of(bench.data(), Role::calibration);
+  if (calibration.empty() || kind(bench.test(calibration.front())) != Kind::history) {
+    leave_out(bench, {&fit}, effort, jobs);
+    return;
+  }
+  Tests all(calibration.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto take = [&](const Judge& judge) {
+    const Fitted found = least_squares(judge, all, fit.model, fit.x, most_rounds);
+    fit.x = found.x;
+    fit.evaluations += found.evaluations;
+  };
+  take(Judge(bench));
+  for (int again = 0; again < 2; ++again) take(Judge(bench, fit.model, fit.x, jobs));
+  fit.score = mean_score(bench, calibration, fit.model, fit.x);
+  const Judge judge(bench, fit.model, fit.x, jobs);
+  leave_out(
+      bench, {&fit},
+      [&](const ModelFit& whole, const Tests& seen) { return least_squares(judge, seen, whole.model, whole.x, 1); },
+      jobs);
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,27 @@
+// Where a fit to histories ends. The simplex stops in long bent valleys, and it knows of the floor's noise nothing: one
+// test whose motion that noise turns elsewhere pulls all numbers along. Near the answer the histories are smooth in the
+// numbers, so that derivatives serve:
+//
+//   S(x) = mean over tests of ln(G/n),   G = r^T C^-1 r   (judge.hpp; C = 1 where no replays are given)
+//
+// is made least by Levenberg and Marquardt's method (GSL's multifit_nlinear) on f = sqrt(n/G0) C^-1/2 r of all tests, G0
+// being G where the round began: ln lies below its tangents, so that each round that lowers f^2 lowers S.
+#pragma once
+
+#include "measurement/judge.hpp"
+
+namespace freestand::measurement {
+
+// S over these of the judge's tests.
+double least_squares_score(const Judge&, const std::vector<std::size_t>& of_judge, const ModelSpec&,
+                           std::span<const double> x);
+
+// From x downhill, in at most `rounds`. score: S.
+Fitted least_squares(const Judge&, const std::vector<std::size_t>& of_judge, const ModelSpec&, const Values& x,
+                     int rounds);
+
+// The fit taken to the least S, at first without and then with replays of the floor's noise under the fit itself; with
+// errors of tests left out, by the same method. Sets without histories: leave_out() alone.
+void settle(const Bench&, ModelFit&, const Effort&, const Jobs&);
+
+}  // namespace freestand::measurement
