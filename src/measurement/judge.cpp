@@ -40,9 +40,11 @@ struct Judge::Parts {
   std::vector<Eigen::MatrixXd> A;
   std::vector<Eigen::LLT<Eigen::MatrixXd>> inner;  // of 1 + A^T A
   std::vector<Eigen::MatrixXd> root;               // C^-1/2 = 1 + A root A^T
+  std::vector<std::vector<Eigen::Index>> kept;     // of all samples
+  Eigen::VectorXd residual(const Bench&, const Test&, const Prediction&, std::size_t i) const;
 };
 
-Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, const Jobs& jobs)
+Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, const Jobs& jobs, double fanned_out)
     : bench_(bench), tests_(tests_of(bench.data(), Role::calibration)) {
   const auto columns = jobs("replays", tests_.size(), [&](std::size_t i) {
     const Test& test = bench.test(tests_[i]);
@@ -57,14 +59,14 @@ Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, co
     }
     return all;
   });
-  take(columns);
+  take(columns, fanned_out);
 }
 
 Judge::Judge(const Bench& bench) : bench_(bench), tests_(tests_of(bench.data(), Role::calibration)) {
-  take(std::vector<Values>(tests_.size()));
+  take(std::vector<Values>(tests_.size()), 1);
 }
 
-void Judge::take(const std::vector<Values>& columns) {
+void Judge::take(const std::vector<Values>& columns, double fanned_out) {
   auto parts = std::make_shared<Parts>();
   for (std::size_t i = 0; i < tests_.size(); ++i) {
     const Test& test = bench_.test(tests_[i]);
@@ -75,22 +77,32 @@ void Judge::take(const std::vector<Values>& columns) {
     const Eigen::Index count = rows > 0 ? static_cast<Eigen::Index>(columns[i].size()) / rows : 0;
     Eigen::MatrixXd A = Eigen::Map<const Eigen::MatrixXd>(columns[i].data(), rows, count);
     A /= std::sqrt(std::max<double>(static_cast<double>(count), 1));
-    samples_.push_back(static_cast<double>(rows));
     expected_.push_back(rows > 0 ? std::sqrt(1 + A.squaredNorm() / static_cast<double>(rows)) : 1);
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index k = 0; k < rows; ++k)
+      if (A.row(k).squaredNorm() <= fanned_out * fanned_out) kept.push_back(k);
+    A = Eigen::MatrixXd(A(kept, Eigen::all));
+    samples_.push_back(static_cast<double>(kept.size()));
     const Eigen::MatrixXd gram = A.transpose() * A;
     parts->inner.emplace_back(Eigen::MatrixXd::Identity(count, count) + gram);
     parts->root.push_back(root_part(gram));
     parts->A.push_back(std::move(A));
+    parts->kept.push_back(std::move(kept));
   }
   parts_ = std::move(parts);
+}
+
+Eigen::VectorXd Judge::Parts::residual(const Bench& bench, const Test& test, const Prediction& model,
+                                       std::size_t i) const {
+  return stacked(
+      bench, test, model, [&](Channel c) -> const auto& { return history(test, c); })(kept[i]);
 }
 
 std::vector<double> Judge::whitened(std::size_t i, const ModelSpec& model, std::span<const double> x) const {
   const Test& test = bench_.test(tests_[i]);
   const Prediction prediction = predict(model, test, x);
-  if (prediction.failed()) return std::vector<double>(static_cast<std::size_t>(samples_[i]), failed_residual);
-  Eigen::VectorXd r = stacked(
-      bench_, test, prediction, [&](Channel c) -> const auto& { return history(test, c); });
+  if (prediction.failed()) return std::vector<double>(parts_->kept[i].size(), failed_residual);
+  Eigen::VectorXd r = parts_->residual(bench_, test, prediction, i);
   if (parts_->root[i].size()) r += parts_->A[i] * (parts_->root[i] * (parts_->A[i].transpose() * r));
   return {r.begin(), r.end()};
 }
@@ -99,8 +111,7 @@ double Judge::misfit(std::size_t i, const ModelFit& fit, const Values& x) const 
   const Test& test = bench_.test(tests_[i]);
   const Prediction model = predict(fit.model, test, x);
   if (model.failed()) return 1e8;
-  const Eigen::VectorXd r = stacked(
-      bench_, test, model, [&](Channel c) -> const auto& { return history(test, c); });
+  const Eigen::VectorXd r = parts_->residual(bench_, test, model, i);
   const Eigen::VectorXd projected = parts_->A[i].transpose() * r;
   return r.squaredNorm() - (projected.size() ? projected.dot(parts_->inner[i].solve(projected)) : 0.0);
 }

@@ -16,7 +16,9 @@ namespace freestand::measurement {
 class Judge {
  public:
   // Replays of the calibration tests under the reference model with x; the bench's replays are used.
-  Judge(const Bench&, const ModelSpec& reference, const Values& x, const Jobs&);
+  // fanned_out: samples that the floor's noise alone moves by more [noise units] are left out, since so far no covariance
+  // describes them any more: the replays of a chaotic rocking are not on both sides of it.
+  Judge(const Bench&, const ModelSpec& reference, const Values& x, const Jobs&, double fanned_out = 1e9);
 
   // Without replays: C = 1.
   explicit Judge(const Bench&);
@@ -27,14 +29,14 @@ class Judge {
   std::vector<double> misfit(const ModelFit&) const;
   // With the fit to all of them.
   std::vector<double> misfit_of_fit(const ModelFit&) const;
-  // Number of samples of each calibration test.
+  // Number of samples of each calibration test, without those left out.
   const std::vector<double>& samples() const { return samples_; }
   // Of the reference: expected_error() of each calibration test.
   const std::vector<double>& expected() const { return expected_; }
 
  private:
   struct Parts;
-  void take(const std::vector<Values>& columns);
+  void take(const std::vector<Values>& columns, double fanned_out);
   double misfit(std::size_t i, const ModelFit&, const Values& x) const;
   const Bench& bench_;
   std::vector<std::size_t> tests_;

@@ -17,6 +17,8 @@ constexpr double difference = 2e-5;  // of the box, for derivatives
 constexpr double slope_back = 1e3;   // of a residual beyond a bound, per box
 constexpr int iterations = 12;       // of one round
 constexpr int most_rounds = 6;
+constexpr double fanned_out = 5;     // [noise units]
+constexpr double over_steps = 0.01;  // of the box: an event more or less in one test is a wall to derivatives
 
 struct Problem {
   const Judge& judge;
@@ -131,15 +133,19 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
   }
   Tests all(calibration.size());
   std::iota(all.begin(), all.end(), 0);
-  const auto take = [&](const Judge& judge) {
-    const Fitted found = least_squares(judge, all, fit.model, fit.x, most_rounds);
+  const auto take = [&](const Fitted& found) {
     fit.x = found.x;
     fit.evaluations += found.evaluations;
   };
-  take(Judge(bench));
-  for (int again = 0; again < 2; ++again) take(Judge(bench, fit.model, fit.x, jobs));
+  take(least_squares(Judge(bench), all, fit.model, fit.x, most_rounds));
+  for (int again = 0; again < 2; ++again) {
+    const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
+    const Objective score = [&](std::span<const double> x) { return least_squares_score(judge, all, fit.model, x); };
+    take(least_squares(judge, all, fit.model, fit.x, most_rounds));
+    if (again == 0) take(simplex(fit.model.free, score, fit.x, over_steps, 25 * static_cast<int>(fit.x.size() + 1)));
+  }
   fit.score = mean_score(bench, calibration, fit.model, fit.x);
-  const Judge judge(bench, fit.model, fit.x, jobs);
+  const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
   leave_out(
       bench, {&fit},
       [&](const ModelFit& whole, const Tests& seen) { return least_squares(judge, seen, whole.model, whole.x, 1); },
