@@ -17,6 +17,8 @@ constexpr double difference = 2e-5;  // of the box, for derivatives
 constexpr double slope_back = 1e3;   // of a residual beyond a bound, per box
 constexpr int iterations = 12;       // of one round
 constexpr int most_rounds = 6;
+constexpr double noise_score = 0.4;  // of S: 1.2 noise units
+constexpr double far_score = 4;      // of S without replays: what no floor's noise explains
 constexpr double fanned_out = 5;     // [noise units]
 constexpr double over_steps = 0.01;  // of the box: an event more or less in one test is a wall to derivatives
 
@@ -125,6 +127,27 @@ Fitted least_squares(const Judge& judge, const Tests& tests, const ModelSpec& mo
   return best;
 }
 
+namespace {
+
+// Takes the fit to the least S with replays, if that is at the noise: a model that is wrong would only hide behind them.
+bool weigh_floor_noise(const Bench& bench, ModelFit& fit, const Tests& tests, const Jobs& jobs) {
+  Fitted found{fit.x, 0, 0};
+  for (int again = 0; again < 2; ++again) {
+    const Judge judge(bench, fit.model, found.x, jobs, fanned_out);
+    const Objective score = [&](std::span<const double> x) { return least_squares_score(judge, tests, fit.model, x); };
+    found = least_squares(judge, tests, fit.model, found.x, most_rounds);
+    fit.evaluations += found.evaluations;
+    if (again > 0) break;
+    found = simplex(fit.model.free, score, found.x, over_steps, 25 * static_cast<int>(fit.x.size() + 1));
+    fit.evaluations += found.evaluations;
+  }
+  if (found.score > noise_score) return false;
+  fit.x = found.x;
+  return true;
+}
+
+}  // namespace
+
 void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs& jobs) {
   const auto calibration = tests_of(bench.data(), Role::calibration);
   if (calibration.empty() || kind(bench.test(calibration.front())) != Kind::history) {
@@ -133,18 +156,15 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
   }
   Tests all(calibration.size());
   std::iota(all.begin(), all.end(), 0);
-  const auto take = [&](const Fitted& found) {
-    fit.x = found.x;
-    fit.evaluations += found.evaluations;
-  };
-  take(least_squares(Judge(bench), all, fit.model, fit.x, most_rounds));
-  for (int again = 0; again < 2; ++again) {
-    const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
-    const Objective score = [&](std::span<const double> x) { return least_squares_score(judge, all, fit.model, x); };
-    take(least_squares(judge, all, fit.model, fit.x, most_rounds));
-    if (again == 0) take(simplex(fit.model.free, score, fit.x, over_steps, 25 * static_cast<int>(fit.x.size() + 1)));
-  }
+  const Fitted plain = least_squares(Judge(bench), all, fit.model, fit.x, most_rounds);
+  fit.evaluations += plain.evaluations;
+  fit.x = plain.x;
+  const bool near = plain.score < far_score && weigh_floor_noise(bench, fit, all, jobs);
   fit.score = mean_score(bench, calibration, fit.model, fit.x);
+  if (!near) {
+    leave_out(bench, {&fit}, effort, jobs);
+    return;
+  }
   const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
   leave_out(
       bench, {&fit},

@@ -20,8 +20,9 @@ double least_squares_score(const Judge&, const std::vector<std::size_t>& of_judg
 Fitted least_squares(const Judge&, const std::vector<std::size_t>& of_judge, const ModelSpec&, const Values& x,
                      int rounds);
 
-// The fit taken to the least S, at first without and then with replays of the floor's noise under the fit itself; with
-// errors of tests left out, by the same method. Sets without histories: leave_out() alone.
+// The fit taken to the least S, at first without replays; then, if that ends at the noise, with replays of the floor's
+// noise under the fit itself, without what they fan out. With errors of tests left out, by the same method. Sets without
+// histories: leave_out() alone.
 void settle(const Bench&, ModelFit&, const Effort&, const Jobs&);
 
 }  // namespace freestand::measurement

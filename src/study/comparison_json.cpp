@@ -133,6 +133,7 @@ Json role_json(const Bench& bench, const std::vector<TestComparison>& tests, Rol
           {"error_relative", number_or_null(e.relative)},
           {"error", number_or_null(e.error)},
           {"error_expected", number_or_null(e.expected)},
+          {"error_explained", number_or_null(e.explained)},
           {"tests", e.tests}};
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "io/provenance.hpp"
+#include "measurement/least_squares.hpp"
 #include "study/problems.hpp"
 #include "study/read_measurements.hpp"
 #include "study/validation_parts.hpp"
@@ -47,7 +48,9 @@ void add_placement_scatter(Prepared& p) {
 const char* const calibration_method =
     "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and Mead descends (GSL "
     "nmsimplex2), and once more from the best of those; the mean of ln(error^2) of the calibration tests is made "
-    "least; "
+    "least; histories end in Levenberg and Marquardt's least squares (GSL multifit_nlinear), at the noise weighed by "
+    "the "
+    "covariance that replays of the floor's noise show; "
     "intervals of 95 % by the jackknife over the tests";
 
 nlohmann::ordered_json number_or_null(double value) {
@@ -113,7 +116,7 @@ ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
   if (all_known) task.starts = {known};
   auto fits = fit_models(bench, {task}, effort, jobs);
   polish(bench, {&fits[0]}, effort, 0.05, jobs);
-  leave_out(bench, {&fits[0]}, effort, jobs);
+  settle(bench, fits[0], effort, jobs);
   return std::move(fits[0]);
 }
 
@@ -144,13 +147,14 @@ RoleError role_error(const Bench& bench, const std::vector<TestComparison>& test
   RoleError out;
   std::vector<TestError> errors;
   std::vector<std::size_t> places;
-  double relative = 0, expected = 0, noise = 0;
+  double relative = 0, expected = 0, explained = 0, noise = 0;
   for (const TestComparison& t : tests) {
     if (bench.test(t.test).role != role) continue;
     errors.push_back(t.error);
     places.push_back(t.test);
     relative += t.error.relative * t.error.relative;
     expected += t.expected * t.expected;
+    explained += t.explained * t.explained;
     noise += t.error.noise_units * t.error.noise_units;
   }
   out.tests = errors.size();
@@ -158,6 +162,7 @@ RoleError role_error(const Bench& bench, const std::vector<TestComparison>& test
   out.error = pooled(bench, places, errors).error;
   out.relative = std::sqrt(relative / n);
   out.expected = std::sqrt(expected / n);
+  out.explained = std::sqrt(explained / n);
   out.noise_units = std::sqrt(noise / n);
   return out;
 }

@@ -7,7 +7,7 @@
 //     the floor's noise allowed for), error_expected (what noise alone would make), channels: [{name, error_noise_units,
 //     error_relative, bias, autocorrelation}], peaks: [{name, measured, model}], overturned_measured,
 //     overturned_probability, outcome}]
-//   calibration, holdout: {error_noise_units, error_relative, error, error_expected, tests}; error in error_unit;
+//   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_explained, tests}; error in error_unit;
 //     null where there are no such tests
 //   parameters: [{name, unit, value, lower, upper, interval: [l, u] or null, calibrated (by this run)}]
 //   peak_ratio: {count, bias_ln, scatter_ln, ratio}: predicted over measured peak slips

@@ -27,7 +27,7 @@ measurement::ModelFit fitted(const Prepared&, bool refit, const measurement::Job
 struct RoleError {
   std::size_t tests = 0;
   double error = 0;  // in the unit of the set
-  double relative = 0, expected = 0, noise_units = 0;
+  double relative = 0, expected = 0, explained = 0, noise_units = 0;
 };
 RoleError role_error(const measurement::Bench&, const std::vector<measurement::TestComparison>&, measurement::Role);
 

@@ -32,9 +32,9 @@ class WholeWay(unittest.TestCase):
     def read(self, *path):
         return json.loads(self.folder.joinpath(*path).read_text())
 
-    def make(self, effects, tests, seed=1):
+    def make(self, effects, tests, seed=1, duration=8):
         self.run_in_folder(MAKE_SETS, "-o", ".", "--effects", effects, "--first", seed, "--seeds", 1, "--tests", tests,
-                           "--duration", 8)
+                           "--duration", duration)
         (self.folder / "study.yaml").write_text(STUDY.format(f"{effects}-{seed}"))
 
     def compared(self, study, out):
@@ -56,6 +56,18 @@ class WholeWay(unittest.TestCase):
         after = self.compared("study2.yaml", "after")
         self.assertLessEqual(after["holdout"]["error_noise_units"], AT_NOISE)
         self.assertLessEqual(after["calibration"]["error_noise_units"], AT_NOISE)
+
+    # Three numbers of a tether in one bent valley; a floor whose noise turns one test to another place; rocking that
+    # tells nothing once it has fanned out.
+    def test_the_added_effect_is_fitted_as_well_as_the_noise_allows(self):
+        for effect, seed in (("slack_tether", 1), ("vertical_shaking", 4), ("floor_tilt", 1)):
+            with self.subTest(effect):
+                self.make(effect, 10, seed, 20)
+                self.verb("add", "study.yaml", effect, "-o", f"{effect}.yaml", ranks=2)
+                after = self.compared(f"{effect}.yaml", f"{effect}.after")
+                self.assertLessEqual(after["holdout"]["error_noise_units"], AT_NOISE)
+                self.assertLessEqual(after["calibration"]["error_noise_units"], AT_NOISE)
+                self.assertLessEqual(after["holdout"]["error_explained"], 1.1)
 
     def test_a_plain_block_lacks_nothing(self):
         self.make("none", 5)

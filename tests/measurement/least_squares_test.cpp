@@ -1,0 +1,139 @@
+// The end of a fit: out of bent valleys, and by the covariance of the floor's noise.
+#include "measurement/least_squares.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "base/random.hpp"
+#include "effects/effects.hpp"
+#include "measurement/made_tests.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+Specimen cabinet(double mu) {
+  Specimen s;
+  s.block = Block::rectangular(0.8, 0.6, 100);
+  s.friction = {mu, mu};
+  return s;
+}
+
+std::vector<std::size_t> all_of(const Judge& judge) {
+  std::vector<std::size_t> tests(judge.samples().size());
+  std::iota(tests.begin(), tests.end(), 0);
+  return tests;
+}
+
+double normal(std::uint64_t seed, std::uint64_t i) {
+  const auto [a, b] = random::bits(seed, i, 7);
+  return std::sqrt(-2 * std::log(random::unit_interval(a))) * std::cos(2 * M_PI * random::unit_interval(b));
+}
+
+// What was measured of the floor differs from what it did.
+void disturb_floor(Dataset& data, double noise_mps2, std::uint64_t seed) {
+  data.noise.floor_acceleration_mps2 = noise_mps2;
+  for (std::size_t t = 0; t < data.tests.size(); ++t) {
+    FloorMotion& motion = data.tests[t].motion;
+    std::vector<double> a;
+    for (std::size_t i = 0; i <= motion.segments(); ++i)
+      a.push_back(horizontal_acceleration({&motion, 1, 1, 1}, 0.005 * static_cast<double>(i)) +
+                  noise_mps2 * normal(100 * seed + t, i));
+    motion = piecewise_linear("disturbed", 0.005, a, {});
+  }
+}
+
+// C^-1/2 r by its definition: G of the replays' covariance is what the judge's misfit says by Woodbury's identity.
+TEST(Judge, WhitenedResidualsHaveTheMisfitAsTheirSquare) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  disturb_floor(data, 0.03, 1);
+  const Bench bench(data, 8);
+  const ModelFit fit{.model = test::free_friction(), .x = {0.21}};
+  const Judge judge(bench, fit.model, fit.x, run_here), plain(bench);
+  const auto misfit = judge.misfit_of_fit(fit), sensors_only = plain.misfit_of_fit(fit);
+  for (std::size_t i = 0; i < misfit.size(); ++i) {
+    const auto r = judge.whitened(i, fit.model, fit.x);
+    EXPECT_NEAR(std::inner_product(r.begin(), r.end(), r.begin(), 0.0) / misfit[i], 1, 1e-9);
+    EXPECT_LT(misfit[i], 0.9 * sensors_only[i]);
+  }
+}
+
+TEST(Judge, LeavesOutWhatTheFloorsNoiseHasFannedOut) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  disturb_floor(data, 0.03, 1);
+  const Bench bench(data, 8);
+  const ModelFit fit{.model = test::free_friction(), .x = {0.21}};
+  const Judge judge(bench, fit.model, fit.x, run_here), strict(bench, fit.model, fit.x, run_here, 0.5);
+  for (std::size_t i = 0; i < judge.samples().size(); ++i) {
+    EXPECT_EQ(judge.samples()[i], 2 * 801);
+    EXPECT_LT(strict.samples()[i], judge.samples()[i]);
+    EXPECT_GT(strict.samples()[i], 801);  // the rotation is known as well as ever
+    EXPECT_EQ(strict.whitened(i, fit.model, fit.x).size(), static_cast<std::size_t>(strict.samples()[i]));
+  }
+}
+
+// Three numbers of a tether that make up for each other, from a point of their valley.
+TEST(LeastSquares, FollowsABentValleyToItsEnd) {
+  Specimen truth = cabinet(0.15);
+  const auto* tether = effects::find("slack_tether");
+  truth.effects = {{.effect = tether, .parameters = {-0.004, 2.4, 0.2}}};
+  const Dataset data = test::made_dataset(truth);
+  const Bench bench(data, 0);
+  const ModelSpec model = with_effect(test::free_friction(), *tether, bench.reach());
+  const Judge judge(bench);
+  const Fitted found = least_squares(judge, all_of(judge), model, {0.149, -0.0055, 2.65, 0.3}, 6);
+  EXPECT_LT(found.score, 0.03);
+  EXPECT_NEAR(found.x[0], 0.15, 5e-4);
+  EXPECT_NEAR(found.x[1], -0.004, 3e-4);
+  EXPECT_NEAR(found.x[2], 2.4, 0.02);
+  EXPECT_LT(found.evaluations, 250);
+}
+
+TEST(LeastSquares, NeverEndsHigherThanItBeganAndStaysWithinBounds) {
+  const Dataset data = test::made_dataset(cabinet(0.2));
+  const Bench bench(data, 0);
+  ModelSpec model = test::free_friction();
+  model.free[0].lower = 0.22;
+  const Judge judge(bench);
+  for (const double mu : {0.22, 0.3, 1.1}) {
+    const Fitted found = least_squares(judge, all_of(judge), model, {mu}, 4);
+    EXPECT_LE(found.score, least_squares_score(judge, all_of(judge), model, Values{mu}));
+    EXPECT_GE(found.x[0], 0.22);
+  }
+}
+
+// The floor's noise moves slips by several times the sensors' noise, and friction that is fitted to the sensors' noise
+// alone goes after it.
+TEST(Settle, FrictionIsFoundCloserWhereTheFloorsNoiseIsWeighed) {
+  double plain = 0, settled = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Dataset data = test::made_dataset(cabinet(0.2));
+    disturb_floor(data, 0.03, seed);
+    const Bench bench(data, 16);
+    auto fits = fit_models(bench, {{.model = test::free_friction()}}, Effort{}, run_here);
+    polish(bench, {&fits[0]}, Effort{}, 0.05, run_here);
+    plain += std::pow(fits[0].x[0] - 0.2, 2);
+    settle(bench, fits[0], Effort{}, run_here);
+    settled += std::pow(fits[0].x[0] - 0.2, 2);
+  }
+  EXPECT_LT(settled, 0.5 * plain) << std::sqrt(plain / 6) << " " << std::sqrt(settled / 6);
+}
+
+// A model that misses more than the floor's noise explains is fitted by what it misses.
+TEST(Settle, AWrongModelDoesNotHideBehindTheFloorsNoise) {
+  Specimen truth = cabinet(0.2);
+  truth.friction.mu_s = 0.4;
+  const Dataset data = test::made_dataset(truth);
+  const Bench bench(data, 8);
+  auto fits = fit_models(bench, {{.model = test::free_friction()}}, Effort{}, run_here);
+  const double before = fits[0].score;
+  settle(bench, fits[0], Effort{}, run_here);
+  EXPECT_GT(before, 1);
+  EXPECT_LE(fits[0].score, before);
+  EXPECT_TRUE(fits[0].left_out_refitted);
+  EXPECT_EQ(fits[0].intervals.size(), 1U);
+}
+
+}  // namespace
+}  // namespace freestand::measurement
