@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "measurement/decide.hpp"
+#include "measurement/diagnose_outcomes.hpp"
+#include "measurement/outcome_fit.hpp"
 #include "measurement/starts.hpp"
 
 namespace freestand::measurement {
@@ -265,6 +267,7 @@ Diagnosis diagnose(const Bench& bench, const ModelSpec& base, const Catalogue& c
                     "and needs three and more than there are numbers): add tests, or fix numbers",
                     bench.data().name, tests, base.free.size()),
         Exit::data);
+  if (outcomes_only(bench.data())) return diagnose_outcomes(bench, base, catalogue, options.start, {}, jobs);
   return Diagnoser(bench, base, catalogue, options, jobs).run();
 }
 

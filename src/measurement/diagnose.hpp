@@ -8,6 +8,8 @@
 //      model shows as some tens and more, and chance as a few. Peaks and outcomes: by paired differences of the
 //      left-out scores with their standard error.
 //
+// Tests that say only whether the specimen overturned go their own way (diagnose_outcomes.hpp).
+//
 //   none       no model beats the base by more than chance
 //   missing    one does and is at the noise, and every rival is worse by more than chance
 //   ambiguous  rivals at the noise cannot be told apart
@@ -40,6 +42,7 @@ struct Candidate {
   double delta_bic = 0;                      // against the base; negative: better
   double difference = 0, difference_se = 0;  // of the left-out score to the best one's, paired over the tests
   bool rival = false;                        // cannot be told from the best
+  std::string remark = {};                   // why it was not fitted to the end; outcomes only
 };
 
 struct Diagnosis {

@@ -27,14 +27,18 @@ bool ModelSpec::has(const std::string& name) const {
 }
 
 Specimen specimen(const ModelSpec& model, const Test& test, std::span<const double> x) {
+  return specimen(model, test.specimen, x);
+}
+
+Specimen specimen(const ModelSpec& model, const Dimensions& measured, std::span<const double> x) {
   Specimen s;
-  double width = dimension(model.width, test.specimen.width_m, x);
-  double height = dimension(model.height, test.specimen.height_m, x);
+  double width = dimension(model.width, measured.width_m, x);
+  double height = dimension(model.height, measured.height_m, x);
   if (model.slenderness && model.size) {
     width = 2 * model.size->of(x) * std::sin(model.slenderness->of(x));
     height = 2 * model.size->of(x) * std::cos(model.slenderness->of(x));
   }
-  s.block = Block::rectangular(width, height, dimension(model.mass, test.specimen.mass_kg, x, 1));
+  s.block = Block::rectangular(width, height, dimension(model.mass, measured.mass_kg, x, 1));
   s.friction.mu_k = model.mu_k.of(x);
   s.friction.mu_s = s.friction.mu_k;
   if (model.mu_s) s.friction.mu_s = std::max(s.friction.mu_k, model.mu_s->of(x));

@@ -44,7 +44,7 @@ struct ModelSpec {
   ImpactLaw impact_law = ImpactLaw::housner;
   Number impact_factor{.value = 1};
   std::vector<EffectTerm> effects;
-  // Outcomes only: standard deviation of ln(width) from test to test, since no two placements are alike.
+  // Outcomes only: standard deviation of ln(width) from test to test, since no two placements are alike (placements.hpp).
   std::optional<Number> placement_scatter;
   std::vector<Free> free;
 
@@ -52,6 +52,7 @@ struct ModelSpec {
 };
 
 // The specimen of a test with the free numbers at x. Dimensions must be known (check with missing_dimension).
+Specimen specimen(const ModelSpec&, const Dimensions&, std::span<const double> x);
 Specimen specimen(const ModelSpec&, const Test&, std::span<const double> x);
 
 // Name of a dimension that neither the model nor the test's specimen gives; empty: all are known.

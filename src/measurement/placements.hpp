@@ -1,12 +1,50 @@
-// Probability that a specimen overturns, when no two placements of it are alike.
+// Probability that a specimen overturns, when no two placements of it are alike: ln(width) is normal about the model's
+// with ModelSpec::placement_scatter (ln(slenderness) at the same size, where the model is given by those).
+//
+// The outcome is computed at places, equal steps apart in that logarithm and anchored at its zero, and taken to change
+// evenly between two places that differ; beyond the last ones it stays. So the probability is a smooth function of middle
+// and scatter, and the same outcomes serve for all middles and scatters: a fit need not compute them again.
 #pragma once
+
+#include <cstdint>
 
 #include "measurement/bench.hpp"
 
 namespace freestand::measurement {
 
-// Share of the placements that overturn, of each of these tests: ln(width) is normal about the model's with
-// ModelSpec::placement_scatter, and stands at the middles of nine equally likely parts. All samples go as one batch.
+// At most 64 of them.
+struct Places {
+  double first = 0, step = 0;
+  int count = 1;
+  double at(int k) const { return first + k * step; }
+  bool operator==(const Places&) const = default;
+};
+
+// Middle of ln(slenderness) or ln(width); 0 where every test has its own width, and places are relative to that.
+double placement_middle(const ModelSpec&, std::span<const double> x);
+double placement_scatter(const ModelSpec&, std::span<const double> x);
+// The free number that moves the middle; -1: none.
+int placement_number(const ModelSpec&);
+
+// Distance of places that is fine enough for a scatter: between a fifth and two fifths of it, a power of two.
+double place_step(double scatter);
+// All places in [low, high], and the next beyond; wider apart than `step` if need be.
+Places places_between(double low, double high, double step);
+// Those of one middle and scatter: out to 2.5 times the scatter. No scatter: the middle alone.
+Places places_about(double middle, double scatter);
+
+// Share of the placements that each place stands for; their sum is 1.
+std::vector<double> place_shares(const Places&, double middle, double scatter);
+
+// One word a test: bit k is set where it overturns at place k. What stands at the narrowest place is taken to stand at
+// all, and what overturns at the widest to overturn at all: half of the work. The rest go as one batch.
+std::vector<std::uint64_t> outcomes(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
+                                    std::span<const double> x, const Places&);
+
+// Sum of the shares whose bit is set.
+double overturning_share(std::uint64_t outcomes, const std::vector<double>& shares);
+
+// Of each of these tests.
 std::vector<double> overturning_probabilities(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
                                               std::span<const double> x);
 

@@ -80,14 +80,6 @@ TestError peak_error(const Bench& bench, std::size_t i, const Prediction& predic
   return error;
 }
 
-TestError outcome_error(const Test& test, double probability) {
-  const double y = test.peaks.overturned.value_or(false) ? 1 : 0;
-  return {.score = (probability - y) * (probability - y),
-          .noise_units = unknown,
-          .relative = unknown,
-          .probability = probability};
-}
-
 }  // namespace
 
 Kind kind(const Test& test) {
@@ -95,6 +87,14 @@ Kind kind(const Test& test) {
   const Peaks& p = test.peaks;
   return p.peak_slip_m || p.residual_slip_m || p.peak_rotation_rad || p.peak_acceleration_g ? Kind::peaks
                                                                                             : Kind::outcome;
+}
+
+TestError outcome_error(const Test& test, double probability) {
+  const double y = test.peaks.overturned.value_or(false) ? 1 : 0;
+  return {.score = (probability - y) * (probability - y),
+          .noise_units = unknown,
+          .relative = unknown,
+          .probability = probability};
 }
 
 TestError test_error(const Bench& bench, std::size_t i, const Prediction& prediction) {

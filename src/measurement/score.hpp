@@ -25,6 +25,8 @@ struct TestError {
 TestError test_error(const Bench&, std::size_t test, const Prediction&);  // histories and peaks
 TestError test_error(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x);
 
+TestError outcome_error(const Test&, double probability);
+
 // Of these tests, in their order; outcomes as one batch.
 std::vector<TestError> test_errors(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
                                    std::span<const double> x);

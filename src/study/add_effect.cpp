@@ -7,6 +7,7 @@
 
 #include "effects/effects.hpp"
 #include "measurement/least_squares.hpp"
+#include "measurement/outcome_fit.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/fitted_study.hpp"
 #include "study/section.hpp"
@@ -89,6 +90,18 @@ ModelSpec starting(const Prepared& before, const ModelFit& fit, const Prepared& 
   return model;
 }
 
+ModelFit fit_with_effect(const Bench& bench, const ModelSpec& model, const Jobs& jobs) {
+  if (outcomes_only(bench.data())) return fit_outcomes(bench, model, {}, {}, jobs);
+  Effort effort;
+  effort.screened_per_number = 256;
+  effort.starts = 6;
+  auto fits = fit_models(bench, {{.model = model}}, effort, jobs);
+  polish(bench, {&fits[0]}, effort, 0.15, jobs);
+  refine(bench, {&fits[0]}, effort, jobs);
+  settle(bench, fits[0], effort, jobs);
+  return std::move(fits[0]);
+}
+
 LadderStep step_of(const std::string& step, const Prepared& p, const ModelFit& fit, const Jobs& jobs) {
   const auto tests = compare_tests(*p.bench, fit, jobs);
   const RoleError in = role_error(*p.bench, tests, Role::calibration), out = role_error(*p.bench, tests, Role::holdout);
@@ -131,18 +144,12 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   const auto after = prepare(world, parse_validation(study_text(root), before->validation.file), run, 16);
 
   const ModelFit base = fitted(*before, false, jobs);
-  Effort effort;
-  effort.screened_per_number = 256;
-  effort.starts = 6;
-  auto fits = fit_models(*after->bench, {{.model = starting(*before, base, *after)}}, effort, jobs);
-  polish(*after->bench, {&fits[0]}, effort, 0.15, jobs);
-  refine(*after->bench, {&fits[0]}, effort, jobs);
-  settle(*after->bench, fits[0], effort, jobs);
+  const ModelFit fit = fit_with_effect(*after->bench, starting(*before, base, *after), jobs);
 
   std::vector<LadderStep> ladder = before->validation.ladder;
   if (ladder.empty()) ladder.push_back(step_of("base", *before, base, jobs));
-  ladder.push_back(step_of(entry["name"].as<std::string>(), *after, fits[0], jobs));
-  write_numbers(root, fits[0]);
+  ladder.push_back(step_of(entry["name"].as<std::string>(), *after, fit, jobs));
+  write_numbers(root, fit);
   root["ladder"] = ladder_node(ladder);
   return study_text(root);
 }

@@ -6,6 +6,7 @@
 #include "base/units.hpp"
 #include "effects/effects.hpp"
 #include "measurement/decide.hpp"
+#include "measurement/diagnose_outcomes.hpp"
 #include "measurement/quality.hpp"
 #include "measurement/recover.hpp"
 #include "measurement/suggest.hpp"
@@ -49,6 +50,7 @@ Json candidate_json(const Bench& bench, const Candidate& c) {
           {"rival", c.rival},
           {"practical", c.practical},
           {"left_out_refitted", c.fit.left_out_refitted},
+          {"remark", c.remark.empty() ? Json(nullptr) : Json(c.remark)},
           {"evaluations", c.fit.evaluations}};
 }
 
@@ -121,8 +123,10 @@ Json suggestion_json(const Bench& bench, const Diagnosis& d, const Jobs& jobs) {
           {"sentence", s.sentence}};
 }
 
-double noise_floor(const Diagnosis& d) {
+// Of outcomes: Brier's score that the base would have if its probabilities were right.
+double noise_floor(const Bench& bench, const Diagnosis& d) {
   double square = 0;
+  if (outcomes_only(bench.data())) return expected_brier(d.base.fit.calibration).error;
   for (const double e : d.noise_floor) square += e * e / static_cast<double>(d.noise_floor.size());
   return d.noise_floor.empty() ? std::nan("") : std::sqrt(square);
 }
@@ -164,7 +168,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
   withdraw_if_spoilt(quality, d);
   const Candidate* best = &d.base;
   for (const Candidate& c : d.candidates)
-    if (c.visible && c.fit.mean_left_out() < best->fit.mean_left_out()) best = &c;
+    if (c.visible && c.fit.left_out_refitted && c.fit.mean_left_out() < best->fit.mean_left_out()) best = &c;
 
   Json json = {{"format", "freestand-diagnosis/1"},
                {"study", run.study},
@@ -175,7 +179,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
                {"effects", d.effects},
                {"sentences", d.sentences},
                {"findings", quality.findings},
-               {"noise_floor", number_or_null(noise_floor(d))},
+               {"noise_floor", number_or_null(noise_floor(bench, d))},
                {"base", candidate_json(bench, d.base)}};
   json["candidates"] = Json::array();
   for (const Candidate& c : d.candidates) json["candidates"].push_back(candidate_json(bench, c));

@@ -7,6 +7,7 @@
 
 #include "io/provenance.hpp"
 #include "measurement/least_squares.hpp"
+#include "measurement/outcome_fit.hpp"
 #include "study/problems.hpp"
 #include "study/read_measurements.hpp"
 #include "study/validation_parts.hpp"
@@ -45,13 +46,16 @@ void add_placement_scatter(Prepared& p) {
 
 }  // namespace
 
-const char* const calibration_method =
-    "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and Mead descends (GSL "
-    "nmsimplex2), and once more from the best of those; the mean of ln(error^2) of the calibration tests is made "
-    "least; histories end in Levenberg and Marquardt's least squares (GSL multifit_nlinear), at the noise weighed by "
-    "the "
-    "covariance that replays of the floor's noise show; "
-    "intervals of 95 % by the jackknife over the tests";
+const char* calibration_method(const Bench& bench) {
+  if (outcomes_only(bench.data()))
+    return "outcomes are computed for many placements of the specimen at points of a Sobol sequence that close in on the "
+           "best; over these points, and over middle and scatter of the placements, Brier's score of the calibration "
+           "tests is made least; intervals of 95 % from 200 draws of the tests with replacement";
+  return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and Mead descends (GSL "
+         "nmsimplex2), and once more from the best of those; the mean of ln(error^2) of the calibration tests is made "
+         "least; histories end in Levenberg and Marquardt's least squares (GSL multifit_nlinear), at the noise weighed by "
+         "the covariance that replays of the floor's noise show; intervals of 95 % by the jackknife over the tests";
+}
 
 nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
@@ -110,6 +114,7 @@ ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
                             "role: calibration",
                             p.measurements),
                 Exit::data);
+  if (outcomes_only(p.data)) return fit_outcomes(bench, p.model, all_known ? known : Values{}, {}, jobs);
   Effort effort;
   effort.screened_per_number = 64;
   FitTask task{.model = p.model};

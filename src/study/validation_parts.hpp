@@ -44,6 +44,6 @@ void add_provenance(nlohmann::ordered_json& document, const parallel::Communicat
 // null where it is not finite.
 nlohmann::ordered_json number_or_null(double value);
 
-extern const char* const calibration_method;
+const char* calibration_method(const measurement::Bench&);  // a sentence
 
 }  // namespace freestand::study

@@ -1,0 +1,28 @@
+// Which effect does the model lack, where all that is known of a test is whether the specimen overturned?
+//
+// The base is fitted, effects are looked at on the tests that it is least sure of (outcome_screen.hpp), those that promise
+// something are fitted with tests left out in ten groups, and once more as a second effect beside the best. Judged by
+// Brier's score of the tests left out, paired test by test: an effect is accepted that lowers it by more than chance, at
+// 97.5 % of Student's t divided by the number of effects that were looked at; a rival of the best lowers it by more than
+// its standard error and cannot be told from the best at 97.5 %.
+#pragma once
+
+#include "measurement/diagnose.hpp"
+#include "measurement/outcome_fit.hpp"
+
+namespace freestand::measurement {
+
+Diagnosis diagnose_outcomes(const Bench&, const ModelSpec& base, const std::vector<const dynamics::Effect*>& catalogue,
+                            const Values& start, const OutcomeEffort&, const Jobs&);
+
+// Brier's score that the model would have if its probabilities were right, mean of p (1 - p), and how much chance moves
+// it: sqrt(sum p (1 - p) (1 - 2 p)^2)/n.
+Pooled expected_brier(const std::vector<TestError>&);
+
+// Mean difference of the left-out scores, a - b, and its standard error.
+Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b);
+
+// Is the difference above 0 by more than chance, when it is the best of so many?
+bool beyond_chance(const Pooled& difference, std::size_t tests, std::size_t tried);
+
+}  // namespace freestand::measurement

@@ -1,0 +1,303 @@
+#include "measurement/outcome_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/random.hpp"
+#include "measurement/starts.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+// Fits of the model without the effect, to all tests and with folds left out: distinct points.
+std::vector<Values> plain_points(const ModelFit& without) {
+  std::vector<Values> points = {without.x};
+  const auto numbers = other_numbers(without.model);
+  for (const Values& x : without.fold_x) {
+    const bool known = std::any_of(points.begin(), points.end(), [&](const Values& p) {
+      return std::all_of(numbers.begin(), numbers.end(), [&](std::size_t i) { return p[i] == x[i]; });
+    });
+    if (!known) points.push_back(x);
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<std::size_t> other_numbers(const ModelSpec& model) {
+  const int scatter = model.placement_scatter ? model.placement_scatter->free : -1;
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < model.free.size(); ++i)
+    if (static_cast<int>(i) != placement_number(model) && static_cast<int>(i) != scatter) numbers.push_back(i);
+  return numbers;
+}
+
+void add_points(OutcomeTable& table, const std::vector<Free>& box, const std::vector<std::size_t>& numbers,
+                const Values& x, std::size_t count) {
+  if (numbers.empty()) {
+    if (table.points.empty()) table.points.push_back({x});
+    return;
+  }
+  for (const Values& z : sobol_starts(box, count)) {
+    table.points.push_back({x});
+    for (std::size_t i = 0; i < numbers.size(); ++i) table.points.back().x[numbers[i]] = z[i];
+  }
+}
+
+void add_plain_points(OutcomeTable& table, const ModelFit& without) {
+  for (const Values& x : plain_points(without)) {
+    ModelFit at = without;
+    at.x = x;
+    table.points.push_back({.x = start_at_nothing(at, *table.model.effects.back().effect), .plain = true});
+  }
+}
+
+namespace {
+
+constexpr double usual_scatter = 0.25, wide_room = 1, room = 0.2;  // in ln(width)
+constexpr double least_box = 0.03;                                 // of the range
+
+Values middle_of_range(const ModelSpec& model) {
+  Values x;
+  for (const Free& free : model.free) x.push_back(from_unit(free, 0.5));
+  return x;
+}
+
+// The box of the best fifth of the points, a fifth wider.
+std::vector<Free> elite_box(const ModelSpec& model, const std::vector<std::size_t>& numbers, const OutcomeTable& table,
+                            const std::vector<double>& scores) {
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k < scores.size(); ++k)
+    if (std::isfinite(scores[k]) && !table.points[k].plain) order.push_back(k);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return scores[a] < scores[b]; });
+  order.resize(std::min(order.size(), std::max<std::size_t>(4, order.size() / 5)));
+  std::vector<Free> box;
+  for (const std::size_t i : numbers) {
+    Free free = model.free[i];
+    double low = 1e9, high = -1e9;
+    for (const std::size_t k : order) {
+      low = std::min(low, to_unit(free, table.points[k].x[i]));
+      high = std::max(high, to_unit(free, table.points[k].x[i]));
+    }
+    const double half = std::max(0.6 * (high - low), least_box), middle = 0.5 * (low + high);
+    const double lower = from_unit(model.free[i], middle - half), upper = from_unit(model.free[i], middle + half);
+    free.low = lower;
+    free.high = upper;
+    free.logarithmic = free.logarithmic && lower > 0;
+    box.push_back(free);
+  }
+  return box;
+}
+
+std::vector<Free> range(const ModelSpec& model, const std::vector<std::size_t>& numbers) {
+  std::vector<Free> box;
+  for (const std::size_t i : numbers) box.push_back(model.free[i]);
+  return box;
+}
+
+std::size_t points_of_round(std::size_t per_number, const std::vector<std::size_t>& numbers, std::size_t most) {
+  return std::min(most, per_number * std::max<std::size_t>(numbers.size(), 1));
+}
+
+Places fine_places(const ModelSpec& model, const Values& x) {
+  const double middle = placement_middle(model, x), scatter = placement_scatter(model, x);
+  if (scatter <= 0 && placement_number(model) < 0) return places_about(middle, scatter);
+  const double step = place_step(scatter > 0 ? scatter : room / 10);
+  const double reach = room + 2 * scatter;
+  return places_between(middle - reach, middle + reach, step);
+}
+
+// All from the table: the fit, its folds, its intervals. One job.
+class Reading {
+ public:
+  Reading(const Bench& bench, const OutcomeTable& table, std::size_t resamples)
+      : bench_(bench), table_(table), search_(bench, table), fold_(fold_of(table.tests.size())) {
+    all_ = search_.best();
+    add(all_);
+    for (const double p : all_.probability) answer_.push_back(p);
+    const std::size_t folds = fold_.empty() ? 0 : *std::max_element(fold_.begin(), fold_.end()) + 1;
+    for (std::size_t f = 0; f < folds; ++f) {
+      std::vector<double> weight;
+      for (const std::size_t of : fold_) weight.push_back(of == f ? 0 : 1);
+      const TableFit fit = search_.best(weight);
+      add(fit);
+      for (std::size_t t = 0; t < fold_.size(); ++t)
+        if (fold_[t] == f) answer_.push_back(fit.probability[t]);
+    }
+    intervals(resamples);
+  }
+  const Values& answer() const { return answer_; }
+
+ private:
+  void add(const TableFit& fit) { answer_.insert(answer_.end(), fit.x.begin(), fit.x.end()); }
+
+  void intervals(std::size_t resamples) {
+    const std::size_t n = table_.tests.size(), numbers = all_.x.size();
+    std::vector<Values> found(numbers);
+    for (std::size_t b = 0; b < resamples; ++b) {
+      std::vector<double> weight(n, 0.0);
+      for (std::size_t t = 0; t < n; ++t)
+        ++weight[std::min(n - 1, static_cast<std::size_t>(random::uniform(1, b, t) * static_cast<double>(n)))];
+      const TableFit fit = search_.best(weight);
+      for (std::size_t i = 0; i < numbers; ++i) found[i].push_back(fit.x[i]);
+    }
+    for (std::size_t i = 0; i < numbers; ++i) {
+      std::sort(found[i].begin(), found[i].end());
+      const double most = static_cast<double>(resamples) - 1;
+      answer_.push_back(std::min(all_.x[i], found[i][static_cast<std::size_t>(std::lround(0.025 * most))]));
+      answer_.push_back(std::max(all_.x[i], found[i][static_cast<std::size_t>(std::lround(0.975 * most))]));
+    }
+  }
+
+  const Bench& bench_;
+  const OutcomeTable& table_;
+  TableSearch search_;
+  std::vector<std::size_t> fold_;
+  TableFit all_;
+  Values answer_;
+};
+
+ModelFit unpacked(const Bench& bench, const OutcomeTable& table, const Values& answer) {
+  ModelFit fit{.model = table.model};
+  const std::size_t numbers = table.model.free.size(), n = table.tests.size();
+  auto at = answer.begin();
+  const auto take = [&](std::size_t count) {
+    const Values values(at, at + static_cast<long>(count));
+    at += static_cast<long>(count);
+    return values;
+  };
+  fit.x = take(numbers);
+  const Values p = take(n);
+  for (std::size_t t = 0; t < n; ++t) {
+    fit.calibration.push_back(outcome_error(bench.test(table.tests[t]), p[t]));
+    fit.score += fit.calibration.back().score / static_cast<double>(n);
+  }
+  fit.left_out = fit.calibration;
+  const auto fold = fold_of(n);
+  const std::size_t folds = fold.empty() ? 0 : *std::max_element(fold.begin(), fold.end()) + 1;
+  for (std::size_t f = 0; f < folds; ++f) {
+    fit.fold_x.push_back(take(numbers));
+    for (std::size_t t = 0; t < n; ++t)
+      if (fold[t] == f) fit.left_out[t] = outcome_error(bench.test(table.tests[t]), *at++);
+  }
+  for (std::size_t i = 0; i < numbers; ++i) {
+    const Values ends = take(2);
+    fit.intervals.push_back({ends[0], ends[1]});
+  }
+  fit.evaluations = static_cast<int>(table.points.size());
+  fit.left_out_refitted = true;
+  return fit;
+}
+
+std::vector<OutcomeTable*> pointers(std::vector<OutcomeTable>& tables) {
+  std::vector<OutcomeTable*> all;
+  for (OutcomeTable& table : tables) all.push_back(&table);
+  return all;
+}
+
+// From coarse tables to fits.
+std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTable*>& coarse, const ModelFit* without,
+                               const OutcomeEffort& effort, const Jobs& jobs) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  std::vector<OutcomeTable> fine;
+  for (const OutcomeTable* table : coarse) {
+    const TableSearch search(bench, *table);
+    const TableFit best = search.best();
+    const auto numbers = other_numbers(table->model);
+    fine.push_back({table->model, table->without, tests, fine_places(table->model, best.x)});
+    if (without) add_plain_points(fine.back(), *without);
+    if (!table->points[best.point].plain) fine.back().points.push_back({best.x});
+    add_points(fine.back(), elite_box(table->model, numbers, *table, search.scores()), numbers, best.x,
+               points_of_round(without && is_slow(*table) ? effort.near / 2 : effort.near, numbers, effort.most));
+  }
+  compute(bench, pointers(fine), "outcomes near the best", jobs);
+  for (OutcomeTable& table : fine) {
+    const TableSearch search(bench, table);
+    const TableFit best = search.best();
+    const auto numbers = other_numbers(table.model);
+    if (const Places places = fine_places(table.model, best.x);
+        places.step != table.places.step ||
+        std::abs(placement_middle(table.model, best.x) -
+                 0.5 * (table.places.at(0) + table.places.at(table.places.count - 1))) > room) {
+      table.places = places;
+      for (TablePoint& point : table.points) point.outcomes.clear();
+    }
+    if (!numbers.empty())
+      add_points(
+          table, elite_box(table.model, numbers, table, search.scores()), numbers, best.x,
+          points_of_round(without && is_slow(table) ? effort.nearest / 2 : effort.nearest, numbers, effort.most));
+  }
+  compute(bench, pointers(fine), "outcomes nearest to the best", jobs);
+  const auto answers = jobs("folds and resampled tests", fine.size(),
+                            [&](std::size_t i) { return Reading(bench, fine[i], effort.resamples).answer(); });
+  std::vector<ModelFit> fits;
+  for (std::size_t i = 0; i < fine.size(); ++i) fits.push_back(unpacked(bench, fine[i], answers[i]));
+  return fits;
+}
+
+}  // namespace
+
+bool is_slow(const OutcomeTable& table) {
+  const dynamics::Effect& effect = *table.model.effects.back().effect;
+  return effect.dynamic() || effect.floor;
+}
+
+bool outcomes_only(const Dataset& data) {
+  const auto tests = tests_of(data, Role::calibration);
+  return !tests.empty() &&
+         std::all_of(tests.begin(), tests.end(), [&](std::size_t i) { return kind(data.tests[i]) == Kind::outcome; });
+}
+
+ModelFit fit_outcomes(const Bench& bench, const ModelSpec& model, const Values& start, const OutcomeEffort& effort,
+                      const Jobs& jobs) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const auto numbers = other_numbers(model);
+  const Values x = start.empty() ? middle_of_range(model) : start;
+  OutcomeTable coarse{model, model, tests};
+  const int placed = placement_number(model);
+  const double scatter =
+      model.placement_scatter && model.placement_scatter->free < 0 ? model.placement_scatter->value : usual_scatter;
+  if (placed < 0) {
+    const double middle = placement_middle(model, x);
+    coarse.places = scatter > 0 ? places_between(middle - wide_room, middle + wide_room, place_step(scatter))
+                                : places_about(middle, 0);
+  } else {
+    const Free& free = model.free[static_cast<std::size_t>(placed)];
+    coarse.places =
+        places_between(std::log(std::max(free.lower, 1e-3 * free.upper)) - wide_room, std::log(free.upper) + wide_room,
+                       4 * place_step(scatter > 0 ? scatter : usual_scatter));
+  }
+  if (!start.empty()) coarse.points.push_back({start});
+  add_points(coarse, range(model, numbers), numbers, x, points_of_round(effort.wide, numbers, effort.most));
+  compute(bench, {&coarse}, "outcomes over the whole range", jobs);
+  return close_in(bench, {&coarse}, nullptr, effort, jobs).front();
+}
+
+std::vector<ModelFit> fit_outcomes(const Bench& bench, const ModelFit& without,
+                                   const std::vector<OutcomeTable*>& coarse, const OutcomeEffort& effort,
+                                   const Jobs& jobs) {
+  return close_in(bench, coarse, &without, effort, jobs);
+}
+
+std::vector<ModelFit> read_outcomes(const Bench& bench, const std::vector<OutcomeTable*>& coarse, const Jobs& jobs) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  std::vector<OutcomeTable> fine;
+  for (const OutcomeTable* table : coarse) {
+    const TableFit best = TableSearch(bench, *table).best();
+    fine.push_back({table->model, table->without, tests, fine_places(table->model, best.x)});
+    fine.back().points.push_back({best.x, table->points[best.point].plain});
+  }
+  compute(bench, pointers(fine), "outcomes of the others", jobs);
+  std::vector<ModelFit> fits;
+  for (const OutcomeTable& table : fine) {
+    const TableFit best = TableSearch(bench, table).best();
+    fits.push_back({.model = table.model, .x = best.x, .score = best.score, .evaluations = 1});
+    for (std::size_t t = 0; t < tests.size(); ++t)
+      fits.back().calibration.push_back(outcome_error(bench.test(tests[t]), best.probability[t]));
+    fits.back().left_out = fits.back().calibration;
+  }
+  return fits;
+}
+
+}  // namespace freestand::measurement
