@@ -70,24 +70,53 @@ class Findings {
           bias, ratio.scatter_ln, ratio.count);
   }
 
+  // Of tests that say whether the specimen overturned: how many are missed, and whether chance explains it.
   void outcomes() {
-    std::size_t n = 0, missed = 0, false_alarms = 0, silent = 0;
-    double brier = 0;
-    for (const TestComparison& t : c_.tests) {
-      const auto& overturned = bench_.test(t.test).peaks.overturned;
-      if (!overturned || bench_.test(t.test).has_history()) continue;
-      ++n;
-      brier += t.error.score;
-      const bool says = t.error.probability > 0.5;
-      missed += says != *overturned;
-      false_alarms += says && !*overturned;
-      silent += !says && *overturned;
+    for (const Role role : {Role::calibration, Role::holdout}) {
+      std::vector<const TestComparison*> all;
+      for (const TestComparison& t : c_.tests)
+        if (const Test& test = bench_.test(t.test); test.role == role && kind(test) == Kind::outcome) all.push_back(&t);
+      if (!all.empty()) outcomes(all, role);
     }
-    if (n > 0)
-      say("{} of {} outcomes are missed ({:.1f} %): {} that stood were predicted to overturn, {} that overturned to "
-          "stand; Brier score {:.4f}",
-          missed, n, 100.0 * static_cast<double>(missed) / static_cast<double>(n), false_alarms, silent,
-          brier / static_cast<double>(n));
+  }
+
+  void outcomes(const std::vector<const TestComparison*>& all, Role role) {
+    std::size_t missed = 0, false_alarms = 0, overturned = 0;
+    double brier = 0, expected = 0, chance = 0, chance_variance = 0;
+    std::vector<std::string> sure;
+    const auto n = static_cast<double>(all.size());
+    for (const TestComparison* t : all) {
+      const bool fell = bench_.test(t->test).peaks.overturned.value_or(false);
+      const double p = t->error.probability;
+      const bool says = p > 0.5;
+      overturned += fell;
+      missed += says != fell;
+      false_alarms += says && !fell;
+      expected += p;
+      brier += t->error.score / n;
+      chance += p * (1 - p) / n;
+      chance_variance += p * (1 - p) * (1 - 2 * p) * (1 - 2 * p) / (n * n);
+      if (t->error.score > 0.81)
+        sure.push_back(fmt::format("{} ({:.2f}, {})", bench_.test(t->test).id, p, fell ? "overturned" : "stood"));
+    }
+    const char* whose = role == Role::calibration ? "calibration" : "held-out";
+    say("{} of {} {} tests are missed ({:.1f} %): {} that stood were predicted to overturn, {} that overturned to "
+        "stand",
+        missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n, false_alarms, missed - false_alarms);
+    const double sd = std::sqrt(chance_variance);
+    say("the Brier score of the {} tests is {:.4f}; were the model's probabilities right, chance alone would make "
+        "{:.4f} "
+        "+- {:.4f}: {}",
+        whose, brier, chance, sd,
+        brier > chance + 2 * sd   ? "the model is surer than it may be, something is missing"
+        : brier < chance - 2 * sd ? "the model is less sure than it might be"
+                                  : "chance explains what is missed");
+    const double spread = std::sqrt(chance * n);
+    if (std::abs(expected - static_cast<double>(overturned)) > 2 * spread)
+      say("{} of the {} tests overturned where the model expects {:.0f} +- {:.0f}: it is too {}", overturned, whose,
+          expected, spread, expected > static_cast<double>(overturned) ? "unstable" : "stable");
+    if (!sure.empty())
+      say("against odds of nine to one (probability of overturning in brackets) came out {}", fmt::join(sure, ", "));
   }
 
   // Where the residual grows most: the phase, and the two variables that part the bad from the good best.

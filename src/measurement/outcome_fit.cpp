@@ -53,6 +53,11 @@ void add_plain_points(OutcomeTable& table, const ModelFit& without) {
   }
 }
 
+bool is_slow(const OutcomeTable& table) {
+  const auto one_by_one = [](const EffectTerm& term) { return term.effect->dynamic() || term.effect->floor; };
+  return std::any_of(table.model.effects.begin(), table.model.effects.end(), one_by_one);
+}
+
 namespace {
 
 constexpr double usual_scatter = 0.25, wide_room = 1, room = 0.2;  // in ln(width)
@@ -100,10 +105,11 @@ std::size_t points_of_round(std::size_t per_number, const std::vector<std::size_
   return std::min(most, per_number * std::max<std::size_t>(numbers.size(), 1));
 }
 
-Places fine_places(const ModelSpec& model, const Values& x) {
+Places fine_places(const OutcomeTable& table, const Values& x) {
+  const ModelSpec& model = table.model;
   const double middle = placement_middle(model, x), scatter = placement_scatter(model, x);
   if (scatter <= 0 && placement_number(model) < 0) return places_about(middle, scatter);
-  const double step = place_step(scatter > 0 ? scatter : room / 10);
+  const double step = place_step(scatter > 0 ? scatter : room / 10) * (is_slow(table) ? 2 : 1);
   const double reach = room + 2 * scatter;
   return places_between(middle - reach, middle + reach, step);
 }
@@ -205,18 +211,18 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
     const TableSearch search(bench, *table);
     const TableFit best = search.best();
     const auto numbers = other_numbers(table->model);
-    fine.push_back({table->model, table->without, tests, fine_places(table->model, best.x)});
+    fine.push_back({table->model, table->without, tests, fine_places(*table, best.x)});
     if (without) add_plain_points(fine.back(), *without);
     if (!table->points[best.point].plain) fine.back().points.push_back({best.x});
     add_points(fine.back(), elite_box(table->model, numbers, *table, search.scores()), numbers, best.x,
-               points_of_round(without && is_slow(*table) ? effort.near / 2 : effort.near, numbers, effort.most));
+               points_of_round(effort.near, numbers, is_slow(*table) ? effort.most / 3 : effort.most));
   }
   compute(bench, pointers(fine), "outcomes near the best", jobs);
   for (OutcomeTable& table : fine) {
     const TableSearch search(bench, table);
     const TableFit best = search.best();
     const auto numbers = other_numbers(table.model);
-    if (const Places places = fine_places(table.model, best.x);
+    if (const Places places = fine_places(table, best.x);
         places.step != table.places.step ||
         std::abs(placement_middle(table.model, best.x) -
                  0.5 * (table.places.at(0) + table.places.at(table.places.count - 1))) > room) {
@@ -224,9 +230,8 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
       for (TablePoint& point : table.points) point.outcomes.clear();
     }
     if (!numbers.empty())
-      add_points(
-          table, elite_box(table.model, numbers, table, search.scores()), numbers, best.x,
-          points_of_round(without && is_slow(table) ? effort.nearest / 2 : effort.nearest, numbers, effort.most));
+      add_points(table, elite_box(table.model, numbers, table, search.scores()), numbers, best.x,
+                 points_of_round(effort.nearest, numbers, is_slow(table) ? effort.most / 4 : effort.most));
   }
   compute(bench, pointers(fine), "outcomes nearest to the best", jobs);
   const auto answers = jobs("folds and resampled tests", fine.size(),
@@ -237,11 +242,6 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
 }
 
 }  // namespace
-
-bool is_slow(const OutcomeTable& table) {
-  const dynamics::Effect& effect = *table.model.effects.back().effect;
-  return effect.dynamic() || effect.floor;
-}
 
 bool outcomes_only(const Dataset& data) {
   const auto tests = tests_of(data, Role::calibration);
@@ -285,7 +285,7 @@ std::vector<ModelFit> read_outcomes(const Bench& bench, const std::vector<Outcom
   std::vector<OutcomeTable> fine;
   for (const OutcomeTable* table : coarse) {
     const TableFit best = TableSearch(bench, *table).best();
-    fine.push_back({table->model, table->without, tests, fine_places(table->model, best.x)});
+    fine.push_back({table->model, table->without, tests, fine_places(*table, best.x)});
     fine.back().points.push_back({best.x, table->points[best.point].plain});
   }
   compute(bench, pointers(fine), "outcomes of the others", jobs);

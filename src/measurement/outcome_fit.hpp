@@ -10,8 +10,8 @@
 namespace freestand::measurement {
 
 struct OutcomeEffort {
-  std::size_t wide = 16, near = 14, nearest = 10;  // points of the three rounds, times the count of other numbers
-  std::size_t most = 40;                           // points of a round
+  std::size_t wide = 16, near = 12, nearest = 8;  // points of the three rounds, times the count of other numbers
+  std::size_t most = 40;                          // points of a round
   std::size_t resamples = 200;
   std::size_t seen_tests = 24, screened_tests = 60;  // with which effects are looked at before they are fitted
 };
@@ -27,7 +27,8 @@ void add_plain_points(OutcomeTable&, const ModelFit& without);
 void add_points(OutcomeTable&, const std::vector<Free>& box, const std::vector<std::size_t>& numbers, const Values& x,
                 std::size_t count);
 
-// Does the last effect go sample by sample, some tens of times slower than in packs? Then it gets half the points.
+// Does an effect go sample by sample, some tens of times slower than in packs? Then points are fewer, and places twice as
+// far apart.
 bool is_slow(const OutcomeTable&);
 
 // Do all calibration tests say no more than whether the specimen overturned?

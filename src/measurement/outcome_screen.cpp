@@ -12,8 +12,8 @@ namespace {
 constexpr double room = 0.35;          // in ln(width)
 constexpr double rounding = 0.01;      // share of outcomes that two ways of computing may tell differently
 constexpr std::size_t looks = 3;       // points of the effect's range beside its ends
-constexpr double imitation = 0.2;      // share of a change of probabilities that is left when it is imitated
-constexpr double least_change = 0.02;  // of the probabilities, that can be imitated at all
+constexpr double imitation = 0.25;     // share of a change of probabilities that is left when it is imitated
+constexpr double least_change = 0.05;  // of the probabilities, that can be imitated at all
 
 std::vector<std::size_t> unsure_tests(const Bench& bench, const ModelFit& fit, std::size_t count) {
   const auto tests = tests_of(bench.data(), Role::calibration);
@@ -101,17 +101,15 @@ bool is_imitated(const Bench& bench, const OutcomeTable& table, std::size_t plai
   const TableSearch search(bench, table, true);
   const Values& x = table.points.front().x;
   const auto as_fitted = search.probabilities(0, x);
-  bool imitated = false;
+  double most = 0, left = 0;
   for (std::size_t k = plain; k < plain + 2; ++k) {
     const auto with = search.probabilities(k, x);
     double change = 0;
     for (std::size_t t = 0; t < with.size(); ++t)
       change += std::abs(with[t] - as_fitted[t]) / static_cast<double>(with.size());
-    if (change < least_change) continue;
-    if (search.nearest(with).score > imitation * change) return false;
-    imitated = true;
+    if (change > most) most = change, left = search.nearest(with).score;
   }
-  return imitated;
+  return most > least_change && left < imitation * most;
 }
 
 void weigh(const Bench& bench, Screened& s) {
@@ -130,7 +128,10 @@ void weigh(const Bench& bench, Screened& s) {
 }  // namespace
 
 bool Screened::visible() const { return changed > rounding; }
-bool Screened::promising() const { return visible() && !imitated && gain > gain_se; }
+bool Screened::promising() const {
+  const auto numbers = static_cast<double>(table.model.free.size() - table.without.free.size());
+  return visible() && !imitated && gain > std::sqrt(numbers) * gain_se;
+}
 
 std::vector<Screened> screen_outcomes(const Bench& bench, const ModelFit& without,
                                       const std::vector<const dynamics::Effect*>& effects, const OutcomeEffort& effort,

@@ -14,7 +14,7 @@ struct Screened {
   bool imitated = false;         // there the other numbers do the same
   double gain = 0, gain_se = 0;  // of the mean score of these tests, against the model without; paired
   bool visible() const;          // changes more outcomes than rounding does
-  bool promising() const;        // gains more than its standard error
+  bool promising() const;        // gains more than its standard error, times the root of the effect's count of numbers
 };
 
 // `without`: fitted, with errors of all calibration tests. In the order of the effects.

@@ -13,6 +13,8 @@ constexpr int polish_budget = 40;
 // Of the span of the places: room that a middle leaves to either side, and the widest scatter.
 constexpr double margin = 0.25;
 
+// Below that the places are too far apart to tell.
+double least_scatter(const Places& places) { return 1.25 * places.step; }
 double span(const Places& places) { return places.step * (places.count - 1); }
 
 // Words of 64 bits travel as halves, which a double holds exactly.
@@ -41,7 +43,7 @@ std::vector<double> scatters_of(const OutcomeTable& table, const Values& x) {
   const Free& free = table.model.free[static_cast<std::size_t>(number)];
   const double high = std::clamp(margin * span(table.places), free.lower, free.upper);
   std::vector<double> logs =
-      between(std::log(std::clamp(1.25 * table.places.step, free.lower, high)), std::log(high), scatter_step);
+      between(std::log(std::clamp(least_scatter(table.places), free.lower, high)), std::log(high), scatter_step);
   for (double& value : logs) value = std::exp(value);
   return logs;
 }
@@ -143,6 +145,7 @@ TableFit TableSearch::best(const std::vector<double>& weight) const {
     one.low = fit.x[number.back()] * std::exp(-widths[i]);
     one.high = fit.x[number.back()] * std::exp(widths[i]);
     one.logarithmic = true;
+    if (i == 1) one.lower = std::max(one.lower, std::min(one.upper, least_scatter(table_.places)));
     free.push_back(one);
   }
   const auto at = [&](std::span<const double> z) {

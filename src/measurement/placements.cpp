@@ -32,44 +32,6 @@ ModelSpec at_place(const ModelSpec& model, double place) {
   return out;
 }
 
-// Samples at places, computed together.
-class Batch {
- public:
-  Batch(const Bench& bench, const ModelSpec& model, std::span<const double> x, const Places& places)
-      : bench_(bench), model_(model), x_(x), places_(places) {
-    for (int k = 0; k < places.count && placed(model); ++k) at_.push_back(at_place(model, places.at(k)));
-  }
-
-  void add(std::size_t test, int place) {
-    shakings_.push_back(bench_.test(test).shaking());
-    if (!at_.empty())
-      return specimens_.push_back(specimen(at_[static_cast<std::size_t>(place)], bench_.test(test), x_));
-    Dimensions own = bench_.test(test).specimen;
-    own.width_m = *own.width_m * std::exp(places_.at(place));
-    specimens_.push_back(specimen(model_, own, x_));
-  }
-
-  // Which of the samples overturn; empty again after that.
-  std::vector<bool> run() {
-    std::vector<Response> responses(specimens_.size());
-    respond_batch(specimens_, shakings_, {.tolerance = 1e-8}, responses);
-    std::vector<bool> overturned;
-    for (const Response& r : responses) overturned.push_back(r.outcome == Outcome::overturned);
-    specimens_.clear();
-    shakings_.clear();
-    return overturned;
-  }
-
- private:
-  const Bench& bench_;
-  const ModelSpec& model_;
-  std::span<const double> x_;
-  const Places& places_;
-  std::vector<ModelSpec> at_;
-  std::vector<Specimen> specimens_;
-  std::vector<Shaking> shakings_;
-};
-
 }  // namespace
 
 double placement_middle(const ModelSpec& model, std::span<const double> x) {
@@ -112,30 +74,27 @@ std::vector<double> place_shares(const Places& places, double middle, double sca
 
 std::vector<std::uint64_t> outcomes(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
                                     std::span<const double> x, const Places& places) {
-  Batch batch(bench, model, x, places);
-  const int last = places.count - 1;
+  std::vector<ModelSpec> at;
+  for (int k = 0; k < places.count && placed(model); ++k) at.push_back(at_place(model, places.at(k)));
+  std::vector<Specimen> specimens;
+  std::vector<Shaking> shakings;
+  for (const std::size_t i : tests)
+    for (int k = 0; k < places.count; ++k) {
+      shakings.push_back(bench.test(i).shaking());
+      if (!at.empty()) {
+        specimens.push_back(specimen(at[static_cast<std::size_t>(k)], bench.test(i), x));
+        continue;
+      }
+      Dimensions own = bench.test(i).specimen;
+      own.width_m = *own.width_m * std::exp(places.at(k));
+      specimens.push_back(specimen(model, own, x));
+    }
+  std::vector<Response> responses(specimens.size());
+  respond_batch(specimens, shakings, {.tolerance = 1e-8}, responses);
   std::vector<std::uint64_t> words(tests.size(), 0);
-  const auto run = [&](const std::vector<std::size_t>& which, int from, int to) {
-    for (const std::size_t t : which)
-      for (int k = from; k <= to; ++k) batch.add(tests[t], k);
-    const std::vector<bool> overturned = batch.run();
-    std::size_t at = 0;
-    for (const std::size_t t : which)
-      for (int k = from; k <= to; ++k)
-        if (overturned[at++]) words[t] |= std::uint64_t{1} << k;
-  };
-  std::vector<std::size_t> open;
-  for (std::size_t t = 0; t < tests.size(); ++t) open.push_back(t);
-  run(open, 0, 0);
-  std::erase_if(open, [&](std::size_t t) { return words[t] == 0; });
-  if (last == 0) return words;
-  run(open, last, last);
-  std::erase_if(open, [&](std::size_t t) {
-    const bool always = words[t] >> last & 1;
-    if (always) words[t] = ~std::uint64_t{0} >> (63 - last);
-    return always;
-  });
-  run(open, 1, last - 1);
+  const auto count = static_cast<std::size_t>(places.count);
+  for (std::size_t i = 0; i < responses.size(); ++i)
+    if (responses[i].outcome == Outcome::overturned) words[i / count] |= std::uint64_t{1} << (i % count);
   return words;
 }
 

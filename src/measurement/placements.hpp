@@ -36,8 +36,8 @@ Places places_about(double middle, double scatter);
 // Share of the placements that each place stands for; their sum is 1.
 std::vector<double> place_shares(const Places&, double middle, double scatter);
 
-// One word a test: bit k is set where it overturns at place k. What stands at the narrowest place is taken to stand at
-// all, and what overturns at the widest to overturn at all: half of the work. The rest go as one batch.
+// One word a test: bit k is set where it overturns at place k. All samples go as one batch. (A narrower specimen does not
+// always overturn before a wider one, so that no place can be left out.)
 std::vector<std::uint64_t> outcomes(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
                                     std::span<const double> x, const Places&);
 

@@ -10,6 +10,7 @@
 #include "measurement/quality.hpp"
 #include "measurement/recover.hpp"
 #include "measurement/suggest.hpp"
+#include "measurement/suggest_outcomes.hpp"
 #include "study/spread_jobs.hpp"
 #include "study/validation_parts.hpp"
 
@@ -103,11 +104,27 @@ Json recovered_json(const Bench& bench, const Diagnosis& d, const Candidate& bes
   return json;
 }
 
+Json outcome_suggestion_json(const Bench& bench, const Diagnosis& d, const Jobs& jobs) {
+  std::vector<ModelFit> rivals;
+  std::vector<std::string> names;
+  for (const Candidate& c : d.candidates)
+    if (c.rival) rivals.push_back(c.fit), names.push_back(fmt::format("{}", fmt::join(c.effects, " and ")));
+  const OutcomeSuggestion s = suggest_outcomes(bench, rivals, names, jobs);
+  return {{"between", d.effects},
+          {"motion", {{"test", s.test}, {"scale", s.scale}}},
+          {"specimen", nullptr},
+          {"separation_noise_units", nullptr},
+          {"probabilities", numbers(s.probability)},
+          {"repeats", s.repeats},
+          {"sentence", s.sentence}};
+}
+
 Json suggestion_json(const Bench& bench, const Diagnosis& d, const Jobs& jobs) {
   std::vector<ModelFit> rivals;
   for (const Candidate& c : d.candidates)
     if (c.rival) rivals.push_back(c.fit);
   if (rivals.size() < 2) return nullptr;
+  if (outcomes_only(bench.data())) return outcome_suggestion_json(bench, d, jobs);
   const Suggestion s = suggest(bench, rivals, effects::find("vertical_shaking"), jobs);
   Json specimen = nullptr;
   if (s.friction_factor != 1)

@@ -1,0 +1,178 @@
+// Tests of which only is known whether the specimen overturned: shares of places in closed form, outcomes place by place,
+// and made sets whose answer is known.
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <freestand/error.hpp>
+#include <numbers>
+
+#include "base/random.hpp"
+#include "effects/effects.hpp"
+#include "measurement/diagnose_outcomes.hpp"
+#include "measurement/outcome_screen.hpp"
+#include "measurement/suggest_outcomes.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+// Slenderness and scatter free, size known.
+ModelSpec rocking_model(double size_m) {
+  ModelSpec model;
+  model.model = Model::rock;
+  model.mu_k = {.value = 1};
+  model.size = Number{.value = size_m};
+  model.slenderness = Number{.free = 0};
+  model.placement_scatter = Number{.free = 1};
+  model.free = {{.name = "block.slenderness_rad",
+                 .unit = "rad",
+                 .lower = 0.05,
+                 .upper = 0.5,
+                 .low = 0.05,
+                 .high = 0.5,
+                 .logarithmic = true},
+                {.name = "placement_scatter",
+                 .unit = "1",
+                 .lower = 0.001,
+                 .upper = 0.5,
+                 .low = 0.02,
+                 .high = 0.3,
+                 .logarithmic = true}};
+  return model;
+}
+
+// One swing of the floor to and fro: a block falls to one side, by the sign.
+FloorMotion swing(double peak_mps2, double period_s) {
+  std::vector<double> a;
+  for (int i = 0; i < 401; ++i) {
+    const double t = 0.005 * i - 0.1;
+    a.push_back(t > 0 && t < period_s ? peak_mps2 * std::sin(2 * std::numbers::pi * t / period_s) : 0);
+  }
+  return piecewise_linear("swing", 0.005, a, {});
+}
+
+constexpr double true_slenderness = 0.2, true_size_m = 0.6, true_scatter = 0.1;
+
+// Tests of a block whose slenderness scatters, with the effects of `truth`; motions that make about half overturn.
+Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& truth) {
+  Dataset data;
+  data.name = "made";
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto draw = [&](std::uint64_t stream) { return random::uniform(7, i, stream); };
+    Test test;
+    test.id = "t" + std::to_string(i);
+    test.motion = swing((draw(1) < 0.5 ? -1 : 1) * (2 + 3 * draw(2)), 0.5 + 0.7 * draw(3));
+    const double scatter = true_scatter * gsl_cdf_ugaussian_Pinv(draw(4));
+    const double slenderness = true_slenderness * std::exp(scatter);
+    Specimen s;
+    s.model = Model::rock;
+    s.friction = {1, 1};
+    s.block = Block::rectangular(2 * true_size_m * std::sin(slenderness), 2 * true_size_m * std::cos(slenderness), 1);
+    s.effects = truth;
+    test.peaks.overturned = respond(s, test.shaking()).outcome == Outcome::overturned;
+    data.tests.push_back(std::move(test));
+  }
+  return data;
+}
+
+Diagnosis diagnosed(const Bench& bench) {
+  const std::vector<const dynamics::Effect*> catalogue = {effects::find("offset_mass"), effects::find("impact_loss"),
+                                                          effects::find("reduced_base"),
+                                                          effects::find("static_friction")};
+  OutcomeEffort effort;
+  effort.resamples = 40;
+  return diagnose_outcomes(bench, rocking_model(true_size_m), catalogue, {}, effort, run_here);
+}
+
+const Candidate& candidate(const Diagnosis& d, const std::string& effect) {
+  for (const Candidate& c : d.candidates)
+    if (c.effects == std::vector<std::string>{effect}) return c;
+  throw Error(effect + " is no candidate");
+}
+
+// A block that overturns where it is narrower than at s stands with probability Q((s - m)/scatter). Between two places
+// the outcome changes evenly, which adds the variance step^2/12 to the scatter, and no more than that.
+TEST(Placements, SharesAddUpToTheProbabilityOfLyingBelowAThreshold) {
+  const double middle = -1.03, scatter = 0.2;
+  const Places places = places_about(middle, scatter);
+  const auto shares = place_shares(places, middle, scatter);
+  double sum = 0;
+  for (const double share : shares) sum += share;
+  EXPECT_NEAR(sum, 1, 1e-12);
+  for (int k = 2; k + 2 < places.count; ++k) {
+    const std::uint64_t narrower = (std::uint64_t{1} << (k + 1)) - 1;
+    const double threshold = places.at(k) + 0.5 * places.step;
+    const double wider = std::hypot(scatter, places.step / std::sqrt(12.0));
+    EXPECT_NEAR(overturning_share(narrower, shares), gsl_cdf_ugaussian_P((threshold - middle) / wider), 5e-4) << k;
+  }
+}
+
+TEST(Placements, OutcomesAreThoseOfTheSpecimensThere) {
+  const Dataset data = made_outcomes(12, {});
+  const Bench bench(data, 0);
+  const ModelSpec model = rocking_model(true_size_m);
+  const Places places = places_about(std::log(true_slenderness), 0.2);
+  std::vector<std::size_t> tests;
+  for (std::size_t i = 0; i < data.tests.size(); ++i) tests.push_back(i);
+  const auto words = outcomes(bench, tests, model, Values{0.3, 0.1}, places);
+  int overturned = 0;
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    for (int k = 0; k < places.count; ++k) {
+      const Specimen there = specimen(model, data.tests[i], Values{std::exp(places.at(k)), 0.1});
+      const bool fell = respond(there, data.tests[i].shaking()).outcome == Outcome::overturned;
+      overturned += fell;
+      EXPECT_EQ(words[i] >> k & 1, fell ? 1U : 0U) << i << " " << k;
+    }
+  EXPECT_GT(overturned, 20);
+}
+
+TEST(Outcomes, FitFindsSlendernessAndScatterAgain) {
+  const Dataset data = made_outcomes(200, {});
+  const Bench bench(data, 0);
+  const ModelFit fit = fit_outcomes(bench, rocking_model(true_size_m), {}, {}, run_here);
+  EXPECT_NEAR(fit.x[0], true_slenderness, 0.015);
+  EXPECT_NEAR(fit.x[1], true_scatter, 0.08);
+  // 200 outcomes, some tens of them unsure: known to some percent, neither exactly nor not at all.
+  EXPECT_GT(fit.intervals[0].upper - fit.intervals[0].lower, 0.01 * true_slenderness);
+  EXPECT_LT(fit.intervals[0].upper - fit.intervals[0].lower, 0.2 * true_slenderness);
+  EXPECT_LE(fit.intervals[0].lower, fit.x[0]);
+  EXPECT_GE(fit.intervals[0].upper, fit.x[0]);
+  // The score that compare computes anew at the same numbers.
+  const auto tests = tests_of(data, Role::calibration);
+  EXPECT_NEAR(mean_score(bench, tests, fit.model, fit.x), fit.score, 0.004);
+  // It is as good as its own probabilities say.
+  const Pooled right = expected_brier(fit.calibration);
+  EXPECT_NEAR(fit.score, right.error, 3 * right.standard_error);
+}
+
+TEST(Outcomes, NothingIsMissingWhereNothingIs) {
+  const Dataset data = made_outcomes(200, {});
+  const Bench bench(data, 0);
+  const Diagnosis d = diagnosed(bench);
+  EXPECT_EQ(d.verdict, Verdict::none) << fmt::format("{}", fmt::join(d.sentences, "\n"));
+  EXPECT_FALSE(candidate(d, "static_friction").visible);
+  EXPECT_EQ(candidate(d, "reduced_base").remark, "the calibrated numbers do the same");
+}
+
+TEST(Outcomes, AsymmetryIsNamed) {
+  const Dataset data = made_outcomes(200, {{effects::find("offset_mass"), {0.25}}});
+  const Bench bench(data, 0);
+  const Diagnosis d = diagnosed(bench);
+  EXPECT_EQ(d.verdict, Verdict::missing) << fmt::format("{}", fmt::join(d.sentences, "\n"));
+  EXPECT_EQ(d.effects, std::vector<std::string>{"offset_mass"});
+  const Candidate& found = candidate(d, "offset_mass");
+  EXPECT_LT(found.fit.intervals.back().lower, 0.25);
+  EXPECT_GT(found.fit.intervals.back().upper, 0.25);
+  // No worse than the truth on the tests that it was fitted to.
+  const Values truth = {true_slenderness, true_scatter, 0.25};
+  EXPECT_LT(found.fit.score, mean_score(bench, tests_of(data, Role::calibration), found.fit.model, truth) + 0.002);
+  EXPECT_LT(found.fit.mean_left_out(), d.base.fit.mean_left_out());
+  // A floor motion turned round tells an asymmetric block from another.
+  const OutcomeSuggestion s = suggest_outcomes(bench, {d.base.fit, found.fit}, {"nothing", "offset_mass"}, run_here);
+  EXPECT_GT(std::abs(s.probability[0] - s.probability[1]), 0.3);
+  EXPECT_LT(s.repeats, 60);
+}
+
+}  // namespace
+}  // namespace freestand::measurement
