@@ -4,14 +4,12 @@
 
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
-#include "study/validation.hpp"
 
 namespace freestand::app {
 namespace {
 
-struct Options {
-  std::string study, effect, measurements, file;
-  bool overwrite = false, quiet = false;
+struct Options : ValidationOptions {
+  std::string effect;
 };
 
 void tell(const std::string& file, const std::string& text) {
@@ -27,10 +25,10 @@ void tell(const std::string& file, const std::string& text) {
 
 // A path of the study beside another folder: relative keys of the study must still be found.
 void check_target(const Options& options) {
-  const std::filesystem::path target = options.file;
+  const std::filesystem::path target = options.output;
   if (std::filesystem::exists(target) && !options.overwrite)
     throw Error(
-        fmt::format("{} exists already (it would be lost): choose another name, or give --overwrite", options.file));
+        fmt::format("{} exists already (it would be lost): choose another name, or give --overwrite", options.output));
   const auto folder = [](const std::filesystem::path& file) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(file)).parent_path();
   };
@@ -38,16 +36,15 @@ void check_target(const Options& options) {
     throw Error(
         fmt::format("{} lies in another folder than {} (what the study names lies relative to it): write it "
                     "beside the study",
-                    options.file, options.study));
+                    options.output, options.study));
 }
 
 Exit add(const Context& context, const Options& options) {
   context.world.on_root([&] { check_target(options); });
-  const std::string text = study::add(
-      context.world, {options.study, options.measurements, context.command_line, options.quiet}, options.effect);
+  const std::string text = study::add(context.world, options.run(context), options.effect);
   context.world.on_root([&] {
-    io::write_text(options.file, "# " + context.command_line + "\n" + text);
-    if (!options.quiet) tell(options.file, text);
+    io::write_text(options.output, "# " + context.command_line + "\n" + text);
+    if (!options.quiet) tell(options.output, text);
   });
   return Exit::done;
 }
@@ -58,13 +55,9 @@ void add_add(CLI::App& parser, Work& work) {
   auto options = std::make_shared<Options>();
   CLI::App* verb =
       parser.add_subcommand("add", "the study with one more effect in it, fitted, and the ladder of errors");
-  verb->add_option("study", options->study, "study of a validation")->required();
+  add_options(*verb, *options, "study to be written, in the same folder", "replace the file if it is there");
   verb->add_option("effect", options->effect, "name of the catalogue; or a formula, as YAML text or in a file")
       ->required();
-  verb->add_option("-o,--output", options->file, "study to be written, in the same folder")->required();
-  verb->add_option("--measurements", options->measurements, "data set in place of the study's");
-  verb->add_flag("--overwrite", options->overwrite, "replace the file if it is there");
-  verb->add_flag("--quiet", options->quiet, "no progress, no summary");
   verb->callback([options, &work] { work = [options](const Context& context) { return add(context, *options); }; });
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "parallel/communicator.hpp"
+#include "study/validation.hpp"
 
 namespace freestand::app {
 
@@ -19,6 +20,14 @@ struct Context {
 // Adds a verb; the parser calls `done` with the work when the verb was given.
 using Work = std::function<Exit(const Context&)>;
 using Verb = std::function<void(CLI::App& parser, Work& work)>;
+
+// What the verbs that hold the model against measurements share.
+struct ValidationOptions {
+  std::string study, measurements, output;
+  bool overwrite = false, quiet = false;
+  study::ValidationRun run(const Context&) const;
+};
+void add_options(CLI::App& verb, ValidationOptions&, const std::string& output, const std::string& overwrite);
 
 void add_run(CLI::App& parser, Work& work);
 void add_sweep(CLI::App& parser, Work& work);

@@ -5,15 +5,9 @@
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
 #include "io/text_files.hpp"
-#include "study/validation.hpp"
 
 namespace freestand::app {
 namespace {
-
-struct Options {
-  std::string study, measurements, folder;
-  bool overwrite = false, quiet = false;
-};
 
 void tell(const nlohmann::ordered_json& json, const std::string& folder) {
   fmt::print("{:<12} {:<12} {:>12} {:>10} {:>10}\n", "test", "role", "noise units", "expected", "relative");
@@ -39,12 +33,11 @@ void tell(const nlohmann::ordered_json& json, const std::string& folder) {
              folder);
 }
 
-Exit compare(const Context& context, const Options& options) {
-  const std::filesystem::path folder = options.folder;
+Exit compare(const Context& context, const ValidationOptions& options) {
+  const std::filesystem::path folder = options.output;
   context.world.on_root(
       [&] { io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse); });
-  const auto [json, fitted] =
-      study::compare(context.world, {options.study, options.measurements, context.command_line, options.quiet}, folder);
+  const auto [json, fitted] = study::compare(context.world, options.run(context), folder);
   context.world.on_root([&, &json = json, &fitted = fitted] {
     io::write_text(folder / "comparison.json", io::json_text(json));
     io::write_text(folder / "fitted.yaml", "# " + context.command_line + "\n" + fitted);
@@ -56,13 +49,9 @@ Exit compare(const Context& context, const Options& options) {
 }  // namespace
 
 void add_compare(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ValidationOptions>();
   CLI::App* verb = parser.add_subcommand("compare", "hold the model against measurements: comparison.json");
-  verb->add_option("study", options->study, "study of a validation")->required();
-  verb->add_option("--measurements", options->measurements, "data set in place of the study's");
-  verb->add_option("-o,--output", options->folder, "folder for the results")->required();
-  verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder");
-  verb->add_flag("--quiet", options->quiet, "no progress, no summary");
+  add_options(*verb, *options, "folder for the results", "replace results that are already in the folder");
   verb->callback([options, &work] { work = [options](const Context& context) { return compare(context, *options); }; });
 }
 

@@ -5,17 +5,11 @@
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
 #include "io/text_files.hpp"
-#include "study/validation.hpp"
 
 namespace freestand::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct Options {
-  std::string study, measurements, folder;
-  bool overwrite = false, quiet = false;
-};
 
 std::string number(const Json& value, const char* format) {
   return value.is_null() ? std::string("-") : fmt::format(fmt::runtime(format), value.get<double>());
@@ -43,12 +37,11 @@ void tell(const Json& json, const std::string& file) {
   fmt::print("results in {}\n", file);
 }
 
-Exit diagnose(const Context& context, const Options& options) {
-  const std::filesystem::path folder = options.folder;
+Exit diagnose(const Context& context, const ValidationOptions& options) {
+  const std::filesystem::path folder = options.output;
   context.world.on_root(
       [&] { io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse); });
-  const Json json =
-      study::diagnose(context.world, {options.study, options.measurements, context.command_line, options.quiet});
+  const Json json = study::diagnose(context.world, options.run(context));
   context.world.on_root([&] {
     io::write_text(folder / "diagnosis.json", io::json_text(json));
     if (!options.quiet) tell(json, (folder / "diagnosis.json").string());
@@ -59,13 +52,9 @@ Exit diagnose(const Context& context, const Options& options) {
 }  // namespace
 
 void add_diagnose(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ValidationOptions>();
   CLI::App* verb = parser.add_subcommand("diagnose", "which physical effect does the model lack: diagnosis.json");
-  verb->add_option("study", options->study, "study of a validation")->required();
-  verb->add_option("--measurements", options->measurements, "data set in place of the study's");
-  verb->add_option("-o,--output", options->folder, "folder for the results")->required();
-  verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder");
-  verb->add_flag("--quiet", options->quiet, "no progress, no summary");
+  add_options(*verb, *options, "folder for the results", "replace results that are already in the folder");
   verb->callback(
       [options, &work] { work = [options](const Context& context) { return diagnose(context, *options); }; });
 }

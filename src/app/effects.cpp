@@ -15,8 +15,8 @@ const dynamics::Effect& effect_named(const std::string& name) {
   if (const auto* effect = freestand::effects::find(name)) return *effect;
   std::vector<std::string> names;
   for (const auto& effect : freestand::effects::all()) names.push_back(effect.name);
-  throw Error(fmt::format("effect {} is not in the catalogue ({}): see `freestand effects`", name,
-                          study::hint(name, names)));
+  throw Error(
+      fmt::format("effect {} is not in the catalogue ({}): see `freestand effects`", name, study::hint(name, names)));
 }
 
 std::string json_of_all() {
