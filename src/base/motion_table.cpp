@@ -19,6 +19,13 @@ float at_least(double x) {
   return near < x ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;
 }
 
+// Before a knot with acceleration b, changed by `by` from the one before.
+double dip(double b, double by, double h) {
+  if (!(by < 0 && b < 0)) return 0;
+  const double most = std::max(b, by);
+  return most * most * h / (-2 * by);
+}
+
 bool continuous(const FloorMotion& motion) {
   const auto& c = motion.horizontal_mps2;
   double most = 0;
@@ -57,11 +64,20 @@ std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
   t.columns.reserve(all * table_columns);
   for (std::size_t j = 0; j < all; ++j)
     for (const double value : {t.acceleration[j], t.velocity[j], t.displacement[j], 0.0}) t.columns.push_back(value);
-  for (auto* row : {&t.size, &t.above, &t.below}) row->assign((all + table_search) / table_search * table_search, 0.0F);
+  for (auto* row : {&t.above, &t.below}) row->assign(all, 0.0F);
   for (std::size_t j = 0; j < all; ++j) {
-    t.size[j] = static_cast<float>(std::abs(t.acceleration[j]));
-    t.above[j] = at_least(t.margin[j] + t.velocity[j]);
-    t.below[j] = at_least(t.margin[j] - t.velocity[j]);
+    const bool moving = j >= 1 && j <= n;
+    const double b = moving ? t.acceleration[j] : 0.0, by = moving ? b - t.acceleration[j - 1] : 0.0;
+    t.above[j] = at_least(t.velocity[j] + dip(b, by, h));
+    t.below[j] = at_least(dip(-b, -by, h) - t.velocity[j]);
+  }
+  const double peak = *std::max_element(t.run_peak.begin(), t.run_peak.end());
+  t.levels_to_one = peak > 0 ? 32000 / peak : 0;
+  t.levels.assign(all, 0);
+  t.run_levels.assign(all, 0);
+  for (std::size_t j = 0; j < all; ++j) {
+    t.levels[j] = t.level(std::abs(t.acceleration[j]));
+    t.run_levels[j / level_run] = std::max(t.run_levels[j / level_run], t.levels[j]);
   }
   t.later_peak = t.run_peak;
   for (std::size_t r = t.later_peak.size() - 1; r-- > 0;)

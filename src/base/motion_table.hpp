@@ -4,11 +4,17 @@
 // With a the unit record (no scale), knots j = 0 ... n, step h, a = 0 after the last knot:
 //   velocity V_j = int_0^{t_j} a dt, displacement D_j = int_0^{t_j} V dt, exact for the piecewise linear a;
 //   margin M_j = max(|a_j - a_{j-1}|, |a_{j+1} - a_j|) h / 8: a velocity quadratic between two knots stays above the
-//   smaller of its values there less the margin.
+//   smaller of its values there less the margin;
+//   dip d_j: under a friction of any strength, a block that slips one way cannot stop between knots j - 1 and j and slip
+//   on if its speed at j is above d_j. Forwards: with a change s = a_j - a_{j-1} the speed turns from falling to rising
+//   only where s < 0, and rises in the end by less than -a_j and than -s (per second), so that
+//   d_j = min(-a_j, -s)^2 h/(-2 s), 0 where one of the two is not positive. Backwards: the same of -a.
 // All rows go on after the last knot as a = 0 lets them, for at least `table_tail` entries.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <freestand/floor_motion.hpp>
 #include <memory>
 #include <new>
@@ -30,11 +36,12 @@ struct LineAllocator {
 };
 using Row = std::vector<double, LineAllocator<double>>;
 using FloatRow = std::vector<float, LineAllocator<float>>;
+using ShortRow = std::vector<std::int16_t, LineAllocator<std::int16_t>>;
 
 inline constexpr int table_run = 8;    // knots a run
+inline constexpr int level_run = 4;    // knots a run of levels
 inline constexpr int table_tail = 96;  // entries after the last knot
 inline constexpr int table_columns = 4;
-inline constexpr int table_search = 64;  // knots that a search looks at together
 
 struct MotionTable {
   double step_s = 0, rate_hz = 0;  // h and 1/h
@@ -46,9 +53,14 @@ struct MotionTable {
   Row run_peak;                    // max |a_j| over j = 8 r ... 8 r + 7 [m/s2]
   Row later_peak;                  // max |a_j| over all j >= 8 r [m/s2]
   Row columns;                     // a_j, V_j, D_j and a zero, knot by knot
-  // For searches, rounded so that none passes over a knot:
-  FloatRow size;          // |a_j|, to the nearest
-  FloatRow above, below;  // at least M_j + V_j and M_j - V_j
+  // For searches, rounded so that none passes over a knot: at least V_j + d_j and -V_j + d_j.
+  FloatRow above, below;
+  ShortRow levels;           // level(|a_j|)
+  ShortRow run_levels;       // the largest of them over j = 4 r ... 4 r + 3
+  double levels_to_one = 0;  // [s2/m]
+
+  // Never falls where `size` rises.
+  std::int16_t level(double size) const { return static_cast<std::int16_t>(std::fmin(size * levels_to_one, 32767)); }
 };
 
 // Null where the motion is not piecewise linear with a constant step.

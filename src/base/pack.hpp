@@ -52,6 +52,29 @@ static inline std::uint64_t bits(const Floats::batch_bool_type& mask) {
 #endif
 }
 
+// A pack of short integers, for the same.
+using Shorts = xsimd::batch<std::int16_t>;
+inline constexpr int short_lanes = static_cast<int>(Shorts::size);
+
+// Bit i: a >= b in lane i.
+static inline std::uint64_t bits_not_below(const Shorts& a, const Shorts& b) {
+#if defined(__AVX512BW__)
+  return _mm512_cmpge_epi16_mask(a, b);
+#elif defined(__AVX2__)
+  const __m256i below = _mm256_cmpgt_epi16(b, a);
+  const __m128i bytes = _mm_packs_epi16(_mm256_castsi256_si128(below), _mm256_extracti128_si256(below, 1));
+  return static_cast<std::uint16_t>(~_mm_movemask_epi8(bytes));
+#elif defined(__SSE2__)
+  const __m128i below = _mm_cmpgt_epi16(b, a);
+  return static_cast<std::uint8_t>(~_mm_movemask_epi8(_mm_packs_epi16(below, below)));
+#else
+  std::uint64_t all = 0;
+  for (int i = 0; i < short_lanes; ++i)
+    all |= std::uint64_t{a.get(static_cast<std::size_t>(i)) >= b.get(static_cast<std::size_t>(i))} << i;
+  return all;
+#endif
+}
+
 // Lane i: p[i][offset].
 static inline Pack fetch(const double* const* p, int offset = 0) {
 #if defined(__AVX512F__)

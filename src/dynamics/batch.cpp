@@ -52,9 +52,9 @@ const BatchKernels* pick() {
 constexpr double least_tolerance = 1e-10;
 constexpr double endless_base = 1e6;  // half of it, times the height: a block that only slides
 
-bool covered_bouc_wen(const Setup& setup, const Settings& settings, BatchCase& c) {
-  const auto& [specimen, shaking, floor] = setup;
-  if (!admissible_bouc_wen(setup, settings) || !(specimen.friction.mu_k > 0)) return false;
+bool covered_bouc_wen(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor,
+                      const Settings& settings, BatchCase& c) {
+  if (!admissible_bouc_wen(specimen, shaking, floor, settings) || !(specimen.friction.mu_k > 0)) return false;
   c = {};
   c.table = shaking.motion->table.get();
   c.scale = shaking.scale;
@@ -67,14 +67,14 @@ bool covered_bouc_wen(const Setup& setup, const Settings& settings, BatchCase& c
 }
 
 // False: no kernel covers it. `law`: of friction, where it has one.
-bool covered(const Setup& setup, const Settings& settings, BatchCase& c, std::optional<SpeedLaw>& law) {
-  const auto& [specimen, shaking, floor] = setup;
+bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings,
+             BatchCase& c, std::optional<SpeedLaw>& law) {
   if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1) return false;
   if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = speed_law(Laws(specimen))))) return false;
   if (floor.push_mps2 != 0 || (shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty())) return false;
   if (settings.tolerance < least_tolerance || settings.event_limit < 10000) return false;
-  if (specimen.model == Model::bouc_wen) return covered_bouc_wen(setup, settings, c);
-  if (!admissible(setup, settings)) return false;
+  if (specimen.model == Model::bouc_wen) return covered_bouc_wen(specimen, shaking, floor, settings, c);
+  if (!admissible(specimen, shaking, floor, settings)) return false;
   if (specimen.model == Model::slide && !law) {
     c.table = shaking.motion->table.get();
     c.scale = shaking.scale;
@@ -104,6 +104,14 @@ bool covered(const Setup& setup, const Settings& settings, BatchCase& c, std::op
   if (specimen.model == Model::slide) c.left = c.right = endless_base * c.h;
   if (law) c.mu_s *= friction_factor(*law, 0);
   return true;
+}
+
+// The same for a sample as it was given. Effects change a copy of it first.
+bool covered(const Specimen& specimen, const Shaking& shaking, const Settings& settings, BatchCase& c,
+             std::optional<SpeedLaw>& law) {
+  if (specimen.effects.empty()) return covered(specimen, shaking, {}, settings, c, law);
+  const Setup setup = set_up(specimen, shaking);
+  return covered(setup.specimen, setup.shaking, setup.floor, settings, c, law);
 }
 
 // What the steps' order must follow: length of a step, times p.
@@ -206,7 +214,7 @@ void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking>
       const std::size_t i = first + place;
       BatchCase c{};
       std::optional<SpeedLaw> law;
-      const bool packs = kernels && covered(set_up(specimens[i], shakings[i]), settings, c, law);
+      const bool packs = kernels && covered(specimens[i], shakings[i], settings, c, law);
       if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c, law.has_value()) : nullptr)
         queues.add(kernel, c, law, i);
       else

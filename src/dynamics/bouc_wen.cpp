@@ -189,8 +189,8 @@ class BoucWenIntegrator {
 
 }  // namespace
 
-bool admissible_bouc_wen(const Setup& setup, const Settings& settings) {
-  const auto& [specimen, shaking, floor] = setup;
+bool admissible_bouc_wen(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor,
+                         const Settings& settings) {
   const BoucWen& law = specimen.bouc_wen;
   for (const double size : {law.yield_displacement_m, law.gamma, law.gamma + law.beta, shaking.stretch,
                             settings.tolerance, floor.gravity_factor})

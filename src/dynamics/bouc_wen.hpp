@@ -24,7 +24,10 @@
 
 namespace freestand::dynamics {
 
-bool admissible_bouc_wen(const Setup& setup, const Settings& settings);
+bool admissible_bouc_wen(const Specimen&, const Shaking&, const FloorInput&, const Settings&);
+inline bool admissible_bouc_wen(const Setup& setup, const Settings& settings) {
+  return admissible_bouc_wen(setup.specimen, setup.shaking, setup.floor, settings);
+}
 
 // Taylor steps from knot to knot, and closed forms for what follows the motion.
 Response respond_bouc_wen(const Setup& setup, const Settings& settings, History* history);

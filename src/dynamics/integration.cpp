@@ -15,8 +15,7 @@ double centre_speed(const Rig& rig, const State& state) {
 }
 }  // namespace
 
-bool admissible(const Setup& setup, const Settings& settings) {
-  const auto& [specimen, shaking, floor] = setup;
+bool admissible(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings) {
   const Block& b = specimen.block;
   for (const auto& use : specimen.effects)
     for (const double parameter : use.parameters)

@@ -12,7 +12,10 @@
 namespace freestand::dynamics {
 
 // Sizes, friction, scales, effects and settings that can be integrated at all.
-bool admissible(const Setup& setup, const Settings& settings);
+bool admissible(const Specimen&, const Shaking&, const FloorInput&, const Settings&);
+inline bool admissible(const Setup& setup, const Settings& settings) {
+  return admissible(setup.specimen, setup.shaking, setup.floor, settings);
+}
 
 // The state at tau of a step.
 template <int N>
