@@ -105,7 +105,13 @@ ModelFit fit_with_effect(const Bench& bench, const ModelSpec& model, const Jobs&
 LadderStep step_of(const std::string& step, const Prepared& p, const ModelFit& fit, const Jobs& jobs) {
   const auto tests = compare_tests(*p.bench, fit, jobs);
   const RoleError in = role_error(*p.bench, tests, Role::calibration), out = role_error(*p.bench, tests, Role::holdout);
-  return {step, in.error, out.tests ? out.error : std::nan(""), in.expected};
+  const double none = std::nan("");
+  return {step,
+          in.error,
+          out.tests ? out.error : none,
+          in.expected,
+          out.tests ? out.expected : none,
+          out.tests ? out.explained : none};
 }
 
 YAML::Node ladder_node(const std::vector<LadderStep>& ladder) {
@@ -119,6 +125,8 @@ YAML::Node ladder_node(const std::vector<LadderStep>& ladder) {
     put("error_calibration", s.error_calibration);
     put("error_holdout", s.error_holdout);
     put("noise_floor", s.noise_floor);
+    put("noise_floor_holdout", s.noise_floor_holdout);
+    put("explained_holdout", s.explained_holdout);
     step.SetStyle(YAML::EmitterStyle::Flow);
     list.push_back(step);
   }

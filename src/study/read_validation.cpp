@@ -23,8 +23,9 @@ std::vector<LadderStep> read_ladder(Section& file) {
   if (!node) return ladder;
   for (std::size_t i = 0; i < node->size(); ++i) {
     Section section((*node)[i], fmt::format("ladder[{}]", i), file.line("ladder"), file.problems());
-    ladder.push_back({section.text("step", "base"), section.number("error_calibration", std::nan("")),
-                      section.number("error_holdout", std::nan("")), section.number("noise_floor", std::nan(""))});
+    const auto number = [&](const char* key) { return section.number(key, std::nan("")); };
+    ladder.push_back({section.text("step", "base"), number("error_calibration"), number("error_holdout"),
+                      number("noise_floor"), number("noise_floor_holdout"), number("explained_holdout")});
     section.finish();
   }
   return ladder;

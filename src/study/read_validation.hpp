@@ -38,7 +38,9 @@ struct Calibrated {
 // One step of the ladder: the errors of the model with these effects, in noise units.
 struct LadderStep {
   std::string step;  // "base", or the effect that was added
-  double error_calibration = 0, error_holdout = 0, noise_floor = 0;
+  double error_calibration = 0, error_holdout = 0;
+  double noise_floor = 0, noise_floor_holdout = 0;  // what noise alone would make, in the calibration tests; held-out ones
+  double explained_holdout = 0;                     // error_holdout with the floor's noise allowed for
 };
 
 struct Validation {

@@ -183,7 +183,9 @@ nlohmann::ordered_json ladder_json(const std::vector<LadderStep>& ladder) {
     json.push_back({{"step", step.step},
                     {"error_calibration", number_or_null(step.error_calibration)},
                     {"error_holdout", number_or_null(step.error_holdout)},
-                    {"noise_floor", number_or_null(step.noise_floor)}});
+                    {"noise_floor", number_or_null(step.noise_floor)},
+                    {"noise_floor_holdout", number_or_null(step.noise_floor_holdout)},
+                    {"explained_holdout", number_or_null(step.explained_holdout)}});
   return json;
 }
 

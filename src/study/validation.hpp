@@ -17,7 +17,8 @@
 //   error_tables: {calibration: [{variable, unit, label, edge, centre, count, error_noise_units, growth_noise_units,
 //     bias_noise_units}], holdout: [...]}; variables phase, speed_mps, path_m, position_m, direction, normal_g, time_s,
 //     floor_g; growth: change of the residual within 0.1 s
-//   ladder: [{step, error_calibration, error_holdout, noise_floor}] of the study
+//   ladder: [{step, error_calibration, error_holdout, noise_floor (of the calibration tests), noise_floor_holdout,
+//     explained_holdout (error_holdout with the floor's noise allowed for)}] of the study
 //
 // diagnosis.json
 //   format "freestand-diagnosis/1", study, measurements, error_unit, verdict, effects, sentences, findings

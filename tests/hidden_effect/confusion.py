@@ -129,7 +129,8 @@ class Bench:
                 return {"held_out": None, "held_out_floor": None, "trouble": done.stderr.strip()[-400:]}
             study = after
         step = ladder(self.sets / study)[-1]
-        return {"held_out": step.get("error_holdout"), "held_out_floor": step.get("noise_floor")}
+        return {"held_out": step.get("error_holdout"), "held_out_explained": step.get("explained_holdout"),
+                "held_out_floor": step.get("noise_floor_holdout", step.get("noise_floor"))}
 
 
 def ladder(study):
