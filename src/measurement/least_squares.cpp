@@ -146,6 +146,47 @@ bool weigh_floor_noise(const Bench& bench, ModelFit& fit, const Tests& tests, co
   return true;
 }
 
+// How far the i-th number alone may go to one side before G rises by the 95 % point of chi-square with one degree.
+double end_of_range(const Judge& judge, const Tests& tests, const ModelFit& fit, std::size_t i, double side) {
+  constexpr double rise = 3.84;
+  const Free& free = fit.model.free[i];
+  const auto total = [&](const Values& x) {
+    double sum = 0;
+    for (const std::size_t t : tests) sum += misfit(judge, t, fit.model, x);
+    return sum;
+  };
+  const double least = total(fit.x), z = to_unit(free, fit.x[i]);
+  const auto at = [&](double step) {
+    Values x = fit.x;
+    x[i] = from_unit(free, z + side * step);
+    return x;
+  };
+  const double bound = std::abs(to_unit(free, side > 0 ? free.upper : free.lower) - z);
+  double within = 0, beyond = std::min(1e-4, bound);
+  while (total(at(beyond)) - least < rise) {
+    within = beyond;
+    if (beyond >= bound) return at(bound)[i];
+    beyond = std::min(3 * beyond, bound);
+  }
+  for (int halving = 0; halving < 5; ++halving) {
+    const double middle = 0.5 * (within + beyond);
+    (total(at(middle)) - least < rise ? within : beyond) = middle;
+  }
+  return at(within)[i];
+}
+
+// Widens intervals to what the number alone may do. The jackknife is blind to a number that no test determines: no refit
+// moves it.
+void widen_intervals(const Judge& judge, const Tests& tests, ModelFit& fit, const Jobs& jobs) {
+  const auto ends = jobs("intervals", 2 * fit.x.size(), [&](std::size_t k) {
+    return Values{end_of_range(judge, tests, fit, k / 2, k % 2 == 0 ? -1 : 1)};
+  });
+  for (std::size_t i = 0; i < fit.intervals.size(); ++i) {
+    Interval& interval = fit.intervals[i];
+    interval = {std::min(interval.lower, ends[2 * i][0]), std::max(interval.upper, ends[2 * i + 1][0])};
+  }
+}
+
 }  // namespace
 
 void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs& jobs) {
@@ -170,6 +211,7 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
       bench, {&fit},
       [&](const ModelFit& whole, const Tests& seen) { return least_squares(judge, seen, whole.model, whole.x, 1); },
       jobs);
+  widen_intervals(judge, all, fit, jobs);
 }
 
 }  // namespace freestand::measurement

@@ -21,7 +21,8 @@ Fitted least_squares(const Judge&, const std::vector<std::size_t>& of_judge, con
                      int rounds);
 
 // The fit taken to the least S, at first without replays; then, if that ends at the noise, with replays of the floor's
-// noise under the fit itself, without what they fan out. With errors of tests left out, by the same method. Sets without
+// noise under the fit itself, without what they fan out. With errors of tests left out, by the same method,
+// and intervals that hold all that one number alone may do before G rises by 3.84. Sets without
 // histories: leave_out() alone.
 void settle(const Bench&, ModelFit&, const Effort&, const Jobs&);
 

@@ -48,13 +48,17 @@ void add_placement_scatter(Prepared& p) {
 
 const char* calibration_method(const Bench& bench) {
   if (outcomes_only(bench.data()))
-    return "outcomes are computed for many placements of the specimen at points of a Sobol sequence that close in on the "
+    return "outcomes are computed for many placements of the specimen at points of a Sobol sequence that close in on "
+           "the "
            "best; over these points, and over middle and scatter of the placements, Brier's score of the calibration "
            "tests is made least; intervals of 95 % from 200 draws of the tests with replacement";
-  return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and Mead descends (GSL "
+  return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and Mead descends "
+         "(GSL "
          "nmsimplex2), and once more from the best of those; the mean of ln(error^2) of the calibration tests is made "
-         "least; histories end in Levenberg and Marquardt's least squares (GSL multifit_nlinear), at the noise weighed by "
-         "the covariance that replays of the floor's noise show; intervals of 95 % by the jackknife over the tests";
+         "least; histories end in Levenberg and Marquardt's least squares (GSL multifit_nlinear), at the noise weighed "
+         "by "
+         "the covariance that replays of the floor's noise show; intervals of 95 % by the jackknife over the "
+         "tests, at the noise not less than each number's range within which the misfit rises by 3.84";
 }
 
 nlohmann::ordered_json number_or_null(double value) {

@@ -120,6 +120,24 @@ TEST(Settle, FrictionIsFoundCloserWhereTheFloorsNoiseIsWeighed) {
   EXPECT_LT(settled, 0.5 * plain) << std::sqrt(plain / 6) << " " << std::sqrt(settled / 6);
 }
 
+// A block that only rocks says of friction no more than that it is enough.
+TEST(Settle, ANumberThatNoTestDeterminesHasAWideInterval) {
+  Specimen slender;
+  slender.block = Block::rectangular(0.4, 1.6, 100);
+  slender.friction = {0.7, 0.7};
+  Dataset data = test::made_dataset(slender);
+  for (std::size_t i = 0; i < data.tests.size(); ++i)
+    data.tests[i] =
+        test::made_test("t" + std::to_string(i), slender, test::swings(2.6 + 0.1 * static_cast<double>(i), 0.5), i);
+  const Bench bench(data, 8);
+  ModelFit fit{.model = test::free_friction(), .x = {0.6}};
+  settle(bench, fit, Effort{}, run_here);
+  ASSERT_EQ(fit.intervals.size(), 1U);
+  EXPECT_LT(fit.intervals[0].lower, 0.6);
+  EXPECT_GT(fit.intervals[0].lower, 0.2);  // there it slides
+  EXPECT_DOUBLE_EQ(fit.intervals[0].upper, 1.2);
+}
+
 // A model that misses more than the floor's noise explains is fitted by what it misses.
 TEST(Settle, AWrongModelDoesNotHideBehindTheFloorsNoise) {
   Specimen truth = cabinet(0.2);
