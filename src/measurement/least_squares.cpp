@@ -129,16 +129,31 @@ Fitted least_squares(const Judge& judge, const Tests& tests, const ModelSpec& mo
 
 namespace {
 
+// One piece of work that all processes need the answer of.
+template <class Work>
+Fitted once(const Jobs& jobs, Work&& work) {
+  Values values = jobs("least squares", 1, [&](std::size_t) {
+                    const Fitted found = work();
+                    Values packed = {found.score, static_cast<double>(found.evaluations)};
+                    packed.insert(packed.end(), found.x.begin(), found.x.end());
+                    return packed;
+                  }).front();
+  return {Values(values.begin() + 2, values.end()), values[0], static_cast<int>(values[1])};
+}
+
 // Takes the fit to the least S with replays, if that is at the noise: a model that is wrong would only hide behind them.
 bool weigh_floor_noise(const Bench& bench, ModelFit& fit, const Tests& tests, const Jobs& jobs) {
   Fitted found{fit.x, 0, 0};
   for (int again = 0; again < 2; ++again) {
     const Judge judge(bench, fit.model, found.x, jobs, fanned_out);
     const Objective score = [&](std::span<const double> x) { return least_squares_score(judge, tests, fit.model, x); };
-    found = least_squares(judge, tests, fit.model, found.x, most_rounds);
-    fit.evaluations += found.evaluations;
-    if (again > 0) break;
-    found = simplex(fit.model.free, score, found.x, over_steps, 25 * static_cast<int>(fit.x.size() + 1));
+    found = once(jobs, [&] {
+      const Fitted smooth = least_squares(judge, tests, fit.model, found.x, most_rounds);
+      if (again > 0) return smooth;
+      Fitted over = simplex(fit.model.free, score, smooth.x, over_steps, 25 * static_cast<int>(fit.x.size() + 1));
+      over.evaluations += smooth.evaluations;
+      return over;
+    });
     fit.evaluations += found.evaluations;
   }
   if (found.score > noise_score) return false;
@@ -197,7 +212,8 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
   }
   Tests all(calibration.size());
   std::iota(all.begin(), all.end(), 0);
-  const Fitted plain = least_squares(Judge(bench), all, fit.model, fit.x, most_rounds);
+  const Judge sensors(bench);
+  const Fitted plain = once(jobs, [&] { return least_squares(sensors, all, fit.model, fit.x, most_rounds); });
   fit.evaluations += plain.evaluations;
   fit.x = plain.x;
   const bool near = plain.score < far_score && weigh_floor_noise(bench, fit, all, jobs);
