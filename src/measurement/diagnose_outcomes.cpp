@@ -66,13 +66,13 @@ class OutcomeDiagnoser {
     auto screened = screen_outcomes(bench_, without, effects, effort_, jobs_);
     std::vector<OutcomeTable*> promising, others;
     for (Screened& s : screened)
-      if (s.visible() && !s.imitated) (s.promising() ? promising : others).push_back(&s.table);
+      if (s.visible()) (s.promising() ? promising : others).push_back(&s.table);
     auto fitted = fit_outcomes(bench_, without, promising, effort_, jobs_);
     auto read = read_outcomes(bench_, others, jobs_);
     std::size_t seen = 0, next_fitted = 0, next_read = 0;
     for (std::size_t i = 0; i < effects.size(); ++i) {
       const Screened& s = screened[i];
-      Candidate c{.effects = known, .fit = without, .visible = s.visible() && !s.imitated};
+      Candidate c{.effects = known, .fit = without, .visible = s.visible()};
       c.effects.push_back(effects[i]->name);
       c.fit.left_out_refitted = false;
       if (c.visible) {
@@ -86,7 +86,7 @@ class OutcomeDiagnoser {
                           s.table.tests.size(), s.gain, s.gain_se);
       } else {
         c.fit.model = s.table.model;
-        c.remark = s.imitated ? "the calibrated numbers do the same" : "it changes no outcome";
+        c.remark = "it changes no outcome";
       }
       if (known.empty() || c.visible) out_.candidates.push_back(std::move(c));
     }
@@ -171,7 +171,9 @@ class OutcomeDiagnoser {
   void order() {
     const auto rank = [](const Candidate& c) { return !c.visible ? 2 : c.fit.left_out_refitted ? 0 : 1; };
     std::stable_sort(out_.candidates.begin(), out_.candidates.end(), [&](const Candidate& a, const Candidate& b) {
-      return rank(a) != rank(b) ? rank(a) < rank(b) : rank(a) < 2 && left_out(a) < left_out(b);
+      return rank(a) != rank(b) ? rank(a) < rank(b)
+             : rank(a) == 0     ? left_out(a) < left_out(b)
+                                : rank(a) == 1 && a.fit.score < b.fit.score;
     });
   }
 
@@ -187,15 +189,15 @@ class OutcomeDiagnoser {
   }
 
   void describe_candidates() {
-    std::vector<std::string> unseen, imitated;
+    std::vector<std::string> unseen;
     for (const Candidate& c : out_.candidates) {
       if (!c.visible) {
-        (c.remark == "it changes no outcome" ? unseen : imitated).push_back(label(c));
+        unseen.push_back(label(c));
         continue;
       }
       if (c.rival || c.effects.size() > 1) continue;
       if (!c.fit.left_out_refitted) {
-        say(fmt::format("{} promises nothing: {}", label(c), c.remark));
+        say(fmt::format("{} promises nothing and was not fitted to the end: {}", label(c), c.remark));
         continue;
       }
       const Pooled gain = paired_difference(out_.base.fit.left_out, c.fit.left_out);
@@ -204,11 +206,6 @@ class OutcomeDiagnoser {
                       gain.error > 0 ? "lowers" : "raises", std::abs(gain.error), gain.standard_error,
                       real ? "more than chance, if it were the only effect tried" : "no more than chance"));
     }
-    if (!imitated.empty())
-      say(
-          fmt::format("{} cannot be seen beside the calibrated numbers, which do the same: give measured dimensions to "
-                      "see it",
-                      joined(imitated, " and ")));
     if (!unseen.empty()) say(fmt::format("no outcome depends on {}", joined(unseen, ", ")));
     if (!untried_.empty())
       say(fmt::format("not tried, since they have more numbers than so few tests can fix: {}", joined(untried_, ", ")));

@@ -202,6 +202,15 @@ std::vector<OutcomeTable*> pointers(std::vector<OutcomeTable>& tables) {
   return all;
 }
 
+// Other places where the fit has wandered off to the side, or its scatter wants finer ones. Outcomes are computed anew.
+void place_again(OutcomeTable& table, const Values& x) {
+  const double centre = table.places.at(0) + 0.5 * table.places.step * (table.places.count - 1);
+  const Places places = fine_places(table, x);
+  if (places.step >= table.places.step && std::abs(placement_middle(table.model, x) - centre) < 1.5 * room) return;
+  table.places = places;
+  for (TablePoint& point : table.points) point.outcomes.clear();
+}
+
 // From coarse tables to fits.
 std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTable*>& coarse, const ModelFit* without,
                                const OutcomeEffort& effort, const Jobs& jobs) {
@@ -222,18 +231,14 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
     const TableSearch search(bench, table);
     const TableFit best = search.best();
     const auto numbers = other_numbers(table.model);
-    if (const Places places = fine_places(table, best.x);
-        places.step != table.places.step ||
-        std::abs(placement_middle(table.model, best.x) -
-                 0.5 * (table.places.at(0) + table.places.at(table.places.count - 1))) > room) {
-      table.places = places;
-      for (TablePoint& point : table.points) point.outcomes.clear();
-    }
+    place_again(table, best.x);
     if (!numbers.empty())
       add_points(table, elite_box(table.model, numbers, table, search.scores()), numbers, best.x,
                  points_of_round(effort.nearest, numbers, is_slow(table) ? effort.most / 4 : effort.most));
   }
   compute(bench, pointers(fine), "outcomes nearest to the best", jobs);
+  for (OutcomeTable& table : fine) place_again(table, TableSearch(bench, table).best().x);
+  compute(bench, pointers(fine), "outcomes at finer places", jobs);
   const auto answers = jobs("folds and resampled tests", fine.size(),
                             [&](std::size_t i) { return Reading(bench, fine[i], effort.resamples).answer(); });
   std::vector<ModelFit> fits;
@@ -295,7 +300,7 @@ std::vector<ModelFit> read_outcomes(const Bench& bench, const std::vector<Outcom
     fits.push_back({.model = table.model, .x = best.x, .score = best.score, .evaluations = 1});
     for (std::size_t t = 0; t < tests.size(); ++t)
       fits.back().calibration.push_back(outcome_error(bench.test(tests[t]), best.probability[t]));
-    fits.back().left_out = fits.back().calibration;
+    fits.back().left_out.assign(tests.size(), {std::nan(""), std::nan(""), std::nan(""), std::nan("")});
   }
   return fits;
 }

@@ -42,7 +42,7 @@ ModelFit fit_outcomes(const Bench&, const ModelSpec&, const Values& start, const
 std::vector<ModelFit> fit_outcomes(const Bench&, const ModelFit& without, const std::vector<OutcomeTable*>& coarse,
                                    const OutcomeEffort&, const Jobs&);
 
-// At the best point of each table, on all calibration tests, without folds and intervals.
+// At the best point of each table, on all calibration tests, without folds and intervals; left-out errors are nan.
 std::vector<ModelFit> read_outcomes(const Bench&, const std::vector<OutcomeTable*>& coarse, const Jobs&);
 
 }  // namespace freestand::measurement

@@ -9,11 +9,9 @@
 namespace freestand::measurement {
 namespace {
 
-constexpr double room = 0.35;          // in ln(width)
-constexpr double rounding = 0.01;      // share of outcomes that two ways of computing may tell differently
-constexpr std::size_t looks = 3;       // points of the effect's range beside its ends
-constexpr double imitation = 0.25;     // share of a change of probabilities that is left when it is imitated
-constexpr double least_change = 0.05;  // of the probabilities, that can be imitated at all
+constexpr double room = 0.35;      // in ln(width)
+constexpr double rounding = 0.01;  // share of outcomes that two ways of computing may tell differently
+constexpr std::size_t looks = 3;   // points of the effect's range beside its ends
 
 std::vector<std::size_t> unsure_tests(const Bench& bench, const ModelFit& fit, std::size_t count) {
   const auto tests = tests_of(bench.data(), Role::calibration);
@@ -97,21 +95,6 @@ double most_changed(const OutcomeTable& table, std::size_t plain) {
   return most;
 }
 
-bool is_imitated(const Bench& bench, const OutcomeTable& table, std::size_t plain) {
-  const TableSearch search(bench, table, true);
-  const Values& x = table.points.front().x;
-  const auto as_fitted = search.probabilities(0, x);
-  double most = 0, left = 0;
-  for (std::size_t k = plain; k < plain + 2; ++k) {
-    const auto with = search.probabilities(k, x);
-    double change = 0;
-    for (std::size_t t = 0; t < with.size(); ++t)
-      change += std::abs(with[t] - as_fitted[t]) / static_cast<double>(with.size());
-    if (change > most) most = change, left = search.nearest(with).score;
-  }
-  return most > least_change && left < imitation * most;
-}
-
 void weigh(const Bench& bench, Screened& s) {
   const TableFit with = TableSearch(bench, s.table).best(), without = TableSearch(bench, s.table, true).best();
   const auto n = static_cast<double>(s.table.tests.size());
@@ -130,7 +113,7 @@ void weigh(const Bench& bench, Screened& s) {
 bool Screened::visible() const { return changed > rounding; }
 bool Screened::promising() const {
   const auto numbers = static_cast<double>(table.model.free.size() - table.without.free.size());
-  return visible() && !imitated && gain > std::sqrt(numbers) * gain_se;
+  return visible() && (!is_slow(table) || gain > std::sqrt(numbers) * gain_se);
 }
 
 std::vector<Screened> screen_outcomes(const Bench& bench, const ModelFit& without,
@@ -147,19 +130,18 @@ std::vector<Screened> screen_outcomes(const Bench& bench, const ModelFit& withou
     Screened& s = all[i];
     const std::size_t plain = s.table.points.size() - 2;
     s.changed = most_changed(s.table, plain);
-    s.imitated = s.visible() && is_imitated(bench, s.table, plain);
-    if (!s.visible() || s.imitated) continue;
+    if (!s.visible()) continue;
     s.table = coarse_table(bench, without, *effects[i], effort.screened_tests);
     const auto numbers = other_numbers(s.table.model);
     Values x = without.x;
     x.resize(s.table.model.free.size(), 0.0);
     add_points(s.table, box_of(s.table.model, without, numbers), numbers, x,
-               std::min(is_slow(s.table) ? effort.most / 2 : effort.most, effort.wide * numbers.size()));
+               std::min(is_slow(s.table) ? effort.most / 3 : effort.most, effort.wide * numbers.size()));
     tables.push_back(&s.table);
   }
   compute_all(bench, tables, "effects on the tests that are least sure", jobs);
   for (Screened& s : all)
-    if (s.visible() && !s.imitated) weigh(bench, s);
+    if (s.visible()) weigh(bench, s);
   return all;
 }
 

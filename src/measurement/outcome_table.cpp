@@ -168,19 +168,6 @@ TableFit TableSearch::best(const std::vector<double>& weight) const {
   return fit;
 }
 
-TableFit TableSearch::nearest(const std::vector<double>& probability) const {
-  const std::size_t n = overturned_.size();
-  std::size_t row = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    double sum = 0;
-    for (std::size_t t = 0; t < n; ++t)
-      sum += std::abs(probability_[r * n + t] - probability[t]) / static_cast<double>(n);
-    if (sum < least) least = sum, row = r;
-  }
-  return {rows_[row].point, placed(rows_[row]), least, probabilities(rows_[row].point, placed(rows_[row]))};
-}
-
 std::vector<double> TableSearch::scores() const {
   const std::size_t n = overturned_.size();
   std::vector<double> least(table_.points.size(), std::numeric_limits<double>::infinity());

@@ -38,8 +38,6 @@ class TableSearch {
 
   // Least mean score with these weights of the tests; all alike where empty.
   TableFit best(const std::vector<double>& weight = {}) const;
-  // The point at which these probabilities are imitated best: x, and the mean absolute difference as score.
-  TableFit nearest(const std::vector<double>& probability) const;
   // Least score of each point of the table over middle and scatter, all tests alike; infinite where it was left out.
   std::vector<double> scores() const;
   // Of each test, at a point with the middle and scatter of x.

@@ -81,6 +81,9 @@ Diagnosis diagnosed(const Bench& bench) {
                                                           effects::find("reduced_base"),
                                                           effects::find("static_friction")};
   OutcomeEffort effort;
+  effort.wide = 8;
+  effort.near = 6;
+  effort.nearest = 4;
   effort.resamples = 40;
   return diagnose_outcomes(bench, rocking_model(true_size_m), catalogue, {}, effort, run_here);
 }
@@ -152,7 +155,9 @@ TEST(Outcomes, NothingIsMissingWhereNothingIs) {
   const Diagnosis d = diagnosed(bench);
   EXPECT_EQ(d.verdict, Verdict::none) << fmt::format("{}", fmt::join(d.sentences, "\n"));
   EXPECT_FALSE(candidate(d, "static_friction").visible);
-  EXPECT_EQ(candidate(d, "reduced_base").remark, "the calibrated numbers do the same");
+  // A narrower base is what the calibrated slenderness says already.
+  const Candidate& narrower = candidate(d, "reduced_base");
+  EXPECT_LT(std::abs(d.base.fit.score - narrower.fit.score), 0.004);
 }
 
 TEST(Outcomes, AsymmetryIsNamed) {
