@@ -76,14 +76,10 @@ Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& truth) {
   return data;
 }
 
-Diagnosis diagnosed(const Bench& bench) {
-  const std::vector<const dynamics::Effect*> catalogue = {effects::find("offset_mass"), effects::find("impact_loss"),
-                                                          effects::find("reduced_base"),
-                                                          effects::find("static_friction")};
+Diagnosis diagnosed(const Bench& bench, const std::vector<std::string>& names) {
+  std::vector<const dynamics::Effect*> catalogue;
+  for (const auto& name : names) catalogue.push_back(effects::find(name));
   OutcomeEffort effort;
-  effort.wide = 8;
-  effort.near = 6;
-  effort.nearest = 4;
   effort.resamples = 40;
   return diagnose_outcomes(bench, rocking_model(true_size_m), catalogue, {}, effort, run_here);
 }
@@ -152,7 +148,7 @@ TEST(Outcomes, FitFindsSlendernessAndScatterAgain) {
 TEST(Outcomes, NothingIsMissingWhereNothingIs) {
   const Dataset data = made_outcomes(200, {});
   const Bench bench(data, 0);
-  const Diagnosis d = diagnosed(bench);
+  const Diagnosis d = diagnosed(bench, {"offset_mass", "impact_loss", "reduced_base", "static_friction"});
   EXPECT_EQ(d.verdict, Verdict::none) << fmt::format("{}", fmt::join(d.sentences, "\n"));
   EXPECT_FALSE(candidate(d, "static_friction").visible);
   // A narrower base is what the calibrated slenderness says already.
@@ -163,7 +159,7 @@ TEST(Outcomes, NothingIsMissingWhereNothingIs) {
 TEST(Outcomes, AsymmetryIsNamed) {
   const Dataset data = made_outcomes(200, {{effects::find("offset_mass"), {0.25}}});
   const Bench bench(data, 0);
-  const Diagnosis d = diagnosed(bench);
+  const Diagnosis d = diagnosed(bench, {"offset_mass", "impact_loss"});
   EXPECT_EQ(d.verdict, Verdict::missing) << fmt::format("{}", fmt::join(d.sentences, "\n"));
   EXPECT_EQ(d.effects, std::vector<std::string>{"offset_mass"});
   const Candidate& found = candidate(d, "offset_mass");
