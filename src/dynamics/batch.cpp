@@ -115,7 +115,7 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const Settings& s
 }
 
 // What the steps' order must follow: length of a step, times p.
-constexpr double fine_step = 0.03, coarse_step = 0.15, flight_step = 0.02;
+constexpr double fine_step = 0.03, coarse_step = 0.15;
 
 double step_in_own_time(const BatchCase& c) {
   const double size = std::hypot(c.h, std::fmin(c.left, c.right));
@@ -129,7 +129,7 @@ BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, con
   if (specimen.model != Model::rock && specimen.model != Model::slide_rock) return nullptr;
   const double step = step_in_own_time(c);
   if (!(step < coarse_step)) return nullptr;
-  if (specimen.model == Model::rock) return step < flight_step ? kernels.rock : kernels.rock_coarse;
+  if (specimen.model == Model::rock) return step < fine_step ? kernels.rock : kernels.rock_coarse;
   if (law) return step < fine_step ? kernels.slide_rock_by_speed : kernels.slide_rock_by_speed_coarse;
   return step < fine_step ? kernels.slide_rock : kernels.slide_rock_coarse;
 }

@@ -10,8 +10,8 @@ namespace freestand::dynamics::FREESTAND_ISA {
 extern const BatchKernels kernels;
 const BatchKernels kernels{FREESTAND_ISA_NAME,
                            slide_samples,
-                           rock_samples<5, 5, true>,
-                           rock_samples<8, 8, false>,
+                           rock_samples<5>,
+                           rock_samples<8>,
                            slide_rock_samples<5>,
                            slide_rock_samples<8>,
                            slide_rock_samples<5, 8, BySpeed>,

@@ -1,10 +1,10 @@
 // Pure rocking in packs. Every lane carries its own sample, with its own record, time and parameters; a lane whose
 // sample ends takes the next one.
 //
-// One step over two knot intervals, or one, or what is left of it (dynamics/pack/rock_flight.hpp).
-// Lanes in which something may happen within the interval (impact, turning point near the floor or at a new peak,
-// overturning) stand aside before the step, are gathered, and gone through event by event, again in packs: roots by Halley's
-// method on the polynomials (dynamics/pack/rock_series.hpp), kept in their brackets.
+// One Taylor step per knot interval (dynamics/pack/rock_series.hpp).
+// Lanes in which something may happen within the interval (impact, turning point near the floor, overturning) stand
+// aside before the step, are gathered, and gone through event by event, again in packs: roots by Halley's method on the
+// polynomials, kept in their brackets.
 #pragma once
 
 #include <cmath>
@@ -12,15 +12,13 @@
 #include "base/pack.hpp"
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
-#include "dynamics/pack/rock_flight.hpp"
 #include "dynamics/pack/rock_lanes.hpp"
 #include "dynamics/pack/rock_series.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-// N: order of the series in which events are looked for; K: of the flights; Far: may they be over two intervals?
-template <int N, int K, bool Far>
+template <int N>
 class RockPool : RockLanes {
  public:
   using RockLanes::RockLanes;
@@ -35,86 +33,61 @@ class RockPool : RockLanes {
   }
 
  private:
-  using V = Packs<squad_lanes / pack_lanes>;
-  using Mask = MaskOf<V>;
-
-  // One step for every lane in which nothing happens. The lanes in which something does are seen to after all squads have
-  // gone, so that no squad waits for the branches of another.
+  // One interval for every lane in which nothing happens. The lanes in which something does are seen to after all packs
+  // have gone, so that no pack waits for the branches of another.
   void march() {
-    if (free_ <= 0 && !count_free()) return;
-    free_ -= Far ? 2 : 1;
-    unsigned apart[squads];
-    for (int s = 0; s < squads; ++s) apart[s] = busy_[s] ? march(s * squad_lanes) : 0;
-    for (int s = 0; s < squads; ++s)
-      for (unsigned open = apart[s]; open; open &= open - 1) stand_aside(s * squad_lanes + __builtin_ctz(open));
+    if (free_ == 0 && !count_free()) return;
+    --free_;
+    unsigned apart[packs];
+    for (int p = 0; p < packs; ++p) apart[p] = busy_[p] ? march(p) : 0;
+    for (int p = 0; p < packs; ++p)
+      for (unsigned open = apart[p]; open; open &= open - 1) stand_aside(p * pack_lanes + __builtin_ctz(open));
   }
 
-  // Bits of the lanes that stand aside from now on: something may happen in the interval that they are at, or they will
-  // probably fall in the next. A lane that may not fly over two intervals tries one the next time.
-  unsigned march(int i) {
-    const V zero(0.0), one(1.0), two(2.0), half(0.5);
-    const V theta = load_as<V>(r_.theta + i), rate = load_as<V>(r_.omega + i), rx = load_as<V>(r_.rx + i),
-            ry = load_as<V>(r_.ry + i), a = load_as<V>(r_.a + i), side = load_as<V>(r_.side + i);
-    const V gravity = load_as<V>(r_.gravity + i), push = load_as<V>(r_.push + i), weight = load_as<V>(r_.weight + i);
-    const V free = load_as<V>(r_.free + i), left = load_as<V>(r_.left + i), next = fetch_as<V>(r_.next + i);
-    V span = left, over = load_as<V>(r_.over + i), a_end = next, bend = zero;
-    Mask far = zero > one;
-    if constexpr (Far) {
-      far = load_as<V>(r_.stride + i) > one;
-      span = choose(far, two, left);
-      over = choose(far, half, over);
-      a_end = choose(far, fetch_as<V>(r_.next + i, 1), next);
-      bend = choose(far, next - half * (a + a_end), zero);
+  // Bits of the lanes that stand aside from now on.
+  unsigned march(int p) {
+    const int first = p * pack_lanes;
+    const Pack left = load(r_.left + first), left2 = left * left, one(1.0);
+    RockSeries<N> y;
+    y.theta[0] = load(r_.theta + first);
+    const Pack rate = load(r_.omega + first);
+    y.omega[0] = rate * left;
+    y.rx[0] = load(r_.rx + first);
+    y.ry[0] = load(r_.ry + first);
+    const Pack a = load(r_.a + first), a_next = fetch(r_.next + first), push = load(r_.push + first) * left2;
+    const Pack gravity = load(r_.gravity + first) * left2;
+    y.expand(gravity, push * a, push * (a_next - a));
+    const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), rx = y.sum(y.rx), ry = y.sum(y.ry);
+
+    const Pack zero(0.0), peak = load(r_.peak + first), side = load(r_.side + first);
+    const Pack reach = xsimd::abs(y.omega[0]) + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
+    const Pack before = side * y.theta[0], after = side * theta, high = xsimd::max(before, after);
+    const PackMask near = xsimd::min(before, after) < reach;
+    const PackMask turns = y.omega[0] * omega <= zero, live = load(r_.live + first) > zero;
+    PackMask event = (near & (turns | turns_twice(y, omega))) | (after <= zero) | (after >= Pack(0.5 * pi));
+    const PackMask tops = live & turns & ~event & (high + reach > peak);
+    Pack highest = high;
+    if (bits(tops)) {
+      highest = choose(tops, xsimd::max(high, side * y.at(y.theta, turning_point(y, omega))), high);
+      event = event | (highest >= Pack(0.5 * pi));
     }
-    const V span2 = span * span, omega = rate * span;
-    const FlightEnd<V> end =
-        fly<K>(theta, omega, rx, ry, gravity * span2, push * span2, FlightFloor<V>{a, a_end - a, bend});
-    const V end_rate = end.omega * over, alpha = gravity * end.rx - push * (a_end * end.ry);
+    const PackMask moves = live & ~event;
 
-    // Between two ends at which the velocity has one sign and is above twice `slack` nothing turns; no turn goes further than
-    // `slack` beyond the ends.
-    const V rough = abs(push * bend) * span2, starts = abs(end.alpha);
-    const V slack = (starts + abs(alpha) * span2 + rough * end.ry) * V(0.25);
-    const V before = side * theta, after = side * end.theta, peak = load_as<V>(r_.peak + i);
-    const V low = min(before, after), high = max(before, after), least = min(abs(omega), abs(end.omega));
-    const Mask turns = omega * end.omega <= zero, wavers = turns | (least < two * slack);
-    const V reach = abs(omega) + abs(end.omega) + starts;
-    const Mask twice = (omega * end.alpha < zero) & (starts > two * abs(omega));
-    const Mask falls = side * omega < zero;
-    const Mask about =
-        (far & wavers & ((low < slack) | (high + slack > peak))) |
-        (~far & ((((turns & falls) | twice) & (low < reach)) | (turns & ~falls & (high + least > peak))));
-    const Mask event = about | ~(after > zero) | (high + choose(far & wavers, slack, zero) >= V(0.5 * pi));
-
-    const V start_alpha = gravity * rx - push * (a * ry), omega2 = rate * rate, end2 = end_rate * end_rate;
-    const V fx = ry * start_alpha - rx * omega2 + weight * a, fy = rx * start_alpha + ry * omega2;
-    const V gx = end.ry * alpha - end.rx * end2 + weight * a_end, gy = end.rx * alpha + end.ry * end2;
-    const V most = max(fx * fx + fy * fy, gx * gx + gy * gy), seen = load_as<V>(r_.force2 + i);
-    constexpr double flat = Far ? 1.0 / 2048 : 1.0 / 32;
-    const V jump2 = (gx - fx) * (gx - fx) + (gy - fy) * (gy - fy);
-    const V felt = choose(end.ry >= load_as<V>(r_.height + i), load_as<V>(r_.lean + i), one) * (weight * bend);
-    const Mask loud = far & (most * V(1 + 1.0 / 32) + V(33.0) * (felt * felt) > seen);
-    const Mask bulges = ~far & (most * V(1 + flat) > seen) & (jump2 < most * V(flat));
-
-    const Mask live = load_as<V>(r_.live + i) > zero, stays = event | loud | bulges, moves = live & ~stays;
-    const V done = choose(far, two, one), rest = free - done, ahead = end.theta + two * (end_rate + alpha);
-    const Mask flies = moves & (rest >= two) & (side * ahead > zero);
-    store(r_.force2 + i, choose(moves, max(seen, most), seen));
-    store(r_.peak + i, choose(moves, max(peak, high), peak));
-    store(r_.theta + i, choose(moves, end.theta, theta));
-    store(r_.omega + i, choose(moves, end_rate, rate));
-    store(r_.rx + i, choose(moves, end.rx, rx));
-    store(r_.ry + i, choose(moves, end.ry, ry));
-    store(r_.a + i, choose(moves, a_end, a));
-    store(r_.left + i, choose(moves, one, left));
-    store(r_.over + i, choose(moves, one, load_as<V>(r_.over + i)));
-    store(r_.free + i, choose(moves, rest, free));
-    store(r_.stride + i, choose(flies, two, one));
-    const unsigned gone = bits(moves);
-    advance_as<V>(r_.next + i, gone);
-    if constexpr (Far) advance_as<V>(r_.next + i, gone & bits(far));
-    const Mask soon = moves & (rest > zero) & (side * (end.theta + end_rate + half * alpha) <= zero);
-    return bits((live & stays & ~far) | soon);
+    const Pack left4 = left2 * left2, seen = load(r_.force2 + first), over = load(r_.over + first), over2 = over * over;
+    const Pack force2 = watch_force(y, load(r_.weight + first) * left2, gravity, push, a, a_next - a,
+                                    {omega, rx, ry, a_next}, one, seen * left4, false) *
+                        (over2 * over2);
+    store(r_.force2 + first, choose(moves, force2, seen));
+    store(r_.peak + first, choose(moves, xsimd::max(peak, highest), peak));
+    store(r_.theta + first, choose(moves, theta, y.theta[0]));
+    store(r_.omega + first, choose(moves, omega * over, rate));
+    store(r_.rx + first, choose(moves, rx, y.rx[0]));
+    store(r_.ry + first, choose(moves, ry, y.ry[0]));
+    store(r_.a + first, choose(moves, a_next, a));
+    store(r_.left + first, choose(moves, one, left));
+    store(r_.over + first, choose(moves, one, over));
+    advance(r_.next + first, bits(moves));
+    return bits(live & event);
   }
 
   // Lanes that stand aside, and the interval of each.
@@ -143,9 +116,9 @@ class RockPool : RockLanes {
       gather(aside[q]);
       turns[q] = turn(aside[q]);
     }
-    narrow_all<N + 1>(turns, 1e-5);
+    narrow_all<N + 1>(turns);
     for (int q = 0; q < count; ++q) falls[q] = fall(aside[q], choose(aside[q].turns, turns[q].x, aside[q].last));
-    narrow_all<N + 1>(falls, 1e-5);
+    narrow_all<N + 1>(falls);
     for (int q = 0; q < count; ++q)
       settle_all(aside[q], choose(aside[q].turns, turns[q].x, aside[q].last),
                  choose(aside[q].falls, falls[q].x, aside[q].last));
@@ -305,9 +278,9 @@ class RockPool : RockLanes {
   }
 };
 
-template <int N, int K, bool Far>
+template <int N>
 void rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  RockPool<N, K, Far> pool(cases, count, responses, declined);
+  RockPool<N> pool(cases, count, responses, declined);
   pool.run();
 }
 

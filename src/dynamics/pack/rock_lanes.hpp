@@ -14,9 +14,8 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 constexpr int rock_slots = 128;
-constexpr int squad_lanes = 2 * pack_lanes;  // that march together
 constexpr int still_knots = 16384;
-alignas(64) const double still_floor[still_knots + 1] = {};  // the floor after the record
+alignas(64) const double still_floor[still_knots] = {};  // the floor after the record
 
 // What the lanes are at. Angular velocities are per interval, forces times h^2.
 struct RockRows {
@@ -29,11 +28,7 @@ struct RockRows {
   alignas(64) double live[rock_slots];                       // 0: the lane stands aside
   alignas(64) double side[rock_slots];                       // +1 right corner, -1 left
   alignas(64) double peak[rock_slots], force2[rock_slots];   // of |theta|; of the squared acceleration
-  alignas(64) double free[rock_slots];                       // intervals until the record ends
-  alignas(64) double stride[rock_slots];                     // intervals that the next step tries to take
-  alignas(64) double height[rock_slots],
-      lean[rock_slots];                        // no more of a floor acceleration is felt while r_y >= height
-  alignas(64) const double* next[rock_slots];  // a at the end of the interval
+  alignas(64) const double* next[rock_slots];                // a at the end of the interval
 };
 
 class RockLanes {
@@ -53,18 +48,17 @@ class RockLanes {
       double arm, gravity, push;  // as in the rows
       double kept;                // of the rate, at the impact that ends the stay on this side
       double hop;                 // rotation of a hop by omega^2
-      double lean;                // as in the rows
     } left{}, right{};
     double kept = 0, hop_here = 0;  // of the side on which it stands
     int events = 0, impacts = 0;
     double dying = 0;    // no row of hops dies out within `look` intervals that starts faster than this, per interval
+    int restless = -1;   // up to this knot the floor pushes too hard for hops to die out
     bool after = false;  // the record is over
   };
 
   void clear(int i) {
     r_.theta[i] = r_.omega[i] = r_.rx[i] = r_.gravity[i] = r_.push[i] = r_.weight[i] = r_.a[i] = 0;
-    r_.ry[i] = r_.side[i] = r_.left[i] = r_.over[i] = r_.stride[i] = r_.free[i] = r_.height[i] = 1;
-    r_.lean[i] = 0;
+    r_.ry[i] = r_.side[i] = r_.left[i] = r_.over[i] = 1;
     r_.peak[i] = r_.force2[i] = 1e300;
     r_.next[i] = still_floor;
     lanes_[i] = Lane{};
@@ -103,15 +97,15 @@ class RockLanes {
   void take_last(int i) {
     while (top_ > 0 && !lanes_[top_ - 1].sample) --top_;
     const int last = top_ - 1;
-    if (last <= i || r_.live[last] == 0 || last / squad_lanes == i / squad_lanes) return;
+    if (last <= i || r_.live[last] == 0 || last / pack_lanes == i / pack_lanes) return;
     for (double* row : {r_.theta, r_.omega, r_.rx, r_.ry, r_.gravity, r_.push, r_.weight, r_.a, r_.left, r_.over,
-                        r_.live, r_.side, r_.peak, r_.force2, r_.free, r_.stride, r_.height, r_.lean})
+                        r_.side, r_.peak, r_.force2})
       row[i] = row[last];
     r_.next[i] = r_.next[last];
     lanes_[i] = lanes_[last];
-    --busy_[last / squad_lanes];
-    ++busy_[i / squad_lanes];
+    --busy_[last / pack_lanes];
     clear(last);
+    go_on(i);
   }
 
   double limit(const BatchCase& c, double a) const {  // |a| of the unit record that tips the block
@@ -184,8 +178,6 @@ class RockLanes {
     r_.ry[i] = lane.sample->h;
     r_.gravity[i] = here.gravity;
     r_.push[i] = here.push;
-    r_.height[i] = lane.sample->h;
-    r_.lean[i] = here.lean;
     lane.kept = here.kept;
     lane.hop_here = here.hop;
   }
@@ -194,18 +186,13 @@ class RockLanes {
     const double h2 = c.table->step_s * c.table->step_s;
     const double inertia = c.k2 + c.h * c.h + arm * arm, other_inertia = c.k2 + c.h * c.h + other * other;
     const double kept = (c.k2 + c.h * c.h + arm * other) / other_inertia;
-    const double lean = 1 - c.h * c.h * (2 * inertia - c.h * c.h - arm * arm) / (inertia * inertia);
-    return {arm,
-            c.g * h2 / inertia,
-            c.scale * h2 / inertia,
-            c.factor * (kept > 0 ? kept : 0.0),
-            inertia / (2 * c.g * magnitude(arm) * h2),
-            std::sqrt(lean > 0 ? lean : 0.0)};
+    return {arm, c.g * h2 / inertia, c.scale * h2 / inertia, c.factor * (kept > 0 ? kept : 0.0),
+            inertia / (2 * c.g * magnitude(arm) * h2)};
   }
 
   void stand_aside(int i) {
     r_.live[i] = 0;
-    --busy_[i / squad_lanes];
+    --busy_[i / pack_lanes];
     queue_[waiting_++] = i;
   }
 
@@ -261,30 +248,21 @@ class RockLanes {
     const double patience = still_knots - 2;
     if (lane.after || lane.sample->free_vibration_s > patience * lane.sample->table->step_s) {
       r_.live[i] = 0;
-      --busy_[i / squad_lanes];
+      --busy_[i / pack_lanes];
       return decline(i);
     }
     lane.after = true;
     r_.a[i] = 0;
     r_.left[i] = 1;
     r_.next[i] = still_floor + 1;
-    r_.free[i] = free_of(i);
   }
 
   void go_on(int i) {
+    r_.live[i] = 1;
     r_.over[i] = 1 / r_.left[i];
+    ++busy_[i / pack_lanes];
     const int free = free_of(i);
-    r_.free[i] = free;
-    r_.stride[i] = 1;
     if (free < free_) free_ = free;
-    const double alpha = r_.gravity[i] * r_.rx[i] - r_.push[i] * r_.a[i] * r_.ry[i], left = r_.left[i];
-    if (free > 0 &&
-        r_.side[i] * (r_.theta[i] + left * (r_.omega[i] + 0.5 * left * alpha)) <= 0) {  // it falls within the interval
-      queue_[waiting_++] = i;
-    } else {
-      r_.live[i] = 1;
-      ++busy_[i / squad_lanes];
-    }
   }
 
   void to_next_knot(int i) {
@@ -324,42 +302,47 @@ class RockLanes {
     if (!leave_rest(i, knot(i), 1 - r_.left[i])) refill(i);
   }
 
-  static constexpr int look = 4;  // intervals
+  static constexpr int look = 16;  // intervals
 
   static double dying_rate(const BatchCase& c, double most_lost) {
     const double arm = c.left < c.right ? c.left : c.right, longer = c.left < c.right ? c.right : c.left;
     const double h = c.table->step_s, slowing = arm * c.g / (c.k2 + c.h * c.h + longer * longer);
-    return 0.5 * (look - 1) * h * h * slowing * most_lost * (1 + 1e-9);
+    return 0.25 * (look - 1) * h * h * slowing * most_lost * (1 + 1e-9);
   }
 
-  // The hops that follow end before the floor could make one larger: then they are counted, and the block rests. Within one
-  // hop the field changes by a factor of 1 + change at most, and with it the squared rate: a hop keeps no more than
-  // kept sqrt(1 + change) of its rate, and all of them last no longer than the geometric series of that says.
+  // The hops that follow end before the floor could make one larger: then they are counted, and the block rests.
   bool dies_out(int i) {
     Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
-    const double rate = magnitude(r_.omega[i]);
-    if (rate > lane.dying || lane.hop_here * rate * rate >= c.told_rotation) return false;
-    const double* a = r_.next[i] - 1;
-    double most = lane.after ? 0.0 : magnitude(a[0]), jump = 0;
-    for (int k = lane.after ? look : 0; k < look; ++k) {
-      most = larger(most, magnitude(a[k + 1]));
-      jump = larger(jump, magnitude(a[k + 1] - a[k]));
-    }
+    if (magnitude(r_.omega[i]) > lane.dying) return false;
+    const int m = knot(i);
+    if (lane.hop_here * r_.omega[i] * r_.omega[i] >= c.told_rotation || (!lane.after && m <= lane.restless))
+      return false;
+    const double h = c.table->step_s, omega = magnitude(r_.omega[i]) / h;
     const double arm = c.left < c.right ? c.left : c.right, longer = c.left < c.right ? c.right : c.left;
-    const double h = c.table->step_s, omega = rate / h, scale = magnitude(c.scale), push = scale * most;
     const double small = c.k2 + c.h * c.h + arm * arm, large = c.k2 + c.h * c.h + longer * longer;
-    const double slow = (arm * c.g - c.h * push) / large;
-    if (!(slow > 0.05 * arm * c.g / large)) return false;
-    const double change = scale * jump / h * c.h / small * 2 * omega / (slow * slow);
-    const double lost = 0.5 * (1 - lane.kept * lane.kept * (1 + change));
-    if (!(2 * omega < (look - 1) * h * slow * lost)) return false;
+    const double push = lane.after ? 0.0 : magnitude(c.scale) * bound_between(*c.table, m, m + 1 + look);
+    const auto slowing = [&](double a) { return (arm * c.g - c.h * a) / large; };
+    const auto too_hard = [&](double a) { return !(slowing(a) > 0.1 * arm * c.g / large); };
+    if (too_hard(push)) {
+      int run = (m + look) / table_run;
+      while (!too_hard(magnitude(c.scale) * c.table->run_peak[static_cast<std::size_t>(run)])) --run;
+      lane.restless = run * table_run + table_run - 1;
+      return false;
+    }
+    const double slow = slowing(push);
+    const double kept = 0.5 * (1 + lane.kept);
+    if (2 * omega > (look - 1) * h * slow * (1 - kept)) return false;
     const double rotation = omega * omega / (2 * slow);
     if (rotation > r_.peak[i] || rotation > 0.001 * arm / c.h) return false;
     const double fast = (longer * c.g + c.h * push) / small;
     const double fx = push * magnitude(1 - c.h * c.h / large) + c.h * longer * c.g / small + 2 * c.h * omega * omega;
     const double fy = longer * fast + 2 * c.h * omega * omega;
     if ((fx * fx + fy * fy) * (h * h * h * h) > r_.force2[i]) return false;
+    // Within one hop the field changes by a factor of 1 + change at most, and with it the squared rate.
+    const double jump = lane.after ? 0.0 : largest(c.table->margin.data() + m, look + 1) * (8 / h);
+    const double change = magnitude(c.scale) * jump * c.h / small * 2 * omega / (h * slow * slow);
+    if (lane.kept * lane.kept * (1 + change) > kept * kept) return false;
     lane.events += hops_to_rest(i);
     return true;
   }
@@ -371,7 +354,7 @@ class RockLanes {
     return lane.kept > 0 ? static_cast<int>(std::ceil(std::log(ratio) / (2 * std::log(lane.kept)))) : 1;
   }
 
-  static constexpr int squads = rock_slots / squad_lanes;
+  static constexpr int packs = rock_slots / pack_lanes;
 
   const BatchCase* cases_;
   std::size_t count_;
@@ -381,7 +364,7 @@ class RockLanes {
   RockRows r_;
   Lane lanes_[rock_slots];
   int queue_[rock_slots];
-  int busy_[squads] = {};
+  int busy_[packs] = {};
   int waiting_ = 0, live_ = 0, free_ = 0, top_ = rock_slots;
 };
 

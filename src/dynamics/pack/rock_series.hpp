@@ -60,7 +60,7 @@ struct Bracket {
   PackMask open;
 
   template <int M>
-  [[gnu::always_inline]] void narrow(double enough) {
+  [[gnu::always_inline]] void narrow() {
     Pack value = c[M], slope(0.0), bend(0.0);  // bend: half the second derivative
 #pragma GCC unroll 16
     for (int k = M - 1; k >= 0; --k) {
@@ -73,16 +73,15 @@ struct Bracket {
     hi = choose(above, hi, x);
     const Pack halley = x - value * slope / (slope * slope - value * bend);
     const Pack next = choose((halley >= lo) & (halley <= hi), halley, Pack(0.5) * (lo + hi));
-    const PackMask settled = xsimd::abs(next - x) <= Pack(enough);
+    const PackMask settled = xsimd::abs(next - x) <= Pack(1e-6);  // and the step after this one is within round-off
     x = choose(open, next, x);
     open = open & ~settled;
   }
 };
 
 // Several packs side by side: where each operation waits for the one before, the packs fill each other's gaps.
-// Until a step is at most `enough`; the error is then of the order of its cube.
 template <int M, int count>
-void narrow_all(Bracket (&roots)[count], double enough = 1e-6) {
+void narrow_all(Bracket (&roots)[count]) {
 #pragma GCC unroll 2
   for (Bracket& root : roots) root.x = xsimd::min(xsimd::max(root.x, root.lo), root.hi);
   for (int round = 0; round < 12; ++round) {
@@ -90,7 +89,7 @@ void narrow_all(Bracket (&roots)[count], double enough = 1e-6) {
     for (const Bracket& root : roots) open |= bits(root.open);
     if (!open) return;
 #pragma GCC unroll 2
-    for (Bracket& root : roots) root.template narrow<M>(enough);
+    for (Bracket& root : roots) root.template narrow<M>();
   }
 }
 
