@@ -8,6 +8,7 @@
 #include "effects/effects.hpp"
 #include "measurement/least_squares.hpp"
 #include "measurement/outcome_fit.hpp"
+#include "measurement/starts.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/fitted_study.hpp"
 #include "study/section.hpp"
@@ -90,12 +91,21 @@ ModelSpec starting(const Prepared& before, const ModelFit& fit, const Prepared& 
   return model;
 }
 
-ModelFit fit_with_effect(const Bench& bench, const ModelSpec& model, const Jobs& jobs) {
-  if (outcomes_only(bench.data())) return fit_outcomes(bench, model, {}, {}, jobs);
+// Where the fit without the effect stood, with the effect's own numbers all over their range: a wall or a tether that few
+// tests reach is met only from there.
+std::vector<Values> starts_with(const ModelFit& before, const ModelSpec& after) {
+  const std::size_t known = before.x.size(), own = after.free.size() - known;
+  for (std::size_t i = 0; i < known; ++i)
+    if (before.model.free[i].name != after.free[i].name) return {};
+  return starts_from({before.x}, after, 96 * own);
+}
+
+ModelFit fit_with_effect(const Bench& bench, const ModelFit& before, const ModelSpec& after, const Jobs& jobs) {
+  if (outcomes_only(bench.data())) return fit_outcomes(bench, after, {}, {}, jobs);
   Effort effort;
   effort.screened_per_number = 256;
   effort.starts = 6;
-  auto fits = fit_models(bench, {{.model = model}}, effort, jobs);
+  auto fits = fit_models(bench, {{.model = after, .starts = starts_with(before, after)}}, effort, jobs);
   polish(bench, {&fits[0]}, effort, 0.15, jobs);
   refine(bench, {&fits[0]}, effort, jobs);
   settle(bench, fits[0], effort, jobs);
@@ -152,7 +162,7 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   const auto after = prepare(world, parse_validation(study_text(root), before->validation.file), run, 16);
 
   const ModelFit base = fitted(*before, false, jobs);
-  const ModelFit fit = fit_with_effect(*after->bench, starting(*before, base, *after), jobs);
+  const ModelFit fit = fit_with_effect(*after->bench, base, starting(*before, base, *after), jobs);
 
   std::vector<LadderStep> ladder = before->validation.ladder;
   if (ladder.empty()) ladder.push_back(step_of("base", *before, base, jobs));
