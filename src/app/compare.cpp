@@ -10,7 +10,8 @@ namespace freestand::app {
 namespace {
 
 void tell(const nlohmann::ordered_json& json, const std::string& folder) {
-  fmt::print("{:<12} {:<12} {:>12} {:>10} {:>10}\n", "test", "role", "noise units", "expected", "relative");
+  fmt::print("{:<12} {:<12} {:>12} {:>10} {:>10}\n", "test", "role", json["error_unit"].get<std::string>(), "expected",
+             "relative");
   const auto text = [](const nlohmann::ordered_json& value) {
     return value.is_null() ? std::string("-") : fmt::format("{:.3g}", value.get<double>());
   };
@@ -20,7 +21,8 @@ void tell(const nlohmann::ordered_json& json, const std::string& folder) {
                  text(test["error_noise_units"]), text(test["error_expected"]), text(test["error_relative"]));
   for (const char* role : {"calibration", "holdout"})
     if (!json[role].is_null())
-      fmt::print("{:<25} {:>12} {:>10} {:>10}\n", role, text(json[role]["error_noise_units"]),
+      fmt::print("{:<25} {:>12} {:>10} {:>10}\n", role,
+                 text(json[role][json["error_unit"] == "noise units" ? "error_noise_units" : "error"]),
                  text(json[role]["error_expected"]), text(json[role]["error_relative"]));
   for (const auto& p : json["parameters"])
     fmt::print("{} = {:.5g} {}{}\n", p["name"].get<std::string>(), p["value"].get<double>(),

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "io/provenance.hpp"
+#include "measurement/diagnose_outcomes.hpp"
 #include "measurement/least_squares.hpp"
 #include "measurement/outcome_fit.hpp"
 #include "study/problems.hpp"
@@ -173,6 +174,7 @@ RoleError role_error(const Bench& bench, const std::vector<TestComparison>& test
   out.expected = std::sqrt(expected / n);
   out.explained = std::sqrt(explained / n);
   out.noise_units = std::sqrt(noise / n);
+  if (outcomes_only(bench.data())) out.expected = expected_brier(errors).error;
   return out;
 }
 

@@ -7,8 +7,9 @@
 //     the floor's noise allowed for), error_expected (what noise alone would make), channels: [{name, error_noise_units,
 //     error_relative, bias, autocorrelation}], peaks: [{name, measured, model}], overturned_measured,
 //     overturned_probability, outcome}]
-//   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_explained, tests}; error in error_unit;
-//     null where there are no such tests
+//   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_explained, tests}; error in
+//     error_unit; error_expected of outcomes: the score that chance alone would make, were the model's probabilities
+//     right; null where there are no such tests
 //   parameters: [{name, unit, value, lower, upper, interval: [l, u] or null, calibrated (by this run)}]
 //   peak_ratio: {count, bias_ln, scatter_ln, ratio}: predicted over measured peak slips
 //   findings: [sentence]
