@@ -103,7 +103,8 @@ double misfit(const Judge& judge, std::size_t i, const ModelSpec& model, std::sp
 
 double least_squares_score(const Judge& judge, const Tests& tests, const ModelSpec& model, std::span<const double> x) {
   double sum = 0;
-  for (const std::size_t i : tests) sum += std::log(std::max(misfit(judge, i, model, x) / judge.samples()[i], 1e-6));
+  for (const std::size_t i : tests)
+    if (judge.samples()[i] > 0) sum += std::log(std::max(misfit(judge, i, model, x) / judge.samples()[i], 1e-6));
   return sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1));
 }
 
