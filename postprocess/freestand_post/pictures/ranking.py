@@ -7,20 +7,19 @@ from . import Picture
 
 order = 110
 SHOWN = 10
-CAPTION = ("Each point: root mean square error of one model on tests left out of its fit, in turn; bar: one standard error. Filled: the "
-           "best and those that chance does not part from it; hollow: worse by more than chance. Models at the grey line gain nothing over "
-           "the base.")
+CAPTION = ("Each point: error of one model on tests left out of its fit, in turn; bar: one standard error. Filled: the best and those "
+           "that chance does not part from it. Models at the grey line gain nothing over the base. Effects that no test can see are left out.")
 
 
 def pictures(results):
     if isinstance(results, Validation):
         for k, diagnosis in enumerate(results.diagnoses):
-            if any(np.isfinite(row["error_left_out"]) for row in diagnosis.candidates):
+            if any(row.get("visible", True) and np.isfinite(row["error_left_out"]) for row in diagnosis.candidates):
                 yield _picture(diagnosis, k)
 
 
 def _picture(diagnosis, k):
-    rows = [row for row in diagnosis.candidates if np.isfinite(row["error_left_out"])]
+    rows = [row for row in diagnosis.candidates if row.get("visible", True) and np.isfinite(row["error_left_out"])]
     rows.sort(key=lambda row: (not row["rival"], row["error_left_out"]))
     more, rows = len(rows) - SHOWN, rows[:SHOWN]
     value = np.array([row["error_left_out"] for row in rows])
@@ -72,7 +71,7 @@ def _finding(diagnosis, rows):
     best, base = rows[0]["error_left_out"], diagnosis.base.get("error_left_out", np.nan)
     rivals = [row["effect"] for row in rows if row["rival"]]
     if diagnosis.verdict == "none":
-        return "No candidate predicts the tests left out better than the base does"
+        return "No candidate predicts the tests left out better than the base by more than chance"
     if diagnosis.verdict == "ambiguous" and len(rivals) > 1:
         return words.capitalised(f"{validation.effects(rivals)} predict equally well; every other candidate is worse")
     if diagnosis.verdict == "unknown":
