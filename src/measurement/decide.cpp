@@ -139,7 +139,12 @@ class Decision {
     return !worse(c, best) && (!histories_ || c.explained <= std::max(at_noise, 1.1 * best.explained));
   }
 
-  bool better_than_base(const Candidate* best) const { return best && worse(d_.base, *best); }
+  // Also by the plain error: a base that strayed after one test that the floor's noise had turned elsewhere looks worse to
+  // the covariance of its own replays than it is.
+  bool better_than_base(const Candidate* best) const {
+    if (!best || !worse(d_.base, *best)) return false;
+    return !histories_ || pooled_left_out(*best) < pooled_left_out(d_.base);
+  }
 
   // A pair that holds a rival single effect is no rival of its own.
   void drop_needless() {
