@@ -108,6 +108,16 @@ std::string host_name() {
 
 constexpr const char* aside_ending = ".part";
 
+void write(const fs::path& path, std::span<const std::span<const std::byte>> pieces, bool durably) {
+  const fs::path aside = aside_name(path);
+  AsideFile file(aside, path);
+  for (const auto& piece : pieces) file.write(piece);
+  if (durably) file.sync();
+  file.close();
+  durably ? rename_and_sync(aside, path) : rename_file(aside, path);
+  file.keep();
+}
+
 }  // namespace
 
 Error file_error(const std::string& action, const fs::path& path, int error_number) {
@@ -128,22 +138,11 @@ bool is_aside_name(const fs::path& path) {
 }
 
 void write_durably(const fs::path& path, std::span<const std::span<const std::byte>> pieces) {
-  const fs::path aside = aside_name(path);
-  AsideFile file(aside, path);
-  for (const auto& piece : pieces) file.write(piece);
-  file.sync();
-  file.close();
-  rename_and_sync(aside, path);
-  file.keep();
+  write(path, pieces, true);
 }
 
 void write_aside(const fs::path& path, std::span<const std::span<const std::byte>> pieces) {
-  const fs::path aside = aside_name(path);
-  AsideFile file(aside, path);
-  for (const auto& piece : pieces) file.write(piece);
-  file.close();
-  rename_file(aside, path);
-  file.keep();
+  write(path, pieces, false);
 }
 
 void write_durably(const fs::path& path, std::string_view text) {

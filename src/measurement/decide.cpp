@@ -23,24 +23,6 @@ double bic(const std::vector<double>& samples, const ModelFit& fit) {
   return n * std::log(square / n) + static_cast<double>(fit.x.size()) * std::log(n);
 }
 
-// Paired difference of the left-out scores, a - b.
-Pooled paired(const ModelFit& a, const ModelFit& b) {
-  const auto n = static_cast<double>(a.left_out.size());
-  double mean = 0, variance = 0;
-  for (std::size_t i = 0; i < a.left_out.size(); ++i) mean += (a.left_out[i].score - b.left_out[i].score) / n;
-  for (std::size_t i = 0; i < a.left_out.size(); ++i)
-    variance += std::pow(a.left_out[i].score - b.left_out[i].score - mean, 2) / std::max(n - 1, 1.0);
-  return {mean, std::sqrt(variance / std::max(n, 1.0))};
-}
-
-bool practical(const ModelFit& fit, std::size_t base_numbers) {
-  for (std::size_t i = base_numbers; i < fit.x.size(); ++i) {
-    const Free& free = fit.model.free[i];
-    if (free.logarithmic && (fit.x[i] < free.low / 3 || fit.x[i] > 3 * free.high)) return false;
-  }
-  return true;
-}
-
 class Decision {
  public:
   Decision(const Bench& bench, Diagnosis& d) : bench_(bench), d_(d), histories_(kind_of_set(bench) == Kind::history) {}
@@ -127,7 +109,7 @@ class Decision {
       const double left = std::max(0.0, b.misfit - samples_of(b) - 3 * std::sqrt(2 * samples_of(b)));
       return a.misfit - b.misfit > chance_misfit + 0.5 * left;
     }
-    const Pooled difference = paired(a.fit, b.fit);
+    const Pooled difference = paired_difference(a.fit.left_out, b.fit.left_out);
     const double n = static_cast<double>(a.fit.left_out.size());
     return difference.error > gsl_cdf_tdist_Pinv(0.975, n - 1) * difference.standard_error && difference.error > 1e-9;
   }
@@ -177,11 +159,11 @@ class Decision {
   void mark(const Candidate* best) {
     if (!best) return;
     for (Candidate& c : d_.candidates) {
-      const Pooled difference = paired(c.fit, best->fit);
+      const Pooled difference = paired_difference(c.fit.left_out, best->fit.left_out);
       c.difference = difference.error;
       c.difference_se = difference.standard_error;
     }
-    const Pooled difference = paired(d_.base.fit, best->fit);
+    const Pooled difference = paired_difference(d_.base.fit.left_out, best->fit.left_out);
     d_.base.difference = difference.error;
     d_.base.difference_se = difference.standard_error;
   }
@@ -192,6 +174,25 @@ class Decision {
 };
 
 }  // namespace
+
+Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b) {
+  const auto n = static_cast<double>(a.size());
+  Pooled difference;
+  for (std::size_t i = 0; i < a.size(); ++i) difference.error += (a[i].score - b[i].score) / n;
+  double variance = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    variance += std::pow(a[i].score - b[i].score - difference.error, 2) / std::max(n - 1, 1.0);
+  difference.standard_error = std::sqrt(variance / std::max(n, 1.0));
+  return difference;
+}
+
+bool practical(const ModelFit& fit, std::size_t known) {
+  for (std::size_t i = known; i < fit.x.size(); ++i) {
+    const Free& free = fit.model.free[i];
+    if (free.logarithmic && (fit.x[i] < free.low / 3 || fit.x[i] > 3 * free.high)) return false;
+  }
+  return true;
+}
 
 Kind kind_of_set(const Bench& bench) {
   const auto tests = tests_of(bench.data(), Role::calibration);

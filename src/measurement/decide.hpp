@@ -11,6 +11,11 @@ inline constexpr double at_noise = 1.3, may_hide_another = 1.015, base_at_noise 
 // Differences of G that chance makes between two models.
 inline constexpr double chance_misfit = 30;
 
+// Paired difference of the left-out scores, a - b, in the mean, and its standard error.
+Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b);
+// Do the numbers that come after the `known` ones lie where they are met in practice?
+bool practical(const ModelFit&, std::size_t known);
+
 Kind kind_of_set(const Bench&);  // of its first calibration test
 
 // Fills misfit, explained and delta_bic of base and candidates.

@@ -93,14 +93,6 @@ class OutcomeDiagnoser {
     return seen;
   }
 
-  static bool practical(const ModelFit& fit, std::size_t known) {
-    for (std::size_t i = known; i < fit.x.size(); ++i) {
-      const Free& free = fit.model.free[i];
-      if (free.logarithmic && (fit.x[i] < free.low / 3 || fit.x[i] > 3 * free.high)) return false;
-    }
-    return true;
-  }
-
   // The best candidate of so many effects, if it beats `without` by more than chance.
   const Candidate* accepted(const Candidate& without, std::size_t effects, std::size_t tried) const {
     const Candidate* best = nullptr;
@@ -231,17 +223,6 @@ Pooled expected_brier(const std::vector<TestError>& errors) {
   }
   expected.standard_error = std::sqrt(expected.standard_error) / n;
   return expected;
-}
-
-Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b) {
-  const auto n = static_cast<double>(a.size());
-  Pooled difference;
-  for (std::size_t i = 0; i < a.size(); ++i) difference.error += (a[i].score - b[i].score) / n;
-  double variance = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    variance += std::pow(a[i].score - b[i].score - difference.error, 2) / std::max(n - 1, 1.0);
-  difference.standard_error = std::sqrt(variance / std::max(n, 1.0));
-  return difference;
 }
 
 bool beyond_chance(const Pooled& difference, std::size_t tests, std::size_t tried) {

@@ -7,7 +7,7 @@
 // its standard error and cannot be told from the best at 97.5 %.
 #pragma once
 
-#include "measurement/diagnose.hpp"
+#include "measurement/decide.hpp"
 #include "measurement/outcome_fit.hpp"
 
 namespace freestand::measurement {
@@ -18,9 +18,6 @@ Diagnosis diagnose_outcomes(const Bench&, const ModelSpec& base, const std::vect
 // Brier's score that the model would have if its probabilities were right, mean of p (1 - p), and how much chance moves
 // it: sqrt(sum p (1 - p) (1 - 2 p)^2)/n.
 Pooled expected_brier(const std::vector<TestError>&);
-
-// Mean difference of the left-out scores, a - b, and its standard error.
-Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b);
 
 // Is the difference above 0 by more than chance, when it is the best of so many?
 bool beyond_chance(const Pooled& difference, std::size_t tests, std::size_t tried);
