@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/diagnose_outcomes.hpp"
+
 namespace freestand::measurement {
 namespace {
 
@@ -82,7 +84,8 @@ class Findings {
 
   void outcomes(const std::vector<const TestComparison*>& all, Role role) {
     std::size_t missed = 0, false_alarms = 0, overturned = 0;
-    double brier = 0, expected = 0, chance = 0, chance_variance = 0;
+    double brier = 0, expected = 0;
+    std::vector<TestError> errors;
     std::vector<std::string> sure;
     const auto n = static_cast<double>(all.size());
     for (const TestComparison* t : all) {
@@ -94,8 +97,7 @@ class Findings {
       false_alarms += says && !fell;
       expected += p;
       brier += t->error.score / n;
-      chance += p * (1 - p) / n;
-      chance_variance += p * (1 - p) * (1 - 2 * p) * (1 - 2 * p) / (n * n);
+      errors.push_back(t->error);
       if (t->error.score > 0.81)
         sure.push_back(fmt::format("{} ({:.2f}, {})", bench_.test(t->test).id, p, fell ? "overturned" : "stood"));
     }
@@ -103,7 +105,7 @@ class Findings {
     say("{} of {} {} tests are missed ({:.1f} %): {} that stood were predicted to overturn, {} that overturned to "
         "stand",
         missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n, false_alarms, missed - false_alarms);
-    const double sd = std::sqrt(chance_variance);
+    const auto [chance, sd] = expected_brier(errors);
     say("the Brier score of the {} tests is {:.4f}; were the model's probabilities right, chance alone would make "
         "{:.4f} "
         "+- {:.4f}: {}",
