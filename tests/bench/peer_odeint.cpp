@@ -43,7 +43,8 @@ double illinois(F&& f, double lo, double f_lo, double hi, double f_hi, double wi
 
 class Sample {
  public:
-  Sample(const Specimen& specimen, const Shaking& shaking) : block_(specimen, 1e-9), record_(shaking) {}
+  Sample(const Specimen& specimen, const Shaking& shaking, int steps_per_knot)
+      : block_(specimen, 1e-9), record_(shaking), longest_(record_.dt / steps_per_knot) {}
 
   PeerResponse run() {
     const int last = record_.count + static_cast<int>(60 / record_.dt);
@@ -95,7 +96,7 @@ class Sample {
     response_.acceleration_mps2 = std::max(response_.acceleration_mps2, std::sqrt(acceleration2_));
   }
 
-  // Steps from knot to knot while the mode lasts. `rates`: right-hand side; `read`: values -> state; `first_event`:
+  // Steps from knot to knot, one or several, while the mode lasts. `rates`: right-hand side; `read`: values -> state; `first_event`:
   // looks at the step and tells the first event and when; `watch`: peaks of the step.
   template <std::size_t D, class Rates, class Read, class Event, class Watch>
   bool march(Values<D> x, Rates&& rates, Read&& read, Event&& first_event, Watch&& watch) {
@@ -103,12 +104,14 @@ class Sample {
     Values<D> dx{}, next{}, dnext{};
     rates(x, dx, offset_);
     for (const int last = record_.count + static_cast<int>(60 / record_.dt); knot_ < last;) {
-      const double h = record_.dt - offset_;
-      if (h <= 0) {
+      const double left = record_.dt - offset_;
+      if (left <= 0) {
         next_knot();
         rates(x, dx, 0);
         continue;
       }
+      const bool to_knot = left < 1.001 * longest_;
+      const double h = to_knot ? left : longest_;
       stepper.do_step(rates, x, dx, offset_, next, dnext, h);
       const double begin = offset_, end = begin + h;
       const auto dense = [&](double t) {
@@ -118,15 +121,19 @@ class Sample {
       };
       double when = end;
       const PeerEvent event = first_event(x, next, dense, begin, end, when);
-      watch(x, next, dense, begin, when);
+      const Values<D> there = when == end ? next : dense(when);
+      watch(x, there, dense, begin, when);
       if (event != PeerEvent::none) {
-        read(when == end ? next : dense(when), y_);
+        read(there, y_);
         offset_ = when;
         return block_.resolve(event, y_, acceleration(offset_), response_);
       }
       x = next;
-      next_knot();
-      if (knot_ == record_.count)
+      if (to_knot)
+        next_knot();
+      else
+        offset_ = end;
+      if (to_knot && knot_ == record_.count)
         rates(x, dx, 0);  // the floor stops
       else
         dx = dnext;
@@ -186,9 +193,8 @@ class Sample {
           }
           return event;
         },
-        [&](const X&, const X& next, auto& dense, double, double when) {
-          const double xi = when == record_.dt ? next[0] : dense(when)[0];
-          response_.slip_m = std::max(response_.slip_m, std::abs(xi));
+        [&](const X&, const X& there, auto&, double, double) {
+          response_.slip_m = std::max(response_.slip_m, std::abs(there[0]));
         });
   }
 
@@ -223,9 +229,8 @@ class Sample {
           }
           return event;
         },
-        [&](const X& x, const X& next, auto& dense, double begin, double when) {
-          const bool whole = when == record_.dt;
-          turn(x, whole ? next : dense(when), dense, begin, when);
+        [&](const X& x, const X& there, auto& dense, double begin, double when) {
+          turn(x, there, dense, begin, when);
         });
   }
 
@@ -271,8 +276,7 @@ class Sample {
           observe_forces(f.fx, f.fy);
           return event;
         },
-        [&](const X& x, const X& next, auto& dense, double begin, double when) {
-          const X end = when == record_.dt ? next : dense(when);
+        [&](const X& x, const X& end, auto& dense, double begin, double when) {
           turn(x, end, dense, begin, when);
           const double before = block_.slip_rate(state(x)), after = block_.slip_rate(state(end));
           if (before * after < 0) {
@@ -293,10 +297,13 @@ class Sample {
   double acceleration2_ = 0;
   int knot_ = 0;
   double offset_ = 0;
+  double longest_;  // step [s]
 };
 
 }  // namespace
 
-PeerResponse odeint_peer(const Specimen& specimen, const Shaking& shaking) { return Sample(specimen, shaking).run(); }
+PeerResponse odeint_peer(const Specimen& specimen, const Shaking& shaking, int steps_per_knot) {
+  return Sample(specimen, shaking, steps_per_knot).run();
+}
 
 }  // namespace freestand::bench

@@ -19,9 +19,9 @@ class CvodePeer {
   Solver* solver_;
 };
 
-// Boost.odeint's runge_kutta_dopri5, inlined: one step per knot (shorter where an event cuts it), events located by the
-// Illinois method on its dense output, quiet waits skipped knot by knot.
-PeerResponse odeint_peer(const Specimen& specimen, const Shaking& shaking);
+// Boost.odeint's runge_kutta_dopri5, inlined: so many equal steps per knot (shorter where an event cuts one), events
+// located by the Illinois method on its dense output, quiet waits skipped knot by knot.
+PeerResponse odeint_peer(const Specimen& specimen, const Shaking& shaking, int steps_per_knot = 1);
 
 // The same two on model bouc_wen: dopri5 with its step chosen by its error, and CVODE, BDF where the contact is stiff.
 PeerResponse odeint_bouc_wen(const Specimen& specimen, const Shaking& shaking);
