@@ -84,7 +84,8 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
     c.free_vibration_s = settings.free_vibration_s;
     return true;
   }
-  if (specimen.impact.law != ImpactLaw::housner) return false;
+  const bool coulomb = specimen.impact.law == ImpactLaw::coulomb;
+  if (coulomb && law) return false;
   const Rig rig(specimen, settings, floor);
   c = {shaking.motion->table.get(),
        shaking.scale,
@@ -95,12 +96,13 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
        rig.mu_s,
        rig.mu_k,
        rig.g,
-       rig.impact.factor,
+       coulomb ? 1 : rig.impact.factor,
        rig.rest_rotation,
        rig.told_rotation,
        settings.free_vibration_s,
        {},
-       settings.tolerance};
+       settings.tolerance,
+       coulomb};
   if (specimen.model == Model::slide) c.left = c.right = endless_base * c.h;
   if (law) c.mu_s *= friction_factor(*law, 0);
   return true;

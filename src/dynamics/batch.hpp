@@ -19,11 +19,12 @@ struct BatchCase {
   double scale;               // of the record
   double right, left, h, k2;  // [m], [m2]
   double mu_s, mu_k, g;
-  double factor;  // times Housner's rate
+  double factor;  // times Housner's rate; 1 where Coulomb's law holds
   double rest_rotation, told_rotation, free_vibration_s;
   BoucWenContact contact;  // model bouc_wen
   double tolerance;
-  const SpeedLaw* law;  // of friction; null: it is constant
+  bool coulomb;         // impact law
+  const SpeedLaw* law;  // of friction; null: it is constant. None with Coulomb's impacts
 };
 
 // Computes `count` samples; sets declined[i] where sample i needs the text for single samples.

@@ -179,10 +179,12 @@ class RockPool : RockLanes {
   static Bracket fall(Aside& lanes, const Pack& turn) {
     const Pack zero(0.0), side = lanes.side, last = lanes.last;
     const RockSeries<N>& y = lanes.y;
-    const PackMask dips = lanes.turns & (side * y.at(y.theta, turn) <= zero), rises = lanes.sense == side;
+    const Pack theta_turn = y.at(y.theta, turn);
+    const PackMask dips = lanes.turns & (side * theta_turn <= zero), rises = lanes.sense == side;
     lanes.falls = (side * lanes.theta_end <= zero) | dips;
     const Pack from = choose(lanes.turns & rises, turn, zero), to = choose(dips, turn, last);
-    const Pack guess = last * first_zero(side * y.theta[0], side * y.omega[0] * last, side * lanes.theta_end);
+    const Pack end = choose(dips, theta_turn, lanes.theta_end);
+    const Pack guess = to * first_zero(side * y.theta[0], side * y.omega[0] * to, side * end);
     return {y.theta, side, from, to, guess, lanes.falls};
   }
 

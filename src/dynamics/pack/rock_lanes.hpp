@@ -290,7 +290,9 @@ class RockLanes {
       const double alpha = c.g * 0.5 * (c.left + c.right) / inertia, speed = magnitude(rate) / c.table->step_s;
       const double time =
           rests ? 0.0 : 2 * speed / alpha * (1 - std::pow(lane.kept, hops_to_rest(i))) / (1 - lane.kept);
-      finish(i, Outcome::moved, c.table->step_s * (c.table->knots - 1 + knot(i) + 1 - r_.left[i]) + time, 0.0);
+      const double after = c.table->step_s * (knot(i) + 1 - r_.left[i]) + time;
+      if (after > c.free_vibration_s) return decline(i);
+      finish(i, Outcome::moved, c.table->step_s * (c.table->knots - 1) + after, 0.0);
       return refill(i);
     }
     const double a = r_.a[i];

@@ -71,8 +71,10 @@ struct Bracket {
     const PackMask above = sign * value > Pack(0.0);
     lo = choose(above, x, lo);
     hi = choose(above, hi, x);
-    const Pack halley = x - value * slope / (slope * slope - value * bend);
-    const Pack next = choose((halley >= lo) & (halley <= hi), halley, Pack(0.5) * (lo + hi));
+    // Near a turning point that is no root, Halley's step leads to that point: there the bracket is halved.
+    const Pack square = slope * slope, curve = value * bend, halley = x - value * slope / (square - curve);
+    const PackMask leads = (halley >= lo) & (halley <= hi) & (square > xsimd::abs(curve));
+    const Pack next = choose(leads, halley, Pack(0.5) * (lo + hi));
     const PackMask settled = xsimd::abs(next - x) <= Pack(1e-6);  // and the step after this one is within round-off
     x = choose(open, next, x);
     open = open & ~settled;
@@ -134,7 +136,8 @@ PackMask turns_twice(const RockSeries<N>& y, const Pack& omega_end) {
 }
 
 // Squared acceleration of the centre of mass: its largest value from the start of the series to x = part, where the
-// state is `end`, if it is above `seen`. `weight`: of the floor's acceleration, in the units of the series.
+// state is `end`, if it is above `seen`. `weight`: of the floor's acceleration, in the units of the series. Not `always`:
+// only in lanes where the value at the start comes close to `seen`, whatever the other lanes do.
 struct RockEnd {
   Pack omega, rx, ry, a;
 };
@@ -146,7 +149,8 @@ template <int N>
   const Pack fx = y.ry[0] * y.omega[1] - y.rx[0] * omega2 + weight * a;
   const Pack fy = y.rx[0] * y.omega[1] + y.ry[0] * omega2;
   const Pack square = fx * fx + fy * fy;
-  if (!always && !bits(square > Pack(0.999) * seen)) return seen;
+  const PackMask near = square > Pack(0.999) * seen;
+  if (!always && !bits(near)) return seen;
   const Pack cross = two * y.omega[0] * y.omega[1], alpha1 = two * y.omega[2];
   const Pack gx = y.ry[1] * y.omega[1] + y.ry[0] * alpha1 - y.rx[1] * omega2 - y.rx[0] * cross + weight * rate_a;
   const Pack gy = y.rx[1] * y.omega[1] + y.rx[0] * alpha1 + y.ry[1] * omega2 + y.ry[0] * cross;
@@ -158,12 +162,13 @@ template <int N>
   const Pack bend = (square_end - square - slope * part) / (part * part);
   const PackMask tops =
       (slope > zero) & (slope + two * bend * part < zero) & (square - slope * slope / (Pack(4.0) * bend) > high);
-  if (!bits(tops)) return high;
+  const auto watched = [&](const Pack& most) { return always ? most : choose(near, most, seen); };
+  if (!bits(tops)) return watched(high);
   const Pack at = choose(tops, slope / (Pack(-2.0) * bend), part);
   const Pack rx = y.at(y.rx, at), ry = y.at(y.ry, at), omega = y.at(y.omega, at), a_top = a + rate_a * at;
   const Pack alpha_top = rx * gravity - ry * (push * a_top), omega2_top = omega * omega;
   const Pack tx = ry * alpha_top - rx * omega2_top + weight * a_top, ty = rx * alpha_top + ry * omega2_top;
-  return xsimd::max(high, choose(tops, tx * tx + ty * ty, high));
+  return watched(xsimd::max(high, choose(tops, tx * tx + ty * ty, high)));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/search.hpp"
+#include "dynamics/pack/slide_rock_blow.hpp"
 #include "dynamics/pack/slide_rock_ground.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 
@@ -21,7 +22,8 @@ class SlideRockLane {
         last_(t_.knots - 1),
         half_base_(0.5 * (c.left + c.right)),
         ground_{{c, -1}, {c, 1}},
-        bounds_(c, ground_[0], ground_[1]) {}
+        bounds_(c, ground_[0], ground_[1]),
+        sticks_(!c.coulomb || (blow_sticks(c, ground_[0], ground_[1]) && blow_sticks(c, ground_[1], ground_[0]))) {}
 
   bool declined() const { return declined_; }
   bool ended() const { return declined_ || ended_; }
@@ -246,6 +248,7 @@ class SlideRockLane {
   double half_base_;
   Ground ground_[2];  // on the left corner, on the right one
   HopBounds bounds_;
+  bool sticks_;  // impacts of a corner that sticks make none slip
   Mode mode_ = Mode::rest;
   int m_ = 0, side_ = 0, sigma_ = 0;
   double left_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now

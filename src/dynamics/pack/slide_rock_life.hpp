@@ -160,7 +160,14 @@ class SlideRockLife : public SlideRockHops {
     event();
     if (hop(side_, omega_) >= c_.told_rotation) ++impacts_;
     const int from = side_, to = -side_;
-    const double omega = on(from).kept * omega_;
+    double omega = on(from).kept * omega_;
+    if (c_.coulomb && (w_ != 0 || !sticks_)) {
+      const Blow blow = coulomb_blow(c_, on(from), on(to), omega_, w_);
+      if (blow.ends == Blow::Ends::painleve) return decline();
+      w_ = blow.w;
+      if (blow.ends == Blow::Ends::flat) return choose_flat();
+      omega = blow.omega;
+    }
     const bool ends = hop(to, omega) < c_.rest_rotation;
     if (ends) {
       if (w_ != 0) w_ = slip_after_hops(to, omega);
@@ -168,9 +175,9 @@ class SlideRockLife : public SlideRockHops {
     }
     stand(mode_, to);
     omega_ = omega;
-    if (w_ == 0 && dies_out()) return stand(Mode::rest, 0);
+    if (w_ == 0 && sticks_ && dies_out()) return stand(Mode::rest, 0);
     choose_on_corner();
-    hops_ = mode_ == Mode::rock && small_hops();
+    hops_ = sticks_ && mode_ == Mode::rock && small_hops();
   }
 
   // As in dynamics/impact.cpp: two geometric series.
