@@ -3,91 +3,133 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace freestand::dynamics::detail {
 namespace {
 
-using Coefficients = std::array<double, max_root_order + 1>;
+template <int N>
+using Polynomial = std::array<double, N + 1>;  // coefficients of 1, x ... x^N; x = 0 ... 1
 constexpr int deepest = 45;  // halvings, after which an interval is shorter than the resolution of time
 
-double evaluate(const Coefficients& c, int order, double tau) {
+double evaluate(const double* c, int order, double x) {
   double value = c[order];
-  for (int k = order - 1; k >= 0; --k) value = value * tau + c[k];
+  for (int k = order - 1; k >= 0; --k) value = value * x + c[k];
   return value;
 }
 
-// The same polynomial about `by`.
-Coefficients shifted(Coefficients c, int order, double by) {
-  for (int i = 0; i < order; ++i)
-    for (int k = order - 1; k >= i; --k) c[k] += by * c[k + 1];
-  return c;
-}
-
-Coefficients derivative(const Coefficients& c, int order) {
-  Coefficients d{};
-  for (int k = 0; k < order; ++k) d[k] = (k + 1) * c[k + 1];
-  return d;
-}
-
-// True when the sign of c[0] is proven on [0, h].
-bool keeps_sign(const Coefficients& c, int order, double h) {
-  double bound = 0;
-  for (int k = order; k >= 1; --k) bound = (bound + std::abs(c[k])) * h;
-  return std::abs(c[0]) > bound;
-}
-
-// Root of a monotone polynomial with c(lo) > 0 >= c(hi): Newton, kept inside the bracket by bisection.
-double monotone_root(const Coefficients& c, int order, double lo, double hi) {
-  const Coefficients slope = derivative(c, order);
-  double x = 0.5 * (lo + hi);
-  for (int i = 0; i < 100; ++i) {
-    const double f = evaluate(c, order, x);
-    (f > 0 ? lo : hi) = x;
-    const double newton = x - f / evaluate(slope, order, x);
-    const double next = newton > lo && newton < hi ? newton : 0.5 * (lo + hi);
-    if (next == x || next <= lo || next >= hi) return next == x ? x : hi;
-    x = next;
-  }
-  return hi;
-}
-
-double magnitude(const Coefficients& c, int order, double h) {
+double magnitude(const double* c, int order, double h) {
   double sum = 0;
   for (int k = order; k >= 0; --k) sum = sum * h + std::abs(c[k]);
   return sum;
 }
 
-// First root of a polynomial on (0, h], positive at 0.
+// The same polynomial about x = 1.
+template <int N>
+void shift_by_one(Polynomial<N>& c) {
+#pragma GCC unroll 16
+  for (int i = 0; i < N; ++i)
+#pragma GCC unroll 16
+    for (int k = N - 1; k >= i; --k) c[k] += c[k + 1];
+}
+
+// Changes of sign among the coefficients of (1 + x)^N c(1/(1 + x)): as many as c has roots on (0, 1), or an even number
+// more (Descartes' rule; Collins & Akritas 1976).
+template <int N>
+int sign_changes(const Polynomial<N>& c) {
+  Polynomial<N> d;
+  std::reverse_copy(c.begin(), c.end(), d.begin());
+  shift_by_one<N>(d);
+  int changes = 0;
+  double last = d[N];
+  for (int k = N - 1; k >= 0; --k) {
+    if (d[k] == 0) continue;
+    changes += (d[k] > 0) != (last > 0);
+    last = d[k];
+  }
+  return changes;
+}
+
+// The only root on (0, 1] of a polynomial with c(0) > 0 >= c(1): Halley's method from the root of a parabola, kept inside
+// the bracket by bisection.
+template <int N>
+double only_root(const Polynomial<N>& c) {
+  double lo = 0, hi = 1, end = 0;
+  for (int k = N; k >= 0; --k) end += c[k];
+  const double rate = N > 0 ? c[1] : 0, bow = end - c[0] - rate;
+  const double root = std::sqrt(std::max(rate * rate - 4 * bow * c[0], 0.0));
+  double x = rate > 0 ? (rate + root) / (-2 * bow) : 2 * c[0] / (root - rate);
+  if (!(x > lo && x < hi)) x = 0.5;
+  for (int i = 0; i < 100; ++i) {
+    double value = c[N], slope = 0, bend = 0;  // bend: half the second derivative
+#pragma GCC unroll 16
+    for (int k = N - 1; k >= 0; --k) {
+      bend = bend * x + slope;
+      slope = slope * x + value;
+      value = value * x + c[k];
+    }
+    (value > 0 ? lo : hi) = x;
+    // Near a turning point that is no root, Halley's step leads to that point: there the bracket is halved.
+    const double square = slope * slope, curve = value * bend;
+    double next = x - value * slope / (square - curve);
+    if (!(next >= lo && next <= hi && square > std::abs(curve))) next = 0.5 * (lo + hi);
+    const double step = std::abs(next - x);
+    x = next;
+    if (step <= 1e-8 * x) return x;  // what is left is the third power of that
+  }
+  return hi;
+}
+
+// First root of a polynomial on (0, 1], positive at 0.
+template <int N>
 class Search {
  public:
-  Search(const Coefficients& c, int order, double h) : order_(order), noise_(1e-15 * magnitude(c, order, h)) {}
+  explicit Search(const Polynomial<N>& c) : noise_(1e-15 * magnitude(c.data(), N, 1)) {}
 
   // False: there is none.
-  bool find(const Coefficients& c, double h, int depth, double& tau) {
-    if (keeps_sign(c, order_, h) || magnitude(c, order_, h) <= noise_ || --intervals_left_ < 0) return false;
-    const bool monotone = keeps_sign(derivative(c, order_), order_ - 1, h);
-    if (monotone || depth == deepest) {
-      if (evaluate(c, order_, h) > 0) return false;
-      tau = monotone_root(c, order_, 0, h);
+  bool find(const Polynomial<N>& c, int depth, double& x) {
+    const int changes = sign_changes<N>(c);
+    if (changes == 0 || magnitude(c.data(), N, 1) <= noise_ || --intervals_left_ < 0) return false;
+    if (changes == 1 || depth == deepest) {
+      if (evaluate(c.data(), N, 1) > 0) return false;
+      x = only_root<N>(c);
       return true;
     }
-    const double half = 0.5 * h;
-    if (find(c, half, depth + 1, tau)) return true;
-    const Coefficients right = shifted(c, order_, half);
-    if (right[0] <= 0) {
-      tau = half;
+    Polynomial<N> half = c;
+    double scale = 1;
+    for (int k = 1; k <= N; ++k) half[k] *= scale *= 0.5;
+    if (find(half, depth + 1, x)) {
+      x *= 0.5;
       return true;
     }
-    if (!find(right, half, depth + 1, tau)) return false;
-    tau += half;
+    shift_by_one<N>(half);
+    x = 0;
+    if (half[0] > 0 && !find(half, depth + 1, x)) return false;
+    x = 0.5 + 0.5 * x;
     return true;
   }
 
  private:
-  int order_;
   double noise_;               // what is all below this is zero, not a row of roots
   int intervals_left_ = 4000;  // no polynomial of this order with a sign needs as many
 };
+
+template <int N>
+bool first_root_of(const double* c, double h, double& tau) {
+  Polynomial<N> unit;
+  double scale = 1, sum = 0;
+  for (int k = 0; k <= N; ++k, scale *= h) sum += std::abs(unit[k] = c[k] * scale);
+  if (!std::isfinite(sum) || !Search<N>(unit).find(unit, 0, tau)) return false;
+  tau *= h;
+  return true;
+}
+
+using Solve = bool (*)(const double* c, double h, double& tau);
+template <int... N>
+constexpr std::array<Solve, sizeof...(N)> of_each_order(std::integer_sequence<int, N...>) {
+  return {first_root_of<N + 1>...};
+}
+constexpr auto solve = of_each_order(std::make_integer_sequence<int, max_root_order>{});
 
 // Index of the first coefficient that is not zero within the tolerance; order + 1 when there is none.
 int leading(const double* c, int order, ZeroTolerance zero) {
@@ -114,26 +156,23 @@ bool first_root(const double* c, int order, double h, ZeroTolerance zero, double
     tau = 0;
     return true;
   }
-  Coefficients deflated{};
-  std::copy(c + first, c + order + 1, deflated.begin());
-  const int deflated_order = order - first;
-  if (deflated_order == 0) return false;
-  if (!std::isfinite(magnitude(deflated, deflated_order, h))) return false;
-  return Search(deflated, deflated_order, h).find(deflated, h, 0, tau);
+  if (first == order) return false;
+  return solve[order - first - 1](c + first, h, tau);
 }
 
 double max_abs(const double* c, int order, double h, double floor) {
-  Coefficients y{};
+  std::array<double, max_root_order + 1> y{}, slope{};
   std::copy(c, c + order + 1, y.begin());
-  double peak = std::max({floor, std::abs(y[0]), std::abs(evaluate(y, order, h))});
+  double peak = std::max({floor, std::abs(y[0]), std::abs(evaluate(c, order, h))});
   // Walk from one stationary point to the next.
   for (int turn = 0; turn < order && h > 0; ++turn) {
-    Coefficients slope = derivative(y, order);
+    for (int k = 0; k < order; ++k) slope[k] = (k + 1) * y[k + 1];
     if (sign_after(slope.data(), order - 1, {0, 0.0}) < 0)
       for (double& coefficient : slope) coefficient = -coefficient;
     double tau = 0;
     if (!first_root(slope.data(), order - 1, h, {0, 0.0}, tau) || tau <= 0 || tau >= h) break;
-    y = shifted(y, order, tau);
+    for (int i = 0; i < order; ++i)  // about tau
+      for (int k = order - 1; k >= i; --k) y[k] += tau * y[k + 1];
     y[1] = 0;
     h -= tau;
     peak = std::max(peak, std::abs(y[0]));

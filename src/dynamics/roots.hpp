@@ -1,13 +1,10 @@
 // Where a polynomial that starts out positive first falls to zero.
 //
-// An event is a witness (a series that is >= 0 while the mode lasts) and its first root. Two ideas make the search
-// safe:
+// An event is a witness (a series that is >= 0 while the mode lasts) and its first root. Two ideas make the search safe:
 //  * a root at the very start is not nudged away from but divided out: with c[0] = 0, witness(tau)/tau has the same
-//  later
-//    roots and a sign at 0;
-//  * an interval is dropped only when |c[0]| > sum |c[k]| h^k proves that it holds no root, otherwise it is halved
-//  until the
-//    witness is monotone on it. Double crossings inside a step cannot be missed.
+//    later roots and a sign at 0;
+//  * Descartes' rule counts the roots within an interval, or too many of them: it is halved until there is one or none.
+//    Double crossings inside a step cannot be missed.
 #pragma once
 
 #include "dynamics/series.hpp"
@@ -29,6 +26,20 @@ namespace detail {
 int sign_after(const double* c, int order, ZeroTolerance zero);
 bool first_root(const double* c, int order, double h, ZeroTolerance zero, double& tau);
 double max_abs(const double* c, int order, double h, double floor);
+
+// sum_{k > 0} |c[k]| h^k, even and odd powers apart, which is faster.
+template <int N>
+double rest_of_bound(const double* c, double h) {
+  const auto size = [c](int k) { return c[k] < 0 ? -c[k] : c[k]; };
+  const double h2 = h * h;
+  double odd = 0, even = 0;
+  for (int k = N; k >= 1; --k)
+    if (k % 2 == 1)
+      odd = odd * h2 + size(k);
+    else
+      even = (even + size(k)) * h2;
+  return odd * h + even;
+}
 }  // namespace detail
 
 // Sign of the series just after its start: +1, -1, or 0 when all coefficients vanish within the tolerance.
@@ -41,9 +52,7 @@ int sign_after(const Series<double, N>& y, ZeroTolerance zero) {
 template <int N>
 bool first_root(const Series<double, N>& y, double h, ZeroTolerance zero, double& tau) {
   static_assert(N <= max_root_order);
-  double bound = 0;
-  for (int k = N; k >= 1; --k) bound = (bound + (y.c[k] < 0 ? -y.c[k] : y.c[k])) * h;
-  if (y.c[0] > bound) return false;
+  if (y.c[0] > detail::rest_of_bound<N>(y.c, h)) return false;
   return detail::first_root(y.c, N, h, zero, tau);
 }
 
@@ -51,9 +60,7 @@ bool first_root(const Series<double, N>& y, double h, ZeroTolerance zero, double
 template <int N>
 double max_abs(const Series<double, N>& y, double h, double floor) {
   static_assert(N <= max_root_order);
-  double bound = 0;
-  for (int k = N; k >= 0; --k) bound = bound * h + (y.c[k] < 0 ? -y.c[k] : y.c[k]);
-  if (bound <= floor) return floor;
+  if ((y.c[0] < 0 ? -y.c[0] : y.c[0]) + detail::rest_of_bound<N>(y.c, h) <= floor) return floor;
   return detail::max_abs(y.c, N, h, floor);
 }
 
