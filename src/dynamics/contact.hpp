@@ -52,8 +52,8 @@ struct Arc {
   Series<Real, N> rx, ry;        // [m]
   Series<Real, N> alpha;         // theta'' [rad/s2], to order N - 1, as all below
   Series<Real, N> fx, fy;        // contact force per unit mass [m/s2]
-  Series<Real, N> n;             // g' - r_y omega^2: what presses the corner down when theta'' = 0 [m/s2]
-  Series<Real, N> d;             // k^2 + r_x q: Painleve's denominator, slide-rock only [m2]
+  Series<Real, N> n;  // g' - r_y omega^2: what presses the corner down when theta'' = 0, slide-rock only [m/s2]
+  Series<Real, N> d;  // k^2 + r_x q: Painleve's denominator, slide-rock only [m2]
 };
 
 template <class Real, int N>
@@ -87,18 +87,20 @@ void finish_arc(Arc<Real, N>& y) {
   y.alpha[N] = y.fx[N] = y.fy[N] = y.n[N] = y.d[N] = Real(0.0);
 }
 
+// Forces from the motion of the centre of mass: f_x = r_x'' + a, f_y = r_y'' + g'.
 template <class Real, int N>
 void rock(Arc<Real, N>& y, const Floor<Real, N>& floor, const Corner<Real>& body) {
-  const Real inertia = body.k2 + body.c * body.c + body.h * body.h;
-  Series<Real, N> omega2;
+  const Real over_inertia = Real(1.0) / (body.k2 + body.c * body.c + body.h * body.h);
   for (int k = 0; k < N; ++k) {
-    omega2[k] = product(y.omega, y.omega, k);
-    y.alpha[k] = (product(y.rx, floor.g, k) - product(y.ry, floor.a, k)) / inertia;
-    y.n[k] = floor.g[k] - product(y.ry, omega2, k);
-    y.fy[k] = y.n[k] - product(y.rx, y.alpha, k);
-    y.fx[k] = product(y.ry, y.alpha, k) - product(y.rx, omega2, k) + floor.a[k];
-    y.d[k] = Real(0.0);
+    y.alpha[k] = (product(y.rx, floor.g, k) - product(y.ry, floor.a, k)) * over_inertia;
     integrate_coefficient(y, Real(0.0), k);
+  }
+  for (int k = 0; k < N; ++k) {
+    const Real last_x = k < N - 1 ? Real(k + 2.0) * y.rx[k + 2] : product(y.ry, y.omega, N);  // coefficient of r'
+    const Real last_y = k < N - 1 ? Real(k + 2.0) * y.ry[k + 2] : -product(y.rx, y.omega, N);
+    y.fx[k] = Real(k + 1.0) * last_x + floor.a[k];
+    y.fy[k] = Real(k + 1.0) * last_y + floor.g[k];
+    y.n[k] = y.d[k] = Real(0.0);
   }
   finish_arc(y);
 }
