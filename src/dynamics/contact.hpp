@@ -71,7 +71,7 @@ void start_arc(Arc<Real, N>& y, const Corner<Real>& body, Real theta, Real omega
 
 // Kinematics: coefficient k + 1 of the state from coefficient k of its rates.
 template <class Real, int N>
-void integrate_coefficient(Arc<Real, N>& y, const Real& slip_acceleration, int k) {
+[[gnu::always_inline]] inline void integrate_coefficient(Arc<Real, N>& y, const Real& slip_acceleration, int k) {
   const Real one_over = Real(1.0 / (k + 1));
   y.theta[k + 1] = y.omega[k] * one_over;
   y.omega[k + 1] = y.alpha[k] * one_over;
@@ -91,6 +91,7 @@ void finish_arc(Arc<Real, N>& y) {
 template <class Real, int N>
 void rock(Arc<Real, N>& y, const Floor<Real, N>& floor, const Corner<Real>& body) {
   const Real over_inertia = Real(1.0) / (body.k2 + body.c * body.c + body.h * body.h);
+#pragma GCC unroll 16
   for (int k = 0; k < N; ++k) {
     y.alpha[k] = (product(y.rx, floor.g, k) - product(y.ry, floor.a, k)) * over_inertia;
     integrate_coefficient(y, Real(0.0), k);
@@ -108,6 +109,7 @@ void rock(Arc<Real, N>& y, const Floor<Real, N>& floor, const Corner<Real>& body
 template <class Real, int N>
 void slide_rock(Arc<Real, N>& y, const Floor<Real, N>& floor, const Corner<Real>& body, const Real& sigma_mu) {
   Series<Real, N> omega2, q;
+#pragma GCC unroll 16
   for (int k = 0; k < N; ++k) {
     omega2[k] = product(y.omega, y.omega, k);
     q[k] = y.rx[k] + sigma_mu * y.ry[k];

@@ -30,8 +30,9 @@ struct Series {
 
 // Coefficient k of the product a b.
 template <class Real, int N>
-Real product(const Series<Real, N>& a, const Series<Real, N>& b, int k) {
+[[gnu::always_inline]] inline Real product(const Series<Real, N>& a, const Series<Real, N>& b, int k) {
   Real sum = a[0] * b[k];
+#pragma GCC unroll 16
   for (int i = 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
   return sum;
 }
