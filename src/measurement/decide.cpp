@@ -205,6 +205,7 @@ void judge_histories(const Bench&, const Judge& judge, Diagnosis& d, const Jobs&
   const double n = total(judge.samples());
   const double base_bic = bic(judge.samples(), d.base.fit);
   const auto answers = jobs("judging", all.size(), [&](std::size_t i) {
+    if (!all[i]->visible) return Values{};  // never fitted: its numbers are the base's alone
     return Values{total(judge.misfit(all[i]->fit)), total(judge.misfit_of_fit(all[i]->fit))};
   });
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -17,6 +17,7 @@ class Findings {
 
   std::vector<std::string> all(const Quality& quality) {
     said_ = quality.findings;
+    failures();
     errors();
     peaks();
     outcomes();
@@ -32,6 +33,21 @@ class Findings {
   template <class... T>
   void say(fmt::format_string<T...> text, T&&... values) {
     said_.push_back(fmt::format(text, std::forward<T>(values)...));
+  }
+
+  // Tests that the model could not be computed to the end of: their errors say nothing of its quality.
+  void failures() {
+    constexpr const char* why[] = {"no consistent motion: a corner that slips under too much friction",
+                                   "more steps than allowed", "a law that gives no finite number"};
+    for (const Outcome outcome : {Outcome::painleve, Outcome::step_limit, Outcome::not_finite}) {
+      std::vector<std::string> ids;
+      for (const TestComparison& t : c_.tests)
+        if (t.model.response.outcome == outcome) ids.push_back(bench_.test(t.test).id);
+      if (!ids.empty())
+        say("the model breaks off in {} of {} tests ({}): {}; their errors are not its own", ids.size(),
+            c_.tests.size(), why[static_cast<int>(outcome) - static_cast<int>(Outcome::painleve)],
+            fmt::join(ids, ", "));
+    }
   }
 
   void errors() {

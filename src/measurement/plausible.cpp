@@ -1,0 +1,139 @@
+#include "measurement/plausible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/units.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+constexpr double longest_size_m = 50, longest_slip_m = 5, largest_rotation_rad = 1.8;
+constexpr double strongest_floor_g = 10, weakest_floor_g = 0.02;
+
+std::vector<double> floor_samples(const Test& test) {
+  const auto stride = static_cast<std::size_t>(test.motion.degree) + 1;
+  std::vector<double> samples;
+  for (std::size_t i = 0; i < test.motion.horizontal_mps2.size(); i += stride)
+    samples.push_back(test.scale * test.motion.horizontal_mps2[i]);
+  return samples;
+}
+
+class Doubter {
+ public:
+  explicit Doubter(const Bench& bench) : bench_(bench) {}
+
+  Doubts all() {
+    for (std::size_t i = 0; i < bench_.size(); ++i) {
+      const Test& test = bench_.test(i);
+      sizes(test);
+      const std::size_t before = out_.sentences.size();
+      response(test);
+      if (test.pulse.empty()) floor(test);
+      out_.spoilt_tests += out_.sentences.size() > before;
+      if (test.pulse.empty() && cut_off(floor_samples(test), bench_.floor_noise_mps2(i)))
+        say("the floor's channel of test {} stays at its extreme value for several samples: the sensor looks clipped",
+            test.id);
+    }
+    for (const Channel channel : {Channel::slip, Channel::rotation}) noise(channel);
+    return std::move(out_);
+  }
+
+ private:
+  template <class... T>
+  void say(fmt::format_string<T...> text, T&&... values) {
+    out_.sentences.push_back(fmt::format(text, std::forward<T>(values)...));
+  }
+
+  // Once for the specimen that the tests share.
+  void sizes(const Test& test) {
+    const auto size = [&](const char* key, const std::optional<double>& value) {
+      if (!value || *value <= longest_size_m) return;
+      const std::string sentence =
+          fmt::format("the specimen's {} is {:.4g}: is it in metres? The model takes it as it stands", key, *value);
+      if (std::find(out_.sentences.begin(), out_.sentences.end(), sentence) == out_.sentences.end())
+        out_.sentences.push_back(sentence);
+    };
+    size("width_m", test.specimen.width_m);
+    size("height_m", test.specimen.height_m);
+  }
+
+  void response(const Test& test) {
+    const double slip =
+        std::max({greatest(test.slip_m), test.peaks.peak_slip_m.value_or(0), test.peaks.residual_slip_m.value_or(0)});
+    const double rotation = std::max(greatest(test.rotation_rad), test.peaks.peak_rotation_rad.value_or(0));
+    if (slip > longest_slip_m) say("the slip of test {} reaches {:.3g} m: is slip_m in metres?", test.id, slip);
+    if (rotation > largest_rotation_rad)
+      say("the rotation of test {} reaches {:.3g} rad: is rotation_rad in radians?", test.id, rotation);
+  }
+
+  void floor(const Test& test) {
+    const double peak_g = greatest(floor_samples(test)) / standard_gravity_mps2;
+    const double slip = greatest(test.slip_m), rotation = greatest(test.rotation_rad);
+    const bool moved = slip > 8 * bench_.noise(Channel::slip) || rotation > 8 * bench_.noise(Channel::rotation);
+    if (peak_g > strongest_floor_g)
+      say("the floor of test {} reaches {:.3g} g: is floor_acceleration_mps2 in m/s2?", test.id, peak_g);
+    else if (moved && peak_g < weakest_floor_g)
+      say("test {} moves, and its floor stays below {:.2g} g: is floor_acceleration_mps2 in m/s2, and its sensor "
+          "alive?",
+          test.id, peak_g);
+  }
+
+  void noise(Channel channel) {
+    const double stated = bench_.noise(channel);
+    std::vector<double> scatters;
+    for (std::size_t i = 0; i < bench_.size(); ++i)
+      if (const double s = sensor_noise(history(bench_.test(i), channel)); s > 0) scatters.push_back(s);
+    if (stated <= 0 || scatters.empty()) return;
+    const auto middle = scatters.begin() + static_cast<long>(scatters.size() / 2);
+    std::nth_element(scatters.begin(), middle, scatters.end());
+    if (*middle > 3 * stated || *middle < 0.01 * stated)
+      say("{} scatters by {:.2g} from sample to sample, where the data set states a noise of {:.2g}: errors in noise "
+          "units are too {}; correct noise",
+          name(channel), *middle, stated, *middle > stated ? "large" : "small");
+  }
+
+  const Bench& bench_;
+  Doubts out_;
+};
+
+}  // namespace
+
+double greatest(const std::vector<double>& samples) {
+  double most = 0;
+  for (const double s : samples) most = std::max(most, std::abs(s));
+  return most;
+}
+
+bool clipped(const std::vector<double>& samples, double noise) {
+  if (samples.empty()) return false;
+  const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+  for (const double extreme : {*least, *most}) {
+    if (std::abs(extreme) < 10 * noise || *least == *most) continue;
+    int run = 0, longest = 0;
+    for (const double s : samples) longest = std::max(longest, run = s == extreme ? run + 1 : 0);
+    if (longest >= 5) return true;
+  }
+  return false;
+}
+
+bool cut_off(const std::vector<double>& samples, double noise) {
+  if (!clipped(samples, noise)) return false;
+  const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+  double smallest = std::numeric_limits<double>::infinity(), to_plateau = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double step = std::abs(samples[i] - samples[i - 1]);
+    if (step > 0) smallest = std::min(smallest, step);
+    const bool on = samples[i] == *least || samples[i] == *most,
+               was = samples[i - 1] == *least || samples[i - 1] == *most;
+    if (on != was) to_plateau = std::max(to_plateau, step);
+  }
+  return to_plateau > 3 * smallest;
+}
+
+Doubts doubts(const Bench& bench) { return Doubter(bench).all(); }
+
+}  // namespace freestand::measurement
