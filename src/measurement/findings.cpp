@@ -48,6 +48,16 @@ class Findings {
             c_.tests.size(), why[static_cast<int>(outcome) - static_cast<int>(Outcome::painleve)],
             fmt::join(ids, ", "));
     }
+    std::vector<std::string> still;
+    for (const TestComparison& t : c_.tests)
+      if (const Test& test = bench_.test(t.test);
+          t.model.response.outcome == Outcome::at_rest && !test.slip_m.empty() &&
+          std::any_of(test.slip_m.begin(), test.slip_m.end(),
+                      [&](double u) { return std::abs(u) > 8 * bench_.noise(Channel::slip); }))
+        still.push_back(test.id);
+    if (!still.empty())
+      say("the model stands still in {} of {} tests in which the specimen moves: {}", still.size(), c_.tests.size(),
+          fmt::join(still, ", "));
   }
 
   void errors() {

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "base/units.hpp"
+#include "measurement/ground.hpp"
+#include "measurement/smooth.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -70,15 +72,26 @@ class Doubter {
       say("the rotation of test {} reaches {:.3g} rad: is rotation_rad in radians?", test.id, rotation);
   }
 
+  // Friction of any law takes the block's velocity towards the floor's, so that it stays among those that the floor has
+  // had: a slip is at most as fast as they differ.
+  bool too_fast(const Test& test, bool rotated) const {
+    if (test.slip_m.empty() || rotated) return false;
+    const auto half = std::max<std::size_t>(3, static_cast<std::size_t>(0.04 / test.dt_s));
+    const std::vector<double> floor = smooth(floor_displacement(test), test.dt_s, half).rate;
+    const auto [least, most] = std::minmax_element(floor.begin(), floor.end());
+    const double noise = bench_.noise(Channel::slip) * rate_noise(test.dt_s, half);
+    return greatest(smooth(test.slip_m, test.dt_s, half).rate) > 1.5 * (*most - *least) + 8 * noise;
+  }
+
   void floor(const Test& test) {
     const double peak_g = greatest(floor_samples(test)) / standard_gravity_mps2;
-    const double slip = greatest(test.slip_m), rotation = greatest(test.rotation_rad);
-    const bool moved = slip > 8 * bench_.noise(Channel::slip) || rotation > 8 * bench_.noise(Channel::rotation);
+    const bool rotated = greatest(test.rotation_rad) > 8 * bench_.noise(Channel::rotation);
+    const bool moved = rotated || greatest(test.slip_m) > 8 * bench_.noise(Channel::slip);
     if (peak_g > strongest_floor_g)
       say("the floor of test {} reaches {:.3g} g: is floor_acceleration_mps2 in m/s2?", test.id, peak_g);
-    else if (moved && peak_g < weakest_floor_g)
-      say("test {} moves, and its floor stays below {:.2g} g: is floor_acceleration_mps2 in m/s2, and its sensor "
-          "alive?",
+    else if (moved && (peak_g < weakest_floor_g || too_fast(test, rotated)))
+      say("test {} moves more than a floor that reaches {:.2g} g can make it: is floor_acceleration_mps2 in m/s2, and "
+          "its sensor alive?",
           test.id, peak_g);
   }
 

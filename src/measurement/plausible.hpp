@@ -14,7 +14,8 @@ struct Doubts {
 };
 
 // Of every test: sizes above 50 m; slips above 5 m and rotations above 1.8 rad (other units); a floor above 10 g, or one
-// that stays below 0.02 g while the block moves (other units, or a dead channel); a floor that stays at its extreme. Of
+// under which the block moves though it stays below 0.02 g, or faster than its velocities allow (other units, or a dead
+// channel); a floor that stays at its extreme. Of
 // all histories together: a sensor that scatters from sample to sample three times as much as the data set states, or a
 // hundredth of it.
 Doubts doubts(const Bench&);
