@@ -32,14 +32,13 @@ class Doubter {
     for (std::size_t i = 0; i < bench_.size(); ++i) {
       const Test& test = bench_.test(i);
       sizes(test);
-      const std::size_t before = out_.sentences.size();
       response(test);
       if (test.pulse.empty()) floor(test);
-      out_.spoilt_tests += out_.sentences.size() > before;
       if (test.pulse.empty() && cut_off(floor_samples(test), bench_.floor_noise_mps2(i)))
         say("the floor's channel of test {} stays at its extreme value for several samples: the sensor looks clipped",
             test.id);
     }
+    tell();
     for (const Channel channel : {Channel::slip, Channel::rotation}) noise(channel);
     return std::move(out_);
   }
@@ -67,9 +66,8 @@ class Doubter {
     const double slip =
         std::max({greatest(test.slip_m), test.peaks.peak_slip_m.value_or(0), test.peaks.residual_slip_m.value_or(0)});
     const double rotation = std::max(greatest(test.rotation_rad), test.peaks.peak_rotation_rad.value_or(0));
-    if (slip > longest_slip_m) say("the slip of test {} reaches {:.3g} m: is slip_m in metres?", test.id, slip);
-    if (rotation > largest_rotation_rad)
-      say("the rotation of test {} reaches {:.3g} rad: is rotation_rad in radians?", test.id, rotation);
+    if (slip > longest_slip_m) slips_.add(test.id, slip);
+    if (rotation > largest_rotation_rad) rotations_.add(test.id, rotation);
   }
 
   // Friction of any law takes the block's velocity towards the floor's, so that it stays among those that the floor has
@@ -88,11 +86,22 @@ class Doubter {
     const bool rotated = greatest(test.rotation_rad) > 8 * bench_.noise(Channel::rotation);
     const bool moved = rotated || greatest(test.slip_m) > 8 * bench_.noise(Channel::slip);
     if (peak_g > strongest_floor_g)
-      say("the floor of test {} reaches {:.3g} g: is floor_acceleration_mps2 in m/s2?", test.id, peak_g);
+      strong_.add(test.id, peak_g);
     else if (moved && (peak_g < weakest_floor_g || too_fast(test, rotated)))
-      say("test {} moves more than a floor that reaches {:.2g} g can make it: is floor_acceleration_mps2 in m/s2, and "
-          "its sensor alive?",
-          test.id, peak_g);
+      weak_.add(test.id, peak_g);
+  }
+
+  void tell() {
+    const auto about = [&](const Seen& seen, const char* text, const char* question) {
+      out_.spoilt_tests += seen.ids.size();
+      if (!seen.ids.empty())
+        out_.sentences.push_back(fmt::format(fmt::runtime(text), fmt::join(seen.ids, ", "), seen.most) + question);
+    };
+    about(slips_, "the slip of {} reaches {:.3g} m", ": is slip_m in metres?");
+    about(rotations_, "the rotation of {} reaches {:.3g} rad", ": is rotation_rad in radians?");
+    about(strong_, "the floor of {} reaches {:.3g} g", ": is floor_acceleration_mps2 in m/s2?");
+    about(weak_, "{} move more than a floor that reaches {:.2g} g can make them",
+          ": is floor_acceleration_mps2 in m/s2, and its sensor alive?");
   }
 
   void noise(Channel channel) {
@@ -109,8 +118,15 @@ class Doubter {
           name(channel), *middle, stated, *middle > stated ? "large" : "small");
   }
 
+  struct Seen {
+    std::vector<std::string> ids;
+    double most = 0;
+    void add(const std::string& id, double value) { ids.push_back(id), most = std::max(most, value); }
+  };
+
   const Bench& bench_;
   Doubts out_;
+  Seen slips_, rotations_, strong_, weak_;
 };
 
 }  // namespace

@@ -77,7 +77,11 @@ def _finding(diagnosis, rows):
     if diagnosis.verdict == "unknown":
         return (f"The best candidate, {validation.effect(rows[0]['effect'])}, still misses the tests left out by "
                 f"{validation.error(best)} {diagnosis.unit}")
-    others = [row["error_left_out"] for row in rows if row["effect"] != rows[0]["effect"]]
-    tail = f"; the next best leaves {validation.error(min(others))}" if others else ""
+    others = [row for row in rows if row["effect"] != rows[0]["effect"]]
+    odd = [row["effect"] for row in others if not row["practical"] and row["error_left_out"] < 1.1 * best]
+    rest = [row["error_left_out"] for row in others if row["effect"] not in odd]
+    tail = f"; the next best leaves {validation.error(min(rest))}" if rest else ""
+    if odd:
+        tail = f"; {validation.effects(odd)} only with numbers that are not met in practice"
     return (f"With {validation.effect(rows[0]['effect'])} the left-out error falls from {validation.error(base)} to "
             f"{validation.error(best)} {diagnosis.unit}{tail}")
