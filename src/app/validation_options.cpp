@@ -1,3 +1,7 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "app/command.hpp"
 
 namespace freestand::app {
@@ -12,6 +16,14 @@ void add_options(CLI::App& verb, ValidationOptions& options, const std::string& 
   verb.add_option("-o,--output", options.output, output)->required();
   verb.add_flag("--overwrite", options.overwrite, overwrite);
   verb.add_flag("--quiet", options.quiet, "no progress, no summary");
+}
+
+std::string three_digits(const nlohmann::ordered_json& number) {
+  if (number.is_null()) return "-";
+  const auto x = number.get<double>();
+  const double size = std::abs(x);
+  if (size >= 9995) return fmt::format("{:.2g}", x);
+  return size >= 99.95 ? fmt::format("{:.0f}", x) : fmt::format("{:#.3g}", x);
 }
 
 }  // namespace freestand::app
