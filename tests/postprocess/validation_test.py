@@ -177,6 +177,17 @@ class Drawn(Temporary):
         self.assertEqual(self.draw(before, after)["ladder"].finding,
                          "With impact loss the held-out error falls from 13.8 to 5.00 noise units, above the noise floor of 1.04")
 
+    def test_effects_without_an_error_on_tests_left_out_are_crosses(self):
+        found = [make.candidate("viscous_drag", 1.0, True), make.candidate("rate_strengthening", 1.01) | {"practical": False},
+                 make.candidate("flexible_legs", 2.0) | {"left_out_refitted": False}, make.candidate("floor_tilt", 3.0)]
+        drawn = self.draw(make.diagnosis(self.folder / "crosses", candidates=found))["ranking"]
+        (axes,) = drawn.figure.axes
+        self.assertEqual([label.get_text() for label in axes.get_yticklabels()],
+                         ["viscous drag", "rate strengthening", "floor tilt", "flexible legs"])
+        self.assertEqual(sum(line.get_marker() == "x" for line in axes.get_lines()), 1)
+        self.assertIn("rate strengthening only with numbers that are not met in practice", drawn.finding)
+        self.assertIn("Crosses", drawn.caption)
+
     def test_worst_histories_in_order_with_the_errors_of_both_models(self):
         before = make.comparison(self.folder / "before")
         after = make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01, histories=[])
