@@ -1,8 +1,5 @@
-#include <fmt/format.h>
-
-#include <cmath>
-
 #include "app/command.hpp"
+#include "base/digits.hpp"
 
 namespace freestand::app {
 
@@ -19,11 +16,7 @@ void add_options(CLI::App& verb, ValidationOptions& options, const std::string& 
 }
 
 std::string three_digits(const nlohmann::ordered_json& number) {
-  if (number.is_null()) return "-";
-  const auto x = number.get<double>();
-  const double size = std::abs(x);
-  if (size >= 9995) return fmt::format("{:.2g}", x);
-  return size >= 99.95 ? fmt::format("{:.0f}", x) : fmt::format("{:#.3g}", x);
+  return number.is_null() ? "-" : freestand::three_digits(number.get<double>());
 }
 
 }  // namespace freestand::app

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/digits.hpp"
+
 namespace freestand::measurement {
 namespace {
 
@@ -52,9 +54,10 @@ class Decision {
     say(rivals.size() > 1
             ? fmt::format("{} cannot be told apart on these tests: each brings the error to the noise",
                           joined(d_.effects))
-            : fmt::format("{} brings the left-out error from {:.3g} to {:.3g}, and every rival is worse by more than "
+            : fmt::format("{} brings the left-out error from {} to {}, and every rival is worse by more than "
                           "chance{}",
-                          joined(best->effects), pooled_left_out(d_.base), pooled_left_out(*best), but_for(*best)));
+                          joined(best->effects), three_digits(pooled_left_out(d_.base)),
+                          three_digits(pooled_left_out(*best)), but_for(*best)));
   }
 
  private:
@@ -86,9 +89,9 @@ class Decision {
     const auto tests = tests_of(bench_.data(), Role::calibration);
     return fmt::format(
         "no effect lowers the error of the base by enough to be judged on tests left out (the closest fit, "
-        "{}, changes it from {:.3g} to {:.3g})",
-        joined(closest->effects), pooled(bench_, tests, d_.base.fit.calibration).error,
-        pooled(bench_, tests, closest->fit.calibration).error);
+        "{}, changes it from {} to {})",
+        joined(closest->effects), three_digits(pooled(bench_, tests, d_.base.fit.calibration).error),
+        three_digits(pooled(bench_, tests, closest->fit.calibration).error));
   }
 
   void sort() {

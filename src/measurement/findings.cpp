@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/digits.hpp"
 #include "measurement/diagnose_outcomes.hpp"
 
 namespace freestand::measurement {
@@ -37,7 +38,7 @@ class Findings {
 
   // Tests that the model could not be computed to the end of: their errors say nothing of its quality.
   void failures() {
-    constexpr const char* why[] = {"no consistent motion: a corner that slips under too much friction",
+    constexpr const char* why[] = {"no motion agrees with the contact forces, as in Painleve's paradox",
                                    "more steps than allowed", "a law that gives no finite number"};
     for (const Outcome outcome : {Outcome::painleve, Outcome::step_limit, Outcome::not_finite}) {
       std::vector<std::string> ids;
@@ -71,17 +72,16 @@ class Findings {
       }
       if (n == 0) continue;
       const double error = std::sqrt(square / n), floor = std::sqrt(expected / n);
-      say("{} tests are missed by {:.3g} noise units (root mean square); the noise of sensors and floor alone would "
-          "make "
-          "{:.3g}{}",
-          role == Role::calibration ? "calibration" : "held-out", error, floor,
+      say("{} tests are missed by {} noise units (root mean square); the noise of sensors and floor alone would make "
+          "{}{}",
+          role == Role::calibration ? "calibration" : "held-out", three_digits(error), three_digits(floor),
           error < 1.2 * floor ? ": nothing is left to explain" : "");
     }
     if (c_.worst.empty()) return;
     const TestComparison& worst = c_.tests[c_.worst.front()];
     if (worst.error.noise_units > 2)
-      say("the worst test is {} with {:.3g} noise units, {:.0f} % of its measured peak", bench_.test(worst.test).id,
-          worst.error.noise_units, 100 * worst.error.relative);
+      say("the worst test is {} with {} noise units, {:.0f} % of its measured peak", bench_.test(worst.test).id,
+          three_digits(worst.error.noise_units), 100 * worst.error.relative);
   }
 
   void peaks() {
