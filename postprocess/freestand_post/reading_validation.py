@@ -201,7 +201,7 @@ def _role(node):
 
 
 def _ladder(root):
-    return [node.row("error_calibration error_holdout noise_floor", "step") for node in root.nodes("ladder")]
+    return [node.row("error_calibration error_holdout noise_floor noise_floor_holdout", "step") for node in root.nodes("ladder")]
 
 
 def read_comparison(folder):
@@ -223,6 +223,8 @@ def read_comparison(folder):
 def _candidate(node):
     row = node.row("error_calibration error_left_out error_left_out_se error_explained delta_bic difference difference_se",
                    "effect", "rival visible")
+    row["practical"] = node.value.get("practical") is not False
+    row["left_out_refitted"] = node.value.get("left_out_refitted") is not False
     row["effects"] = node.texts("effects") or [part for part in row["effect"].split("+") if part]
     parameters = node.node("parameters")
     row["parameters"] = []

@@ -111,7 +111,7 @@ def _duration(seconds):
 def _fit_table(sweep, name):
     edp = next(edp for edp in sweep.edps if edp.name == name)
     verdict = {FITTED: "passes", TOO_FEW: "too few samples", COUNTED: "too few moved: counted",
-               REJECTED: "fails: counted share used"}
+               REJECTED: "fails: counted"}
     kept = kept_fits(edp)
     rows = []
     for i in range(sweep.centre.size):
@@ -134,9 +134,11 @@ def _outcomes(sweep):
 
 def _computed(sweep):
     names = [words.short_column(name) for name in swept(sweep, limit=None)]
-    motions = f" under {words.plural(len(sweep.motions), 'floor motion')}" if sweep.motions else ""
+    number = len(sweep.motions)
+    motions = f" under {words.plural(number, 'floor motion')}" if number else ""
+    one_motion = f" under one of {words.plural(number, 'floor motion')}" if number > 1 else " under one floor motion" if number else ""
     over = f" over {words.listing(names)}" if names else ""
-    return (f"Each of {words.plural(sweep.samples, 'sample')} is one specimen{motions}: its slide-rock motion was integrated, its demand "
+    return (f"Each of {words.plural(sweep.samples, 'sample')} is one specimen{one_motion}: its slide-rock motion was integrated, its demand "
             f"measured, and the demands of all samples reduced to probabilities in {words.plural(sweep.centre.size, 'bin')} of "
             f"{sweep.im_symbol}. The sweep runs{over}." if names else
             f"{words.plural(sweep.samples, 'sample')}{motions}, in {words.plural(sweep.centre.size, 'bin')} of {sweep.im_symbol}.")

@@ -48,7 +48,7 @@ class Validation:
         return [style.BLUE if i == n - 1 else style.VERMILION if i == 0 else between[(i - 1) % 3] for i in range(n)]
 
     def ladder(self):
-        """[{step, model, error_calibration, error_holdout, noise_floor}] of the folders, or of the study where it holds more."""
+        """[{step, model, error_calibration, error_holdout, noise_floor, noise_floor_holdout}] of the folders, or of the study where it holds more."""
         if not self.last:
             return []
         shown, before = [], None
@@ -58,7 +58,8 @@ class Validation:
             shown.append({"step": f"+ {effects(fresh)}" if grown else model_name(comparison.effects),
                           "model": model_name(comparison.effects), "error_calibration": comparison.calibration.get("error", np.nan),
                           "error_holdout": comparison.holdout.get("error", np.nan),
-                          "noise_floor": comparison.calibration.get("error_expected", np.nan)})
+                          "noise_floor": comparison.calibration.get("error_expected", np.nan),
+                          "noise_floor_holdout": comparison.holdout.get("error_expected", np.nan)})
             before = comparison
         if len({frozenset(comparison.effects) for comparison in self.comparisons}) < len(shown):
             shown = []  # not steps of one ladder, but for example two sets of numbers for one model

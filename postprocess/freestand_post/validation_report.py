@@ -48,7 +48,7 @@ def _title(results):
         return f"{name}: the missing effect is {validation.effects(diagnosis.effects, ' or ')}, and these tests cannot tell which"
     if diagnosis.verdict == "unknown":
         return f"{name}: the model lacks something that no effect of the catalogue explains"
-    return f"{name}: no effect is missing from the model"
+    return f"{name}: these tests show no missing effect"
 
 
 def _compared(comparison):
@@ -140,6 +140,8 @@ def _named(results, sentence):
     """Names of effects and variables as a reader wants to see them."""
     known = {name for diagnosis in results.diagnoses for row in diagnosis.candidates for name in row["effects"]}
     known.update(name for comparison in results.comparisons for name in comparison.effects)
+    if sentence.startswith("Not tried"):
+        known.update(re.findall(r"[a-z]+(?:_[a-z]+)+", sentence.rsplit(":", 1)[-1]))
     for name in sorted(known, key=len, reverse=True):
         shown = validation.effect(name)
         sentence = sentence.replace(name, shown).replace(words.capitalised(name), words.capitalised(shown))

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "app/command.hpp"
@@ -12,12 +13,17 @@ struct Options : ValidationOptions {
   std::string effect;
 };
 
+nlohmann::ordered_json number(double x) {
+  return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
+}
+
 void tell(const std::string& file, const std::string& text) {
   const study::Validation v = study::parse_validation(text, file);
   fmt::print("{:<28} {:>12} {:>12} {:>12}\n", "model", "calibration", "held out", "noise floor");
   for (const auto& step : v.ladder)
-    fmt::print("{:<28} {:>12.3g} {:>12.3g} {:>12.3g}\n", (step.step == "base" ? "" : "+ ") + step.step,
-               step.error_calibration, step.error_holdout, step.noise_floor);
+    fmt::print("{:<28} {:>12} {:>12} {:>12}\n", (step.step == "base" ? "" : "+ ") + step.step,
+               three_digits(number(step.error_calibration)), three_digits(number(step.error_holdout)),
+               three_digits(number(step.noise_floor)));
   for (const auto& c : v.calibrated)
     if (c.value) fmt::print("{} = {:.5g}\n", c.name, *c.value);
   fmt::print("study in {}\n", file);

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <freestand/error.hpp>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "parallel/communicator.hpp"
@@ -28,6 +29,9 @@ struct ValidationOptions {
   study::ValidationRun run(const Context&) const;
 };
 void add_options(CLI::App& verb, ValidationOptions&, const std::string& output, const std::string& overwrite);
+
+// Three digits, as tables show errors: "45.8", "1.00", "0.0206", "1.2e+04"; "-" for null.
+std::string three_digits(const nlohmann::ordered_json& number);
 
 void add_run(CLI::App& parser, Work& work);
 void add_sweep(CLI::App& parser, Work& work);

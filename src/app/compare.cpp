@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "app/command.hpp"
@@ -9,21 +10,45 @@
 namespace freestand::app {
 namespace {
 
-void tell(const nlohmann::ordered_json& json, const std::string& folder) {
-  fmt::print("{:<12} {:<12} {:>12} {:>10} {:>10}\n", "test", "role", json["error_unit"].get<std::string>(), "expected",
-             "relative");
-  const auto text = [](const nlohmann::ordered_json& value) {
-    return value.is_null() ? std::string("-") : fmt::format("{:.3g}", value.get<double>());
-  };
-  for (const auto& test : json["tests"])
-    if (json["tests"].size() <= 40)
-      fmt::print("{:<12} {:<12} {:>12} {:>10} {:>10}\n", test["id"].get<std::string>(), test["role"].get<std::string>(),
-                 text(test["error_noise_units"]), text(test["error_expected"]), text(test["error_relative"]));
-  for (const char* role : {"calibration", "holdout"})
-    if (!json[role].is_null())
-      fmt::print("{:<25} {:>12} {:>10} {:>10}\n", role,
-                 text(json[role][json["error_unit"] == "noise units" ? "error_noise_units" : "error"]),
-                 text(json[role]["error_expected"]), text(json[role]["error_relative"]));
+using Json = nlohmann::ordered_json;
+
+// Root mean square of ln(predicted/measured) of what a test measured.
+Json ln_ratio(const Json& test) {
+  return test["score"].is_null() ? Json(nullptr) : Json(std::sqrt(test["score"].get<double>()));
+}
+
+void tell_tests(const Json& json) {
+  const std::string unit = json["error_unit"].get<std::string>();
+  constexpr const char* row = "{:<12} {:<12} {:>12} {:>10} {:>10}\n";
+  if (unit == "Brier")
+    fmt::print(row, "test", "role", "came out", "P(falls)", "Brier");
+  else
+    fmt::print(row, "test", "role", unit, unit == "noise units" ? "expected" : "", "relative");
+  for (const auto& test : json["tests"]) {
+    if (json["tests"].size() > 40) break;
+    const auto id = test["id"].get<std::string>(), role = test["role"].get<std::string>();
+    if (test["kind"] == "outcome")
+      fmt::print(row, id, role, test["overturned_measured"].get<bool>() ? "overturned" : "stood",
+                 fmt::format("{:.2f}", test["overturned_probability"].get<double>()), three_digits(test["score"]));
+    else
+      fmt::print(row, id, role, three_digits(test["kind"] == "peaks" ? ln_ratio(test) : test["error_noise_units"]),
+                 unit == "noise units" ? three_digits(test["error_expected"]) : "",
+                 three_digits(test["error_relative"]));
+  }
+  for (const char* role : {"calibration", "holdout"}) {
+    const Json& pooled = json[role];
+    if (pooled.is_null()) continue;
+    const std::string expected = three_digits(pooled["error_expected"]);
+    if (unit == "Brier")
+      fmt::print(row, role, "", "", "", three_digits(pooled["error"]));
+    else
+      fmt::print(row, role, "", three_digits(pooled[unit == "noise units" ? "error_noise_units" : "error"]),
+                 unit == "noise units" ? expected : "", three_digits(pooled["error_relative"]));
+  }
+}
+
+void tell(const Json& json, const std::string& folder) {
+  tell_tests(json);
   for (const auto& p : json["parameters"])
     fmt::print("{} = {:.5g} {}{}\n", p["name"].get<std::string>(), p["value"].get<double>(),
                p["unit"] == "1" ? "" : p["unit"].get<std::string>(),

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
+#include <tuple>
 
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
@@ -11,22 +13,42 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string number(const Json& value, const char* format) {
-  return value.is_null() ? std::string("-") : fmt::format(fmt::runtime(format), value.get<double>());
+// Only where tests were left out of fits is there an error of tests left out.
+void tell_row(const Json& c, const std::string& name) {
+  const bool left_out = c["left_out_refitted"].get<bool>();
+  const std::string se = left_out && !c["error_left_out_se"].is_null()
+                             ? fmt::format("+- {:.2g}", c["error_left_out_se"].get<double>())
+                             : "";
+  fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11} {}\n", name, three_digits(c["error_calibration"]),
+             left_out ? three_digits(c["error_left_out"]) : "-", se, three_digits(c["error_explained"]),
+             c["rival"].get<bool>() ? "<" : "");
 }
 
-void tell_row(const Json& c, const std::string& name) {
-  fmt::print("{:<42} {:>11} {:>11} +- {:<9} {:>9} {}\n", name, number(c["error_calibration"], "{:.3g}"),
-             number(c["error_left_out"], "{:.3g}"), number(c["error_left_out_se"], "{:.2g}"),
-             number(c["error_explained"], "{:.3f}"), c["rival"].get<bool>() ? "<" : "");
+// Those that cannot be told from the best, then those that were fitted to the end, then the rest; each by its error.
+std::vector<Json> in_order(const Json& candidates) {
+  std::vector<Json> shown;
+  for (const auto& c : candidates)
+    if (c["visible"].get<bool>()) shown.push_back(c);
+  const auto place = [](const Json& c) {
+    const bool left_out = c["left_out_refitted"].get<bool>();
+    const Json& error = c[left_out ? "error_left_out" : "error_calibration"];
+    return std::tuple(!c["rival"].get<bool>(), !left_out, error.is_null() ? 1e300 : error.get<double>());
+  };
+  std::stable_sort(shown.begin(), shown.end(), [&](const Json& a, const Json& b) { return place(a) < place(b); });
+  return shown;
 }
 
 void tell(const Json& json, const std::string& file) {
-  fmt::print("{:<42} {:>11} {:>11}    {:<9} {:>9}\n", "", "calibration", "left out", "", "explained");
+  const bool histories = json["error_unit"] == "noise units";
+  fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11}\n", "error (" + json["error_unit"].get<std::string>() + ")",
+             "calibration", "left out", "", histories ? "floor noise" : "");
+  if (histories) fmt::print("{:>88}\n", "allowed for");
   tell_row(json["base"], "as it is");
   int shown = 0;
-  for (const auto& c : json["candidates"])
-    if (c["visible"].get<bool>() && shown++ < 10) tell_row(c, "with " + c["effect"].get<std::string>());
+  const auto candidates = in_order(json["candidates"]);
+  for (const auto& c : candidates)
+    if (shown++ < 10) tell_row(c, "with " + c["effect"].get<std::string>());
+  if (candidates.size() > 10) fmt::print("and {} more\n", candidates.size() - 10);
   std::string effects;
   for (const auto& effect : json["effects"]) effects += " " + effect.get<std::string>();
   fmt::print("verdict: {}{}\n", json["verdict"].get<std::string>(), effects);

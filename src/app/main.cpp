@@ -8,8 +8,22 @@
 namespace {
 
 // Tells the parser's problem, or its help, once for all ranks.
-int tell(const CLI::App& parser, const CLI::ParseError& error, const freestand::parallel::Communicator& world) {
+int tell(const CLI::App& parser, const std::string& verb, const CLI::ParseError& error,
+         const freestand::parallel::Communicator& world) {
   const bool is_help = error.get_exit_code() == 0;
+  if (world.is_root() && !is_help && !verb.empty() && verb[0] != '-') {
+    const auto verbs = parser.get_subcommands([](const CLI::App*) { return true; });
+    std::string known;
+    for (const CLI::App* one : verbs) {
+      if (one->get_name() == verb) known.clear();
+      if (one->get_name() == verb) break;
+      known += (known.empty() ? "" : ", ") + one->get_name();
+    }
+    if (!known.empty()) {
+      fmt::print(stderr, "{} is no command (freestand has {}): choose one, or see freestand --help\n", verb, known);
+      return static_cast<int>(freestand::Exit::usage);
+    }
+  }
   if (world.is_root()) parser.exit(error);
   return static_cast<int>(is_help ? freestand::Exit::done : freestand::Exit::usage);
 }
@@ -36,7 +50,7 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
     parser.parse(argc, argv);
     return static_cast<int>(work({world, freestand::io::command_line(argc, argv)}));
   } catch (const CLI::ParseError& error) {
-    return tell(parser, error, world);
+    return tell(parser, argc > 1 ? argv[1] : "", error, world);
   } catch (const freestand::Error& error) {
     return freestand::parallel::end_run(world, error);
   } catch (const std::exception& error) {

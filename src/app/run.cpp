@@ -55,8 +55,9 @@ Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit
   }
   if (with_fit) study::fit(context.world, options.folder, context.command_line, &summary);
   if (context.world.is_root() && !options.quiet)
-    fmt::print("{} samples in {} on {} ranks ({:.0f} samples/s); results in {}\n", summary.samples,
-               parallel::duration_text(summary.wall_s), context.world.size(), summary.samples_per_s, options.folder);
+    fmt::print("{} samples in {} on {} {} ({:.0f} samples/s); results in {}\n", summary.samples,
+               parallel::duration_text(summary.wall_s), context.world.size(),
+               context.world.size() == 1 ? "rank" : "ranks", summary.samples_per_s, options.folder);
   return Exit::done;
 }
 

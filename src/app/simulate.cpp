@@ -31,6 +31,11 @@ Exit simulate(const Options& options) {
   fmt::print("{}: peak slip {:.4g} m, peak rotation {:.4g} rad (alpha {:.4g} rad), {} events; results in {}\n",
              name(result.response.outcome), result.response.peak_slip_m, result.response.peak_rotation_rad,
              result.specimen.block.alpha_rad(), result.response.events, folder.string());
+  constexpr const char* why[] = {"no motion agrees with the contact forces, as in Painleve's paradox",
+                                 "more steps than allowed", "a law gave no finite number"};
+  if (result.response.outcome >= Outcome::painleve)
+    fmt::print("the computation broke off at {:.4g} s: {}; the numbers hold until then\n", result.response.end_time_s,
+               why[static_cast<int>(result.response.outcome) - static_cast<int>(Outcome::painleve)]);
   return Exit::done;
 }
 

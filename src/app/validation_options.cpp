@@ -1,4 +1,5 @@
 #include "app/command.hpp"
+#include "base/digits.hpp"
 
 namespace freestand::app {
 
@@ -12,6 +13,10 @@ void add_options(CLI::App& verb, ValidationOptions& options, const std::string& 
   verb.add_option("-o,--output", options.output, output)->required();
   verb.add_flag("--overwrite", options.overwrite, overwrite);
   verb.add_flag("--quiet", options.quiet, "no progress, no summary");
+}
+
+std::string three_digits(const nlohmann::ordered_json& number) {
+  return number.is_null() ? "-" : freestand::three_digits(number.get<double>());
 }
 
 }  // namespace freestand::app

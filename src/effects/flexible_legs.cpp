@@ -7,7 +7,8 @@ const Register flexible_legs{{
     .summary = "The foot slips and the block sways over it on flexible legs",
     .law = "force of the legs -m (W^2 y + 2 z W y'), W = 2 pi f, y = deflection; never above friction; slip is "
            "measured over the legs",
-    .source = "block on an elastic support in series with Coulomb friction: Iwan, J. Appl. Mech. 28 (1961)",
+    .source = "block on an elastic support in series with Coulomb friction: Iwan, The dynamic response of bilinear "
+              "hysteretic systems, Caltech EERL (1961)",
     .suspect = "the block moves a little while it ought to be stuck; after a stop it rings at a frequency of its own",
     .parameters =
         {

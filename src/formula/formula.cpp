@@ -6,6 +6,7 @@
 #include <muParser.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 
@@ -165,6 +166,56 @@ std::string problem(const mu::ParserError& error) {
 
 }  // namespace
 
+namespace {
+
+double computed(Kind kind, const std::vector<int>& operands, const std::vector<double>& values) {
+  const auto of = [&](std::size_t i) { return values[static_cast<std::size_t>(operands[i])]; };
+  switch (kind) {
+    case add:
+      return of(0) + of(1);
+    case subtract:
+      return of(0) - of(1);
+    case multiply:
+      return of(0) * of(1);
+    case divide:
+      return of(0) / of(1);
+    case power:
+      return std::pow(of(0), of(1));
+    case negate:
+      return -of(0);
+    case less:
+      return of(0) < of(1);
+    case greater:
+      return of(0) > of(1);
+    case exp_of:
+      return std::exp(of(0));
+    case log_of:
+      return std::log(of(0));
+    case sqrt_of:
+      return std::sqrt(of(0));
+    case sin_of:
+      return std::sin(of(0));
+    case cos_of:
+      return std::cos(of(0));
+    case tanh_of:
+      return std::tanh(of(0));
+    case abs_of:
+      return std::abs(of(0));
+    case step_of:
+      return of(0) > 0;
+    case min_of:
+      return std::min(of(0), of(1));
+    case max_of:
+      return std::max(of(0), of(1));
+    case where_of:
+      return of(0) > 0 ? of(1) : of(2);
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
 Formula::Formula(const std::string& text, const std::vector<std::string>& parameters) {
   // muParser would evaluate one branch only.
   for (const char* sign : {"?", ":", "=", "!", "&", "|"})
@@ -265,6 +316,29 @@ Value Formula::record(const At& at, const std::vector<double>& parameters) const
     values.push_back(result());
   }
   return values[static_cast<std::size_t>(result_)];
+}
+
+double Formula::value(const std::array<double, 10>& inputs, double mu, const std::vector<double>& parameters) const {
+  std::vector<double> known(inputs.begin(), inputs.end());
+  known.insert(known.end(), {mu, standard_gravity_mps2, pi});
+  known.insert(known.end(), parameters.begin(), parameters.end());
+  std::vector<double> values;
+  for (const auto& [kind, x, operands] : operations_)
+    values.push_back(static_cast<Kind>(kind) == number     ? x
+                     : static_cast<Kind>(kind) == variable ? known[static_cast<std::size_t>(operands[0])]
+                                                           : computed(static_cast<Kind>(kind), operands, values));
+  return values[static_cast<std::size_t>(result_)];
+}
+
+bool Formula::uses(std::size_t parameter) const {
+  const int sought = static_cast<int>(variables().size() + parameter);
+  const auto is_it = [&](int place) {
+    const Operation& of = operations_[static_cast<std::size_t>(place)];
+    return of.kind == variable && of.operands[0] == sought;
+  };
+  return is_it(result_) || std::any_of(operations_.begin(), operations_.end(), [&](const Operation& o) {
+           return o.kind != variable && std::any_of(o.operands.begin(), o.operands.end(), is_it);
+         });
 }
 
 bool is_variable(const std::string& name) {

@@ -8,6 +8,7 @@
 // Operators: + - * / ^ and comparisons < > (1 or 0).  Functions: exp log sqrt sin cos tanh abs min max step if.
 #pragma once
 
+#include <array>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,6 +33,10 @@ class Formula {
   Formula(const std::string& text, const std::vector<std::string>& parameters);
 
   dynamics::Value record(const dynamics::At& at, const std::vector<double>& parameters) const;
+
+  // The number it gives: inputs in the order u v theta omega t path normal side sigma speed.
+  double value(const std::array<double, 10>& inputs, double mu, const std::vector<double>& parameters) const;
+  bool uses(std::size_t parameter) const;
 
  private:
   struct Operation {

@@ -8,6 +8,8 @@
 #include <limits>
 #include <numeric>
 
+#include "base/digits.hpp"
+
 namespace freestand::measurement {
 namespace {
 
@@ -52,9 +54,10 @@ class Decision {
     say(rivals.size() > 1
             ? fmt::format("{} cannot be told apart on these tests: each brings the error to the noise",
                           joined(d_.effects))
-            : fmt::format("{} brings the left-out error from {:.3g} to {:.3g}, and every rival is worse by more than "
-                          "chance",
-                          joined(best->effects), pooled_left_out(d_.base), pooled_left_out(*best)));
+            : fmt::format("{} brings the left-out error from {} to {}, and every rival is worse by more than "
+                          "chance{}",
+                          joined(best->effects), three_digits(pooled_left_out(d_.base)),
+                          three_digits(pooled_left_out(*best)), but_for(*best)));
   }
 
  private:
@@ -64,6 +67,31 @@ class Decision {
   void say(std::string sentence) { d_.sentences.push_back(std::move(sentence)); }
   double pooled_left_out(const Candidate& c) const {
     return pooled(bench_, tests_of(bench_.data(), Role::calibration), c.fit.left_out).error;
+  }
+
+  // Effects that do as well as the best one, with numbers three times beyond where they are met.
+  std::string but_for(const Candidate& best) const {
+    std::vector<std::string> odd;
+    for (const Candidate& c : d_.candidates)
+      if (c.visible && c.fit.left_out_refitted && !c.practical && c.effects.size() <= best.effects.size() &&
+          c.effects != best.effects && !brings_nothing(c) && !worse(c, best))
+        odd.push_back(joined(c.effects));
+    return odd.empty() ? ""
+                       : fmt::format(", but for {} with numbers that are not met in practice", fmt::join(odd, ", "));
+  }
+
+  // The closest fit among those that were not judged on tests left out.
+  std::string nothing_gained() const {
+    const Candidate* closest = nullptr;
+    for (const Candidate& c : d_.candidates)
+      if (c.visible && c.fit.score < (closest ? closest->fit.score : d_.base.fit.score)) closest = &c;
+    if (!closest) return "no effect lowers the error of the base";
+    const auto tests = tests_of(bench_.data(), Role::calibration);
+    return fmt::format(
+        "no effect lowers the error of the base by enough to be judged on tests left out (the closest fit, "
+        "{}, changes it from {} to {})",
+        joined(closest->effects), three_digits(pooled(bench_, tests, d_.base.fit.calibration).error),
+        three_digits(pooled(bench_, tests, closest->fit.calibration).error));
   }
 
   void sort() {
@@ -146,7 +174,7 @@ class Decision {
                      "no effect beats the base by more than chance (the best, {}, changes the left-out error from "
                      "{:.4g} to {:.4g})",
                      joined(best->effects), pooled_left_out(d_.base), pooled_left_out(*best))
-               : std::string("no effect lowers the error of the base"));
+               : nothing_gained());
     } else {
       d_.verdict = Verdict::unknown;
       say(
@@ -205,6 +233,7 @@ void judge_histories(const Bench&, const Judge& judge, Diagnosis& d, const Jobs&
   const double n = total(judge.samples());
   const double base_bic = bic(judge.samples(), d.base.fit);
   const auto answers = jobs("judging", all.size(), [&](std::size_t i) {
+    if (!all[i]->visible) return Values{};  // never fitted: its numbers are the base's alone
     return Values{total(judge.misfit(all[i]->fit)), total(judge.misfit_of_fit(all[i]->fit))};
   });
   for (std::size_t i = 0; i < all.size(); ++i) {

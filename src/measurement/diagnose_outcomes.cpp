@@ -181,7 +181,7 @@ class OutcomeDiagnoser {
   }
 
   void describe_candidates() {
-    std::vector<std::string> unseen;
+    std::vector<std::string> unseen, unpromising;
     for (const Candidate& c : out_.candidates) {
       if (!c.visible) {
         unseen.push_back(label(c));
@@ -189,7 +189,7 @@ class OutcomeDiagnoser {
       }
       if (c.rival || c.effects.size() > 1) continue;
       if (!c.fit.left_out_refitted) {
-        say(fmt::format("{} promises nothing and was not fitted to the end: {}", label(c), c.remark));
+        unpromising.push_back(label(c));
         continue;
       }
       const Pooled gain = paired_difference(out_.base.fit.left_out, c.fit.left_out);
@@ -198,6 +198,9 @@ class OutcomeDiagnoser {
                       gain.error > 0 ? "lowers" : "raises", std::abs(gain.error), gain.standard_error,
                       real ? "more than chance, if it were the only effect tried" : "no more than chance"));
     }
+    if (!unpromising.empty())
+      say(fmt::format("not fitted to the end, since even where they were fitted they gained no more than chance: {}",
+                      joined(unpromising, ", ")));
     if (!unseen.empty()) say(fmt::format("no outcome depends on {}", joined(unseen, ", ")));
     if (!untried_.empty())
       say(fmt::format("not tried, since they have more numbers than so few tests can fix: {}", joined(untried_, ", ")));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/digits.hpp"
 #include "measurement/diagnose_outcomes.hpp"
 
 namespace freestand::measurement {
@@ -17,6 +18,7 @@ class Findings {
 
   std::vector<std::string> all(const Quality& quality) {
     said_ = quality.findings;
+    failures();
     errors();
     peaks();
     outcomes();
@@ -34,6 +36,31 @@ class Findings {
     said_.push_back(fmt::format(text, std::forward<T>(values)...));
   }
 
+  // Tests that the model could not be computed to the end of: their errors say nothing of its quality.
+  void failures() {
+    constexpr const char* why[] = {"no motion agrees with the contact forces, as in Painleve's paradox",
+                                   "more steps than allowed", "a law that gives no finite number"};
+    for (const Outcome outcome : {Outcome::painleve, Outcome::step_limit, Outcome::not_finite}) {
+      std::vector<std::string> ids;
+      for (const TestComparison& t : c_.tests)
+        if (t.model.response.outcome == outcome) ids.push_back(bench_.test(t.test).id);
+      if (!ids.empty())
+        say("the model breaks off in {} of {} tests ({}): {}; their errors are not its own", ids.size(),
+            c_.tests.size(), why[static_cast<int>(outcome) - static_cast<int>(Outcome::painleve)],
+            fmt::join(ids, ", "));
+    }
+    std::vector<std::string> still;
+    for (const TestComparison& t : c_.tests)
+      if (const Test& test = bench_.test(t.test);
+          t.model.response.outcome == Outcome::at_rest && !test.slip_m.empty() &&
+          std::any_of(test.slip_m.begin(), test.slip_m.end(),
+                      [&](double u) { return std::abs(u) > 8 * bench_.noise(Channel::slip); }))
+        still.push_back(test.id);
+    if (!still.empty())
+      say("the model stands still in {} of {} tests in which the specimen moves: {}", still.size(), c_.tests.size(),
+          fmt::join(still, ", "));
+  }
+
   void errors() {
     for (const Role role : {Role::calibration, Role::holdout}) {
       double square = 0, expected = 0, n = 0;
@@ -45,17 +72,16 @@ class Findings {
       }
       if (n == 0) continue;
       const double error = std::sqrt(square / n), floor = std::sqrt(expected / n);
-      say("{} tests are missed by {:.3g} noise units (root mean square); the noise of sensors and floor alone would "
-          "make "
-          "{:.3g}{}",
-          role == Role::calibration ? "calibration" : "held-out", error, floor,
+      say("{} tests are missed by {} noise units (root mean square); the noise of sensors and floor alone would make "
+          "{}{}",
+          role == Role::calibration ? "calibration" : "held-out", three_digits(error), three_digits(floor),
           error < 1.2 * floor ? ": nothing is left to explain" : "");
     }
     if (c_.worst.empty()) return;
     const TestComparison& worst = c_.tests[c_.worst.front()];
     if (worst.error.noise_units > 2)
-      say("the worst test is {} with {:.3g} noise units, {:.0f} % of its measured peak", bench_.test(worst.test).id,
-          worst.error.noise_units, 100 * worst.error.relative);
+      say("the worst test is {} with {} noise units, {:.0f} % of its measured peak", bench_.test(worst.test).id,
+          three_digits(worst.error.noise_units), 100 * worst.error.relative);
   }
 
   void peaks() {

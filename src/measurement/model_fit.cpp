@@ -77,8 +77,8 @@ void append(Values& values, const TestError& e) {
   values.insert(values.end(), {e.score, e.noise_units, e.relative, e.probability});
 }
 
-// Of the mean of ln(e^2): what the rest of the tests gain by less is no reason to leave the fit to all of them, and where
-// motions are chaotic one would stray a long way for it.
+// Of the mean of ln(e^2), or as a share of the mean of ln(predicted/measured)^2: what the rest of the tests gain by less is
+// no reason to leave the fit to all of them, and where motions are chaotic one would stray a long way for it.
 constexpr double chance_gain = 0.005;
 
 // 95 % intervals from the scatter of the fits with folds left out.
@@ -186,7 +186,9 @@ void leave_out(const Bench& bench, std::vector<ModelFit*> fits, const Effort& ef
     for (const std::size_t i : seen) seen_tests.push_back(tests[i]);
     const Objective rest = objective(bench, fit.model, seen_tests);
     Fitted found = simplex(fit.model.free, rest, fit.x, 0.02, effort.fold_budget);
-    if (const double score = rest(fit.x); found.score > score - chance_gain) found.x = fit.x, found.score = score;
+    const double score = rest(fit.x);
+    const bool histories = !seen_tests.empty() && bench.test(seen_tests.front()).has_history();
+    if (found.score > score - chance_gain * (histories ? 1.0 : score)) found.x = fit.x, found.score = score;
     return found;
   };
   leave_out(bench, std::move(fits), refit, jobs);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/plausible.hpp"
 #include "measurement/timing.hpp"
 
 namespace freestand::measurement {
@@ -12,12 +13,6 @@ namespace {
 
 constexpr double much_closer = 1.0;  // of the mean score: the error falls to 60 %
 constexpr double still_seconds = 0.15;
-
-double greatest(const std::vector<double>& samples) {
-  double most = 0;
-  for (const double s : samples) most = std::max(most, std::abs(s));
-  return most;
-}
 
 // A data set like this one, but for its signs and times.
 Dataset changed(const Dataset& data, bool mirror_slip, bool mirror_rotation, int late) {
@@ -111,20 +106,11 @@ double refitted(const Bench& bench, const ModelFit& fit, const Effort& effort) {
 
 }  // namespace
 
-bool clipped(const std::vector<double>& samples, double noise) {
-  if (samples.empty()) return false;
-  const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
-  for (const double extreme : {*least, *most}) {
-    if (std::abs(extreme) < 10 * noise || *least == *most) continue;
-    int run = 0, longest = 0;
-    for (const double s : samples) longest = std::max(longest, run = s == extreme ? run + 1 : 0);
-    if (longest >= 5) return true;
-  }
-  return false;
-}
-
 Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, const Jobs& jobs) {
   Quality quality;
+  Doubts doubtful = doubts(bench);
+  quality.findings = std::move(doubtful.sentences);
+  quality.wrong_numbers = doubtful.spoilt_tests;
   look_at_channels(bench, quality);
   const bool settled = look_at_slips(bench, quality);
   const auto tests = tests_of(bench.data(), Role::calibration);

@@ -13,18 +13,16 @@ struct Quality {
   bool mirrored_slip = false, mirrored_rotation = false;
   int late_steps = 0;        // steps by which the response lags behind the floor's channel, beyond what the model gives
   std::size_t doubtful = 0;  // tests whose slip alone looks mirrored, or late
-  std::size_t moving = 0;    // tests with a history in which anything moved
+  std::size_t wrong_numbers = 0;  // tests whose floor or response looks as if in another unit, or dead
+  std::size_t moving = 0;         // tests with a history in which anything moved
 
   // No verdict on an effect can be drawn from such data.
-  bool spoilt() const { return mirrored_slip || mirrored_rotation || late_steps != 0 || doubtful > 0; }
+  bool spoilt() const { return mirrored_slip || mirrored_rotation || late_steps != 0 || doubtful + wrong_numbers > 0; }
 };
 
-// Clipped sensors and tests without motion are read off the histories; sign and clock of the slip as well, where there is
+// Units, dead channels and the stated noise are judged by plausible.hpp. Clipped sensors and tests without motion are read off the histories; sign and clock of the slip as well, where there is
 // slip enough (timing.hpp). Otherwise they are judged by the model: with the floor mirrored, a rotation mirrored, or the
 // histories shifted by up to 0.15 s, and its free numbers fitted again, does it come much closer?
 Quality examine(const Bench&, const ModelFit&, const Effort&, const Jobs&);
-
-// At least five samples in a row at one and the same extreme value.
-bool clipped(const std::vector<double>& samples, double noise);
 
 }  // namespace freestand::measurement

@@ -54,8 +54,7 @@ std::string progress_line(const Counts& done, std::int64_t total, std::int64_t b
                 ? fmt::format(", {} left", duration_text(static_cast<double>(total - done.samples) / per_s))
                 : fmt::format(", took {}", duration_text(elapsed_s));
   }
-  return line +
-         fmt::format(", {:.1f} % overturned, {} failed", percent(done.overturned, done.samples), grouped(done.failed));
+  return line + fmt::format(", {:.1f} % overturned, {} failed", percent(done.overturned, now), grouped(done.failed));
 }
 
 bool on_terminal() {

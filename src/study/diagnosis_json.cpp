@@ -155,7 +155,7 @@ void withdraw_if_spoilt(const Quality& quality, Diagnosis& d) {
   d.effects.clear();
   for (Candidate& c : d.candidates) c.rival = false;
   d.sentences = {
-      "the measurements look wrong in a sign or in time (see the findings): no effect can be named before "
+      "the measurements look wrong in a sign, a time or a unit (see the findings): no effect can be named before "
       "that is settled"};
 }
 

@@ -17,11 +17,10 @@ using sampling::number_text;
 
 constexpr std::size_t text_width = 96;
 
-// Words on lines of at most text_width, under a label in the margin.
-std::string paragraph(const std::string& label, const std::string& text) {
-  if (text.empty()) return "";
-  constexpr std::size_t margin = 12;
-  std::string result = fmt::format("  {:<{}}", label, margin - 2), line;
+// Words on lines up to the right edge, behind a label and under one another.
+std::string wrapped(std::string result, const std::string& text, std::size_t margin) {
+  const std::size_t width = text_width + 12 - margin;
+  std::string line;
   bool first = true;
   const auto flush = [&] {
     result += (first ? "" : std::string(margin, ' ')) + line + "\n";
@@ -30,7 +29,7 @@ std::string paragraph(const std::string& label, const std::string& text) {
   };
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
-    if (!line.empty() && line.size() + 1 + end - at > text_width) flush();
+    if (!line.empty() && line.size() + 1 + end - at > width) flush();
     line += (line.empty() ? "" : " ") + text.substr(at, end - at);
     at = end + 1;
   }
@@ -38,15 +37,20 @@ std::string paragraph(const std::string& label, const std::string& text) {
   return result;
 }
 
+std::string paragraph(const std::string& label, const std::string& text) {
+  constexpr std::size_t margin = 12;
+  return text.empty() ? "" : wrapped(fmt::format("  {:<{}}", label, margin - 2), text, margin);
+}
+
 std::string bound(double x) { return std::isfinite(x) ? number_text(x) : "inf"; }
 
 std::string parameter_line(const Parameter& p) {
   std::string text = fmt::format("    {:<14} {:<5} {}{}, {}]", p.name, p.unit, p.lower_open ? "(" : "[", bound(p.lower),
                                  bound(p.upper));
-  text = fmt::format("{:<42} {}", text, p.summary);
-  if (p.neutral) text += fmt::format("; no effect at {}", bound(*p.neutral));
-  if (p.fallback) text += fmt::format("; {} where a study does not say", number_text(*p.fallback));
-  return text + "\n";
+  std::string summary = p.summary;
+  if (p.neutral) summary += fmt::format("; no effect at {}", bound(*p.neutral));
+  if (p.fallback) summary += fmt::format("; {} where a study does not say", number_text(*p.fallback));
+  return wrapped(fmt::format("{:<42} ", text), summary, 43);
 }
 
 // An entry of a study in the middle of the usual ranges.

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "dynamics/laws.hpp"
 #include "effects/effects.hpp"
@@ -64,6 +66,50 @@ std::shared_ptr<const Effect> make_formula(Section& section, const EffectPart& p
   return std::make_shared<const Effect>(formula::effect(part.name, part.friction, part.force, parameters));
 }
 
+// A law must give a finite number from rest on, and friction that resists; looked at where the parameters are numbers.
+void check_values(Section& section, const EffectPart& part, const std::vector<std::string>& names) {
+  std::vector<double> parameters;
+  for (const Quantity& q : part.parameters) {
+    if (!is_fixed(q.value)) return;
+    parameters.push_back(std::get<sampling::Fixed>(q.value).value);
+  }
+  // u v theta omega t path normal side sigma speed: at rest, and in slips either way.
+  const std::vector<std::array<double, 10>> states = {{0, 0, 0, 0, 0, 0, 1, 0, 1, 0},
+                                                      {0, 0, 0, 0, 0, 0, 1, 0, -1, 0},
+                                                      {0.01, 0.2, 0, 0, 1, 0.01, 1, 0, 1, 0.2},
+                                                      {-0.01, -0.2, 0, 0, 1, 0.01, 1, 0, -1, 0.2}};
+  for (const char* key : {"friction", "force"}) {
+    const bool friction = std::string(key) == "friction";
+    const std::string& text = friction ? part.friction : part.force;
+    if (text.empty()) continue;
+    const formula::Formula law(text, names);
+    for (const auto& state : states) {
+      const std::string where = fmt::format("at u = {} m, v = {} m/s", state[0], state[1]);
+      const double low = law.value(state, 0.05, parameters), high = law.value(state, 1, parameters);
+      if (!std::isfinite(low) && !std::isfinite(high))
+        return section.problem(key, fmt::format("{} of effect {} is {} {} (a law must give a finite number from rest "
+                                                "on): keep it away from such places, for example by max(...)",
+                                                key, part.name, std::isnan(low) ? "no number" : "infinite", where));
+      if (friction && low < 0 && high < 0)
+        return section.problem(key, fmt::format("friction of effect {} is {:.3g} {} (below zero it would push the "
+                                                "block on): correct the signs",
+                                                part.name, law.value(state, 0.3, parameters), where));
+    }
+  }
+}
+
+void check_used(Section& section, const EffectPart& part, const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    bool used = false;
+    for (const std::string* text : {&part.friction, &part.force})
+      used |= !text->empty() && formula::Formula(*text, names).uses(i);
+    if (!used)
+      section.problem("parameters", fmt::format("parameter {} of effect {} stands in none of its formulas (it would do "
+                                                "nothing): use or remove it",
+                                                names[i], part.name));
+  }
+}
+
 // One effect of the study, at its own numbers, must fit on a tape beside others.
 bool fits(const Effect& effect, std::size_t parameters) {
   Specimen specimen{Block::rectangular(1, 1, 1), {0.5, 0.5}, {}};
@@ -91,6 +137,10 @@ EffectPart read_formula(Section& section, const std::string& name) {
                                   "already): choose another name",
                                   parameter, name));
   part.effect = make_formula(section, part, names);
+  if (part.effect) {
+    check_used(section, part, names);
+    check_values(section, part, names);
+  }
   if (part.effect && !fits(*part.effect, names.size()))
     section.problem("name", fmt::format("the formulas of effect {} are too long (they make more than {} operations): "
                                         "shorten them",

@@ -138,6 +138,13 @@ void read_tests(Section& file, Dataset& set) {
     const bool twice = std::any_of(set.tests.begin(), set.tests.end(), [&](const Test& t) { return t.id == test.id; });
     if (twice)
       file.problems().add(line, fmt::format("test {} stands twice (an id names one test): rename one", test.id));
+    const auto same = std::find_if(set.tests.begin(), set.tests.end(), [&](const Test& t) {
+      return t.has_history() && test.has_history() && t.source == test.source;
+    });
+    if (same != set.tests.end() && !twice)
+      file.problems().add(line, fmt::format("test {} has the file of test {} (a test counts once): correct the file of "
+                                            "one",
+                                            test.id, same->id));
     set.tests.push_back(std::move(test));
   }
 }

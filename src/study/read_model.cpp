@@ -186,6 +186,11 @@ ModelPart read_model(Section& file) {
   model.bouc_wen = read_bouc_wen(file, model.model);
   model.impact = read_impact(file);
   model.effects = read_effects(file, model.model);
+  for (const EffectPart& effect : model.effects)
+    if (effect.name == "impact_loss" && model.impact.law == ImpactLaw::coulomb)
+      file.problem("impact",
+                   "effect impact_loss does not go with impact law coulomb (its impulse follows from friction alone): "
+                   "remove the effect, or use housner");
   model.chain = read_chain(file);
   if (model.chain && model.block.mass.line == 0)
     file.problem("chain",

@@ -65,10 +65,30 @@ void check_fixed(const ModelPart& model, Problems& problems) {
     for (const auto& q : effect.parameters) check(q);
 }
 
+// What is calibrated must stay within what its effect can be, on the whole of its range.
+void check_ranges(const Validation& v, int line, Problems& problems) {
+  for (const EffectPart& part : v.model.effects)
+    for (std::size_t i = 0; i < part.parameters.size() && i < part.effect->parameters.size(); ++i) {
+      const dynamics::Parameter& p = part.effect->parameters[i];
+      for (const Calibrated& c : v.calibrated)
+        if (c.name == part.parameters[i].name && (c.lower < p.lower || c.upper > p.upper))
+          problems.add(part.parameters[i].line ? part.parameters[i].line : line,
+                       fmt::format("{}.calibrate is [{}, {}] (it must lie between {} and {}): narrow the range", c.name,
+                                   c.lower, c.upper, p.lower, p.upper));
+    }
+  for (const Calibrated& c : v.calibrated)
+    if (c.name.rfind("effects.", 0) != 0 && c.lower < 0)
+      problems.add(
+          line, fmt::format("{}.calibrate begins at {} (it must not be negative): narrow the range", c.name, c.lower));
+}
+
 void read_all(const YAML::Node& root, Validation& v, Problems& problems) {
   Section file(root, "", 1, problems);
   v.name = file.text("name", v.file.stem().string());
-  if (file.has("measurements")) v.measurements = v.file.parent_path() / file.text("measurements", "");
+  if (file.has("measurements")) {
+    v.measurements = v.file.parent_path() / file.text("measurements", "");
+    v.measurements_line = file.line("measurements");
+  }
   const YAML::Node* node = file.find("model");
   if (!node || !node->IsMap()) {
     file.problem("model",
@@ -89,6 +109,7 @@ void read_all(const YAML::Node& root, Validation& v, Problems& problems) {
                  "chain does not go with measurements (its force is no effect "
                  "of the catalogue): use slack_tether");
   check_fixed(v.model, problems);
+  check_ranges(v, file.line("model"), problems);
   v.ladder = read_ladder(file);
   for (const char* key :
        {"seed", "samples", "until", "design", "block_size", "tolerance", "free_vibration_s", "motions", "fragility"})

@@ -46,6 +46,7 @@ struct LadderStep {
 struct Validation {
   std::string name;
   std::filesystem::path file, measurements;
+  int measurements_line = 0;
   ModelPart model;  // numbers to be calibrated stand there with their value, or with the middle of their range
   bool width_given = false, height_given = false, mass_given = false;
   std::optional<double> placement_scatter;

@@ -30,6 +30,15 @@ void check_dimensions(const Prepared& p) {
   problems.throw_if_any();
 }
 
+void check_vertical(const Prepared& p) {
+  if (p.model.has("vertical_shaking") &&
+      std::none_of(p.data.tests.begin(), p.data.tests.end(), [](const Test& t) { return t.has_vertical(); }))
+    throw Error(fmt::format("{}: effect vertical_shaking has nothing to act on (no test of {} has a vertical channel): "
+                            "give floor_vertical_acceleration_mps2, or remove the effect",
+                            p.validation.file.string(), p.measurements),
+                Exit::data);
+}
+
 // Outcomes are judged by probabilities: placements scatter.
 void add_placement_scatter(Prepared& p) {
   bool outcomes = false;
@@ -87,10 +96,19 @@ std::unique_ptr<Prepared> prepare(const parallel::Communicator& world, Validatio
         fmt::format("{} names no measurements (what is the model held against?): add measurements: "
                     "dataset.yaml, or give --measurements",
                     p->validation.file.string()));
-  world.on_root([&] { read_measurements(p->measurements); });
+  world.on_root([&] {
+    if (run.measurements.empty() && !std::filesystem::is_regular_file(p->measurements))
+      throw Error(
+          fmt::format("{}:{}: measurements are not there ({} is no file): correct the path, which starts at the "
+                      "study's folder",
+                      p->validation.file.string(), p->validation.measurements_line, p->measurements),
+          Exit::data);
+    read_measurements(p->measurements);
+  });
   p->data = read_measurements(p->measurements);
   p->model = model_spec(p->validation, false);
   check_dimensions(*p);
+  check_vertical(*p);
   add_placement_scatter(*p);
   p->bench = std::make_unique<Bench>(p->data, replays);
   return p;

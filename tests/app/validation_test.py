@@ -100,7 +100,46 @@ class Validation(InFolder):
         self.fail_with(3, ["diagnose", few, "-o", self.folder / "d", "--quiet"], "2 calibration tests for 1 number")
         lost = self.study.with_name("lost.yaml")
         lost.write_text(self.study.read_text(encoding="utf-8").replace("dataset.yaml", "nowhere.yaml"), encoding="utf-8")
-        self.fail_with(3, ["compare", lost, "-o", self.folder / "l", "--quiet"], "nowhere.yaml")
+        self.fail_with(3, ["compare", lost, "-o", self.folder / "l", "--quiet"], "lost.yaml:4", "nowhere.yaml")
+        self.fail_with(2, ["compar", self.study], "compar is no command", "compare")
+        text = self.study.read_text(encoding="utf-8")
+
+        def study(name, effects):
+            self.study.with_name(name).write_text(text.replace("effects: []", f"effects: [{effects}]"), encoding="utf-8")
+            return ["compare", self.study.with_name(name), "-o", self.folder / "e", "--quiet"]
+        self.fail_with(2, study("wide.yaml", "{name: rate_weakening, drop: {calibrate: [0.1, 1.3]}, speed_mps: 0.1}"),
+                       "wide.yaml:7", "must lie between 0 and 1")
+        data = self.study.with_name("dataset.yaml")
+        data.write_text(data.read_text(encoding="utf-8").replace("file: t02.csv", "file: t01.csv"), encoding="utf-8")
+        self.fail_with(3, ["compare", self.study, "-o", self.folder / "t", "--quiet"], "test t02 has the file of test t01")
+
+    def test_nothing_to_calibrate(self):
+        study = self.copy("fixed", ("t03", "t04", "t05"))
+        study.write_text(study.read_text(encoding="utf-8").replace("{calibrate: [0.03, 1.2]}", "0.15"), encoding="utf-8")
+        self.succeed(["diagnose", study, "-o", self.folder / "fixed_out", "--quiet"])
+        found = read(self.folder / "fixed_out" / "diagnosis.json")
+        self.assertEqual(found["base"]["parameters"], {})
+
+    def test_tables_of_outcomes_and_of_peaks(self):
+        tests = {"outcome": [("a", "overturned: true"), ("b", "overturned: false")],
+                 "peak": [("a", "peak_slip_m: 0.1"), ("b", "peak_slip_m: 0.05")]}
+        said = {}
+        for name, results in tests.items():
+            folder = self.folder / name
+            folder.mkdir()
+            entries = "".join(f"  - {{id: {i}, pulse: B, period_s: 0.8, peak_acceleration_g: {0.9 - 0.3 * k}, role: calibration, {result}}}\n"
+                              for k, (i, result) in enumerate(results))
+            (folder / "dataset.yaml").write_text("format: freestand-measurements/1\nname: few\n"
+                                                 "specimen: {width_m: 0.4, height_m: 1.6, mass_kg: 100}\ntests:\n" + entries)
+            (folder / "study.yaml").write_text("measurements: dataset.yaml\nmodel: {friction: {mu: 0.2}, placement_scatter: 0.1}\n")
+            said[name] = self.succeed(["compare", folder / "study.yaml", "-o", folder / "out"]).stdout
+        self.assertRegex(said["outcome"], r"(?m)^test +role +came out +P\(falls\) +Brier$")
+        self.assertRegex(said["outcome"], r"(?m)^a +calibration +overturned +[01]\.\d\d +[0-9.e-]+$")
+        self.assertRegex(said["outcome"], r"(?m)^b +calibration +stood ")
+        level = self.folder / "peak" / "vertical.yaml"
+        level.write_text("measurements: dataset.yaml\nmodel: {friction: {mu: 0.2}, effects: [{name: vertical_shaking}]}\n")
+        self.fail_with(3, ["compare", level, "-o", self.folder / "v"], "vertical.yaml", "nothing to act on")
+        self.assertRegex(said["peak"], r"(?m)^a +calibration +[0-9.]+ +[0-9.]+$")
 
 
 if __name__ == "__main__":

@@ -153,6 +153,20 @@ TEST(Formula, NotANumberIsAnOutcome) {
   }
 }
 
+// The number of a formula, taken straight from its operations, is the one that the tape gives.
+TEST(Formula, ValueWithoutATape) {
+  for (const char* text : {"u + v*theta - a/l", "if(u > 0.2, exp(-u/l_m), 5)", "if(v > 0, 1, step(u)*a^3)",
+                           "min(u, v) + max(u, v)*abs(v) + sqrt(a) - log(l)", "sin(u)*cos(v) + tanh(theta) + (u < v)",
+                           "-u^2 + 2^3^2 + g*pi"}) {
+    const Formula law(text, {"a", "l_m"});
+    EXPECT_NEAR(law.value({0.3, -0.7, 0.1, 0, 0, 0, 0, 0, 0, 0}, 0.25, {2, 0.5}), value(text), 1e-12) << text;
+  }
+  const Formula law("mu*(1 + a*u)", {"a", "l_m"});
+  EXPECT_TRUE(law.uses(0));
+  EXPECT_FALSE(law.uses(1));
+  EXPECT_TRUE(Formula("l", {"a", "l_m"}).uses(1));
+}
+
 TEST(Formula, TooLongForATapeIsFoundOut) {
   std::string text = "u";
   for (int i = 0; i < 300; ++i) text += "*v";

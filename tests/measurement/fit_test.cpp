@@ -52,6 +52,24 @@ TEST(Folds, EveryTestOnceAlone) {
   EXPECT_EQ(*std::max_element(many.begin(), many.end()), 9U);
 }
 
+// Peaks that scatter by some percent leave friction some percent of room: the fits with one left out must differ.
+TEST(LeaveOut, PeaksThatScatterGiveAnIntervalWithWidth) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  const double scatter[] = {1.06, 0.95, 1.03, 0.96, 1.0};
+  for (std::size_t i = 0; i < data.tests.size(); ++i) {
+    measurement::Test& t = data.tests[i];
+    t.peaks.peak_slip_m = scatter[i] * respond(cabinet(0.2), t.shaking()).peak_slip_m;
+    t.slip_m.clear(), t.rotation_rad.clear(), t.block_acceleration_mps2.clear();
+  }
+  const Bench bench(data, 0);
+  auto fits = fit_models(bench, {{.model = test::free_friction()}}, Effort{}, run_here);
+  leave_out(bench, {&fits[0]}, Effort{}, run_here);
+  ASSERT_EQ(fits[0].intervals.size(), 1U);
+  EXPECT_NEAR(fits[0].x[0], 0.2, 0.02);
+  EXPECT_LT(fits[0].intervals[0].lower, 0.995 * fits[0].x[0]);
+  EXPECT_GT(fits[0].intervals[0].upper, 1.005 * fits[0].x[0]);
+}
+
 // A history that is off by three times the noise everywhere, on one of two channels that are otherwise exact.
 TEST(Score, IsTheRootMeanSquareInNoiseUnits) {
   Dataset data = test::made_dataset(cabinet(0.2));

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "measurement/made_tests.hpp"
+#include "measurement/plausible.hpp"
 #include "measurement/quality.hpp"
 
 namespace freestand::measurement {
@@ -90,6 +91,59 @@ TEST(Quality, ClippedSensorsAndStillTests) {
   const Quality q = examined(data);
   EXPECT_THAT(q.findings, Contains(HasSubstr("slip_m of test t1 stays at its extreme value")));
   EXPECT_THAT(q.findings, Contains(HasSubstr("test t2 shows no motion above the noise")));
+}
+
+TEST(Quality, UnitsAndDeadChannels) {
+  const Dataset good = test::made_dataset(cabinet(0.2));
+  const auto said = [&](auto change) {
+    Dataset data = good;
+    change(data);
+    const Quality q = examined(data);
+    EXPECT_TRUE(q.spoilt());
+    return q.findings;
+  };
+  const auto scaled = [](FloorMotion& motion, double factor) {
+    for (double& c : motion.horizontal_mps2) c *= factor;
+    index_runs(motion);
+  };
+  EXPECT_THAT(said([&](Dataset& d) { scaled(d.tests[2].motion, 0); }),
+              Contains(HasSubstr("t3 move more than a floor that reaches 0 g can make them")));
+  EXPECT_THAT(said([&](Dataset& d) { scaled(d.tests[2].motion, 1 / 9.80665); }),
+              Contains(HasSubstr("t3 move more than a floor")));
+  EXPECT_THAT(said([&](Dataset& d) { scaled(d.tests[2].motion, 100); }),
+              Contains(HasSubstr("is floor_acceleration_mps2 in m/s2?")));
+  EXPECT_THAT(said([&](Dataset& d) {
+                for (double& s : d.tests[1].slip_m) s *= 1000;
+              }),
+              Contains(HasSubstr("is slip_m in metres?")));
+}
+
+TEST(Quality, SizesClippedFloorAndStatedNoise) {
+  const Dataset good = test::made_dataset(cabinet(0.2));
+  Dataset data = good;
+  for (auto& t : data.tests) t.specimen.width_m = 800;
+  for (double& c : data.tests[0].motion.horizontal_mps2) c = std::clamp(c, -1.0, 1.0);
+  data.noise.slip_m = 1e-5;
+  const auto findings = examined(data).findings;
+  EXPECT_EQ(std::count_if(findings.begin(), findings.end(),
+                          [](const auto& f) { return f.find("width_m is 800") != std::string::npos; }),
+            1);
+  EXPECT_THAT(findings, Contains(HasSubstr("slip_m scatters by 0.0003 from sample to sample")));
+  data = good;
+  data.noise.slip_m = 0.3;
+  EXPECT_THAT(examined(data).findings, Contains(HasSubstr("errors in noise units are too small")));
+}
+
+TEST(Quality, ACutOffPeakIsNoRoundedOne) {
+  std::vector<double> rounded, cut;
+  for (int i = 0; i < 400; ++i) {
+    const double y = 3 * std::sin(i * 0.02);
+    rounded.push_back(std::round(y * 100) / 100);
+    cut.push_back(std::clamp(std::round(y * 100) / 100, -1.5, 1.5));
+  }
+  EXPECT_TRUE(clipped(rounded, 0.01));
+  EXPECT_FALSE(cut_off(rounded, 0.01));
+  EXPECT_TRUE(cut_off(cut, 0.01));
 }
 
 }  // namespace

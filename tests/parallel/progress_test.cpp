@@ -26,9 +26,9 @@ TEST(Progress, LineTellsSpeedAndTimeLeft) {
             "12,288/200,000 samples (6.1 %), 1,536/s, 2 min 2 s left, 12.3 % overturned, 2 failed");
 }
 
-TEST(Progress, WhatWasThereBeforeDoesNotCountForTheSpeed) {
-  EXPECT_EQ(progress_line({600, 0, 0}, 1000, 500, 10.0),
-            "600/1,000 samples (60.0 %), 10/s, 40 s left, 0.0 % overturned, 0 failed");
+TEST(Progress, WhatWasThereBeforeCountsNeitherForTheSpeedNorForTheShares) {
+  EXPECT_EQ(progress_line({600, 5, 0}, 1000, 500, 10.0),
+            "600/1,000 samples (60.0 %), 10/s, 40 s left, 5.0 % overturned, 0 failed");
 }
 
 TEST(Progress, NothingDoneYetHasNoSpeed) {

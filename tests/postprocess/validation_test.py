@@ -172,6 +172,29 @@ class Drawn(Temporary):
         one = self.draw(before, make.comparison(self.folder / "after", ["impact_loss"], 1.04, 1.02))["ladder"]
         self.assertEqual([label.get_text() for label in one.figure.axes[0].get_xticklabels()], ["base", "+ impact loss"])
 
+    def test_ladder_that_ends_above_the_noise(self):
+        before, after = make.comparison(self.folder / "before"), make.comparison(self.folder / "after", ["impact_loss"], 6.0, 5.0)
+        self.assertEqual(self.draw(before, after)["ladder"].finding,
+                         "With impact loss the held-out error falls from 13.8 to 5.00 noise units, above the noise floor of 1.04")
+
+    def test_effects_without_an_error_on_tests_left_out_are_crosses(self):
+        found = [make.candidate("viscous_drag", 1.0, True), make.candidate("rate_strengthening", 1.01) | {"practical": False},
+                 make.candidate("flexible_legs", 2.0) | {"left_out_refitted": False}, make.candidate("floor_tilt", 3.0)]
+        drawn = self.draw(make.diagnosis(self.folder / "crosses", candidates=found))["ranking"]
+        (axes,) = drawn.figure.axes
+        self.assertEqual([label.get_text() for label in axes.get_yticklabels()],
+                         ["viscous drag", "rate strengthening", "floor tilt", "flexible legs"])
+        self.assertEqual(sum(line.get_marker() == "x" for line in axes.get_lines()), 1)
+        self.assertIn("rate strengthening only with numbers that are not met in practice", drawn.finding)
+        self.assertIn("Crosses", drawn.caption)
+
+    def test_worst_histories_in_order_with_the_errors_of_both_models(self):
+        before = make.comparison(self.folder / "before")
+        after = make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01, histories=[])
+        drawn = self.draw(before, after)
+        self.assertEqual([name for name in drawn if name.startswith("worst")], ["worst_t04", "worst_t02"])
+        self.assertEqual(drawn["worst_t02"].finding, "Test t02: 19.1 noise units with the base model, 1.13 with static friction")
+
     def test_history_shows_the_numbers_of_the_file(self):
         folder = make.comparison(self.folder / "one")
         value = json.loads((folder / "comparison.json").read_text())["histories"][0]
@@ -306,7 +329,7 @@ class ThePage(Temporary):
         self.assertNotIn("ladder", page.ids)
 
     def test_verdicts_in_the_headline(self):
-        for verdict, needle in (("none", "no effect is missing"), ("unknown", "no effect of the catalogue explains"),
+        for verdict, needle in (("none", "these tests show no missing effect"), ("unknown", "no effect of the catalogue explains"),
                                 ("ambiguous", "the missing effect is rate weakening or static friction"),
                                 ("missing", "the missing effect is rate weakening")):
             with self.subTest(verdict):

@@ -52,8 +52,10 @@ def _finding(results, steps):
     first, last = steps[0], steps[-1]
     key = "error_holdout" if math.isfinite(first["error_holdout"]) and math.isfinite(last["error_holdout"]) else "error_calibration"
     what = "held-out" if key == "error_holdout" else "calibration"
+    floor = last["noise_floor_holdout"] if key == "error_holdout" and math.isfinite(last["noise_floor_holdout"]) else last["noise_floor"]
     verb = "falls" if last[key] < first[key] else "rises"
     step = words.capitalised(validation.by(last["model"]))
-    return (f"{step} the {what} error {verb} from {validation.error(first[key])} to {validation.error(last[key], results.unit)}" + 
-        f", at the noise floor of {validation.error(last['noise_floor'])}" if last[key] < 1.2 * last["noise_floor"] else
-        f"; the noise floor is {validation.error(last['noise_floor'])}" if math.isfinite(last["noise_floor"]) else "")
+    told = f"{step} the {what} error {verb} from {validation.error(first[key])} to {validation.error(last[key], results.unit)}"
+    if not math.isfinite(floor):
+        return told
+    return told + (", at" if last[key] < 1.2 * floor else ", above") + f" the noise floor of {validation.error(floor)}"

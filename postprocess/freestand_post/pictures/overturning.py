@@ -6,8 +6,9 @@ from ..reading import Sweep
 from . import Picture
 
 order = 50
-CAPTION = ("Points: share of overturned samples in each bin, bars: exact binomial 95 % interval; line and band: lognormal curve "
-           "fitted to all bins at once by maximum likelihood. Where points leave the band, one curve is too simple.")
+POINTS = "Points: share of overturned samples in each bin; bars: exact binomial 95 % interval."
+CURVE = (" Line and band: lognormal curve fitted to all bins at once by maximum likelihood. Where points leave the band, one curve is "
+         "too simple.")
 
 
 def pictures(results):
@@ -39,7 +40,7 @@ def _picture(sweep, bins):
         ax.plot([curve["median"]] * 2 + [sweep.view[0]], [0, 0.5, 0.5], color=style.MUTED, lw=0.8, ls=(0, (1, 2)))
     finding = _finding(sweep, bins, curve, drawn, im)
     style.headline(fig, finding, _subtitle(sweep, curve, drawn))
-    return Picture("overturning", fig, finding, CAPTION, "sweep")
+    return Picture("overturning", fig, finding, POINTS + CURVE * drawn, "sweep")
 
 
 def _finding(sweep, bins, curve, drawn, im):

@@ -10,6 +10,8 @@ SHOWN = 10
 CAPTION = ("Each point: error of one model on tests left out of its fit, in turn; bar: one standard error. Filled: the best and those "
            "that chance does not part from it. Models at the grey line gain nothing over the base. Effects that no test can see are left out.")
 
+CROSSES = " Crosses: error of the fit to all tests, of effects that gain too little on the base or the best to leave tests out."
+
 
 def pictures(results):
     if isinstance(results, Validation):
@@ -20,10 +22,10 @@ def pictures(results):
 
 def _picture(diagnosis, k):
     rows = [row for row in diagnosis.candidates if row.get("visible", True) and np.isfinite(row["error_left_out"])]
-    rows.sort(key=lambda row: (not row["rival"], row["error_left_out"]))
+    rows.sort(key=lambda row: (not row["rival"], not row["left_out_refitted"], row["error_left_out"]))
     more, rows = len(rows) - SHOWN, rows[:SHOWN]
     value = np.array([row["error_left_out"] for row in rows])
-    error = np.nan_to_num([row["error_left_out_se"] for row in rows])
+    error = np.nan_to_num([row["error_left_out_se"] * row["left_out_refitted"] for row in rows])
     base, floor = diagnosis.base.get("error_left_out", np.nan), diagnosis.noise_floor
     fig = style.figure(7.4, 1.75 + 0.27 * len(rows))
     ax = fig.subplots()
@@ -33,6 +35,9 @@ def _picture(diagnosis, k):
             ax.axvline(level, color=colour, lw=1.4, ls=form, zorder=1)
     for i, row in enumerate(rows):
         colour = style.BLUE if row["rival"] else style.MUTED
+        if not row["left_out_refitted"]:
+            ax.plot(value[i], y[i], "x", ms=6, color=style.MUTED, mew=1.3, zorder=3)
+            continue
         low = min(error[i], 0.7 * value[i])
         ax.errorbar(value[i], y[i], xerr=[[low], [error[i]]], fmt="o", ms=7, color=colour, mfc=colour if row["rival"] else "white",
                     mec=colour, mew=1.3, elinewidth=1.4, capsize=2.5, zorder=3)
@@ -52,7 +57,8 @@ def _picture(diagnosis, k):
              f"grey: base model {validation.error(base)}" if np.isfinite(base) else ""]
     tail = f" {words.plural(more, 'more candidate')} not shown." if more > 0 else ""
     style.headline(fig, finding, words.capitalised("; ".join(line for line in lines if line)) + "; bars: one standard error." + tail)
-    return Picture("ranking" if k == 0 else f"ranking_{k + 1}", fig, finding, CAPTION, "ranking")
+    caption = CAPTION + ("" if all(row["left_out_refitted"] for row in rows) else CROSSES)
+    return Picture("ranking" if k == 0 else f"ranking_{k + 1}", fig, finding, caption, "ranking")
 
 
 def _name_lines(ax, base, floor):
@@ -77,7 +83,11 @@ def _finding(diagnosis, rows):
     if diagnosis.verdict == "unknown":
         return (f"The best candidate, {validation.effect(rows[0]['effect'])}, still misses the tests left out by "
                 f"{validation.error(best)} {diagnosis.unit}")
-    others = [row["error_left_out"] for row in rows if row["effect"] != rows[0]["effect"]]
-    tail = f"; the next best leaves {validation.error(min(others))}" if others else ""
+    others = [row for row in rows if row["effect"] != rows[0]["effect"] and row["left_out_refitted"]]
+    odd = [row["effect"] for row in others if not row["practical"] and row["error_left_out"] < 1.1 * best]
+    rest = [row["error_left_out"] for row in others if row["effect"] not in odd]
+    tail = f"; the next best leaves {validation.error(min(rest))}" if rest else ""
+    if odd:
+        tail = f"; {validation.effects(odd)} only with numbers that are not met in practice"
     return (f"With {validation.effect(rows[0]['effect'])} the left-out error falls from {validation.error(base)} to "
             f"{validation.error(best)} {diagnosis.unit}{tail}")

@@ -11,7 +11,7 @@ TELLS = 0.05  # share of the scatter that a variable must explain to be worth a 
 NAMED = ("missing", "ambiguous")  # verdicts that name an effect, so that there is a law to draw
 CAPTION = ("Recovered without any effect model: the friction coefficient that balances the measured acceleration while the block slips. "
            "Points: mean of a bin; band: 95 % interval of that mean; dashed: the constant of the base model; line: the law of the "
-           "best candidate. Percentages: share of the scatter that the variable explains; the most telling comes first.")
+           "best candidate. Percentages: share of the scatter that the variable explains. First the variable of the law, then the most telling.")
 
 
 def pictures(results):
@@ -112,9 +112,11 @@ def _finding(diagnosis, tables):
     name = validation.short_variable(top)
     if follows:
         law, ends = top.columns["law"], (good[:1], good[-1:]) if top.variable == "direction" else (good[:2], good[-2:])
-        return (f"Over the {name} the recovered friction goes from {words.number(np.nanmean(mu[ends[0]]))} to "
-                f"{words.number(np.nanmean(mu[ends[1]]))}; the law of {validation.effects(top.law_effects)} from "
-                f"{words.number(np.nanmean(law[ends[0]]))} to {words.number(np.nanmean(law[ends[1]]))}")
+        from_to = [f"{words.number(a, digits)} to {words.number(b, digits)}"
+                   for a, b in ([np.nanmean(values[end]) for end in ends] for values in (mu, law))
+                   for digits in [2 if words.number(a) != words.number(b) else 3]]
+        return (f"Over the {name} the recovered friction goes from {from_to[0]}; the law of "
+                f"{validation.effects(top.law_effects)} from {from_to[1]}")
     if top.variable == "direction":
         return f"Recovered friction is {words.number(last)} one way and {words.number(first)} the other"
     ends = [good[:3], good[-3:]]

@@ -8,6 +8,7 @@ from . import Picture
 order = 140
 SHOWN = ("phase", "speed_mps", "path_m")
 FEW = 5  # points below which a bin says nothing
+SHARE = 0.01  # of all points, that a phase must hold to be called the worst; as in the findings of `compare`
 ROWS = (("error_noise_units", "error\n({})"), ("growth_noise_units", "grows in 0.1 s by\n({})"))
 CAPTION = ("Above: root mean square error of all instants of a phase, or of a range of speed or path. Once the model is off it stays off, "
            "so the lower row tells more: by how much the error changes within 0.1 s there. Dashed: what sensor noise alone would make.")
@@ -97,7 +98,10 @@ def _finding(results):
     key = "growth_noise_units"
     if table is None or not _present(table, key).any():
         return "Where the model is off"
-    value = np.where(_present(table, key), table.columns[key], np.nan)
+    many = np.nan_to_num(table.count) > SHARE * np.nansum(table.count)
+    value = np.where(_present(table, key) & many, table.columns[key], np.nan)
+    if not np.isfinite(value).any():
+        return "Where the model is off"
     top = int(np.nanargmax(value))
     if value[top] < 1.2 * np.sqrt(2):
         return "In no phase does the error grow faster than sensor noise explains"

@@ -26,10 +26,14 @@ def pictures(results):
         for history in comparison.histories:
             if history.time.size > 1 and history.channels:
                 seen.setdefault(history.id, []).append((k, history))
-    ranked = sorted(seen.values(), key=lambda found: (found[0][0], -len(found)))
+    ranked = sorted(seen.values(), key=lambda found: (found[0][0], -_error(results, *found[0])))
     ranked = [found for found in ranked if found[0][0] == 0 or _missed(results, *found[0])]
     for found in ranked[:SHOWN]:
         yield _picture(results, [found[0], found[-1]] if len(found) > 1 else found)
+
+
+def _error(results, k, history):
+    return next((test["error_noise_units"] for test in results.comparisons[k].tests if test["id"] == history.id), 0.0)
 
 
 def _missed(results, k, history):
@@ -94,6 +98,8 @@ def _channel(history, name):
 
 
 def _finding(results, found):
+    if len(found) == 1 and found[0][0] == 0 and len(results.comparisons) > 1:
+        found = [found[0], (len(results.comparisons) - 1, found[0][1])]  # whose error is known, though not its history
     tests = [next((test for test in results.comparisons[k].tests if test["id"] == history.id), {}) for k, history in found]
     error = [test.get("error_noise_units", np.nan) for test in tests]
     name, role = found[0][1].id, {"holdout": " (held out)"}.get(found[0][1].role, "")

@@ -1,0 +1,168 @@
+#include "measurement/plausible.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/units.hpp"
+#include "measurement/ground.hpp"
+#include "measurement/smooth.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+constexpr double longest_size_m = 50, longest_slip_m = 5, largest_rotation_rad = 1.8;
+constexpr double strongest_floor_g = 10, weakest_floor_g = 0.02;
+
+std::vector<double> floor_samples(const Test& test) {
+  const auto stride = static_cast<std::size_t>(test.motion.degree) + 1;
+  std::vector<double> samples;
+  for (std::size_t i = 0; i < test.motion.horizontal_mps2.size(); i += stride)
+    samples.push_back(test.scale * test.motion.horizontal_mps2[i]);
+  return samples;
+}
+
+class Doubter {
+ public:
+  explicit Doubter(const Bench& bench) : bench_(bench) {}
+
+  Doubts all() {
+    for (std::size_t i = 0; i < bench_.size(); ++i) {
+      const Test& test = bench_.test(i);
+      sizes(test);
+      response(test);
+      if (test.pulse.empty()) floor(test);
+      if (test.pulse.empty() && cut_off(floor_samples(test), bench_.floor_noise_mps2(i)))
+        say("the floor's channel of test {} stays at its extreme value for several samples: the sensor looks clipped",
+            test.id);
+    }
+    tell();
+    for (const Channel channel : {Channel::slip, Channel::rotation}) noise(channel);
+    return std::move(out_);
+  }
+
+ private:
+  template <class... T>
+  void say(fmt::format_string<T...> text, T&&... values) {
+    out_.sentences.push_back(fmt::format(text, std::forward<T>(values)...));
+  }
+
+  // Once for the specimen that the tests share.
+  void sizes(const Test& test) {
+    const auto size = [&](const char* key, const std::optional<double>& value) {
+      if (!value || *value <= longest_size_m) return;
+      const std::string sentence =
+          fmt::format("the specimen's {} is {:.4g}: is it in metres? The model takes it as it stands", key, *value);
+      if (std::find(out_.sentences.begin(), out_.sentences.end(), sentence) == out_.sentences.end())
+        out_.sentences.push_back(sentence);
+    };
+    size("width_m", test.specimen.width_m);
+    size("height_m", test.specimen.height_m);
+  }
+
+  void response(const Test& test) {
+    const double slip =
+        std::max({greatest(test.slip_m), test.peaks.peak_slip_m.value_or(0), test.peaks.residual_slip_m.value_or(0)});
+    const double rotation = std::max(greatest(test.rotation_rad), test.peaks.peak_rotation_rad.value_or(0));
+    if (slip > longest_slip_m) slips_.add(test.id, slip);
+    if (rotation > largest_rotation_rad) rotations_.add(test.id, rotation);
+  }
+
+  // Friction of any law takes the block's velocity towards the floor's, so that it stays among those that the floor has
+  // had: a slip is at most as fast as they differ.
+  bool too_fast(const Test& test, bool rotated) const {
+    if (test.slip_m.empty() || rotated) return false;
+    const auto half = std::max<std::size_t>(3, static_cast<std::size_t>(0.04 / test.dt_s));
+    const std::vector<double> floor = smooth(floor_displacement(test), test.dt_s, half).rate;
+    const auto [least, most] = std::minmax_element(floor.begin(), floor.end());
+    const double noise = bench_.noise(Channel::slip) * rate_noise(test.dt_s, half);
+    return greatest(smooth(test.slip_m, test.dt_s, half).rate) > 1.5 * (*most - *least) + 8 * noise;
+  }
+
+  void floor(const Test& test) {
+    const double peak_g = greatest(floor_samples(test)) / standard_gravity_mps2;
+    const bool rotated = greatest(test.rotation_rad) > 8 * bench_.noise(Channel::rotation);
+    const bool moved = rotated || greatest(test.slip_m) > 8 * bench_.noise(Channel::slip);
+    if (peak_g > strongest_floor_g)
+      strong_.add(test.id, peak_g);
+    else if (moved && (peak_g < weakest_floor_g || too_fast(test, rotated)))
+      weak_.add(test.id, peak_g);
+  }
+
+  void tell() {
+    const auto about = [&](const Seen& seen, const char* text, const char* question) {
+      out_.spoilt_tests += seen.ids.size();
+      if (!seen.ids.empty())
+        out_.sentences.push_back(fmt::format(fmt::runtime(text), fmt::join(seen.ids, ", "), seen.most) + question);
+    };
+    about(slips_, "the slip of {} reaches {:.3g} m", ": is slip_m in metres?");
+    about(rotations_, "the rotation of {} reaches {:.3g} rad", ": is rotation_rad in radians?");
+    about(strong_, "the floor of {} reaches {:.3g} g", ": is floor_acceleration_mps2 in m/s2?");
+    about(weak_, "{} move more than a floor that reaches {:.2g} g can make them",
+          ": is floor_acceleration_mps2 in m/s2, and its sensor alive?");
+  }
+
+  void noise(Channel channel) {
+    const double stated = bench_.noise(channel);
+    std::vector<double> scatters;
+    for (std::size_t i = 0; i < bench_.size(); ++i)
+      if (const double s = sensor_noise(history(bench_.test(i), channel)); s > 0) scatters.push_back(s);
+    if (stated <= 0 || scatters.empty()) return;
+    const auto middle = scatters.begin() + static_cast<long>(scatters.size() / 2);
+    std::nth_element(scatters.begin(), middle, scatters.end());
+    if (*middle > 3 * stated || *middle < 0.01 * stated)
+      say("{} scatters by {:.2g} from sample to sample, where the data set states a noise of {:.2g}: errors in noise "
+          "units are too {}; correct noise",
+          name(channel), *middle, stated, *middle > stated ? "large" : "small");
+  }
+
+  struct Seen {
+    std::vector<std::string> ids;
+    double most = 0;
+    void add(const std::string& id, double value) { ids.push_back(id), most = std::max(most, value); }
+  };
+
+  const Bench& bench_;
+  Doubts out_;
+  Seen slips_, rotations_, strong_, weak_;
+};
+
+}  // namespace
+
+double greatest(const std::vector<double>& samples) {
+  double most = 0;
+  for (const double s : samples) most = std::max(most, std::abs(s));
+  return most;
+}
+
+bool clipped(const std::vector<double>& samples, double noise) {
+  if (samples.empty()) return false;
+  const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+  for (const double extreme : {*least, *most}) {
+    if (std::abs(extreme) < 10 * noise || *least == *most) continue;
+    int run = 0, longest = 0;
+    for (const double s : samples) longest = std::max(longest, run = s == extreme ? run + 1 : 0);
+    if (longest >= 5) return true;
+  }
+  return false;
+}
+
+bool cut_off(const std::vector<double>& samples, double noise) {
+  if (!clipped(samples, noise)) return false;
+  const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
+  double smallest = std::numeric_limits<double>::infinity(), to_plateau = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const double step = std::abs(samples[i] - samples[i - 1]);
+    if (step > 0) smallest = std::min(smallest, step);
+    const bool on = samples[i] == *least || samples[i] == *most,
+               was = samples[i - 1] == *least || samples[i - 1] == *most;
+    if (on != was) to_plateau = std::max(to_plateau, step);
+  }
+  return to_plateau > 3 * smallest;
+}
+
+Doubts doubts(const Bench& bench) { return Doubter(bench).all(); }
+
+}  // namespace freestand::measurement

@@ -1,0 +1,31 @@
+// Measurements whose numbers themselves look wrong: units, dead and clipped channels, the stated noise.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measurement/bench.hpp"
+
+namespace freestand::measurement {
+
+struct Doubts {
+  std::vector<std::string> sentences;
+  std::size_t spoilt_tests = 0;  // whose floor or response is not what its column says
+};
+
+// Of every test: sizes above 50 m; slips above 5 m and rotations above 1.8 rad (other units); a floor above 10 g, or one
+// under which the block moves though it stays below 0.02 g, or faster than its velocities allow (other units, or a dead
+// channel); a floor that stays at its extreme. Of
+// all histories together: a sensor that scatters from sample to sample three times as much as the data set states, or a
+// hundredth of it.
+Doubts doubts(const Bench&);
+
+// At least five samples in a row at one and the same extreme value, above ten times the noise.
+bool clipped(const std::vector<double>& samples, double noise);
+
+// Clipped, and not merely rounded: the step to the plateau is more than three of the smallest steps of the channel.
+bool cut_off(const std::vector<double>& samples, double noise);
+
+double greatest(const std::vector<double>& samples);  // of the absolute values; 0 of none
+
+}  // namespace freestand::measurement
