@@ -7,11 +7,13 @@
 #include <cmath>
 #include <freestand/error.hpp>
 #include <limits>
+#include <optional>
 
 #include "measurement/decide.hpp"
 #include "measurement/diagnose_outcomes.hpp"
 #include "measurement/outcome_fit.hpp"
 #include "measurement/starts.hpp"
+#include "measurement/strides.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -33,6 +35,10 @@ class Diagnoser {
       fit_pairs();
       judge();
       if (fit_parts_of_best_pair()) judge();
+      if (best().explained > at_noise && look_again()) {
+        judge();
+        if (fit_parts_of_best_pair()) judge();
+      }
     }
     decide(bench_, out_);
     name_untried();
@@ -43,6 +49,12 @@ class Diagnoser {
   Effort wide() const {
     Effort effort = options_.effort;
     effort.screened_per_number *= 2;
+    return effort;
+  }
+
+  Effort quick() const {
+    Effort effort = options_.effort;
+    effort.starts = 2;
     return effort;
   }
 
@@ -191,9 +203,8 @@ class Diagnoser {
         pairs.back().fit.model = tasks.back().model;
       }
     }
-    Effort quick = options_.effort;
-    quick.starts = 2;
-    auto fits = fit_models(bench_, tasks, quick, jobs_);
+    for (const Candidate& pair : pairs) tried_pairs_.push_back(pair.effects);
+    auto fits = fit_models(bench_, tasks, quick(), jobs_);
     for (std::size_t i = 0; i < fits.size(); ++i) pairs[i].fit = std::move(fits[i]);
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Candidate& a, const Candidate& b) { return a.fit.score < b.fit.score; });
@@ -237,6 +248,54 @@ class Diagnoser {
     return !better.empty();
   }
 
+  // Nothing explains the tests: the effect is of no catalogue, or the fits have stuck, or the best single effect, which a
+  // pair started from, stood far from where it stands in the pair. All once more by strides, from anywhere.
+  bool look_again() {
+    std::vector<std::vector<std::string>> models = tried_pairs_;
+    for (const Candidate& c : out_.candidates)
+      if (c.effects.size() == 1 && c.visible) models.push_back(c.effects);
+    std::vector<FitTask> tasks;
+    for (const auto& effects : models) {
+      ModelSpec model = base_;
+      for (const auto& effect : effects) model = with_effect(model, of_catalogue(effect), bench_.reach());
+      const std::size_t numbers = model.free.size();
+      tasks.push_back({.model = std::move(model), .screened = false});
+      tasks.back().starts = starts_from({Values{}}, tasks.back().model, 16 * numbers);
+    }
+    Effort effort = quick();
+    effort.descended = 2 * options_.stride_finals;
+    auto fits = fit_by_strides(bench_, tasks, options_.stride_finals, effort, jobs_);
+    std::vector<std::size_t> places;
+    for (StrideFit& found : fits) {
+      if (const auto place = improved(models[found.task], found.fit)) places.push_back(*place);
+      if (places.size() == options_.pair_finals) break;
+    }
+    std::vector<ModelFit*> better;
+    for (const std::size_t i : places) better.push_back(&out_.candidates[i].fit);
+    refine(bench_, better, options_.effort, jobs_);
+    leave_out(bench_, better, options_.effort, jobs_);
+    return !better.empty();
+  }
+
+  // Place of the candidate that the fit is better than, or of a new one.
+  std::optional<std::size_t> improved(const std::vector<std::string>& effects, ModelFit& fit) {
+    if (fit.score > out_.base.fit.score - no_gain) return {};
+    for (std::size_t i = 0; i < out_.candidates.size(); ++i) {
+      Candidate& known = out_.candidates[i];
+      if (known.effects != effects) continue;
+      if (fit.score > known.fit.score - no_gain) return {};
+      known.fit = std::move(fit);
+      return i;
+    }
+    out_.candidates.push_back({.effects = effects, .fit = std::move(fit)});
+    return out_.candidates.size() - 1;
+  }
+
+  const dynamics::Effect& of_catalogue(const std::string& name) const {
+    return **std::find_if(catalogue_.begin(), catalogue_.end(),
+                          [&](const auto* effect) { return effect->name == name; });
+  }
+
   static bool known_pair(const std::vector<Candidate>& pairs, const std::string& a, const std::string& b) {
     return std::any_of(pairs.begin(), pairs.end(), [&](const Candidate& c) {
       return (c.effects[0] == a && c.effects[1] == b) || (c.effects[0] == b && c.effects[1] == a);
@@ -248,6 +307,7 @@ class Diagnoser {
   const Catalogue& catalogue_;
   const DiagnosisOptions& options_;
   const Jobs& jobs_;
+  std::vector<std::vector<std::string>> tried_pairs_;
   Diagnosis out_;
 };
 
