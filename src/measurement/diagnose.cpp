@@ -34,8 +34,9 @@ class Diagnoser {
     if (second_effect_wanted()) {
       fit_pairs();
       judge();
+      if (exchange_in_best_pair()) judge();
       if (fit_parts_of_best_pair()) judge();
-      if (best().explained > at_noise && look_again()) {
+      if (best().explained > may_be_stuck && look_again()) {
         judge();
         if (fit_parts_of_best_pair()) judge();
       }
@@ -116,7 +117,7 @@ class Diagnoser {
 
   std::vector<Values> starts_of(const dynamics::Effect& effect, const ModelSpec& model) const {
     auto starts = starts_anywhere(model, options_.effort.screened_per_number / 2);
-    const std::size_t own = effect.parameters.size();
+    const std::size_t own = fitted_numbers(effect);
     const ModelFit& base = out_.base.fit;
     const auto ends = at_the_ends(base.model, base.x, base.x.size());
     for (Values& x : starts_from({base.x}, model, 48 * own)) starts.push_back(std::move(x));
@@ -136,7 +137,7 @@ class Diagnoser {
 
   // More numbers than tests: nothing could be left out.
   bool allowed(const dynamics::Effect& effect) const {
-    return base_.free.size() + effect.parameters.size() < tests_of(bench_.data(), Role::calibration).size();
+    return base_.free.size() + fitted_numbers(effect) < tests_of(bench_.data(), Role::calibration).size();
   }
 
   // Polishes and leaves out, for the best candidates from `first` on that gain anything on the base.
@@ -196,13 +197,14 @@ class Diagnoser {
       const std::vector<bool> seen = visible(seed->fit, others);
       for (std::size_t i = 0; i < others.size(); ++i) {
         if (!seen[i] || known_pair(pairs, seed->effects[0], others[i]->name)) continue;
-        pairs.push_back({.effects = {seed->effects[0], others[i]->name}, .fit = seed->fit});
-        tasks.push_back({.model = with_effect(narrowed(seed->fit), *others[i], bench_.reach())});
-        tasks.back().starts = starts_from({seed->fit.x}, tasks.back().model, 24 * others[i]->parameters.size());
-        tasks.back().screened = false;
-        pairs.back().fit.model = tasks.back().model;
+        join(seed->effects[0], seed->fit, *others[i], pairs, tasks);
       }
     }
+    finish_pairs(std::move(pairs), tasks);
+  }
+
+  // Fits them, and the best few of them to the end, which become candidates.
+  void finish_pairs(std::vector<Candidate> pairs, const std::vector<FitTask>& tasks) {
     for (const Candidate& pair : pairs) tried_pairs_.push_back(pair.effects);
     auto fits = fit_models(bench_, tasks, quick(), jobs_);
     for (std::size_t i = 0; i < fits.size(); ++i) pairs[i].fit = std::move(fits[i]);
@@ -217,6 +219,54 @@ class Diagnoser {
     finish(first);
   }
 
+  // The base with one effect of the pair, as they stand in it.
+  ModelFit part_of(const Candidate& pair, std::size_t which) const {
+    const auto& effect = of_catalogue(pair.effects[which]);
+    const std::size_t base = base_.free.size(), own = fitted_numbers(effect);
+    const auto from = pair.fit.x.begin() + static_cast<long>(which == 0 ? base : pair.fit.x.size() - own);
+    ModelFit part{.model = with_effect(base_, effect, bench_.reach()), .x = pair.fit.x};
+    part.x.resize(base);
+    part.x.insert(part.x.end(), from, from + static_cast<long>(own));
+    return part;
+  }
+
+  // The seeds of the pairs were the best by themselves, which they need not be beside a second effect: one of the best
+  // pair makes way for others that were not yet joined to the one that stays.
+  bool exchange_in_best_pair() {
+    const Candidate best_pair = best();
+    if (best_pair.effects.size() < 2) return false;
+    std::vector<Candidate> pairs;
+    std::vector<FitTask> tasks;
+    for (const std::size_t stays : {0, 1}) {
+      const ModelFit part = part_of(best_pair, stays);
+      const std::string& name = best_pair.effects[stays];
+      std::vector<const dynamics::Effect*> others;
+      for (const auto* effect : catalogue_)
+        if (goes_with(part.model, *effect) && allowed(*effect) && !tried(name, effect->name)) others.push_back(effect);
+      const std::vector<bool> seen = visible(part, others);
+      for (std::size_t i = 0; i < others.size(); ++i)
+        if (seen[i]) join(name, part, *others[i], pairs, tasks);
+    }
+    if (pairs.empty()) return false;
+    finish_pairs(std::move(pairs), tasks);
+    return true;
+  }
+
+  void join(const std::string& name, const ModelFit& fit, const dynamics::Effect& other, std::vector<Candidate>& pairs,
+            std::vector<FitTask>& tasks) const {
+    pairs.push_back({.effects = {name, other.name}, .fit = fit});
+    tasks.push_back({.model = with_effect(narrowed(fit), other, bench_.reach())});
+    tasks.back().starts = starts_from({fit.x}, tasks.back().model, 24 * fitted_numbers(other));
+    tasks.back().screened = false;
+    pairs.back().fit.model = tasks.back().model;
+  }
+
+  bool tried(const std::string& a, const std::string& b) const {
+    return std::any_of(tried_pairs_.begin(), tried_pairs_.end(), [&](const auto& pair) {
+      return (pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a);
+    });
+  }
+
   // Would one of the two do, from where the pair stands? Its own fit may have stuck elsewhere.
   bool fit_parts_of_best_pair() {
     const Candidate pair = best();
@@ -228,10 +278,7 @@ class Diagnoser {
       if (c.effects.size() != 1 || !c.visible) continue;
       const bool first = c.effects[0] == pair.effects[0];
       if (!first && c.effects[0] != pair.effects[1]) continue;
-      const std::size_t own = c.fit.model.free.size() - base, skip = first ? 0 : pair.fit.x.size() - base - own;
-      Values x(pair.fit.x.begin(), pair.fit.x.begin() + static_cast<long>(base));
-      const auto from = pair.fit.x.begin() + static_cast<long>(base + skip);
-      x.insert(x.end(), from, from + static_cast<long>(own));
+      const Values x = part_of(pair, first ? 0 : 1).x;
       tasks.push_back({.model = c.fit.model, .starts = {c.fit.x, x}, .screened = false});
       for (Values& end : at_the_ends(c.fit.model, x, base)) tasks.back().starts.push_back(std::move(end));
       singles.push_back(&c);
