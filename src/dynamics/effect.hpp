@@ -39,6 +39,7 @@ struct Parameter {
   std::optional<double> neutral = {};   // the value at which the effect vanishes (infinity: as it grows)
   std::optional<double> fallback = {};  // taken where a study does not say; none: the study must say
   double low = 0, high = 0;             // range that is met in practice: where a fit starts
+  bool fitted = true;                   // false: known, and `fallback` where an effect is tried on measurements
 };
 
 // Input to the equations: the floor under the block.

@@ -18,7 +18,8 @@ const Register vertical_shaking{{
              .neutral = 0,
              .fallback = 1,
              .low = 0.3,
-             .high = 1.5},
+             .high = 1.5,
+             .fitted = false},
         },
     .floor = [](FloorInput& floor, const Parameters& p) { floor.vertical_scale = p[0]; },
 }};

@@ -7,7 +7,7 @@ namespace freestand::measurement {
 
 // sqrt(G/samples) above which a model is not at the noise; below which a second effect is not looked for; of a base
 // below which nothing is missing whatever fits better.
-inline constexpr double at_noise = 1.3, may_hide_another = 1.015, base_at_noise = 1.01;
+inline constexpr double at_noise = 1.3, may_be_stuck = 1.05, may_hide_another = 1.015, base_at_noise = 1.01;
 // Differences of G that chance makes between two models.
 inline constexpr double chance_misfit = 30;
 

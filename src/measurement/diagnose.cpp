@@ -7,11 +7,13 @@
 #include <cmath>
 #include <freestand/error.hpp>
 #include <limits>
+#include <optional>
 
 #include "measurement/decide.hpp"
 #include "measurement/diagnose_outcomes.hpp"
 #include "measurement/outcome_fit.hpp"
 #include "measurement/starts.hpp"
+#include "measurement/strides.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -32,7 +34,12 @@ class Diagnoser {
     if (second_effect_wanted()) {
       fit_pairs();
       judge();
+      if (exchange_in_best_pair()) judge();
       if (fit_parts_of_best_pair()) judge();
+      if (best().explained > may_be_stuck && look_again()) {
+        judge();
+        if (fit_parts_of_best_pair()) judge();
+      }
     }
     decide(bench_, out_);
     name_untried();
@@ -43,6 +50,12 @@ class Diagnoser {
   Effort wide() const {
     Effort effort = options_.effort;
     effort.screened_per_number *= 2;
+    return effort;
+  }
+
+  Effort quick() const {
+    Effort effort = options_.effort;
+    effort.starts = 2;
     return effort;
   }
 
@@ -104,7 +117,7 @@ class Diagnoser {
 
   std::vector<Values> starts_of(const dynamics::Effect& effect, const ModelSpec& model) const {
     auto starts = starts_anywhere(model, options_.effort.screened_per_number / 2);
-    const std::size_t own = effect.parameters.size();
+    const std::size_t own = fitted_numbers(effect);
     const ModelFit& base = out_.base.fit;
     const auto ends = at_the_ends(base.model, base.x, base.x.size());
     for (Values& x : starts_from({base.x}, model, 48 * own)) starts.push_back(std::move(x));
@@ -124,7 +137,7 @@ class Diagnoser {
 
   // More numbers than tests: nothing could be left out.
   bool allowed(const dynamics::Effect& effect) const {
-    return base_.free.size() + effect.parameters.size() < tests_of(bench_.data(), Role::calibration).size();
+    return base_.free.size() + fitted_numbers(effect) < tests_of(bench_.data(), Role::calibration).size();
   }
 
   // Polishes and leaves out, for the best candidates from `first` on that gain anything on the base.
@@ -184,16 +197,16 @@ class Diagnoser {
       const std::vector<bool> seen = visible(seed->fit, others);
       for (std::size_t i = 0; i < others.size(); ++i) {
         if (!seen[i] || known_pair(pairs, seed->effects[0], others[i]->name)) continue;
-        pairs.push_back({.effects = {seed->effects[0], others[i]->name}, .fit = seed->fit});
-        tasks.push_back({.model = with_effect(narrowed(seed->fit), *others[i], bench_.reach())});
-        tasks.back().starts = starts_from({seed->fit.x}, tasks.back().model, 24 * others[i]->parameters.size());
-        tasks.back().screened = false;
-        pairs.back().fit.model = tasks.back().model;
+        join(seed->effects[0], seed->fit, *others[i], pairs, tasks);
       }
     }
-    Effort quick = options_.effort;
-    quick.starts = 2;
-    auto fits = fit_models(bench_, tasks, quick, jobs_);
+    finish_pairs(std::move(pairs), tasks);
+  }
+
+  // Fits them, and the best few of them to the end, which become candidates.
+  void finish_pairs(std::vector<Candidate> pairs, const std::vector<FitTask>& tasks) {
+    for (const Candidate& pair : pairs) tried_pairs_.push_back(pair.effects);
+    auto fits = fit_models(bench_, tasks, quick(), jobs_);
     for (std::size_t i = 0; i < fits.size(); ++i) pairs[i].fit = std::move(fits[i]);
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Candidate& a, const Candidate& b) { return a.fit.score < b.fit.score; });
@@ -204,6 +217,54 @@ class Diagnoser {
     for (std::size_t i = first; i < out_.candidates.size(); ++i) finals.push_back(&out_.candidates[i].fit);
     polish(bench_, finals, options_.effort, 0.15, jobs_);
     finish(first);
+  }
+
+  // The base with one effect of the pair, as they stand in it.
+  ModelFit part_of(const Candidate& pair, std::size_t which) const {
+    const auto& effect = of_catalogue(pair.effects[which]);
+    const std::size_t base = base_.free.size(), own = fitted_numbers(effect);
+    const auto from = pair.fit.x.begin() + static_cast<long>(which == 0 ? base : pair.fit.x.size() - own);
+    ModelFit part{.model = with_effect(base_, effect, bench_.reach()), .x = pair.fit.x};
+    part.x.resize(base);
+    part.x.insert(part.x.end(), from, from + static_cast<long>(own));
+    return part;
+  }
+
+  // The seeds of the pairs were the best by themselves, which they need not be beside a second effect: one of the best
+  // pair makes way for others that were not yet joined to the one that stays.
+  bool exchange_in_best_pair() {
+    const Candidate best_pair = best();
+    if (best_pair.effects.size() < 2) return false;
+    std::vector<Candidate> pairs;
+    std::vector<FitTask> tasks;
+    for (const std::size_t stays : {0, 1}) {
+      const ModelFit part = part_of(best_pair, stays);
+      const std::string& name = best_pair.effects[stays];
+      std::vector<const dynamics::Effect*> others;
+      for (const auto* effect : catalogue_)
+        if (goes_with(part.model, *effect) && allowed(*effect) && !tried(name, effect->name)) others.push_back(effect);
+      const std::vector<bool> seen = visible(part, others);
+      for (std::size_t i = 0; i < others.size(); ++i)
+        if (seen[i]) join(name, part, *others[i], pairs, tasks);
+    }
+    if (pairs.empty()) return false;
+    finish_pairs(std::move(pairs), tasks);
+    return true;
+  }
+
+  void join(const std::string& name, const ModelFit& fit, const dynamics::Effect& other, std::vector<Candidate>& pairs,
+            std::vector<FitTask>& tasks) const {
+    pairs.push_back({.effects = {name, other.name}, .fit = fit});
+    tasks.push_back({.model = with_effect(narrowed(fit), other, bench_.reach())});
+    tasks.back().starts = starts_from({fit.x}, tasks.back().model, 24 * fitted_numbers(other));
+    tasks.back().screened = false;
+    pairs.back().fit.model = tasks.back().model;
+  }
+
+  bool tried(const std::string& a, const std::string& b) const {
+    return std::any_of(tried_pairs_.begin(), tried_pairs_.end(), [&](const auto& pair) {
+      return (pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a);
+    });
   }
 
   // Would one of the two do, from where the pair stands? Its own fit may have stuck elsewhere.
@@ -217,10 +278,7 @@ class Diagnoser {
       if (c.effects.size() != 1 || !c.visible) continue;
       const bool first = c.effects[0] == pair.effects[0];
       if (!first && c.effects[0] != pair.effects[1]) continue;
-      const std::size_t own = c.fit.model.free.size() - base, skip = first ? 0 : pair.fit.x.size() - base - own;
-      Values x(pair.fit.x.begin(), pair.fit.x.begin() + static_cast<long>(base));
-      const auto from = pair.fit.x.begin() + static_cast<long>(base + skip);
-      x.insert(x.end(), from, from + static_cast<long>(own));
+      const Values x = part_of(pair, first ? 0 : 1).x;
       tasks.push_back({.model = c.fit.model, .starts = {c.fit.x, x}, .screened = false});
       for (Values& end : at_the_ends(c.fit.model, x, base)) tasks.back().starts.push_back(std::move(end));
       singles.push_back(&c);
@@ -237,6 +295,54 @@ class Diagnoser {
     return !better.empty();
   }
 
+  // Nothing explains the tests: the effect is of no catalogue, or the fits have stuck, or the best single effect, which a
+  // pair started from, stood far from where it stands in the pair. All once more by strides, from anywhere.
+  bool look_again() {
+    std::vector<std::vector<std::string>> models = tried_pairs_;
+    for (const Candidate& c : out_.candidates)
+      if (c.effects.size() == 1 && c.visible) models.push_back(c.effects);
+    std::vector<FitTask> tasks;
+    for (const auto& effects : models) {
+      ModelSpec model = base_;
+      for (const auto& effect : effects) model = with_effect(model, of_catalogue(effect), bench_.reach());
+      const std::size_t numbers = model.free.size();
+      tasks.push_back({.model = std::move(model), .screened = false});
+      tasks.back().starts = starts_from({Values{}}, tasks.back().model, 16 * numbers);
+    }
+    Effort effort = quick();
+    effort.descended = 2 * options_.stride_finals;
+    auto fits = fit_by_strides(bench_, tasks, options_.stride_finals, effort, jobs_);
+    std::vector<std::size_t> places;
+    for (StrideFit& found : fits) {
+      if (const auto place = improved(models[found.task], found.fit)) places.push_back(*place);
+      if (places.size() == options_.pair_finals) break;
+    }
+    std::vector<ModelFit*> better;
+    for (const std::size_t i : places) better.push_back(&out_.candidates[i].fit);
+    refine(bench_, better, options_.effort, jobs_);
+    leave_out(bench_, better, options_.effort, jobs_);
+    return !better.empty();
+  }
+
+  // Place of the candidate that the fit is better than, or of a new one.
+  std::optional<std::size_t> improved(const std::vector<std::string>& effects, ModelFit& fit) {
+    if (fit.score > out_.base.fit.score - no_gain) return {};
+    for (std::size_t i = 0; i < out_.candidates.size(); ++i) {
+      Candidate& known = out_.candidates[i];
+      if (known.effects != effects) continue;
+      if (fit.score > known.fit.score - no_gain) return {};
+      known.fit = std::move(fit);
+      return i;
+    }
+    out_.candidates.push_back({.effects = effects, .fit = std::move(fit)});
+    return out_.candidates.size() - 1;
+  }
+
+  const dynamics::Effect& of_catalogue(const std::string& name) const {
+    return **std::find_if(catalogue_.begin(), catalogue_.end(),
+                          [&](const auto* effect) { return effect->name == name; });
+  }
+
   static bool known_pair(const std::vector<Candidate>& pairs, const std::string& a, const std::string& b) {
     return std::any_of(pairs.begin(), pairs.end(), [&](const Candidate& c) {
       return (c.effects[0] == a && c.effects[1] == b) || (c.effects[0] == b && c.effects[1] == a);
@@ -248,6 +354,7 @@ class Diagnoser {
   const Catalogue& catalogue_;
   const DiagnosisOptions& options_;
   const Jobs& jobs_;
+  std::vector<std::vector<std::string>> tried_pairs_;
   Diagnosis out_;
 };
 

@@ -59,7 +59,7 @@ class OutcomeDiagnoser {
   std::size_t join(const std::vector<std::string>& known, const ModelFit& without, const Catalogue& catalogue) {
     Catalogue effects;
     for (const auto* effect : catalogue)
-      if (goes_with(without.model, *effect) && without.x.size() + effect->parameters.size() < tests_)
+      if (goes_with(without.model, *effect) && without.x.size() + fitted_numbers(*effect) < tests_)
         effects.push_back(effect);
       else if (goes_with(without.model, *effect))
         untried_.push_back(effect->name);

@@ -205,6 +205,25 @@ void widen_intervals(const Judge& judge, const Tests& tests, ModelFit& fit, cons
 
 }  // namespace
 
+void descend_by_derivatives(const Bench& bench, std::vector<ModelFit*> fits, const Jobs& jobs) {
+  const auto calibration = tests_of(bench.data(), Role::calibration);
+  Tests all(calibration.size());
+  std::iota(all.begin(), all.end(), 0);
+  const Judge sensors(bench);
+  const auto answers = jobs("least squares", fits.size(), [&](std::size_t i) {
+    const ModelFit& fit = *fits[i];
+    const Fitted found = least_squares(sensors, all, fit.model, fit.x, most_rounds);
+    Values packed = {mean_score(bench, calibration, fit.model, found.x), static_cast<double>(found.evaluations)};
+    packed.insert(packed.end(), found.x.begin(), found.x.end());
+    return packed;
+  });
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    fits[i]->score = answers[i][0];
+    fits[i]->evaluations += static_cast<int>(answers[i][1]);
+    fits[i]->x.assign(answers[i].begin() + 2, answers[i].end());
+  }
+}
+
 void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs& jobs) {
   const auto calibration = tests_of(bench.data(), Role::calibration);
   if (calibration.empty() || kind(bench.test(calibration.front())) != Kind::history) {

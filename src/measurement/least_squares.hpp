@@ -20,6 +20,9 @@ double least_squares_score(const Judge&, const std::vector<std::size_t>& of_judg
 Fitted least_squares(const Judge&, const std::vector<std::size_t>& of_judge, const ModelSpec&, const Values& x,
                      int rounds);
 
+// Each fit from where it stands downhill in S without replays; score is the mean score there.
+void descend_by_derivatives(const Bench&, std::vector<ModelFit*>, const Jobs&);
+
 // The fit taken to the least S, at first without replays; then, if that ends at the noise, with replays of the floor's
 // noise under the fit itself, without what they fan out. With errors of tests left out, by the same method,
 // and intervals that hold all that one number alone may do before G rises by 3.84. Sets without

@@ -82,11 +82,20 @@ ModelSpec with_effect(const ModelSpec& base, const dynamics::Effect& effect, con
   ModelSpec model = base;
   EffectTerm term{.effect = &effect, .parameters = {}};
   for (const auto& parameter : effect.parameters) {
+    if (!parameter.fitted) {
+      term.parameters.push_back({.value = parameter.fallback.value_or(parameter.low)});
+      continue;
+    }
     term.parameters.push_back({.free = static_cast<int>(model.free.size())});
     model.free.push_back(free_parameter(effect, parameter, reach));
   }
   model.effects.push_back(std::move(term));
   return model;
+}
+
+std::size_t fitted_numbers(const dynamics::Effect& effect) {
+  return static_cast<std::size_t>(
+      std::count_if(effect.parameters.begin(), effect.parameters.end(), [](const auto& p) { return p.fitted; }));
 }
 
 bool goes_with(const ModelSpec& model, const dynamics::Effect& effect) {

@@ -65,8 +65,10 @@ struct Reach {
 };
 Free free_parameter(const dynamics::Effect&, const dynamics::Parameter&, const Reach&);
 
-// The model with one more effect, all of whose parameters are free.
+// The model with one more effect, whose parameters are free but for those that are known.
 ModelSpec with_effect(const ModelSpec&, const dynamics::Effect&, const Reach&);
+// How many free numbers that adds.
+std::size_t fitted_numbers(const dynamics::Effect&);
 
 // Can the effect join this model? Not when it is there already, or excludes the model or an effect that is there, or is
 // excluded by one.

@@ -14,9 +14,10 @@ struct Place {
   std::size_t task, part;
 };
 
-Objective objective(const Bench& bench, const ModelSpec& model, std::vector<std::size_t> tests) {
-  return [&bench, &model, tests = std::move(tests)](std::span<const double> x) {
-    return mean_score(bench, tests, model, x);
+Objective objective(const Bench& bench, const ModelSpec& model, std::vector<std::size_t> tests,
+                    Measure measure = mean_score) {
+  return [&bench, &model, tests = std::move(tests), measure](std::span<const double> x) {
+    return measure(bench, tests, model, x);
   };
 }
 
@@ -50,13 +51,13 @@ std::vector<Values> points_of(const FitTask& task, const Effort& effort) {
 // Scores of all points of all tasks.
 std::vector<Values> screened_scores(const Bench& bench, const std::vector<FitTask>& tasks,
                                     const std::vector<std::vector<Values>>& points,
-                                    const std::vector<std::size_t>& tests, const Jobs& jobs) {
+                                    const std::vector<std::size_t>& tests, Measure measure, const Jobs& jobs) {
   std::vector<Place> places;
   for (std::size_t t = 0; t < tasks.size(); ++t)
     for (std::size_t from = 0; from < points[t].size(); from += chunk) places.push_back({t, from});
   const auto answers = jobs("screening", places.size(), [&](std::size_t i) {
     const auto [t, from] = places[i];
-    const Objective score = objective(bench, tasks[t].model, tests);
+    const Objective score = objective(bench, tasks[t].model, tests, measure);
     Values scores;
     for (std::size_t k = from; k < std::min(from + chunk, points[t].size()); ++k) scores.push_back(score(points[t][k]));
     return scores;
@@ -67,6 +68,24 @@ std::vector<Values> screened_scores(const Bench& bench, const std::vector<FitTas
     of_task.insert(of_task.end(), answers[i].begin(), answers[i].end());
   }
   return scores;
+}
+
+// Keeps the starts of the best `kept` fits.
+void drop_worst(const std::vector<ModelFit>& fits, std::size_t kept, std::vector<Place>& places,
+                std::vector<Values>& starts) {
+  if (fits.size() <= kept) return;
+  std::vector<double> scores;
+  for (const ModelFit& fit : fits) scores.push_back(fit.score);
+  std::nth_element(scores.begin(), scores.begin() + static_cast<long>(kept), scores.end());
+  std::vector<Place> good_places;
+  std::vector<Values> good_starts;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (fits[places[i].task].score >= scores[kept]) continue;
+    good_places.push_back(places[i]);
+    good_starts.push_back(std::move(starts[i]));
+  }
+  places = std::move(good_places);
+  starts = std::move(good_starts);
 }
 
 TestError unpacked_error(const Values& v, std::size_t at) {
@@ -118,11 +137,11 @@ std::vector<std::size_t> fold_of(std::size_t n) {
 }
 
 std::vector<ModelFit> fit_models(const Bench& bench, const std::vector<FitTask>& tasks, const Effort& effort,
-                                 const Jobs& jobs) {
+                                 const Jobs& jobs, Measure measure) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   std::vector<std::vector<Values>> points;
   for (const FitTask& task : tasks) points.push_back(points_of(task, effort));
-  const auto scores = screened_scores(bench, tasks, points, tests, jobs);
+  const auto scores = screened_scores(bench, tasks, points, tests, measure, jobs);
 
   std::vector<Place> places;
   std::vector<Values> starts;
@@ -138,9 +157,10 @@ std::vector<ModelFit> fit_models(const Bench& bench, const std::vector<FitTask>&
       starts.push_back(best[k].x);
     }
   }
+  drop_worst(fits, effort.descended, places, starts);
   const auto descents = jobs("descents", places.size(), [&](std::size_t i) {
     const ModelSpec& model = tasks[places[i].task].model;
-    return packed(simplex(model.free, objective(bench, model, tests), starts[i], 0.15, effort.budget));
+    return packed(simplex(model.free, objective(bench, model, tests, measure), starts[i], 0.15, effort.budget));
   });
   for (std::size_t i = 0; i < places.size(); ++i) {
     ModelFit& fit = fits[places[i].task];

@@ -21,6 +21,7 @@ std::vector<Values> run_here(const std::string& what, std::size_t n, const Job& 
 struct Effort {
   std::size_t screened_per_number = 32;  // points, times the count of free numbers
   std::size_t starts = 3;                // descents from the best of them
+  std::size_t descended = 1000;          // tasks, the best by their screened points; the others stay there
   int budget = 80;                       // evaluations of each descent
   int polish = 160;                      // of one more, from the best of the descents
   int fold_budget = 45;                  // of a fit with tests left out, from the fit to all
@@ -55,8 +56,13 @@ struct FitTask {
 // Folds of n calibration tests: every test alone where there are up to 12, else 10 groups. Fold of each test.
 std::vector<std::size_t> fold_of(std::size_t n);
 
-// Screens and descends; no folds yet. In the order of the tasks.
-std::vector<ModelFit> fit_models(const Bench&, const std::vector<FitTask>&, const Effort&, const Jobs&);
+// What a fit makes least: mean_score, or mean_stride_score for histories.
+using Measure = double (*)(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
+                           std::span<const double>);
+
+// Screens and descends; no folds yet. In the order of the tasks; score is that of the measure.
+std::vector<ModelFit> fit_models(const Bench&, const std::vector<FitTask>&, const Effort&, const Jobs&,
+                                 Measure = mean_score);
 
 // One more descent for each, from where it stands, with a simplex of edge `step`.
 void polish(const Bench&, std::vector<ModelFit*>, const Effort&, double step, const Jobs&);

@@ -13,6 +13,7 @@ namespace {
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double failed_error = 1e4;  // of a sample without a history, in noise units
 constexpr double ln_ratio_limit = 3;
+constexpr double stride_s = 1;
 
 // visit(channel, noise, measured, predicted) for the channels that can be judged.
 template <class Visit>
@@ -45,6 +46,23 @@ TestError history_error(const Bench& bench, std::size_t i, const Prediction& pre
   error.relative = relative;
   error.score = 2 * std::log(std::max(error.noise_units, 1e-3));
   return error;
+}
+
+double stride_score(const Bench& bench, const Test& test, const Prediction& prediction) {
+  if (prediction.failed()) return std::log(1 + failed_error * failed_error);
+  const auto stride = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(stride_s / test.dt_s)));
+  double sum = 0, count = 0;
+  each_channel(bench, test, prediction, [&](Channel, double noise, const auto& measured, const auto& model) {
+    for (std::size_t from = 0; from < measured.size(); from += stride) {
+      const std::size_t to = std::min(from + stride, measured.size());
+      const double shift = from > 0 ? model[from - 1] - measured[from - 1] : 0;
+      double square = 0;
+      for (std::size_t k = from; k < to; ++k) square += std::pow((model[k] - measured[k] - shift) / noise, 2);
+      sum += std::log(1 + square / static_cast<double>(to - from));
+      count += 1;
+    }
+  });
+  return sum / std::max(count, 1.0);
 }
 
 struct PeakPair {
@@ -128,6 +146,13 @@ double mean_score(const Bench& bench, const std::vector<std::size_t>& tests, con
                   std::span<const double> x) {
   double sum = 0;
   for (const TestError& error : test_errors(bench, tests, model, x)) sum += error.score;
+  return sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1));
+}
+
+double mean_stride_score(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
+                         std::span<const double> x) {
+  double sum = 0;
+  for (const std::size_t i : tests) sum += stride_score(bench, bench.test(i), predict(model, bench.test(i), x));
   return sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1));
 }
 

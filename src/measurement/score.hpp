@@ -34,6 +34,16 @@ std::vector<TestError> test_errors(const Bench&, const std::vector<std::size_t>&
 // Mean score over these tests: what fits minimise.
 double mean_score(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&, std::span<const double> x);
 
+// The same of histories by strides: r = model - measured is judged second by second, against where it stood as the second
+// began,
+//
+//   mean over channels and seconds of ln(1 + mean over the second of ((r(t) - r(t0))/noise)^2)
+//
+// A slip that comes out wrong shifts all that follows; here it costs one second, and a model that is right in all the
+// others is seen to be. Its valleys are wide, so that fits which the plain score holds up find the way.
+double mean_stride_score(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
+                         std::span<const double> x);
+
 // The same error with each sample's noise widened by the spread of the replays: 1 where sensor and floor noise explain
 // all of it, and parts where the motion is chaotic say nothing.
 double explained_error(const Bench&, std::size_t test, const Prediction&, const Spread&);

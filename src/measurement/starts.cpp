@@ -55,6 +55,7 @@ std::vector<Values> starts_anywhere(const ModelSpec& model, std::size_t per_numb
 Values start_at_nothing(const ModelFit& fit, const dynamics::Effect& effect) {
   Values x = fit.x;
   for (const auto& p : effect.parameters) {
+    if (!p.fitted) continue;
     const double nothing =
         p.neutral && std::isfinite(*p.neutral) ? *p.neutral : p.fallback.value_or(0.5 * (p.low + p.high));
     x.push_back(std::clamp(nothing, p.low > 0 ? 0.001 * p.low : p.lower, p.upper));

@@ -41,7 +41,8 @@ YAML::Node effect_node(const std::string& effect) {
     if (const dynamics::Effect* known = effects::find(text)) {
       YAML::Node node(YAML::NodeType::Map);
       node["name"] = text;
-      for (const auto& p : known->parameters) node[p.name] = catalogue_range(p);
+      for (const auto& p : known->parameters)
+        if (p.fitted) node[p.name] = catalogue_range(p);
       return node;
     }
     std::ifstream stream(text);
