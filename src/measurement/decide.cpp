@@ -161,7 +161,9 @@ class Decision {
     for (Candidate& c : d_.candidates) {
       if (!c.rival || c.effects.size() < 2) continue;
       for (const Candidate& single : d_.candidates)
-        if (single.rival && single.effects.size() == 1 && single.effects[0] == c.effects[0]) c.rival = false;
+        if (single.rival && single.effects.size() == 1 &&
+            std::find(c.effects.begin(), c.effects.end(), single.effects[0]) != c.effects.end())
+          c.rival = false;
     }
   }
 

@@ -136,8 +136,8 @@ class Diagnoser {
   }
 
   // More numbers than tests: nothing could be left out.
-  bool allowed(const dynamics::Effect& effect) const {
-    return base_.free.size() + fitted_numbers(effect) < tests_of(bench_.data(), Role::calibration).size();
+  bool allowed(const dynamics::Effect& effect, std::size_t more = 0) const {
+    return base_.free.size() + fitted_numbers(effect) + more < tests_of(bench_.data(), Role::calibration).size();
   }
 
   // Polishes and leaves out, for the best candidates from `first` on that gain anything on the base.
@@ -295,26 +295,36 @@ class Diagnoser {
     return !better.empty();
   }
 
-  // Nothing explains the tests: the effect is of no catalogue, or the fits have stuck, or the best single effect, which a
-  // pair started from, stood far from where it stands in the pair. All once more by strides, from anywhere.
-  bool look_again() {
-    std::vector<std::vector<std::string>> models = tried_pairs_;
+  // Single effects that the tests can see, and all pairs of them, to be fitted from anywhere.
+  std::vector<FitTask> singles_and_pairs() const {
+    std::vector<const dynamics::Effect*> seen;
     for (const Candidate& c : out_.candidates)
-      if (c.effects.size() == 1 && c.visible) models.push_back(c.effects);
+      if (c.effects.size() == 1 && c.visible) seen.push_back(&of_catalogue(c.effects[0]));
     std::vector<FitTask> tasks;
-    for (const auto& effects : models) {
-      ModelSpec model = base_;
-      for (const auto& effect : effects) model = with_effect(model, of_catalogue(effect), bench_.reach());
-      const std::size_t numbers = model.free.size();
+    const auto take = [&](ModelSpec model) {
       tasks.push_back({.model = std::move(model), .screened = false});
-      tasks.back().starts = starts_from({Values{}}, tasks.back().model, 16 * numbers);
+      tasks.back().starts = starts_from({Values{}}, tasks.back().model, 16 * tasks.back().model.free.size());
+    };
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const ModelSpec single = with_effect(base_, *seen[i], bench_.reach());
+      for (std::size_t k = i + 1; k < seen.size(); ++k)
+        if (goes_with(single, *seen[k]) && allowed(*seen[i], fitted_numbers(*seen[k])))
+          take(with_effect(single, *seen[k], bench_.reach()));
+      take(single);
     }
+    return tasks;
+  }
+
+  // Nothing explains the tests: the effect is of no catalogue, or fits have stuck, or the best single effects, which pairs
+  // are joined to, are not those of the pair: two that only do together look useless alone. All once more by strides.
+  bool look_again() {
+    const std::vector<FitTask> tasks = singles_and_pairs();
     Effort effort = quick();
     effort.descended = 2 * options_.stride_finals;
     auto fits = fit_by_strides(bench_, tasks, options_.stride_finals, effort, jobs_);
     std::vector<std::size_t> places;
     for (StrideFit& found : fits) {
-      if (const auto place = improved(models[found.task], found.fit)) places.push_back(*place);
+      if (const auto place = improved(found.fit)) places.push_back(*place);
       if (places.size() == options_.pair_finals) break;
     }
     std::vector<ModelFit*> better;
@@ -325,12 +335,16 @@ class Diagnoser {
   }
 
   // Place of the candidate that the fit is better than, or of a new one.
-  std::optional<std::size_t> improved(const std::vector<std::string>& effects, ModelFit& fit) {
+  std::optional<std::size_t> improved(ModelFit& fit) {
+    std::vector<std::string> effects;
+    for (std::size_t i = base_.effects.size(); i < fit.model.effects.size(); ++i)
+      effects.push_back(fit.model.effects[i].effect->name);
     if (fit.score > out_.base.fit.score - no_gain) return {};
     for (std::size_t i = 0; i < out_.candidates.size(); ++i) {
       Candidate& known = out_.candidates[i];
-      if (known.effects != effects) continue;
+      if (!std::is_permutation(known.effects.begin(), known.effects.end(), effects.begin(), effects.end())) continue;
       if (fit.score > known.fit.score - no_gain) return {};
+      known.effects = effects;
       known.fit = std::move(fit);
       return i;
     }
@@ -354,7 +368,6 @@ class Diagnoser {
   const Catalogue& catalogue_;
   const DiagnosisOptions& options_;
   const Jobs& jobs_;
-  std::vector<std::vector<std::string>> tried_pairs_;
   Diagnosis out_;
 };
 

@@ -3,8 +3,8 @@
 //   1. The base model is fitted. Every effect of the catalogue that changes any predicted history is fitted with the
 //      base parameters, and judged by the error of the calibration tests left out.
 //   2. Where the best of them leaves an error above the noise, or may hide a second one, pairs are fitted: each of the
-//      best few with every other. Where even these leave an error above the noise, singles and pairs are fitted once more
-//      by strides (strides.hpp), since fits may have stuck.
+//      best few with every other. Where even these leave an error above the noise, singles and all pairs are fitted
+//      once more by strides (strides.hpp).
 //   3. Histories: models are compared by their misfit G = r^T C^-1 r of the tests left out (judge.hpp), where a wrong
 //      model shows as some tens and more, and chance as a few. Peaks and outcomes: by paired differences of the
 //      left-out scores with their standard error.
