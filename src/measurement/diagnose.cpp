@@ -368,6 +368,7 @@ class Diagnoser {
   const Catalogue& catalogue_;
   const DiagnosisOptions& options_;
   const Jobs& jobs_;
+  std::vector<std::vector<std::string>> tried_pairs_;
   Diagnosis out_;
 };
 
