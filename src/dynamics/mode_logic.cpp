@@ -11,6 +11,7 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
   trial.mode = mode;
   trial.pivot = pivot;
   trial.sigma = sigma;
+  if (sigma == 0) trial.foot = 0;
   const auto consistent = [&](const auto& arc) {
     AllHold all;
     for_each_witness(rig, trial, arc, all);
@@ -41,9 +42,14 @@ bool lifts_off(const Rig& rig, const FloorCursor& cursor, State& state) {
 
 int direction(double w) { return w > 0 ? 1 : -1; }
 
+// The foot under legs has no mass: when forces jump, its slip may stop or turn at once.
+bool keeps_slipping(const Rig& rig) { return !rig.laws || rig.laws->legs.frequency_radps == 0; }
+
 bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
   const double slip = slip_speed(rig, state);
-  if (slip == 0) {
+  if (slip != 0 && stands(rig, cursor, state, Mode::slide, 0, direction(slip))) return true;
+  const bool any_way = slip == 0 || !keeps_slipping(rig);
+  if (any_way) {
     if (stands(rig, cursor, state, Mode::rest, 0, 0)) return true;
     if (!rig.can_slip && lifts_off(rig, cursor, state)) return true;  // before the hinges, which could pull
     if (rig.can_rock)
@@ -52,13 +58,11 @@ bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
     if (!rig.can_slip) return false;
     for (const int sigma : {1, -1})
       if (stands(rig, cursor, state, Mode::slide, 0, sigma)) return true;
-  } else if (stands(rig, cursor, state, Mode::slide, 0, direction(slip))) {
-    return true;
   }
   if (!rig.can_rock) return false;
   for (const int pivot : {1, -1})
     for (const int sigma : {1, -1})
-      if ((slip == 0 || sigma == direction(slip)) && stands(rig, cursor, state, Mode::slide_rock, pivot, sigma))
+      if ((any_way || sigma == direction(slip)) && stands(rig, cursor, state, Mode::slide_rock, pivot, sigma))
         return true;
   return false;
 }
@@ -66,7 +70,8 @@ bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
 bool choose_on_corner(const Rig& rig, const FloorCursor& cursor, State& state) {
   const int pivot = state.theta > 0 || (state.theta == 0 && state.omega > 0) ? 1 : -1;
   const double slip = slip_speed(rig, state);
-  if (slip != 0) return stands(rig, cursor, state, Mode::slide_rock, pivot, direction(slip));
+  if (slip != 0 && stands(rig, cursor, state, Mode::slide_rock, pivot, direction(slip))) return true;
+  if (slip != 0 && keeps_slipping(rig)) return false;
   if (stands(rig, cursor, state, Mode::rock, pivot, 0)) return true;
   if (!rig.can_slip) return false;
   for (const int sigma : {1, -1})

@@ -46,5 +46,25 @@ TEST(FlexibleLegs, StiffLegsAreThePlainBlock) {
   EXPECT_NEAR(error(640) / error(160), 0.25, 0.02);
 }
 
+// At an impact the forces jump, and with them the speed of a foot that has no mass: its slip may stop or turn at once.
+TEST(FlexibleLegs, OfARockingBlockSlipAndHoldThroughImpacts) {
+  const FloorMotion sine = one_sine();
+  for (const double f : {2.0, 4.2, 10.0, 30.0, 100.0})
+    for (const double z : {0.02, 0.2}) {
+      const Specimen block{Block::rectangular(0.622, 2.286, 386),
+                           {0.32, 0.28},
+                           {ImpactLaw::coulomb, 1},
+                           Model::slide_rock,
+                           {effect("flexible_legs", {f, z})}};
+      const Response fast = respond(block, {&sine, 3.5}), reference = respond_reference(block, {&sine, 3.5});
+      EXPECT_TRUE(fast.outcome == Outcome::moved || fast.outcome == Outcome::overturned) << f << " " << z;
+      EXPECT_EQ(fast.outcome, reference.outcome) << f << " " << z;
+      EXPECT_GE(fast.impacts, 1) << f << " " << z;
+      if (fast.outcome != Outcome::moved) continue;
+      EXPECT_NEAR(fast.peak_slip_m, reference.peak_slip_m, 1e-5) << f << " " << z;
+      EXPECT_NEAR(fast.peak_rotation_rad, reference.peak_rotation_rad, 1e-5) << f << " " << z;
+    }
+}
+
 }  // namespace
 }  // namespace freestand::test
