@@ -16,6 +16,8 @@ const BatchKernels kernels{FREESTAND_ISA_NAME,
                            slide_rock_samples<8>,
                            slide_rock_samples<5, 8, BySpeed>,
                            slide_rock_samples<8, 8, BySpeed>,
+                           slide_rock_samples<5, 5, Coulomb, Shaken>,
+                           slide_rock_samples<8, 8, Coulomb, Shaken>,
                            bouc_wen_samples};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA

@@ -19,6 +19,7 @@ struct Ground {
   double per_weight;           // 1/weight: a free hop with rate omega turns by omega^2/(2 weight)
   double told, rests;          // squared rates of the hops at whose end an impact counts, or rest begins
   double bend0, bend1, bend2;  // bounds of what the forces do within an interval, in rates per interval
+  double lift_bend;            // as bend1, for changes of the floor's vertical acceleration times h^2
 
   Ground(const BatchCase& c, int side) {
     const double b = side > 0 ? c.right : c.left, other = side > 0 ? c.left : c.right, size2 = c.h * c.h + b * b;
@@ -39,16 +40,20 @@ struct Ground {
   double pull(double a) const { return weight + tip * a; }
 
  private:
-  // The forces are almost straight within an interval, as the floor's acceleration is. With r = |r|, E = (g + |a|) h^2/J,
+  // The forces are almost straight within an interval, as the floor's acceleration is. With r = |r|,
+  // E = (g + |v| + |a|) h^2/J,
   // |Omega'| <= E r and |Omega| <= |Omega_0| + E r,
-  //     |f''| <= r^2 (4 E^2 r + 5 E Omega^2 + 6 (h^2/J) |da| |Omega|) + smaller terms,
+  //     |f''| <= r^2 (4 E^2 r + 5 E Omega^2 + 6 (h^2/J) (|da| + |dv|) |Omega|) + smaller terms,
   // and f leaves its chord by |f''|/8 at most; here times 1.5 or 1 + mu, for both forces.
   void bound_bends(const BatchCase& c, double size2) {
     const double size = std::sqrt(size2), per = c.table->step_s * c.table->step_s * per_inertia;
-    const double most = magnitude(c.scale) * c.table->later_peak[0], field = (c.g + most) * per;
+    double most = magnitude(c.scale) * c.table->later_peak[0];
+    if (c.vertical_scale != 0) most += magnitude(c.vertical_scale) * c.table->later_vertical_peak[0];
+    const double field = (c.g + most) * per;
     const double share = (c.mu_s > 0.5 ? 1 + c.mu_s : 1.5) / 8;
     bend0 = share * 17 * size2 * field * field * size;
     bend1 = share * 6.6 * size2 * magnitude(c.scale) * per;
+    lift_bend = share * 6.6 * size2 * per_inertia;
     bend2 = share * 17 * size2 * field;
   }
 };

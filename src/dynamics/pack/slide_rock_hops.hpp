@@ -60,7 +60,7 @@ class SlideRockHops : public SlideRockLane {
   // nowhere and are no new peaks.
   bool small_hops() const {
     const double pull = on(side_).pull(a_), square = omega_ * omega_;
-    return square * square < limit2() * pull * pull && bounds_.fast * c_.g * h_ * h_ < 1e-3 &&
+    return !shaken_ && square * square < limit2() * pull * pull && bounds_.fast * c_.g * h_ * h_ < 1e-3 &&
            magnitude(a_) <= largest_push();
   }
 
@@ -70,6 +70,7 @@ class SlideRockHops : public SlideRockLane {
   // 2 omega/slow exp(V/2)/(1 - e) at most.
   bool dies_out() {
     const double omega = magnitude(omega_), square = omega * omega, span = bounds_.row * omega / h_;
+    if (shaken_ && m_ < last_) return false;
     if (span > longest_row * bounds_.slow || square >= on(side_).told) return false;
     double push = 0, slow = bounds_.slow, growth = 1;  // growth: exp(V)
     if (m_ < last_ && !quiet_row(span, push, slow, growth)) return false;
@@ -129,7 +130,7 @@ class SlideRockHops : public SlideRockLane {
         sum += magnitude(a[j + 1] - a[j]);
       }
       slow = bounds_.slow - bounds_.slow1 * push;
-      if (push > bounds_.tips || push > slips_at()) return false;
+      if (push > bounds_.tips || push > slips_at(c_.g)) return false;
       variation = unit * bounds_.fast * sum / slow;
       const double need = span / slow * std::exp(0.5 * variation) + 2;
       if (!(need < longest_row) || m_ + need > last_) return false;

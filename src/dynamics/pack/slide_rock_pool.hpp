@@ -16,7 +16,7 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 // Orders of the steps that rock, and that slip.
-template <int N, int M, class Friction>
+template <int N, int M, class Gravity, class Friction>
 class SlideRockPool {
  public:
   SlideRockPool(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined)
@@ -63,7 +63,7 @@ class SlideRockPool {
     if (free_ <= 0) free_ = rocks_.free(which);
     if (free_ <= 0) return alone(which);
     --free_;
-    typename SlideRockMarch<N>::Apart apart[SlideRockMarch<N>::packs];
+    typename SlideRockMarch<N, Gravity>::Apart apart[SlideRockMarch<N, Gravity>::packs];
     const int count = rocks_.count();
     rocks_.march(apart);
     for (int p = (count + pack_lanes - 1) / pack_lanes; p-- > 0;)
@@ -153,8 +153,8 @@ class SlideRockPool {
   Response* responses_;
   std::uint8_t* declined_;
   std::size_t taken_ = 0;
-  SlideRockMarch<N> rocks_, strikes_;
-  SlideRockSlips<M, Friction> slips_;
+  SlideRockMarch<N, Gravity> rocks_, strikes_;
+  SlideRockSlips<M, Gravity, Friction> slips_;
   SlideRockSlides<slide_order, Friction> slides_;
   SlideRockHopping hops_;
   std::optional<SlideRock<M>> lanes_[march_slots];
@@ -162,9 +162,9 @@ class SlideRockPool {
   int free_ = 0;                     // intervals until a record may end
 };
 
-template <int N, int M = N, class Friction = Coulomb>
+template <int N, int M = N, class Friction = Coulomb, class Gravity = Steady>
 void slide_rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  SlideRockPool<N, M, Friction>(cases, count, responses, declined).run();
+  SlideRockPool<N, M, Gravity, Friction>(cases, count, responses, declined).run();
 }
 
 }  // namespace

@@ -7,15 +7,26 @@
 #include <array>
 
 #include "base/pack.hpp"
+#include "dynamics/pack/slide_rock_gravity.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-constexpr int march_slots = 128;
 constexpr int still_intervals = 16384;
 alignas(64) const double still_ground[still_intervals] = {};  // the floor after the record
 
+// Two lists of rows, one after the other.
+template <std::size_t A, std::size_t B>
+auto joined(const std::array<double*, A>& a, const std::array<double*, B>& b) {
+  std::array<double*, A + B> all{};
+  for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
+  for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
+  return all;
+}
+
+template <class Field>
 struct SlideRockRows {
+  using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double a[march_slots];                              // unit record, at the knot
   alignas(64) double left[march_slots];                           // part of the interval that lies ahead
@@ -31,6 +42,7 @@ struct SlideRockRows {
       bend2[march_slots];                       // bound of what forces do within an interval
   alignas(64) const double* next[march_slots];  // a at the end of the interval
   const double* stop[march_slots];              // the last such value
+  typename Gravity::Rows shakes;
 
   // A lane in which nothing ever happens.
   void clear(int i) {
@@ -51,22 +63,15 @@ struct SlideRockRows {
     look[i] = seen[i] = 1e300;
   }
   auto all() {
-    return std::array{theta,    omega, rx,   ry,   a,     left,  grip,  square, gravity, push,     weight,
-                      weight_g, mu,    look, seen, bend0, bend1, bend2, turned, room,    half_base};
+    return joined(std::array{theta,    omega, rx,   ry,   a,     left,  grip,  square, gravity, push,     weight,
+                             weight_g, mu,    look, seen, bend0, bend1, bend2, turned, room,    half_base},
+                  shakes.all());
   }
 };
 
-// Two lists of rows, one after the other.
-template <std::size_t A, std::size_t B>
-auto joined(const std::array<double*, A>& a, const std::array<double*, B>& b) {
-  std::array<double*, A + B> all{};
-  for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
-  for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
-  return all;
-}
-
-template <class Friction>
+template <class Field, class Friction>
 struct SlipRows {
+  using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double xi[march_slots], w[march_slots];             // of the corner
   alignas(64) double a[march_slots];                              // unit record, at the knot
@@ -80,6 +85,7 @@ struct SlipRows {
   alignas(64) const double* next[march_slots];              // a at the end of the interval
   const double* stop[march_slots];                          // the last such value
   typename Friction::Rows law;
+  typename Gravity::Rows shakes;
 
   void clear(int i) {
     for (double* row : {theta, omega, rx, xi, w, a, weight, weight_g, friction, half_base, lever_x, lever_y, seen})
@@ -92,13 +98,14 @@ struct SlipRows {
   auto all() {
     return joined(std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
                              k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen},
-                  law.all());
+                  joined(law.all(), shakes.all()));
   }
 };
 
 // Flat on the floor, not mirrored.
 template <class Friction>
 struct FlatRows {
+  using Gravity = Steady;
   alignas(64) double xi[march_slots], w[march_slots];
   alignas(64) double a[march_slots];                              // unit record, at the knot
   alignas(64) double left[march_slots];                           // part of the interval that lies ahead
@@ -124,6 +131,7 @@ struct FlatRows {
 
 // Small hops; [0] on the left corner, [1] on the right one. Rotations are positive away from the floor.
 struct HopRows {
+  using Gravity = Steady;
   alignas(64) double theta[march_slots], omega[march_slots], side[march_slots];
   alignas(64) double a[march_slots];                          // unit record, where the lane is
   alignas(64) double left[march_slots];                       // part of the interval that lies ahead
