@@ -15,7 +15,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N>
+template <int N, class Gravity>
 class SlideRock : public SlideRockSliding {
  public:
   using SlideRockSliding::SlideRockSliding;
@@ -70,7 +70,7 @@ class SlideRock : public SlideRockSliding {
   // ---- one corner
   void corner() {
     const double hs = h_ * left_, hs2 = hs * hs;
-    const Field next{next_floor(), next_gravity()};
+    const Field next{next_floor(), Gravity::shaken ? next_gravity() : c_.g};
     const bool slips = mode_ == Mode::slide_rock;
     CornerSeries<N> y;
     y.theta[0] = theta_;
@@ -85,7 +85,7 @@ class SlideRock : public SlideRockSliding {
       slide_rock(y, hs, next);
     } else {
       const double over = hs2 / (c_.k2 + rx_ * rx_ + ry_ * ry_);
-      if (shaken_)
+      if constexpr (Gravity::shaken)
         y.rock(Straight<double>{g_, next.g - g_} * over, a_ * over, (next.a - a_) * over);
       else
         y.rock(c_.g * over, a_ * over, (next.a - a_) * over);
@@ -155,14 +155,16 @@ class SlideRock : public SlideRockSliding {
     } else {
       NoFactor none;
       const double a1 = (next.a - a_) * hs2;
-      if (shaken_)
+      if constexpr (Gravity::shaken)
         y.slide_rock(Straight<double>{g_, next.g - g_} * hs2, a_ * hs2, a1, c_.k2, sigma_mu, 0.0, none);
       else
         y.slide_rock(c_.g * hs2, a_ * hs2, a1, c_.k2, sigma_mu, 0.0, none);
     }
   }
 
-  Field field_at(const Field& next, double x) const { return {a_ + (next.a - a_) * x, g_ + (next.g - g_) * x}; }
+  Field field_at(const Field& next, double x) const {
+    return {a_ + (next.a - a_) * x, Gravity::shaken ? g_ + (next.g - g_) * x : c_.g};
+  }
 
   enum class Cause { none, impact, stop, grip };
 

@@ -21,6 +21,7 @@ class SlideRockLane {
         h_(t_.step_s),
         last_(t_.knots - 1),
         shaken_(c.vertical_scale != 0),
+        g_(c.g),
         half_base_(0.5 * (c.left + c.right)),
         ground_{{c, -1}, {c, 1}},
         bounds_(c, ground_[0], ground_[1]),
@@ -201,7 +202,7 @@ class SlideRockLane {
   void stand_at_knot() {
     left_ = 1;
     a_ = m_ < last_ ? floor_at(m_) : 0.0;
-    g_ = m_ < last_ ? gravity_at(m_) : c_.g;
+    if (shaken_) g_ = m_ < last_ ? gravity_at(m_) : c_.g;
   }
   void next_knot() {
     ++m_;
@@ -284,13 +285,14 @@ class SlideRockLane {
   double h_;
   int last_;
   bool shaken_;  // vertically
+  double g_;     // effective gravity now
   double half_base_;
   Ground ground_[2];  // on the left corner, on the right one
   HopBounds bounds_;
   bool sticks_;  // impacts of a corner that sticks make none slip
   Mode mode_ = Mode::rest;
   int m_ = 0, side_ = 0, sigma_ = 0;
-  double left_ = 1, a_ = 0, g_ = 0;  // part of the interval ahead; floor acceleration and effective gravity now
+  double left_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now
   double theta_ = 0, omega_ = 0, rx_ = 0, ry_ = 0, xi_ = 0, w_ = 0;
   double peak_slip_ = 0, peak_rotation_ = 0, force2_ = 0, path_ = 0, end_ = 0;
   double room_ = 0;     // peak slip less s xi, when it entered a pack

@@ -112,7 +112,7 @@ class SlideRockPool {
 
   // The lane goes on in a group, or with the next sample.
   void settle(int number) {
-    SlideRock<M>& lane = *lanes_[number];
+    SlideRock<M, Gravity>& lane = *lanes_[number];
     if (lane.ended()) {
       hand_out(number);
       return refill(number);
@@ -157,7 +157,7 @@ class SlideRockPool {
   SlideRockSlips<M, Gravity, Friction> slips_;
   SlideRockSlides<slide_order, Friction> slides_;
   SlideRockHopping hops_;
-  std::optional<SlideRock<M>> lanes_[march_slots];
+  std::optional<SlideRock<M, Gravity>> lanes_[march_slots];
   std::size_t number_[march_slots];  // of the lane's sample
   int free_ = 0;                     // intervals until a record may end
 };

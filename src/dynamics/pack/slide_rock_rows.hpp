@@ -18,10 +18,14 @@ alignas(64) const double still_ground[still_intervals] = {};  // the floor after
 // Two lists of rows, one after the other.
 template <std::size_t A, std::size_t B>
 auto joined(const std::array<double*, A>& a, const std::array<double*, B>& b) {
-  std::array<double*, A + B> all{};
-  for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
-  for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
-  return all;
+  if constexpr (B == 0) {
+    return a;
+  } else {
+    std::array<double*, A + B> all{};
+    for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
+    for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
+    return all;
+  }
 }
 
 template <class Field>
