@@ -31,6 +31,19 @@ struct Steady {
     static const Pack& bent(const Pack& bend) { return bend; }
     static void keep(Rows&, int, const PackMask&) {}
   };
+
+  struct HopRows : Rows {};
+  // The same for small hops (dynamics/pack/hop_series.hpp).
+  struct Hop {
+    Hop(const HopRows&, int, const double* const*, const Pack&, const PackMask&) {}
+    static const Pack& beta(const Pack& y) { return y; }
+    static const Pack& beta_next(const Pack& y) { return y; }
+    static const Pack& beta_rate(const Pack& y) { return y; }
+    static const Pack& kappa(const Pack& y) { return y; }
+    static const Pack& kappa_rate(const Pack& y) { return y; }
+    static const PackMask& holds(const PackMask& others) { return others; }
+    static void keep(HopRows&, int, const PackMask&, const PackMask&, const Pack&) {}
+  };
 };
 
 struct Shaken {
@@ -69,6 +82,39 @@ struct Shaken {
 
    private:
     const Pack unit_, unit_next_, weight_, per_, bend_;
+  };
+
+  struct HopRows {
+    alignas(64) double v[march_slots] = {};                                   // unit record, where the lane is
+    alignas(64) double most[march_slots] = {};                                // |v| up to which the rows' bounds hold
+    alignas(64) double lift[2][march_slots] = {}, turn[2][march_slots] = {};  // what v adds to beta, and to kappa
+    auto all() { return std::array{v, most, lift[0], lift[1], turn[0], turn[1]}; }
+  };
+  class Hop {
+   public:
+    Hop(const HopRows& rows, int i, const double* const* next, const Pack& left, const PackMask& right)
+        : v_(load(rows.v + i)),
+          next_(fetch(next, 1)),
+          rate_((next_ - v_) / left),
+          most_(load(rows.most + i)),
+          lift_(choose(right, load(rows.lift[1] + i), load(rows.lift[0] + i))),
+          turn_(choose(right, load(rows.turn[1] + i), load(rows.turn[0] + i))) {}
+
+    Pack beta(const Pack& y) const { return y + lift_ * v_; }
+    Pack beta_next(const Pack& y) const { return y + lift_ * next_; }
+    Pack beta_rate(const Pack& y) const { return y + lift_ * rate_; }
+    Pack kappa(const Pack& y) const { return y + turn_ * v_; }
+    Pack kappa_rate(const Pack& y) const { return y + turn_ * rate_; }
+    PackMask holds(const PackMask& others) const {
+      return others & (xsimd::max(xsimd::abs(v_), xsimd::abs(next_)) <= most_);
+    }
+    // After a time t.
+    void keep(HopRows& rows, int i, const PackMask& stays, const PackMask& to_knot, const Pack& t) const {
+      store(rows.v + i, choose(stays, v_, choose(to_knot, next_, v_ + rate_ * t)));
+    }
+
+   private:
+    const Pack v_, next_, rate_, most_, lift_, turn_;
   };
 };
 

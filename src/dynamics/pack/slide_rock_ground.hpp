@@ -37,7 +37,7 @@ struct Ground {
     bound_bends(c, size2);
   }
 
-  double pull(double a) const { return weight + tip * a; }
+  double pull(double a, double v) const { return weight + tip * a + magnitude(arm) * per_inertia * v; }
 
  private:
   // The forces are almost straight within an interval, as the floor's acceleration is. With r = |r|,
@@ -60,12 +60,13 @@ struct Ground {
 
 // Bounds for small rotations on either corner.
 struct HopBounds {
-  double tips;               // |a| that comes close to tipping the block
-  double fx, fx1;            // |f_x| <= fx + fx1 |a|
-  double lift, lift1;        // |f_y - g| <= lift + lift1 |a|
-  double slow, slow1, fast;  // the block falls back with slow - slow1 |a| at least; changes of that: fast da
-  double row;                // a row of hops lasts row/slow times its first rate, at most
-  double limit2;             // squared rotation up to which the series of hops holds
+  double tips;             // |a| that comes close to tipping the block; times 1 - |v|/g
+  double fx, fx1;          // |f_x| <= fx (1 + |v|/g) + fx1 |a|
+  double lift, lift1;      // |f_y - g| <= lift + |v| + lift1 |a|
+  double slow, slow1;      // the block falls back with slow (1 - |v|/g) - slow1 |a| at least
+  double fast, fast_lift;  // changes of that: fast da + fast_lift dv
+  double row;              // a row of hops lasts row/slow times its first rate, at most
+  double limit2;           // squared rotation up to which the series of hops holds
 
   HopBounds(const BatchCase& c, const Ground& left, const Ground& right) {
     const double shorter = smaller(c.left, c.right), rim = larger(c.left, c.right), h2 = c.h * c.h;
@@ -79,6 +80,7 @@ struct HopBounds {
     slow = shorter * c.g * least;
     slow1 = c.h * least;
     fast = c.h * most;
+    fast_lift = rim * most;
     row = 2 / (1 - larger(left.kept, right.kept));
     const double limit = small_rotation * shorter / c.h;
     limit2 = limit * limit;

@@ -72,6 +72,7 @@ class SlideRockLane {
     r.bend1[i] = ground.bend1;
     r.bend2[i] = ground.bend2;
     if constexpr (Gravity::shaken) {
+      r.shakes.weight[i] = c_.vertical_scale * h2;
       r.shakes.per_inertia[i] = ground.per_inertia;
       r.shakes.bend[i] = ground.lift_bend;
     }
@@ -99,6 +100,7 @@ class SlideRockLane {
     r.look[i] = peak_rotation_;
     r.peak[i] = peak_slip_;
     r.seen[i] = force2_ * (h2 * h2);
+    if constexpr (Gravity::shaken) r.shakes.weight[i] = c_.vertical_scale * h2;
     r.law.enter(i, c_);
   }
 
@@ -145,10 +147,7 @@ class SlideRockLane {
     r.left[i] = left_;
     r.next[i] = entry_ = row + stride;
     r.stop[i] = row + stride * free;
-    if constexpr (Rows::Gravity::shaken) {
-      r.shakes.v[i] = left_ == 1 ? row[1] : (g_ - c_.g) / c_.vertical_scale;
-      r.shakes.weight[i] = c_.vertical_scale * h_ * h_;
-    }
+    if constexpr (Rows::Gravity::shaken) r.shakes.v[i] = left_ == 1 ? row[1] : (g_ - c_.g) / c_.vertical_scale;
     return free;
   }
   template <class Rows>

@@ -134,8 +134,9 @@ struct FlatRows {
 };
 
 // Small hops; [0] on the left corner, [1] on the right one. Rotations are positive away from the floor.
+template <class Field>
 struct HopRows {
-  using Gravity = Steady;
+  using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], side[march_slots];
   alignas(64) double a[march_slots];                          // unit record, where the lane is
   alignas(64) double left[march_slots];                       // part of the interval that lies ahead
@@ -145,12 +146,14 @@ struct HopRows {
   alignas(64) double hops[march_slots], impacts[march_slots], ended[march_slots];        // impacts: those that count
   alignas(64) const double* next[march_slots];                                           // a at the end of the interval
   const double* stop[march_slots];                                                       // the last such value
+  typename Gravity::HopRows shakes;
 
   void retire(int i) { push[i] = -1; }
   auto all() {
-    return std::array{theta,    omega,     side,      a,        left,     limit2,  push,    hops,
-                      impacts,  ended,     weight[0], tip[0],   kappa[0], bend[0], kept[0], told[0],
-                      rests[0], weight[1], tip[1],    kappa[1], bend[1],  kept[1], told[1], rests[1]};
+    return joined(std::array{theta,    omega,     side,      a,        left,     limit2,  push,    hops,
+                             impacts,  ended,     weight[0], tip[0],   kappa[0], bend[0], kept[0], told[0],
+                             rests[0], weight[1], tip[1],    kappa[1], bend[1],  kept[1], told[1], rests[1]},
+                  shakes.all());
   }
   void clear(int i) {
     for (double* row : all()) row[i] = 1;
