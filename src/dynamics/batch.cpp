@@ -67,7 +67,8 @@ bool covered_bouc_wen(const Specimen& specimen, const Shaking& shaking, const Fl
 }
 
 bool vertical_covered(const Specimen& specimen, const Shaking& shaking) {
-  return specimen.model == Model::slide_rock && !shaking.motion->table->vertical.empty();
+  return (specimen.model == Model::slide_rock || specimen.model == Model::slide) &&
+         !shaking.motion->table->vertical.empty();
 }
 
 // False: no kernel covers it. `law`: of friction, where it has one.
@@ -80,7 +81,7 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
   if (settings.tolerance < least_tolerance || settings.event_limit < 10000) return false;
   if (specimen.model == Model::bouc_wen) return covered_bouc_wen(specimen, shaking, floor, settings, c);
   if (!admissible(specimen, shaking, floor, settings)) return false;
-  if (specimen.model == Model::slide && !law) {
+  if (specimen.model == Model::slide && !law && !shaken) {
     c.table = shaking.motion->table.get();
     c.scale = shaking.scale;
     c.mu_s = specimen.friction.mu_s;
@@ -132,13 +133,15 @@ double step_in_own_time(const BatchCase& c) {
 
 // Null: one by one.
 BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, const BatchCase& c, bool law) {
-  if (specimen.model == Model::slide) return law ? kernels.slide_rock_by_speed : kernels.slide;
+  const bool shaken = c.vertical_scale != 0;
+  if (specimen.model == Model::slide)
+    return shaken ? kernels.slide_rock_shaken : law ? kernels.slide_rock_by_speed : kernels.slide;
   if (specimen.model == Model::bouc_wen) return kernels.bouc_wen;
   if (specimen.model != Model::rock && specimen.model != Model::slide_rock) return nullptr;
   const double step = step_in_own_time(c);
   if (!(step < coarse_step)) return nullptr;
   if (specimen.model == Model::rock) return step < fine_step ? kernels.rock : kernels.rock_coarse;
-  if (c.vertical_scale != 0) return step < fine_step ? kernels.slide_rock_shaken : kernels.slide_rock_shaken_coarse;
+  if (shaken) return step < fine_step ? kernels.slide_rock_shaken : kernels.slide_rock_shaken_coarse;
   if (law) return step < fine_step ? kernels.slide_rock_by_speed : kernels.slide_rock_by_speed_coarse;
   return step < fine_step ? kernels.slide_rock : kernels.slide_rock_coarse;
 }

@@ -251,6 +251,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Batch,
                                          Kind{"SlideRockBySpeed", Model::slide_rock, true},
                                          Kind{"RockWithCoulomb", Model::rock, false, true},
                                          Kind{"SlideRockWithCoulomb", Model::slide_rock, false, true},
+                                         Kind{"SlideShaken", Model::slide, false, false, true},
                                          Kind{"SlideRockShaken", Model::slide_rock, false, false, true},
                                          Kind{"SlideRockShakenWithCoulomb", Model::slide_rock, false, true, true}),
                          [](const auto& info) { return info.param.name; });

@@ -18,9 +18,7 @@ struct Steady {
   static constexpr bool shaken = false;
   static constexpr int stride = 1;  // of the records' rows
 
-  struct Rows {
-    auto all() { return std::array<double*, 0>{}; }
-  };
+  struct Rows {};
   // What is left of an interval.
   struct Interval {
     Interval(const Rows&, int, const double* const*) {}

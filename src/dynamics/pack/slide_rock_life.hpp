@@ -29,7 +29,7 @@ class SlideRockLife : public SlideRockHops {
     if (!(g_ > 0)) return decline();
     if (m_ < last_) {
       for (int j = m_ + 1;; ++j) {
-        j = first_above(t_, j, least);
+        j = next_loud(j, least);
         if (j > last_) break;
         const double after = c_.scale * t_.acceleration[static_cast<std::size_t>(j)], g = gravity_at(j);
         if (!(g > 0)) return decline();
@@ -59,6 +59,12 @@ class SlideRockLife : public SlideRockHops {
     }
     ended_ = true;
     end_ = m_ < last_ ? h_ * last_ : now() + hopping_;
+  }
+  // First knot from j on that may end the rest; `least`: of the unit record, at gravity's lowest.
+  int next_loud(int j, double least) const {
+    if (!shaken_) return first_above(t_, j, least);
+    if (peak_from(t_, j) <= least) return t_.knots;
+    return first_loud(t_, j, c_.scale, c_.vertical_scale, smaller(quiet(1, 1), quiet(-1, 1)), c_.g);
   }
   void feel_rest(int end) {
     feel(a_, g_);

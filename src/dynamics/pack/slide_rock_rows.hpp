@@ -15,19 +15,6 @@ namespace {
 constexpr int still_intervals = 16384;
 alignas(64) const double still_ground[still_intervals] = {};  // the floor after the record
 
-// Two lists of rows, one after the other.
-template <std::size_t A, std::size_t B>
-auto joined(const std::array<double*, A>& a, const std::array<double*, B>& b) {
-  if constexpr (B == 0) {
-    return a;
-  } else {
-    std::array<double*, A + B> all{};
-    for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
-    for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
-    return all;
-  }
-}
-
 template <class Field>
 struct SlideRockRows {
   using Gravity = Field;
@@ -67,11 +54,23 @@ struct SlideRockRows {
     look[i] = seen[i] = 1e300;
   }
   auto all() {
-    return joined(std::array{theta,    omega, rx,   ry,   a,     left,  grip,  square, gravity, push,     weight,
-                             weight_g, mu,    look, seen, bend0, bend1, bend2, turned, room,    half_base},
-                  shakes.all());
+    return std::array{theta,    omega, rx,   ry,   a,     left,  grip,  square, gravity, push,     weight,
+                      weight_g, mu,    look, seen, bend0, bend1, bend2, turned, room,    half_base};
   }
 };
+
+// Two lists of rows, one after the other.
+template <std::size_t A, std::size_t B>
+auto joined(const std::array<double*, A>& a, const std::array<double*, B>& b) {
+  if constexpr (B == 0) {
+    return a;
+  } else {
+    std::array<double*, A + B> all{};
+    for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
+    for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
+    return all;
+  }
+}
 
 template <class Field, class Friction>
 struct SlipRows {
@@ -102,7 +101,7 @@ struct SlipRows {
   auto all() {
     return joined(std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
                              k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen},
-                  joined(law.all(), shakes.all()));
+                  law.all());
   }
 };
 
@@ -150,10 +149,9 @@ struct HopRows {
 
   void retire(int i) { push[i] = -1; }
   auto all() {
-    return joined(std::array{theta,    omega,     side,      a,        left,     limit2,  push,    hops,
-                             impacts,  ended,     weight[0], tip[0],   kappa[0], bend[0], kept[0], told[0],
-                             rests[0], weight[1], tip[1],    kappa[1], bend[1],  kept[1], told[1], rests[1]},
-                  shakes.all());
+    return std::array{theta,    omega,     side,      a,        left,     limit2,  push,    hops,
+                      impacts,  ended,     weight[0], tip[0],   kappa[0], bend[0], kept[0], told[0],
+                      rests[0], weight[1], tip[1],    kappa[1], bend[1],  kept[1], told[1], rests[1]};
   }
   void clear(int i) {
     for (double* row : all()) row[i] = 1;
@@ -162,10 +160,14 @@ struct HopRows {
 };
 
 // Lane `from` of the other rows becomes lane `to` of these.
+template <std::size_t Count>
+void copy_each(const std::array<double*, Count>& mine, int to, const std::array<double*, Count>& theirs, int from) {
+  for (std::size_t k = 0; k < Count; ++k) mine[k][to] = theirs[k][from];
+}
 template <class Rows>
 void copy_lane(Rows& rows, int to, Rows& other, int from) {
-  const auto mine = rows.all(), theirs = other.all();
-  for (std::size_t k = 0; k < mine.size(); ++k) mine[k][to] = theirs[k][from];
+  copy_each(rows.all(), to, other.all(), from);
+  if constexpr (Rows::Gravity::shaken) copy_each(rows.shakes.all(), to, other.shakes.all(), from);
   rows.next[to] = other.next[from];
   rows.stop[to] = other.stop[from];
 }
