@@ -32,7 +32,8 @@ struct Samples {
 
 struct Wanted {
   bool slender = false, coulomb = false, vertical = false;
-  std::size_t first = 0;  // of the seed's cases
+  std::size_t first = 0;         // of the seed's cases
+  double vertical_peak_g = 0.8;  // at most
 };
 
 Samples random_block(Model model, std::uint64_t seed, std::size_t samples, Wanted wanted = {}) {
@@ -41,6 +42,7 @@ Samples random_block(Model model, std::uint64_t seed, std::size_t samples, Wante
   if (wanted.slender) family.alpha_low = family.mu_low = 0.05;
   family.one_model = 0;
   family.vertical = wanted.vertical ? 1 : 0;
+  family.vertical_peak_g = wanted.vertical_peak_g;
   family.coulomb = wanted.coulomb ? 1 : 0;
   family.alpha_high = wanted.slender ? 0.3 : 0.8;
   Samples block;
@@ -263,6 +265,17 @@ TEST(BatchOfSlenderBlocks, AgreesWithSingleSamples) {
   EXPECT_LE(count.differ, 1);
   EXPECT_LE(count.sensitive, 0.03 * samples);
   EXPECT_LE(count.events, 0.01 * samples);
+}
+
+// The floor falls away under blocks that rest, slide and rock.
+TEST(BatchOnFloorsThatDrop, AgreesWithSingleSamples) {
+  const int samples = 500;
+  for (const Model model : {Model::slide, Model::slide_rock}) {
+    const Count count = compare("drop", random_block(model, 144, samples, {.vertical = true, .vertical_peak_g = 3}));
+    EXPECT_LE(count.differ, 1);
+    EXPECT_LE(count.sensitive, 0.03 * samples);
+    EXPECT_LE(count.events, 0.01 * samples);
+  }
 }
 
 // Within one interval it strikes the floor, and without it would turn just below and rise again.
