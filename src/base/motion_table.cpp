@@ -26,8 +26,7 @@ double dip(double b, double by, double h) {
   return most * most * h / (-2 * by);
 }
 
-bool continuous(const FloorMotion& motion) {
-  const auto& c = motion.horizontal_mps2;
+bool continuous(const FloorMotion& motion, const std::vector<double>& c) {
   double most = 0;
   for (std::size_t i = 0; i < motion.segments(); ++i) most = std::max(most, std::abs(c[2 * i]));
   for (std::size_t i = 0; i + 1 < motion.segments(); ++i) {
@@ -37,10 +36,34 @@ bool continuous(const FloorMotion& motion) {
   return true;
 }
 
+// Values of a channel at the knots, the first of `row`.
+void fill(Row& row, const FloorMotion& motion, const std::vector<double>& c, double h) {
+  const std::size_t n = motion.segments();
+  for (std::size_t j = 0; j < n; ++j) row[j] = c[2 * j];
+  row[n] = c[2 * n - 2] + c[2 * n - 1] * h;
+}
+
+void tabulate_vertical(MotionTable& t, const FloorMotion& motion) {
+  const std::size_t all = t.acceleration.size(), runs = t.run_peak.size();
+  t.vertical.assign(all, 0.0);
+  fill(t.vertical, motion, motion.vertical_mps2, t.step_s);
+  t.both.reserve(2 * all);
+  for (std::size_t j = 0; j < all; ++j)
+    for (const double value : {t.acceleration[j], t.vertical[j]}) t.both.push_back(value);
+  t.later_vertical_peak.assign(runs, 0.0);
+  for (std::size_t j = 0; j < all; ++j) {
+    double& peak = t.later_vertical_peak[j / table_run];
+    peak = std::max(peak, std::abs(t.vertical[j]));
+  }
+  for (std::size_t r = runs - 1; r-- > 0;)
+    t.later_vertical_peak[r] = std::max(t.later_vertical_peak[r], t.later_vertical_peak[r + 1]);
+}
+
 }  // namespace
 
 std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
-  if (motion.degree != 1 || motion.segments() < 1 || !constant_step(motion) || !continuous(motion)) return nullptr;
+  if (motion.degree != 1 || motion.segments() < 1 || !constant_step(motion)) return nullptr;
+  if (!continuous(motion, motion.horizontal_mps2)) return nullptr;
   auto table = std::make_shared<MotionTable>();
   MotionTable& t = *table;
   const std::size_t n = motion.segments(), all = (n + 1 + table_tail + 31) / 32 * 32;
@@ -48,8 +71,7 @@ std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
   t.rate_hz = 1 / h;
   t.knots = static_cast<int>(n + 1);
   for (auto* row : {&t.acceleration, &t.velocity, &t.displacement, &t.margin}) row->assign(all, 0.0);
-  for (std::size_t j = 0; j < n; ++j) t.acceleration[j] = motion.horizontal_mps2[2 * j];
-  t.acceleration[n] = motion.horizontal_mps2[2 * n - 2] + motion.horizontal_mps2[2 * n - 1] * h;
+  fill(t.acceleration, motion, motion.horizontal_mps2, h);
   for (std::size_t j = 1; j < all; ++j) {
     const bool moving = j <= n;
     const double a = moving ? t.acceleration[j - 1] : 0.0, b = moving ? t.acceleration[j] : 0.0;
@@ -82,6 +104,7 @@ std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
   t.later_peak = t.run_peak;
   for (std::size_t r = t.later_peak.size() - 1; r-- > 0;)
     t.later_peak[r] = std::max(t.later_peak[r], t.later_peak[r + 1]);
+  if (!motion.vertical_mps2.empty() && continuous(motion, motion.vertical_mps2)) tabulate_vertical(t, motion);
   return table;
 }
 

@@ -53,6 +53,10 @@ struct MotionTable {
   Row run_peak;                    // max |a_j| over j = 8 r ... 8 r + 7 [m/s2]
   Row later_peak;                  // max |a_j| over all j >= 8 r [m/s2]
   Row columns;                     // a_j, V_j, D_j and a zero, knot by knot
+  // Where the motion has a continuous vertical channel v, else empty.
+  Row vertical;             // v_j [m/s2]
+  Row both;                 // a_j, v_j, knot by knot
+  Row later_vertical_peak;  // max |v_j| over all j >= 8 r [m/s2]
   // For searches, rounded so that none passes over a knot: at least V_j + d_j and -V_j + d_j.
   FloatRow above, below;
   ShortRow levels;           // level(|a_j|)

@@ -66,16 +66,22 @@ bool covered_bouc_wen(const Specimen& specimen, const Shaking& shaking, const Fl
   return c.contact.kappa == 0 && c.table->step_s * ringing < 500;
 }
 
+bool vertical_covered(const Specimen& specimen, const Shaking& shaking) {
+  return (specimen.model == Model::slide_rock || specimen.model == Model::slide) &&
+         !shaking.motion->table->vertical.empty();
+}
+
 // False: no kernel covers it. `law`: of friction, where it has one.
 bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings,
              BatchCase& c, std::optional<SpeedLaw>& law) {
   if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1) return false;
   if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = speed_law(Laws(specimen))))) return false;
-  if (floor.push_mps2 != 0 || (shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty())) return false;
+  const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty();
+  if (floor.push_mps2 != 0 || (shaken && (law || !vertical_covered(specimen, shaking)))) return false;
   if (settings.tolerance < least_tolerance || settings.event_limit < 10000) return false;
   if (specimen.model == Model::bouc_wen) return covered_bouc_wen(specimen, shaking, floor, settings, c);
   if (!admissible(specimen, shaking, floor, settings)) return false;
-  if (specimen.model == Model::slide && !law) {
+  if (specimen.model == Model::slide && !law && !shaken) {
     c.table = shaking.motion->table.get();
     c.scale = shaking.scale;
     c.mu_s = specimen.friction.mu_s;
@@ -89,6 +95,7 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
   const Rig rig(specimen, settings, floor);
   c = {shaking.motion->table.get(),
        shaking.scale,
+       shaken ? shaking.vertical_scale : 0.0,
        rig.right,
        rig.left,
        rig.h,
@@ -126,12 +133,15 @@ double step_in_own_time(const BatchCase& c) {
 
 // Null: one by one.
 BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, const BatchCase& c, bool law) {
-  if (specimen.model == Model::slide) return law ? kernels.slide_rock_by_speed : kernels.slide;
+  const bool shaken = c.vertical_scale != 0;
+  if (specimen.model == Model::slide)
+    return shaken ? kernels.slide_rock_shaken : law ? kernels.slide_rock_by_speed : kernels.slide;
   if (specimen.model == Model::bouc_wen) return kernels.bouc_wen;
   if (specimen.model != Model::rock && specimen.model != Model::slide_rock) return nullptr;
   const double step = step_in_own_time(c);
   if (!(step < coarse_step)) return nullptr;
   if (specimen.model == Model::rock) return step < fine_step ? kernels.rock : kernels.rock_coarse;
+  if (shaken) return step < fine_step ? kernels.slide_rock_shaken : kernels.slide_rock_shaken_coarse;
   if (law) return step < fine_step ? kernels.slide_rock_by_speed : kernels.slide_rock_by_speed_coarse;
   return step < fine_step ? kernels.slide_rock : kernels.slide_rock_coarse;
 }

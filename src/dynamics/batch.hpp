@@ -13,10 +13,11 @@
 
 namespace freestand::dynamics {
 
-// One sample as the kernels read it. No vertical shaking, level floor, and of dynamic effects at most friction by speed.
+// One sample as the kernels read it. Level floor; of vertical shaking and friction by speed at most one.
 struct BatchCase {
   const MotionTable* table;
   double scale;               // of the record
+  double vertical_scale;      // of its vertical channel; 0: it does not shake vertically
   double right, left, h, k2;  // [m], [m2]
   double mu_s, mu_k, g;
   double factor;  // times Housner's rate; 1 where Coulomb's law holds
@@ -37,7 +38,8 @@ struct BatchKernels {
       slide_rock_coarse;  // steps short against the block's own time, and longer ones
   // Friction follows the slip speed; all cases of a call have laws of one shape.
   BatchKernel slide_rock_by_speed, slide_rock_by_speed_coarse;
-  BatchKernel bouc_wen;  // with kappa = 0
+  BatchKernel slide_rock_shaken, slide_rock_shaken_coarse;  // the floor shakes vertically
+  BatchKernel bouc_wen;                                     // with kappa = 0
 };
 
 }  // namespace freestand::dynamics

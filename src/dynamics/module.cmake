@@ -1,6 +1,7 @@
 # The kernels of whole blocks, once per instruction set. A portable build (x86-64-v2) holds three and picks at run time.
 function(freestand_kernels ISA)
-  add_library(freestand_kernels_${ISA} OBJECT ${CMAKE_SOURCE_DIR}/src/dynamics/pack/kernels.cpp)
+  add_library(freestand_kernels_${ISA} OBJECT ${CMAKE_SOURCE_DIR}/src/dynamics/pack/kernels.cpp
+              ${CMAKE_SOURCE_DIR}/src/dynamics/pack/shaken_kernels.cpp)
   target_include_directories(freestand_kernels_${ISA} PRIVATE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/include)
   target_compile_definitions(freestand_kernels_${ISA} PRIVATE FREESTAND_ISA=${ISA} FREESTAND_ISA_NAME="${ISA}")
   # g++ 12 warns of its own AVX-512 headers (GCC bug 105593).

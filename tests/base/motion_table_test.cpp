@@ -40,6 +40,29 @@ TEST(MotionTable, PeaksBoundTheirRuns) {
   }
 }
 
+TEST(MotionTable, KeepsAContinuousVerticalChannelOnly) {
+  EXPECT_TRUE(record().table->vertical.empty());
+  const double h = 0.5;
+  FloorMotion motion;
+  motion.degree = 1;
+  motion.knot_s = {0, h, 2 * h};
+  motion.horizontal_mps2 = {1, 2, 2, -4};
+  motion.vertical_mps2 = {0, -6, -3, 10};
+  const auto table = tabulate(motion);
+  ASSERT_TRUE(table);
+  const double a[] = {1, 2, 0, 0}, v[] = {0, -3, 2, 0};
+  for (std::size_t j = 0; j < 4; ++j) {
+    EXPECT_EQ(table->vertical[j], v[j]);
+    EXPECT_EQ(table->both[2 * j], a[j]);
+    EXPECT_EQ(table->both[2 * j + 1], v[j]);
+  }
+  EXPECT_EQ(table->both.size(), 2 * table->acceleration.size());
+  EXPECT_EQ(table->later_vertical_peak[0], 3);
+  EXPECT_EQ(table->later_vertical_peak[1], 0);
+  motion.vertical_mps2[2] = 1;  // a jump
+  EXPECT_TRUE(tabulate(motion)->vertical.empty());
+}
+
 TEST(MotionTable, SearchRowsPassOverNoKnot) {
   const FloorMotion motion = record();
   const MotionTable& t = *motion.table;

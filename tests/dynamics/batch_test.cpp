@@ -31,8 +31,9 @@ struct Samples {
 };
 
 struct Wanted {
-  bool slender = false, coulomb = false;
-  std::size_t first = 0;  // of the seed's cases
+  bool slender = false, coulomb = false, vertical = false;
+  std::size_t first = 0;         // of the seed's cases
+  double vertical_peak_g = 0.8;  // at most
 };
 
 Samples random_block(Model model, std::uint64_t seed, std::size_t samples, Wanted wanted = {}) {
@@ -40,7 +41,8 @@ Samples random_block(Model model, std::uint64_t seed, std::size_t samples, Wante
   family.seed = seed;
   if (wanted.slender) family.alpha_low = family.mu_low = 0.05;
   family.one_model = 0;
-  family.vertical = 0;
+  family.vertical = wanted.vertical ? 1 : 0;
+  family.vertical_peak_g = wanted.vertical_peak_g;
   family.coulomb = wanted.coulomb ? 1 : 0;
   family.alpha_high = wanted.slender ? 0.3 : 0.8;
   Samples block;
@@ -159,7 +161,7 @@ class Isa {
 struct Kind {
   std::string name;
   Model model;
-  bool by_speed = false, coulomb = false;
+  bool by_speed = false, coulomb = false, vertical = false;
 };
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
@@ -167,8 +169,8 @@ class Batch : public testing::TestWithParam<Kind> {
  protected:
   Samples block(std::size_t samples) const {
     const Kind& kind = GetParam();
-    Samples all =
-        random_block(kind.model, 40 + static_cast<std::uint64_t>(kind.model), samples, {.coulomb = kind.coulomb});
+    Samples all = random_block(kind.model, 40 + static_cast<std::uint64_t>(kind.model), samples,
+                               {.coulomb = kind.coulomb, .vertical = kind.vertical});
     if (kind.by_speed) add_speed_laws(all);
     return all;
   }
@@ -181,6 +183,15 @@ TEST_P(Batch, AgreesWithSingleSamples) {
   EXPECT_LE(count.sensitive, 0.03 * samples);
   EXPECT_LE(count.events, 0.01 * samples);
   EXPECT_LT(count.still, samples / 2);
+}
+
+// The steps in packs are others than those of single samples: the same bits would mean that no kernel covers a kind.
+TEST_P(Batch, IsComputedInPacks) {
+  const Samples all = block(100);
+  const auto packs = compute(all);
+  int alone = 0;
+  for (std::size_t i = 0; i < packs.size(); ++i) alone += same_bits(packs[i], single(all, i, 1, 1e-9));
+  EXPECT_LT(alone, 50);
 }
 
 TEST_P(Batch, SameBitsInAnyOrderAndCompany) {
@@ -241,7 +252,10 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Batch,
                                          Kind{"SlideRock", Model::slide_rock}, Kind{"SlideBySpeed", Model::slide, true},
                                          Kind{"SlideRockBySpeed", Model::slide_rock, true},
                                          Kind{"RockWithCoulomb", Model::rock, false, true},
-                                         Kind{"SlideRockWithCoulomb", Model::slide_rock, false, true}),
+                                         Kind{"SlideRockWithCoulomb", Model::slide_rock, false, true},
+                                         Kind{"SlideShaken", Model::slide, false, false, true},
+                                         Kind{"SlideRockShaken", Model::slide_rock, false, false, true},
+                                         Kind{"SlideRockShakenWithCoulomb", Model::slide_rock, false, true, true}),
                          [](const auto& info) { return info.param.name; });
 
 // Low friction, many hops that die out slowly.
@@ -251,6 +265,17 @@ TEST(BatchOfSlenderBlocks, AgreesWithSingleSamples) {
   EXPECT_LE(count.differ, 1);
   EXPECT_LE(count.sensitive, 0.03 * samples);
   EXPECT_LE(count.events, 0.01 * samples);
+}
+
+// The floor falls away under blocks that rest, slide and rock.
+TEST(BatchOnFloorsThatDrop, AgreesWithSingleSamples) {
+  const int samples = 500;
+  for (const Model model : {Model::slide, Model::slide_rock}) {
+    const Count count = compare("drop", random_block(model, 144, samples, {.vertical = true, .vertical_peak_g = 3}));
+    EXPECT_LE(count.differ, 1);
+    EXPECT_LE(count.sensitive, 0.03 * samples);
+    EXPECT_LE(count.events, 0.01 * samples);
+  }
 }
 
 // Within one interval it strikes the floor, and without it would turn just below and rise again.

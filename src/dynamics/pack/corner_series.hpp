@@ -1,6 +1,8 @@
 // The Taylor series of a block on one corner, stuck or slipping (see dynamics/contact.hpp). Real is double, or a pack.
 #pragma once
 
+#include "dynamics/pack/gravity.hpp"
+
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
@@ -35,18 +37,20 @@ struct CornerSeries {
     rx[k + 1] = product(ry, omega, k) * over;
     ry[k + 1] = product(rx, omega, k) * Real(-1.0 / (k + 1));
   }
-  void rock(const Real& gravity, const Real& a0, const Real& a1) {  // times hs^2/J
+  // gravity = g' (dynamics/pack/gravity.hpp), a0, a1: times hs^2/J.
+  template <class Gravity>
+  void rock(const Gravity& gravity, const Real& a0, const Real& a1) {
 #pragma GCC unroll 16
     for (int k = 0; k <= N; ++k) {
-      Real alpha = rx[k] * gravity - ry[k] * a0;
+      Real alpha = times(rx, k, gravity) - ry[k] * a0;
       if (k > 0) alpha = alpha - ry[k - 1] * a1;
       integrate(k, alpha, Real(0.0));
     }
   }
   // sigma_mu = sigma mu_k; gravity, a0, a1 times hs^2. to_speed = sigma/hs makes w the speed |w| that the factor F on
   // friction may ask for (dynamics/pack/friction.hpp).
-  template <class Factor>
-  void slide_rock(const Real& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu,
+  template <class Gravity, class Factor>
+  void slide_rock(const Gravity& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu,
                   const Real& to_speed, Factor& factor) {
     Real omega2[N + 1], q[N + 1], n[N + 1], d[N + 1], alpha[N + 1], fy[N + 1], per_d(1.0);
 #pragma GCC unroll 16
@@ -54,7 +58,7 @@ struct CornerSeries {
       factor.advance(k, to_speed * w[k]);
       omega2[k] = product(omega, omega, k);
       q[k] = rx[k] + sigma_mu * factor.times(ry, k);
-      n[k] = k == 0 ? gravity - product(ry, omega2, k) : Real(0.0) - product(ry, omega2, k);
+      n[k] = coefficient(gravity, k) - product(ry, omega2, k);
       d[k] = product(rx, q, k);
       if (k == 0) d[k] = d[k] + k2, per_d = Real(1.0) / d[k];
       Real numerator = product(n, q, k);

@@ -2,6 +2,7 @@
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/bouc_wen.hpp"
 #include "dynamics/pack/rock.hpp"
+#include "dynamics/pack/shaken_kernels.hpp"
 #include "dynamics/pack/slide.hpp"
 #include "dynamics/pack/slide_rock_pool.hpp"
 
@@ -16,6 +17,8 @@ const BatchKernels kernels{FREESTAND_ISA_NAME,
                            slide_rock_samples<8>,
                            slide_rock_samples<5, 8, BySpeed>,
                            slide_rock_samples<8, 8, BySpeed>,
+                           slide_rock_shaken,
+                           slide_rock_shaken_coarse,
                            bouc_wen_samples};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "base/pack.hpp"
+#include "dynamics/pack/gravity.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -14,12 +15,13 @@ template <int N>
 struct RockSeries {
   Pack theta[N + 2], omega[N + 2], rx[N + 1], ry[N + 1];  // the rotation to one order more
 
-  // gravity = g h^2/J; a0, a1: floor acceleration and its rate, times h^2/J.
-  void expand(const Pack& gravity, const Pack& a0, const Pack& a1) {
+  // gravity = g' h^2/J (dynamics/pack/gravity.hpp); a0, a1: floor acceleration and its rate, times h^2/J.
+  template <class Gravity>
+  void expand(const Gravity& gravity, const Pack& a0, const Pack& a1) {
 #pragma GCC unroll 16
     for (int k = 0; k < N; ++k) {
       const Pack over(1.0 / (k + 1));
-      Pack alpha = rx[k] * gravity - ry[k] * a0, x = ry[0] * omega[k], y = rx[0] * omega[k];
+      Pack alpha = times(rx, k, gravity) - ry[k] * a0, x = ry[0] * omega[k], y = rx[0] * omega[k];
       if (k > 0) alpha = alpha - ry[k - 1] * a1;
 #pragma GCC unroll 16
       for (int i = 1; i <= k; ++i) {
@@ -33,7 +35,7 @@ struct RockSeries {
     }
     const Pack over(1.0 / (N + 1));
     theta[N + 1] = omega[N] * over;
-    omega[N + 1] = (rx[N] * gravity - ry[N] * a0 - ry[N - 1] * a1) * over;
+    omega[N + 1] = (times(rx, N, gravity) - ry[N] * a0 - ry[N - 1] * a1) * over;
   }
 
   template <int M>
@@ -137,26 +139,28 @@ PackMask turns_twice(const RockSeries<N>& y, const Pack& omega_end) {
 
 // Squared acceleration of the centre of mass: its largest value from the start of the series to x = part, where the
 // state is `end`, if it is above `seen`. `weight`: of the floor's acceleration, in the units of the series. Not `always`:
-// only in lanes where the value at the start comes close to `seen`, whatever the other lanes do.
+// only in lanes where the value at the start comes close to `seen`, whatever the other lanes do. `lift`: vertical acceleration of
+// the floor, in the units of the series.
 struct RockEnd {
   Pack omega, rx, ry, a;
 };
-template <int N>
-[[gnu::always_inline]] inline Pack watch_force(const RockSeries<N>& y, const Pack& weight, const Pack& gravity,
+template <int N, class Gravity, class Lift = Level>
+[[gnu::always_inline]] inline Pack watch_force(const RockSeries<N>& y, const Pack& weight, const Gravity& gravity,
                                                const Pack& push, const Pack& a, const Pack& rate_a, const RockEnd& end,
-                                               const Pack& part, const Pack& seen, bool always) {
+                                               const Pack& part, const Pack& seen, bool always, const Lift& lift = {}) {
   const Pack two(2.0), zero(0.0), omega2 = y.omega[0] * y.omega[0];
   const Pack fx = y.ry[0] * y.omega[1] - y.rx[0] * omega2 + weight * a;
-  const Pack fy = y.rx[0] * y.omega[1] + y.ry[0] * omega2;
+  const Pack fy = less_at(y.rx[0] * y.omega[1] + y.ry[0] * omega2, lift, zero);  // g - f_y, as below
   const Pack square = fx * fx + fy * fy;
   const PackMask near = square > Pack(0.999) * seen;
   if (!always && !bits(near)) return seen;
   const Pack cross = two * y.omega[0] * y.omega[1], alpha1 = two * y.omega[2];
   const Pack gx = y.ry[1] * y.omega[1] + y.ry[0] * alpha1 - y.rx[1] * omega2 - y.rx[0] * cross + weight * rate_a;
-  const Pack gy = y.rx[1] * y.omega[1] + y.rx[0] * alpha1 + y.ry[1] * omega2 + y.ry[0] * cross;
+  const Pack gy = less_rate(y.rx[1] * y.omega[1] + y.rx[0] * alpha1 + y.ry[1] * omega2 + y.ry[0] * cross, lift);
   const Pack slope = two * (fx * gx + fy * gy);
-  const Pack alpha = end.rx * gravity - end.ry * (push * end.a), omega2_end = end.omega * end.omega;
-  const Pack hx = end.ry * alpha - end.rx * omega2_end + weight * end.a, hy = end.rx * alpha + end.ry * omega2_end;
+  const Pack alpha = end.rx * value_at(gravity, part) - end.ry * (push * end.a), omega2_end = end.omega * end.omega;
+  const Pack hx = end.ry * alpha - end.rx * omega2_end + weight * end.a,
+             hy = less_at(end.rx * alpha + end.ry * omega2_end, lift, part);
   const Pack square_end = hx * hx + hy * hy;
   const Pack high = xsimd::max(seen, xsimd::max(square, square_end));
   const Pack bend = (square_end - square - slope * part) / (part * part);
@@ -166,8 +170,9 @@ template <int N>
   if (!bits(tops)) return watched(high);
   const Pack at = choose(tops, slope / (Pack(-2.0) * bend), part);
   const Pack rx = y.at(y.rx, at), ry = y.at(y.ry, at), omega = y.at(y.omega, at), a_top = a + rate_a * at;
-  const Pack alpha_top = rx * gravity - ry * (push * a_top), omega2_top = omega * omega;
-  const Pack tx = ry * alpha_top - rx * omega2_top + weight * a_top, ty = rx * alpha_top + ry * omega2_top;
+  const Pack alpha_top = rx * value_at(gravity, at) - ry * (push * a_top), omega2_top = omega * omega;
+  const Pack tx = ry * alpha_top - rx * omega2_top + weight * a_top,
+             ty = less_at(rx * alpha_top + ry * omega2_top, lift, at);
   return watched(xsimd::max(high, choose(tops, tx * tx + ty * ty, high)));
 }
 

@@ -15,14 +15,14 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N>
+template <int N, class Gravity>
 class SlideRock : public SlideRockSliding {
  public:
   using SlideRockSliding::SlideRockSliding;
 
   void begin() {
-    a_ = floor_at(0);
-    if (magnitude(a_) > quiet(a_)) {
+    stand_at_knot();
+    if (magnitude(a_) > quiet(a_, g_)) {
       event();
       choose_flat();
     }
@@ -69,7 +69,8 @@ class SlideRock : public SlideRockSliding {
 
   // ---- one corner
   void corner() {
-    const double hs = h_ * left_, hs2 = hs * hs, a1 = next_floor();
+    const double hs = h_ * left_, hs2 = hs * hs;
+    const Field next{next_floor(), Gravity::shaken ? next_gravity() : c_.g};
     const bool slips = mode_ == Mode::slide_rock;
     CornerSeries<N> y;
     y.theta[0] = theta_;
@@ -78,13 +79,16 @@ class SlideRock : public SlideRockSliding {
     y.ry[0] = ry_;
     y.xi[0] = xi_;
     y.w[0] = w_ * hs;
-    const Forces begin = forces(rx_, ry_, omega_, a_, w_);
+    const Forces begin = forces(rx_, ry_, omega_, field(), w_);
     if (!(begin.fy > 0)) return decline();
     if (slips) {
-      slide_rock(y, hs, a1);
+      slide_rock(y, hs, next);
     } else {
       const double over = hs2 / (c_.k2 + rx_ * rx_ + ry_ * ry_);
-      y.rock(c_.g * over, a_ * over, (a1 - a_) * over);
+      if constexpr (Gravity::shaken)
+        y.rock(Straight<double>{g_, next.g - g_} * over, a_ * over, (next.a - a_) * over);
+      else
+        y.rock(c_.g * over, a_ * over, (next.a - a_) * over);
     }
     // Which comes first?
     const double reach = valid_part(y.omega[N + 1], y.w[N + 1], N + 1);
@@ -101,18 +105,18 @@ class SlideRock : public SlideRockSliding {
       const double stops = first_fall<N + 1>(p, x);
       if (stops <= x) x = stops, cause = Cause::stop;
     } else {
-      const double held = grip(y, x, hs, a1);
+      const double held = grip(y, x, hs, next);
       if (held < 0)
-        x = lost_grip(y, x, hs, a1, held), cause = Cause::grip;
-      else if (const double low = weakest(y, x, hs, a1, begin, held); low < x)
-        x = lost_grip(y, low, hs, a1, grip(y, low, hs, a1)), cause = Cause::grip;
+        x = lost_grip(y, x, hs, next, held), cause = Cause::grip;
+      else if (const double low = weakest(y, x, hs, next, begin, held); low < x)
+        x = lost_grip(y, low, hs, next, grip(y, low, hs, next)), cause = Cause::grip;
     }
     const double theta = value(y.theta, x), omega = value(y.omega, x) / hs;
     if (!(side_ * theta < 0.5 * pi)) {
-      if (side_ * theta >= 0.5 * pi) return overturn(y, x, hs, a1);
+      if (side_ * theta >= 0.5 * pi) return overturn(y, x, hs, next);
       return decline();
     }
-    watch(y, x, hs, a1, begin);
+    watch(y, x, hs, next, begin);
     if (declined_) return;
     theta_ = theta;
     omega_ = omega;
@@ -138,20 +142,28 @@ class SlideRock : public SlideRockSliding {
         break;
       case Cause::grip:
         event();
-        slip_on_corner(rocking(rx_, ry_, omega_, a_).fx);
+        slip_on_corner(rocking(rx_, ry_, omega_, field()).fx);
         break;
     }
   }
 
-  void slide_rock(CornerSeries<N>& y, double hs, double a1) const {
+  void slide_rock(CornerSeries<N>& y, double hs, Field next) const {
     const double hs2 = hs * hs, sigma_mu = sigma_ * c_.mu_k;
     if (c_.law) {
       OwnFactor<N> factor(*c_.law, {*c_.law});
-      y.slide_rock(c_.g * hs2, a_ * hs2, (a1 - a_) * hs2, c_.k2, sigma_mu, sigma_ / hs, factor);
+      y.slide_rock(c_.g * hs2, a_ * hs2, (next.a - a_) * hs2, c_.k2, sigma_mu, sigma_ / hs, factor);
     } else {
       NoFactor none;
-      y.slide_rock(c_.g * hs2, a_ * hs2, (a1 - a_) * hs2, c_.k2, sigma_mu, 0.0, none);
+      const double a1 = (next.a - a_) * hs2;
+      if constexpr (Gravity::shaken)
+        y.slide_rock(Straight<double>{g_, next.g - g_} * hs2, a_ * hs2, a1, c_.k2, sigma_mu, 0.0, none);
+      else
+        y.slide_rock(c_.g * hs2, a_ * hs2, a1, c_.k2, sigma_mu, 0.0, none);
     }
+  }
+
+  Field field_at(const Field& next, double x) const {
+    return {a_ + (next.a - a_) * x, Gravity::shaken ? g_ + (next.g - g_) * x : c_.g};
   }
 
   enum class Cause { none, impact, stop, grip };
@@ -164,32 +176,32 @@ class SlideRock : public SlideRockSliding {
   }
 
   // mu_s f_y - |f_x| at x, rocking.
-  double grip(const CornerSeries<N>& y, double x, double hs, double a1) const {
-    const Forces f = rocking(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, a_ + (a1 - a_) * x);
+  double grip(const CornerSeries<N>& y, double x, double hs, Field next) const {
+    const Forces f = rocking(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(next, x));
     return c_.mu_s * f.fy - magnitude(f.fx);
   }
 
   // Where the grip, which holds at both ends of the step, is lost in between; the end: nowhere.
-  double weakest(const CornerSeries<N>& y, double x, double hs, double a1, const Forces& begin, double last) const {
+  double weakest(const CornerSeries<N>& y, double x, double hs, Field next, const Forces& begin, double last) const {
     const double first = c_.mu_s * begin.fy - magnitude(begin.fx);
     if (smaller(first, last) > 0.05 * c_.g) return x;
-    const double middle = 0.5 * x, here = grip(y, middle, hs, a1);
+    const double middle = 0.5 * x, here = grip(y, middle, hs, next);
     if (here < 0) return middle;
     const double bend = 2 * (first + last - 2 * here), slope = last - first - bend;  // of the parabola, in part/x
     const double low = -0.5 * slope / bend;
     if (!(bend > 0 && low > 0 && low < 1)) return x;
-    return grip(y, low * x, hs, a1) < 0 ? low * x : x;
+    return grip(y, low * x, hs, next) < 0 ? low * x : x;
   }
 
   // Illinois; the grip holds at the start, or was just found to.
-  double lost_grip(const CornerSeries<N>& y, double hi, double hs, double a1, double f_hi) const {
-    double lo = 0, f_lo = grip(y, 0, hs, a1);
+  double lost_grip(const CornerSeries<N>& y, double hi, double hs, Field next, double f_hi) const {
+    double lo = 0, f_lo = grip(y, 0, hs, next);
     if (!(f_lo > 0)) return 0;
     int side = 0;
     for (int i = 0; i < 60 && hi - lo > 1e-13; ++i) {
       double x = hi - f_hi * (hi - lo) / (f_hi - f_lo);
       if (!(x > lo && x < hi)) x = 0.5 * (lo + hi);
-      const double f = grip(y, x, hs, a1);
+      const double f = grip(y, x, hs, next);
       if (magnitude(f) < 1e-14 * c_.g) return x;
       if (f > 0) {
         lo = x;
@@ -206,13 +218,13 @@ class SlideRock : public SlideRockSliding {
     return hi;
   }
 
-  Forces forces_at(const CornerSeries<N>& y, double x, double hs, double a1) const {
-    return forces(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, a_ + (a1 - a_) * x, value(y.w, x) / hs);
+  Forces forces_at(const CornerSeries<N>& y, double x, double hs, Field next) const {
+    return forces(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(next, x), value(y.w, x) / hs);
   }
 
-  void watch(const CornerSeries<N>& y, double x, double hs, double a1, const Forces& begin) {
+  void watch(const CornerSeries<N>& y, double x, double hs, Field next, const Forces& begin) {
     const double theta = value(y.theta, x), omega = value(y.omega, x), rx = value(y.rx, x), ry = value(y.ry, x);
-    const Forces end = forces_at(y, x, hs, a1);
+    const Forces end = forces_at(y, x, hs, next);
     if (!(end.fy > 0)) return decline();
     feel(begin.fx, begin.fy);
     feel(end.fx, end.fy);
@@ -223,10 +235,10 @@ class SlideRock : public SlideRockSliding {
       const double top = sign_change<N + 1>(y.omega, x);
       see_rotation(value(y.theta, top));
       see_slip(slip(top));
-      const Forces f = forces_at(y, top, hs, a1);
+      const Forces f = forces_at(y, top, hs, next);
       feel(f.fx, f.fy);
     }
-    feel_top(y, x, hs, a1, begin, end);
+    feel_top(y, x, hs, next, begin, end);
     see_rotation(theta);
     const double u = slip(x);
     see_slip(u);
@@ -241,13 +253,13 @@ class SlideRock : public SlideRockSliding {
   }
 
   // Where the squared acceleration has a top inside the step: between the ends its square is all but a parabola.
-  void feel_top(const CornerSeries<N>& y, double x, double hs, double a1, const Forces& begin, const Forces& end) {
+  void feel_top(const CornerSeries<N>& y, double x, double hs, Field next, const Forces& begin, const Forces& end) {
     const auto square = [&](const Forces& f) { return f.fx * f.fx + (f.fy - c_.g) * (f.fy - c_.g); };
     const double first = square(begin), last = square(end), more = 0.01 * (first + last);
     if (larger(first, last) + more < force2_) return;
     double middle = 0.5 * x;
     for (int round = 0; round < 3; ++round) {
-      const double here = square(forces_at(y, middle, hs, a1));
+      const double here = square(forces_at(y, middle, hs, next));
       force2_ = larger(force2_, here);
       // Top of the parabola through both ends and the point between.
       const double left = (here - first) / middle, right = (last - here) / (x - middle), bend = (right - left) / x;
@@ -257,13 +269,13 @@ class SlideRock : public SlideRockSliding {
     }
   }
 
-  void overturn(const CornerSeries<N>& y, double x, double hs, double a1) {
+  void overturn(const CornerSeries<N>& y, double x, double hs, Field next) {
     double lo = 0, hi = x;
     for (int round = 0; round < 50; ++round) {
       const double middle = 0.5 * (lo + hi);
       (side_ * value(y.theta, middle) < 0.5 * pi ? lo : hi) = middle;
     }
-    watch(y, hi, hs, a1, forces(rx_, ry_, omega_, a_, w_));
+    watch(y, hi, hs, next, forces(rx_, ry_, omega_, field(), w_));
     theta_ = side_ * 0.5 * pi;
     peak_rotation_ = 0.5 * pi;
     const double xi = value(y.xi, hi);

@@ -19,6 +19,7 @@ struct Ground {
   double per_weight;           // 1/weight: a free hop with rate omega turns by omega^2/(2 weight)
   double told, rests;          // squared rates of the hops at whose end an impact counts, or rest begins
   double bend0, bend1, bend2;  // bounds of what the forces do within an interval, in rates per interval
+  double lift_bend;            // as bend1, for changes of the floor's vertical acceleration times h^2
 
   Ground(const BatchCase& c, int side) {
     const double b = side > 0 ? c.right : c.left, other = side > 0 ? c.left : c.right, size2 = c.h * c.h + b * b;
@@ -36,31 +37,36 @@ struct Ground {
     bound_bends(c, size2);
   }
 
-  double pull(double a) const { return weight + tip * a; }
+  double pull(double a, double v) const { return weight + tip * a + magnitude(arm) * per_inertia * v; }
 
  private:
-  // The forces are almost straight within an interval, as the floor's acceleration is. With r = |r|, E = (g + |a|) h^2/J,
+  // The forces are almost straight within an interval, as the floor's acceleration is. With r = |r|,
+  // E = (g + |v| + |a|) h^2/J,
   // |Omega'| <= E r and |Omega| <= |Omega_0| + E r,
-  //     |f''| <= r^2 (4 E^2 r + 5 E Omega^2 + 6 (h^2/J) |da| |Omega|) + smaller terms,
+  //     |f''| <= r^2 (4 E^2 r + 5 E Omega^2 + 6 (h^2/J) (|da| + |dv|) |Omega|) + smaller terms,
   // and f leaves its chord by |f''|/8 at most; here times 1.5 or 1 + mu, for both forces.
   void bound_bends(const BatchCase& c, double size2) {
     const double size = std::sqrt(size2), per = c.table->step_s * c.table->step_s * per_inertia;
-    const double most = magnitude(c.scale) * c.table->later_peak[0], field = (c.g + most) * per;
+    double most = magnitude(c.scale) * c.table->later_peak[0];
+    if (c.vertical_scale != 0) most += magnitude(c.vertical_scale) * c.table->later_vertical_peak[0];
+    const double field = (c.g + most) * per;
     const double share = (c.mu_s > 0.5 ? 1 + c.mu_s : 1.5) / 8;
     bend0 = share * 17 * size2 * field * field * size;
     bend1 = share * 6.6 * size2 * magnitude(c.scale) * per;
+    lift_bend = share * 6.6 * size2 * per_inertia;
     bend2 = share * 17 * size2 * field;
   }
 };
 
 // Bounds for small rotations on either corner.
 struct HopBounds {
-  double tips;               // |a| that comes close to tipping the block
-  double fx, fx1;            // |f_x| <= fx + fx1 |a|
-  double lift, lift1;        // |f_y - g| <= lift + lift1 |a|
-  double slow, slow1, fast;  // the block falls back with slow - slow1 |a| at least; changes of that: fast da
-  double row;                // a row of hops lasts row/slow times its first rate, at most
-  double limit2;             // squared rotation up to which the series of hops holds
+  double tips;             // |a| that comes close to tipping the block; times 1 - |v|/g
+  double fx, fx1;          // |f_x| <= fx (1 + |v|/g) + fx1 |a|
+  double lift, lift1;      // |f_y - g| <= lift + |v| + lift1 |a|
+  double slow, slow1;      // the block falls back with slow (1 - |v|/g) - slow1 |a| at least
+  double fast, fast_lift;  // changes of that: fast da + fast_lift dv
+  double row;              // a row of hops lasts row/slow times its first rate, at most
+  double limit2;           // squared rotation up to which the series of hops holds
 
   HopBounds(const BatchCase& c, const Ground& left, const Ground& right) {
     const double shorter = smaller(c.left, c.right), rim = larger(c.left, c.right), h2 = c.h * c.h;
@@ -74,6 +80,7 @@ struct HopBounds {
     slow = shorter * c.g * least;
     slow1 = c.h * least;
     fast = c.h * most;
+    fast_lift = rim * most;
     row = 2 / (1 - larger(left.kept, right.kept));
     const double limit = small_rotation * shorter / c.h;
     limit2 = limit * limit;

@@ -38,6 +38,8 @@ class SlideRockGroup {
   }
 
  protected:
+  using Gravity = typename Rows::Gravity;
+
   // Bits of the lanes for which march(first lane, bits of the lanes in use) says so, or whose record ends: these first.
   template <class March>
   std::uint64_t each_pack(March&& march) {

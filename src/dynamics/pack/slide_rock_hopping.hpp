@@ -9,7 +9,11 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-class SlideRockHopping : public SlideRockGroup<HopRows> {
+template <class Gravity>
+class SlideRockHopping : public SlideRockGroup<HopRows<Gravity>> {
+  using Group = SlideRockGroup<HopRows<Gravity>>;
+  using Group::r_;
+
  public:
   template <class Lane>
   static void release(Lane& lane) {
@@ -19,7 +23,7 @@ class SlideRockHopping : public SlideRockGroup<HopRows> {
   // To the next impact or knot for every block; bits of those that come to rest, leave what the hops' equation covers, have
   // hopped often enough to ask whether the row dies out, or are at the end of their record.
   std::uint64_t march() {
-    return each_pack([this](int i, unsigned here) { return march(i, here); });
+    return Group::each_pack([this](int i, unsigned here) { return march(i, here); });
   }
 
  private:
@@ -32,11 +36,13 @@ class SlideRockHopping : public SlideRockGroup<HopRows> {
       return choose(right, load(row[1] + i), load(row[0] + i));
     };
     const Pack weight = on(r_.weight), tip = on(r_.tip), bend = on(r_.bend);
-    const Pack beta = weight + tip * a, low = xsimd::min(beta, weight + tip * a_next),
+    const typename Gravity::Hop shakes(r_.shakes, i, r_.next + i, left, right);
+    const Pack beta = shakes.beta(weight + tip * a), low = xsimd::min(beta, shakes.beta_next(weight + tip * a_next)),
                top = omega * omega + two * theta * beta;
-    const PackMask holds = (top * top < load(r_.limit2 + i) * (low * low)) &
-                           (xsimd::max(xsimd::abs(a), xsimd::abs(a_next)) <= load(r_.push + i));
-    const HopSeries y(theta, omega, beta, tip * rate, on(r_.kappa) - bend * a, zero - bend * rate);
+    const PackMask holds = shakes.holds((top * top < load(r_.limit2 + i) * (low * low)) &
+                                        (xsimd::max(xsimd::abs(a), xsimd::abs(a_next)) <= load(r_.push + i)));
+    const HopSeries y(theta, omega, beta, shakes.beta_rate(tip * rate), shakes.kappa(on(r_.kappa) - bend * a),
+                      shakes.kappa_rate(zero - bend * rate));
     const Pack end = y.height(left);
     const PackMask crosses = holds & (end > zero);
     PackMask open = holds & ~crosses;
@@ -52,12 +58,13 @@ class SlideRockHopping : public SlideRockGroup<HopRows> {
     store(r_.theta + i, choose(stays, theta, choose(lands, zero, end)));
     store(r_.omega + i, choose(stays, omega, choose(lands, rises, speed)));
     store(r_.a + i, choose(stays, a, choose(to_knot, a_next, a + rate * t)));
+    shakes.keep(r_.shakes, i, stays, to_knot, t);
     store(r_.left + i, choose(stays, left, choose(to_knot, one, ahead)));
     store(r_.side + i, choose(lands, zero - side, side));
     store(r_.hops + i, hops);
     store(r_.impacts + i, load(r_.impacts + i) + choose(told, one, zero));
     store(r_.ended + i, choose(ends, one, zero));
-    advance(r_.next + i, bits(to_knot) & here);
+    advance(r_.next + i, bits(to_knot) & here, Gravity::stride);
     return bits(stays | ends | (lands & (hops >= Pack(hops_at_once))));
   }
 };

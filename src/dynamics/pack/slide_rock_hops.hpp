@@ -12,8 +12,9 @@ class SlideRockHops : public SlideRockLane {
   using SlideRockLane::leave;
   bool hops() const { return hops_ && marches(); }
 
-  void enter(HopRows& r, int i) const {
-    const double h2 = h_ * h_, size = magnitude(c_.scale);
+  template <class Gravity>
+  void enter(HopRows<Gravity>& r, int i) const {
+    const double h2 = h_ * h_, size = magnitude(c_.scale), lift = lift_ahead();
     r.theta[i] = magnitude(theta_);
     r.omega[i] = side_ * omega_ * h_;
     r.side[i] = side_;
@@ -27,21 +28,32 @@ class SlideRockHops : public SlideRockLane {
       r.kept[k][i] = ground.kept;
       r.told[k][i] = ground.told * h2;
       r.rests[k][i] = ground.rests * h2;
+      if constexpr (Gravity::shaken) {
+        const double weight = c_.vertical_scale * h2 * ground.per_inertia;
+        r.shakes.lift[k][i] = weight * magnitude(ground.arm);
+        r.shakes.turn[k][i] = weight * c_.h;
+      }
     }
+    if constexpr (Gravity::shaken) r.shakes.most[i] = lift / magnitude(c_.vertical_scale);
     r.limit2[i] = limit2();
-    r.push[i] = largest_push() / size;
+    r.push[i] = largest_push(lift) / size;
     r.hops[i] = r.impacts[i] = r.ended[i] = 0;
   }
 
-  void leave(const HopRows& r, int i) {
+  template <class Gravity>
+  void leave(const HopRows<Gravity>& r, int i) {
     side_ = r.side[i] > 0 ? 1 : -1;
     stand(Mode::rock, side_);
     events_ += static_cast<int>(r.hops[i]);
     impacts_ += static_cast<int>(r.impacts[i]);
     if (events_ > most_events) declined_ = true;
-    m_ += static_cast<int>(r.next[i] - entry_);
+    m_ += static_cast<int>(r.next[i] - entry_) / Gravity::stride;
+    stand_at_knot();
     left_ = r.left[i];
-    a_ = left_ < 1 ? c_.scale * r.a[i] : m_ < last_ ? floor_at(m_) : 0.0;
+    if (left_ < 1) {
+      a_ = c_.scale * r.a[i];
+      if constexpr (Gravity::shaken) g_ = c_.g + c_.vertical_scale * r.shakes.v[i];
+    }
     const double theta = r.theta[i];
     theta_ = side_ * theta;
     omega_ = side_ * r.omega[i] / h_;
@@ -59,9 +71,9 @@ class SlideRockHops : public SlideRockLane {
   // The hops from here on are so small that their series (dynamics/pack/hop_series.hpp) is as good as that of rocking, slip
   // nowhere and are no new peaks.
   bool small_hops() const {
-    const double pull = on(side_).pull(a_), square = omega_ * omega_;
+    const double pull = on(side_).pull(a_, g_ - c_.g), square = omega_ * omega_;
     return square * square < limit2() * pull * pull && bounds_.fast * c_.g * h_ * h_ < 1e-3 &&
-           magnitude(a_) <= largest_push();
+           magnitude(a_) <= largest_push(lift_ahead());
   }
 
   // The hops that follow end before the floor could make one larger, or make it slip: they are counted, and the block
@@ -71,14 +83,14 @@ class SlideRockHops : public SlideRockLane {
   bool dies_out() {
     const double omega = magnitude(omega_), square = omega * omega, span = bounds_.row * omega / h_;
     if (span > longest_row * bounds_.slow || square >= on(side_).told) return false;
-    double push = 0, slow = bounds_.slow, growth = 1;  // growth: exp(V)
-    if (m_ < last_ && !quiet_row(span, push, slow, growth)) return false;
+    double push = 0, lift = 0, slow = bounds_.slow, growth = 1;  // growth: exp(V)
+    if (m_ < last_ && !quiet_row(span, push, lift, slow, growth)) return false;
     const double rotation = growth * square / (2 * slow);
     const double least = m_ < last_ ? 1e-3 : 1e-5;  // at the end of all the hops' time counts
     if (rotation > peak_rotation_ || rotation * c_.h > least * smaller(c_.left, c_.right)) return false;
     if (magnitude(xi_) + half_base_ * rotation * rotation > peak_slip_ + least_slip) return false;
     const double swing = 2 * c_.h * growth * square;
-    if (!unnoticed(push, swing)) return false;
+    if (!unnoticed(push, lift, swing)) return false;
     if (m_ >= last_) {
       hop_to_end(omega);
     } else if (const double both = on(-1).kept * on(1).kept; both > 0) {  // in a steady field
@@ -104,33 +116,51 @@ class SlideRockHops : public SlideRockLane {
     return 4 * smaller(smaller(bounds_.limit2, peak_rotation_ * peak_rotation_), room);
   }
 
-  // Of the floor, so that small hops are unnoticed and it tips the block nowhere; negative: none.
-  double largest_push() const {
+  // Largest |v| of the knots just ahead.
+  double lift_ahead() const {
+    if (!shaken_) return 0;
+    double most = 0;
+    for (int j = m_; j <= last_ && j < m_ + watched_ahead; ++j)
+      most = larger(most, magnitude(t_.vertical[static_cast<std::size_t>(j)]));
+    return magnitude(c_.vertical_scale) * most;
+  }
+
+  // Of the floor, so that small hops are unnoticed and it tips the block nowhere, where it lifts with `v` at most;
+  // negative: none.
+  double largest_push(double v) const {
     const HopBounds& b = bounds_;
-    const double fx = b.fx + small_share * c_.g, lift = b.lift + small_share * c_.g;
+    const double share = v / c_.g;
+    const double fx = b.fx * (1 + share) + small_share * c_.g, lift = b.lift + v + small_share * c_.g;
     const double grip = (c_.mu_s * (c_.g - lift) - fx) / (b.fx1 + c_.mu_s * b.lift1);
     const double square = b.fx1 * b.fx1 + b.lift1 * b.lift1, slope = fx * b.fx1 + lift * b.lift1;
     const double room = force2_ - fx * fx - lift * lift;
     const double force = room > 0 ? (std::sqrt(slope * slope + square * room) - slope) / square : -1;
-    return smaller(smaller(grip, force), b.tips);
+    return smaller(smaller(grip, force), b.tips * (1 - share));
   }
 
   // Is it certain that the floor does not tip the block while a row of hops lasts? span: the row's duration times slow,
   // in intervals. Sets the bounds.
-  bool quiet_row(double span, double& push, double& slow, double& growth) const {
+  bool quiet_row(double span, double& push, double& lift, double& slow, double& growth) const {
     const double unit = magnitude(c_.scale), *a = t_.acceleration.data() + m_;
+    const double lifts = magnitude(c_.vertical_scale), *v = shaken_ ? t_.vertical.data() + m_ : nullptr;
     int end = static_cast<int>(span / slow) + 2;
     if (m_ + end > last_ || unit * bound_between(t_, m_, m_ + end) > bounds_.tips) return false;
-    double sum = 0, variation = 0;
+    double sum = 0, sum_lift = 0, variation = 0;
     push = unit * magnitude(a[0]);
+    if (shaken_) lift = lifts * magnitude(v[0]);
     for (int j = 0; j < end;) {
+      for (int k = j; shaken_ && k < end; ++k) {
+        lift = larger(lift, lifts * magnitude(v[k + 1]));
+        sum_lift += magnitude(v[k + 1] - v[k]);
+      }
       for (; j < end; ++j) {
         push = larger(push, unit * magnitude(a[j + 1]));
         sum += magnitude(a[j + 1] - a[j]);
       }
-      slow = bounds_.slow - bounds_.slow1 * push;
-      if (push > bounds_.tips || push > slips_at()) return false;
-      variation = unit * bounds_.fast * sum / slow;
+      const double rest = 1 - lift / c_.g;  // of gravity
+      slow = bounds_.slow * rest - bounds_.slow1 * push;
+      if (push > bounds_.tips * rest || push > slips_at(c_.g - lift)) return false;
+      variation = (unit * bounds_.fast * sum + lifts * bounds_.fast_lift * sum_lift) / slow;
       const double need = span / slow * std::exp(0.5 * variation) + 2;
       if (!(need < longest_row) || m_ + need > last_) return false;
       end = static_cast<int>(need);
@@ -139,13 +169,15 @@ class SlideRockHops : public SlideRockLane {
     return true;
   }
 
-  // Small hops neither slip nor make a new peak of the acceleration while the floor's is `push` at most; more: what the
-  // rotation adds to the forces.
-  bool unnoticed(double push, double more) const {
-    const double fx = bounds_.fx + bounds_.fx1 * push + more, lift = bounds_.lift + bounds_.lift1 * push + more;
+  // Small hops neither slip nor make a new peak of the acceleration while the floor's is `push` at most, and `v`
+  // vertically; more: what the rotation adds to the forces.
+  bool unnoticed(double push, double v, double more) const {
+    const double fx = bounds_.fx * (1 + v / c_.g) + bounds_.fx1 * push + more;
+    const double lift = bounds_.lift + v + bounds_.lift1 * push + more;
     return fx * fx + lift * lift < force2_ && fx < c_.mu_s * (c_.g - lift);
   }
 
+  static constexpr int watched_ahead = 32;      // knots
   static constexpr double small_share = 0.002;  // of gravity: what small rotations add to the forces
 };
 

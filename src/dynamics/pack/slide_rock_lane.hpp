@@ -20,6 +20,8 @@ class SlideRockLane {
         t_(*c.table),
         h_(t_.step_s),
         last_(t_.knots - 1),
+        shaken_(c.vertical_scale != 0),
+        g_(c.g),
         half_base_(0.5 * (c.left + c.right)),
         ground_{{c, -1}, {c, 1}},
         bounds_(c, ground_[0], ground_[1]),
@@ -30,13 +32,19 @@ class SlideRockLane {
 
   // ---- in packs
   // Knot up to which the floor is watched.
-  int patience() const { return last_ + static_cast<int>(smaller(c_.free_vibration_s / h_, still_intervals)) - 4; }
+  int patience() const {
+    return last_ +
+           static_cast<int>(
+               smaller(c_.free_vibration_s / h_, shaken_ ? still_intervals / Shaken::stride : still_intervals)) -
+           4;
+  }
   bool in_packs() const { return left_ > 1e-9 && (m_ < last_ || m_ < patience()); }
   bool marches() const { return mode_ == Mode::rock && in_packs(); }
   bool slips() const { return mode_ == Mode::slide_rock && in_packs(); }
 
   // Rocking. How many intervals there are to go: 1 at least.
-  int enter(SlideRockRows& r, int i) {
+  template <class Gravity>
+  int enter(SlideRockRows<Gravity>& r, int i) {
     const double s = side_, h2 = h_ * h_;
     const Ground& ground = on(side_);
     const double per_inertia = h2 * ground.per_inertia;
@@ -50,8 +58,8 @@ class SlideRockLane {
     r.gravity[i] = c_.g * per_inertia;
     r.push[i] = s * c_.scale * per_inertia;
     r.mu[i] = c_.mu_s;
-    const double alpha = (rx_ * c_.g - ry_ * a_) * ground.per_inertia, omega2 = omega_ * omega_;
-    const double fx = ry_ * alpha - rx_ * omega2 + a_, lift = 0 - rx_ * alpha - ry_ * omega2;
+    const double alpha = (rx_ * g_ - ry_ * a_) * ground.per_inertia, omega2 = omega_ * omega_;
+    const double fx = ry_ * alpha - rx_ * omega2 + a_, lift = (g_ - c_.g) - rx_ * alpha - ry_ * omega2;
     r.grip[i] = (c_.mu_s * (c_.g + lift) - magnitude(fx)) * h2;
     r.square[i] = (fx * fx + lift * lift) * (h2 * h2);
     r.seen[i] = force2_ * (h2 * h2);
@@ -63,12 +71,17 @@ class SlideRockLane {
     r.bend0[i] = ground.bend0;
     r.bend1[i] = ground.bend1;
     r.bend2[i] = ground.bend2;
+    if constexpr (Gravity::shaken) {
+      r.shakes.weight[i] = c_.vertical_scale * h2;
+      r.shakes.per_inertia[i] = ground.per_inertia;
+      r.shakes.bend[i] = ground.lift_bend;
+    }
     return free;
   }
 
   // Slide-rocking.
-  template <class Friction>
-  void enter(SlipRows<Friction>& r, int i) {
+  template <class Gravity, class Friction>
+  void enter(SlipRows<Gravity, Friction>& r, int i) {
     const double s = side_, h2 = h_ * h_;
     r.theta[i] = s * theta_;
     r.omega[i] = s * omega_ * h_;
@@ -87,17 +100,19 @@ class SlideRockLane {
     r.look[i] = peak_rotation_;
     r.peak[i] = peak_slip_;
     r.seen[i] = force2_ * (h2 * h2);
+    if constexpr (Gravity::shaken) r.shakes.weight[i] = c_.vertical_scale * h2;
     r.law.enter(i, c_);
   }
 
   // Back from the packs.
-  void leave(const SlideRockRows& r, int i) {
+  template <class Gravity>
+  void leave(const SlideRockRows<Gravity>& r, int i) {
     peak_rotation_ = larger(peak_rotation_, r.turned[i]);
     if (r.room[i] > room_) peak_slip_ = larger(peak_slip_, r.room[i] + side_ * xi_);
     leave_rows(r, i);
   }
-  template <class Friction>
-  void leave(const SlipRows<Friction>& r, int i) {
+  template <class Gravity, class Friction>
+  void leave(const SlipRows<Gravity, Friction>& r, int i) {
     peak_slip_ = larger(peak_slip_, r.peak[i]);
     if (!leave_rows(r, i)) return;
     const double xi = side_ * r.xi[i];
@@ -124,12 +139,15 @@ class SlideRockLane {
   template <class Rows>
   int enter_floor(Rows& r, int i) const {
     const bool over = m_ >= last_;
-    const double* row = over ? still_ground : t_.acceleration.data() + m_;
+    constexpr int stride = Rows::Gravity::stride;
+    const double* record = stride == 1 ? t_.acceleration.data() : t_.both.data();
+    const double* row = over ? still_ground : record + stride * m_;
     const int free = over ? patience() - m_ : last_ - m_;
     r.a[i] = left_ == 1 ? *row : a_ / c_.scale;
     r.left[i] = left_;
-    r.next[i] = entry_ = row + 1;
-    r.stop[i] = row + free;
+    r.next[i] = entry_ = row + stride;
+    r.stop[i] = row + stride * free;
+    if constexpr (Rows::Gravity::shaken) r.shakes.v[i] = left_ == 1 ? row[1] : (g_ - c_.g) / c_.vertical_scale;
     return free;
   }
   template <class Rows>
@@ -155,9 +173,8 @@ class SlideRockLane {
   template <class Rows>
   bool leave_floor(const Rows& r, int i) {
     if (r.next[i] == entry_) return false;
-    m_ += static_cast<int>(r.next[i] - entry_);
-    a_ = m_ < last_ ? floor_at(m_) : 0.0;
-    left_ = 1;
+    m_ += static_cast<int>(r.next[i] - entry_) / Rows::Gravity::stride;
+    stand_at_knot();
     return true;
   }
 
@@ -170,41 +187,62 @@ class SlideRockLane {
     return knot <= last_ ? c_.scale * t_.acceleration[static_cast<std::size_t>(knot)] : 0.0;
   }
   double next_floor() const { return m_ < last_ ? floor_at(m_ + 1) : 0.0; }
+  // Effective gravity.
+  double gravity_at(int knot) const {
+    return shaken_ && knot <= last_ ? c_.g + c_.vertical_scale * t_.vertical[static_cast<std::size_t>(knot)] : c_.g;
+  }
+  double next_gravity() const { return shaken_ && m_ < last_ ? gravity_at(m_ + 1) : c_.g; }
+  // From knot m on.
+  double least_gravity(int m) const {
+    if (!shaken_) return c_.g;
+    return c_.g - magnitude(c_.vertical_scale) * t_.later_vertical_peak[static_cast<std::size_t>(m / table_run)];
+  }
   double now() const { return h_ * (m_ + 1 - left_); }
-  void next_knot() {
-    ++m_;
+  void stand_at_knot() {
     left_ = 1;
     a_ = m_ < last_ ? floor_at(m_) : 0.0;
+    if (shaken_) g_ = m_ < last_ ? gravity_at(m_) : c_.g;
+  }
+  void next_knot() {
+    ++m_;
+    stand_at_knot();
     if (m_ > last_ && now() >= h_ * last_ + c_.free_vibration_s) declined_ = true;
   }
   // Forward by a part x of what is left of the interval.
   void forward(double x) {
     if (x >= 1 || left_ * (1 - x) < 1e-12) return next_knot();
     a_ += (next_floor() - a_) * x;
+    if (shaken_) g_ += (next_gravity() - g_) * x;
     left_ -= left_ * x;
   }
 
   // ---- limits
   const Ground& on(int side) const { return ground_[side > 0]; }
   double arm(int side) const { return on(side).arm; }
-  double tips_at(double a) const { return (a > 0 ? c_.left : c_.right) / c_.h * c_.g; }
-  double slips_at() const { return c_.mu_s * c_.g; }
-  double quiet(double a) const { return smaller(tips_at(a), slips_at()); }
+  double tips_at(double a, double g) const { return (a > 0 ? c_.left : c_.right) / c_.h * g; }
+  double slips_at(double g) const { return c_.mu_s * g; }
+  double quiet(double a, double g) const { return smaller(tips_at(a, g), slips_at(g)); }
 
   // Of a slip with velocity w [m/s].
   double mu_k(double w) const { return c_.law ? c_.mu_k * friction_factor(*c_.law, magnitude(w)) : c_.mu_k; }
 
-  Forces rocking(double rx, double ry, double omega, double a) const {
-    const double alpha = (rx * c_.g - ry * a) / (c_.k2 + rx * rx + ry * ry);
-    return {alpha, 0, ry * alpha - rx * omega * omega + a, c_.g - rx * alpha - ry * omega * omega};
+  // Floor acceleration and effective gravity.
+  struct Field {
+    double a, g;
+  };
+  Field field() const { return {a_, g_}; }
+
+  Forces rocking(double rx, double ry, double omega, Field f) const {
+    const double alpha = (rx * f.g - ry * f.a) / (c_.k2 + rx * rx + ry * ry);
+    return {alpha, 0, ry * alpha - rx * omega * omega + f.a, f.g - rx * alpha - ry * omega * omega};
   }
-  Forces slipping(double rx, double ry, double omega, double a, double w) const {
-    const double sm = sigma_ * mu_k(w), q = rx + sm * ry, n = c_.g - ry * omega * omega, d = c_.k2 + rx * q;
+  Forces slipping(double rx, double ry, double omega, Field f, double w) const {
+    const double sm = sigma_ * mu_k(w), q = rx + sm * ry, n = f.g - ry * omega * omega, d = c_.k2 + rx * q;
     const double alpha = n * q / d, fy = n * c_.k2 / d;
-    return {alpha, -sm * fy - a - ry * alpha + rx * omega * omega, -sm * fy, d > 1e-3 * c_.k2 ? fy : -1.0};
+    return {alpha, -sm * fy - f.a - ry * alpha + rx * omega * omega, -sm * fy, d > 1e-3 * c_.k2 ? fy : -1.0};
   }
-  Forces forces(double rx, double ry, double omega, double a, double w) const {
-    return mode_ == Mode::rock ? rocking(rx, ry, omega, a) : slipping(rx, ry, omega, a, w);
+  Forces forces(double rx, double ry, double omega, Field f, double w) const {
+    return mode_ == Mode::rock ? rocking(rx, ry, omega, f) : slipping(rx, ry, omega, f, w);
   }
 
   // ---- peaks
@@ -245,6 +283,8 @@ class SlideRockLane {
   const MotionTable& t_;
   double h_;
   int last_;
+  bool shaken_;  // vertically
+  double g_;     // effective gravity now
   double half_base_;
   Ground ground_[2];  // on the left corner, on the right one
   HopBounds bounds_;

@@ -24,24 +24,30 @@ class SlideRockLife : public SlideRockHops {
 
   // ---- rest
   void rest() {
-    const double size = magnitude(c_.scale), least = smaller(smaller(quiet(1), quiet(-1)) / size, 1e300);
+    const double size = magnitude(c_.scale), low = larger(least_gravity(m_), 0);
+    const double least = low > 0 ? smaller(smaller(quiet(1, low), quiet(-1, low)) / size, 1e300) : -1;
+    if (!(g_ > 0)) return decline();
     if (m_ < last_) {
       for (int j = m_ + 1;; ++j) {
-        j = first_above(t_, j, least);
+        j = next_loud(j, least);
         if (j > last_) break;
-        const double after = c_.scale * t_.acceleration[static_cast<std::size_t>(j)], limit = quiet(after);
+        const double after = c_.scale * t_.acceleration[static_cast<std::size_t>(j)], g = gravity_at(j);
+        if (!(g > 0)) return decline();
+        const double limit = quiet(after, g), way = after > 0 ? 1 : -1;
         if (!(magnitude(after) > limit)) continue;
         feel_rest(j);
-        const double before = c_.scale * t_.acceleration[static_cast<std::size_t>(j) - 1];
-        const double breaks = after > 0 ? limit : -limit, part = (breaks - before) / (after - before);
+        const double before = c_.scale * t_.acceleration[static_cast<std::size_t>(j) - 1], g_before = gravity_at(j - 1);
+        const double limit_before = quiet(after, g_before);
+        const double part = (way * limit_before - before) / ((after - before) - way * (limit - limit_before));
         left_ = j - 1 == m_ ? smaller(left_, 1 - part) : 1 - part;
         m_ = j - 1;
-        a_ = breaks;
+        g_ = g_before + (g - g_before) * part;
+        a_ = way * quiet(after, g_);
+        feel(a_, g_);
         if (left_ < 1e-9 && m_ + 1 < last_) next_knot();
-        feel(breaks, c_.g);
         event();
         side_ = after > 0 ? -1 : 1;
-        if (tips_at(after) <= slips_at()) {
+        if (tips_at(after, g_) <= slips_at(g_)) {
           stand(Mode::rock, side_);
         } else {
           mode_ = Mode::slide;
@@ -54,20 +60,34 @@ class SlideRockLife : public SlideRockHops {
     ended_ = true;
     end_ = m_ < last_ ? h_ * last_ : now() + hopping_;
   }
+  // First knot from j on that may end the rest; `least`: of the unit record, at gravity's lowest.
+  int next_loud(int j, double least) const {
+    if (!shaken_) return first_above(t_, j, least);
+    if (peak_from(t_, j) <= least) return t_.knots;
+    return first_loud(t_, j, c_.scale, c_.vertical_scale, smaller(quiet(1, 1), quiet(-1, 1)), c_.g);
+  }
   void feel_rest(int end) {
-    feel(a_, c_.g);
-    feel(c_.scale * (end == t_.knots ? peak_from(t_, m_ + 1) : peak_between(t_, m_ + 1, end)), c_.g);
+    feel(a_, g_);
+    if (shaken_)
+      force2_ = peak_of_both(t_, m_ + 1, end, c_.scale, c_.vertical_scale, force2_);
+    else
+      feel(c_.scale * (end == t_.knots ? peak_from(t_, m_ + 1) : peak_between(t_, m_ + 1, end)), c_.g);
   }
 
   // ---- sliding under a constant friction, exact
   void slide_exactly() {
-    if (left_ == 1) slide_past_knots();
+    if (left_ == 1 && (!shaken_ || m_ >= last_)) slide_past_knots();
     if (declined_) return;
-    const double hs = h_ * left_, a1 = next_floor(), friction = c_.mu_k * c_.g;
-    double p[3] = {sigma_ * w_, -(sigma_ * a_ + friction) * hs, -0.5 * sigma_ * (a1 - a_) * hs};
+    const double hs = h_ * left_, a1 = next_floor(), g1 = next_gravity(), friction = c_.mu_k * g_;
+    if (!(smaller(g_, g1) > 0)) return decline();
+    double p[3] = {sigma_ * w_, -(sigma_ * a_ + friction) * hs, -0.5 * (sigma_ * (a1 - a_) + c_.mu_k * (g1 - g_)) * hs};
     if (p[0] == 0 && p[1] < 0 && p[1] > -1e-9 * c_.g * hs) p[1] = 0;
     const double x = first_fall<2>(p, 1.0), part = x < 1 ? x : 1.0;
-    feel(friction, c_.g);
+    feel(friction, g_);
+    if (shaken_) {
+      const double g = g_ + (g1 - g_) * part;
+      feel(c_.mu_k * g, g);
+    }
     const double moved = sigma_ * hs * part * (p[0] + part * (p[1] * 0.5 + part * p[2] * (1.0 / 3)));
     xi_ += moved;
     path_ += magnitude(moved);
@@ -125,11 +145,12 @@ class SlideRockLife : public SlideRockHops {
       }
       return;
     }
-    const bool slips = magnitude(a_) > slips_at(), tips = magnitude(a_) > tips_at(a_);
+    if (!(g_ > 0)) return decline();
+    const bool slips = magnitude(a_) > slips_at(g_), tips = magnitude(a_) > tips_at(a_, g_);
     if (!slips && !tips) return;
     if (tips) {
       stand(Mode::rock, over);
-      const Forces f = rocking(rx_, ry_, 0.0, a_);
+      const Forces f = rocking(rx_, ry_, 0.0, field());
       if (magnitude(f.fx) <= c_.mu_s * f.fy) return;
     }
     stand(Mode::slide, over);
@@ -151,7 +172,7 @@ class SlideRockLife : public SlideRockHops {
       sigma_ = w_ > 0 ? 1 : -1;
       return;
     }
-    const Forces f = rocking(rx_, ry_, omega_, a_);
+    const Forces f = rocking(rx_, ry_, omega_, field());
     mode_ = Mode::rock;
     sigma_ = 0;
     if (magnitude(f.fx) > c_.mu_s * f.fy) slip_on_corner(f.fx);

@@ -12,9 +12,14 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N>
-class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
+template <int N, class Gravity>
+class SlideRockMarch : public SlideRockGroup<SlideRockRows<Gravity>> {
+  using Group = SlideRockGroup<SlideRockRows<Gravity>>;
+  using Group::r_;
+  using Interval = typename Gravity::Interval;
+
  public:
+  using Group::count;
   // Bits of the lanes in which something happens; of those that strike the floor, and nothing else.
   struct Apart {
     unsigned all = 0, strikes = 0;
@@ -36,7 +41,7 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
   int free(int& which) const {
     int least = 1 << 30;
     for (int i = 0; i < count(); ++i) {
-      const int free = static_cast<int>(r_.stop[i] - r_.next[i]) + 1;
+      const int free = static_cast<int>(r_.stop[i] - r_.next[i]) / Gravity::stride + 1;
       if (free < least) least = free, which = i;
     }
     return least;
@@ -46,7 +51,8 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
   void strike(int i, double* parts, double* rates) const {
     const Pack zero(0.0), one(1.0), left = load(r_.left + i), a = load(r_.a + i), push = load(r_.push + i);
     RockSeries<N> y;
-    expand<false>(y, i, left, load(r_.omega + i), load(r_.gravity + i), push, a, fetch(r_.next + i) - a);
+    expand<false>(y, i, left, load(r_.omega + i), Interval(r_.shakes, i, r_.next + i).per_inertia(load(r_.gravity + i)),
+                  push, a, fetch(r_.next + i) - a);
     const Pack end = y.sum(y.theta), guess = first_zero(y.theta[0], y.omega[0], end);
     const Pack part = bracketed_root<N + 1>(y.theta, one, zero, one, guess, end <= zero);
     store(parts, part);
@@ -60,7 +66,9 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
     RockSeries<N> y;
     const Pack a = load(r_.a + i), a_next = fetch(r_.next + i), change = a_next - a;
     const Pack push = load(r_.push + i), gravity = load(r_.gravity + i), omega0 = load(r_.omega + i);
-    expand<Whole>(y, i, left, omega0, gravity, push, a, change);
+    const Interval shakes(r_.shakes, i, r_.next + i);
+    const auto field = shakes.per_inertia(gravity);
+    expand<Whole>(y, i, left, omega0, field, push, a, change);
     const Pack theta = y.sum(y.theta), rx = y.sum(y.rx), ry = y.sum(y.ry);
     Pack omega = y.sum(y.omega);
 
@@ -75,34 +83,37 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
     if constexpr (!Whole) omega = omega * (one / left);
 
     const Pack weight_g = load(r_.weight_g + i), weight = load(r_.weight + i);
-    const Pack alpha = rx * gravity - ry * (push * a_next), omega2 = omega * omega;
-    const Pack fx = ry * alpha - rx * omega2 + weight * a_next, lift = zero - rx * alpha - ry * omega2;
+    const Pack alpha = rx * at_end(field) - ry * (push * a_next), omega2 = omega * omega;
+    const Pack fx = ry * alpha - rx * omega2 + weight * a_next, lift = shakes.lifted(zero) - rx * alpha - ry * omega2;
     const Pack grip0 = load(r_.grip + i), grip = load(r_.mu + i) * (weight_g + lift) - xsimd::abs(fx);
     const Pack square0 = load(r_.square + i), square = fx * fx + lift * lift;
-    const Pack bend = load(r_.bend0 + i) + (load(r_.bend1 + i) * xsimd::abs(change) + load(r_.bend2 + i) * rate) * rate;
+    const Pack bend =
+        load(r_.bend0 + i) + (shakes.bent(load(r_.bend1 + i) * xsimd::abs(change)) + load(r_.bend2 + i) * rate) * rate;
     const Pack most = xsimd::max(square0, square) * Pack(1 + 1.0 / 256) + Pack(257.0) * (bend * bend);
     const Pack seen = load(r_.seen + i);
     const PackMask slips = xsimd::min(grip0, grip) <= bend, tops = most > seen;
     if (const PackMask about = turns & matters & ~(strange | slips | falls); bits(about))
       strange = strange | turn(y, i, omega1, about);
     const PackMask stays = strange | slips | falls;
-    if (const PackMask feels = tops & ~stays; bits(feels)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, feels);
+    if (const PackMask feels = tops & ~stays; bits(feels))
+      watch<Whole>(y, i, left, {omega, rx, ry, a_next}, feels, shakes);
 
     store(r_.theta + i, choose(stays, y.theta[0], theta));
     store(r_.omega + i, choose(stays, omega0, omega));
     store(r_.rx + i, choose(stays, y.rx[0], rx));
     store(r_.ry + i, choose(stays, y.ry[0], ry));
     store(r_.a + i, choose(stays, a, a_next));
+    shakes.keep(r_.shakes, i, stays);
     store(r_.grip + i, choose(stays, grip0, grip));
     store(r_.square + i, choose(stays, square0, square));
     if constexpr (!Whole) store(r_.left + i, choose(stays, left, one));
     const unsigned all = bits(stays) & here;
-    advance(r_.next + i, here & ~all);
+    advance(r_.next + i, here & ~all, Gravity::stride);
     return {all, bits(falls & ~strange & ~slips & ~tops & (omega0 < zero) & (omega < zero)) & all};
   }
 
-  template <bool Whole>
-  void expand(RockSeries<N>& y, int i, const Pack& left, const Pack& omega, const Pack& gravity, const Pack& push,
+  template <bool Whole, class Field>
+  void expand(RockSeries<N>& y, int i, const Pack& left, const Pack& omega, const Field& gravity, const Pack& push,
               const Pack& a, const Pack& change) const {
     y.theta[0] = load(r_.theta + i);
     y.rx[0] = load(r_.rx + i);
@@ -135,12 +146,14 @@ class SlideRockMarch : public SlideRockGroup<SlideRockRows> {
 
   // The squared acceleration may have a new peak.
   template <bool Whole>
-  void watch(const RockSeries<N>& y, int i, const Pack& left, const RockEnd& end, const PackMask& feels) {
+  void watch(const RockSeries<N>& y, int i, const Pack& left, const RockEnd& end, const PackMask& feels,
+             const Interval& shakes) {
     const Pack seen = load(r_.seen + i), a = load(r_.a + i), left2 = left * left, left4 = left2 * left2;
     RockEnd there = end;
     there.omega = end.omega * left;
-    const Pack top = watch_force(y, load(r_.weight + i) * left2, load(r_.gravity + i) * left2,
-                                 load(r_.push + i) * left2, a, end.a - a, there, Pack(1.0), seen * left4, true);
+    const Pack top = watch_force(y, load(r_.weight + i) * left2, shakes.per_inertia(load(r_.gravity + i)) * left2,
+                                 load(r_.push + i) * left2, a, end.a - a, there, Pack(1.0), seen * left4, true,
+                                 shakes.lift() * left2);
     store(r_.seen + i, choose(feels, Whole ? top : top / left4, seen));
   }
 };

@@ -16,7 +16,7 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 // Orders of the steps that rock, and that slip.
-template <int N, int M, class Friction>
+template <int N, int M, class Gravity, class Friction>
 class SlideRockPool {
  public:
   SlideRockPool(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined)
@@ -63,7 +63,7 @@ class SlideRockPool {
     if (free_ <= 0) free_ = rocks_.free(which);
     if (free_ <= 0) return alone(which);
     --free_;
-    typename SlideRockMarch<N>::Apart apart[SlideRockMarch<N>::packs];
+    typename SlideRockMarch<N, Gravity>::Apart apart[SlideRockMarch<N, Gravity>::packs];
     const int count = rocks_.count();
     rocks_.march(apart);
     for (int p = (count + pack_lanes - 1) / pack_lanes; p-- > 0;)
@@ -112,7 +112,7 @@ class SlideRockPool {
 
   // The lane goes on in a group, or with the next sample.
   void settle(int number) {
-    SlideRock<M>& lane = *lanes_[number];
+    SlideRock<M, Gravity>& lane = *lanes_[number];
     if (lane.ended()) {
       hand_out(number);
       return refill(number);
@@ -153,18 +153,18 @@ class SlideRockPool {
   Response* responses_;
   std::uint8_t* declined_;
   std::size_t taken_ = 0;
-  SlideRockMarch<N> rocks_, strikes_;
-  SlideRockSlips<M, Friction> slips_;
+  SlideRockMarch<N, Gravity> rocks_, strikes_;
+  SlideRockSlips<M, Gravity, Friction> slips_;
   SlideRockSlides<slide_order, Friction> slides_;
-  SlideRockHopping hops_;
-  std::optional<SlideRock<M>> lanes_[march_slots];
+  SlideRockHopping<Gravity> hops_;
+  std::optional<SlideRock<M, Gravity>> lanes_[march_slots];
   std::size_t number_[march_slots];  // of the lane's sample
   int free_ = 0;                     // intervals until a record may end
 };
 
-template <int N, int M = N, class Friction = Coulomb>
+template <int N, int M = N, class Friction = Coulomb, class Gravity = Steady>
 void slide_rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  SlideRockPool<N, M, Friction>(cases, count, responses, declined).run();
+  SlideRockPool<N, M, Gravity, Friction>(cases, count, responses, declined).run();
 }
 
 }  // namespace

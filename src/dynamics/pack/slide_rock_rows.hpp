@@ -7,15 +7,17 @@
 #include <array>
 
 #include "base/pack.hpp"
+#include "dynamics/pack/slide_rock_gravity.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-constexpr int march_slots = 128;
 constexpr int still_intervals = 16384;
 alignas(64) const double still_ground[still_intervals] = {};  // the floor after the record
 
+template <class Field>
 struct SlideRockRows {
+  using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double a[march_slots];                              // unit record, at the knot
   alignas(64) double left[march_slots];                           // part of the interval that lies ahead
@@ -31,6 +33,7 @@ struct SlideRockRows {
       bend2[march_slots];                       // bound of what forces do within an interval
   alignas(64) const double* next[march_slots];  // a at the end of the interval
   const double* stop[march_slots];              // the last such value
+  typename Gravity::Rows shakes;
 
   // A lane in which nothing ever happens.
   void clear(int i) {
@@ -59,14 +62,19 @@ struct SlideRockRows {
 // Two lists of rows, one after the other.
 template <std::size_t A, std::size_t B>
 auto joined(const std::array<double*, A>& a, const std::array<double*, B>& b) {
-  std::array<double*, A + B> all{};
-  for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
-  for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
-  return all;
+  if constexpr (B == 0) {
+    return a;
+  } else {
+    std::array<double*, A + B> all{};
+    for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
+    for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
+    return all;
+  }
 }
 
-template <class Friction>
+template <class Field, class Friction>
 struct SlipRows {
+  using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double xi[march_slots], w[march_slots];             // of the corner
   alignas(64) double a[march_slots];                              // unit record, at the knot
@@ -80,6 +88,7 @@ struct SlipRows {
   alignas(64) const double* next[march_slots];              // a at the end of the interval
   const double* stop[march_slots];                          // the last such value
   typename Friction::Rows law;
+  typename Gravity::Rows shakes;
 
   void clear(int i) {
     for (double* row : {theta, omega, rx, xi, w, a, weight, weight_g, friction, half_base, lever_x, lever_y, seen})
@@ -99,6 +108,7 @@ struct SlipRows {
 // Flat on the floor, not mirrored.
 template <class Friction>
 struct FlatRows {
+  using Gravity = Steady;
   alignas(64) double xi[march_slots], w[march_slots];
   alignas(64) double a[march_slots];                              // unit record, at the knot
   alignas(64) double left[march_slots];                           // part of the interval that lies ahead
@@ -123,7 +133,9 @@ struct FlatRows {
 };
 
 // Small hops; [0] on the left corner, [1] on the right one. Rotations are positive away from the floor.
+template <class Field>
 struct HopRows {
+  using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], side[march_slots];
   alignas(64) double a[march_slots];                          // unit record, where the lane is
   alignas(64) double left[march_slots];                       // part of the interval that lies ahead
@@ -133,6 +145,7 @@ struct HopRows {
   alignas(64) double hops[march_slots], impacts[march_slots], ended[march_slots];        // impacts: those that count
   alignas(64) const double* next[march_slots];                                           // a at the end of the interval
   const double* stop[march_slots];                                                       // the last such value
+  typename Gravity::HopRows shakes;
 
   void retire(int i) { push[i] = -1; }
   auto all() {
@@ -147,10 +160,14 @@ struct HopRows {
 };
 
 // Lane `from` of the other rows becomes lane `to` of these.
+template <std::size_t Count>
+void copy_each(const std::array<double*, Count>& mine, int to, const std::array<double*, Count>& theirs, int from) {
+  for (std::size_t k = 0; k < Count; ++k) mine[k][to] = theirs[k][from];
+}
 template <class Rows>
 void copy_lane(Rows& rows, int to, Rows& other, int from) {
-  const auto mine = rows.all(), theirs = other.all();
-  for (std::size_t k = 0; k < mine.size(); ++k) mine[k][to] = theirs[k][from];
+  copy_each(rows.all(), to, other.all(), from);
+  if constexpr (Rows::Gravity::shaken) copy_each(rows.shakes.all(), to, other.shakes.all(), from);
   rows.next[to] = other.next[from];
   rows.stop[to] = other.stop[from];
 }

@@ -29,6 +29,39 @@ inline double peak_between(const MotionTable& t, int from, int to) {
   return most;
 }
 
+// max (scale a_j)^2 + (lift v_j)^2, j = from ... to - 1, if it is above `seen`.
+inline double peak_of_both(const MotionTable& t, int from, int to, double scale, double lift, double seen) {
+  if (from >= to) return seen;
+  const auto run = static_cast<std::size_t>(from / table_run);
+  const double bound_a = scale * t.later_peak[run], bound_v = lift * t.later_vertical_peak[run];
+  if (bound_a * bound_a + bound_v * bound_v <= seen) return seen;
+  const double *a = t.acceleration.data(), *v = t.vertical.data();
+  const auto square = [](const auto& x, const auto& y) { return x * x + y * y; };
+  Pack most(seen);
+  int j = from;
+  for (; j + pack_lanes <= to; j += pack_lanes)
+    most = xsimd::max(most, square(Pack(scale) * load_any(a + j), Pack(lift) * load_any(v + j)));
+  for (int l = 0; l < pack_lanes; ++l) seen = larger(seen, most.get(static_cast<std::size_t>(l)));
+  for (; j < to; ++j) seen = larger(seen, square(scale * a[j], lift * v[j]));
+  return seen;
+}
+
+// First knot j >= from at which |scale a_j| may be above share (g + lift v_j); t.knots: none.
+inline int first_loud(const MotionTable& t, int from, double scale, double lift, double share, double g) {
+  const double *a = t.acceleration.data(), *v = t.vertical.data();
+  const Pack unit(scale), lifts(share * lift), weight(share * g * (1 - 1e-12));
+  int j = from / table_run * table_run;
+  unsigned keep = 0xffU << (from - j);
+  for (; j < t.knots; j += table_run, keep = 0xff) {
+    unsigned found = 0;
+    for (int i = 0; i < table_run; i += pack_lanes)
+      found |= bits(xsimd::abs(unit * load_any(a + j + i)) >= weight + lifts * load_any(v + j + i)) << i;
+    found &= keep;
+    if (found) return std::min(j + __builtin_ctz(found), t.knots);
+  }
+  return t.knots;
+}
+
 // A block that slides in direction sigma (of the unit record) from knot m on with speed sigma w > 0, slowed by friction
 // G = mu_k g h a knot, all over the record's scale: the first knot j >= m at which its speed
 //     sigma w_j = sigma (w + V_m - V_j) - G (j - m)

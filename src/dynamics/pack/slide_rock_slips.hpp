@@ -10,9 +10,9 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N, class Friction>
-class SlideRockSlips : public SlideRockGroup<SlipRows<Friction>> {
-  using Group = SlideRockGroup<SlipRows<Friction>>;
+template <int N, class Gravity, class Friction>
+class SlideRockSlips : public SlideRockGroup<SlipRows<Gravity, Friction>> {
+  using Group = SlideRockGroup<SlipRows<Gravity, Friction>>;
   using Group::r_;
 
  public:
@@ -41,7 +41,10 @@ class SlideRockSlips : public SlideRockGroup<SlipRows<Friction>> {
     const Pack gravity = load(r_.weight_g + i) * left2, k2 = load(r_.k2 + i), friction = load(r_.friction + i);
     const Pack sigma = load(r_.sigma + i), to_speed = r_.law.to_speed(i, sigma, left);
     typename Friction::template Factor<N> factor(r_.law, i);
-    y.slide_rock(gravity, weight * a, weight * (a_next - a), k2, friction, to_speed, factor);
+    const typename Gravity::Interval shakes(r_.shakes, i, r_.next + i);
+    const auto field = shakes.gravity(load(r_.weight_g + i)) * left2;
+    const auto floor_lift = shakes.lift() * left2;
+    y.slide_rock(field, weight * a, weight * (a_next - a), k2, friction, to_speed, factor);
     const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), rx = y.sum(y.rx), ry = y.sum(y.ry);
     const Pack xi = y.sum(y.xi), w = y.sum(y.w);
 
@@ -65,8 +68,8 @@ class SlideRockSlips : public SlideRockGroup<SlipRows<Friction>> {
     stays = stays | ((before * after < zero) & (size_u + xsimd::abs(before) + xsimd::abs(after) > peak));
 
     const Pack mu0 = friction * factor.first(), mu = friction * factor.last();
-    const Pack q0 = y.rx[0] + mu0 * y.ry[0], n0 = gravity - y.ry[0] * y.omega[0] * y.omega[0];
-    const Pack q = rx + mu * ry, n = gravity - ry * omega * omega, d0 = k2 + y.rx[0] * q0, d = k2 + rx * q;
+    const Pack q0 = y.rx[0] + mu0 * y.ry[0], n0 = at_start(field) - y.ry[0] * y.omega[0] * y.omega[0];
+    const Pack q = rx + mu * ry, n = at_end(field) - ry * omega * omega, d0 = k2 + y.rx[0] * q0, d = k2 + rx * q;
     stays = stays | ~((xsimd::min(n0, n) > zero) & (xsimd::min(d0, d) > Pack(0.05) * k2));
     const Pack fy0 = n0 * k2 / d0, fy = n * k2 / d, seen = load(r_.seen + i);
     const Pack lift0 = fy0 - gravity, lift = fy - gravity;
@@ -76,7 +79,7 @@ class SlideRockSlips : public SlideRockGroup<SlipRows<Friction>> {
       // Slope of the squared force at both ends, but for positive factors.
       const auto slope = [&](const Pack& x, const Pack& y1, const Pack& o, const Pack& n1, const Pack& d1,
                              const Pack& q1, const Pack& f, const Pack& m, const Pack& m_rate) {
-        const Pack alpha = n1 * q1 / d1, n_rate = x * o * o * o - two * y1 * o * alpha;
+        const Pack alpha = n1 * q1 / d1, n_rate = plus_rate(x * o * o * o - two * y1 * o * alpha, floor_lift);
         Pack d_rate = o * (y1 * q1 + x * (y1 - m * x)), change(0.0);
         if constexpr (Friction::by_speed) {
           d_rate = d_rate + x * m_rate * y1;
@@ -99,9 +102,10 @@ class SlideRockSlips : public SlideRockGroup<SlipRows<Friction>> {
     store(r_.xi + i, choose(stays, y.xi[0], xi));
     store(r_.w + i, choose(stays, w0, w * per_left));
     store(r_.a + i, choose(stays, a, a_next));
+    shakes.keep(r_.shakes, i, stays);
     store(r_.left + i, choose(stays, left, one));
     const unsigned all = bits(stays) & here;
-    advance(r_.next + i, here & ~all);
+    advance(r_.next + i, here & ~all, Gravity::stride);
     return all;
   }
 };

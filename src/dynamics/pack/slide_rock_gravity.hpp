@@ -1,0 +1,120 @@
+// What presses the blocks of a pool down.
+//
+//   Steady  g' = g, and no work
+//   Shaken  g' = g + v, straight within an interval; the records' rows hold a and v, knot by knot
+#pragma once
+
+#include <array>
+
+#include "base/pack.hpp"
+#include "dynamics/pack/gravity.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+constexpr int march_slots = 128;
+
+struct Steady {
+  static constexpr bool shaken = false;
+  static constexpr int stride = 1;  // of the records' rows
+
+  struct Rows {};
+  // What is left of an interval.
+  struct Interval {
+    Interval(const Rows&, int, const double* const*) {}
+    static Level lift() { return {}; }
+    static const Pack& gravity(const Pack& g) { return g; }
+    static const Pack& per_inertia(const Pack& g) { return g; }
+    static const Pack& lifted(const Pack& y) { return y; }
+    static const Pack& bent(const Pack& bend) { return bend; }
+    static void keep(Rows&, int, const PackMask&) {}
+  };
+
+  struct HopRows : Rows {};
+  // The same for small hops (dynamics/pack/hop_series.hpp).
+  struct Hop {
+    Hop(const HopRows&, int, const double* const*, const Pack&, const PackMask&) {}
+    static const Pack& beta(const Pack& y) { return y; }
+    static const Pack& beta_next(const Pack& y) { return y; }
+    static const Pack& beta_rate(const Pack& y) { return y; }
+    static const Pack& kappa(const Pack& y) { return y; }
+    static const Pack& kappa_rate(const Pack& y) { return y; }
+    static const PackMask& holds(const PackMask& others) { return others; }
+    static void keep(HopRows&, int, const PackMask&, const PackMask&, const Pack&) {}
+  };
+};
+
+struct Shaken {
+  static constexpr bool shaken = true;
+  static constexpr int stride = 2;
+
+  struct Rows {
+    alignas(64) double v[march_slots] = {};            // unit record, at the knot
+    alignas(64) double weight[march_slots] = {};       // scale h^2
+    alignas(64) double per_inertia[march_slots] = {};  // 1/J
+    alignas(64) double bend[march_slots] = {};         // as bend1 of the rows, for changes of v h^2
+    auto all() { return std::array{v, weight, per_inertia, bend}; }
+  };
+  class Interval {
+   public:
+    Interval(const Rows& rows, int i, const double* const* next)
+        : unit_(load(rows.v + i)),
+          unit_next_(fetch(next, 1)),
+          weight_(load(rows.weight + i)),
+          per_(load(rows.per_inertia + i)),
+          bend_(load(rows.bend + i)) {}
+
+    Straight<Pack> lift() const { return {weight_ * unit_, weight_ * (unit_next_ - unit_)}; }  // v h^2
+    Straight<Pack> gravity(const Pack& g) const {                                              // g' h^2 from g h^2
+      const Straight<Pack> v = lift();
+      return {g + v.start, v.rate};
+    }
+    Straight<Pack> per_inertia(const Pack& g) const {  // g' h^2/J from g h^2/J
+      const Straight<Pack> v = lift() * per_;
+      return {g + v.start, v.rate};
+    }
+    Pack lifted(const Pack& y) const { return y + weight_ * unit_next_; }
+    Pack bent(const Pack& bend) const { return bend + bend_ * xsimd::abs(lift().rate); }
+    // Its end is the start of the next one, but in the lanes of `stays`.
+    void keep(Rows& rows, int i, const PackMask& stays) const { store(rows.v + i, choose(stays, unit_, unit_next_)); }
+
+   private:
+    const Pack unit_, unit_next_, weight_, per_, bend_;
+  };
+
+  struct HopRows {
+    alignas(64) double v[march_slots] = {};                                   // unit record, where the lane is
+    alignas(64) double most[march_slots] = {};                                // |v| up to which the rows' bounds hold
+    alignas(64) double lift[2][march_slots] = {}, turn[2][march_slots] = {};  // what v adds to beta, and to kappa
+    auto all() { return std::array{v, most, lift[0], lift[1], turn[0], turn[1]}; }
+  };
+  class Hop {
+   public:
+    Hop(const HopRows& rows, int i, const double* const* next, const Pack& left, const PackMask& right)
+        : v_(load(rows.v + i)),
+          next_(fetch(next, 1)),
+          rate_((next_ - v_) / left),
+          most_(load(rows.most + i)),
+          lift_(choose(right, load(rows.lift[1] + i), load(rows.lift[0] + i))),
+          turn_(choose(right, load(rows.turn[1] + i), load(rows.turn[0] + i))) {}
+
+    Pack beta(const Pack& y) const { return y + lift_ * v_; }
+    Pack beta_next(const Pack& y) const { return y + lift_ * next_; }
+    Pack beta_rate(const Pack& y) const { return y + lift_ * rate_; }
+    Pack kappa(const Pack& y) const { return y + turn_ * v_; }
+    Pack kappa_rate(const Pack& y) const { return y + turn_ * rate_; }
+    PackMask holds(const PackMask& others) const {
+      return others & (xsimd::max(xsimd::abs(v_), xsimd::abs(next_)) <= most_);
+    }
+    // After a time t.
+    void keep(HopRows& rows, int i, const PackMask& stays, const PackMask& to_knot, const Pack& t) const {
+      store(rows.v + i, choose(stays, v_, choose(to_knot, next_, v_ + rate_ * t)));
+    }
+
+   private:
+    const Pack v_, next_, rate_, most_, lift_, turn_;
+  };
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
