@@ -44,17 +44,16 @@ std::string duration_text(double seconds) {
 }
 
 std::string progress_line(const Counts& done, std::int64_t total, std::int64_t before, double elapsed_s) {
-  const std::int64_t now = done.samples - before;
-  const double per_s = elapsed_s > 0 ? static_cast<double>(now) / elapsed_s : 0.0;
-  std::string line =
-      fmt::format("{}/{} samples ({:.1f} %)", grouped(done.samples), grouped(total), percent(done.samples, total));
+  const std::int64_t all = before + done.samples;
+  const double per_s = elapsed_s > 0 ? static_cast<double>(done.samples) / elapsed_s : 0.0;
+  std::string line = fmt::format("{}/{} samples ({:.1f} %)", grouped(all), grouped(total), percent(all, total));
   if (per_s > 0) {
     line += fmt::format(", {}/s", speed_text(per_s));
-    line += done.samples < total
-                ? fmt::format(", {} left", duration_text(static_cast<double>(total - done.samples) / per_s))
-                : fmt::format(", took {}", duration_text(elapsed_s));
+    line += all < total ? fmt::format(", {} left", duration_text(static_cast<double>(total - all) / per_s))
+                        : fmt::format(", took {}", duration_text(elapsed_s));
   }
-  return line + fmt::format(", {:.1f} % overturned, {} failed", percent(done.overturned, now), grouped(done.failed));
+  return line +
+         fmt::format(", {:.1f} % overturned, {} failed", percent(done.overturned, done.samples), grouped(done.failed));
 }
 
 bool on_terminal() {
@@ -66,7 +65,7 @@ bool on_terminal() {
   return !error && (target.starts_with("/dev/pts/") || target.starts_with("/dev/tty"));
 }
 
-Progress::Progress(std::int64_t total, const Counts& before, const Settings& settings)
+Progress::Progress(std::int64_t total, std::int64_t before, const Settings& settings)
     : total_(total), before_(before), settings_(settings), start_(Clock::now()), last_(start_) {}
 
 double Progress::elapsed_s() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
@@ -84,9 +83,7 @@ void Progress::show(const Counts& done) {
 void Progress::print(const Counts& done) {
   if (settings_.quiet) return;
   last_ = Clock::now();
-  Counts all = before_;
-  all += done;
-  const std::string line = progress_line(all, total_, before_.samples, elapsed_s());
+  const std::string line = progress_line(done, total_, before_, elapsed_s());
   if (settings_.terminal)
     fmt::print(settings_.stream, "\r{}\x1b[K", line);
   else

@@ -17,7 +17,8 @@ struct Counts {
 };
 
 // "12,288/200,000 samples (6.1 %), 1,530/s, 2 min 3 s left, 12.3 % overturned, 0 failed"
-// `before` of the total were there when the clock started (resumed runs); they do not count for the speed.
+// done: since the clock started. `before` of the total were there by then (resumed runs): they count as done, but neither
+// for the speed nor among those that overturned or failed.
 std::string progress_line(const Counts& done, std::int64_t total, std::int64_t before, double elapsed_s);
 
 // "45 s", "2 min 3 s", "1 h 5 min", "3 d 2 h"; seconds >= 0.
@@ -36,9 +37,9 @@ class Progress {
     bool quiet = false;  // say nothing
   };
 
-  // total: samples of the whole run; before: how many of them are already there, and what they counted.
-  explicit Progress(std::int64_t total, const Counts& before = {}) : Progress(total, before, Settings{}) {}
-  Progress(std::int64_t total, const Counts& before, const Settings& settings);
+  // total: samples of the whole run; before: how many of them are already there.
+  explicit Progress(std::int64_t total, std::int64_t before = 0) : Progress(total, before, Settings{}) {}
+  Progress(std::int64_t total, std::int64_t before, const Settings& settings);
 
   // done: since the start of this run, `before` not included. Prints when it is time for it.
   void show(const Counts& done);
@@ -56,7 +57,7 @@ class Progress {
   double elapsed_s() const;
 
   std::int64_t total_;
-  Counts before_;
+  std::int64_t before_;
   Settings settings_;
   Clock::time_point start_, last_;
   bool line_open_ = false;

@@ -109,8 +109,7 @@ class Sweep {
     }
     std::optional<parallel::Progress> progress;
     if (world_.is_root())
-      progress.emplace(samples, parallel::Counts{.samples = there},
-                       parallel::Progress::Settings{.quiet = options_.quiet || todo.empty()});
+      progress.emplace(samples, there, parallel::Progress::Settings{.quiet = options_.quiet || todo.empty()});
     const auto start = Clock::now();
     const bool complete = parallel::for_each_block(
         world_, todo,

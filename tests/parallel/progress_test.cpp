@@ -27,7 +27,7 @@ TEST(Progress, LineTellsSpeedAndTimeLeft) {
 }
 
 TEST(Progress, WhatWasThereBeforeCountsNeitherForTheSpeedNorForTheShares) {
-  EXPECT_EQ(progress_line({600, 5, 0}, 1000, 500, 10.0),
+  EXPECT_EQ(progress_line({100, 5, 0}, 1000, 500, 10.0),
             "600/1,000 samples (60.0 %), 10/s, 40 s left, 5.0 % overturned, 0 failed");
 }
 
@@ -54,7 +54,7 @@ TEST(Progress, OnATerminalTheLineIsRewritten) {
   Progress::Settings settings = settings_for(stream, true);
   settings.terminal_interval_s = 0;
   {
-    Progress progress(10, {}, settings);
+    Progress progress(10, 0, settings);
     progress.show({5, 0, 0});
     progress.finish({10, 0, 0});
   }
@@ -69,7 +69,7 @@ TEST(Progress, OnATerminalTheLineIsRewritten) {
 TEST(Progress, InALogNothingIsPrintedBeforeAMinuteButTheEnd) {
   std::FILE* stream = std::tmpfile();
   {
-    Progress progress(10, {}, settings_for(stream, false));
+    Progress progress(10, 0, settings_for(stream, false));
     EXPECT_FALSE(progress.due());
     for (int i = 1; i < 10; ++i) progress.show({i, 0, 0});
     progress.finish({10, 0, 0});
@@ -86,7 +86,7 @@ TEST(Progress, AnAbandonedTerminalLineIsEnded) {
   {
     Progress::Settings settings = settings_for(stream, true);
     settings.terminal_interval_s = 0;
-    Progress progress(10, {}, settings);
+    Progress progress(10, 0, settings);
     progress.show({5, 0, 0});
   }
   EXPECT_EQ(written(stream).back(), '\n');
@@ -98,7 +98,7 @@ TEST(Progress, QuietSaysNothing) {
   Progress::Settings settings = settings_for(stream, true);
   settings.quiet = true;
   {
-    Progress progress(10, {}, settings);
+    Progress progress(10, 0, settings);
     progress.finish({10, 0, 0});
   }
   EXPECT_EQ(written(stream), "");
