@@ -11,7 +11,8 @@ FEW = 5  # points below which a bin says nothing
 SHARE = 0.01  # of all points, that a phase must hold to be called the worst; as in the findings of `compare`
 ROWS = (("error_noise_units", "error\n({})"), ("growth_noise_units", "grows in 0.1 s by\n({})"))
 CAPTION = ("Above: root mean square error of all instants of a phase, or of a range of speed or path. Once the model is off it stays off, "
-           "so the lower row tells more: by how much the error changes within 0.1 s there. Dashed: what sensor noise alone would make.")
+           "so the lower row tells more: by how much the error changes within 0.1 s there. Dashed: what sensor noise alone would "
+           "make. Hollow: a phase of less than 1 % of the time, too rare to be named.")
 
 
 def pictures(results):
@@ -65,6 +66,10 @@ def _present(table, key):
     return np.isfinite(table.columns[key]) & (np.nan_to_num(table.count) >= FEW)
 
 
+def _often(table):
+    return np.nan_to_num(table.count) > SHARE * np.nansum(table.count)
+
+
 def _used(results, name):
     """Positions of the named bins in which any model has points."""
     tables = [_tables(comparison)[name] for comparison in results.comparisons if name in _tables(comparison)]
@@ -77,8 +82,10 @@ def _line(ax, table, key, used, colour, label):
     value = np.where(good, table.columns[key], np.nan)
     if table.label:
         used = used[used < value.size]
-        ax.plot(np.arange(used.size), value[used], "o", ms=6, color=colour, mec="white", mew=0.6, label=label)
-        ax.vlines(np.arange(used.size), 1.0, value[used], color=colour, lw=1.0, alpha=0.35)
+        place, often = np.arange(used.size), _often(table)[used]
+        ax.vlines(place, 1.0, value[used], color=colour, lw=1.0, alpha=0.35)
+        ax.plot(place[often], value[used][often], "o", ms=6, color=colour, mec="white", mew=0.6, label=label)
+        ax.plot(place[~often], value[used][~often], "o", ms=5, color="white", mec=colour, mew=1.2)
     else:
         ax.plot(validation.scaled(table)[0] * table.centre[good], value[good], "-o", ms=4, lw=1.6, color=colour, mec="white", mew=0.5, label=label)
     return value
@@ -98,8 +105,7 @@ def _finding(results):
     key = "growth_noise_units"
     if table is None or not _present(table, key).any():
         return "Where the model is off"
-    many = np.nan_to_num(table.count) > SHARE * np.nansum(table.count)
-    value = np.where(_present(table, key) & many, table.columns[key], np.nan)
+    value = np.where(_present(table, key) & _often(table), table.columns[key], np.nan)
     if not np.isfinite(value).any():
         return "Where the model is off"
     top = int(np.nanargmax(value))
