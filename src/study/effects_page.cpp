@@ -50,6 +50,7 @@ std::string parameter_line(const Parameter& p) {
   std::string summary = p.summary;
   if (p.neutral) summary += fmt::format("; no effect at {}", bound(*p.neutral));
   if (p.fallback) summary += fmt::format("; {} where a study does not say", number_text(*p.fallback));
+  if (!p.fitted) summary += ", and in diagnose and add";
   return wrapped(fmt::format("{:<42} ", text), summary, 43);
 }
 
@@ -104,6 +105,7 @@ nlohmann::ordered_json effect_json(const Effect& effect) {
                                   {"upper", number(p.upper)},
                                   {"neutral", number(p.neutral)},
                                   {"default", number(p.fallback)},
+                                  {"fitted", p.fitted},
                                   {"low", p.low},
                                   {"high", p.high}});
   return json;
