@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "base/digits.hpp"
 #include "io/output_folder.hpp"
 
 namespace freestand::app {
@@ -13,17 +14,14 @@ struct Options : ValidationOptions {
   std::string effect;
 };
 
-nlohmann::ordered_json number(double x) {
-  return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
-}
+std::string text(double error) { return std::isfinite(error) ? freestand::three_digits(error) : "-"; }
 
-void tell(const std::string& file, const std::string& text) {
-  const study::Validation v = study::parse_validation(text, file);
+void tell(const std::string& file, const std::string& content) {
+  const study::Validation v = study::parse_validation(content, file);
   fmt::print("{:<28} {:>12} {:>12} {:>12}\n", "model", "calibration", "held out", "noise floor");
   for (const auto& step : v.ladder)
     fmt::print("{:<28} {:>12} {:>12} {:>12}\n", (step.step == "base" ? "" : "+ ") + step.step,
-               three_digits(number(step.error_calibration)), three_digits(number(step.error_holdout)),
-               three_digits(number(step.noise_floor)));
+               text(step.error_calibration), text(step.error_holdout), text(step.noise_floor));
   for (const auto& c : v.calibrated)
     if (c.value) fmt::print("{} = {:.5g}\n", c.name, *c.value);
   fmt::print("study in {}\n", file);

@@ -43,6 +43,10 @@ void fill(Row& row, const FloorMotion& motion, const std::vector<double>& c, dou
   row[n] = c[2 * n - 2] + c[2 * n - 1] * h;
 }
 
+void keep_largest_of_later(Row& peaks) {
+  for (std::size_t r = peaks.size() - 1; r-- > 0;) peaks[r] = std::max(peaks[r], peaks[r + 1]);
+}
+
 void tabulate_vertical(MotionTable& t, const FloorMotion& motion) {
   const std::size_t all = t.acceleration.size(), runs = t.run_peak.size();
   t.vertical.assign(all, 0.0);
@@ -55,8 +59,7 @@ void tabulate_vertical(MotionTable& t, const FloorMotion& motion) {
     double& peak = t.later_vertical_peak[j / table_run];
     peak = std::max(peak, std::abs(t.vertical[j]));
   }
-  for (std::size_t r = runs - 1; r-- > 0;)
-    t.later_vertical_peak[r] = std::max(t.later_vertical_peak[r], t.later_vertical_peak[r + 1]);
+  keep_largest_of_later(t.later_vertical_peak);
 }
 
 }  // namespace
@@ -102,8 +105,7 @@ std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
     t.run_levels[j / level_run] = std::max(t.run_levels[j / level_run], t.levels[j]);
   }
   t.later_peak = t.run_peak;
-  for (std::size_t r = t.later_peak.size() - 1; r-- > 0;)
-    t.later_peak[r] = std::max(t.later_peak[r], t.later_peak[r + 1]);
+  keep_largest_of_later(t.later_peak);
   if (!motion.vertical_mps2.empty() && continuous(motion, motion.vertical_mps2)) tabulate_vertical(t, motion);
   return table;
 }

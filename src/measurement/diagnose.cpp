@@ -195,17 +195,15 @@ class Diagnoser {
       for (const auto* effect : catalogue_)
         if (goes_with(seed->fit.model, *effect) && allowed(*effect)) others.push_back(effect);
       const std::vector<bool> seen = visible(seed->fit, others);
-      for (std::size_t i = 0; i < others.size(); ++i) {
-        if (!seen[i] || known_pair(pairs, seed->effects[0], others[i]->name)) continue;
-        join(seed->effects[0], seed->fit, *others[i], pairs, tasks);
-      }
+      for (std::size_t i = 0; i < others.size(); ++i)
+        if (seen[i] && !tried(seed->effects[0], others[i]->name))
+          join(seed->effects[0], seed->fit, *others[i], pairs, tasks);
     }
     finish_pairs(std::move(pairs), tasks);
   }
 
   // Fits them, and the best few of them to the end, which become candidates.
   void finish_pairs(std::vector<Candidate> pairs, const std::vector<FitTask>& tasks) {
-    for (const Candidate& pair : pairs) tried_pairs_.push_back(pair.effects);
     auto fits = fit_models(bench_, tasks, quick(), jobs_);
     for (std::size_t i = 0; i < fits.size(); ++i) pairs[i].fit = std::move(fits[i]);
     std::stable_sort(pairs.begin(), pairs.end(),
@@ -253,7 +251,8 @@ class Diagnoser {
   }
 
   void join(const std::string& name, const ModelFit& fit, const dynamics::Effect& other, std::vector<Candidate>& pairs,
-            std::vector<FitTask>& tasks) const {
+            std::vector<FitTask>& tasks) {
+    tried_pairs_.push_back({name, other.name});
     pairs.push_back({.effects = {name, other.name}, .fit = fit});
     tasks.push_back({.model = with_effect(narrowed(fit), other, bench_.reach())});
     tasks.back().starts = starts_from({fit.x}, tasks.back().model, 24 * fitted_numbers(other));
@@ -355,12 +354,6 @@ class Diagnoser {
   const dynamics::Effect& of_catalogue(const std::string& name) const {
     return **std::find_if(catalogue_.begin(), catalogue_.end(),
                           [&](const auto* effect) { return effect->name == name; });
-  }
-
-  static bool known_pair(const std::vector<Candidate>& pairs, const std::string& a, const std::string& b) {
-    return std::any_of(pairs.begin(), pairs.end(), [&](const Candidate& c) {
-      return (c.effects[0] == a && c.effects[1] == b) || (c.effects[0] == b && c.effects[1] == a);
-    });
   }
 
   const Bench& bench_;
