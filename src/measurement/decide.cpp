@@ -134,14 +134,14 @@ class Decision {
   // Is a worse than b by more than chance?
   bool worse(const Candidate& a, const Candidate& b) const {
     if (histories_) {
-      const double left = std::max(0.0, b.misfit - samples_of(b) - 3 * std::sqrt(2 * samples_of(b)));
+      const double left = std::max(0.0, b.misfit - samples() - 3 * std::sqrt(2 * samples()));
       return a.misfit - b.misfit > chance_misfit + 0.5 * left;
     }
     const Pooled difference = paired_difference(a.fit.left_out, b.fit.left_out);
     const double n = static_cast<double>(a.fit.left_out.size());
     return difference.error > gsl_cdf_tdist_Pinv(0.975, n - 1) * difference.standard_error && difference.error > 1e-9;
   }
-  static double samples_of(const Candidate& c) { return c.misfit / (c.explained * c.explained); }
+  double samples() const { return total(d_.samples); }
 
   bool is_rival(const Candidate& c, const Candidate& best) const {
     if (!c.visible || !c.fit.left_out_refitted || !c.practical || c.effects.size() > best.effects.size()) return false;
@@ -150,10 +150,28 @@ class Decision {
   }
 
   // Also by the plain error: a base that strayed after one test that the floor's noise had turned elsewhere looks worse to
-  // the covariance of its own replays than it is.
+  // the covariance of its own replays than it is. And by more than its own replays stray.
   bool better_than_base(const Candidate* best) const {
     if (!best || !worse(d_.base, *best)) return false;
-    return !histories_ || pooled_left_out(*best) < pooled_left_out(d_.base);
+    return !histories_ || (pooled_left_out(*best) < pooled_left_out(d_.base) && gain_beyond_strays(*best) > chance_misfit);
+  }
+
+  double gain_beyond_strays(const Candidate& best) const {
+    double gain = 0;
+    for (std::size_t i = 0; i < best.misfits.size(); ++i) {
+      const double here = d_.base.misfits[i] - best.misfits[i];
+      gain += here > 0 ? std::max(here - d_.strays[i], 0.0) : here;
+    }
+    return gain;
+  }
+
+  // Beyond what its own replays stray, sensor and floor noise explain the base.
+  bool base_at_the_noise() const {
+    if (good_enough(d_.base)) return true;
+    double beyond = samples();
+    for (std::size_t i = 0; i < d_.base.misfits.size(); ++i)
+      beyond += std::max(d_.base.misfits[i] - d_.samples[i] - d_.strays[i], 0.0);
+    return beyond <= at_noise * at_noise * samples();
   }
 
   // A pair that holds a rival single effect is no rival of its own.
@@ -170,7 +188,7 @@ class Decision {
   bool good_enough(const Candidate& c) const { return !histories_ || c.explained <= at_noise; }
 
   void finish_without(const Candidate* best) {
-    if (good_enough(d_.base)) {
+    if (base_at_the_noise()) {
       d_.verdict = Verdict::none;
       say(best ? fmt::format(
                      "no effect beats the base by more than chance (the best, {}, changes the left-out error from "
@@ -232,24 +250,29 @@ Kind kind_of_set(const Bench& bench) {
 void judge_histories(const Bench&, const Judge& judge, Diagnosis& d, const Jobs& jobs) {
   std::vector<Candidate*> all = {&d.base};
   for (Candidate& c : d.candidates) all.push_back(&c);
-  const double n = total(judge.samples());
-  const double base_bic = bic(judge.samples(), d.base.fit);
+  d.samples = judge.samples();
+  const double n = total(d.samples);
+  const double base_bic = bic(d.samples, d.base.fit);
   const auto answers = jobs("judging", all.size(), [&](std::size_t i) {
     if (!all[i]->visible) return Values{};  // never fitted: its numbers are the base's alone
-    return Values{total(judge.misfit(all[i]->fit)), total(judge.misfit_of_fit(all[i]->fit))};
+    Values misfits = judge.misfit(all[i]->fit);
+    misfits.push_back(total(judge.misfit_of_fit(all[i]->fit)));
+    return misfits;
   });
   for (std::size_t i = 0; i < all.size(); ++i) {
     Candidate& c = *all[i];
     if (!c.visible) {
+      c.misfits = d.base.misfits;
       c.misfit = d.base.misfit;
       c.misfit_of_fit = d.base.misfit_of_fit;
       c.explained = d.base.explained;
       continue;
     }
-    c.misfit = answers[i][0];
-    c.misfit_of_fit = answers[i][1];
+    c.misfits.assign(answers[i].begin(), answers[i].end() - 1);
+    c.misfit = total(c.misfits);
+    c.misfit_of_fit = answers[i].back();
     c.explained = std::sqrt(c.misfit / n);
-    c.delta_bic = bic(judge.samples(), c.fit) - base_bic;
+    c.delta_bic = bic(d.samples, c.fit) - base_bic;
   }
 }
 

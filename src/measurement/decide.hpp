@@ -18,7 +18,7 @@ bool practical(const ModelFit&, std::size_t known);
 
 Kind kind_of_set(const Bench&);  // of its first calibration test
 
-// Fills misfit, explained and delta_bic of base and candidates.
+// Fills misfits, explained and delta_bic of base and candidates.
 void judge_histories(const Bench&, const Judge&, Diagnosis&, const Jobs&);
 
 // Sorts the candidates and fills verdict, effects, differences, rivals, sentences.

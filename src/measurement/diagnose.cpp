@@ -41,6 +41,7 @@ class Diagnoser {
         if (fit_parts_of_best_pair()) judge();
       }
     }
+    look_for_strays();
     decide(bench_, out_);
     name_untried();
     return std::move(out_);
@@ -172,6 +173,11 @@ class Diagnoser {
       out_.noise_floor = judge.expected();
       judge_histories(bench_, judge, out_, jobs_);
     }
+  }
+
+  void look_for_strays() {
+    if (kind_of_set(bench_) != Kind::history) return;
+    out_.strays = Judge(bench_, out_.base.fit.model, out_.base.fit.x, jobs_).strays();
   }
 
   bool second_effect_wanted() const {

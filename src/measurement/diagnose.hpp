@@ -37,7 +37,8 @@ struct Candidate {
   ModelFit fit;
   bool visible = true;                       // the data can see it
   bool practical = true;                     // its parameters lie where it is met
-  double misfit = unjudged;                  // G, of the tests left out; nan: not judged
+  std::vector<double> misfits = {};          // G, of each test left out
+  double misfit = unjudged;                  // their sum; nan: not judged
   double misfit_of_fit = unjudged;           // G, of the fit to all tests
   double explained = unjudged;               // sqrt(G/samples): 1 where sensor and floor noise explain all
   double delta_bic = 0;                      // against the base; negative: better
@@ -52,6 +53,8 @@ struct Diagnosis {
   Candidate base;
   std::vector<Candidate> candidates;  // best first by the left-out error
   std::vector<double> noise_floor;    // error that the best model itself would show, of each calibration test
+  std::vector<double> samples;        // of each calibration test
+  std::vector<double> strays;         // Judge::strays() of the base
   std::vector<std::string> sentences;
 };
 

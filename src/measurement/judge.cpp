@@ -34,6 +34,26 @@ Eigen::MatrixXd root_part(const Eigen::MatrixXd& gram) {
   return solved.eigenvectors() * part.asDiagonal() * solved.eigenvectors().transpose();
 }
 
+// r^T C^-1 r with C = 1 + B B^T: of r^T r, B^T r and B^T B.
+double misfit_of(double square, const Eigen::VectorXd& projected, const Eigen::MatrixXd& gram) {
+  if (projected.size() == 0) return square;
+  return square - projected.dot((Eigen::MatrixXd::Identity(gram.rows(), gram.rows()) + gram).llt().solve(projected));
+}
+
+// gram: A^T A of all replays, with A as in judge.hpp.
+double largest_stray(const Eigen::MatrixXd& gram) {
+  const Eigen::Index count = gram.rows();
+  const auto n = static_cast<double>(count), more = n / (n - 1);  // A of the others has one column fewer
+  double largest = 0;
+  for (Eigen::Index k = 0; k < count && count > 1; ++k) {
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index i = 0; i < count; ++i)
+      if (i != k) others.push_back(i);
+    largest = std::max(largest, misfit_of(n * gram(k, k), std::sqrt(n * more) * gram(others, k), more * gram(others, others)));
+  }
+  return largest;
+}
+
 }  // namespace
 
 struct Judge::Parts {
@@ -86,6 +106,7 @@ void Judge::take(const std::vector<Values>& columns, double fanned_out) {
     const Eigen::MatrixXd gram = A.transpose() * A;
     parts->inner.emplace_back(Eigen::MatrixXd::Identity(count, count) + gram);
     parts->root.push_back(root_part(gram));
+    strays_.push_back(largest_stray(gram));
     parts->A.push_back(std::move(A));
     parts->kept.push_back(std::move(kept));
   }

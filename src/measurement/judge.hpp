@@ -33,6 +33,10 @@ class Judge {
   const std::vector<double>& samples() const { return samples_; }
   // Of the reference: expected_error() of each calibration test.
   const std::vector<double>& expected() const { return expected_; }
+  // Of the reference, each calibration test: the largest misfit that one replay shows to the covariance of the others.
+  // Near none where the floor's noise bends the motion a little; where it decides which way the motion goes, a model that
+  // is right may miss the measured history by that much.
+  const std::vector<double>& strays() const { return strays_; }
 
  private:
   struct Parts;
@@ -40,7 +44,7 @@ class Judge {
   double misfit(std::size_t i, const ModelFit&, const Values& x) const;
   const Bench& bench_;
   std::vector<std::size_t> tests_;
-  std::vector<double> samples_, expected_;
+  std::vector<double> samples_, expected_, strays_;
   std::shared_ptr<const Parts> parts_;
 };
 

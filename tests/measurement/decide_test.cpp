@@ -27,12 +27,17 @@ Candidate candidate(const Bench& bench, std::vector<std::string> effects, double
   c.fit.calibration = c.fit.left_out;
   c.fit.left_out_refitted = true;
   c.explained = explained;
+  c.misfits.assign(tests, samples / static_cast<double>(tests) * explained * explained);
   c.misfit = c.misfit_of_fit = samples * explained * explained;
   return c;
 }
 
-Diagnosis decided(const Bench& bench, double error, double explained) {
+// strays: of every test of the base.
+Diagnosis decided(const Bench& bench, double error, double explained, double strays = 0) {
+  const std::size_t tests = tests_of(bench.data(), Role::calibration).size();
   Diagnosis d;
+  d.samples.assign(tests, samples / static_cast<double>(tests));
+  d.strays.assign(tests, strays);
   d.base = candidate(bench, {}, 5.5, 2.9);
   d.candidates = {candidate(bench, {"reduced_base"}, error, explained)};
   decide(bench, d);
@@ -51,6 +56,15 @@ TEST(Decide, AnEffectThatRaisesTheErrorIsNotMissing) {
   const Bench bench(data, 0);
   const Diagnosis d = decided(bench, 9.4, 1.1);
   EXPECT_EQ(d.verdict, Verdict::unknown);
+  EXPECT_TRUE(d.effects.empty());
+}
+
+// A chaotic rocking that went another way than measured proves nothing where replays of the floor's noise do so as well.
+TEST(Decide, AnEffectThatGainsLessThanReplaysOfTheBaseStrayIsNotMissing) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  const Diagnosis d = decided(bench, 1.05, 1.0, samples * 2.9 * 2.9);
+  EXPECT_EQ(d.verdict, Verdict::none);
   EXPECT_TRUE(d.effects.empty());
 }
 

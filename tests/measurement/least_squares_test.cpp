@@ -59,6 +59,38 @@ TEST(Judge, WhitenedResidualsHaveTheMisfitAsTheirSquare) {
   }
 }
 
+// Of two replays, one by the covariance that the other alone makes: |r|^2 - (r.s)^2/(1 + |s|^2).
+TEST(Judge, StraysAreWhatAReplayMissesTheOthersBy) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  disturb_floor(data, 0.03, 1);
+  const Bench bench(data, 2);
+  const ModelSpec model = test::free_friction();
+  const Values x = {0.21};
+  const Judge judge(bench, model, x, run_here);
+  const auto tests = tests_of(data, Role::calibration);
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    const auto& test = data.tests[tests[i]];
+    const Prediction nominal = predict(model, test, x);
+    double product[2][2] = {};
+    for (int c = 0; c < channel_count; ++c) {
+      const auto channel = static_cast<Channel>(c);
+      if (history(test, channel).empty()) continue;
+      Values r[2];
+      for (std::size_t k = 0; k < 2; ++k)
+        r[k] = predict(model, test, x, &bench.replays(tests[i])[k]).channel(channel);
+      for (std::size_t n = 0; n < r[0].size(); ++n)
+        for (int k = 0; k < 2; ++k)
+          for (int l = 0; l < 2; ++l)
+            product[k][l] += (r[k][n] - nominal.channel(channel)[n]) * (r[l][n] - nominal.channel(channel)[n]) /
+                             std::pow(bench.noise(channel), 2);
+    }
+    const auto misfit = [&](int k, int other) {
+      return product[k][k] - product[k][other] * product[k][other] / (1 + product[other][other]);
+    };
+    EXPECT_NEAR(judge.strays()[i] / std::max(misfit(0, 1), misfit(1, 0)), 1, 1e-9);
+  }
+}
+
 TEST(Judge, LeavesOutWhatTheFloorsNoiseHasFannedOut) {
   Dataset data = test::made_dataset(cabinet(0.2));
   disturb_floor(data, 0.03, 1);
