@@ -12,20 +12,23 @@
 #include "base/pack.hpp"
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
-#include "dynamics/pack/rock_lanes.hpp"
+#include "dynamics/pack/rock_hops.hpp"
 #include "dynamics/pack/rock_series.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 template <int N>
-class RockPool : RockLanes {
+class RockPool : RockHops {
  public:
-  using RockLanes::RockLanes;
+  using RockHops::RockHops;
 
   void run() {
     while (live_ > 0) {
-      if (waiting_ >= 2 * pack_lanes || waiting_ == live_)
+      const int rocking = live_ - waiting_ - hopping();
+      if (hopping() >= pack_lanes || (hopping() > 0 && rocking + waiting_ == 0))
+        hop();
+      else if (waiting_ >= 2 * pack_lanes || (waiting_ > 0 && rocking == 0))
         resolve();
       else
         march();

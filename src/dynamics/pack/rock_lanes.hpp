@@ -1,13 +1,13 @@
 // The lives of the samples in the slots of a pool that rocks: from rest to rest, sample after sample.
-//
-// A row of ever smaller hops that the floor cannot interrupt any more is taken at once: the block ends at rest.
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "base/pack.hpp"
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
+#include "dynamics/pack/ground.hpp"
 #include "dynamics/pack/search.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
@@ -29,6 +29,14 @@ struct RockRows {
   alignas(64) double side[rock_slots];                       // +1 right corner, -1 left
   alignas(64) double peak[rock_slots], force2[rock_slots];   // of |theta|; of the squared acceleration
   alignas(64) const double* next[rock_slots];                // a at the end of the interval
+};
+
+// What a block needs that rocks in small hops.
+struct Grounds {
+  Ground left, right;
+  HopBounds bounds;
+  explicit Grounds(const BatchCase& c) : left(c, -1), right(c, 1), bounds(c, left, right) {}
+  const Ground& on(double side) const { return side > 0 ? right : left; }
 };
 
 class RockLanes {
@@ -54,6 +62,7 @@ class RockLanes {
     double dying = 0;    // no row of hops dies out within `look` intervals that starts faster than this, per interval
     int restless = -1;   // up to this knot the floor pushes too hard for hops to die out
     bool after = false;  // the record is over
+    std::optional<Grounds> grounds = {};
   };
 
   void clear(int i) {
@@ -270,90 +279,12 @@ class RockLanes {
     r_.left[i] = 1;
   }
 
-  void strike(int i, double omega) {
-    Lane& lane = lanes_[i];
-    const BatchCase& c = *lane.sample;
-    ++lane.events;
-    lane.impacts += lane.hop_here * omega * omega >= c.told_rotation;
-    const double rate = lane.kept * omega;
-    stand_on(i, r_.side[i] > 0 ? -1 : 1);
-    r_.theta[i] = 0;
-    r_.omega[i] = rate;
-    if (r_.left[i] < 1e-12) {
-      if (free_of(i) <= 1) return decline(i);
-      to_next_knot(i);
-    }
-    const bool rests = lane.hop_here * rate * rate < c.rest_rotation;
-    if (!rests && !dies_out(i)) return go_on(i);
-    if (lane.after) {
-      const double inertia = c.k2 + c.h * c.h + c.right * c.left;
-      const double alpha = c.g * 0.5 * (c.left + c.right) / inertia, speed = magnitude(rate) / c.table->step_s;
-      const double time =
-          rests ? 0.0 : 2 * speed / alpha * (1 - std::pow(lane.kept, hops_to_rest(i))) / (1 - lane.kept);
-      const double after = c.table->step_s * (knot(i) + 1 - r_.left[i]) + time;
-      if (after > c.free_vibration_s) return decline(i);
-      finish(i, Outcome::moved, c.table->step_s * (c.table->knots - 1) + after, 0.0);
-      return refill(i);
-    }
-    const double a = r_.a[i];
-    if (rests && magnitude(a) > limit(c, a)) {
-      r_.omega[i] = 0;
-      stand_on(i, a * c.scale > 0 ? -1 : 1);
-      return go_on(i);
-    }
-    if (!leave_rest(i, knot(i), 1 - r_.left[i])) refill(i);
-  }
-
   static constexpr int look = 16;  // intervals
 
   static double dying_rate(const BatchCase& c, double most_lost) {
     const double arm = c.left < c.right ? c.left : c.right, longer = c.left < c.right ? c.right : c.left;
     const double h = c.table->step_s, slowing = arm * c.g / (c.k2 + c.h * c.h + longer * longer);
     return 0.25 * (look - 1) * h * h * slowing * most_lost * (1 + 1e-9);
-  }
-
-  // The hops that follow end before the floor could make one larger: then they are counted, and the block rests.
-  bool dies_out(int i) {
-    Lane& lane = lanes_[i];
-    const BatchCase& c = *lane.sample;
-    if (magnitude(r_.omega[i]) > lane.dying) return false;
-    const int m = knot(i);
-    if (lane.hop_here * r_.omega[i] * r_.omega[i] >= c.told_rotation || (!lane.after && m <= lane.restless))
-      return false;
-    const double h = c.table->step_s, omega = magnitude(r_.omega[i]) / h;
-    const double arm = c.left < c.right ? c.left : c.right, longer = c.left < c.right ? c.right : c.left;
-    const double small = c.k2 + c.h * c.h + arm * arm, large = c.k2 + c.h * c.h + longer * longer;
-    const double push = lane.after ? 0.0 : magnitude(c.scale) * bound_between(*c.table, m, m + 1 + look);
-    const auto slowing = [&](double a) { return (arm * c.g - c.h * a) / large; };
-    const auto too_hard = [&](double a) { return !(slowing(a) > 0.1 * arm * c.g / large); };
-    if (too_hard(push)) {
-      int run = (m + look) / table_run;
-      while (!too_hard(magnitude(c.scale) * c.table->run_peak[static_cast<std::size_t>(run)])) --run;
-      lane.restless = run * table_run + table_run - 1;
-      return false;
-    }
-    const double slow = slowing(push);
-    const double kept = 0.5 * (1 + lane.kept);
-    if (2 * omega > (look - 1) * h * slow * (1 - kept)) return false;
-    const double rotation = omega * omega / (2 * slow);
-    if (rotation > r_.peak[i] || rotation > 0.001 * arm / c.h) return false;
-    const double fast = (longer * c.g + c.h * push) / small;
-    const double fx = push * magnitude(1 - c.h * c.h / large) + c.h * longer * c.g / small + 2 * c.h * omega * omega;
-    const double fy = longer * fast + 2 * c.h * omega * omega;
-    if ((fx * fx + fy * fy) * (h * h * h * h) > r_.force2[i]) return false;
-    // Within one hop the field changes by a factor of 1 + change at most, and with it the squared rate.
-    const double jump = lane.after ? 0.0 : largest(c.table->margin.data() + m, look + 1) * (8 / h);
-    const double change = magnitude(c.scale) * jump * c.h / small * 2 * omega / (h * slow * slow);
-    if (lane.kept * lane.kept * (1 + change) > kept * kept) return false;
-    lane.events += hops_to_rest(i);
-    return true;
-  }
-
-  // How many hops in a steady field are left until one is too small to tell.
-  int hops_to_rest(int i) const {
-    const Lane& lane = lanes_[i];
-    const double ratio = lane.sample->rest_rotation / (lane.hop_here * r_.omega[i] * r_.omega[i]);
-    return lane.kept > 0 ? static_cast<int>(std::ceil(std::log(ratio) / (2 * std::log(lane.kept)))) : 1;
   }
 
   static constexpr int packs = rock_slots / pack_lanes;

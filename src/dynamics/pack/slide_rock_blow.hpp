@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/batch.hpp"
-#include "dynamics/pack/slide_rock_ground.hpp"
+#include "dynamics/pack/ground.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {

@@ -21,13 +21,7 @@ class SlideRockHops : public SlideRockLane {
     enter_floor(r, i);
     for (int k = 0; k < 2; ++k) {
       const Ground& ground = ground_[k];
-      r.weight[k][i] = ground.weight * h2;
-      r.tip[k][i] = ground.tip * c_.scale * h2;
-      r.kappa[k][i] = ground.kappa * h2;
-      r.bend[k][i] = ground.bend * c_.scale * h2;
-      r.kept[k][i] = ground.kept;
-      r.told[k][i] = ground.told * h2;
-      r.rests[k][i] = ground.rests * h2;
+      r.stand(k, i, ground, c_.scale, h2);
       if constexpr (Gravity::shaken) {
         const double weight = c_.vertical_scale * h2 * ground.per_inertia;
         r.shakes.lift[k][i] = weight * magnitude(ground.arm);
@@ -132,10 +126,7 @@ class SlideRockHops : public SlideRockLane {
     const double share = v / c_.g;
     const double fx = b.fx * (1 + share) + small_share * c_.g, lift = b.lift + v + small_share * c_.g;
     const double grip = (c_.mu_s * (c_.g - lift) - fx) / (b.fx1 + c_.mu_s * b.lift1);
-    const double square = b.fx1 * b.fx1 + b.lift1 * b.lift1, slope = fx * b.fx1 + lift * b.lift1;
-    const double room = force2_ - fx * fx - lift * lift;
-    const double force = room > 0 ? (std::sqrt(slope * slope + square * room) - slope) / square : -1;
-    return smaller(smaller(grip, force), b.tips * (1 - share));
+    return smaller(smaller(grip, b.unseen_push(fx, lift, force2_)), b.tips * (1 - share));
   }
 
   // Is it certain that the floor does not tip the block while a row of hops lasts? span: the row's duration times slow,

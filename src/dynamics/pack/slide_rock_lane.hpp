@@ -7,7 +7,8 @@
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/search.hpp"
 #include "dynamics/pack/slide_rock_blow.hpp"
-#include "dynamics/pack/slide_rock_ground.hpp"
+#include "dynamics/pack/ground.hpp"
+#include "dynamics/pack/hop_rows.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {

@@ -6,15 +6,15 @@
 #include "base/pack.hpp"
 #include "dynamics/pack/corner_series.hpp"
 #include "dynamics/pack/rock_series.hpp"
-#include "dynamics/pack/slide_rock_group.hpp"
+#include "dynamics/pack/lane_group.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 template <int N, class Gravity>
-class SlideRockMarch : public SlideRockGroup<SlideRockRows<Gravity>> {
-  using Group = SlideRockGroup<SlideRockRows<Gravity>>;
+class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
+  using Group = LaneGroup<SlideRockRows<Gravity>>;
   using Group::r_;
   using Interval = typename Gravity::Interval;
 

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "dynamics/pack/slide_rock.hpp"
-#include "dynamics/pack/slide_rock_hopping.hpp"
+#include "dynamics/pack/hopping.hpp"
 #include "dynamics/pack/slide_rock_march.hpp"
 #include "dynamics/pack/slide_rock_slides.hpp"
 #include "dynamics/pack/slide_rock_slips.hpp"
@@ -156,7 +156,7 @@ class SlideRockPool {
   SlideRockMarch<N, Gravity> rocks_, strikes_;
   SlideRockSlips<M, Gravity, Friction> slips_;
   SlideRockSlides<slide_order, Friction> slides_;
-  SlideRockHopping<Gravity> hops_;
+  Hopping<Gravity> hops_;
   std::optional<SlideRock<M, Gravity>> lanes_[march_slots];
   std::size_t number_[march_slots];  // of the lane's sample
   int free_ = 0;                     // intervals until a record may end

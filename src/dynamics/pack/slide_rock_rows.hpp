@@ -4,16 +4,10 @@
 // times h, accelerations times h^2.
 #pragma once
 
-#include <array>
-
-#include "base/pack.hpp"
-#include "dynamics/pack/slide_rock_gravity.hpp"
+#include "dynamics/pack/lane_rows.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
-
-constexpr int still_intervals = 16384;
-alignas(64) const double still_ground[still_intervals] = {};  // the floor after the record
 
 template <class Field>
 struct SlideRockRows {
@@ -58,19 +52,6 @@ struct SlideRockRows {
                       weight_g, mu,    look, seen, bend0, bend1, bend2, turned, room,    half_base};
   }
 };
-
-// Two lists of rows, one after the other.
-template <std::size_t A, std::size_t B>
-auto joined(const std::array<double*, A>& a, const std::array<double*, B>& b) {
-  if constexpr (B == 0) {
-    return a;
-  } else {
-    std::array<double*, A + B> all{};
-    for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
-    for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
-    return all;
-  }
-}
 
 template <class Field, class Friction>
 struct SlipRows {
@@ -132,47 +113,6 @@ struct FlatRows {
   }
 };
 
-// Small hops; [0] on the left corner, [1] on the right one. Rotations are positive away from the floor.
-template <class Field>
-struct HopRows {
-  using Gravity = Field;
-  alignas(64) double theta[march_slots], omega[march_slots], side[march_slots];
-  alignas(64) double a[march_slots];                          // unit record, where the lane is
-  alignas(64) double left[march_slots];                       // part of the interval that lies ahead
-  alignas(64) double limit2[march_slots], push[march_slots];  // four times a squared rotation; |a| of the unit record
-  alignas(64) double weight[2][march_slots], tip[2][march_slots], kappa[2][march_slots], bend[2][march_slots];
-  alignas(64) double kept[2][march_slots], told[2][march_slots], rests[2][march_slots];  // squared rates but the first
-  alignas(64) double hops[march_slots], impacts[march_slots], ended[march_slots];        // impacts: those that count
-  alignas(64) const double* next[march_slots];                                           // a at the end of the interval
-  const double* stop[march_slots];                                                       // the last such value
-  typename Gravity::HopRows shakes;
-
-  void retire(int i) { push[i] = -1; }
-  auto all() {
-    return std::array{theta,    omega,     side,      a,        left,     limit2,  push,    hops,
-                      impacts,  ended,     weight[0], tip[0],   kappa[0], bend[0], kept[0], told[0],
-                      rests[0], weight[1], tip[1],    kappa[1], bend[1],  kept[1], told[1], rests[1]};
-  }
-  void clear(int i) {
-    for (double* row : all()) row[i] = 1;
-    next[i] = stop[i] = still_ground;
-  }
-};
-
-// Lane `from` of the other rows becomes lane `to` of these.
-template <std::size_t Count>
-void copy_each(const std::array<double*, Count>& mine, int to, const std::array<double*, Count>& theirs, int from) {
-  for (std::size_t k = 0; k < Count; ++k) mine[k][to] = theirs[k][from];
-}
-template <class Rows>
-void copy_lane(Rows& rows, int to, Rows& other, int from) {
-  copy_each(rows.all(), to, other.all(), from);
-  if constexpr (Rows::Gravity::shaken) copy_each(rows.shakes.all(), to, other.shakes.all(), from);
-  rows.next[to] = other.next[from];
-  rows.stop[to] = other.stop[from];
-}
-
-constexpr double hops_at_once = 16;  // until it is asked whether a row of hops dies out
 // Least last term of a series that counts. The series of laws may converge slowly; what they neglect is a speed, which
 // stays for good, so it is less the shorter the step.
 constexpr double neglected = 3e-11, neglected_by_laws = 3e-13;  // least term of a series that counts

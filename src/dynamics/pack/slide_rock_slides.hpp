@@ -5,14 +5,14 @@
 #include "base/pack.hpp"
 #include "dynamics/pack/flat_series.hpp"
 #include "dynamics/pack/friction.hpp"
-#include "dynamics/pack/slide_rock_group.hpp"
+#include "dynamics/pack/lane_group.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 template <int N, class Friction>
-class SlideRockSlides : public SlideRockGroup<FlatRows<Friction>> {
-  using Group = SlideRockGroup<FlatRows<Friction>>;
+class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
+  using Group = LaneGroup<FlatRows<Friction>>;
   using Group::r_;
 
  public:

@@ -4,15 +4,15 @@
 
 #include "base/pack.hpp"
 #include "dynamics/pack/corner_series.hpp"
-#include "dynamics/pack/slide_rock_group.hpp"
+#include "dynamics/pack/lane_group.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 template <int N, class Gravity, class Friction>
-class SlideRockSlips : public SlideRockGroup<SlipRows<Gravity, Friction>> {
-  using Group = SlideRockGroup<SlipRows<Gravity, Friction>>;
+class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
+  using Group = LaneGroup<SlipRows<Gravity, Friction>>;
   using Group::r_;
 
  public:

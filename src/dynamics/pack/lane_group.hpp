@@ -4,15 +4,15 @@
 #include <cstdint>
 
 #include "base/pack.hpp"
-#include "dynamics/pack/slide_rock_rows.hpp"
+#include "dynamics/pack/lane_rows.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 template <class Rows>
-class SlideRockGroup {
+class LaneGroup {
  public:
-  SlideRockGroup() {
+  LaneGroup() {
     for (int i = 0; i < march_slots; ++i) r_.clear(i);
   }
 
@@ -31,7 +31,7 @@ class SlideRockGroup {
     close(i);
   }
   // As it is, from a group with the same rows.
-  void take(SlideRockGroup& other, int i) {
+  void take(LaneGroup& other, int i) {
     lane_[count_] = other.lane_[i];
     copy_lane(r_, count_++, other.r_, i);
     other.close(i);

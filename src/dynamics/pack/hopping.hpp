@@ -2,16 +2,16 @@
 #pragma once
 
 #include "base/pack.hpp"
+#include "dynamics/pack/hop_rows.hpp"
 #include "dynamics/pack/hop_series.hpp"
-#include "dynamics/pack/slide_rock_group.hpp"
-#include "dynamics/pack/slide_rock_rows.hpp"
+#include "dynamics/pack/lane_group.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 template <class Gravity>
-class SlideRockHopping : public SlideRockGroup<HopRows<Gravity>> {
-  using Group = SlideRockGroup<HopRows<Gravity>>;
+class Hopping : public LaneGroup<HopRows<Gravity>> {
+  using Group = LaneGroup<HopRows<Gravity>>;
   using Group::r_;
 
  public:

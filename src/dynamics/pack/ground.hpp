@@ -86,6 +86,14 @@ struct HopBounds {
     limit2 = limit * limit;
   }
 
+  // |a| up to which |f_x| <= fx + fx1 |a| and |f_y - g| <= lift + lift1 |a| are no larger acceleration than `force2`, squared;
+  // negative: none.
+  double unseen_push(double fx0, double lift0, double force2) const {
+    const double square = fx1 * fx1 + lift1 * lift1, slope = fx0 * fx1 + lift0 * lift1;
+    const double room = force2 - fx0 * fx0 - lift0 * lift0;
+    return room > 0 ? (std::sqrt(slope * slope + square * room) - slope) / square : -1;
+  }
+
   static constexpr double small_rotation = 1e-3;  // in angles of slenderness
 };
 

@@ -1,0 +1,50 @@
+// Blocks that rock in small hops, side by side (dynamics/pack/hopping.hpp). Time is counted in intervals h.
+#pragma once
+
+#include "dynamics/pack/ground.hpp"
+#include "dynamics/pack/lane_rows.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+// Small hops; [0] on the left corner, [1] on the right one. Rotations are positive away from the floor.
+template <class Field>
+struct HopRows {
+  using Gravity = Field;
+  alignas(64) double theta[march_slots], omega[march_slots], side[march_slots];
+  alignas(64) double a[march_slots];                          // unit record, where the lane is
+  alignas(64) double left[march_slots];                       // part of the interval that lies ahead
+  alignas(64) double limit2[march_slots], push[march_slots];  // four times a squared rotation; |a| of the unit record
+  alignas(64) double weight[2][march_slots], tip[2][march_slots], kappa[2][march_slots], bend[2][march_slots];
+  alignas(64) double kept[2][march_slots], told[2][march_slots], rests[2][march_slots];  // squared rates but the first
+  alignas(64) double hops[march_slots], impacts[march_slots], ended[march_slots];        // impacts: those that count
+  alignas(64) const double* next[march_slots];                                           // a at the end of the interval
+  const double* stop[march_slots];                                                       // the last such value
+  typename Gravity::HopRows shakes;
+
+  // What pulls the block back on corner k.
+  void stand(int k, int i, const Ground& ground, double scale, double h2) {
+    weight[k][i] = ground.weight * h2;
+    tip[k][i] = ground.tip * scale * h2;
+    kappa[k][i] = ground.kappa * h2;
+    bend[k][i] = ground.bend * scale * h2;
+    kept[k][i] = ground.kept;
+    told[k][i] = ground.told * h2;
+    rests[k][i] = ground.rests * h2;
+  }
+  void retire(int i) { push[i] = -1; }
+  auto all() {
+    return std::array{theta,    omega,     side,      a,        left,     limit2,  push,    hops,
+                      impacts,  ended,     weight[0], tip[0],   kappa[0], bend[0], kept[0], told[0],
+                      rests[0], weight[1], tip[1],    kappa[1], bend[1],  kept[1], told[1], rests[1]};
+  }
+  void clear(int i) {
+    for (double* row : all()) row[i] = 1;
+    next[i] = stop[i] = still_ground;
+  }
+};
+
+constexpr double hops_at_once = 16;  // until it is asked whether a row of hops dies out
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA

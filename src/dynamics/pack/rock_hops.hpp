@@ -1,0 +1,215 @@
+// What follows an impact of a block that rocks in a pool: it rocks on, hops on in small hops, which go through packs of
+// their own (dynamics/pack/hopping.hpp), or rests.
+//
+// A row of ever smaller hops that the floor cannot interrupt any more is taken at once: the block ends at rest.
+#pragma once
+
+#include "dynamics/pack/hopping.hpp"
+#include "dynamics/pack/rock_lanes.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+class RockHops : public RockLanes {
+ protected:
+  using RockLanes::RockLanes;
+
+  void strike(int i, double omega) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    ++lane.events;
+    lane.impacts += lane.hop_here * omega * omega >= c.told_rotation;
+    const double rate = lane.kept * omega;
+    stand_on(i, r_.side[i] > 0 ? -1 : 1);
+    r_.theta[i] = 0;
+    r_.omega[i] = rate;
+    if (r_.left[i] < 1e-12) {
+      if (free_of(i) <= 1) return decline(i);
+      to_next_knot(i);
+    }
+    after_impact(i);
+  }
+
+  // One impact or knot for all that hop, if there are any.
+  void hop() {
+    const std::uint64_t apart = hops_.march();
+    for (int k = hops_.count() < 64 ? hops_.count() : 64; k-- > 0;) {
+      if (!(apart >> k & 1U)) continue;
+      Hopper hopper{*this, hops_.lane(k)};
+      hops_.remove(hopper, k);
+      const Lane& lane = lanes_[hopper.slot];
+      if (lane.events > most_events)
+        decline(hopper.slot);
+      else if (hopper.ended)
+        come_to_rest(hopper.slot, true);
+      else if (hopper.many)
+        after_impact(hopper.slot);
+      else
+        go_on(hopper.slot);
+    }
+  }
+  int hopping() const { return hops_.count(); }
+
+ private:
+  using Rows = HopRows<Steady>;
+
+  // A lane as the group of small hops takes it and gives it back.
+  struct Hopper {
+    RockHops& pool;
+    int slot;
+    bool ended = false, many = false;
+    void enter(Rows& rows, int k) const { pool.enter(rows, k, slot); }
+    void leave(const Rows& rows, int k) {
+      ended = rows.ended[k] > 0;
+      many = rows.hops[k] >= hops_at_once;
+      pool.leave(rows, k, slot);
+    }
+  };
+
+  void after_impact(int i) {
+    const Lane& lane = lanes_[i];
+    const bool rests = lane.hop_here * r_.omega[i] * r_.omega[i] < lane.sample->rest_rotation;
+    if (rests || dies_out(i)) return come_to_rest(i, rests);
+    if (!small_hops(i)) return go_on(i);
+    Hopper hopper{*this, i};
+    hops_.add(hopper, i);
+  }
+
+  void come_to_rest(int i, bool rests) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    const double rate = r_.omega[i];
+    if (lane.after) {
+      const double inertia = c.k2 + c.h * c.h + c.right * c.left;
+      const double alpha = c.g * 0.5 * (c.left + c.right) / inertia, speed = magnitude(rate) / c.table->step_s;
+      const double time =
+          rests ? 0.0 : 2 * speed / alpha * (1 - std::pow(lane.kept, hops_to_rest(i))) / (1 - lane.kept);
+      const double after = c.table->step_s * (knot(i) + 1 - r_.left[i]) + time;
+      if (after > c.free_vibration_s) return decline(i);
+      finish(i, Outcome::moved, c.table->step_s * (c.table->knots - 1) + after, 0.0);
+      return refill(i);
+    }
+    const double a = r_.a[i];
+    if (rests && magnitude(a) > limit(c, a)) {
+      r_.omega[i] = 0;
+      stand_on(i, a * c.scale > 0 ? -1 : 1);
+      return go_on(i);
+    }
+    if (!leave_rest(i, knot(i), 1 - r_.left[i])) refill(i);
+  }
+
+
+  // The hops that follow end before the floor could make one larger: then they are counted, and the block rests.
+  bool dies_out(int i) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    if (magnitude(r_.omega[i]) > lane.dying) return false;
+    const int m = knot(i);
+    if (lane.hop_here * r_.omega[i] * r_.omega[i] >= c.told_rotation || (!lane.after && m <= lane.restless))
+      return false;
+    const double h = c.table->step_s, omega = magnitude(r_.omega[i]) / h;
+    const double arm = c.left < c.right ? c.left : c.right, longer = c.left < c.right ? c.right : c.left;
+    const double small = c.k2 + c.h * c.h + arm * arm, large = c.k2 + c.h * c.h + longer * longer;
+    const double push = lane.after ? 0.0 : magnitude(c.scale) * bound_between(*c.table, m, m + 1 + look);
+    const auto slowing = [&](double a) { return (arm * c.g - c.h * a) / large; };
+    const auto too_hard = [&](double a) { return !(slowing(a) > 0.1 * arm * c.g / large); };
+    if (too_hard(push)) {
+      int run = (m + look) / table_run;
+      while (!too_hard(magnitude(c.scale) * c.table->run_peak[static_cast<std::size_t>(run)])) --run;
+      lane.restless = run * table_run + table_run - 1;
+      return false;
+    }
+    const double slow = slowing(push);
+    const double kept = 0.5 * (1 + lane.kept);
+    if (2 * omega > (look - 1) * h * slow * (1 - kept)) return false;
+    const double rotation = omega * omega / (2 * slow);
+    if (rotation > r_.peak[i] || rotation > 0.001 * arm / c.h) return false;
+    const double fast = (longer * c.g + c.h * push) / small;
+    const double fx = push * magnitude(1 - c.h * c.h / large) + c.h * longer * c.g / small + 2 * c.h * omega * omega;
+    const double fy = longer * fast + 2 * c.h * omega * omega;
+    if ((fx * fx + fy * fy) * (h * h * h * h) > r_.force2[i]) return false;
+    // Within one hop the field changes by a factor of 1 + change at most, and with it the squared rate.
+    const double jump = lane.after ? 0.0 : largest(c.table->margin.data() + m, look + 1) * (8 / h);
+    const double change = magnitude(c.scale) * jump * c.h / small * 2 * omega / (h * slow * slow);
+    if (lane.kept * lane.kept * (1 + change) > kept * kept) return false;
+    lane.events += hops_to_rest(i);
+    return true;
+  }
+
+  // How many hops in a steady field are left until one is too small to tell.
+  int hops_to_rest(int i) const {
+    const Lane& lane = lanes_[i];
+    const double ratio = lane.sample->rest_rotation / (lane.hop_here * r_.omega[i] * r_.omega[i]);
+    return lane.kept > 0 ? static_cast<int>(std::ceil(std::log(ratio) / (2 * std::log(lane.kept)))) : 1;
+  }
+
+
+  // ---- small hops
+  // Are the hops from here on so small that their series (dynamics/pack/hop_series.hpp) is as good as that of rocking, and
+  // no new peaks?
+  bool small_hops(int i) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    if (!lane.grounds) lane.grounds.emplace(c);
+    const double h = c.table->step_s, rate = r_.omega[i] / h, square = rate * rate, a = c.scale * r_.a[i];
+    const double pull = lane.grounds->on(r_.side[i]).pull(a, 0);
+    return square * square < limit2(i) * pull * pull && lane.grounds->bounds.fast * c.g * h * h < 1e-3 &&
+           magnitude(a) <= largest_push(i) && free_of(i) > 0;
+  }
+
+  // Four times the squared rotation up to which hops are small.
+  double limit2(int i) const {
+    const double most = lanes_[i].grounds->bounds.limit2, peak2 = r_.peak[i] * r_.peak[i];
+    return 4 * (peak2 < most ? peak2 : most);
+  }
+
+  // Of the floor, so that small hops are no new peak of the acceleration and it tips the block nowhere.
+  double largest_push(int i) const {
+    const BatchCase& c = *lanes_[i].sample;
+    const HopBounds& b = lanes_[i].grounds->bounds;
+    const double h2 = c.table->step_s * c.table->step_s, more = small_share * c.g;
+    return smaller(b.unseen_push(b.fx + more, b.lift + more, r_.force2[i] / (h2 * h2)), b.tips);
+  }
+
+  void enter(Rows& rows, int k, int i) const {
+    const Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    const double h2 = c.table->step_s * c.table->step_s, side = r_.side[i];
+    rows.theta[k] = 0;
+    rows.omega[k] = side * r_.omega[i];
+    rows.side[k] = side;
+    rows.a[k] = r_.a[i];
+    rows.left[k] = r_.left[i];
+    rows.next[k] = r_.next[i];
+    rows.stop[k] = r_.next[i] + free_of(i) - 1;
+    for (const int right : {0, 1}) rows.stand(right, k, right ? lane.grounds->right : lane.grounds->left, c.scale, h2);
+    rows.limit2[k] = limit2(i);
+    rows.push[k] = largest_push(i) / magnitude(c.scale);
+    rows.hops[k] = rows.impacts[k] = rows.ended[k] = 0;
+  }
+
+  void leave(const Rows& rows, int k, int i) {
+    Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    stand_on(i, rows.side[k] > 0 ? 1 : -1);
+    const double side = r_.side[i], size = rows.theta[k];
+    r_.next[i] = rows.next[k];
+    r_.left[i] = rows.left[k];
+    r_.a[i] = rows.a[k];
+    r_.theta[i] = side * size;
+    r_.omega[i] = side * rows.omega[k];
+    const double sine = r_.theta[i] * (1 - size * size * (1.0 / 6)), lost = 0.5 * size * size, arm = -r_.rx[i];
+    r_.rx[i] = c.h * sine - arm * (1 - lost);
+    r_.ry[i] = arm * sine + c.h * (1 - lost);
+    lane.events += static_cast<int>(rows.hops[k]);
+    lane.impacts += static_cast<int>(rows.impacts[k]);
+  }
+
+  static constexpr int most_events = 10000;
+  static constexpr double small_share = 0.002;  // of gravity: what small rotations add to the forces
+
+  Hopping<Steady> hops_;
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
