@@ -40,11 +40,13 @@ class LaneGroup {
  protected:
   using Gravity = typename Rows::Gravity;
 
-  // Bits of the lanes for which march(first lane, bits of the lanes in use) says so, or whose record ends: these first.
+  // Bits of the lanes for which march(first lane, bits of the lanes in use) says so, or whose record ends: these first. Full
+  // packs alone, if there is one: the lanes of the rest wait for others.
   template <class March>
   std::uint64_t each_pack(March&& march) {
     std::uint64_t apart = 0;
-    for (int i = 0; i < count_ && i < 64; i += pack_lanes) {
+    const int end = count_ < pack_lanes ? count_ : count_ / pack_lanes * pack_lanes;
+    for (int i = 0; i < end && i < 64; i += pack_lanes) {
       unsigned over = 0, here = 0;
       for (int l = 0; l < pack_lanes && i + l < count_; ++l) {
         over |= static_cast<unsigned>(r_.next[i + l] > r_.stop[i + l]) << l;
