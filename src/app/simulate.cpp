@@ -32,7 +32,7 @@ Exit simulate(const Options& options) {
              name(result.response.outcome), result.response.peak_slip_m, result.response.peak_rotation_rad,
              result.specimen.block.alpha_rad(), result.response.events, folder.string());
   constexpr const char* why[] = {"no motion agrees with the contact forces, as in Painleve's paradox",
-                                 "more steps than allowed", "a law gave no finite number"};
+                                 "more steps than allowed", "the motion grows beyond all bounds, or a law gave no finite number"};
   if (result.response.outcome >= Outcome::painleve)
     fmt::print("the computation broke off at {:.4g} s: {}; the numbers hold until then\n", result.response.end_time_s,
                why[static_cast<int>(result.response.outcome) - static_cast<int>(Outcome::painleve)]);

@@ -4,6 +4,9 @@
 
 namespace freestand::dynamics {
 namespace {
+constexpr double beyond_all_bounds = 1e6;  // [m], [rad] and per second: a law feeds the motion
+constexpr int steps_watched = 10000;
+constexpr double least_progress = 0.1;            // of them, times p: a law stands before a place where it has no value
 constexpr int wait_order = max_floor_degree + 1;  // witnesses at rest are the floor's own polynomials
 
 // Horizontal velocity of the centre of mass relative to the floor.
@@ -36,7 +39,8 @@ Integration::Integration(const Setup& setup, const Settings& settings_, History*
       shaking(setup.shaking),
       settings(settings_),
       cursor(shaking, rig.g, rig.push),
-      recorder(history, rig) {
+      recorder(history, rig),
+      p_(setup.specimen.block.p_radps()) {
   if (!rig.laws) return;
   if (rig.laws->tape.overflow() || !(rig.laws->carried_mass > 0)) stop(Outcome::not_finite);
   state.sides = rig.laws->initial_sides();
@@ -182,8 +186,12 @@ void Integration::stop(Outcome outcome) {
 void Integration::stop_when_done() {
   const double values[] = {state.theta, state.omega, state.xi, state.w, state.x, state.y, state.vx, state.vy};
   for (const double value : values)
-    if (!std::isfinite(value)) return stop(Outcome::not_finite);
+    if (!(std::abs(value) < beyond_all_bounds)) return stop(Outcome::not_finite);
   if (!peaks.finite()) return stop(Outcome::not_finite);
+  if (++steps_ % steps_watched == 0) {
+    if ((cursor.time() - watched_from_) * p_ < least_progress) return stop(Outcome::step_limit);
+    watched_from_ = cursor.time();
+  }
   if (!cursor.motion_over()) return;
   const bool out_of_time = cursor.time() >= shaking.duration_s() + settings.free_vibration_s;
   if (settles() || out_of_time) stop(moved_ ? Outcome::moved : Outcome::at_rest);

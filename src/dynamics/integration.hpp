@@ -97,6 +97,8 @@ class Integration {
   bool finished_ = false;
   bool moved_ = false;
   double rest_since_ = 0;  // [s]
+  double p_, watched_from_ = 0;
+  int steps_ = 0;
   int resolved_ = 0;       // events, those that changed nothing included
   Outcome outcome_ = Outcome::moved;
 };

@@ -251,4 +251,17 @@ std::vector<std::string> findings(const Bench& bench, const ModelSpec& model, st
   return Findings(bench, model, x, comparison).all(quality);
 }
 
+std::vector<std::string> undetermined(const ModelFit& fit) {
+  constexpr double nearly_all = 0.9;
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < fit.intervals.size(); ++i) {
+    const Free& free = fit.model.free[i];
+    const double share = to_unit(free, fit.intervals[i].upper) - to_unit(free, fit.intervals[i].lower);
+    if (share > nearly_all)
+      found.push_back(fmt::format("the tests do not determine {}: it may be anything from {:.4g} to {:.4g}", free.name,
+                                  fit.intervals[i].lower, fit.intervals[i].upper));
+  }
+  return found;
+}
+
 }  // namespace freestand::measurement

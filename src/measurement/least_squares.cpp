@@ -162,15 +162,9 @@ bool weigh_floor_noise(const Bench& bench, ModelFit& fit, const Tests& tests, co
   return true;
 }
 
-// How far the i-th number alone may go to one side before G rises by the 95 % point of chi-square with one degree.
-double end_of_range(const Judge& judge, const Tests& tests, const ModelFit& fit, std::size_t i, double side) {
-  constexpr double rise = 3.84;
+// How far the i-th number alone may go to one side before the misfit rises by so much.
+double end_of_range(const Objective& total, double rise, const ModelFit& fit, std::size_t i, double side) {
   const Free& free = fit.model.free[i];
-  const auto total = [&](const Values& x) {
-    double sum = 0;
-    for (const std::size_t t : tests) sum += misfit(judge, t, fit.model, x);
-    return sum;
-  };
   const double least = total(fit.x), z = to_unit(free, fit.x[i]);
   const auto at = [&](double step) {
     Values x = fit.x;
@@ -193,14 +187,25 @@ double end_of_range(const Judge& judge, const Tests& tests, const ModelFit& fit,
 
 // Widens intervals to what the number alone may do. The jackknife is blind to a number that no test determines: no refit
 // moves it.
-void widen_intervals(const Judge& judge, const Tests& tests, ModelFit& fit, const Jobs& jobs) {
+void widen_intervals(const Objective& total, double rise, ModelFit& fit, const Jobs& jobs) {
   const auto ends = jobs("intervals", 2 * fit.x.size(), [&](std::size_t k) {
-    return Values{end_of_range(judge, tests, fit, k / 2, k % 2 == 0 ? -1 : 1)};
+    return Values{end_of_range(total, rise, fit, k / 2, k % 2 == 0 ? -1 : 1)};
   });
   for (std::size_t i = 0; i < fit.intervals.size(); ++i) {
     Interval& interval = fit.intervals[i];
     interval = {std::min(interval.lower, ends[2 * i][0]), std::max(interval.upper, ends[2 * i + 1][0])};
   }
+}
+
+constexpr double chi_square_95 = 3.84;  // of one degree of freedom
+
+// Of a model that is far from the noise, or of peaks: peaks scatter by what the fit leaves of them, and of histories no
+// likelihood is known: a twentieth of one test's squared error counts.
+void widen_by_score(const Bench& bench, const Tests& tests, ModelFit& fit, Kind kind, const Jobs& jobs) {
+  const auto n = static_cast<double>(tests.size()), known = static_cast<double>(fit.x.size());
+  const Objective total = [&](std::span<const double> x) { return n * mean_score(bench, tests, fit.model, x); };
+  const double rise = kind == Kind::history ? 0.05 : chi_square_95 * n * fit.score / std::max(n - known, 1.0);
+  widen_intervals(total, std::max(rise, 1e-9), fit, jobs);
 }
 
 }  // namespace
@@ -226,8 +231,10 @@ void descend_by_derivatives(const Bench& bench, std::vector<ModelFit*> fits, con
 
 void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs& jobs) {
   const auto calibration = tests_of(bench.data(), Role::calibration);
-  if (calibration.empty() || kind(bench.test(calibration.front())) != Kind::history) {
+  const Kind judged = calibration.empty() ? Kind::history : kind(bench.test(calibration.front()));
+  if (calibration.empty() || judged != Kind::history) {
     leave_out(bench, {&fit}, effort, jobs);
+    if (judged == Kind::peaks) widen_by_score(bench, calibration, fit, judged, jobs);
     return;
   }
   Tests all(calibration.size());
@@ -240,6 +247,7 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
   fit.score = mean_score(bench, calibration, fit.model, fit.x);
   if (!near) {
     leave_out(bench, {&fit}, effort, jobs);
+    widen_by_score(bench, calibration, fit, judged, jobs);
     return;
   }
   const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
@@ -247,7 +255,12 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
       bench, {&fit},
       [&](const ModelFit& whole, const Tests& seen) { return least_squares(judge, seen, whole.model, whole.x, 1); },
       jobs);
-  widen_intervals(judge, all, fit, jobs);
+  const Objective total = [&](std::span<const double> x) {
+    double sum = 0;
+    for (const std::size_t t : all) sum += misfit(judge, t, fit.model, x);
+    return sum;
+  };
+  widen_intervals(total, chi_square_95, fit, jobs);
 }
 
 }  // namespace freestand::measurement

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "measurement/findings.hpp"
 #include "study/fitted_study.hpp"
 #include "study/spread_jobs.hpp"
 #include "study/validation_parts.hpp"
@@ -165,7 +166,8 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
   const bool calibrated = fit.left_out_refitted || fit.evaluations > 0;
   Effort effort;
   const Quality quality = examine(bench, fit, effort, jobs);
-  const Comparison c = measurement::compare(bench, fit.model, fit.x, compare_tests(bench, fit, jobs), quality);
+  Comparison c = measurement::compare(bench, fit.model, fit.x, compare_tests(bench, fit, jobs), quality);
+  for (std::string& finding : measurement::undetermined(fit)) c.findings.push_back(std::move(finding));
 
   std::vector<std::string> effects;
   for (const EffectTerm& term : fit.model.effects) effects.push_back(term.effect->name);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/units.hpp"
+#include "dynamics/effect.hpp"
 #include "support/floor_motions.hpp"
 #include "support/random_cases.hpp"
 #include "support/solvers.hpp"
@@ -121,6 +122,35 @@ TEST_P(Failure, InputThatIsNoNumberIsAnOutcome) {
       EXPECT_EQ(r.outcome, Outcome::not_finite) << "which " << which << " bad " << bad;
     }
   }
+}
+
+// X = 100 u: the slip grows as exp(10 t) for as long as the block is watched.
+TEST_P(Failure, ALawThatFeedsTheMotionIsAnOutcome) {
+  const dynamics::Effect feed{.name = "feed",
+                              .force = [](const dynamics::At& at, const auto&) { return 100.0 * at.u; }};
+  const FloorMotion pulse = rectangular_pulse(0.6 * g, 0.2);
+  Specimen specimen = plain_block();
+  specimen.model = Model::slide;
+  specimen.effects = {{&feed, {}}};
+  const Response r = GetParam()(specimen, {&pulse});
+  EXPECT_EQ(r.outcome, Outcome::not_finite);
+  EXPECT_TRUE(finite(r));
+  EXPECT_LT(r.end_time_s, 5);
+}
+
+// F = ln(2 + 30 u) has no value from u = -1/15 on, and no end of smaller and smaller steps before it.
+TEST(FastFailure, ALawThatEndsIsAnOutcome) {
+  const dynamics::Effect ends{.name = "ends",
+                              .friction = [](const dynamics::At& at, const auto&) { return log(30.0 * at.u + 2.0); }};
+  const FloorMotion sine = one_sine();
+  Specimen specimen;
+  specimen.block = Block::rectangular(0.6, 2, 100);
+  specimen.friction = {0.2, 0.2};
+  specimen.effects = {{&ends, {}}};
+  const Response r = respond(specimen, {.motion = &sine, .scale = 0.5 * g, .stretch = 0.8});
+  EXPECT_EQ(r.outcome, Outcome::step_limit);
+  EXPECT_TRUE(finite(r));
+  EXPECT_NEAR(r.peak_slip_m, 1.0 / 15, 1e-3);
 }
 
 TEST_P(Failure, TooManyEventsIsAnOutcome) {

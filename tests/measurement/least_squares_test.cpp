@@ -8,6 +8,7 @@
 
 #include "base/random.hpp"
 #include "effects/effects.hpp"
+#include "measurement/findings.hpp"
 #include "measurement/made_tests.hpp"
 
 namespace freestand::measurement {
@@ -168,6 +169,26 @@ TEST(Settle, ANumberThatNoTestDeterminesHasAWideInterval) {
   EXPECT_LT(fit.intervals[0].lower, 0.6);
   EXPECT_GT(fit.intervals[0].lower, 0.2);  // there it slides
   EXPECT_DOUBLE_EQ(fit.intervals[0].upper, 1.2);
+}
+
+// The same where the model is far from the measurements: no slip depends on the mass.
+TEST(Settle, NorDoesAWrongModelKnowWhatNoTestShows) {
+  Specimen truth = cabinet(0.2);
+  truth.friction.mu_s = 0.4;
+  const Dataset data = test::made_dataset(truth);
+  const Bench bench(data, 8);
+  ModelFit fit{.model = test::free_friction(), .x = {0.21, 150}};
+  fit.model.mass = Number{.free = 1};
+  fit.model.free.push_back({.name = "block.mass_kg", .lower = 10, .upper = 1000, .low = 10, .high = 1000});
+  settle(bench, fit, Effort{}, run_here);
+  ASSERT_EQ(fit.intervals.size(), 2U);
+  EXPECT_DOUBLE_EQ(fit.intervals[1].lower, 10);
+  EXPECT_DOUBLE_EQ(fit.intervals[1].upper, 1000);
+  EXPECT_GT(fit.intervals[0].lower, 0.05);
+  EXPECT_LT(fit.intervals[0].upper, 0.8);
+  const auto open = undetermined(fit);
+  ASSERT_EQ(open.size(), 1U);
+  EXPECT_NE(open[0].find("block.mass_kg"), std::string::npos);
 }
 
 // A model that misses more than the floor's noise explains is fitted by what it misses.
