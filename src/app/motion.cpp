@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "app/command.hpp"
@@ -17,6 +18,7 @@ struct Options {
   std::vector<std::string> files;
   std::string unit, channel, convert;
   double dt_s = 0;
+  bool overwrite = false;
 };
 
 constexpr double spectrum_periods_s[] = {0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};
@@ -60,6 +62,15 @@ std::string floor_csv(const FloorMotion& motion) {
   return text;
 }
 
+void convert(const FloorMotion& motion, const Options& options) {
+  const std::filesystem::path target = options.convert;
+  if (std::filesystem::exists(target) && !std::filesystem::is_regular_file(target))
+    throw Error(target.string() + " is no plain file (it would be replaced by one): give the name of a file");
+  if (std::filesystem::exists(target) && !options.overwrite)
+    throw Error(target.string() + " exists already (it would be lost): choose another name, or give --overwrite");
+  io::write_text(target, floor_csv(motion));
+}
+
 Exit show(const Options& options) {
   if (!options.convert.empty() && options.files.size() != 1)
     throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
@@ -71,7 +82,7 @@ Exit show(const Options& options) {
   for (const std::string& file : options.files) {
     const FloorMotion motion = motion::read_record(file, read);
     fmt::print("{}", description(motion));
-    if (!options.convert.empty()) io::write_text(options.convert, floor_csv(motion));
+    if (!options.convert.empty()) convert(motion, options);
   }
   return Exit::done;
 }
@@ -86,6 +97,7 @@ void add_motion(CLI::App& parser, Work& work) {
   verb->add_option("--unit", options->unit, "unit of plain columns: g, m/s2, cm/s2 ...");
   verb->add_option("--channel", options->channel, "channel of files that hold several");
   verb->add_option("--convert", options->convert, "write the record as floor motion csv to this file");
+  verb->add_flag("--overwrite", options->overwrite, "replace that file if it is there");
   verb->callback([options, &work] {
     work = [options](const Context& context) {
       context.world.on_root([&] { show(*options); });

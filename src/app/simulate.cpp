@@ -23,6 +23,7 @@ Exit simulate(const Options& options) {
   const std::filesystem::path folder = options.folder;
   io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse);
   const study::Simulation result = study::simulate(c, options.reference);
+  for (const std::string& doubt : result.doubts) fmt::print(stderr, "doubtful: {}\n", doubt);
   io::write_text(folder / "history.csv", io::history_csv(result.history));
   nlohmann::ordered_json summary = io::response_summary(result.response);
   summary["accuracy"] = study::accuracy_json(c.study.tolerance, result.response, result.tighter);
@@ -31,8 +32,13 @@ Exit simulate(const Options& options) {
   fmt::print("{}: peak slip {:.4g} m, peak rotation {:.4g} rad (alpha {:.4g} rad), {} events; results in {}\n",
              name(result.response.outcome), result.response.peak_slip_m, result.response.peak_rotation_rad,
              result.specimen.block.alpha_rad(), result.response.events, folder.string());
+  if (result.still_moving)
+    fmt::print(
+        "it still moves after {:g} s of free vibration: free_vibration_s may be too short, or nothing stops it\n",
+        c.study.free_vibration_s);
   constexpr const char* why[] = {"no motion agrees with the contact forces, as in Painleve's paradox",
-                                 "more steps than allowed", "the motion grows beyond all bounds, or a law gave no finite number"};
+                                 "more steps than allowed",
+                                 "the motion grows beyond all bounds, or a law gave no finite number"};
   if (result.response.outcome >= Outcome::painleve)
     fmt::print("the computation broke off at {:.4g} s: {}; the numbers hold until then\n", result.response.end_time_s,
                why[static_cast<int>(result.response.outcome) - static_cast<int>(Outcome::painleve)]);

@@ -21,13 +21,13 @@ struct Advice {
 Advice advice(int error_number) {
   switch (error_number) {
     case ENOSPC:
-      return {"free some space and start again; finished work is kept", Exit::resumable};
+      return {"free some space and start again; a sweep keeps its finished blocks", Exit::resumable};
     case EDQUOT:
-      return {"free some of your quota and start again; finished work is kept", Exit::resumable};
+      return {"free some of your quota and start again; a sweep keeps its finished blocks", Exit::resumable};
     case EFBIG:
-      return {"raise the file size limit (ulimit -f) and start again; finished work is kept", Exit::resumable};
+      return {"raise the file size limit (ulimit -f) and start again; a sweep keeps its finished blocks", Exit::resumable};
     case EIO:
-      return {"check the disk or the network file system and start again; finished work is kept", Exit::resumable};
+      return {"check the disk or the network file system and start again; a sweep keeps its finished blocks", Exit::resumable};
     case EACCES:
     case EPERM:
     case EROFS:
@@ -36,7 +36,7 @@ Advice advice(int error_number) {
     case ENOTDIR:
       return {"check the path", Exit::usage};
     default:
-      return {"check the path and the disk, and start again; finished work is kept", Exit::resumable};
+      return {"check the path and the disk, and start again; a sweep keeps its finished blocks", Exit::resumable};
   }
 }
 

@@ -36,7 +36,8 @@ std::vector<double> bin_edges(const BinsPart& bins, std::vector<double> values) 
   const bool log = bins.count > 0 && bins.spacing == Spacing::log;
   std::erase_if(values, [log](double x) { return !std::isfinite(x) || (log && x <= 0); });
   if (values.empty())
-    throw Error(fmt::format("bins cannot be made (no sample has a {} value): give edges", log ? "positive" : "finite"),
+    throw Error(fmt::format("bins cannot be made (no sample has a {} value): give edges, or another intensity measure",
+                            log ? "positive" : "finite"),
                 Exit::data);
   std::sort(values.begin(), values.end());
   const double least = values.front(), greatest = values.back();

@@ -8,6 +8,7 @@
 #include "io/text_files.hpp"
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
+#include "study/doubts.hpp"
 
 namespace freestand::study {
 namespace {
@@ -44,6 +45,7 @@ void fit(const parallel::Communicator& world, const std::filesystem::path& folde
     io::write_text(folder / "surface.csv", io::surface_csv(result));
     nlohmann::ordered_json summary = io::fragility_summary(provenance, result);
     summary["accuracy"] = nlohmann::ordered_json::parse(provenance.accuracy);
+    for (const auto& doubt : doubts(study)) summary["warnings"].push_back(doubt);
     for (const auto& warning : accuracy_warnings(summary["accuracy"])) summary["warnings"].push_back(warning);
     if (sweep) summary["timing"] = timing_json(*sweep, world.size());
     summary["files"] = {"samples.h5", "fragility.h5", "bins.csv", "surface.csv", "study.yaml"};

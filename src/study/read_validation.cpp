@@ -85,7 +85,7 @@ void check_ranges(const Validation& v, int line, Problems& problems) {
 void read_all(const YAML::Node& root, Validation& v, Problems& problems) {
   Section file(root, "", 1, problems);
   v.name = file.text("name", v.file.stem().string());
-  if (file.has("measurements")) {
+  if (file.find("measurements")) {
     v.measurements = v.file.parent_path() / file.text("measurements", "");
     v.measurements_line = file.line("measurements");
   }

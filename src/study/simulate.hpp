@@ -13,6 +13,8 @@ struct Simulation {
   Response response;
   Response tighter;  // the same at a hundredth of the tolerance
   History history;
+  std::vector<std::string> doubts;
+  bool still_moving = false;  // when its time was over
 };
 
 // Integrates the one sample of a case; with the reference integrator if asked.

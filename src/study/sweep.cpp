@@ -17,6 +17,7 @@
 #include "parallel/stop.hpp"
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
+#include "study/doubts.hpp"
 #include "study/effects_page.hpp"
 #include "study/evaluator.hpp"
 
@@ -45,7 +46,11 @@ bool already_complete(const Study& study, const std::filesystem::path& folder) {
 
 // The root tries the records first, so that a broken one is told once and all ranks leave in order.
 MotionSet load_together(const Communicator& world, const Study& study) {
-  world.on_root([&] { load_motions(study); });
+  world.on_root([&] {
+    const MotionSet motions = load_motions(study);
+    for (const auto& said : {doubts(study), doubts(study, motions)})
+      for (const std::string& doubt : said) fmt::print(stderr, "doubtful: {}\n", doubt);
+  });
   return load_motions(study);
 }
 

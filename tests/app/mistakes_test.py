@@ -48,6 +48,15 @@ class Mistakes(InFolder):
         self.write("bad.csv", "time_s,floor_acceleration_mps2\n0,0\n0.01,1\n0.02,1x\n0.03,0\n")
         self.check(with_records("bad.csv"), "bad.csv:4", code=3)
 
+    def test_a_converted_record_replaces_nothing_unasked(self):
+        record = self.write("rec.csv", "time_s,floor_acceleration_mps2\n0,0\n0.01,1\n0.02,0\n0.03,0\n")
+        before = record.read_text()
+        self.fail_with(2, ["motion", record, "--convert", record], "rec.csv exists already", "--overwrite")
+        self.fail_with(2, ["motion", record, "--convert", self.folder, "--overwrite"], "is no plain file")
+        self.assertEqual(record.read_text(), before)
+        self.succeed(["motion", record, "--convert", self.folder / "new.csv"])
+        self.succeed(["motion", record, "--convert", self.folder / "new.csv", "--overwrite"])
+
     def test_missing_study_and_wrong_verbs(self):
         self.fail_with(2, ["run", self.folder / "none.yaml", "-o", self.folder / "out"], "none.yaml")
         self.assertEqual(run(["frobnicate"]).returncode, 2)

@@ -1,0 +1,73 @@
+#include "study/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.hpp"
+
+namespace freestand::study {
+namespace {
+
+constexpr double longest_m = 50, steepest_rad = 1.2, roughest = 2, longest_period_s = 20, strongest_g = 10,
+                 fastest_mps = 10, coarsest_step_s = 0.1;
+
+double median(const Quantity& quantity) { return sampling::quantile(quantity.value, 0.5); }
+
+class Doubter {
+ public:
+  void ask(const std::optional<Quantity>& quantity, double largest, const char* question) {
+    if (!quantity) return;
+    const double value = median(*quantity);
+    if (std::abs(value) > largest) said.push_back(fmt::format("{} is {:.4g}: {}", quantity->name, value, question));
+  }
+  std::vector<std::string> said;
+};
+
+}  // namespace
+
+std::vector<std::string> doubts(const Study& study) {
+  Doubter doubter;
+  const BlockPart& block = study.model.block;
+  for (const auto& length : {block.width, block.height, block.size}) doubter.ask(length, longest_m, "is it in metres?");
+  doubter.ask(block.slenderness, steepest_rad, "is it in radians, and the angle whose tangent is width over height?");
+  const FrictionPart& friction = study.model.friction;
+  for (const auto& mu : {friction.mu, friction.mu_k, friction.mu_s})
+    doubter.ask(mu, roughest, "is it a friction coefficient?");
+  const bool shaken = std::any_of(study.model.effects.begin(), study.model.effects.end(),
+                                  [](const EffectPart& effect) { return effect.name == "vertical_shaking"; });
+  for (const MotionSource& source : study.motions) {
+    doubter.ask(source.period, longest_period_s, "is it in seconds?");
+    if (!source.vertical_records.empty() && !shaken)
+      doubter.said.push_back(
+          fmt::format("vertical_records of {} are read, but nothing lets them act: add the effect vertical_shaking",
+                      source.records));
+    if (!source.amplitude || source.amplitude->unit == "1") continue;
+    const bool in_g = source.amplitude->unit == "g";
+    doubter.ask(source.amplitude, in_g ? strongest_g : fastest_mps, in_g ? "is it in g?" : "is it in m/s?");
+  }
+  return std::move(doubter.said);
+}
+
+std::vector<std::string> doubts(const Study& study, const MotionSet& motions) {
+  std::vector<std::string> said;
+  for (std::size_t s = 0; s < study.motions.size(); ++s) {
+    const MotionSource& source = study.motions[s];
+    if (source.kind != MotionSource::Kind::records) continue;
+    const bool as_it_is = source.amplitude && source.amplitude->unit == "1";
+    for (const std::size_t entry : motions.of_source[s]) {
+      const FloorMotion& motion = motions.motion(entry);
+      const double step = motion.duration_s() / static_cast<double>(motion.segments());
+      if (step > coarsest_step_s)
+        said.push_back(fmt::format("the time step of {} is {:.4g} s: is its time in seconds?", motion.name, step));
+      const double peak_g = (*motions.entries)[entry].peak_mps2 / standard_gravity_mps2;
+      if (as_it_is && peak_g * std::abs(median(*source.amplitude)) > strongest_g)
+        said.push_back(fmt::format("the floor of {} reaches {:.3g} g: is its unit right?", motion.name,
+                                   peak_g * std::abs(median(*source.amplitude))));
+    }
+  }
+  return said;
+}
+
+}  // namespace freestand::study

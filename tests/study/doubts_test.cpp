@@ -1,0 +1,50 @@
+// Numbers that look as if they were in another unit are told, and sound ones are not.
+#include "study/doubts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "study_text.hpp"
+
+namespace freestand::study {
+namespace {
+
+using namespace test;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string rest = fragility + samples;
+
+TEST(Doubts, NoneOfASoundStudy) { EXPECT_THAT(doubts(parse(block + friction + motions + rest)), IsEmpty()); }
+
+TEST(Doubts, NumbersInAnotherUnit) {
+  const std::string pulse = "motions: [{pulse: B, period_s: {uniform: [300, 800]}, peak_acceleration_g: 20}]\n";
+  EXPECT_THAT(
+      doubts(parse("block: {width_m: 620, height_m: 2286, mass_kg: 386}\nfriction: {mu: 15}\n" + pulse + rest)),
+      ElementsAre("block.width_m is 620: is it in metres?", "block.height_m is 2286: is it in metres?",
+                  "friction.mu is 15: is it a friction coefficient?", "motion.period_s is 550: is it in seconds?",
+                  "motion.peak_acceleration_g is 20: is it in g?"));
+  EXPECT_THAT(doubts(parse("block: {slenderness_rad: 1.5, size_m: 1, mass_kg: 1}\n" + friction + motions + rest)),
+              ElementsAre(HasSubstr("is it in radians")));
+}
+
+TEST(Doubts, RecordsInAnotherUnit) {
+  Study study = parse(block + friction + motions + rest);
+  MotionSource& source = study.motions[0];
+  source.kind = MotionSource::Kind::records;
+  source.amplitude = Quantity{.name = "motion.scale", .unit = "1", .value = sampling::Fixed{2}};
+  const auto set = [](double step_s, double peak_mps2) {
+    MotionSet motions;
+    motions.entries = std::make_shared<const std::vector<MotionSet::Entry>>(std::vector<MotionSet::Entry>{
+        {.motion = piecewise_linear("some.csv", step_s, {0, peak_mps2, 0}, {}), .peak_mps2 = peak_mps2}});
+    motions.of_source = {{0}};
+    return motions;
+  };
+  EXPECT_THAT(doubts(study, set(0.01, 9)), IsEmpty());
+  EXPECT_THAT(doubts(study, set(0.01, 300)), ElementsAre(HasSubstr("the floor of some.csv reaches 61.2 g")));
+  EXPECT_THAT(doubts(study, set(5, 9)), ElementsAre(HasSubstr("the time step of some.csv is 5 s")));
+}
+
+}  // namespace
+}  // namespace freestand::study
