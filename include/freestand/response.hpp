@@ -16,11 +16,12 @@ enum class Outcome : int {
   moved,       // moved and stood
   overturned,  // |theta| passed pi/2
   painleve,    // no consistent motion: friction too high for a slipping corner
-  step_limit,  // more events or steps than the settings allow
-  not_finite   // a state that is not a number
+  step_limit,  // more events or steps than the settings allow, or steps that do not come forward
+  not_finite   // a state that is not a number, or beyond all bounds
 };
 inline constexpr int outcome_count = 6;
 const char* name(Outcome outcome);
+const char* failure(Outcome outcome);  // why the computation broke off, in words; "" where it did not
 
 struct Response {
   Outcome outcome = Outcome::at_rest;

@@ -40,11 +40,19 @@ def read(folders, history=None):
     if history is not None:
         found.append(reading.read_history(history))
     if held.comparisons or held.diagnoses:
+        _one_data_set(held)
+        held.comparisons.sort(key=lambda comparison: len(comparison.effects))
         return [held] + found
     if len(folders) > 1:
         raise Problem("several folders, and none of them holds a comparison or a diagnosis: give one folder, or add those of "
                       "`freestand compare` and `freestand diagnose`", USAGE)
     return held.sweeps + found
+
+
+def _one_data_set(held):
+    names = list(dict.fromkeys(document.name for document in held.comparisons + held.diagnoses))
+    if len(names) > 1:
+        raise Problem(f"the folders are of different measurements ({', '.join(names)}): give those of one data set", USAGE)
 
 
 def _figures(arguments):

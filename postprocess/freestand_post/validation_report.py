@@ -104,7 +104,7 @@ def _headline(results):
     if last:
         found.append((last.holdout.get("error", math.nan), f"on held-out tests, which no fit has seen{_of(results, -1)}"))
     floor = diagnosis.noise_floor if diagnosis else last.calibration.get("error_expected", math.nan)
-    found.append((floor, "noise floor: what noise alone would make"))
+    found.append((floor, "what chance alone would make" if results.unit == "Brier" else "noise floor: what noise alone would make"))
     return [(validation.error(value), what) for value, what in found if math.isfinite(value)]
 
 

@@ -20,7 +20,7 @@ def tests(results):
     quantities = [name for name in QUANTITY if name != "residual_slip_m" and any(name in test["peaks"] for test in last.tests)]
     earlier = [{test["id"]: test for test in comparison.tests} for comparison in results.comparisons]
     table = {"labels": results.labels, "several": len(results.comparisons) > 1, "history": "history" in kinds,
-             "outcome": "outcome" in kinds, "quantities": [words.with_unit(QUANTITY[name][1], QUANTITY[name][2]) for name in quantities], "rows": [],
+             "outcome": "outcome" in kinds, "peaks_only": kinds == {"peaks"}, "quantities": [words.with_unit(QUANTITY[name][1], QUANTITY[name][2]) for name in quantities], "rows": [],
              "missed": 0, "many": len(last.tests) > MANY, "count": len(last.tests)}
     for test in last.tests:
         found = [tests.get(test["id"]) for tests in earlier]
@@ -42,7 +42,9 @@ def _peak(test, found, name):
     factor = QUANTITY[name][0]
     measured = test["peaks"].get(name, (math.nan, math.nan))[0]
     models = [other["peaks"].get(name, (math.nan, math.nan))[1] if other else math.nan for other in found]
-    return {"measured": words.number(factor * abs(measured), 3), "models": [words.number(factor * abs(model), 3) for model in models]}
+    ratio = abs(models[-1] / measured) if measured else math.nan
+    return {"measured": words.number(factor * abs(measured), 3), "models": [words.number(factor * abs(model), 3) for model in models],
+            "ratio": words.number(ratio, 3) if math.isfinite(ratio) else "–"}
 
 
 def _far(test):

@@ -36,12 +36,9 @@ Exit simulate(const Options& options) {
     fmt::print(
         "it still moves after {:g} s of free vibration: free_vibration_s may be too short, or nothing stops it\n",
         c.study.free_vibration_s);
-  constexpr const char* why[] = {"no motion agrees with the contact forces, as in Painleve's paradox",
-                                 "more steps than allowed",
-                                 "the motion grows beyond all bounds, or a law gave no finite number"};
   if (result.response.outcome >= Outcome::painleve)
     fmt::print("the computation broke off at {:.4g} s: {}; the numbers hold until then\n", result.response.end_time_s,
-               why[static_cast<int>(result.response.outcome) - static_cast<int>(Outcome::painleve)]);
+               failure(result.response.outcome));
   return Exit::done;
 }
 

@@ -12,4 +12,14 @@ const char* name(Outcome outcome) {
   return names[static_cast<int>(outcome)];
 }
 
+const char* failure(Outcome outcome) {
+  constexpr const char* words[] = {"",
+                                   "",
+                                   "",
+                                   "no motion agrees with the contact forces, as in Painleve's paradox",
+                                   "more steps than allowed",
+                                   "the motion grows beyond all bounds, or a law gives no finite number"};
+  return words[static_cast<int>(outcome)];
+}
+
 }  // namespace freestand

@@ -14,11 +14,11 @@ void about_outcomes(const Tally& tally, const Result& result, std::vector<std::s
   for (const Outcome outcome : {Outcome::painleve, Outcome::step_limit, Outcome::not_finite}) {
     const std::int64_t count = tally.count_of(outcome);
     if (count > 0)
-      out.push_back(fmt::format("{} of {} samples ended as {}; they enter no fit and no surface.", count,
-                                result.samples, name(outcome)));
+      out.push_back(fmt::format("{} of {} samples ended as {} ({}); they enter no fit and no surface.", count,
+                                result.samples, name(outcome), failure(outcome)));
   }
   if (result.outside_im > 0)
-    out.push_back(fmt::format("{} of {} samples have an IM ({}) outside the bins, {:g} to {:g}, and are left out.",
+    out.push_back(fmt::format("{} of {} samples have an IM ({}) outside the bins, {:.3g} to {:.3g}, and are left out.",
                               result.outside_im, result.samples, result.im_name, result.im_edge.front(),
                               result.im_edge.back()));
   for (std::size_t e = 0; e < tally.options().edps.size(); ++e)

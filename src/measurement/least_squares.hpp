@@ -25,8 +25,9 @@ void descend_by_derivatives(const Bench&, std::vector<ModelFit*>, const Jobs&);
 
 // The fit taken to the least S, at first without replays; then, if that ends at the noise, with replays of the floor's
 // noise under the fit itself, without what they fan out. With errors of tests left out, by the same method,
-// and intervals that hold all that one number alone may do before G rises by 3.84. Sets without
-// histories: leave_out() alone.
+// and intervals that hold all that one number alone may do before G rises by 3.84; far from the noise, before the scores
+// of the tests together rise by 0.05. Peaks: leave_out(), and intervals that hold all that one number alone may do before
+// the sum of their squares rises by 3.84 times their mean square. Outcomes: leave_out() alone.
 void settle(const Bench&, ModelFit&, const Effort&, const Jobs&);
 
 }  // namespace freestand::measurement

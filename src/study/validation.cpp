@@ -68,7 +68,8 @@ const char* calibration_method(const Bench& bench) {
          "least; histories end in Levenberg and Marquardt's least squares (GSL multifit_nlinear), at the noise weighed "
          "by "
          "the covariance that replays of the floor's noise show; intervals of 95 % by the jackknife over the "
-         "tests, at the noise not less than each number's range within which the misfit rises by 3.84";
+         "tests, and not less than what each number alone may do: at the noise until the misfit rises by 3.84, of peaks "
+         "by 3.84 times their mean square, and elsewhere until ln(error^2) of the tests together rises by 0.05";
 }
 
 nlohmann::ordered_json number_or_null(double value) {

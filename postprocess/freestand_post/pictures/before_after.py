@@ -9,8 +9,7 @@ from ..validation import Validation
 from . import Picture
 
 order = 170
-CAPTION = ("The same sweep with the model before and after: probability that {demand} exceeds a capacity, and that the specimen overturns, against "
-           "{im}; bands: 95 % intervals.")
+CAPTION = "The same sweep with the model before and after: probability that {what}, against {im}; bands: 95 % intervals."
 
 
 def pictures(results):
@@ -80,8 +79,8 @@ def _picture(before, after):
     style.legend_above(axes, ncol=2)
     finding = _finding(before, after, common, sides[1][2])
     style.headline(fig, finding, "The same sweep with both models; bands: 95 % intervals.")
-    demand = f"the {words.demand_meaning(common[0].name)}" if common else "the demand"
-    text = CAPTION.format(demand=demand, im=before.im_symbol)
+    exceeds = [f"the {words.demand_meaning(common[0].name)} exceeds a capacity (a specimen that overturns exceeds them all)"] if common else []
+    text = CAPTION.format(what=", and that ".join(exceeds + ["the specimen overturns"] * over), im=before.im_symbol)
     return Picture("before_after", fig, finding, text, "before_after")
 
 
