@@ -7,6 +7,7 @@
 
 #include "base/digits.hpp"
 #include "measurement/diagnose_outcomes.hpp"
+#include "measurement/findings_motion.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -19,6 +20,7 @@ class Findings {
   std::vector<std::string> all(const Quality& quality) {
     said_ = quality.findings;
     failures();
+    for (std::string& said : motion_findings(bench_, model_, x_, c_.tests)) said_.push_back(std::move(said));
     errors();
     peaks();
     outcomes();
@@ -49,16 +51,6 @@ class Findings {
             c_.tests.size(), why[static_cast<int>(outcome) - static_cast<int>(Outcome::painleve)],
             fmt::join(ids, ", "));
     }
-    std::vector<std::string> still;
-    for (const TestComparison& t : c_.tests)
-      if (const Test& test = bench_.test(t.test);
-          t.model.response.outcome == Outcome::at_rest && !test.slip_m.empty() &&
-          std::any_of(test.slip_m.begin(), test.slip_m.end(),
-                      [&](double u) { return std::abs(u) > 8 * bench_.noise(Channel::slip); }))
-        still.push_back(test.id);
-    if (!still.empty())
-      say("the model stands still in {} of {} tests in which the specimen moves: {}", still.size(), c_.tests.size(),
-          fmt::join(still, ", "));
   }
 
   void errors() {
