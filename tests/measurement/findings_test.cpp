@@ -94,5 +94,26 @@ TEST(Findings, AModelThatOnlySlidesAgainstOverturning) {
   EXPECT_THAT(said(data, fixed(0.2, Model::slide)), Contains(HasSubstr("does not rotate in 1 of 1 tests")));
 }
 
+// Five calibration tests that end too far to one side are what chance does once in 16: with a sixth, whatever its role,
+// once in 32.
+TEST(Findings, ABiasOfDirectionIsMoreThanChance) {
+  Dataset data = test::made_dataset(tall(0.2));
+  data.tests.push_back(test::made_test("t6", tall(0.2), test::swings(6, 0.7), 6));
+  data.tests.back().role = Role::holdout;
+  const auto drift = [](auto& made, double end) {
+    const auto n = static_cast<double>(made.slip_m.size());
+    for (std::size_t k = 0; k < made.slip_m.size(); ++k) made.slip_m[k] += end * static_cast<double>(k) / n;
+  };
+  for (std::size_t i = 0; i < 5; ++i) drift(data.tests[i], 0.02);
+  EXPECT_THAT(said(data, fixed(0.2)), Not(Contains(HasSubstr("bias of direction"))));
+  drift(data.tests[5], 0.02);
+  EXPECT_THAT(
+      said(data, fixed(0.2)),
+      Contains(HasSubstr("in 6 of 6 tests whose end is missed the block ends further to the right than the model "
+                         "(by chance: p = 0.031")));
+  drift(data.tests[5], -0.04);
+  EXPECT_THAT(said(data, fixed(0.2)), Not(Contains(HasSubstr("bias of direction"))));
+}
+
 }  // namespace
 }  // namespace freestand::measurement
