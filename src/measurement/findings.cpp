@@ -1,15 +1,19 @@
 #include "measurement/findings.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/digits.hpp"
 #include "measurement/diagnose_outcomes.hpp"
+#include "measurement/findings_motion.hpp"
 
 namespace freestand::measurement {
 namespace {
+
+constexpr double fanned_out = 5;  // noise units that the floor's noise makes, beyond which a test tells little
 
 class Findings {
  public:
@@ -19,6 +23,7 @@ class Findings {
   std::vector<std::string> all(const Quality& quality) {
     said_ = quality.findings;
     failures();
+    for (std::string& said : motion_findings(bench_, model_, x_, c_.tests)) said_.push_back(std::move(said));
     errors();
     peaks();
     outcomes();
@@ -49,16 +54,6 @@ class Findings {
             c_.tests.size(), why[static_cast<int>(outcome) - static_cast<int>(Outcome::painleve)],
             fmt::join(ids, ", "));
     }
-    std::vector<std::string> still;
-    for (const TestComparison& t : c_.tests)
-      if (const Test& test = bench_.test(t.test);
-          t.model.response.outcome == Outcome::at_rest && !test.slip_m.empty() &&
-          std::any_of(test.slip_m.begin(), test.slip_m.end(),
-                      [&](double u) { return std::abs(u) > 8 * bench_.noise(Channel::slip); }))
-        still.push_back(test.id);
-    if (!still.empty())
-      say("the model stands still in {} of {} tests in which the specimen moves: {}", still.size(), c_.tests.size(),
-          fmt::join(still, ", "));
   }
 
   void errors() {
@@ -184,20 +179,22 @@ class Findings {
     }
   }
 
-  // Residual slips of the model end on one side of the measured ones.
+  // Residual slips of the model end on one side of the measured ones, in more tests of any role than chance makes.
   void drift() {
-    int right = 0, left = 0;
+    unsigned right = 0, left = 0;
     for (const TestComparison& t : c_.tests) {
       const Test& test = bench_.test(t.test);
-      if (test.slip_m.empty() || t.model.failed() || test.role != Role::calibration) continue;
+      if (test.slip_m.empty() || t.model.failed() || t.expected > fanned_out) continue;
       const double end = t.model.slip_m.back() - test.slip_m.back();
       if (std::abs(end) > 6 * bench_.noise(Channel::slip)) ++(end > 0 ? right : left);
     }
-    if (right + left >= 4 && std::max(right, left) >= 0.85 * (right + left))
-      say("in {} of {} tests that are missed the block ends further to the {} than the model: a bias of direction, as "
-          "of "
-          "a tilted floor or of friction that depends on direction",
-          std::max(right, left), right + left, right > left ? "left" : "right");
+    const unsigned most = std::max(right, left), all = right + left;
+    const double p = most > 0 ? 2 * gsl_cdf_binomial_Q(most - 1, 0.5, all) : 1;
+    if (p < 0.05)
+      say("in {} of {} tests whose end is missed the block ends further to the {} than the model (by chance: p = {}): "
+          "a "
+          "bias of direction, as of a tilted floor or of friction that depends on direction",
+          most, all, right > left ? "left" : "right", three_digits(p));
   }
 
   void whiteness() {
@@ -217,7 +214,7 @@ class Findings {
   void chaotic() {
     std::vector<std::string> ids;
     for (const TestComparison& t : c_.tests)
-      if (t.expected > 5) ids.push_back(bench_.test(t.test).id);
+      if (t.expected > fanned_out) ids.push_back(bench_.test(t.test).id);
     if (!ids.empty())
       say("the noise of the measured floor motion fans out in {}: parts of these histories cannot be predicted by any "
           "model, and say nothing for or against one",

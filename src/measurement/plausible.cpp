@@ -8,6 +8,7 @@
 
 #include "base/units.hpp"
 #include "measurement/ground.hpp"
+#include "measurement/plausible_offsets.hpp"
 #include "measurement/smooth.hpp"
 
 namespace freestand::measurement {
@@ -38,6 +39,7 @@ class Doubter {
       if (test.pulse.empty() && cut_off(floor_samples(test), bench_.floor_noise_mps2(i)))
         say("the floor's channel of test {} stays at its extreme value for several samples: the sensor looks clipped",
             test.id);
+      offsets(i);
     }
     tell();
     for (const Channel channel : {Channel::slip, Channel::rotation}) noise(channel);
@@ -95,9 +97,24 @@ class Doubter {
       fast_.push_back(test.id);
   }
 
+  void offsets(std::size_t i) {
+    const Test& test = bench_.test(i);
+    bool spoilt = false;
+    const auto see = [&](Seen& seen, double offset, double least) {
+      if (offset == 0) return;
+      seen.add(test.id, std::abs(offset));
+      spoilt |= std::abs(offset) > least;
+    };
+    see(late_slips_, start_offset(bench_, i, Channel::slip), 8 * bench_.noise(Channel::slip));
+    see(late_rotations_, start_offset(bench_, i, Channel::rotation), 8 * bench_.noise(Channel::rotation));
+    const std::vector<double> floor = test.pulse.empty() ? floor_samples(test) : std::vector<double>{};
+    see(floors_, floor_offset_mps2(floor), 0.02 * greatest(floor));
+    out_.spoilt_tests += spoilt;
+  }
+
   void tell() {
-    const auto about = [&](const Seen& seen, const char* text, const char* question) {
-      out_.spoilt_tests += seen.ids.size();
+    const auto about = [&](const Seen& seen, const char* text, const char* question, bool spoils = true) {
+      out_.spoilt_tests += spoils ? seen.ids.size() : 0;
       if (!seen.ids.empty())
         out_.sentences.push_back(fmt::format(fmt::runtime(text), fmt::join(seen.ids, ", "), seen.most) + question);
     };
@@ -106,6 +123,12 @@ class Doubter {
     about(strong_, "the floor of {} reaches {:.3g} g", ": is floor_acceleration_mps2 in m/s2?");
     about(weak_, "{} move more than a floor that reaches {:.2g} g can make them",
           ": is floor_acceleration_mps2 in m/s2, and its sensor alive?");
+    constexpr const char* subtract =
+        ": subtract its mean before the shaking, or begin the record before the block moves";
+    about(late_slips_, "the slip of {} does not start at zero ({:.2g} m)", subtract, false);
+    about(late_rotations_, "the rotation of {} does not start at zero ({:.2g} rad)", subtract, false);
+    about(floors_, "the floor of {} is off zero before and after the shaking ({:.2g} m/s2)",
+          ": subtract that from floor_acceleration_mps2, unless the floor is tilted", false);
     if (!fast_.empty())
       say("the slip of {} is faster than the floor's velocities differ, which friction alone does not bring about: is "
           "floor_acceleration_mps2 in m/s2?",
@@ -134,7 +157,7 @@ class Doubter {
 
   const Bench& bench_;
   Doubts out_;
-  Seen slips_, rotations_, strong_, weak_;
+  Seen slips_, rotations_, strong_, weak_, late_slips_, late_rotations_, floors_;
   std::vector<std::string> fast_;
 };
 

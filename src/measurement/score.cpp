@@ -66,20 +66,23 @@ double stride_score(const Bench& bench, const Test& test, const Prediction& pred
 }
 
 struct PeakPair {
-  double measured, model, noise;
+  double measured, model, noise, least;
+  double ln() const { return std::log(std::max(model, least) / std::max(measured, least)); }
 };
 
 std::vector<PeakPair> peak_pairs(const Bench& bench, const Test& test, const Response& r) {
   std::vector<PeakPair> pairs;
-  const auto add = [&](const std::optional<double>& measured, double model, double noise) {
-    if (measured && *measured != 0) pairs.push_back({std::abs(*measured), std::abs(model), noise});
+  const auto add = [&](const std::optional<double>& measured, double model, Channel channel) {
+    const double unit = channel == Channel::block_acceleration ? standard_gravity_mps2 : 1;
+    if (measured)
+      pairs.push_back(
+          {std::abs(*measured), std::abs(model), bench.noise(channel) / unit, least_motion(bench, channel)});
   };
   const Peaks& p = test.peaks;
-  add(p.peak_slip_m, r.peak_slip_m, bench.noise(Channel::slip));
-  add(p.residual_slip_m, r.residual_slip_m, bench.noise(Channel::slip));
-  add(p.peak_rotation_rad, r.peak_rotation_rad, bench.noise(Channel::rotation));
-  constexpr double g = standard_gravity_mps2;
-  add(p.peak_acceleration_g, r.peak_acceleration_mps2 / g, bench.noise(Channel::block_acceleration) / g);
+  add(p.peak_slip_m, r.peak_slip_m, Channel::slip);
+  add(p.residual_slip_m, r.residual_slip_m, Channel::slip);
+  add(p.peak_rotation_rad, r.peak_rotation_rad, Channel::rotation);
+  add(p.peak_acceleration_g, r.peak_acceleration_mps2 / standard_gravity_mps2, Channel::block_acceleration);
   return pairs;
 }
 
@@ -89,9 +92,11 @@ TestError peak_error(const Bench& bench, std::size_t i, const Prediction& predic
   TestError error;
   double square = 0;
   for (const PeakPair& pair : pairs) {
-    const double ln = prediction.failed() || pair.model <= 0 ? -ln_ratio_limit : std::log(pair.model / pair.measured);
+    const double ln = prediction.failed() ? -ln_ratio_limit : pair.ln();
     error.score += std::min(ln * ln, ln_ratio_limit * ln_ratio_limit) / n;
-    error.relative = std::max(error.relative, std::abs(pair.model / pair.measured - 1));
+    const double missed =
+        pair.measured > pair.least ? std::abs(pair.model / pair.measured - 1) : (pair.model > pair.least ? 1.0 : 0.0);
+    error.relative = std::max(error.relative, missed);
     square += std::pow((pair.model - pair.measured) / pair.noise, 2) / n;
   }
   error.noise_units = std::isfinite(square) ? std::sqrt(square) : unknown;
@@ -105,6 +110,23 @@ Kind kind(const Test& test) {
   const Peaks& p = test.peaks;
   return p.peak_slip_m || p.residual_slip_m || p.peak_rotation_rad || p.peak_acceleration_g ? Kind::peaks
                                                                                             : Kind::outcome;
+}
+
+double least_motion(const Bench& bench, Channel channel) {
+  const double unit = channel == Channel::block_acceleration ? standard_gravity_mps2 : 1;
+  if (bench.noise(channel) > 0) return bench.noise(channel) / unit;
+  double greatest = 0;
+  const auto see = [&](const std::optional<double>& peak) {
+    greatest = std::max(greatest, std::abs(peak.value_or(0)));
+  };
+  for (std::size_t i = 0; i < bench.size(); ++i) {
+    const Peaks& p = bench.test(i).peaks;
+    if (channel == Channel::slip)
+      see(p.peak_slip_m), see(p.residual_slip_m);
+    else
+      see(channel == Channel::rotation ? p.peak_rotation_rad : p.peak_acceleration_g);
+  }
+  return std::max(1e-6, 1e-3 * greatest);
 }
 
 TestError outcome_error(const Test& test, double probability) {

@@ -3,7 +3,9 @@
 //   histories  e^2 = mean over channels and time of ((model - measured)/noise)^2;  e = 1: as good as the sensor can tell
 //              score = ln(e^2): a test of large slips does not drown the others, and at the truth it weighs as the
 //              likelihood does
-//   peaks      score = mean of ln(model/measured)^2 over the peaks that are known, each not above 3^2
+//   peaks      score = mean of ln(model/measured)^2 over the peaks that are known, each not above 3^2; peaks below
+//              least_motion(), measured or computed, count as that. So a specimen that stood still (0) is a hit where the
+//              model stands still too, and a miss like any other where it moves
 //   outcomes   score = (p - y)^2, y = 1 overturned; p = share of the placements (ModelSpec::placement_scatter) in which
 //              the model overturns: Brier's
 #pragma once
@@ -18,9 +20,14 @@ Kind kind(const Test&);
 struct TestError {
   double score = 0;
   double noise_units = 0;  // e; nan where no noise is known
-  double relative = 0;     // rms error over the measured peak; of peaks |model/measured - 1|; nan for outcomes
+  double relative = 0;     // rms error over the measured peak; of peaks |model/measured - 1|, and 1 where only the
+                           // model moves; nan for outcomes
   double probability = 0;  // of overturning, outcomes only
 };
+
+// The least peak that is told from standing still, in the channel's unit (block acceleration: g): the sensor's noise;
+// where that is not stated, a thousandth of the greatest such peak in the set, and at least 1e-6.
+double least_motion(const Bench&, Channel);
 
 TestError test_error(const Bench&, std::size_t test, const Prediction&);  // histories and peaks
 TestError test_error(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x);

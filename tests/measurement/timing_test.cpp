@@ -134,6 +134,49 @@ TEST(Quality, SizesClippedFloorAndStatedNoise) {
   EXPECT_THAT(examined(data).findings, Contains(HasSubstr("errors in noise units are too small")));
 }
 
+TEST(Quality, OffsetsOfSensors) {
+  const Dataset good = test::made_dataset(cabinet(0.2));
+  const auto shifted = [](std::vector<double>& samples, double by) {
+    for (double& s : samples) s += by;
+  };
+  const auto floor = [](Dataset& data, double by) {
+    for (auto& t : data.tests) {
+      for (std::size_t i = 0; i < t.motion.horizontal_mps2.size(); i += 2) t.motion.horizontal_mps2[i] += by;
+      index_runs(t.motion);
+    }
+  };
+  Dataset data = good;
+  shifted(data.tests[1].slip_m, 2 * test::slip_noise_m);
+  shifted(data.tests[2].rotation_rad, -0.05);
+  Quality q = examined(data);
+  EXPECT_THAT(q.findings, Contains(HasSubstr("the slip of t2 does not start at zero (0.00055 m): subtract")));
+  EXPECT_THAT(q.findings, Contains(HasSubstr("the rotation of t3 does not start at zero (0.05 rad)")));
+  EXPECT_EQ(q.wrong_numbers, 1);  // an offset of twice the noise does little harm
+  data = good;
+  shifted(data.tests[1].slip_m, 0.3 * test::slip_noise_m);
+  floor(data, 0.02);
+  EXPECT_THAT(examined(data).findings, IsEmpty());
+  floor(data, -0.3);
+  q = examined(data);
+  EXPECT_THAT(q.findings, Contains(HasSubstr("the floor of t1, t2, t3, t4, t5 is off zero before and after the shaking "
+                                             "(0.28 m/s2)")));
+  EXPECT_TRUE(q.spoilt());
+}
+
+// Cut out of the middle of a slip, a test begins off zero.
+TEST(Quality, RecordsThatBeginLate) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  auto& cut = data.tests[0];
+  const std::size_t from = 150;
+  std::vector<double> floor;
+  for (std::size_t i = 2 * from; i < cut.motion.horizontal_mps2.size(); i += 2)
+    floor.push_back(cut.motion.horizontal_mps2[i]);
+  cut.motion = piecewise_linear("cut", 0.005, floor, {});
+  for (auto* samples : {&cut.slip_m, &cut.rotation_rad}) samples->erase(samples->begin(), samples->begin() + from);
+  ASSERT_GT(std::abs(cut.slip_m[0]), 0.01);
+  EXPECT_THAT(examined(data).findings, Contains(HasSubstr("the slip of t1 does not start at zero")));
+}
+
 TEST(Quality, ACutOffPeakIsNoRoundedOne) {
   std::vector<double> rounded, cut;
   for (int i = 0; i < 400; ++i) {

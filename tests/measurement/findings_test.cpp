@@ -1,0 +1,119 @@
+// What compare says in plain sentences, of sets whose answer is known.
+#include <gmock/gmock.h>
+
+#include "measurement/compare.hpp"
+#include "measurement/made_tests.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+// Twice as high as wide: it rocks where mu > 0.5.
+Specimen tall(double mu, Model model = Model::slide_rock) {
+  Specimen s;
+  s.block = Block::rectangular(0.5, 1.0, 100);
+  s.friction = {mu, mu};
+  s.model = model;
+  return s;
+}
+
+ModelSpec fixed(double mu, Model kind = Model::slide_rock) {
+  ModelSpec model;
+  model.mu_k.value = mu;
+  model.model = kind;
+  return model;
+}
+
+std::vector<std::string> said(const Dataset& data, const ModelSpec& model, const Quality& quality = {}) {
+  const Bench bench(data, 4);
+  std::vector<TestComparison> tests;
+  for (std::size_t i = 0; i < bench.size(); ++i) {
+    const Prediction p = predict(model, bench.test(i), {});
+    tests.push_back(compare_test(bench, i, model, {}, bench.spread(model, i, {}, p)));
+  }
+  return compare(bench, model, {}, std::move(tests), quality).findings;
+}
+
+// A test of which only its peaks are known, computed with that specimen.
+Test of_peaks(const Specimen& specimen, double peak_mps2, double period_s) {
+  Test test;
+  test.id = "p";
+  test.motion = test::swings(peak_mps2, period_s);
+  test.specimen = {2 * specimen.block.left_m, 2 * specimen.block.height_m, 100.0};
+  const Response r = respond(specimen, test.shaking());
+  test.peaks.peak_slip_m = r.peak_slip_m;
+  test.peaks.peak_rotation_rad = r.peak_rotation_rad;
+  return test;
+}
+
+TEST(Findings, AModelThatMovesAsTheSpecimenDoes) {
+  for (const double mu : {0.2, 0.9})
+    for (const auto& sentence : said(test::made_dataset(tall(mu)), fixed(mu)))
+      EXPECT_THAT(sentence, Not(testing::ContainsRegex("model (stands|slides|rocks|does)"))) << mu;
+}
+
+TEST(Findings, AModelThatSlidesWhereTheSpecimenRocks) {
+  const auto sentences = said(test::made_dataset(tall(0.9)), fixed(0.2));
+  EXPECT_THAT(sentences,
+              Contains("the model does not rotate in 3 of 3 tests in which the specimen rocks (t1, t3, "
+                       "t5): mu (0.200) is not above width/height (0.500), where a block slides rather than rocks"));
+  EXPECT_THAT(sentences, Contains(HasSubstr("the model slides in 5 of 5 tests in which the specimen does not")));
+}
+
+TEST(Findings, AModelThatRocksWhereTheSpecimenSlides) {
+  const auto sentences = said(test::made_dataset(tall(0.2)), fixed(0.9));
+  EXPECT_THAT(sentences, Contains(HasSubstr("the model does not slide in")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("where a block rocks rather than slides")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("the model rocks in")));
+}
+
+TEST(Findings, OfPeaksAlone) {
+  Dataset data;
+  data.tests = {of_peaks(tall(0.9), 8, 0.6)};
+  ASSERT_GT(*data.tests[0].peaks.peak_slip_m, 0);  // of the midpoint of the base, to and fro
+  EXPECT_THAT(
+      said(data, fixed(0.2, Model::slide)),
+      testing::IsSupersetOf({"the model does not rotate in 1 of 1 tests in which the specimen rocks (p): \"model: "
+                             "slide\" knows no rotation, slide_rock and rock do",
+                             "the model slides in 1 of 1 tests in which the specimen does not (p): mu (0.200) is "
+                             "not above width/height (0.500), where a block slides rather than rocks"}));
+  data.tests = {of_peaks(tall(0.2), 8, 0.6)};
+  EXPECT_THAT(said(data, fixed(1.5, Model::slide)),
+              Contains("the model stands still in 1 of 1 tests in which the specimen moves (p)"));
+}
+
+TEST(Findings, AModelThatOnlySlidesAgainstOverturning) {
+  Dataset data;
+  data.tests = {of_peaks(tall(0.9), 8, 0.6), of_peaks(tall(0.9), 8, 0.6)};
+  for (auto& made : data.tests) made.peaks = {};
+  data.tests[0].peaks.overturned = true;
+  data.tests[1].peaks.overturned = false;
+  EXPECT_THAT(said(data, fixed(0.2, Model::slide)), Contains(HasSubstr("does not rotate in 1 of 1 tests")));
+}
+
+// Five calibration tests that end too far to one side are what chance does once in 16: with a sixth, whatever its role,
+// once in 32.
+TEST(Findings, ABiasOfDirectionIsMoreThanChance) {
+  Dataset data = test::made_dataset(tall(0.2));
+  data.tests.push_back(test::made_test("t6", tall(0.2), test::swings(6, 0.7), 6));
+  data.tests.back().role = Role::holdout;
+  const auto drift = [](auto& made, double end) {
+    const auto n = static_cast<double>(made.slip_m.size());
+    for (std::size_t k = 0; k < made.slip_m.size(); ++k) made.slip_m[k] += end * static_cast<double>(k) / n;
+  };
+  for (std::size_t i = 0; i < 5; ++i) drift(data.tests[i], 0.02);
+  EXPECT_THAT(said(data, fixed(0.2)), Not(Contains(HasSubstr("bias of direction"))));
+  drift(data.tests[5], 0.02);
+  EXPECT_THAT(
+      said(data, fixed(0.2)),
+      Contains(HasSubstr("in 6 of 6 tests whose end is missed the block ends further to the right than the model "
+                         "(by chance: p = 0.031")));
+  drift(data.tests[5], -0.04);
+  EXPECT_THAT(said(data, fixed(0.2)), Not(Contains(HasSubstr("bias of direction"))));
+}
+
+}  // namespace
+}  // namespace freestand::measurement

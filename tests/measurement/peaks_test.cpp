@@ -1,0 +1,77 @@
+// Sets of peaks: what a peak of zero is worth, to the score and to the fit.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measurement/made_tests.hpp"
+#include "measurement/model_fit.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+constexpr double mu = 0.2;
+
+Specimen sliding() {
+  Specimen s;
+  s.block = Block::rectangular(0.8, 0.6, 100);
+  s.friction = {mu, mu};
+  s.model = Model::slide;
+  return s;
+}
+
+// Peak slips of a block with that friction: three in which it slides, and two whose floor stays below mu g.
+Dataset made_peaks() {
+  Dataset data;
+  for (const double peak : {6.0, 4.0, 3.0, 1.9, 1.5}) {
+    Test test;
+    test.id = "t" + std::to_string(data.tests.size() + 1);
+    test.motion = test::swings(peak, 0.6);
+    test.specimen = {0.8, 0.6, 100.0};
+    test.peaks.peak_slip_m = respond(sliding(), test.shaking()).peak_slip_m;
+    data.tests.push_back(std::move(test));
+  }
+  return data;
+}
+
+TestError error_at(const Bench& bench, std::size_t i, double friction) {
+  ModelSpec model = test::free_friction();
+  model.model = Model::slide;
+  return test_error(bench, i, model, Values{friction});
+}
+
+TEST(Peaks, StandingStillIsAHitAndSlidingAMiss) {
+  const Dataset data = made_peaks();
+  ASSERT_EQ(*data.tests[4].peaks.peak_slip_m, 0);
+  const Bench bench(data, 0);
+  EXPECT_DOUBLE_EQ(least_motion(bench, Channel::slip), 1e-3 * *data.tests[0].peaks.peak_slip_m);
+  EXPECT_EQ(error_at(bench, 4, mu).score, 0);
+  EXPECT_EQ(error_at(bench, 4, mu).relative, 0);
+  EXPECT_EQ(error_at(bench, 4, 0.05).score, 9);  // the limit: 3^2
+  EXPECT_EQ(error_at(bench, 4, 0.05).relative, 1);
+  EXPECT_EQ(error_at(bench, 0, 1).score, 9);  // and the other way round
+}
+
+TEST(Peaks, BelowTheNoiseTheSizeOfAPeakSaysNothing) {
+  Dataset data = made_peaks();
+  data.noise.slip_m = 2e-3;
+  data.tests[4].peaks.peak_slip_m = 1e-3;
+  const Bench bench(data, 0);
+  EXPECT_EQ(error_at(bench, 4, mu).score, 0);
+  EXPECT_EQ(error_at(bench, 4, mu).noise_units, 0.5);
+}
+
+// Tests in which nothing moved bound the friction that the others leave open.
+TEST(Peaks, AFitHeedsTheTestsThatStoodStill) {
+  Dataset data = made_peaks();
+  for (const std::size_t i : {0U, 1U, 2U}) data.tests[i].peaks.peak_slip_m = 0;
+  data.tests[3].peaks.peak_slip_m = data.tests[4].peaks.peak_slip_m = 0;
+  const Bench bench(data, 0);
+  const auto tests = tests_of(data, Role::calibration);
+  ModelSpec model = test::free_friction();
+  model.model = Model::slide;
+  EXPECT_GT(mean_score(bench, tests, model, Values{0.1}), 5);
+  EXPECT_EQ(mean_score(bench, tests, model, Values{0.7}), 0);
+}
+
+}  // namespace
+}  // namespace freestand::measurement
