@@ -43,16 +43,13 @@ class Findings {
 
   // Tests that the model could not be computed to the end of: their errors say nothing of its quality.
   void failures() {
-    constexpr const char* why[] = {"no motion agrees with the contact forces, as in Painleve's paradox",
-                                   "more steps than allowed", "a law that gives no finite number"};
     for (const Outcome outcome : {Outcome::painleve, Outcome::step_limit, Outcome::not_finite}) {
       std::vector<std::string> ids;
       for (const TestComparison& t : c_.tests)
         if (t.model.response.outcome == outcome) ids.push_back(bench_.test(t.test).id);
       if (!ids.empty())
         say("the model breaks off in {} of {} tests ({}): {}; their errors are not its own", ids.size(),
-            c_.tests.size(), why[static_cast<int>(outcome) - static_cast<int>(Outcome::painleve)],
-            fmt::join(ids, ", "));
+            c_.tests.size(), failure(outcome), fmt::join(ids, ", "));
     }
   }
 
