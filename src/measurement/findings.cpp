@@ -13,6 +13,7 @@
 namespace freestand::measurement {
 namespace {
 
+constexpr double nearly = 1.2;    // of the error that noise makes, below which an error is as good as that
 constexpr double fanned_out = 5;  // noise units that the floor's noise makes, beyond which a test tells little
 
 class Findings {
@@ -58,39 +59,93 @@ class Findings {
 
   void errors() {
     for (const Role role : {Role::calibration, Role::holdout}) {
-      double square = 0, expected = 0, n = 0;
+      Pool all, judged;
       for (const TestComparison& t : c_.tests) {
         if (bench_.test(t.test).role != role || !bench_.test(t.test).has_history()) continue;
-        square += t.error.noise_units * t.error.noise_units;
-        expected += t.expected * t.expected;
-        ++n;
+        all.add(t);
+        if (!(t.expected > fanned_out)) judged.add(t);
       }
-      if (n == 0) continue;
-      const double error = std::sqrt(square / n), floor = std::sqrt(expected / n);
+      if (all.n == 0) continue;
+      std::string part;
+      if (judged.n > 0 && judged.n < all.n)
+        part = fmt::format("; without those in which that noise fans out, by {} where it would make {}",
+                           judged.error_text(), three_digits(judged.floor()));
       say("{} tests are missed by {} noise units (root mean square); the noise of sensors and floor alone would make "
-          "{}{}",
-          role == Role::calibration ? "calibration" : "held-out", three_digits(error), three_digits(floor),
-          error < 1.2 * floor ? ": nothing is left to explain" : "");
+          "{}{}{}",
+          role == Role::calibration ? "calibration" : "held-out", all.error_text(), three_digits(all.floor()), part,
+          judged.n > 0                         ? left_to_explain(judged, role)
+          : all.error() < nearly * all.floor() ? ", so that they cannot be judged"
+                                               : "");
     }
+    worst();
+  }
+
+  struct Pool {
+    double square = 0, expected = 0, n = 0;
+    bool capped = false;
+    std::vector<std::size_t> tests = {};
+    void add(const TestComparison& t) {
+      square += t.error.noise_units * t.error.noise_units;
+      expected += t.expected * t.expected;
+      capped |= t.error.noise_units >= failed_error;
+      tests.push_back(t.test);
+      ++n;
+    }
+    double error() const { return std::sqrt(square / n); }
+    double floor() const { return std::sqrt(expected / n); }
+    std::string error_text() const { return (capped ? "at least " : "") + three_digits(error()); }
+  };
+
+  // Why an error no greater than the noise makes is no praise of the model, where it is none.
+  std::string left_to_explain(const Pool& pool, Role role) const {
+    if (pool.error() >= nearly * pool.floor()) return "";
+    if (std::none_of(pool.tests.begin(), pool.tests.end(), [&](std::size_t i) { return moves(bench_, i); }))
+      return ": nothing was measured above the noise, so that this says little of the model";
+    const std::size_t tests = tests_of(bench_.data(), Role::calibration).size();
+    if (role == Role::calibration && tests <= model_.free.size())
+      return fmt::format(": as {} numbers fitted to {} tests may bring about with any model", model_.free.size(),
+                         tests);
+    return ": nothing is left to explain";
+  }
+
+  void worst() {
     if (c_.worst.empty()) return;
     const TestComparison& worst = c_.tests[c_.worst.front()];
-    if (worst.error.noise_units > 2)
-      say("the worst test is {} with {} noise units, {:.0f} % of its measured peak", bench_.test(worst.test).id,
-          three_digits(worst.error.noise_units), 100 * worst.error.relative);
+    if (!(worst.error.noise_units > 2)) return;
+    const ChannelError* most = nullptr;
+    for (const ChannelError& e : worst.channels)
+      if (moves(bench_, worst.test, e.channel) && !(most && most->noise_units >= e.noise_units)) most = &e;
+    constexpr const char* words[] = {"slip", "rotation", "acceleration"};
+    say("the worst test is {} with {} noise units{}", bench_.test(worst.test).id, one(worst).error_text(),
+        most ? fmt::format(": its {} is missed by {:.0f} % of the measured peak",
+                           words[static_cast<int>(most->channel)], 100 * most->relative)
+             : ", where nothing was measured above the noise");
+  }
+
+  static Pool one(const TestComparison& t) {
+    Pool pool;
+    pool.add(t);
+    return pool;
   }
 
   void peaks() {
     const PeakRatio ratio = peak_ratio(bench_, c_.tests);
     if (ratio.count < 3) return;
-    const double bias = std::exp(ratio.bias_ln), se = ratio.scatter_ln / std::sqrt(static_cast<double>(ratio.count));
-    if (std::abs(ratio.bias_ln) > 2 * se && std::abs(ratio.bias_ln) > 0.03)
-      say("the model {} the peak slip: predicted over measured {:.2f} (geometric mean of {} tests, scatter {:.2f} in "
-          "ln), so that its resistance is too {}",
-          bias < 1 ? "underpredicts" : "overpredicts", bias, ratio.count, ratio.scatter_ln, bias < 1 ? "high" : "low");
+    const auto n = static_cast<double>(ratio.count);
+    const double within = gsl_cdf_tdist_Pinv(0.975, n - 1) * ratio.scatter_ln / std::sqrt(n);
+    const std::string middle = fmt::format("{:.2f}, 95 % between {:.2f} and {:.2f}", std::exp(ratio.bias_ln),
+                                           std::exp(ratio.bias_ln - within), std::exp(ratio.bias_ln + within));
+    const bool under = ratio.bias_ln < 0;
+    if (std::abs(ratio.bias_ln) > within && std::abs(ratio.bias_ln) > 0.03)
+      say("the model {} the peak slip: predicted over measured {} (geometric mean of {} tests, scatter {:.2f} in ln), "
+          "so "
+          "that its resistance is too {}",
+          under ? "underpredicts" : "overpredicts", middle, ratio.count, ratio.scatter_ln, under ? "high" : "low");
     else if (ratio.scatter_ln > 0.05)
-      say("peak slips have no bias (predicted over measured {:.2f}) but scatter by {:.2f} in ln over {} tests: their "
+      say("peak slips have no bias that {} tests can show (predicted over measured {}) but scatter by {:.2f} in ln: "
+          "their "
           "input or a missing effect, not the mean resistance",
-          bias, ratio.scatter_ln, ratio.count);
+          ratio.count, middle, ratio.scatter_ln);
   }
 
   // Of tests that say whether the specimen overturned: how many are missed, and whether chance explains it.
