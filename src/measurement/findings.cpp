@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/digits.hpp"
 #include "measurement/diagnose_outcomes.hpp"
@@ -178,6 +179,12 @@ class Findings {
         sure.push_back(fmt::format("{} ({:.2f}, {})", bench_.test(t->test).id, p, fell ? "overturned" : "stood"));
     }
     const char* whose = role == Role::calibration ? "calibration" : "held-out";
+    if (role == Role::calibration && (overturned == 0 || overturned == all.size()))
+      say("all {} calibration tests {}: they bound the model from one side only, and one that {} fits them as well; "
+          "add "
+          "tests that {}",
+          all.size(), overturned ? "overturned" : "stood", overturned ? "always overturns" : "never overturns",
+          overturned ? "stood" : "overturned");
     say("{} of {} {} tests are missed ({:.1f} %): {} that stood were predicted to overturn, {} that overturned to "
         "stand",
         missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n, false_alarms, missed - false_alarms);
@@ -197,41 +204,58 @@ class Findings {
       say("against odds of nine to one (probability of overturning in brackets) came out {}", fmt::join(sure, ", "));
   }
 
-  // Where the residual grows most: the phase, and the two variables that part the bad from the good best.
+  // Where the residual grows most: the phase, and the range of a variable that stands out even more.
   void where() {
-    struct Peak {
-      const ErrorTable* table;
-      std::size_t bin;
-      double mean;
-      double contrast() const { return table->growth[bin] / mean; }
-    };
-    std::vector<Peak> peaks;
+    std::optional<Peak> phase, most;
     for (const ErrorTable& table : c_.calibration) {
-      double mean = 0, n = 0;
-      for (std::size_t b = 0; b < table.count.size(); ++b)
-        if (table.count[b] > 0) mean += table.count[b] * table.growth[b] * table.growth[b], n += table.count[b];
-      mean = std::sqrt(mean / std::max(n, 1.0));
-      std::size_t most = 0;
-      for (std::size_t b = 0; b < table.count.size(); ++b)
-        if (table.count[b] > 0.01 * n && !(table.growth[b] <= table.growth[most] && table.count[most] > 0.01 * n))
-          most = b;
-      if (mean < 3 || !(table.growth[most] > 1.8 * mean)) continue;
-      if (table.variable == "phase")
-        say("the misfit grows most in phase \"{}\": {:.1f} noise units within 0.1 s, against {:.1f} on the average",
-            table.label[most], table.growth[most], mean);
-      else
-        peaks.push_back({&table, most, mean});
+      const std::optional<Peak> peak = peak_of(table);
+      if (!peak) continue;
+      auto& best = table.variable == "phase" ? phase : most;
+      if (!best || peak->contrast() > best->contrast()) best = peak;
     }
-    std::stable_sort(peaks.begin(), peaks.end(),
-                     [](const Peak& a, const Peak& b) { return a.contrast() > b.contrast(); });
-    peaks.resize(std::min<std::size_t>(peaks.size(), 2));
-    for (const auto& [table, bin, mean] : peaks) {
-      const std::string at = table->variable == "direction"
-                                 ? fmt::format("slipping to the {}", table->centre[bin] > 0 ? "right" : "left")
-                                 : fmt::format("{} about {:.3g} {}", table->variable, table->centre[bin], table->unit);
-      say("the misfit grows most with {}: {:.1f} noise units within 0.1 s, against {:.1f} on the average", at,
-          table->growth[bin], mean);
+    if (!phase && !most) return;
+    const auto tell = [](const Peak& p) {
+      return fmt::format("{}: {} noise units within 0.1 s, against {} on the average", p.place(),
+                         three_digits(p.growth()), three_digits(p.mean));
+    };
+    if (phase && most && most->contrast() > phase->contrast())
+      say("the misfit grows most {}; {}, {}", tell(*phase), most->place(), three_digits(most->growth()));
+    else
+      say("the misfit grows most {}", tell(phase ? *phase : *most));
+  }
+
+  struct Peak {
+    const ErrorTable* table;
+    std::size_t bin;
+    double mean;
+    double growth() const { return table->growth[bin]; }
+    double contrast() const { return growth() / mean; }
+    std::string place() const {
+      const std::string& v = table->variable;
+      if (v == "phase") return fmt::format("in phase \"{}\"", table->label[bin]);
+      const double at = table->centre[bin];
+      if (v == "direction") return fmt::format("slipping to the {}", at > 0 ? "right" : "left");
+      const struct {
+        const char *name, *words;
+      } words[] = {{"speed_mps", "at slip speeds about {} m/s"}, {"path_m", "when about {} m have been slid"},
+                   {"position_m", "at slips about {} m"},        {"normal_g", "under about {} times the weight"},
+                   {"time_s", "about {} s after the start"},     {"floor_g", "under a floor of about {} g"}};
+      const auto found = std::find_if(std::begin(words), std::end(words), [&](const auto& w) { return w.name == v; });
+      return fmt::format(fmt::runtime(found == std::end(words) ? "about {}" : found->words), fmt::format("{:.2g}", at));
     }
+  };
+
+  // The bin that stands out of its table, among those that hold more than 1 % of the samples.
+  static std::optional<Peak> peak_of(const ErrorTable& table) {
+    double mean = 0, n = 0;
+    for (std::size_t b = 0; b < table.count.size(); ++b)
+      if (table.count[b] > 0) mean += table.count[b] * table.growth[b] * table.growth[b], n += table.count[b];
+    mean = std::sqrt(mean / std::max(n, 1.0));
+    std::optional<std::size_t> most;
+    for (std::size_t b = 0; b < table.count.size(); ++b)
+      if (table.count[b] > 0.01 * n && !(most && table.growth[b] <= table.growth[*most])) most = b;
+    if (!most || mean < 3 || !(table.growth[*most] > 1.8 * mean)) return {};
+    return Peak{&table, *most, mean};
   }
 
   // Residual slips of the model end on one side of the measured ones, in more tests of any role than chance makes.

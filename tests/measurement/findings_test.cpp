@@ -92,6 +92,11 @@ TEST(Findings, AModelThatOnlySlidesAgainstOverturning) {
   data.tests[0].peaks.overturned = true;
   data.tests[1].peaks.overturned = false;
   EXPECT_THAT(said(data, fixed(0.2, Model::slide)), Contains(HasSubstr("does not rotate in 1 of 1 tests")));
+  EXPECT_THAT(said(data, fixed(0.2, Model::slide)), Not(Contains(HasSubstr("from one side only"))));
+  data.tests[0].peaks.overturned = false;
+  EXPECT_THAT(said(data, fixed(0.2, Model::slide)),
+              Contains("all 2 calibration tests stood: they bound the model from one side only, and one that never "
+                       "overturns fits them as well; add tests that overturned"));
 }
 
 // Five calibration tests that end too far to one side are what chance does once in 16: with a sixth, whatever its role,
@@ -161,6 +166,17 @@ TEST(Findings, CappedErrorsAreAtLeastThat) {
   const auto sentences = said(data, fixed(0.2));
   EXPECT_THAT(sentences, Contains(HasSubstr("calibration tests are missed by at least 5000 noise units")));
   EXPECT_THAT(sentences, Contains(HasSubstr("the worst test is t1 with at least 1e+04 noise units")));
+}
+
+TEST(Findings, OneSentenceInPlainWordsSaysWhereItFails) {
+  for (const double mu : {0.1, 0.3}) {
+    int said_where = 0;
+    for (const auto& sentence : said(test::made_dataset(tall(0.2)), fixed(mu))) {
+      said_where += sentence.find("the misfit grows most") == 0;
+      EXPECT_THAT(sentence, Not(testing::ContainsRegex("[a-z]+_(mps|m|s|g)[^a-z]"))) << mu;
+    }
+    EXPECT_EQ(said_where, 1) << mu;
+  }
 }
 
 // Seven peaks whose logarithms lie 0.1 beside 1/0.83, to and fro: the mean of seven with scatter 0.4.
