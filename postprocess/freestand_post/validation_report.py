@@ -172,11 +172,16 @@ PROVENANCE = (("created_utc", "written (UTC)"), ("version", "freestand"), ("git_
               ("study", "study"), ("measurements", "measurements"), ("method", "method of the fit"))
 
 
+def _fitted(document):
+    """A comparison at given numbers fits nothing."""
+    return not hasattr(document, "parameters") or any(row.get("calibrated") for row in document.parameters)
+
+
 def _provenance(results):
     rows = []
     for document in results.comparisons + results.diagnoses:
         for key, label in PROVENANCE:
-            value = document.raw.get(key)
+            value = document.raw.get(key) if key != "method" or _fitted(document) else None
             if isinstance(value, str) and value and (label, value) not in rows:
                 rows.append((label, value))
     rows.sort(key=lambda row: [label for _, label in PROVENANCE].index(row[0]))

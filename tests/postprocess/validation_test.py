@@ -252,6 +252,12 @@ class Drawn(Temporary):
         stuck = [line for line in axes.get_lines() if line.get_marker() == "v" and line.get_xdata().size]
         self.assertEqual([line.get_xdata().size for line in stuck], [2])
 
+    def test_specimen_that_stood_still(self):
+        (axes,) = self.draw(make.peaks(self.folder, 0.95, stuck=1, stood=2))["peaks_peak_slip_m"].figure.axes
+        left = [line for line in axes.get_lines() if line.get_marker() == "<"]
+        self.assertEqual([line.get_xdata().size for line in left], [2])
+        self.assertLess(left[0].get_xdata().max(), 1.1 * axes.get_xlim()[0])
+
     def test_model_that_never_moves(self):
         self.assertIn("does not move in any of the 9 tests", self.draw(make.peaks(self.folder, 0.2, stuck=9))["peaks_peak_slip_m"].finding)
 
@@ -327,6 +333,11 @@ class ThePage(Temporary):
         self.assertIn("bench: the model misses its tests by 17.4 times the sensor noise", page.text)
         self.assertEqual(text.count('<tr class="missed">'), 4)
         self.assertNotIn("ladder", page.ids)
+        self.assertIn("method of the fit", page.text)
+
+    def test_a_comparison_at_given_numbers_fits_nothing(self):
+        page, _ = self.page(make.comparison(self.folder / "before", parameters=[]))
+        self.assertNotIn("method of the fit", page.text)
 
     def test_verdicts_in_the_headline(self):
         for verdict, needle in (("none", "these tests show no missing effect"), ("unknown", "no effect of the catalogue explains"),
