@@ -6,6 +6,7 @@ from . import validation, words
 from . import validation_tables as tables
 from .pictures import before_after, outcomes
 
+FANNED_OUT = 5  # noise units that the floor's noise makes, beyond which a test tells little; as in the findings of `compare`
 SECTIONS = ("ladder", "ranking", "recovered", "worst", "where", "peaks", "outcomes", "before_after", "sweep", "history")
 
 
@@ -56,7 +57,9 @@ def _compared(comparison):
     value, expected = mine.get("error", math.nan), mine.get("error_expected", math.nan)
     ratio = comparison.peak_ratio.get("ratio", math.nan)
     if comparison.unit == "noise units" and math.isfinite(expected):
-        if value < 1.2 * expected:
+        if value < 1.2 * expected and expected > FANNED_OUT:
+            return "the floor's noise alone drowns its tests, which cannot judge the model"
+        if 0.8 * expected < value < 1.2 * expected:
             return "the model is as good as the noise can tell"
         return f"the model misses its tests by {validation.error(value)} times the sensor noise"
     if comparison.unit == "ln ratio" and math.isfinite(ratio):

@@ -134,8 +134,11 @@ class Findings {
     if (ratio.count < 3) return;
     const auto n = static_cast<double>(ratio.count);
     const double within = gsl_cdf_tdist_Pinv(0.975, n - 1) * ratio.scatter_ln / std::sqrt(n);
-    const std::string middle = fmt::format("{:.2f}, 95 % between {:.2f} and {:.2f}", std::exp(ratio.bias_ln),
-                                           std::exp(ratio.bias_ln - within), std::exp(ratio.bias_ln + within));
+    const auto ratio_text = [](double ln) {
+      return ln < std::log(0.1) ? three_digits(std::exp(ln)) : fmt::format("{:.2f}", std::exp(ln));
+    };
+    const std::string middle = fmt::format("{}, 95 % between {} and {}", ratio_text(ratio.bias_ln),
+                                           ratio_text(ratio.bias_ln - within), ratio_text(ratio.bias_ln + within));
     const bool under = ratio.bias_ln < 0;
     if (std::abs(ratio.bias_ln) > within && std::abs(ratio.bias_ln) > 0.03)
       say("the model {} the peak slip: predicted over measured {} (geometric mean of {} tests, scatter {:.2f} in ln), "
