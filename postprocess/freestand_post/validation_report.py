@@ -6,6 +6,7 @@ from . import validation, words
 from . import validation_tables as tables
 from .pictures import before_after, outcomes
 
+FANNED_OUT = 5  # noise units that the floor's noise makes, beyond which a test tells little; as in the findings of `compare`
 SECTIONS = ("ladder", "ranking", "recovered", "worst", "where", "peaks", "outcomes", "before_after", "sweep", "history")
 
 
@@ -56,7 +57,9 @@ def _compared(comparison):
     value, expected = mine.get("error", math.nan), mine.get("error_expected", math.nan)
     ratio = comparison.peak_ratio.get("ratio", math.nan)
     if comparison.unit == "noise units" and math.isfinite(expected):
-        if value < 1.2 * expected:
+        if value < 1.2 * expected and expected > FANNED_OUT:
+            return "the floor's noise alone drowns its tests, which cannot judge the model"
+        if 0.8 * expected < value < 1.2 * expected:
             return "the model is as good as the noise can tell"
         return f"the model misses its tests by {validation.error(value)} times the sensor noise"
     if comparison.unit == "ln ratio" and math.isfinite(ratio):
@@ -172,11 +175,16 @@ PROVENANCE = (("created_utc", "written (UTC)"), ("version", "freestand"), ("git_
               ("study", "study"), ("measurements", "measurements"), ("method", "method of the fit"))
 
 
+def _fitted(document):
+    """A comparison at given numbers fits nothing."""
+    return not hasattr(document, "parameters") or any(row.get("calibrated") for row in document.parameters)
+
+
 def _provenance(results):
     rows = []
     for document in results.comparisons + results.diagnoses:
         for key, label in PROVENANCE:
-            value = document.raw.get(key)
+            value = document.raw.get(key) if key != "method" or _fitted(document) else None
             if isinstance(value, str) and value and (label, value) not in rows:
                 rows.append((label, value))
     rows.sort(key=lambda row: [label for _, label in PROVENANCE].index(row[0]))

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/digits.hpp"
 #include "measurement/diagnose_outcomes.hpp"
@@ -13,6 +14,7 @@
 namespace freestand::measurement {
 namespace {
 
+constexpr double nearly = 1.2;    // of the error that noise makes, below which an error is as good as that
 constexpr double fanned_out = 5;  // noise units that the floor's noise makes, beyond which a test tells little
 
 class Findings {
@@ -55,39 +57,96 @@ class Findings {
 
   void errors() {
     for (const Role role : {Role::calibration, Role::holdout}) {
-      double square = 0, expected = 0, n = 0;
+      Pool all, judged;
       for (const TestComparison& t : c_.tests) {
         if (bench_.test(t.test).role != role || !bench_.test(t.test).has_history()) continue;
-        square += t.error.noise_units * t.error.noise_units;
-        expected += t.expected * t.expected;
-        ++n;
+        all.add(t);
+        if (!(t.expected > fanned_out)) judged.add(t);
       }
-      if (n == 0) continue;
-      const double error = std::sqrt(square / n), floor = std::sqrt(expected / n);
+      if (all.n == 0) continue;
+      std::string part;
+      if (judged.n > 0 && judged.n < all.n)
+        part = fmt::format("; without those in which that noise fans out, by {} where it would make {}",
+                           judged.error_text(), three_digits(judged.floor()));
       say("{} tests are missed by {} noise units (root mean square); the noise of sensors and floor alone would make "
-          "{}{}",
-          role == Role::calibration ? "calibration" : "held-out", three_digits(error), three_digits(floor),
-          error < 1.2 * floor ? ": nothing is left to explain" : "");
+          "{}{}{}",
+          role == Role::calibration ? "calibration" : "held-out", all.error_text(), three_digits(all.floor()), part,
+          judged.n > 0                         ? left_to_explain(judged, role)
+          : all.error() < nearly * all.floor() ? ", so that they cannot be judged"
+                                               : "");
     }
+    worst();
+  }
+
+  struct Pool {
+    double square = 0, expected = 0, n = 0;
+    bool capped = false;
+    std::vector<std::size_t> tests = {};
+    void add(const TestComparison& t) {
+      square += t.error.noise_units * t.error.noise_units;
+      expected += t.expected * t.expected;
+      capped |= t.error.noise_units >= failed_error;
+      tests.push_back(t.test);
+      ++n;
+    }
+    double error() const { return std::sqrt(square / n); }
+    double floor() const { return std::sqrt(expected / n); }
+    std::string error_text() const { return (capped ? "at least " : "") + three_digits(error()); }
+  };
+
+  // Why an error no greater than the noise makes is no praise of the model, where it is none.
+  std::string left_to_explain(const Pool& pool, Role role) const {
+    if (pool.error() >= nearly * pool.floor()) return "";
+    if (std::none_of(pool.tests.begin(), pool.tests.end(), [&](std::size_t i) { return moves(bench_, i); }))
+      return ": nothing was measured above the noise, so that this says little of the model";
+    const std::size_t tests = tests_of(bench_.data(), Role::calibration).size();
+    if (role == Role::calibration && tests <= model_.free.size())
+      return fmt::format(": as {} numbers fitted to {} tests may bring about with any model", model_.free.size(),
+                         tests);
+    return ": nothing is left to explain";
+  }
+
+  void worst() {
     if (c_.worst.empty()) return;
     const TestComparison& worst = c_.tests[c_.worst.front()];
-    if (worst.error.noise_units > 2)
-      say("the worst test is {} with {} noise units, {:.0f} % of its measured peak", bench_.test(worst.test).id,
-          three_digits(worst.error.noise_units), 100 * worst.error.relative);
+    if (!(worst.error.noise_units > 2)) return;
+    const ChannelError* most = nullptr;
+    for (const ChannelError& e : worst.channels)
+      if (moves(bench_, worst.test, e.channel) && !(most && most->noise_units >= e.noise_units)) most = &e;
+    constexpr const char* words[] = {"slip", "rotation", "acceleration"};
+    say("the worst test is {} with {} noise units{}", bench_.test(worst.test).id, one(worst).error_text(),
+        most ? fmt::format(": its {} is missed by {:.0f} % of the measured peak",
+                           words[static_cast<int>(most->channel)], 100 * most->relative)
+             : ", where nothing was measured above the noise");
+  }
+
+  static Pool one(const TestComparison& t) {
+    Pool pool;
+    pool.add(t);
+    return pool;
   }
 
   void peaks() {
     const PeakRatio ratio = peak_ratio(bench_, c_.tests);
     if (ratio.count < 3) return;
-    const double bias = std::exp(ratio.bias_ln), se = ratio.scatter_ln / std::sqrt(static_cast<double>(ratio.count));
-    if (std::abs(ratio.bias_ln) > 2 * se && std::abs(ratio.bias_ln) > 0.03)
-      say("the model {} the peak slip: predicted over measured {:.2f} (geometric mean of {} tests, scatter {:.2f} in "
-          "ln), so that its resistance is too {}",
-          bias < 1 ? "underpredicts" : "overpredicts", bias, ratio.count, ratio.scatter_ln, bias < 1 ? "high" : "low");
+    const auto n = static_cast<double>(ratio.count);
+    const double within = gsl_cdf_tdist_Pinv(0.975, n - 1) * ratio.scatter_ln / std::sqrt(n);
+    const auto ratio_text = [](double ln) {
+      return ln < std::log(0.1) ? three_digits(std::exp(ln)) : fmt::format("{:.2f}", std::exp(ln));
+    };
+    const std::string middle = fmt::format("{}, 95 % between {} and {}", ratio_text(ratio.bias_ln),
+                                           ratio_text(ratio.bias_ln - within), ratio_text(ratio.bias_ln + within));
+    const bool under = ratio.bias_ln < 0;
+    if (std::abs(ratio.bias_ln) > within && std::abs(ratio.bias_ln) > 0.03)
+      say("the model {} the peak slip: predicted over measured {} (geometric mean of {} tests, scatter {:.2f} in ln), "
+          "so "
+          "that its resistance is too {}",
+          under ? "underpredicts" : "overpredicts", middle, ratio.count, ratio.scatter_ln, under ? "high" : "low");
     else if (ratio.scatter_ln > 0.05)
-      say("peak slips have no bias (predicted over measured {:.2f}) but scatter by {:.2f} in ln over {} tests: their "
+      say("peak slips have no bias that {} tests can show (predicted over measured {}) but scatter by {:.2f} in ln: "
+          "their "
           "input or a missing effect, not the mean resistance",
-          bias, ratio.scatter_ln, ratio.count);
+          ratio.count, middle, ratio.scatter_ln);
   }
 
   // Of tests that say whether the specimen overturned: how many are missed, and whether chance explains it.
@@ -120,6 +179,12 @@ class Findings {
         sure.push_back(fmt::format("{} ({:.2f}, {})", bench_.test(t->test).id, p, fell ? "overturned" : "stood"));
     }
     const char* whose = role == Role::calibration ? "calibration" : "held-out";
+    if (role == Role::calibration && (overturned == 0 || overturned == all.size()))
+      say("all {} calibration tests {}: they bound the model from one side only, and one that {} fits them as well; "
+          "add "
+          "tests that {}",
+          all.size(), overturned ? "overturned" : "stood", overturned ? "always overturns" : "never overturns",
+          overturned ? "stood" : "overturned");
     say("{} of {} {} tests are missed ({:.1f} %): {} that stood were predicted to overturn, {} that overturned to "
         "stand",
         missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n, false_alarms, missed - false_alarms);
@@ -139,41 +204,58 @@ class Findings {
       say("against odds of nine to one (probability of overturning in brackets) came out {}", fmt::join(sure, ", "));
   }
 
-  // Where the residual grows most: the phase, and the two variables that part the bad from the good best.
+  // Where the residual grows most: the phase, and the range of a variable that stands out even more.
   void where() {
-    struct Peak {
-      const ErrorTable* table;
-      std::size_t bin;
-      double mean;
-      double contrast() const { return table->growth[bin] / mean; }
-    };
-    std::vector<Peak> peaks;
+    std::optional<Peak> phase, most;
     for (const ErrorTable& table : c_.calibration) {
-      double mean = 0, n = 0;
-      for (std::size_t b = 0; b < table.count.size(); ++b)
-        if (table.count[b] > 0) mean += table.count[b] * table.growth[b] * table.growth[b], n += table.count[b];
-      mean = std::sqrt(mean / std::max(n, 1.0));
-      std::size_t most = 0;
-      for (std::size_t b = 0; b < table.count.size(); ++b)
-        if (table.count[b] > 0.01 * n && !(table.growth[b] <= table.growth[most] && table.count[most] > 0.01 * n))
-          most = b;
-      if (mean < 3 || !(table.growth[most] > 1.8 * mean)) continue;
-      if (table.variable == "phase")
-        say("the misfit grows most in phase \"{}\": {:.1f} noise units within 0.1 s, against {:.1f} on the average",
-            table.label[most], table.growth[most], mean);
-      else
-        peaks.push_back({&table, most, mean});
+      const std::optional<Peak> peak = peak_of(table);
+      if (!peak) continue;
+      auto& best = table.variable == "phase" ? phase : most;
+      if (!best || peak->contrast() > best->contrast()) best = peak;
     }
-    std::stable_sort(peaks.begin(), peaks.end(),
-                     [](const Peak& a, const Peak& b) { return a.contrast() > b.contrast(); });
-    peaks.resize(std::min<std::size_t>(peaks.size(), 2));
-    for (const auto& [table, bin, mean] : peaks) {
-      const std::string at = table->variable == "direction"
-                                 ? fmt::format("slipping to the {}", table->centre[bin] > 0 ? "right" : "left")
-                                 : fmt::format("{} about {:.3g} {}", table->variable, table->centre[bin], table->unit);
-      say("the misfit grows most with {}: {:.1f} noise units within 0.1 s, against {:.1f} on the average", at,
-          table->growth[bin], mean);
+    if (!phase && !most) return;
+    const auto tell = [](const Peak& p) {
+      return fmt::format("{}: {} noise units within 0.1 s, against {} on the average", p.place(),
+                         three_digits(p.growth()), three_digits(p.mean));
+    };
+    if (phase && most && most->contrast() > phase->contrast())
+      say("the misfit grows most {}; {}, {}", tell(*phase), most->place(), three_digits(most->growth()));
+    else
+      say("the misfit grows most {}", tell(phase ? *phase : *most));
+  }
+
+  struct Peak {
+    const ErrorTable* table;
+    std::size_t bin;
+    double mean;
+    double growth() const { return table->growth[bin]; }
+    double contrast() const { return growth() / mean; }
+    std::string place() const {
+      const std::string& v = table->variable;
+      if (v == "phase") return fmt::format("in phase \"{}\"", table->label[bin]);
+      const double at = table->centre[bin];
+      if (v == "direction") return fmt::format("slipping to the {}", at > 0 ? "right" : "left");
+      const struct {
+        const char *name, *words;
+      } words[] = {{"speed_mps", "at slip speeds about {} m/s"}, {"path_m", "when about {} m have been slid"},
+                   {"position_m", "at slips about {} m"},        {"normal_g", "under about {} times the weight"},
+                   {"time_s", "about {} s after the start"},     {"floor_g", "under a floor of about {} g"}};
+      const auto found = std::find_if(std::begin(words), std::end(words), [&](const auto& w) { return w.name == v; });
+      return fmt::format(fmt::runtime(found == std::end(words) ? "about {}" : found->words), fmt::format("{:.2g}", at));
     }
+  };
+
+  // The bin that stands out of its table, among those that hold more than 1 % of the samples.
+  static std::optional<Peak> peak_of(const ErrorTable& table) {
+    double mean = 0, n = 0;
+    for (std::size_t b = 0; b < table.count.size(); ++b)
+      if (table.count[b] > 0) mean += table.count[b] * table.growth[b] * table.growth[b], n += table.count[b];
+    mean = std::sqrt(mean / std::max(n, 1.0));
+    std::optional<std::size_t> most;
+    for (std::size_t b = 0; b < table.count.size(); ++b)
+      if (table.count[b] > 0.01 * n && !(most && table.growth[b] <= table.growth[*most])) most = b;
+    if (!most || mean < 3 || !(table.growth[*most] > 1.8 * mean)) return {};
+    return Peak{&table, *most, mean};
   }
 
   // Residual slips of the model end on one side of the measured ones, in more tests of any role than chance makes.

@@ -92,7 +92,8 @@ class MotionFindings {
         [](const Motions& m) { return m.slip.specimen_stands(); },
         [](const Motions& m) { return m.slip.model_moves(); },
         [&](std::size_t i) {
-          return of(i).rotation.specimen_moves() && !above(i) ? rather(i) : "its friction is too low";
+          if (!of(i).rotation.specimen_moves()) return std::string("its friction is too low");
+          return above(i) ? std::string() : rather(i);
         });
     return std::move(said_);
   }

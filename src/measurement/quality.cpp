@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/findings_motion.hpp"
 #include "measurement/plausible.hpp"
 #include "measurement/timing.hpp"
 
@@ -30,27 +31,68 @@ Dataset changed(const Dataset& data, bool mirror_slip, bool mirror_rotation, int
   return other;
 }
 
+// Tests of a set to which the same is to be said.
+std::string together(const std::vector<std::string>& ids, const char* one, const char* several) {
+  return fmt::format("{} {} {}", ids.size() > 1 ? "tests" : "test", listed(ids), ids.size() > 1 ? several : one);
+}
+
+bool has(const Bench& bench, Channel channel) {
+  return std::any_of(bench.data().tests.begin(), bench.data().tests.end(),
+                     [&](const Test& test) { return !history(test, channel).empty(); });
+}
+
+// A sensor that is there and alive.
+bool tells(const Bench& bench, const Test& test, Channel channel) {
+  const auto& samples = history(test, channel);
+  return bench.noise(channel) > 0 &&
+         std::any_of(samples.begin(), samples.end(), [&](double s) { return s != samples[0]; });
+}
+
+void look_at_channel(const Bench& bench, Channel channel, Quality& quality) {
+  std::vector<std::string> lack, dead, unknown;
+  for (std::size_t i = 0; i < bench.size(); ++i) {
+    const Test& test = bench.test(i);
+    const auto& samples = history(test, channel);
+    if (!test.has_history()) continue;
+    if (samples.empty()) {
+      lack.push_back(test.id);
+      if (channel != Channel::block_acceleration && !moves(bench, i)) unknown.push_back(test.id);
+    } else if (std::all_of(samples.begin(), samples.end(), [&](double s) { return s == samples[0]; })) {
+      dead.push_back(test.id);
+    } else if (clipped(samples, bench.noise(channel))) {
+      quality.findings.push_back(
+          fmt::format("{} of test {} stays at its extreme value for several samples: the sensor looks clipped",
+                      name(channel), test.id));
+    }
+  }
+  if (!dead.empty())
+    quality.findings.push_back(fmt::format("{} of {}, where a sensor shows its noise: is it alive?", name(channel),
+                                           together(dead, "is one number throughout", "is one number throughout")));
+  if (!lack.empty() && has(bench, channel))
+    quality.findings.push_back(fmt::format(
+        "{} {}, which other tests have: errors are of the other channels alone{}", together(lack, "lacks", "lack"),
+        name(channel), unknown.empty() ? "" : fmt::format(", and whether {} moved is not known", listed(unknown))));
+}
+
 void look_at_channels(const Bench& bench, Quality& quality) {
+  for (int c = 0; c < channel_count; ++c) look_at_channel(bench, static_cast<Channel>(c), quality);
+  std::vector<std::string> still;
+  bool slips = false, turns = false;
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const Test& test = bench.test(i);
     if (!test.has_history()) continue;
-    bool moved = false;
-    for (int c = 0; c < channel_count; ++c) {
-      const auto channel = static_cast<Channel>(c);
-      const auto& samples = history(test, channel);
-      if (channel != Channel::block_acceleration) moved |= greatest(samples) > 8 * bench.noise(channel);
-      if (clipped(samples, bench.noise(channel)))
-        quality.findings.push_back(
-            fmt::format("{} of test {} stays at its extreme value for several samples: the sensor looks clipped",
-                        name(channel), test.id));
-    }
-    quality.moving += moved;
-    if (!moved)
-      quality.findings.push_back(
-          fmt::format("test {} shows no motion above the noise: it bounds friction and slenderness "
-                      "from below, and says nothing else",
-                      test.id));
+    quality.moving += moves(bench, i);
+    const bool slip = tells(bench, test, Channel::slip), turn = tells(bench, test, Channel::rotation);
+    if (moves(bench, i) || !(slip || turn)) continue;
+    if ((!slip && has(bench, Channel::slip)) || (!turn && has(bench, Channel::rotation))) continue;
+    still.push_back(test.id);
+    slips |= slip, turns |= turn;
   }
+  if (still.empty()) return;
+  const char* what = slips && turns ? "friction and slenderness" : slips ? "friction" : "slenderness";
+  quality.findings.push_back(
+      together(still, "shows no motion above the noise: it bounds", "show no motion above the noise: they bound") +
+      fmt::format(" {} from below, and {} nothing else", what, still.size() > 1 ? "say" : "says"));
 }
 
 std::string clock_sentence(const std::string& whose, int late_steps, double dt_s) {

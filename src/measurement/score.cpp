@@ -11,9 +11,9 @@ namespace freestand::measurement {
 namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double failed_error = 1e4;  // of a sample without a history, in noise units
 constexpr double ln_ratio_limit = 3;
 constexpr double stride_s = 1;
+constexpr double moving = 8;  // in the noise of a channel
 
 // visit(channel, noise, measured, predicted) for the channels that can be judged.
 template <class Visit>
@@ -37,7 +37,7 @@ TestError history_error(const Bench& bench, std::size_t i, const Prediction& pre
     }
     const double mean = sum / static_cast<double>(measured.size());
     square += mean / (noise * noise);
-    if (peak > 5 * noise) relative = std::max(relative, std::sqrt(mean) / peak);
+    if (peak > moving * noise) relative = std::max(relative, std::sqrt(mean) / peak);
     ++channels;
   });
   TestError error;
@@ -127,6 +127,16 @@ double least_motion(const Bench& bench, Channel channel) {
       see(channel == Channel::rotation ? p.peak_rotation_rad : p.peak_acceleration_g);
   }
   return std::max(1e-6, 1e-3 * greatest);
+}
+
+bool moves(const Bench& bench, std::size_t i, Channel channel) {
+  const auto& samples = history(bench.test(i), channel);
+  return std::any_of(samples.begin(), samples.end(),
+                     [&](double s) { return std::abs(s) > moving * bench.noise(channel); });
+}
+
+bool moves(const Bench& bench, std::size_t i) {
+  return moves(bench, i, Channel::slip) || moves(bench, i, Channel::rotation);
 }
 
 TestError outcome_error(const Test& test, double probability) {

@@ -20,14 +20,21 @@ Kind kind(const Test&);
 struct TestError {
   double score = 0;
   double noise_units = 0;  // e; nan where no noise is known
-  double relative = 0;     // rms error over the measured peak; of peaks |model/measured - 1|, and 1 where only the
-                           // model moves; nan for outcomes
+  double relative =
+      0;  // rms error over the measured peak, of the channel that moves() and where it is greatest; of peaks |model/measured - 1|, and 1 where only the
+          // model moves; nan for outcomes
   double probability = 0;  // of overturning, outcomes only
 };
 
 // The least peak that is told from standing still, in the channel's unit (block acceleration: g): the sensor's noise;
 // where that is not stated, a thousandth of the greatest such peak in the set, and at least 1e-6.
 double least_motion(const Bench&, Channel);
+
+// Does a channel of the test's histories, or any of slip and rotation, exceed eight times its noise?
+bool moves(const Bench&, std::size_t test, Channel);
+bool moves(const Bench&, std::size_t test);
+
+inline constexpr double failed_error = 1e4;  // noise units of a sample without a history, and no error is greater
 
 TestError test_error(const Bench&, std::size_t test, const Prediction&);  // histories and peaks
 TestError test_error(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x);

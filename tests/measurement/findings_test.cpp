@@ -92,6 +92,11 @@ TEST(Findings, AModelThatOnlySlidesAgainstOverturning) {
   data.tests[0].peaks.overturned = true;
   data.tests[1].peaks.overturned = false;
   EXPECT_THAT(said(data, fixed(0.2, Model::slide)), Contains(HasSubstr("does not rotate in 1 of 1 tests")));
+  EXPECT_THAT(said(data, fixed(0.2, Model::slide)), Not(Contains(HasSubstr("from one side only"))));
+  data.tests[0].peaks.overturned = false;
+  EXPECT_THAT(said(data, fixed(0.2, Model::slide)),
+              Contains("all 2 calibration tests stood: they bound the model from one side only, and one that never "
+                       "overturns fits them as well; add tests that overturned"));
 }
 
 // Five calibration tests that end too far to one side are what chance does once in 16: with a sixth, whatever its role,
@@ -113,6 +118,84 @@ TEST(Findings, ABiasOfDirectionIsMoreThanChance) {
                          "(by chance: p = 0.031")));
   drift(data.tests[5], -0.04);
   EXPECT_THAT(said(data, fixed(0.2)), Not(Contains(HasSubstr("bias of direction"))));
+}
+
+TEST(Findings, NothingIsLeftOnlyWhereSomethingWasThere) {
+  const std::string praise = "nothing is left to explain";
+  Dataset data = test::made_dataset(tall(0.2));
+  EXPECT_THAT(said(data, fixed(0.2)), Contains(HasSubstr(praise)));
+  data.noise.slip_m = data.noise.rotation_rad = 0.5;
+  EXPECT_THAT(said(data, fixed(0.2)), Not(Contains(HasSubstr(praise))));
+  EXPECT_THAT(said(data, fixed(0.2)), Contains(HasSubstr("nothing was measured above the noise")));
+  data = test::made_dataset(tall(0.2));
+  for (std::size_t i = 1; i < data.tests.size(); ++i) data.tests[i].role = Role::holdout;
+  ModelSpec model = fixed(0.2);
+  model.free.resize(4, {.name = "number", .lower = 0, .upper = 1});
+  const auto sentences = said(data, model);
+  EXPECT_THAT(sentences, Contains(HasSubstr("as 4 numbers fitted to 1 tests may bring about with any model")));
+  EXPECT_THAT(sentences, Contains(testing::AllOf(HasSubstr("held-out"), HasSubstr(praise))));
+}
+
+// Long rocking near the edge: a little more noise on the floor, and it takes another way.
+TEST(Findings, WhatTheFloorsNoiseDrownsCannotBeJudged) {
+  Dataset data;
+  data.noise = {.slip_m = test::slip_noise_m, .rotation_rad = test::rotation_noise_rad, .floor_acceleration_mps2 = 1};
+  data.tests = {test::made_test("t1", tall(0.9), test::swings(8, 0.8), 1)};
+  auto sentences = said(data, fixed(0.9));
+  EXPECT_THAT(sentences, Contains(HasSubstr("so that they cannot be judged")));
+  EXPECT_THAT(sentences, Not(Contains(HasSubstr("nothing is left"))));
+  data.tests.push_back(test::made_test("t2", tall(0.9), test::swings(0.1, 0.8), 2));
+  sentences = said(data, fixed(0.9));
+  EXPECT_THAT(sentences, Contains(HasSubstr("without those in which that noise fans out, by ")));
+}
+
+TEST(Findings, TheWorstTestIsMeasuredByAChannelThatMoves) {
+  Dataset data = test::made_dataset(tall(0.9));
+  for (auto& made : data.tests) made.slip_m.assign(made.slip_m.size(), 1e-4);
+  EXPECT_THAT(said(data, fixed(0.2)),
+              Contains(HasSubstr("the worst test is t4 with 359 noise units, where nothing was")));
+  data.tests = {data.tests[0], data.tests[2], data.tests[4]};  // those that rock
+  EXPECT_THAT(said(data, fixed(0.2)),
+              Contains(testing::MatchesRegex("the worst test is t[0-9] with [0-9]+ noise units: "
+                                             "its rotation is missed by [0-9]+ % of the .*")));
+}
+
+TEST(Findings, CappedErrorsAreAtLeastThat) {
+  Dataset data = test::made_dataset(tall(0.2));
+  for (double& s : data.tests[0].slip_m) s *= 1e6;
+  const auto sentences = said(data, fixed(0.2));
+  EXPECT_THAT(sentences, Contains(HasSubstr("calibration tests are missed by at least 5000 noise units")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("the worst test is t1 with at least 1e+04 noise units")));
+}
+
+TEST(Findings, OneSentenceInPlainWordsSaysWhereItFails) {
+  for (const double mu : {0.1, 0.3}) {
+    int said_where = 0;
+    for (const auto& sentence : said(test::made_dataset(tall(0.2)), fixed(mu))) {
+      said_where += sentence.find("the misfit grows most") == 0;
+      EXPECT_THAT(sentence, Not(testing::ContainsRegex("[a-z]+_(mps|m|s|g)[^a-z]"))) << mu;
+    }
+    EXPECT_EQ(said_where, 1) << mu;
+  }
+}
+
+// Seven peaks whose logarithms lie 0.1 beside 1/0.83, to and fro: the mean of seven with scatter 0.4.
+TEST(Findings, ABiasOfPeaksIsAsSureAsItsInterval) {
+  Dataset data;
+  const double mean = std::log(0.83), scatter[] = {-0.6, -0.4, -0.2, 0, 0.2, 0.4, 0.6};  // sd 0.432
+  for (const double ln : scatter) {
+    data.tests.push_back(of_peaks(tall(0.2), 6 + ln, 0.6));
+    data.tests.back().peaks.peak_rotation_rad = {};
+    *data.tests.back().peaks.peak_slip_m *= std::exp(-mean - ln);
+  }
+  // t(6, 0.975) = 2.447: 0.83 exp(+-2.447 * 0.432/sqrt(7))
+  EXPECT_THAT(said(data, fixed(0.2)),
+              Contains(HasSubstr("peak slips have no bias that 7 tests can show (predicted over "
+                                 "measured 0.83, 95 % between 0.56 and 1.24) but scatter by 0.43")));
+  for (auto& made : data.tests) *made.peaks.peak_slip_m *= 2;
+  EXPECT_THAT(
+      said(data, fixed(0.2)),
+      Contains(HasSubstr("underpredicts the peak slip: predicted over measured 0.42, 95 % between 0.28 and 0.62")));
 }
 
 }  // namespace

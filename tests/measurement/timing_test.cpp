@@ -13,6 +13,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 Specimen cabinet(double mu) {
   Specimen s;
@@ -91,6 +92,23 @@ TEST(Quality, ClippedSensorsAndStillTests) {
   const Quality q = examined(data);
   EXPECT_THAT(q.findings, Contains(HasSubstr("slip_m of test t1 stays at its extreme value")));
   EXPECT_THAT(q.findings, Contains(HasSubstr("test t2 shows no motion above the noise")));
+}
+
+// A test without a channel that others have, or with a dead one, bounds nothing: it may have moved.
+TEST(Quality, ChannelsThatLackOrAreDead) {
+  Dataset data = test::made_dataset(cabinet(0.9));
+  data.tests[0].rotation_rad.clear();
+  data.tests[1].slip_m.assign(data.tests[1].slip_m.size(), 0);
+  auto findings = examined(data).findings;
+  EXPECT_THAT(findings, Contains("test t1 lacks rotation_rad, which other tests have: errors are of the other channels "
+                                 "alone, and whether t1 moved is not known"));
+  EXPECT_THAT(findings, Contains(HasSubstr("slip_m of test t2 is one number throughout")));
+  EXPECT_THAT(findings, Contains("tests t3, t4, t5 show no motion above the noise: they bound friction and slenderness "
+                                 "from below, and say nothing else"));
+  for (auto& made : data.tests) made.rotation_rad.clear();
+  findings = examined(data).findings;
+  EXPECT_THAT(findings, Not(Contains(HasSubstr("lack"))));
+  EXPECT_THAT(findings, Contains(HasSubstr("they bound friction from below")));
 }
 
 TEST(Quality, UnitsAndDeadChannels) {

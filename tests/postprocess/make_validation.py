@@ -68,12 +68,13 @@ def comparison(folder, effects=(), error=17.4, held_out=13.8, channels=("slip_m"
     return write(folder, "comparison.json", value | changes)
 
 
-def peaks(folder, ratio=0.2, name="bench", stuck=0):
-    """Only peaks were measured; in the first `stuck` tests the model does not move."""
+def peaks(folder, ratio=0.2, name="bench", stuck=0, stood=0):
+    """Only peaks were measured; in the first `stuck` tests the model does not move, in the last `stood` the specimen did not."""
     random = np.random.default_rng(3)
     found = []
     for i, measured in enumerate(np.geomspace(0.01, 0.3, 9)):
         model = 0.0 if i < stuck else float(measured * ratio * np.exp(0.3 * random.normal()))
+        measured = 0.0 if i >= 9 - stood else measured
         found.append({"id": f"a{i}", "role": "calibration", "kind": "peaks", "source": "pulse B", "error_noise_units": None,
                       "error_relative": 0.5, "error_explained": None, "error_expected": None, "outcome": "moved", "channels": [],
                       "peaks": [{"name": "peak_slip_m", "measured": float(measured), "model": model}]})

@@ -252,6 +252,12 @@ class Drawn(Temporary):
         stuck = [line for line in axes.get_lines() if line.get_marker() == "v" and line.get_xdata().size]
         self.assertEqual([line.get_xdata().size for line in stuck], [2])
 
+    def test_specimen_that_stood_still(self):
+        (axes,) = self.draw(make.peaks(self.folder, 0.95, stuck=1, stood=2))["peaks_peak_slip_m"].figure.axes
+        left = [line for line in axes.get_lines() if line.get_marker() == "<"]
+        self.assertEqual([line.get_xdata().size for line in left], [2])
+        self.assertLess(left[0].get_xdata().max(), 1.1 * axes.get_xlim()[0])
+
     def test_model_that_never_moves(self):
         self.assertIn("does not move in any of the 9 tests", self.draw(make.peaks(self.folder, 0.2, stuck=9))["peaks_peak_slip_m"].finding)
 
@@ -327,6 +333,20 @@ class ThePage(Temporary):
         self.assertIn("bench: the model misses its tests by 17.4 times the sensor noise", page.text)
         self.assertEqual(text.count('<tr class="missed">'), 4)
         self.assertNotIn("ladder", page.ids)
+        self.assertIn("method of the fit", page.text)
+
+    def test_praise_only_where_the_tests_can_judge(self):
+        for error, expected, needle in ((1.02, 1.03, "bench: the model is as good as the noise can tell"),
+                                        (2900.0, 2484.0, "bench: the floor's noise alone drowns its tests"),
+                                        (0.05, 1.0, "bench: the model misses its tests by 0.0500 times the sensor noise")):
+            with self.subTest(error):
+                mine = {"error_noise_units": error, "error_relative": 0.2, "error": error, "error_expected": expected, "tests": 3}
+                page, _ = self.page(make.comparison(self.folder / str(error), calibration=mine))
+                self.assertIn(needle, page.text)
+
+    def test_a_comparison_at_given_numbers_fits_nothing(self):
+        page, _ = self.page(make.comparison(self.folder / "before", parameters=[]))
+        self.assertNotIn("method of the fit", page.text)
 
     def test_verdicts_in_the_headline(self):
         for verdict, needle in (("none", "these tests show no missing effect"), ("unknown", "no effect of the catalogue explains"),
