@@ -95,6 +95,17 @@ std::vector<Free> elite_box(const ModelSpec& model, const std::vector<std::size_
   return box;
 }
 
+// With all that the tests do not rule out, so that resampled ones find their own best there.
+std::vector<Free> grown(std::vector<Free> box, const std::vector<std::size_t>& numbers,
+                        const std::vector<Interval>& open) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    box[k].low = std::min(box[k].low, open[numbers[k]].lower);
+    box[k].high = std::max(box[k].high, open[numbers[k]].upper);
+    box[k].logarithmic = box[k].logarithmic && box[k].low > 0;
+  }
+  return box;
+}
+
 std::vector<Free> range(const ModelSpec& model, const std::vector<std::size_t>& numbers) {
   std::vector<Free> box;
   for (const std::size_t i : numbers) box.push_back(model.free[i]);
@@ -148,11 +159,12 @@ class Reading {
       const TableFit fit = search_.best(weight);
       for (std::size_t i = 0; i < numbers; ++i) found[i].push_back(fit.x[i]);
     }
+    const std::vector<Interval> open = search_.within_chance(all_);
     for (std::size_t i = 0; i < numbers; ++i) {
       std::sort(found[i].begin(), found[i].end());
       const double most = static_cast<double>(resamples) - 1;
-      answer_.push_back(std::min(all_.x[i], found[i][static_cast<std::size_t>(std::lround(0.025 * most))]));
-      answer_.push_back(std::max(all_.x[i], found[i][static_cast<std::size_t>(std::lround(0.975 * most))]));
+      answer_.push_back(std::min(open[i].lower, found[i][static_cast<std::size_t>(std::lround(0.025 * most))]));
+      answer_.push_back(std::max(open[i].upper, found[i][static_cast<std::size_t>(std::lround(0.975 * most))]));
     }
   }
 
@@ -223,7 +235,9 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
     fine.push_back({table->model, table->without, tests, fine_places(*table, best.x)});
     if (without) add_plain_points(fine.back(), *without);
     if (!table->points[best.point].plain) fine.back().points.push_back({best.x});
-    add_points(fine.back(), elite_box(table->model, numbers, *table, search.scores()), numbers, best.x,
+    const auto box =
+        grown(elite_box(table->model, numbers, *table, search.scores()), numbers, search.within_chance(best));
+    add_points(fine.back(), box, numbers, best.x,
                points_of_round(effort.near, numbers, is_slow(*table) ? effort.most / 3 : effort.most));
   }
   compute(bench, pointers(fine), "outcomes near the best", jobs);

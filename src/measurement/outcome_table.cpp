@@ -1,5 +1,7 @@
 #include "measurement/outcome_table.hpp"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -166,6 +168,29 @@ TableFit TableSearch::best(const std::vector<double>& weight) const {
   fit.score = found.score;
   fit.probability = probabilities(fit.point, fit.x);
   return fit;
+}
+
+std::vector<Interval> TableSearch::within_chance(const TableFit& fit) const {
+  const std::size_t n = overturned_.size();
+  const double chance = n > 1 ? gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - 1)) : 0;
+  std::vector<Interval> range;
+  for (const double x : fit.x) range.push_back({x, x});
+  for (std::size_t r = 0; r < rows_.size(); ++r) {
+    double sum = 0, square = 0;
+    for (std::size_t t = 0; t < n; ++t) {
+      const double worse =
+          std::pow(probability_[r * n + t] - overturned_[t], 2) - std::pow(fit.probability[t] - overturned_[t], 2);
+      sum += worse;
+      square += worse * worse;
+    }
+    const double mean = sum / static_cast<double>(n), variance = square / static_cast<double>(n) - mean * mean;
+    if (mean > chance * std::sqrt(std::max(variance, 0.0) / static_cast<double>(std::max<std::size_t>(n, 2) - 1)))
+      continue;
+    const Values x = placed(rows_[r]);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      range[i] = {std::min(range[i].lower, x[i]), std::max(range[i].upper, x[i])};
+  }
+  return range;
 }
 
 std::vector<double> TableSearch::scores() const {

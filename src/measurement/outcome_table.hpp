@@ -40,6 +40,9 @@ class TableSearch {
   TableFit best(const std::vector<double>& weight = {}) const;
   // Least score of each point of the table over middle and scatter, all tests alike; infinite where it was left out.
   std::vector<double> scores() const;
+  // Of each number, from all points whose scores are worse than those of the fit by no more than chance: by their paired
+  // difference over the tests and its standard error, at 95 %.
+  std::vector<Interval> within_chance(const TableFit&) const;
   // Of each test, at a point with the middle and scatter of x.
   std::vector<double> probabilities(std::size_t point, const Values& x) const;
 

@@ -61,7 +61,8 @@ const char* calibration_method(const Bench& bench) {
     return "outcomes are computed for many placements of the specimen at points of a Sobol sequence that close in on "
            "the "
            "best; over these points, and over middle and scatter of the placements, Brier's score of the calibration "
-           "tests is made least; intervals of 95 % from 200 draws of the tests with replacement";
+           "tests is made least; intervals of 95 % hold the fits to 200 draws of the tests with replacement, and all points "
+           "that are worse by no more than chance";
   return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and Mead descends "
          "(GSL "
          "nmsimplex2), and once more from the best of those; the mean of ln(error^2) of the calibration tests is made "

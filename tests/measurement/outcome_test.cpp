@@ -132,9 +132,12 @@ TEST(Outcomes, FitFindsSlendernessAndScatterAgain) {
   const ModelFit fit = fit_outcomes(bench, rocking_model(true_size_m), {}, {}, run_here);
   EXPECT_NEAR(fit.x[0], true_slenderness, 0.015);
   EXPECT_NEAR(fit.x[1], true_scatter, 0.08);
-  // 200 outcomes, some tens of them unsure: known to some percent, neither exactly nor not at all.
+  // 200 outcomes, some tens of them unsure: known to some percent, neither exactly nor not at all. The interval holds all
+  // that these outcomes do not rule out, which is more than resampled ones find.
   EXPECT_GT(fit.intervals[0].upper - fit.intervals[0].lower, 0.01 * true_slenderness);
-  EXPECT_LT(fit.intervals[0].upper - fit.intervals[0].lower, 0.2 * true_slenderness);
+  EXPECT_LT(fit.intervals[0].upper - fit.intervals[0].lower, 0.3 * true_slenderness);
+  EXPECT_LT(fit.intervals[0].lower, true_slenderness);
+  EXPECT_GT(fit.intervals[0].upper, true_slenderness);
   EXPECT_LE(fit.intervals[0].lower, fit.x[0]);
   EXPECT_GE(fit.intervals[0].upper, fit.x[0]);
   // The score that compare computes anew at the same numbers.
