@@ -14,8 +14,7 @@
 namespace freestand::measurement {
 namespace {
 
-constexpr double nearly = 1.2;    // of the error that noise makes, below which an error is as good as that
-constexpr double fanned_out = 5;  // noise units that the floor's noise makes, beyond which a test tells little
+constexpr double nearly = 1.2;  // of the error that noise makes, below which an error is as good as that
 
 class Findings {
  public:
