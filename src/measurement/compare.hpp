@@ -23,7 +23,7 @@ struct ChannelError {
 };
 
 // Noise units that the noise of the floor makes alone (`expected`), beyond which a test tells little.
-inline constexpr double fanned_out = 5;
+inline constexpr double drowned = 5;
 
 struct TestComparison {
   std::size_t test = 0;

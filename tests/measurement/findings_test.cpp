@@ -131,7 +131,7 @@ TEST(Findings, NothingIsLeftOnlyWhereSomethingWasThere) {
   data = test::made_dataset(tall(0.2));
   for (std::size_t i = 1; i < data.tests.size(); ++i) data.tests[i].role = Role::holdout;
   ModelSpec model = fixed(0.2);
-  model.free.resize(4, {.name = "number", .lower = 0, .upper = 1});
+  model.free.resize(4, {.name = "number", .unit = "1", .lower = 0, .upper = 1});
   const auto sentences = said(data, model);
   EXPECT_THAT(sentences, Contains(HasSubstr("as 4 numbers fitted to 1 tests may bring about with any model")));
   EXPECT_THAT(sentences, Contains(testing::AllOf(HasSubstr("held-out"), HasSubstr(praise))));
