@@ -22,6 +22,9 @@ struct ChannelError {
   double autocorrelation = 0;                      // of the residual, one step apart; 0 for white noise
 };
 
+// Noise units that the noise of the floor makes alone (`expected`), beyond which a test tells little.
+inline constexpr double drowned = 5;
+
 struct TestComparison {
   std::size_t test = 0;
   TestError error = {};

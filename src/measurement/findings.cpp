@@ -14,8 +14,7 @@
 namespace freestand::measurement {
 namespace {
 
-constexpr double nearly = 1.2;    // of the error that noise makes, below which an error is as good as that
-constexpr double fanned_out = 5;  // noise units that the floor's noise makes, beyond which a test tells little
+constexpr double nearly = 1.2;  // of the error that noise makes, below which an error is as good as that
 
 class Findings {
  public:
@@ -61,7 +60,7 @@ class Findings {
       for (const TestComparison& t : c_.tests) {
         if (bench_.test(t.test).role != role || !bench_.test(t.test).has_history()) continue;
         all.add(t);
-        if (!(t.expected > fanned_out)) judged.add(t);
+        if (!(t.expected > drowned)) judged.add(t);
       }
       if (all.n == 0) continue;
       std::string part;
@@ -138,14 +137,12 @@ class Findings {
                                            ratio_text(ratio.bias_ln - within), ratio_text(ratio.bias_ln + within));
     const bool under = ratio.bias_ln < 0;
     if (std::abs(ratio.bias_ln) > within && std::abs(ratio.bias_ln) > 0.03)
-      say("the model {} the peak slip: predicted over measured {} (geometric mean of {} tests, scatter {:.2f} in ln), "
-          "so "
-          "that its resistance is too {}",
+      say("the model {} the peak slip: predicted over measured {} (geometric mean of {} tests, scatter {:.2f} in "
+          "ln), so that its resistance is too {}",
           under ? "underpredicts" : "overpredicts", middle, ratio.count, ratio.scatter_ln, under ? "high" : "low");
     else if (ratio.scatter_ln > 0.05)
-      say("peak slips have no bias that {} tests can show (predicted over measured {}) but scatter by {:.2f} in ln: "
-          "their "
-          "input or a missing effect, not the mean resistance",
+      say("peak slips have no bias that {} tests can show (predicted over measured {}) but scatter by {:.2f} in "
+          "ln: their input or a missing effect, not the mean resistance",
           ratio.count, middle, ratio.scatter_ln);
   }
 
@@ -263,7 +260,7 @@ class Findings {
     unsigned right = 0, left = 0;
     for (const TestComparison& t : c_.tests) {
       const Test& test = bench_.test(t.test);
-      if (test.slip_m.empty() || t.model.failed() || t.expected > fanned_out) continue;
+      if (test.slip_m.empty() || t.model.failed() || t.expected > drowned) continue;
       const double end = t.model.slip_m.back() - test.slip_m.back();
       if (std::abs(end) > 6 * bench_.noise(Channel::slip)) ++(end > 0 ? right : left);
     }
@@ -293,7 +290,7 @@ class Findings {
   void chaotic() {
     std::vector<std::string> ids;
     for (const TestComparison& t : c_.tests)
-      if (t.expected > fanned_out) ids.push_back(bench_.test(t.test).id);
+      if (t.expected > drowned) ids.push_back(bench_.test(t.test).id);
     if (!ids.empty())
       say("the noise of the measured floor motion fans out in {}: parts of these histories cannot be predicted by any "
           "model, and say nothing for or against one",

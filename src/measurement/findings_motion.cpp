@@ -64,14 +64,14 @@ class MotionFindings {
                  const std::vector<TestComparison>& tests)
       : bench_(bench), model_(model), x_(x) {
     for (const TestComparison& t : tests)
-      if (!t.model.failed())
+      if (!t.model.failed() && !(t.expected > drowned))
         tests_.push_back({t.test, motions(bench, t, specimen(model, bench.test(t.test), x).block.half_base_m())});
   }
 
   std::vector<std::string> all() {
     const auto still = [](const Motions& m) { return m.model_stands() && m.specimen_moves(); };
     say("the model stands still in {} of {} tests in which the specimen moves", &Motions::specimen_moves, still,
-        [](std::size_t) { return std::string(); });
+        [&](std::size_t i) { return why_it_stands(i); });
     say(
         "the model does not rotate in {} of {} tests in which the specimen rocks",
         [](const Motions& m) { return m.rotation.specimen_moves(); },
@@ -139,6 +139,13 @@ class MotionFindings {
                        model_.mu_k.free < 0 ? ""
                        : above(i)           ? "; calibrate it below that"
                                             : "; calibrate it above that");
+  }
+
+  std::string why_it_stands(std::size_t i) const {
+    const double least = model_.model == Model::slide_rock ? std::min(mu(i), slenderness(i))
+                         : model_.model == Model::rock     ? slenderness(i)
+                                                           : mu(i);
+    return fmt::format("the floor must exceed {} g to move it", three_digits(least));
   }
 
   std::string why_it_does_not_rotate(std::size_t i) const {

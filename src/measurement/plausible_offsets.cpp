@@ -8,6 +8,8 @@
 namespace freestand::measurement {
 namespace {
 
+constexpr std::size_t most = 200;  // samples before the shaking
+
 struct Part {
   double mean = 0, scatter = 0;
 };
@@ -26,16 +28,17 @@ Part part(std::span<const double> samples) {
 double start_offset(const Bench& bench, std::size_t i, Channel channel) {
   const Test& test = bench.test(i);
   const auto& samples = history(test, channel);
-  const double noise = bench.noise(channel);
-  if (samples.empty() || noise <= 0) return 0;
+  if (samples.empty() || bench.noise(channel) <= 0) return 0;
+  const double noise = std::max(bench.noise(channel), sensor_noise(samples));
   const double arm = channel == Channel::slip ? 1 : 0.5 * test.specimen.height_m.value_or(2);
   double speed = 0, moved = 0, sum = 0;
   std::size_t n = 0;
-  for (; n < samples.size() && moved < 0.5 * noise * arm; ++n) {
+  for (; n < std::min(most, samples.size()) && moved < 0.5 * bench.noise(channel) * arm; ++n) {
     sum += samples[n];
     speed += test.dt_s * std::abs(horizontal_acceleration(test.shaking(), static_cast<double>(n) * test.dt_s));
     moved += test.dt_s * speed;
   }
+  if (moved == 0) return 0;
   const auto count = static_cast<double>(std::max<std::size_t>(n, 1));
   const double mean = sum / count;
   return std::abs(mean) > noise * std::max(1.0, 5 / std::sqrt(count)) + 0.5 * noise ? mean : 0;

@@ -5,9 +5,10 @@
 
 namespace freestand::measurement {
 
-// Mean of a channel (slip or rotation) over its first samples, as long as the floor since then has not moved anything by
+// Mean of a channel (slip or rotation) over its first samples, 200 at most, as long as the floor since then has not moved anything by
 // half the noise: a block at rest slips at most by the integral of the floor's velocity without its signs, and turns at
-// most by that over half its height. 0 where that mean is within the noise of one sample, and five times that of a mean.
+// most by that over half its height. 0 where that mean is within the noise of
+// one sample (as stated, or as it scatters), and five times that of a mean; and where the floor's channel is dead.
 double start_offset(const Bench&, std::size_t test, Channel);
 
 // Mean of the floor's acceleration [m/s2], where it is one and the same before the shaking and after it: over the first and

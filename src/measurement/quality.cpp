@@ -49,7 +49,7 @@ bool tells(const Bench& bench, const Test& test, Channel channel) {
 }
 
 void look_at_channel(const Bench& bench, Channel channel, Quality& quality) {
-  std::vector<std::string> lack, dead, unknown;
+  std::vector<std::string> lack, dead, cut, unknown;
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const Test& test = bench.test(i);
     const auto& samples = history(test, channel);
@@ -60,11 +60,13 @@ void look_at_channel(const Bench& bench, Channel channel, Quality& quality) {
     } else if (std::all_of(samples.begin(), samples.end(), [&](double s) { return s == samples[0]; })) {
       dead.push_back(test.id);
     } else if (clipped(samples, bench.noise(channel))) {
-      quality.findings.push_back(
-          fmt::format("{} of test {} stays at its extreme value for several samples: the sensor looks clipped",
-                      name(channel), test.id));
+      cut.push_back(test.id);
     }
   }
+  if (!cut.empty())
+    quality.findings.push_back(
+        fmt::format("{} of {} at its extreme value for several samples: the sensor looks clipped", name(channel),
+                    together(cut, "stays", "stays")));
   if (!dead.empty())
     quality.findings.push_back(fmt::format("{} of {}, where a sensor shows its noise: is it alive?", name(channel),
                                            together(dead, "is one number throughout", "is one number throughout")));

@@ -82,7 +82,8 @@ TEST(Findings, OfPeaksAlone) {
                              "not above width/height (0.500), where a block slides rather than rocks"}));
   data.tests = {of_peaks(tall(0.2), 8, 0.6)};
   EXPECT_THAT(said(data, fixed(1.5, Model::slide)),
-              Contains("the model stands still in 1 of 1 tests in which the specimen moves (p)"));
+              Contains("the model stands still in 1 of 1 tests in which the specimen moves (p): the floor must exceed "
+                       "1.50 g to move it"));
 }
 
 TEST(Findings, AModelThatOnlySlidesAgainstOverturning) {
@@ -130,7 +131,7 @@ TEST(Findings, NothingIsLeftOnlyWhereSomethingWasThere) {
   data = test::made_dataset(tall(0.2));
   for (std::size_t i = 1; i < data.tests.size(); ++i) data.tests[i].role = Role::holdout;
   ModelSpec model = fixed(0.2);
-  model.free.resize(4, {.name = "number", .lower = 0, .upper = 1});
+  model.free.resize(4, {.name = "number", .unit = "1", .lower = 0, .upper = 1});
   const auto sentences = said(data, model);
   EXPECT_THAT(sentences, Contains(HasSubstr("as 4 numbers fitted to 1 tests may bring about with any model")));
   EXPECT_THAT(sentences, Contains(testing::AllOf(HasSubstr("held-out"), HasSubstr(praise))));
@@ -144,6 +145,8 @@ TEST(Findings, WhatTheFloorsNoiseDrownsCannotBeJudged) {
   auto sentences = said(data, fixed(0.9));
   EXPECT_THAT(sentences, Contains(HasSubstr("so that they cannot be judged")));
   EXPECT_THAT(sentences, Not(Contains(HasSubstr("nothing is left"))));
+  data.tests[0] = test::made_test("t1", tall(0.2), test::swings(8, 0.8), 1);
+  EXPECT_THAT(said(data, fixed(0.9)), Not(Contains(HasSubstr("the model rocks"))));
   data.tests.push_back(test::made_test("t2", tall(0.9), test::swings(0.1, 0.8), 2));
   sentences = said(data, fixed(0.9));
   EXPECT_THAT(sentences, Contains(HasSubstr("without those in which that noise fans out, by ")));

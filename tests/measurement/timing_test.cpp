@@ -181,6 +181,16 @@ TEST(Quality, OffsetsOfSensors) {
   EXPECT_TRUE(q.spoilt());
 }
 
+// A dead floor and a noise that is understated make no offset.
+TEST(Quality, WhatIsNoOffset) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  data.noise.slip_m /= 100;
+  data.noise.rotation_rad /= 100;
+  for (double& c : data.tests[0].motion.horizontal_mps2) c = 0;
+  index_runs(data.tests[0].motion);
+  EXPECT_THAT(examined(data).findings, Not(Contains(HasSubstr("does not start at zero"))));
+}
+
 // Cut out of the middle of a slip, a test begins off zero.
 TEST(Quality, RecordsThatBeginLate) {
   Dataset data = test::made_dataset(cabinet(0.2));
