@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -12,9 +13,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Root mean square of ln(predicted/measured) of what a test measured.
-Json ln_ratio(const Json& test) {
-  return test["score"].is_null() ? Json(nullptr) : Json(std::sqrt(test["score"].get<double>()));
+constexpr double ln_ratio_limit = 3, error_limit = 1e4;  // as measurement/score.hpp cuts them off
+
+// Root mean square of ln(predicted/measured) of what a test measured, with the sign of their sum.
+std::string ln_ratio(const Json& test) {
+  if (test["score"].is_null()) return three_digits(test["score"]);
+  const double size = std::sqrt(test["score"].get<double>());
+  double sum = 0;
+  for (const auto& peak : test["peaks"]) {
+    if (peak["measured"].is_null() || peak["model"].is_null()) continue;
+    const double measured = std::abs(peak["measured"].get<double>()), model = std::abs(peak["model"].get<double>());
+    if (measured != model) sum += std::clamp(std::log(model / measured), -ln_ratio_limit, ln_ratio_limit);
+  }
+  return fmt::format("{}{}{}", size >= ln_ratio_limit ? (sum < 0 ? "<= " : ">= ") : "", sum < 0 ? "-" : "",
+                     three_digits(size));
+}
+
+std::string noise_units(const Json& error) {
+  const bool cut_off = !error.is_null() && error.get<double>() >= error_limit;
+  return (cut_off ? ">= " : "") + three_digits(error);
 }
 
 void tell_tests(const Json& json) {
@@ -31,7 +48,7 @@ void tell_tests(const Json& json) {
       fmt::print(row, id, role, test["overturned_measured"].get<bool>() ? "overturned" : "stood",
                  fmt::format("{:.2f}", test["overturned_probability"].get<double>()), three_digits(test["score"]));
     else
-      fmt::print(row, id, role, three_digits(test["kind"] == "peaks" ? ln_ratio(test) : test["error_noise_units"]),
+      fmt::print(row, id, role, test["kind"] == "peaks" ? ln_ratio(test) : noise_units(test["error_noise_units"]),
                  unit == "noise units" ? three_digits(test["error_expected"]) : "",
                  three_digits(test["error_relative"]));
   }
@@ -56,8 +73,10 @@ void tell(const Json& json, const std::string& folder) {
                    ? ""
                    : fmt::format(" [{:.5g}, {:.5g}]", p["interval"][0].get<double>(), p["interval"][1].get<double>()));
   for (const auto& finding : json["findings"]) fmt::print("* {}\n", finding.get<std::string>());
-  fmt::print("results in {0}: comparison.json, and the study with the numbers that were fitted, {0}/fitted.yaml\n",
-             folder);
+  const bool calibrated = std::any_of(json["parameters"].begin(), json["parameters"].end(),
+                                      [](const Json& p) { return p["calibrated"].get<bool>(); });
+  fmt::print("results in {0}: comparison.json, and the study{1}, {0}/fitted.yaml\n", folder,
+             calibrated ? " with the numbers that were fitted" : " as it stands");
 }
 
 Exit compare(const Context& context, const ValidationOptions& options) {

@@ -122,7 +122,7 @@ class Validation(InFolder):
 
     def test_tables_of_outcomes_and_of_peaks(self):
         tests = {"outcome": [("a", "overturned: true"), ("b", "overturned: false")],
-                 "peak": [("a", "peak_slip_m: 0.1"), ("b", "peak_slip_m: 0.05")]}
+                 "peak": [("a", "peak_slip_m: 0.1"), ("still", "peak_slip_m: 0")]}
         said = {}
         for name, results in tests.items():
             folder = self.folder / name
@@ -139,7 +139,9 @@ class Validation(InFolder):
         level = self.folder / "peak" / "vertical.yaml"
         level.write_text("measurements: dataset.yaml\nmodel: {friction: {mu: 0.2}, effects: [{name: vertical_shaking}]}\n")
         self.fail_with(3, ["compare", level, "-o", self.folder / "v"], "vertical.yaml", "nothing to act on")
-        self.assertRegex(said["peak"], r"(?m)^a +calibration +[0-9.]+ +[0-9.]+$")
+        self.assertRegex(said["peak"], r"(?m)^a +calibration +-?[0-9.]+ +[0-9.]+$")
+        self.assertRegex(said["peak"], r"(?m)^still +calibration +>= 3\.00 +1\.00$")
+        self.assertIn("and the study as it stands", said["peak"])
 
 
 if __name__ == "__main__":
