@@ -63,7 +63,7 @@ def _compared(comparison):
             return "the model is as good as the noise can tell"
         return f"the model misses its tests by {validation.error(value)} times the sensor noise"
     if comparison.unit == "ln ratio" and math.isfinite(ratio):
-        return f"the model predicts {words.number(ratio)} of the measured peaks"
+        return f"the model predicts {words.number(ratio)} times the measured peaks"
     right, known = outcomes.score(comparison)
     if known:
         return f"the model gets {right} of {known} outcomes right"

@@ -54,7 +54,9 @@ def _far(test):
     if test["kind"] == "outcome":
         return isinstance(test["overturned_measured"], bool) and (test["overturned_probability"] > 0.5) != test["overturned_measured"]
     measured, model = test["peaks"].get("peak_slip_m", (math.nan, math.nan))
-    return math.isfinite(measured) and measured != 0 and not 0.5 < abs(model / measured) < 2
+    if measured == 0:
+        return abs(model) > 0
+    return math.isfinite(measured) and not 0.5 < abs(model / measured) < 2
 
 
 def parameters(results):

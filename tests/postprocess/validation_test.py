@@ -359,7 +359,7 @@ class ThePage(Temporary):
 
     def test_peaks_and_outcomes(self):
         page, _ = self.page(make.peaks(self.folder / "peaks"))
-        self.assertIn("the model predicts 0.20 of the measured peaks", page.text)
+        self.assertIn("the model predicts 0.20 times the measured peaks", page.text)
         page, text = self.page(make.outcomes(self.folder / "outcomes"))
         self.assertIn("the model gets 36 of 40 outcomes right", page.text)
         self.assertIn("All 40 tests, 4 of them missed", page.text)

@@ -74,7 +74,7 @@ def _finding(results, found, title):
         return f"The model does not move in any of the {words.plural(measured.size, 'test')}"
     if not np.isfinite(bias):
         return "The model moves in no test in which the specimen does"
-    share = f"predicts {words.number(bias)} of the measured {title}" if abs(np.log(bias)) > 0.1 else f"predicts the {title} without bias"
+    share = f"predicts {words.number(bias)} times the measured {title}" if abs(np.log(bias)) > 0.1 else f"predicts the {title} without bias"
     before = _ratio(*found[0])[0]
     if len(found) > 1 and np.isfinite(before):
         step = words.capitalised(validation.by(results.labels[-1]))
