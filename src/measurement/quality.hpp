@@ -20,9 +20,10 @@ struct Quality {
   bool spoilt() const { return mirrored_slip || mirrored_rotation || late_steps != 0 || doubtful + wrong_numbers > 0; }
 };
 
-// Units, dead channels and the stated noise are judged by plausible.hpp. Clipped sensors and tests without motion are read off the histories; sign and clock of the slip as well, where there is
-// slip enough (timing.hpp). Otherwise they are judged by the model: with the floor mirrored, a rotation mirrored, or the
-// histories shifted by up to 0.15 s, and its free numbers fitted again, does it come much closer?
+// Units, dead channels and the stated noise are judged by plausible.hpp. Clipped sensors and tests without motion are
+// read off the histories; sign and clock of the slip as well, where there is slip enough (timing.hpp). Otherwise they are
+// judged by the model: with the floor mirrored, a rotation mirrored, or the histories shifted by up to 0.15 s, and its
+// free numbers fitted again, does it come much closer?
 Quality examine(const Bench&, const ModelFit&, const Effort&, const Jobs&);
 
 }  // namespace freestand::measurement

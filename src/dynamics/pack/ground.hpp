@@ -86,8 +86,8 @@ struct HopBounds {
     limit2 = limit * limit;
   }
 
-  // |a| up to which |f_x| <= fx + fx1 |a| and |f_y - g| <= lift + lift1 |a| are no larger acceleration than `force2`, squared;
-  // negative: none.
+  // |a| up to which |f_x| <= fx0 + fx1 |a| and |f_y - g| <= lift0 + lift1 |a| are no larger acceleration than that whose
+  // square is force2; negative: none.
   double unseen_push(double fx0, double lift0, double force2) const {
     const double square = fx1 * fx1 + lift1 * lift1, slope = fx0 * fx1 + lift0 * lift1;
     const double room = force2 - fx0 * fx0 - lift0 * lift0;

@@ -1,6 +1,7 @@
 // A small hop of a block that rocks, seen from the corner on which it stands, without sines:
 //     theta'' = -beta (1 - theta^2/2) + kappa theta,  beta = (g b + a h)/J,  kappa = (g h - a b)/J,
-// both straight in time, with g' for g where the floor shakes vertically. Its Taylor series to order 6; while beta > 0 the rotation is concave, and lands once.
+// both straight in time, with g' for g where the floor shakes vertically. Its Taylor series to order 6; while beta > 0 the
+// rotation is concave, and lands once.
 #pragma once
 
 #include "base/pack.hpp"
