@@ -4,7 +4,8 @@
 // One Taylor step per knot interval (dynamics/pack/rock_series.hpp).
 // Lanes in which something may happen within the interval (impact, turning point near the floor, overturning) stand
 // aside before the step, are gathered, and gone through event by event, again in packs: roots by Halley's method on the
-// polynomials, kept in their brackets.
+// polynomials, kept in their brackets. Rows of small hops go from impact to impact in packs of their own
+// (dynamics/pack/rock_hops.hpp).
 #pragma once
 
 #include <cmath>
