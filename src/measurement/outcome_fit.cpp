@@ -235,10 +235,11 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
     fine.push_back({table->model, table->without, tests, fine_places(*table, best.x)});
     if (without) add_plain_points(fine.back(), *without);
     if (!table->points[best.point].plain) fine.back().points.push_back({best.x});
-    const auto box =
-        grown(elite_box(table->model, numbers, *table, search.scores()), numbers, search.within_chance(best));
-    add_points(fine.back(), box, numbers, best.x,
-               points_of_round(effort.near, numbers, is_slow(*table) ? effort.most / 3 : effort.most));
+    const auto box = elite_box(table->model, numbers, *table, search.scores());
+    const std::size_t near = points_of_round(effort.near, numbers, is_slow(*table) ? effort.most / 3 : effort.most);
+    add_points(fine.back(), box, numbers, best.x, near);
+    if (!numbers.empty())
+      add_points(fine.back(), grown(box, numbers, search.within_chance(best)), numbers, best.x, near / 2);
   }
   compute(bench, pointers(fine), "outcomes near the best", jobs);
   for (OutcomeTable& table : fine) {
