@@ -329,10 +329,14 @@ std::vector<std::string> undetermined(const ModelFit& fit) {
   std::vector<std::string> found;
   for (std::size_t i = 0; i < fit.intervals.size(); ++i) {
     const Free& free = fit.model.free[i];
-    const double share = to_unit(free, fit.intervals[i].upper) - to_unit(free, fit.intervals[i].lower);
+    const auto [lower, upper] = fit.intervals[i];
+    const double share = to_unit(free, upper) - to_unit(free, lower);
     if (share > nearly_all)
       found.push_back(fmt::format("the tests do not determine {}: it may be anything from {:.4g} to {:.4g}", free.name,
-                                  fit.intervals[i].lower, fit.intervals[i].upper));
+                                  lower, upper));
+    else if (upper >= free.upper || lower <= free.lower)
+      found.push_back(fmt::format("the tests bound {} from {} only, at {:.4g}", free.name,
+                                  upper >= free.upper ? "below" : "above", upper >= free.upper ? lower : upper));
   }
   return found;
 }

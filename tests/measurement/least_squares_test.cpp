@@ -169,6 +169,9 @@ TEST(Settle, ANumberThatNoTestDeterminesHasAWideInterval) {
   EXPECT_LT(fit.intervals[0].lower, 0.6);
   EXPECT_GT(fit.intervals[0].lower, 0.2);  // there it slides
   EXPECT_DOUBLE_EQ(fit.intervals[0].upper, 1.2);
+  const auto open = undetermined(fit);
+  ASSERT_EQ(open.size(), 1U);
+  EXPECT_NE(open[0].find("from below only"), std::string::npos) << open[0];
 }
 
 // The same where the model is far from the measurements: no slip depends on the mass.
