@@ -34,10 +34,15 @@ Eigen::MatrixXd root_part(const Eigen::MatrixXd& gram) {
   return solved.eigenvectors() * part.asDiagonal() * solved.eigenvectors().transpose();
 }
 
-// r^T C^-1 r with C = 1 + B B^T: of r^T r, B^T r and B^T B.
-double misfit_of(double square, const Eigen::VectorXd& projected, const Eigen::MatrixXd& gram) {
-  if (projected.size() == 0) return square;
-  return square - projected.dot((Eigen::MatrixXd::Identity(gram.rows(), gram.rows()) + gram).llt().solve(projected));
+using Inner = Eigen::LLT<Eigen::MatrixXd>;  // of 1 + B^T B
+
+Inner inner_of(const Eigen::MatrixXd& gram) {
+  return Inner(Eigen::MatrixXd::Identity(gram.rows(), gram.rows()) + gram);
+}
+
+// r^T C^-1 r with C = 1 + B B^T: of r^T r and B^T r.
+double misfit_of(double square, const Eigen::VectorXd& projected, const Inner& inner) {
+  return projected.size() ? square - projected.dot(inner.solve(projected)) : square;
 }
 
 // gram: A^T A of all replays, with A as in judge.hpp.
@@ -49,7 +54,8 @@ double largest_stray(const Eigen::MatrixXd& gram) {
     std::vector<Eigen::Index> others;
     for (Eigen::Index i = 0; i < count; ++i)
       if (i != k) others.push_back(i);
-    largest = std::max(largest, misfit_of(n * gram(k, k), std::sqrt(n * more) * gram(others, k), more * gram(others, others)));
+    largest = std::max(largest, misfit_of(n * gram(k, k), std::sqrt(n * more) * gram(others, k),
+                                          inner_of(more * gram(others, others))));
   }
   return largest;
 }
@@ -58,9 +64,9 @@ double largest_stray(const Eigen::MatrixXd& gram) {
 
 struct Judge::Parts {
   std::vector<Eigen::MatrixXd> A;
-  std::vector<Eigen::LLT<Eigen::MatrixXd>> inner;  // of 1 + A^T A
-  std::vector<Eigen::MatrixXd> root;               // C^-1/2 = 1 + A root A^T
-  std::vector<std::vector<Eigen::Index>> kept;     // of all samples
+  std::vector<Inner> inner;
+  std::vector<Eigen::MatrixXd> root;            // C^-1/2 = 1 + A root A^T
+  std::vector<std::vector<Eigen::Index>> kept;  // of all samples
   Eigen::VectorXd residual(const Bench&, const Test&, const Prediction&, std::size_t i) const;
 };
 
@@ -104,7 +110,7 @@ void Judge::take(const std::vector<Values>& columns, double fanned_out) {
     A = Eigen::MatrixXd(A(kept, Eigen::all));
     samples_.push_back(static_cast<double>(kept.size()));
     const Eigen::MatrixXd gram = A.transpose() * A;
-    parts->inner.emplace_back(Eigen::MatrixXd::Identity(count, count) + gram);
+    parts->inner.push_back(inner_of(gram));
     parts->root.push_back(root_part(gram));
     strays_.push_back(largest_stray(gram));
     parts->A.push_back(std::move(A));
@@ -133,8 +139,7 @@ double Judge::misfit(std::size_t i, const ModelFit& fit, const Values& x) const 
   const Prediction model = predict(fit.model, test, x);
   if (model.failed()) return 1e8;
   const Eigen::VectorXd r = parts_->residual(bench_, test, model, i);
-  const Eigen::VectorXd projected = parts_->A[i].transpose() * r;
-  return r.squaredNorm() - (projected.size() ? projected.dot(parts_->inner[i].solve(projected)) : 0.0);
+  return misfit_of(r.squaredNorm(), parts_->A[i].transpose() * r, parts_->inner[i]);
 }
 
 std::vector<double> Judge::misfit(const ModelFit& fit) const {
