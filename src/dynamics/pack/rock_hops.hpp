@@ -98,7 +98,6 @@ class RockHops : public RockLanes {
     if (!leave_rest(i, knot(i), 1 - r_.left[i])) refill(i);
   }
 
-
   // The hops that follow end before the floor could make one larger: then they are counted, and the block rests.
   bool dies_out(int i) {
     Lane& lane = lanes_[i];
@@ -142,7 +141,6 @@ class RockHops : public RockLanes {
     const double ratio = lane.sample->rest_rotation / (lane.hop_here * r_.omega[i] * r_.omega[i]);
     return lane.kept > 0 ? static_cast<int>(std::ceil(std::log(ratio) / (2 * std::log(lane.kept)))) : 1;
   }
-
 
   // ---- small hops
   // Are the hops from here on so small that their series (dynamics/pack/hop_series.hpp) is as good as that of rocking, and
