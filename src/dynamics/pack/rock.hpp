@@ -9,17 +9,20 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "base/pack.hpp"
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/rock_hops.hpp"
 #include "dynamics/pack/rock_series.hpp"
+#include "dynamics/pack/rock_step.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N>
+// N: order of the series where something happens; Step: how the others go.
+template <int N, class Step>
 class RockPool : RockHops {
  public:
   using RockHops::RockHops;
@@ -50,46 +53,51 @@ class RockPool : RockHops {
 
   // Bits of the lanes that stand aside from now on.
   unsigned march(int p) {
+    const unsigned partial = bits(load(r_.left + p * pack_lanes) != Pack(1.0));
+    return partial ? march<false>(p) : march<true>(p);
+  }
+
+  // `whole`: no lane has a part of its interval behind it.
+  template <bool whole>
+  unsigned march(int p) {
     const int first = p * pack_lanes;
-    const Pack left = load(r_.left + first), left2 = left * left, one(1.0);
-    RockSeries<N> y;
+    const Pack one(1.0), zero(0.0), left = whole ? one : load(r_.left + first), left2 = left * left;
+    const auto scaled = [&](const double* row, const Pack& by) {
+      return whole ? load(row + first) : load(row + first) * by;
+    };
+    Step y;
     y.theta[0] = load(r_.theta + first);
-    const Pack rate = load(r_.omega + first);
-    y.omega[0] = rate * left;
+    y.omega[0] = scaled(r_.omega, left);
     y.rx[0] = load(r_.rx + first);
     y.ry[0] = load(r_.ry + first);
-    const Pack a = load(r_.a + first), a_next = fetch(r_.next + first), push = load(r_.push + first) * left2;
-    const Pack gravity = load(r_.gravity + first) * left2;
-    y.expand(gravity, push * a, push * (a_next - a));
-    const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), rx = y.sum(y.rx), ry = y.sum(y.ry);
+    const Pack a = load(r_.a + first), a_next = fetch(r_.next + first), change = a_next - a;
+    const Pack gravity = scaled(r_.gravity, left2), push = scaled(r_.push, left2);
+    y.expand(gravity, push * a, push * change);
+    const RockEnd end = y.end(a_next);
 
-    const Pack zero(0.0), peak = load(r_.peak + first), side = load(r_.side + first);
-    const Pack reach = xsimd::abs(y.omega[0]) + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
-    const Pack before = side * y.theta[0], after = side * theta, high = xsimd::max(before, after);
-    const PackMask near = xsimd::min(before, after) < reach;
-    const PackMask turns = y.omega[0] * omega <= zero, live = load(r_.live + first) > zero;
-    PackMask event = (near & (turns | turns_twice(y, omega))) | (after <= zero) | (after >= Pack(0.5 * pi));
-    const PackMask tops = live & turns & ~event & (high + reach > peak);
-    Pack highest = high;
-    if (bits(tops)) {
-      highest = choose(tops, xsimd::max(high, side * y.at(y.theta, turning_point(y, omega))), high);
-      event = event | (highest >= Pack(0.5 * pi));
-    }
+    // Turning within the interval, the block comes less than `beyond` further than at its end.
+    const Pack peak = load(r_.peak + first), side = load(r_.side + first), after = side * end.theta;
+    const Pack beyond = xsimd::abs(end.omega - y.omega[0]) + xsimd::abs(y.omega[1]), turning = y.omega[0] * end.omega;
+    const PackMask live = load(r_.live + first) > zero, low = after <= beyond;
+    PackMask event = (after + beyond > xsimd::max(peak, side * y.theta[0])) & (turning <= zero);
+    event = event | (after >= Pack(0.5 * pi));
+    if (bits(low)) event = event | (low & ((after <= zero) | (turning <= zero) | turns_twice(y, end.omega)));
     const PackMask moves = live & ~event;
 
-    const Pack left4 = left2 * left2, seen = load(r_.force2 + first), over = load(r_.over + first), over2 = over * over;
-    const Pack force2 = watch_force(y, load(r_.weight + first) * left2, gravity, push, a, a_next - a,
-                                    {omega, rx, ry, a_next}, one, seen * left4, false) *
-                        (over2 * over2);
-    store(r_.force2 + first, choose(moves, force2, seen));
-    store(r_.peak + first, choose(moves, xsimd::max(peak, highest), peak));
-    store(r_.theta + first, choose(moves, theta, y.theta[0]));
-    store(r_.omega + first, choose(moves, omega * over, rate));
-    store(r_.rx + first, choose(moves, rx, y.rx[0]));
-    store(r_.ry + first, choose(moves, ry, y.ry[0]));
+    const Pack seen = load(r_.force2 + first), left4 = left2 * left2, over = load(r_.over + first), over2 = over * over;
+    const Pack most = watch_force(y, scaled(r_.weight, left2), gravity, push, a, change, end, one,
+                                  whole ? seen : seen * left4, false);
+    store(r_.force2 + first, choose(moves, whole ? most : most * (over2 * over2), seen));
+    store(r_.peak + first, choose(moves, xsimd::max(peak, after), peak));
+    store(r_.theta + first, choose(moves, end.theta, y.theta[0]));
+    store(r_.omega + first, choose(moves, whole ? end.omega : end.omega * over, load(r_.omega + first)));
+    store(r_.rx + first, choose(moves, end.rx, y.rx[0]));
+    store(r_.ry + first, choose(moves, end.ry, y.ry[0]));
     store(r_.a + first, choose(moves, a_next, a));
-    store(r_.left + first, choose(moves, one, left));
-    store(r_.over + first, choose(moves, one, over));
+    if (!whole) {
+      store(r_.left + first, choose(moves, one, left));
+      store(r_.over + first, choose(moves, one, over));
+    }
     advance(r_.next + first, bits(moves));
     return bits(live & event);
   }
@@ -286,7 +294,7 @@ class RockPool : RockHops {
 
 template <int N>
 void rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  RockPool<N> pool(cases, count, responses, declined);
+  RockPool<N, std::conditional_t<(N < 8), RockStep, RockSeries<N>>> pool(cases, count, responses, declined);
   pool.run();
 }
 
