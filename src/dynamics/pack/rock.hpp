@@ -16,7 +16,6 @@
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/rock_hops.hpp"
 #include "dynamics/pack/rock_series.hpp"
-#include "dynamics/pack/rock_step.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -29,10 +28,10 @@ class RockPool : RockHops {
 
   void run() {
     while (live_ > 0) {
-      const int rocking = live_ - waiting_ - hopping();
-      if (hopping() >= pack_lanes || (hopping() > 0 && rocking + waiting_ == 0))
+      const bool few = rocks_.count() < pack_lanes;  // fewer than a pack
+      if (hopping() >= pack_lanes || (hopping() > 0 && waiting_ == 0 && few))
         hop();
-      else if (waiting_ >= 2 * pack_lanes || (waiting_ > 0 && rocking == 0))
+      else if (waiting_ >= 2 * pack_lanes || (waiting_ > 0 && few))
         resolve();
       else
         march();
@@ -40,66 +39,19 @@ class RockPool : RockHops {
   }
 
  private:
-  // One interval for every lane in which nothing happens. The lanes in which something does are seen to after all packs
-  // have gone, so that no pack waits for the branches of another.
+  // One interval for every lane in which nothing happens. Those in which something does wait for each other.
   void march() {
-    if (free_ == 0 && !count_free()) return;
-    --free_;
-    unsigned apart[packs];
-    for (int p = 0; p < packs; ++p) apart[p] = busy_[p] ? march(p) : 0;
-    for (int p = 0; p < packs; ++p)
-      for (unsigned open = apart[p]; open; open &= open - 1) stand_aside(p * pack_lanes + __builtin_ctz(open));
-  }
-
-  // Bits of the lanes that stand aside from now on.
-  unsigned march(int p) {
-    const unsigned partial = bits(load(r_.left + p * pack_lanes) != Pack(1.0));
-    return partial ? march<false>(p) : march<true>(p);
-  }
-
-  // `whole`: no lane has a part of its interval behind it.
-  template <bool whole>
-  unsigned march(int p) {
-    const int first = p * pack_lanes;
-    const Pack one(1.0), zero(0.0), left = whole ? one : load(r_.left + first), left2 = left * left;
-    const auto scaled = [&](const double* row, const Pack& by) {
-      return whole ? load(row + first) : load(row + first) * by;
-    };
-    Step y;
-    y.theta[0] = load(r_.theta + first);
-    y.omega[0] = scaled(r_.omega, left);
-    y.rx[0] = load(r_.rx + first);
-    y.ry[0] = load(r_.ry + first);
-    const Pack a = load(r_.a + first), a_next = fetch(r_.next + first), change = a_next - a;
-    const Pack gravity = scaled(r_.gravity, left2), push = scaled(r_.push, left2);
-    y.expand(gravity, push * a, push * change);
-    const RockEnd end = y.end(a_next);
-
-    // Turning within the interval, the block comes less than `beyond` further than at its end.
-    const Pack peak = load(r_.peak + first), side = load(r_.side + first), after = side * end.theta;
-    const Pack beyond = xsimd::abs(end.omega - y.omega[0]) + xsimd::abs(y.omega[1]), turning = y.omega[0] * end.omega;
-    const PackMask live = load(r_.live + first) > zero, low = after <= beyond;
-    PackMask event = (after + beyond > xsimd::max(peak, side * y.theta[0])) & (turning <= zero);
-    event = event | (after >= Pack(0.5 * pi));
-    if (bits(low)) event = event | (low & ((after <= zero) | (turning <= zero) | turns_twice(y, end.omega)));
-    const PackMask moves = live & ~event;
-
-    const Pack seen = load(r_.force2 + first), left4 = left2 * left2, over = load(r_.over + first), over2 = over * over;
-    const Pack most = watch_force(y, scaled(r_.weight, left2), gravity, push, a, change, end, one,
-                                  whole ? seen : seen * left4, false);
-    store(r_.force2 + first, choose(moves, whole ? most : most * (over2 * over2), seen));
-    store(r_.peak + first, choose(moves, xsimd::max(peak, after), peak));
-    store(r_.theta + first, choose(moves, end.theta, y.theta[0]));
-    store(r_.omega + first, choose(moves, whole ? end.omega : end.omega * over, load(r_.omega + first)));
-    store(r_.rx + first, choose(moves, end.rx, y.rx[0]));
-    store(r_.ry + first, choose(moves, end.ry, y.ry[0]));
-    store(r_.a + first, choose(moves, a_next, a));
-    if (!whole) {
-      store(r_.left + first, choose(moves, one, left));
-      store(r_.over + first, choose(moves, one, over));
+    const std::uint64_t apart = rocks_.march<Step>();
+    for (std::uint64_t open = apart; open;) {  // downwards, as the last one fills a gap
+      const int k = 63 - __builtin_clzll(open), slot = rocks_.lane(k);
+      open &= ~(std::uint64_t{1} << k);
+      typename RockHops::Marcher marcher{*this, slot};
+      rocks_.remove(marcher, k);
+      if (free_of(slot) <= 0)
+        end_record(slot);
+      else
+        queue_[waiting_++] = slot;
     }
-    advance(r_.next + first, bits(moves));
-    return bits(live & event);
   }
 
   // Lanes that stand aside, and the interval of each.
