@@ -29,7 +29,7 @@ class RockPool : RockHops {
   void run() {
     while (live_ > 0) {
       const bool few = rocks_.count() < pack_lanes;  // fewer than a pack
-      if (hopping() >= pack_lanes || (hopping() > 0 && waiting_ == 0 && few))
+      if (hopping() >= 3 * pack_lanes || (hopping() > 0 && waiting_ == 0 && few))
         hop();
       else if (waiting_ >= 2 * pack_lanes || (waiting_ > 0 && few))
         resolve();
