@@ -29,8 +29,10 @@ class RockPool : RockHops {
   void run() {
     while (live_ > 0) {
       const bool few = rocks_.count() < pack_lanes;  // fewer than a pack
-      if (hopping() >= 3 * pack_lanes || (hopping() > 0 && waiting_ == 0 && few))
+      if (hopping() >= 3 * pack_lanes || (hopping() > 0 && waiting_ + striking() == 0 && few))
         hop();
+      else if (striking() >= strikes_at_once || (striking() > 0 && few))
+        strike_all();
       else if (waiting_ >= 2 * pack_lanes || (waiting_ > 0 && few))
         resolve();
       else
@@ -41,10 +43,15 @@ class RockPool : RockHops {
  private:
   // One interval for every lane in which nothing happens. Those in which something does wait for each other.
   void march() {
-    const std::uint64_t apart = rocks_.march<Step>();
+    std::uint64_t falls;
+    const std::uint64_t apart = rocks_.march<Step>(falls);
     for (std::uint64_t open = apart; open;) {  // downwards, as the last one fills a gap
       const int k = 63 - __builtin_clzll(open), slot = rocks_.lane(k);
       open &= ~(std::uint64_t{1} << k);
+      if (N < 8 && (falls >> k & 1U)) {
+        to_strike(k);
+        continue;
+      }
       typename RockHops::Marcher marcher{*this, slot};
       rocks_.remove(marcher, k);
       if (free_of(slot) <= 0)

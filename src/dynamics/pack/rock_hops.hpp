@@ -6,6 +6,7 @@
 
 #include "dynamics/pack/hopping.hpp"
 #include "dynamics/pack/rock_lanes.hpp"
+#include "dynamics/pack/rock_strikes.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -29,6 +30,31 @@ class RockHops : public RockLanes {
     }
     after_impact(i);
   }
+
+  // Impacts, for the last lanes that wait for them. Those that rock on do so; bits of the others: left where they were.
+  void strike_all() {
+    const int count = strikes_.count() < strikes_at_once ? strikes_.count() : strikes_at_once;
+    OtherCorner other;
+    for (int k = 0; k < count; ++k) look_across(other, k, strikes_.lane(k));
+    alignas(64) double rates[strikes_at_once];
+    const unsigned rocks = strikes_.strike(other, count, rates);
+    for (int k = count; k-- > 0;) {
+      const int i = strikes_.lane(k);
+      if (rocks >> k & 1U) {
+        Lane& lane = lanes_[i];
+        ++lane.events;
+        lane.impacts += lane.hop_here * rates[k] * rates[k] >= lane.sample->told_rotation;
+        stand_on(i, r_.side[i] > 0 ? -1 : 1);
+        rocks_.take(strikes_, k);
+      } else {
+        Marcher marcher{*this, i};
+        strikes_.remove(marcher, k);
+        queue_[waiting_++] = i;
+      }
+    }
+  }
+  void to_strike(int k) { strikes_.take(rocks_, k); }  // of the marching group
+  int striking() const { return strikes_.count(); }
 
   // One impact or knot for all that hop, if there are any.
   void hop() {
@@ -142,6 +168,23 @@ class RockHops : public RockLanes {
     return lane.kept > 0 ? static_cast<int>(std::ceil(std::log(ratio) / (2 * std::log(lane.kept)))) : 1;
   }
 
+  // The corner on which the lane does not stand.
+  void look_across(OtherCorner& other, int k, int i) const {
+    const Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    const bool right = r_.side[i] > 0;
+    const Lane::Side& there = right ? lane.left : lane.right;
+    other.kept[k] = lane.kept;
+    other.arm[k] = right ? c.left : c.right;
+    other.height[k] = c.h;
+    other.gravity[k] = there.gravity;
+    other.push[k] = right ? -there.push : there.push;
+    other.rests[k] = c.rest_rotation / there.hop;
+    other.dying[k] = lane.dying;
+    const double small = HopBounds::small_rotation * (c.left < c.right ? c.left : c.right) / c.h;
+    other.small2[k] = small * small;
+  }
+
   // ---- small hops
   // Are the hops from here on so small that their series (dynamics/pack/hop_series.hpp) is as good as that of rocking, and
   // no new peaks?
@@ -206,6 +249,7 @@ class RockHops : public RockLanes {
   static constexpr int most_events = 10000;
   static constexpr double small_share = 0.002;  // of gravity: what small rotations add to the forces
 
+  RockStrikes strikes_;
   Hopping<Steady> hops_;
 };
 

@@ -14,7 +14,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-constexpr int rock_slots = 104;  // a marching group of 64, and those that wait and hop
+constexpr int rock_slots = 112;  // a marching group of 64, and those that wait and hop
 static_assert(rock_slots <= march_slots);
 
 // Where the lanes are. Angular velocities are per interval, forces times h^2.

@@ -40,13 +40,17 @@ struct RockRows {
 class RockMarch : public LaneGroup<RockRows> {
  public:
   // One interval for every block to which nothing happens within it; bits of those to which something may (impact,
-  // turning point higher than any before or near the floor, overturning), or whose record is over.
+  // turning point higher than any before or near the floor, overturning), or whose record is over. `falls`: of those among
+  // them that fall to the floor, and nothing else.
   template <class Step>
-  std::uint64_t march() {
-    return each_pack([this](int i, unsigned here) {
+  std::uint64_t march(std::uint64_t& falls) {
+    falls_ = 0;
+    const std::uint64_t apart = each_pack([this](int i, unsigned here) {
       const bool whole = bits(load(r_.left + i) == Pack(1.0)) == (1U << pack_lanes) - 1;
       return whole ? march<Step, true>(i, here) : march<Step, false>(i, here);
     });
+    falls = falls_;
+    return apart;
   }
 
  private:
@@ -78,8 +82,10 @@ class RockMarch : public LaneGroup<RockRows> {
     store(r_.ry + i, choose(stays, y.ry[0], end.ry));
     store(r_.a + i, choose(stays, a, a_next));
     if (!whole) store(r_.left + i, choose(stays, left, one));
-    const unsigned apart = bits(stays);
+    const unsigned apart = bits(stays) & here;
     advance(r_.next + i, here & ~apart);
+    if (apart)
+      falls_ |= std::uint64_t{bits((end.theta <= zero) & (y.omega[0] < zero) & (end.omega < zero)) & apart} << i;
     return apart;
   }
 
@@ -94,6 +100,8 @@ class RockMarch : public LaneGroup<RockRows> {
     if (bits(low)) happens = happens | (low & ((end.theta <= zero) | (turning <= zero) | turns_twice(y, end.omega)));
     return happens;
   }
+
+  std::uint64_t falls_ = 0;
 };
 
 }  // namespace

@@ -21,7 +21,7 @@ struct RockStep {
   Pack theta[1], omega[6], rx[1], ry[1];  // the start; omega: all its series
 
   // As RockSeries::expand.
-  void expand(const Pack& gravity, const Pack& a0, const Pack& a1) {
+  [[gnu::always_inline]] void expand(const Pack& gravity, const Pack& a0, const Pack& a1) {
     const Pack two(2.0), three(3.0), w = omega[0], w2 = w * w;
     const Pack sx = a1 * rx[0], sy = a1 * ry[0], pull = gravity * ry[0] + a0 * rx[0], k = pull - w2;
     const Pack alpha = gravity * rx[0] - a0 * ry[0], spin = alpha * w, sxw = sx * w, syw = sy * w;
@@ -36,7 +36,7 @@ struct RockStep {
     omega[5] = fifth * Pack(1.0 / 120);
   }
 
-  RockEnd end(const Pack& a_next) const {
+  [[gnu::always_inline]] RockEnd end(const Pack& a_next) const {
     RockEnd end;
     end.omega = ((omega[5] + omega[4]) + (omega[3] + omega[2])) + (omega[1] + omega[0]);
     const Pack gained = (omega[5] * Pack(1.0 / 6) + omega[4] * Pack(1.0 / 5)) +
@@ -59,7 +59,7 @@ struct RockStep {
   }
 
  private:
-  void turn(const Pack& angle, Pack& x, Pack& y) const {
+  [[gnu::always_inline]] void turn(const Pack& angle, Pack& x, Pack& y) const {
     const Pack one(1.0), square = angle * angle;
     const Pack sine = angle * (one - square * (Pack(1.0 / 6) - square * Pack(1.0 / 120)));
     const Pack lost = square * (Pack(1.0 / 2) - square * (Pack(1.0 / 24) - square * Pack(1.0 / 720)));
