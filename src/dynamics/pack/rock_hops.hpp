@@ -16,14 +16,9 @@ class RockHops : public RockLanes {
   using RockLanes::RockLanes;
 
   void strike(int i, double omega) {
-    Lane& lane = lanes_[i];
-    const BatchCase& c = *lane.sample;
-    ++lane.events;
-    lane.impacts += lane.hop_here * omega * omega >= c.told_rotation;
-    const double rate = lane.kept * omega;
-    stand_on(i, r_.side[i] > 0 ? -1 : 1);
     r_.theta[i] = 0;
-    r_.omega[i] = rate;
+    r_.omega[i] = lanes_[i].kept * omega;
+    change_corners(i, omega);
     if (r_.left[i] < 1e-12) {
       if (free_of(i) <= 1) return decline(i);
       to_next_knot(i);
@@ -31,26 +26,27 @@ class RockHops : public RockLanes {
     after_impact(i);
   }
 
-  // Impacts, for the last lanes that wait for them. Those that rock on do so; bits of the others: left where they were.
+  // Impacts of lanes that wait for them. Most rock on; where an impact is not clear, the lane waits for a closer look.
   void strike_all() {
-    const int count = strikes_.count() < strikes_at_once ? strikes_.count() : strikes_at_once;
+    const int count = striking() < strikes_at_once ? striking() : strikes_at_once;
     OtherCorner other;
     for (int k = 0; k < count; ++k) look_across(other, k, strikes_.lane(k));
-    alignas(64) double rates[strikes_at_once];
-    const unsigned rocks = strikes_.strike(other, count, rates);
+    RockStrikes::Struck struck;
+    strikes_.strike(other, count, struck);
     for (int k = count; k-- > 0;) {
       const int i = strikes_.lane(k);
-      if (rocks >> k & 1U) {
-        Lane& lane = lanes_[i];
-        ++lane.events;
-        lane.impacts += lane.hop_here * rates[k] * rates[k] >= lane.sample->told_rotation;
-        stand_on(i, r_.side[i] > 0 ? -1 : 1);
+      const bool clear = struck.all >> k & 1U;
+      if (clear) change_corners(i, struck.rates[k]);
+      if (struck.rock >> k & 1U) {
         rocks_.take(strikes_, k);
-      } else {
-        Marcher marcher{*this, i};
-        strikes_.remove(marcher, k);
-        queue_[waiting_++] = i;
+        continue;
       }
+      Marcher marcher{*this, i};
+      strikes_.remove(marcher, k);
+      if (clear)
+        after_impact(i);
+      else
+        queue_[waiting_++] = i;
     }
   }
   void to_strike(int k) { strikes_.take(rocks_, k); }  // of the marching group
@@ -91,6 +87,13 @@ class RockHops : public RockLanes {
       pool.leave(rows, k, slot);
     }
   };
+
+  void change_corners(int i, double omega) {
+    Lane& lane = lanes_[i];
+    ++lane.events;
+    lane.impacts += lane.hop_here * omega * omega >= lane.sample->told_rotation;
+    stand_on(i, r_.side[i] > 0 ? -1 : 1);
+  }
 
   void after_impact(int i) {
     const Lane& lane = lanes_[i];

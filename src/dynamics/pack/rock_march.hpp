@@ -92,12 +92,17 @@ class RockMarch : public LaneGroup<RockRows> {
   // Turning within the interval, a block comes less than `beyond` further than at its end.
   template <class Step>
   static PackMask something_happens(const Step& y, const RockEnd& end, const Pack& peak) {
-    const Pack zero(0.0), turning = y.omega[0] * end.omega;
-    const Pack beyond = xsimd::abs(end.omega - y.omega[0]) + xsimd::abs(y.omega[1]);
-    const PackMask low = end.theta <= beyond,
-                   tops = (end.theta + beyond > xsimd::max(peak, y.theta[0])) & (turning <= zero);
+    const Pack zero(0.0), beyond = xsimd::abs(end.omega - y.omega[0]) + xsimd::abs(y.omega[1]);
+    const PackMask tops =
+        (end.theta + beyond > xsimd::max(peak, y.theta[0])) & (y.omega[0] >= zero) & (end.omega <= zero);
+    const PackMask low = end.theta <= beyond;
     PackMask happens = tops | ~(end.theta < Pack(0.5 * pi));
-    if (bits(low)) happens = happens | (low & ((end.theta <= zero) | (turning <= zero) | turns_twice(y, end.omega)));
+    if (bits(low)) {
+      const PackMask starts = (y.omega[0] == zero) & (y.omega[1] >= zero) & (end.omega > zero);
+      happens =
+          happens |
+          (low & ((end.theta <= zero) | ((y.omega[0] * end.omega <= zero) & ~starts) | turns_twice(y, end.omega)));
+    }
     return happens;
   }
 

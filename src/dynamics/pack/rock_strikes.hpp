@@ -20,9 +20,16 @@ struct OtherCorner {
 
 class RockStrikes : public LaneGroup<RockRows> {
  public:
-  // The impacts of the first `lanes`. Bits of those that rock on; the others stay as they are. `rates`: at the impacts.
-  unsigned strike(const OtherCorner& other, int lanes, double (&rates)[strikes_at_once]) {
-    return lanes > pack_lanes ? strike_packs<2>(other, rates) : strike_packs<1>(other, rates);
+  // Bits of the lanes that stand on the other corner now, and of those among them that certainly rock on.
+  struct Struck {
+    unsigned all, rock;
+    alignas(64) double rates[strikes_at_once];  // at the impacts
+  };
+
+  // The impacts of the first `lanes`. Where one is not clear, the lane stays as it is.
+  void strike(const OtherCorner& other, int lanes, Struck& struck) {
+    struck.all = struck.rock = 0;
+    lanes > pack_lanes ? strike_packs<2>(other, struck) : strike_packs<1>(other, struck);
   }
 
  private:
@@ -33,7 +40,7 @@ class RockStrikes : public LaneGroup<RockRows> {
   };
 
   template <int count>
-  unsigned strike_packs(const OtherCorner& other, double (&rates)[strikes_at_once]) {
+  void strike_packs(const OtherCorner& other, Struck& struck) {
     const Pack zero(0.0), one(1.0);
     Fall falls[count];
     Bracket impacts[count];
@@ -44,10 +51,7 @@ class RockStrikes : public LaneGroup<RockRows> {
       impacts[q] = {f.theta, one, zero, one, guess, end <= zero};
     }
     narrow_all<6>(impacts);
-    unsigned all = 0;
-    for (int q = 0; q < count; ++q)
-      all |= rock_on(falls[q], impacts[q].x, other, q * pack_lanes, rates) << (q * pack_lanes);
-    return all;
+    for (int q = 0; q < count; ++q) change_corners(falls[q], impacts[q].x, other, q * pack_lanes, struck);
   }
 
   void fall(Fall& f, int i) const {
@@ -67,7 +71,7 @@ class RockStrikes : public LaneGroup<RockRows> {
   }
 
   // `part`: of what is left of the interval, at the impact.
-  unsigned rock_on(const Fall& f, const Pack& part, const OtherCorner& other, int i, double (&rates)[strikes_at_once]) {
+  void change_corners(const Fall& f, const Pack& part, const OtherCorner& other, int i, Struck& struck) {
     const Pack zero(0.0), one(1.0), arm = load(other.arm + i), height = load(other.height + i);
     RockEnd end{f.y.omega_at(part), zero, zero, f.a + f.change * part, zero};
     f.y.arm_at(part, end.rx, end.ry);
@@ -81,8 +85,8 @@ class RockStrikes : public LaneGroup<RockRows> {
     const PackMask rests = omega2 < load(other.rests + i), dies = omega <= load(other.dying + i);
     const Pack peak = load(r_.peak + i), small2 = xsimd::min(load(other.small2 + i), peak * peak);
     const PackMask hops = omega2 * omega2 < Pack(4.0) * small2 * (pull * pull);
-    const PackMask rocks = (ahead >= Pack(1e-12)) & (part > zero) & ~(rests | dies | hops);
-    const auto put = [&](double* row, const Pack& x) { store(row + i, choose(rocks, x, load(row + i))); };
+    const PackMask clear = (ahead >= Pack(1e-12)) & (part > zero);
+    const auto put = [&](double* row, const Pack& x) { store(row + i, choose(clear, x, load(row + i))); };
     put(r_.theta, zero);
     put(r_.omega, omega);
     put(r_.rx, zero - arm);
@@ -93,8 +97,9 @@ class RockStrikes : public LaneGroup<RockRows> {
     put(r_.a, end.a);
     put(r_.left, ahead);
     put(r_.force2, xsimd::max(seen, force2));
-    store(rates + i, falls);
-    return bits(rocks);
+    store(struck.rates + i, falls);
+    struck.all |= bits(clear) << i;
+    struck.rock |= bits(clear & ~(rests | dies | hops)) << i;
   }
 };
 
