@@ -1,11 +1,11 @@
 // Pure rocking in packs. Every lane carries its own sample, with its own record, time and parameters; a lane whose
 // sample ends takes the next one.
 //
-// One Taylor step per knot interval (dynamics/pack/rock_series.hpp).
-// Lanes in which something may happen within the interval (impact, turning point near the floor, overturning) stand
-// aside before the step, are gathered, and gone through event by event, again in packs: roots by Halley's method on the
-// polynomials, kept in their brackets. Rows of small hops go from impact to impact in packs of their own
-// (dynamics/pack/rock_hops.hpp).
+// Lanes that rock march side by side, one step per knot interval (dynamics/pack/rock_march.hpp). Those to which something
+// may happen within the interval (impact, turning point higher than any before or near the floor, overturning) leave the
+// others before the step. Plain impacts are gone through in packs (dynamics/pack/rock_strikes.hpp), as are rows of small
+// hops (dynamics/pack/rock_hops.hpp); the rest is gathered here and gone through event by event, again in packs: roots by
+// Halley's method on the polynomials, kept in their brackets.
 #pragma once
 
 #include <cmath>
@@ -41,7 +41,7 @@ class RockPool : RockHops {
   }
 
  private:
-  // One interval for every lane in which nothing happens. Those in which something does wait for each other.
+  // One interval for every lane to which nothing happens. Those to which something does wait for each other.
   void march() {
     std::uint64_t falls;
     const std::uint64_t apart = rocks_.march<Step>(falls);
