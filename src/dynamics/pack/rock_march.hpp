@@ -84,8 +84,11 @@ class RockMarch : public LaneGroup<RockRows> {
     if (!whole) store(r_.left + i, choose(stays, left, one));
     const unsigned apart = bits(stays) & here;
     advance(r_.next + i, here & ~apart);
-    if (apart)
-      falls_ |= std::uint64_t{bits((end.theta <= zero) & (y.omega[0] < zero) & (end.omega < zero)) & apart} << i;
+    if (apart) {
+      const PackMask falls =
+          (end.theta <= zero) & (y.omega[0] < zero) & (end.omega < zero) & ~turns_twice(y, end.omega);
+      falls_ |= std::uint64_t{bits(falls) & apart} << i;
+    }
     return apart;
   }
 
