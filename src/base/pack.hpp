@@ -87,6 +87,17 @@ static inline Pack fetch(const double* const* p, int offset = 0) {
 #endif
 }
 
+// Bit i: p[i] > q[i].
+static inline unsigned bits_after(const double* const* p, const double* const* q) {
+#if defined(__AVX512F__)
+  return _mm512_cmpgt_epu64_mask(_mm512_loadu_si512(p), _mm512_loadu_si512(q));
+#else
+  unsigned all = 0;
+  for (int i = 0; i < pack_lanes; ++i) all |= static_cast<unsigned>(p[i] > q[i]) << i;
+  return all;
+#endif
+}
+
 // p[i] += by, where bit i of `lanes` is set.
 static inline void advance(const double** p, unsigned lanes, int by = 1) {
 #if defined(__AVX512F__)

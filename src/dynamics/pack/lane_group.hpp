@@ -1,6 +1,7 @@
 // Lanes whose blocks do the same thing at present, side by side in rows without gaps.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "base/pack.hpp"
@@ -47,11 +48,8 @@ class LaneGroup {
     std::uint64_t apart = 0;
     const int end = count_ < pack_lanes ? count_ : count_ / pack_lanes * pack_lanes;
     for (int i = 0; i < end && i < 64; i += pack_lanes) {
-      unsigned over = 0, here = 0;
-      for (int l = 0; l < pack_lanes && i + l < count_; ++l) {
-        over |= static_cast<unsigned>(r_.next[i + l] > r_.stop[i + l]) << l;
-        here |= 1U << l;
-      }
+      const unsigned here = (1U << std::min(count_ - i, pack_lanes)) - 1,
+                     over = bits_after(r_.next + i, r_.stop + i) & here;
       apart |= static_cast<std::uint64_t>(over ? over : march(i, here) & here) << i;
     }
     return apart;

@@ -1,14 +1,15 @@
 // Pure rocking in packs. Every lane carries its own sample, with its own record, time and parameters; a lane whose
 // sample ends takes the next one.
 //
-// One Taylor step per knot interval (dynamics/pack/rock_series.hpp).
-// Lanes in which something may happen within the interval (impact, turning point near the floor, overturning) stand
-// aside before the step, are gathered, and gone through event by event, again in packs: roots by Halley's method on the
-// polynomials, kept in their brackets. Rows of small hops go from impact to impact in packs of their own
-// (dynamics/pack/rock_hops.hpp).
+// Lanes that rock march side by side, one step per knot interval (dynamics/pack/rock_march.hpp). Those to which something
+// may happen within the interval (impact, turning point higher than any before or near the floor, overturning) leave the
+// others before the step. Plain impacts are gone through in packs (dynamics/pack/rock_strikes.hpp), as are rows of small
+// hops (dynamics/pack/rock_hops.hpp); the rest is gathered here and gone through event by event, again in packs: roots by
+// Halley's method on the polynomials, kept in their brackets.
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "base/pack.hpp"
 #include "base/units.hpp"
@@ -19,17 +20,20 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N>
+// N: order of the series where something happens; Step: how the others go.
+template <int N, class Step>
 class RockPool : RockHops {
  public:
   using RockHops::RockHops;
 
   void run() {
     while (live_ > 0) {
-      const int rocking = live_ - waiting_ - hopping();
-      if (hopping() >= pack_lanes || (hopping() > 0 && rocking + waiting_ == 0))
+      const bool few = rocks_.count() < pack_lanes;  // fewer than a pack
+      if (hopping() >= 3 * pack_lanes || (hopping() > 0 && waiting_ + striking() == 0 && few))
         hop();
-      else if (waiting_ >= 2 * pack_lanes || (waiting_ > 0 && rocking == 0))
+      else if (striking() >= strikes_at_once || (striking() > 0 && few))
+        strike_all();
+      else if (waiting_ >= 2 * pack_lanes || (waiting_ > 0 && few))
         resolve();
       else
         march();
@@ -37,61 +41,24 @@ class RockPool : RockHops {
   }
 
  private:
-  // One interval for every lane in which nothing happens. The lanes in which something does are seen to after all packs
-  // have gone, so that no pack waits for the branches of another.
+  // One interval for every lane to which nothing happens. Those to which something does wait for each other.
   void march() {
-    if (free_ == 0 && !count_free()) return;
-    --free_;
-    unsigned apart[packs];
-    for (int p = 0; p < packs; ++p) apart[p] = busy_[p] ? march(p) : 0;
-    for (int p = 0; p < packs; ++p)
-      for (unsigned open = apart[p]; open; open &= open - 1) stand_aside(p * pack_lanes + __builtin_ctz(open));
-  }
-
-  // Bits of the lanes that stand aside from now on.
-  unsigned march(int p) {
-    const int first = p * pack_lanes;
-    const Pack left = load(r_.left + first), left2 = left * left, one(1.0);
-    RockSeries<N> y;
-    y.theta[0] = load(r_.theta + first);
-    const Pack rate = load(r_.omega + first);
-    y.omega[0] = rate * left;
-    y.rx[0] = load(r_.rx + first);
-    y.ry[0] = load(r_.ry + first);
-    const Pack a = load(r_.a + first), a_next = fetch(r_.next + first), push = load(r_.push + first) * left2;
-    const Pack gravity = load(r_.gravity + first) * left2;
-    y.expand(gravity, push * a, push * (a_next - a));
-    const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), rx = y.sum(y.rx), ry = y.sum(y.ry);
-
-    const Pack zero(0.0), peak = load(r_.peak + first), side = load(r_.side + first);
-    const Pack reach = xsimd::abs(y.omega[0]) + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
-    const Pack before = side * y.theta[0], after = side * theta, high = xsimd::max(before, after);
-    const PackMask near = xsimd::min(before, after) < reach;
-    const PackMask turns = y.omega[0] * omega <= zero, live = load(r_.live + first) > zero;
-    PackMask event = (near & (turns | turns_twice(y, omega))) | (after <= zero) | (after >= Pack(0.5 * pi));
-    const PackMask tops = live & turns & ~event & (high + reach > peak);
-    Pack highest = high;
-    if (bits(tops)) {
-      highest = choose(tops, xsimd::max(high, side * y.at(y.theta, turning_point(y, omega))), high);
-      event = event | (highest >= Pack(0.5 * pi));
+    std::uint64_t falls;
+    const std::uint64_t apart = rocks_.march<Step>(falls);
+    for (std::uint64_t open = apart; open;) {  // downwards, as the last one fills a gap
+      const int k = 63 - __builtin_clzll(open), slot = rocks_.lane(k);
+      open &= ~(std::uint64_t{1} << k);
+      if (N < 8 && (falls >> k & 1U)) {
+        to_strike(k);
+        continue;
+      }
+      typename RockHops::Marcher marcher{*this, slot};
+      rocks_.remove(marcher, k);
+      if (free_of(slot) <= 0)
+        end_record(slot);
+      else
+        queue_[waiting_++] = slot;
     }
-    const PackMask moves = live & ~event;
-
-    const Pack left4 = left2 * left2, seen = load(r_.force2 + first), over = load(r_.over + first), over2 = over * over;
-    const Pack force2 = watch_force(y, load(r_.weight + first) * left2, gravity, push, a, a_next - a,
-                                    {omega, rx, ry, a_next}, one, seen * left4, false) *
-                        (over2 * over2);
-    store(r_.force2 + first, choose(moves, force2, seen));
-    store(r_.peak + first, choose(moves, xsimd::max(peak, highest), peak));
-    store(r_.theta + first, choose(moves, theta, y.theta[0]));
-    store(r_.omega + first, choose(moves, omega * over, rate));
-    store(r_.rx + first, choose(moves, rx, y.rx[0]));
-    store(r_.ry + first, choose(moves, ry, y.ry[0]));
-    store(r_.a + first, choose(moves, a_next, a));
-    store(r_.left + first, choose(moves, one, left));
-    store(r_.over + first, choose(moves, one, over));
-    advance(r_.next + first, bits(moves));
-    return bits(live & event);
   }
 
   // Lanes that stand aside, and the interval of each.
@@ -286,7 +253,7 @@ class RockPool : RockHops {
 
 template <int N>
 void rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  RockPool<N> pool(cases, count, responses, declined);
+  RockPool<N, std::conditional_t<(N < 8), RockStep, RockSeries<N>>> pool(cases, count, responses, declined);
   pool.run();
 }
 

@@ -6,6 +6,7 @@
 
 #include "dynamics/pack/hopping.hpp"
 #include "dynamics/pack/rock_lanes.hpp"
+#include "dynamics/pack/rock_strikes.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -15,20 +16,41 @@ class RockHops : public RockLanes {
   using RockLanes::RockLanes;
 
   void strike(int i, double omega) {
-    Lane& lane = lanes_[i];
-    const BatchCase& c = *lane.sample;
-    ++lane.events;
-    lane.impacts += lane.hop_here * omega * omega >= c.told_rotation;
-    const double rate = lane.kept * omega;
-    stand_on(i, r_.side[i] > 0 ? -1 : 1);
     r_.theta[i] = 0;
-    r_.omega[i] = rate;
+    r_.omega[i] = lanes_[i].kept * omega;
+    change_corners(i, omega);
     if (r_.left[i] < 1e-12) {
       if (free_of(i) <= 1) return decline(i);
       to_next_knot(i);
     }
     after_impact(i);
   }
+
+  // Impacts of lanes that wait for them. Most rock on; where an impact is not clear, the lane waits for a closer look.
+  void strike_all() {
+    const int count = striking() < strikes_at_once ? striking() : strikes_at_once;
+    OtherCorner other;
+    for (int k = 0; k < count; ++k) look_across(other, k, strikes_.lane(k));
+    RockStrikes::Struck struck;
+    strikes_.strike(other, count, struck);
+    for (int k = count; k-- > 0;) {
+      const int i = strikes_.lane(k);
+      const bool clear = struck.all >> k & 1U;
+      if (clear) change_corners(i, struck.rates[k]);
+      if (struck.rock >> k & 1U) {
+        rocks_.take(strikes_, k);
+        continue;
+      }
+      Marcher marcher{*this, i};
+      strikes_.remove(marcher, k);
+      if (clear)
+        after_impact(i);
+      else
+        queue_[waiting_++] = i;
+    }
+  }
+  void to_strike(int k) { strikes_.take(rocks_, k); }  // of the marching group
+  int striking() const { return strikes_.count(); }
 
   // One impact or knot for all that hop, if there are any.
   void hop() {
@@ -65,6 +87,13 @@ class RockHops : public RockLanes {
       pool.leave(rows, k, slot);
     }
   };
+
+  void change_corners(int i, double omega) {
+    Lane& lane = lanes_[i];
+    ++lane.events;
+    lane.impacts += lane.hop_here * omega * omega >= lane.sample->told_rotation;
+    stand_on(i, r_.side[i] > 0 ? -1 : 1);
+  }
 
   void after_impact(int i) {
     const Lane& lane = lanes_[i];
@@ -142,6 +171,23 @@ class RockHops : public RockLanes {
     return lane.kept > 0 ? static_cast<int>(std::ceil(std::log(ratio) / (2 * std::log(lane.kept)))) : 1;
   }
 
+  // The corner on which the lane does not stand.
+  void look_across(OtherCorner& other, int k, int i) const {
+    const Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    const bool right = r_.side[i] > 0;
+    const Lane::Side& there = right ? lane.left : lane.right;
+    other.kept[k] = lane.kept;
+    other.arm[k] = right ? c.left : c.right;
+    other.height[k] = c.h;
+    other.gravity[k] = there.gravity;
+    other.push[k] = right ? -there.push : there.push;
+    other.rests[k] = c.rest_rotation / there.hop;
+    other.dying[k] = lane.dying;
+    const double small = HopBounds::small_rotation * (c.left < c.right ? c.left : c.right) / c.h;
+    other.small2[k] = small * small;
+  }
+
   // ---- small hops
   // Are the hops from here on so small that their series (dynamics/pack/hop_series.hpp) is as good as that of rocking, and
   // no new peaks?
@@ -206,6 +252,7 @@ class RockHops : public RockLanes {
   static constexpr int most_events = 10000;
   static constexpr double small_share = 0.002;  // of gravity: what small rotations add to the forces
 
+  RockStrikes strikes_;
   Hopping<Steady> hops_;
 };
 

@@ -8,27 +8,25 @@
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/ground.hpp"
+#include "dynamics/pack/rock_march.hpp"
 #include "dynamics/pack/search.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-constexpr int rock_slots = 128;
-constexpr int still_knots = 16384;
-alignas(64) const double still_floor[still_knots] = {};  // the floor after the record
+constexpr int rock_slots = 112;  // a marching group of 64, and those that wait and hop
+static_assert(rock_slots <= march_slots);
 
-// What the lanes are at. Angular velocities are per interval, forces times h^2.
-struct RockRows {
-  alignas(64) double theta[rock_slots], omega[rock_slots], rx[rock_slots], ry[rock_slots];
-  alignas(64) double gravity[rock_slots], push[rock_slots];  // g h^2/J, scale h^2/J
-  alignas(64) double weight[rock_slots];                     // scale h^2
-  alignas(64) double a[rock_slots];                          // unit record, where the lane is
-  alignas(64) double left[rock_slots];                       // part of the interval that lies ahead
-  alignas(64) double over[rock_slots];                       // 1 / left
-  alignas(64) double live[rock_slots];                       // 0: the lane stands aside
-  alignas(64) double side[rock_slots];                       // +1 right corner, -1 left
-  alignas(64) double peak[rock_slots], force2[rock_slots];   // of |theta|; of the squared acceleration
-  alignas(64) const double* next[rock_slots];                // a at the end of the interval
+// Where the lanes are. Angular velocities are per interval, forces times h^2.
+struct RockStates {
+  double theta[rock_slots], omega[rock_slots], rx[rock_slots], ry[rock_slots];
+  double gravity[rock_slots], push[rock_slots];  // g h^2/J, scale h^2/J
+  double weight[rock_slots];                     // scale h^2
+  double a[rock_slots];                          // unit record, where the lane is
+  double left[rock_slots];                       // part of the interval that lies ahead
+  double side[rock_slots];                       // +1 right corner, -1 left
+  double peak[rock_slots], force2[rock_slots];   // of |theta|; of the squared acceleration
+  const double* next[rock_slots];                // a at the end of the interval
 };
 
 // What a block needs that rocks in small hops.
@@ -43,7 +41,6 @@ class RockLanes {
  public:
   RockLanes(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined)
       : cases_(cases), count_(count), responses_(responses), declined_(declined) {
-    for (int slot = 0; slot < rock_slots; ++slot) clear(slot);
     for (int slot = 0; slot < rock_slots; ++slot) refill(slot);
   }
 
@@ -65,19 +62,10 @@ class RockLanes {
     std::optional<Grounds> grounds = {};
   };
 
-  void clear(int i) {
-    r_.theta[i] = r_.omega[i] = r_.rx[i] = r_.gravity[i] = r_.push[i] = r_.weight[i] = r_.a[i] = 0;
-    r_.ry[i] = r_.side[i] = r_.left[i] = r_.over[i] = 1;
-    r_.peak[i] = r_.force2[i] = 1e300;
-    r_.next[i] = still_floor;
-    lanes_[i] = Lane{};
-    r_.live[i] = 0;
-  }
-
   // Knot at which the lane's interval starts; after the record, counted from its end.
   int knot(int i) const {
     const Lane& lane = lanes_[i];
-    return static_cast<int>(r_.next[i] - (lane.after ? still_floor : lane.sample->table->acceleration.data())) - 1;
+    return static_cast<int>(r_.next[i] - (lane.after ? still_ground : lane.sample->table->acceleration.data())) - 1;
   }
 
   // The next sample that moves takes the slot.
@@ -98,23 +86,6 @@ class RockLanes {
       ++live_;
       if (leave_rest(i, 0, 0.0)) return;
     }
-    clear(i);
-    take_last(i);
-  }
-
-  // No more samples: lanes of the last slots fill the gaps before them, so that few packs are left to march.
-  void take_last(int i) {
-    while (top_ > 0 && !lanes_[top_ - 1].sample) --top_;
-    const int last = top_ - 1;
-    if (last <= i || r_.live[last] == 0 || last / pack_lanes == i / pack_lanes) return;
-    for (double* row : {r_.theta, r_.omega, r_.rx, r_.ry, r_.gravity, r_.push, r_.weight, r_.a, r_.left, r_.over,
-                        r_.side, r_.peak, r_.force2})
-      row[i] = row[last];
-    r_.next[i] = r_.next[last];
-    lanes_[i] = lanes_[last];
-    --busy_[last / pack_lanes];
-    clear(last);
-    go_on(i);
   }
 
   double limit(const BatchCase& c, double a) const {  // |a| of the unit record that tips the block
@@ -199,12 +170,6 @@ class RockLanes {
             inertia / (2 * c.g * magnitude(arm) * h2)};
   }
 
-  void stand_aside(int i) {
-    r_.live[i] = 0;
-    --busy_[i / pack_lanes];
-    queue_[waiting_++] = i;
-  }
-
   void finish(int i, Outcome outcome, double time, double theta) {
     const Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
@@ -230,48 +195,65 @@ class RockLanes {
     refill(i);
   }
 
-  // How many intervals every lane can go before one meets the end of its record. False: one has met it, and was seen to.
-  bool count_free() {
-    int least = 1 << 30;
-    for (int i = 0; i < rock_slots; ++i) {
-      if (r_.live[i] == 0) continue;
-      const int left = free_of(i);
-      if (left <= 0) {
-        end_record(i);
-        return false;
-      }
-      if (left < least) least = left;
-    }
-    free_ = least;
-    return true;
-  }
-
+  // Intervals until the end of the record, or of the still floor after it.
   int free_of(int i) const {
     const Lane& lane = lanes_[i];
-    return (lane.after ? still_knots : lane.sample->table->knots) - 1 - knot(i);
+    return (lane.after ? still_intervals : lane.sample->table->knots) - 1 - knot(i);
   }
 
   // The floor stops; the block rocks on.
   void end_record(int i) {
     Lane& lane = lanes_[i];
-    const double patience = still_knots - 2;
+    const double patience = still_intervals - 2;
     if (lane.after || lane.sample->free_vibration_s > patience * lane.sample->table->step_s) {
-      r_.live[i] = 0;
-      --busy_[i / pack_lanes];
       return decline(i);
     }
     lane.after = true;
     r_.a[i] = 0;
     r_.left[i] = 1;
-    r_.next[i] = still_floor + 1;
+    r_.next[i] = still_ground + 1;
+    go_on(i);
   }
 
+  // A lane as the marching group takes it and gives it back.
+  struct Marcher {
+    RockLanes& pool;
+    int slot;
+    void enter(RockRows& rows, int k) const { pool.enter(rows, k, slot); }
+    void leave(const RockRows& rows, int k) const { pool.leave(rows, k, slot); }
+  };
   void go_on(int i) {
-    r_.live[i] = 1;
-    r_.over[i] = 1 / r_.left[i];
-    ++busy_[i / pack_lanes];
-    const int free = free_of(i);
-    if (free < free_) free_ = free;
+    Marcher marcher{*this, i};
+    rocks_.add(marcher, i);
+  }
+
+  void enter(RockRows& rows, int k, int i) const {
+    const double side = r_.side[i];
+    rows.theta[k] = side * r_.theta[i];
+    rows.omega[k] = side * r_.omega[i];
+    rows.rx[k] = side * r_.rx[i];
+    rows.ry[k] = r_.ry[i];
+    rows.gravity[k] = r_.gravity[i];
+    rows.push[k] = side * r_.push[i];
+    rows.weight[k] = side * r_.weight[i];
+    rows.a[k] = r_.a[i];
+    rows.left[k] = r_.left[i];
+    rows.peak[k] = r_.peak[i];
+    rows.force2[k] = r_.force2[i];
+    rows.next[k] = r_.next[i];
+    rows.stop[k] = r_.next[i] + free_of(i) - 1;
+  }
+  void leave(const RockRows& rows, int k, int i) {
+    const double side = r_.side[i];
+    r_.theta[i] = side * rows.theta[k];
+    r_.omega[i] = side * rows.omega[k];
+    r_.rx[i] = side * rows.rx[k];
+    r_.ry[i] = rows.ry[k];
+    r_.a[i] = rows.a[k];
+    r_.left[i] = rows.left[k];
+    r_.peak[i] = rows.peak[k];
+    r_.force2[i] = rows.force2[k];
+    r_.next[i] = rows.next[k];
   }
 
   void to_next_knot(int i) {
@@ -287,18 +269,16 @@ class RockLanes {
     return 0.25 * (look - 1) * h * h * slowing * most_lost * (1 + 1e-9);
   }
 
-  static constexpr int packs = rock_slots / pack_lanes;
-
   const BatchCase* cases_;
   std::size_t count_;
   Response* responses_;
   std::uint8_t* declined_;
   std::size_t taken_ = 0;
-  RockRows r_;
+  RockStates r_;
   Lane lanes_[rock_slots];
   int queue_[rock_slots];
-  int busy_[packs] = {};
-  int waiting_ = 0, live_ = 0, free_ = 0, top_ = rock_slots;
+  RockMarch rocks_;
+  int waiting_ = 0, live_ = 0;
 };
 
 }  // namespace

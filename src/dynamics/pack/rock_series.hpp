@@ -11,6 +11,10 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
+struct RockEnd {
+  Pack omega, rx, ry, a, theta = Pack(0.0);
+};
+
 template <int N>
 struct RockSeries {
   Pack theta[N + 2], omega[N + 2], rx[N + 1], ry[N + 1];  // the rotation to one order more
@@ -51,6 +55,13 @@ struct RockSeries {
 #pragma GCC unroll 16
     for (int k = M - 2; k >= 0; --k) value = value * x + c[k];
     return value;
+  }
+
+  RockEnd end(const Pack& a_next) const { return {sum(omega), sum(rx), sum(ry), a_next, sum(theta)}; }
+  Pack omega_at(const Pack& x) const { return at(omega, x); }
+  void arm_at(const Pack& x, Pack& x_arm, Pack& y_arm) const {
+    x_arm = at(rx, x);
+    y_arm = at(ry, x);
   }
 };
 
@@ -130,8 +141,8 @@ Pack turning_point(const RockSeries<N>& y, const Pack& omega_end) {
 }
 
 // May the angular velocity change its sign and change it back?
-template <int N>
-PackMask turns_twice(const RockSeries<N>& y, const Pack& omega_end) {
+template <class Step>
+PackMask turns_twice(const Step& y, const Pack& omega_end) {
   const Pack zero(0.0);
   return (y.omega[0] * omega_end > zero) & (y.omega[0] * y.omega[1] < zero) &
          (xsimd::abs(y.omega[1]) > Pack(2.0) * xsimd::abs(y.omega[0]));
@@ -141,11 +152,8 @@ PackMask turns_twice(const RockSeries<N>& y, const Pack& omega_end) {
 // state is `end`, if it is above `seen`. `weight`: of the floor's acceleration, in the units of the series. Not `always`:
 // only in lanes where the value at the start comes close to `seen`, whatever the other lanes do. `lift`: vertical acceleration of
 // the floor, in the units of the series.
-struct RockEnd {
-  Pack omega, rx, ry, a;
-};
-template <int N, class Gravity, class Lift = Level>
-[[gnu::always_inline]] inline Pack watch_force(const RockSeries<N>& y, const Pack& weight, const Gravity& gravity,
+template <class Step, class Gravity, class Lift = Level>
+[[gnu::always_inline]] inline Pack watch_force(const Step& y, const Pack& weight, const Gravity& gravity,
                                                const Pack& push, const Pack& a, const Pack& rate_a, const RockEnd& end,
                                                const Pack& part, const Pack& seen, bool always, const Lift& lift = {}) {
   const Pack two(2.0), zero(0.0), omega2 = y.omega[0] * y.omega[0];
@@ -155,8 +163,9 @@ template <int N, class Gravity, class Lift = Level>
   const PackMask near = square > Pack(0.999) * seen;
   if (!always && !bits(near)) return seen;
   const Pack cross = two * y.omega[0] * y.omega[1], alpha1 = two * y.omega[2];
-  const Pack gx = y.ry[1] * y.omega[1] + y.ry[0] * alpha1 - y.rx[1] * omega2 - y.rx[0] * cross + weight * rate_a;
-  const Pack gy = less_rate(y.rx[1] * y.omega[1] + y.rx[0] * alpha1 + y.ry[1] * omega2 + y.ry[0] * cross, lift);
+  const Pack rx1 = y.ry[0] * y.omega[0], ry1 = zero - y.rx[0] * y.omega[0];
+  const Pack gx = ry1 * y.omega[1] + y.ry[0] * alpha1 - rx1 * omega2 - y.rx[0] * cross + weight * rate_a;
+  const Pack gy = less_rate(rx1 * y.omega[1] + y.rx[0] * alpha1 + ry1 * omega2 + y.ry[0] * cross, lift);
   const Pack slope = two * (fx * gx + fy * gy);
   const Pack alpha = end.rx * value_at(gravity, part) - end.ry * (push * end.a), omega2_end = end.omega * end.omega;
   const Pack hx = end.ry * alpha - end.rx * omega2_end + weight * end.a,
@@ -169,7 +178,9 @@ template <int N, class Gravity, class Lift = Level>
   const auto watched = [&](const Pack& most) { return always ? most : choose(near, most, seen); };
   if (!bits(tops)) return watched(high);
   const Pack at = choose(tops, slope / (Pack(-2.0) * bend), part);
-  const Pack rx = y.at(y.rx, at), ry = y.at(y.ry, at), omega = y.at(y.omega, at), a_top = a + rate_a * at;
+  const Pack omega = y.omega_at(at), a_top = a + rate_a * at;
+  Pack rx, ry;
+  y.arm_at(at, rx, ry);
   const Pack alpha_top = rx * value_at(gravity, at) - ry * (push * a_top), omega2_top = omega * omega;
   const Pack tx = ry * alpha_top - rx * omega2_top + weight * a_top,
              ty = less_at(rx * alpha_top + ry * omega2_top, lift, at);

@@ -1,0 +1,116 @@
+// Blocks that rock, side by side, in packs: from knot to knot, while nothing happens to them.
+//
+// Every lane is mirrored so that it stands on its right corner. Time is counted in intervals h: angular velocities are
+// times h, accelerations times h^2.
+#pragma once
+
+#include <array>
+
+#include "base/pack.hpp"
+#include "base/units.hpp"
+#include "dynamics/pack/lane_group.hpp"
+#include "dynamics/pack/rock_series.hpp"
+#include "dynamics/pack/rock_step.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+struct RockRows {
+  using Gravity = Steady;
+  alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
+  alignas(64) double gravity[march_slots], push[march_slots];  // g h^2/J, scale h^2/J
+  alignas(64) double weight[march_slots];                      // scale h^2
+  alignas(64) double a[march_slots];                           // unit record, where the lane is
+  alignas(64) double left[march_slots];                        // part of the interval that lies ahead
+  alignas(64) double peak[march_slots], force2[march_slots];   // of theta; of the squared acceleration
+  alignas(64) const double* next[march_slots];                 // a at the end of the interval
+  alignas(64) const double* stop[march_slots];                 // the last such value
+
+  void retire(int i) { omega[i] = push[i] = weight[i] = a[i] = 0, theta[i] = 0.5, left[i] = 1, next[i] = still_ground; }
+  auto all() { return std::array{theta, omega, rx, ry, gravity, push, weight, a, left, peak, force2}; }
+  void clear(int i) {
+    for (double* row : all()) row[i] = 1;
+    gravity[i] = 0;
+    peak[i] = force2[i] = 1e300;
+    stop[i] = still_ground;
+    retire(i);
+  }
+};
+
+class RockMarch : public LaneGroup<RockRows> {
+ public:
+  // One interval for every block to which nothing happens within it; bits of those to which something may (impact,
+  // turning point higher than any before or near the floor, overturning), or whose record is over. `falls`: of those among
+  // them that fall to the floor, and nothing else.
+  template <class Step>
+  std::uint64_t march(std::uint64_t& falls) {
+    falls_ = 0;
+    const std::uint64_t apart = each_pack([this](int i, unsigned here) {
+      const bool whole = bits(load(r_.left + i) == Pack(1.0)) == (1U << pack_lanes) - 1;
+      return whole ? march<Step, true>(i, here) : march<Step, false>(i, here);
+    });
+    falls = falls_;
+    return apart;
+  }
+
+ private:
+  // `whole`: no lane has a part of its interval behind it.
+  template <class Step, bool whole>
+  unsigned march(int i, unsigned here) {
+    const Pack one(1.0), zero(0.0), left = whole ? one : load(r_.left + i), left2 = left * left;
+    const auto scaled = [&](const double* row, const Pack& by) { return whole ? load(row + i) : load(row + i) * by; };
+    Step y;
+    y.theta[0] = load(r_.theta + i);
+    y.omega[0] = scaled(r_.omega, left);
+    y.rx[0] = load(r_.rx + i);
+    y.ry[0] = load(r_.ry + i);
+    const Pack a = load(r_.a + i), a_next = fetch(r_.next + i), change = a_next - a;
+    const Pack gravity = scaled(r_.gravity, left2), push = scaled(r_.push, left2);
+    y.expand(gravity, push * a, push * change);
+    const RockEnd end = y.end(a_next);
+    const Pack peak = load(r_.peak + i);
+    const PackMask stays = something_happens(y, end, peak);
+
+    const Pack seen = load(r_.force2 + i), over = whole ? one : one / left, over2 = over * over;
+    const Pack most = watch_force(y, scaled(r_.weight, left2), gravity, push, a, change, end, one,
+                                  whole ? seen : seen * (left2 * left2), false);
+    store(r_.force2 + i, choose(stays, seen, whole ? most : most * (over2 * over2)));
+    store(r_.peak + i, choose(stays, peak, xsimd::max(peak, end.theta)));
+    store(r_.theta + i, choose(stays, y.theta[0], end.theta));
+    store(r_.omega + i, choose(stays, load(r_.omega + i), whole ? end.omega : end.omega * over));
+    store(r_.rx + i, choose(stays, y.rx[0], end.rx));
+    store(r_.ry + i, choose(stays, y.ry[0], end.ry));
+    store(r_.a + i, choose(stays, a, a_next));
+    if (!whole) store(r_.left + i, choose(stays, left, one));
+    const unsigned apart = bits(stays) & here;
+    advance(r_.next + i, here & ~apart);
+    if (apart) {
+      const PackMask falls =
+          (end.theta <= zero) & (y.omega[0] < zero) & (end.omega < zero) & ~turns_twice(y, end.omega);
+      falls_ |= std::uint64_t{bits(falls) & apart} << i;
+    }
+    return apart;
+  }
+
+  // Turning within the interval, a block comes less than `beyond` further than at its end.
+  template <class Step>
+  static PackMask something_happens(const Step& y, const RockEnd& end, const Pack& peak) {
+    const Pack zero(0.0), beyond = xsimd::abs(end.omega - y.omega[0]) + xsimd::abs(y.omega[1]);
+    const PackMask tops =
+        (end.theta + beyond > xsimd::max(peak, y.theta[0])) & (y.omega[0] >= zero) & (end.omega <= zero);
+    const PackMask low = end.theta <= beyond;
+    PackMask happens = tops | ~(end.theta < Pack(0.5 * pi));
+    if (bits(low)) {
+      const PackMask starts = (y.omega[0] == zero) & (y.omega[1] >= zero) & (end.omega > zero);
+      happens =
+          happens |
+          (low & ((end.theta <= zero) | ((y.omega[0] * end.omega <= zero) & ~starts) | turns_twice(y, end.omega)));
+    }
+    return happens;
+  }
+
+  std::uint64_t falls_ = 0;
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
