@@ -69,7 +69,7 @@ class RockMarch : public LaneGroup<RockRows> {
     y.expand(gravity, push * a, push * change);
     const RockEnd end = y.end(a_next);
     const Pack peak = load(r_.peak + i);
-    const PackMask stays = something_happens(y, end, peak);
+    const PackMask falls = falls_all_along(y, end), stays = something_happens(y, end, peak, falls);
 
     const Pack seen = load(r_.force2 + i), over = whole ? one : one / left, over2 = over * over;
     const Pack most = watch_force(y, scaled(r_.weight, left2), gravity, push, a, change, end, one,
@@ -84,29 +84,27 @@ class RockMarch : public LaneGroup<RockRows> {
     if (!whole) store(r_.left + i, choose(stays, left, one));
     const unsigned apart = bits(stays) & here;
     advance(r_.next + i, here & ~apart);
-    if (apart) {
-      const PackMask falls =
-          (end.theta <= zero) & (y.omega[0] < zero) & (end.omega < zero) & ~turns_twice(y, end.omega);
-      falls_ |= std::uint64_t{bits(falls) & apart} << i;
-    }
+    falls_ |= std::uint64_t{bits(falls & (end.theta <= zero)) & apart} << i;
     return apart;
   }
 
-  // Turning within the interval, a block comes less than `beyond` further than at its end.
+  // Certainly: between falling at both ends, the block would rise only if it were thrown up hard at the start.
   template <class Step>
-  static PackMask something_happens(const Step& y, const RockEnd& end, const Pack& peak) {
+  static PackMask falls_all_along(const Step& y, const RockEnd& end) {
+    const Pack zero(0.0);
+    return (y.omega[0] < zero) & (end.omega < zero) & (y.omega[1] <= Pack(-2.0) * y.omega[0]);
+  }
+
+  // Turning within the interval, a block comes less than `beyond` further than at its end. Without a branch, as it would
+  // be known late and often taken.
+  template <class Step>
+  static PackMask something_happens(const Step& y, const RockEnd& end, const Pack& peak, const PackMask& falls) {
     const Pack zero(0.0), beyond = xsimd::abs(end.omega - y.omega[0]) + xsimd::abs(y.omega[1]);
+    const PackMask rises = (y.omega[0] >= zero) & (y.omega[1] >= zero) & (end.omega > zero);
+    const PackMask touches = (end.theta <= beyond) & ~(rises | (falls & (end.theta > zero)));
     const PackMask tops =
         (end.theta + beyond > xsimd::max(peak, y.theta[0])) & (y.omega[0] >= zero) & (end.omega <= zero);
-    const PackMask low = end.theta <= beyond;
-    PackMask happens = tops | ~(end.theta < Pack(0.5 * pi));
-    if (bits(low)) {
-      const PackMask starts = (y.omega[0] == zero) & (y.omega[1] >= zero) & (end.omega > zero);
-      happens =
-          happens |
-          (low & ((end.theta <= zero) | ((y.omega[0] * end.omega <= zero) & ~starts) | turns_twice(y, end.omega)));
-    }
-    return happens;
+    return touches | tops | ~(end.theta < Pack(0.5 * pi));
   }
 
   std::uint64_t falls_ = 0;

@@ -38,9 +38,12 @@ struct RockStep {
 
   [[gnu::always_inline]] RockEnd end(const Pack& a_next) const {
     RockEnd end;
-    end.omega = ((omega[5] + omega[4]) + (omega[3] + omega[2])) + (omega[1] + omega[0]);
-    const Pack gained = (omega[5] * Pack(1.0 / 6) + omega[4] * Pack(1.0 / 5)) +
-                        (omega[3] * Pack(1.0 / 4) + omega[2] * Pack(1.0 / 3)) + (omega[1] * Pack(0.5) + omega[0]);
+    end.omega = omega[0];
+    Pack gained = omega[0];
+    for (int k = 1; k < 6; ++k) {  // the last term to be known last
+      end.omega = end.omega + omega[k];
+      gained = gained + omega[k] * Pack(1.0 / (k + 1));
+    }
     end.theta = theta[0] + gained;
     turn(gained, end.rx, end.ry);
     end.a = a_next;
