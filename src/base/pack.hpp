@@ -114,11 +114,8 @@ static inline Pack fetch(const double* const* p, int offset = 0) {
 #endif
 }
 
-// Lane i: p[i][0] to p[i][3]; p[i] is a multiple of 32 bytes.
-struct Columns {
-  Pack column[4];
-};
-static inline Columns fetch_columns(const double* const* p) {
+// Lane i: p[i][0], p[i][1], p[i][2], p[i][3]; p[i] is a multiple of 32 bytes.
+static inline void fetch_columns(const double* const* p, Pack& first, Pack& second, Pack& third, Pack& fourth) {
 #if defined(__AVX512F__)
   __m512d pair[4];
   for (int i = 0; i < 4; ++i)
@@ -126,17 +123,24 @@ static inline Columns fetch_columns(const double* const* p) {
   const __m512d a = _mm512_unpacklo_pd(pair[0], pair[1]), b = _mm512_unpackhi_pd(pair[0], pair[1]);
   const __m512d c = _mm512_unpacklo_pd(pair[2], pair[3]), d = _mm512_unpackhi_pd(pair[2], pair[3]);
   const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
-  return {{_mm512_permutex2var_pd(a, low, c), _mm512_permutex2var_pd(b, low, d), _mm512_permutex2var_pd(a, high, c),
-           _mm512_permutex2var_pd(b, high, d)}};
+  first = _mm512_permutex2var_pd(a, low, c);
+  second = _mm512_permutex2var_pd(b, low, d);
+  third = _mm512_permutex2var_pd(a, high, c);
+  fourth = _mm512_permutex2var_pd(b, high, d);
 #elif defined(__AVX__)
-  const __m256d p0 = _mm256_load_pd(p[0]), p1 = _mm256_load_pd(p[1]), p2 = _mm256_load_pd(p[2]),
-                p3 = _mm256_load_pd(p[3]);
+  const __m256d p0 = _mm256_load_pd(p[0]), p1 = _mm256_load_pd(p[1]);
+  const __m256d p2 = _mm256_load_pd(p[2]), p3 = _mm256_load_pd(p[3]);
   const __m256d a = _mm256_unpacklo_pd(p0, p1), b = _mm256_unpackhi_pd(p0, p1);
   const __m256d c = _mm256_unpacklo_pd(p2, p3), d = _mm256_unpackhi_pd(p2, p3);
-  return {{_mm256_permute2f128_pd(a, c, 0x20), _mm256_permute2f128_pd(b, d, 0x20), _mm256_permute2f128_pd(a, c, 0x31),
-           _mm256_permute2f128_pd(b, d, 0x31)}};
+  first = _mm256_permute2f128_pd(a, c, 0x20);
+  second = _mm256_permute2f128_pd(b, d, 0x20);
+  third = _mm256_permute2f128_pd(a, c, 0x31);
+  fourth = _mm256_permute2f128_pd(b, d, 0x31);
 #else
-  return {{fetch(p, 0), fetch(p, 1), fetch(p, 2), fetch(p, 3)}};
+  first = fetch(p, 0);
+  second = fetch(p, 1);
+  third = fetch(p, 2);
+  fourth = fetch(p, 3);
 #endif
 }
 

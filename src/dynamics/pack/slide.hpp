@@ -2,11 +2,11 @@
 // |a| > mu_s g, while slipping for the knot at which a line is crossed (dynamics/pack/slide_search.hpp), with one quadratic
 // at the end. The displacement follows from D = int int a; |u| has its peaks where the slip ends only.
 //
-// Every lane carries its own sample. One round takes each from slip to slip: the searches lane by lane, each with whole
-// packs of knots, and then the end of the slip and the start of the next for a pack of lanes at once. The search for the
-// next start goes before the arithmetic has told whether the slip ends there, and is made again if not; that, a search that
-// names a knot too early by a trifle or by a dip that is none, and a new sample are all the same to the arithmetic: a slip
-// that goes on, or one of no length. While one pack waits for its arithmetic another is searched.
+// Every lane carries its own sample. One turn takes each from slip to slip: the searches lane by lane, each with whole
+// packs of knots, and the end of the slip and the start of the next for a pack of lanes at once. The search for the next
+// start goes before the arithmetic has told whether the slip ends there. A slip that does not, one whose search named a
+// knot too early by a trifle, and a new sample are all the same to the arithmetic: slips that go on, or of no length.
+// The lanes are in two halves, and while the one is searched the arithmetic of the other has time.
 // All in units of the scale.
 #pragma once
 
@@ -20,7 +20,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-constexpr int slide_slots = 16;
+constexpr int slide_slots = 16, half_slots = slide_slots / 2;
 constexpr double height_slack = 1e-6;  // more than the rounding of a height
 alignas(64) const double still_knot[2 * table_columns] = {};
 
@@ -44,10 +44,7 @@ struct SlideRows {
 // The floor within an interval.
 struct Within {
   Pack a, V, D, slope;
-  explicit Within(const double* const* knot) {
-    const Columns all = fetch_columns(knot);
-    a = all.column[0], V = all.column[1], D = all.column[2], slope = all.column[3];
-  }
+  explicit Within(const double* const* knot) { fetch_columns(knot, a, V, D, slope); }
   Within(const PackMask& mask, const Within& yes, const Within& no)
       : a(choose(mask, yes.a, no.a)),
         V(choose(mask, yes.V, no.V)),
@@ -76,25 +73,25 @@ class SlidePool {
 
   void run() {
     for (int i = 0; i < slide_slots; ++i) take(i);
-    for (int first = pack_lanes; first < slide_slots; first += pack_lanes) search(first);
-    int before = 0;
-    while (busy_)
-      for (int first = slide_slots - pack_lanes; first >= 0; first -= pack_lanes) {
-        go_on(first);
-        search(before);
-        before = first;
-      }
+    find_ends(half_slots);
+    find_starts(half_slots);
+    while (busy_) {
+      turn(half_slots, 0);
+      turn(0, half_slots);
+    }
   }
 
  private:
   struct Lane {
     const BatchCase* sample = nullptr;  // null: none
     const MotionTable* table = nullptr;
+    const std::uint16_t *heights = nullptr, *levels = nullptr, *run_levels = nullptr;
+    const double* columns = nullptr;
+    int knots = 0;
     std::uint16_t level = 0;  // of mu_s g
   };
-  // Where the slips are that have come to their crossings.
+  // Where the slips are that have come to their crossings: tau after the knot before.
   struct Reached {
-    Within floor;  // in the interval before
     Pack knot, tau, a;
     PackMask on, pushed;  // the slip goes on; or it ends, and the next starts at once
   };
@@ -110,7 +107,7 @@ class SlidePool {
       if (declined_[taken_]) continue;
       const double size = magnitude(c.scale), gs = c.mu_s * c.g / size;
       const MotionTable& t = *c.table;
-      lane = {&c, &t, t.level(gs)};
+      lane = {&c, &t, t.heights.data(), t.levels.data(), t.run_levels.data(), t.columns.data(), t.knots, t.level(gs)};
       busy_ |= 1U << i;
       r_.gs[i] = gs;
       r_.gk[i] = c.mu_k * c.g / size;
@@ -135,50 +132,55 @@ class SlidePool {
     r_.events[i] -= 1;
   }
 
-  // The intervals before the knots at which the slips have ended or may have, and of those after them at which the floor
-  // pushes hard enough or may.
-  void search(int first) {
-    for (int i = first; i < first + pack_lanes; ++i) {
-      int k = -1;
-      while (lanes_[i].sample && (k = crossing(i)) >= lanes_[i].table->knots) {
+  // The intervals before the knots at which the slips have ended or may have.
+  void find_ends(int first) {
+    for (int i = first; i < first + half_slots; ++i) {
+      if (!lanes_[i].sample) continue;
+      int k = r_.from[i] + first_crossing(lanes_[i].heights + r_.place[i], {r_.height[i], r_.drop[i]});
+      if (k >= lanes_[i].knots) [[unlikely]] {
         finish_after_motion(i);
         take(i);
+        if (!lanes_[i].sample) continue;
+        k = r_.from[i];
       }
-      if (!lanes_[i].sample) continue;
       r_.crossing[i] = k;
       r_.stop[i] = before(lanes_[i], k);
     }
-    for (int i = first; i < first + pack_lanes; ++i) {
+  }
+
+  // And before those after them at which the floor pushes hard enough or may.
+  void find_starts(int first) {
+    for (int i = first; i < first + half_slots; ++i) {
       const Lane& lane = lanes_[i];
       if (!lane.sample) continue;
-      const unsigned j = first_loud(*lane.table, lane.level, static_cast<unsigned>(r_.crossing[i]));
+      const unsigned j = first_loud(lane.levels, lane.run_levels, lane.level, static_cast<unsigned>(r_.crossing[i]));
       r_.loud[i] = static_cast<int>(j);
       r_.start[i] = before(lane, r_.loud[i]);
     }
   }
 
-  int crossing(int i) const {
-    return r_.from[i] + first_crossing(lanes_[i].table->heights.data() + r_.place[i], {r_.height[i], r_.drop[i]});
-  }
-
   static const double* before(const Lane& lane, int knot) {
-    const double* p = lane.table->columns.data() + static_cast<std::size_t>(knot - 1) * table_columns;
+    const double* p = lane.columns + static_cast<std::size_t>(knot - 1) * table_columns;
     __builtin_prefetch(p);
     return p;
   }
 
-  void go_on(int first) {
-    const Reached reached = reach(first);
-    set_out(first, reached);
+  // From the ends of the slips of one half to those of the other's, and to where the next may start.
+  void turn(int first, int other) {
+    Reached reached[half_slots / pack_lanes];
+    for (int i = 0; i < half_slots / pack_lanes; ++i) reach(first + i * pack_lanes, reached[i]);
+    find_ends(other);
+    for (int i = 0; i < half_slots / pack_lanes; ++i) set_out(first + i * pack_lanes, reached[i]);
+    find_starts(other);
   }
 
   // The ends of the slips. One whose speed turns before it is zero goes on.
-  Reached reach(int first) {
+  void reach(int first, Reached& reached) {
+    const Within floor(r_.stop + first);
     const Pack one(1.0), zero(0.0), two(2.0), h = load(r_.step + first), gk = load(r_.gk + first);
     const Pack start = load(r_.tau + first), V = load(r_.V + first), sigma = load(r_.sigma + first);
     const Pack knot = load_whole(r_.crossing + first), known = load(r_.known + first);
     const Pack intervals = knot - one - load(r_.m + first);
-    const Within floor(r_.stop + first);
     const Pack w =
         choose(intervals == one, load(r_.next + first), sigma * (V - floor.V) - gk * (intervals * h - start));
     const Pack rate = zero - sigma * floor.a - gk, half = Pack(-0.5) * sigma * floor.slope;
@@ -194,16 +196,21 @@ class SlidePool {
     store(r_.path + first, load(r_.path + first) + xsimd::abs(moved));
     store(r_.peak + first, xsimd::max(load(r_.peak + first), xsimd::abs(u)));
     store(r_.a + first, a);
-    return {floor, knot, tau, a, on, !on & (xsimd::abs(a) > load(r_.gs + first))};
+    reached.knot = knot;
+    reached.tau = tau;
+    reached.a = a;
+    reached.on = on;
+    reached.pushed = !on & (xsimd::abs(a) > load(r_.gs + first));
   }
 
   // The start of the next slips, where the last have ended.
   void set_out(int first, const Reached& last) {
+    const Within stopped(r_.stop + first);
     const Pack one(1.0), zero(0.0), h = load(r_.step + first);
     const Pack gs = load(r_.gs + first), gk = load(r_.gk + first);
     const PackMask& pushed = last.pushed;
     const Pack loud = load_whole(r_.loud + first), a_next = fetch(r_.start + first, table_columns);
-    const Within waited(r_.start + first), floor(pushed, last.floor, waited);
+    const Within waited(r_.start + first), floor(pushed, stopped, waited);
     const PackMask named_for_nothing = !(last.on | pushed | (xsimd::abs(a_next) > gs));
     const PackMask none = last.on | named_for_nothing;
     const Pack limit = choose(a_next < zero, zero - gs, gs);
@@ -214,19 +221,20 @@ class SlidePool {
     const PackMask brief = !last.on & (next < zero);  // ends before the first knot
     Pack known = zero - one;
     if (bits(brief)) known = choose(brief, xsimd::min(tau + choose(rate > zero, zero - rate / half, zero), h), known);
+    const auto kept = [&](const double* row, const Pack& now) { return choose(last.on, load(row + first), now); };
+    const Pack V = kept(r_.V, floor.velocity(tau)), D = kept(r_.D, floor.displacement(tau));
+    const Pack way = kept(r_.sigma, sigma), begin = kept(r_.tau, tau),
+               m = kept(r_.m, choose(pushed, last.knot, loud) - one);
+    const Pack from = choose(last.on, last.knot + one, m + choose(brief, one, Pack(2.0)));
+    store(r_.m + first, m);
+    store(r_.tau + first, begin);
+    store(r_.V + first, V);
+    store(r_.D + first, D);
+    store(r_.sigma + first, way);
+    store(r_.next + first, kept(r_.next, next));
+    store(r_.known + first, known);
     store(r_.events + first, load(r_.events + first) + choose(last.on, zero, one) + choose(none | pushed, zero, one));
     store(r_.hardest + first, xsimd::max(load(r_.hardest + first), choose(none, zero, choose(pushed, gk, gs))));
-    const auto keep = [&](double* row, const Pack& now) {
-      const Pack x = choose(last.on, load(row + first), now);
-      store(row + first, x);
-      return x;
-    };
-    const Pack m = keep(r_.m, choose(pushed, last.knot, loud) - one), begin = keep(r_.tau, tau);
-    const Pack V = keep(r_.V, floor.velocity(tau)), way = keep(r_.sigma, sigma);
-    keep(r_.D, floor.displacement(tau));
-    keep(r_.next, next);
-    store(r_.known + first, known);
-    const Pack from = choose(last.on, last.knot + one, m + choose(brief, one, Pack(2.0)));
     draw_lines(first, from, way, way * V + gk * begin - gk * h * (from - m), brief);
     for (unsigned rest = bits(named_for_nothing) & busy_ >> first; rest; rest &= rest - 1)
       wait(first + __builtin_ctz(rest));
@@ -245,29 +253,29 @@ class SlidePool {
   }
 
   // A lane at rest that found no push: from that knot on, if the record goes on.
-  void wait(int i) {
+  [[gnu::noinline]] void wait(int i) {
     if (r_.loud[i] < lanes_[i].table->knots) return stand(i, r_.loud[i]);
     finish_at_rest(i);
     take(i);
   }
 
   // Friction alone brings the block to rest.
-  void finish_after_motion(int i) {
+  [[gnu::noinline]] void finish_after_motion(int i) {
     const Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
     const int last = lane.table->knots - 1;
     const double time = (last - r_.m[i]) * r_.step[i] - r_.tau[i], sigma = r_.sigma[i], gk = r_.gk[i];
     const double V = lane.table->velocity[static_cast<std::size_t>(last)];
-    const double w = last == r_.m[i] + 1 ? r_.next[i] : sigma * (r_.V[i] - V) - gk * time, coast = w / gk;
-    declined_[number(lane)] = !(coast < c.free_vibration_s);
+    const double w = last == r_.m[i] + 1 ? r_.next[i] : sigma * (r_.V[i] - V) - gk * time, left = w / gk;
+    declined_[number(lane)] = !(left < c.free_vibration_s);
     if (declined_[number(lane)]) return;
     if (w > 0) {
       move(i, time * (r_.V[i] - 0.5 * sigma * gk * time) -
                   (lane.table->displacement[static_cast<std::size_t>(last)] - r_.D[i]));
-      move(i, 0.5 * sigma * w * coast);
+      move(i, 0.5 * sigma * w * left);
     }
     r_.events[i] += 1;
-    finish(i, last * r_.step[i] + coast);
+    finish(i, last * r_.step[i] + left);
   }
 
   void move(int i, double moved) {

@@ -38,7 +38,7 @@ struct Ramp {
 inline constexpr Ramp ramp;
 
 // The first j at which heights[j] is not below the line, which starts at j = 0.
-inline int first_crossing(const std::uint16_t* heights, Line line) {
+[[gnu::always_inline]] inline int first_crossing(const std::uint16_t* heights, Line line) {
   const Shorts drop(static_cast<std::uint16_t>(line.drop));
   for (int j = 0;; j += 2 * look) {
     const Shorts start(static_cast<std::uint16_t>(line.height));
@@ -49,15 +49,16 @@ inline int first_crossing(const std::uint16_t* heights, Line line) {
     }
     const std::uint64_t found =
         bits_not_below(Look(heights + j), near) | std::uint64_t{bits_not_below(Look(heights + j + look), far)} << look;
-    if (found) return j + std::countr_zero(found);
+    if (found) [[likely]]
+      return j + std::countr_zero(found);
     line.height = std::max(line.height - 2 * line.drop, 0);
   }
 }
 
-// First knot j >= from with levels[j] >= level.
-inline unsigned first_loud(const MotionTable& table, std::uint16_t level, unsigned from) {
+// First knot j >= from with levels[j] >= level; `runs` are their largest over level_run of them.
+[[gnu::always_inline]] inline unsigned first_loud(const std::uint16_t* levels, const std::uint16_t* runs,
+                                                  std::uint16_t level, unsigned from) {
   using Few = ShortRun<level_run>;
-  const std::uint16_t *levels = table.levels.data(), *runs = table.run_levels.data();
   const Few few(level);
   const Look many(level);
   const std::uint32_t near = bits_not_below(Few(levels + from), few);
