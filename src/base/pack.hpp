@@ -146,14 +146,30 @@ static inline void fetch_columns(const double* const* p, Pack& first, Pack& seco
 
 // Whole numbers, from and to their short form.
 static inline Pack load_whole(const int* p) {
+#if defined(__AVX512F__)
+  return _mm512_cvtepi32_pd(_mm256_load_si256(reinterpret_cast<const __m256i*>(p)));
+#elif defined(__AVX__)
+  return _mm256_cvtepi32_pd(_mm_load_si128(reinterpret_cast<const __m128i*>(p)));
+#elif defined(__SSE2__)
+  return _mm_cvtepi32_pd(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
+#else
   alignas(64) double values[pack_lanes];
   for (int i = 0; i < pack_lanes; ++i) values[i] = p[i];
   return load(values);
+#endif
 }
 static inline void store_whole(int* p, const Pack& x) {
+#if defined(__AVX512F__)
+  _mm256_store_si256(reinterpret_cast<__m256i*>(p), _mm512_cvttpd_epi32(x));
+#elif defined(__AVX__)
+  _mm_store_si128(reinterpret_cast<__m128i*>(p), _mm256_cvttpd_epi32(x));
+#elif defined(__SSE2__)
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(p), _mm_cvttpd_epi32(x));
+#else
   alignas(64) double values[pack_lanes];
   store(values, x);
   for (int i = 0; i < pack_lanes; ++i) p[i] = static_cast<int>(values[i]);
+#endif
 }
 
 // p[i] += by, where bit i of `lanes` is set.

@@ -200,7 +200,7 @@ class SlidePool {
     reached.tau = tau;
     reached.a = a;
     reached.on = on;
-    reached.pushed = !on & (xsimd::abs(a) > load(r_.gs + first));
+    reached.pushed = (!on) & (xsimd::abs(a) > load(r_.gs + first));
   }
 
   // The start of the next slips, where the last have ended.
@@ -218,7 +218,7 @@ class SlidePool {
     const Pack sigma = choose(a > zero, zero - one, one), left = h - tau;
     const Pack rate = zero - sigma * a - gk, half = Pack(-0.5) * sigma * floor.slope;
     const Pack next = left * (rate + half * left);
-    const PackMask brief = !last.on & (next < zero);  // ends before the first knot
+    const PackMask brief = (!last.on) & (next < zero);  // ends before the first knot
     Pack known = zero - one;
     if (bits(brief)) known = choose(brief, xsimd::min(tau + choose(rate > zero, zero - rate / half, zero), h), known);
     const auto kept = [&](const double* row, const Pack& now) { return choose(last.on, load(row + first), now); };
