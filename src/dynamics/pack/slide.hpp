@@ -166,7 +166,7 @@ class SlidePool {
   }
 
   // From the ends of the slips of one half to those of the other's, and to where the next may start.
-  void turn(int first, int other) {
+  [[gnu::noinline]] void turn(int first, int other) {
     Reached reached[half_slots / pack_lanes];
     for (int i = 0; i < half_slots / pack_lanes; ++i) reach(first + i * pack_lanes, reached[i]);
     find_ends(other);
@@ -175,7 +175,7 @@ class SlidePool {
   }
 
   // The ends of the slips. One whose speed turns before it is zero goes on.
-  void reach(int first, Reached& reached) {
+  [[gnu::always_inline]] void reach(int first, Reached& reached) {
     const Within floor(r_.stop + first);
     const Pack one(1.0), zero(0.0), two(2.0), h = load(r_.step + first), gk = load(r_.gk + first);
     const Pack start = load(r_.tau + first), V = load(r_.V + first), sigma = load(r_.sigma + first);
@@ -204,7 +204,7 @@ class SlidePool {
   }
 
   // The start of the next slips, where the last have ended.
-  void set_out(int first, const Reached& last) {
+  [[gnu::always_inline]] void set_out(int first, const Reached& last) {
     const Within stopped(r_.stop + first);
     const Pack one(1.0), zero(0.0), h = load(r_.step + first);
     const Pack gs = load(r_.gs + first), gk = load(r_.gk + first);
