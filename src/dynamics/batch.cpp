@@ -71,7 +71,8 @@ bool vertical_covered(const Specimen& specimen, const Shaking& shaking) {
          !shaking.motion->table->vertical.empty();
 }
 
-// False: no kernel covers it. `law`: of friction, where it has one.
+// False: no kernel covers it. `law`: of friction, where it has one. Of a block that only slides nothing else is set than
+// its kernel asks for.
 bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings,
              BatchCase& c, std::optional<SpeedLaw>& law) {
   if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1) return false;
@@ -84,6 +85,8 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
   if (specimen.model == Model::slide && !law && !shaken) {
     c.table = shaking.motion->table.get();
     c.scale = shaking.scale;
+    c.vertical_scale = 0;
+    c.law = nullptr;
     c.mu_s = specimen.friction.mu_s;
     c.mu_k = specimen.friction.mu_k;
     c.g = standard_gravity_mps2 * floor.gravity_factor;
@@ -220,12 +223,13 @@ void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking>
   const BatchKernels* kernels = pick();
   Queues queues;
   std::vector<std::size_t> single, order;
+  BatchCase c{};
+  std::optional<SpeedLaw> law;
   for (std::size_t first = 0; first < specimens.size(); first += group) {
     sort_by_record(shakings.subspan(first, std::min(group, specimens.size() - first)), order);
     for (const std::size_t place : order) {
       const std::size_t i = first + place;
-      BatchCase c{};
-      std::optional<SpeedLaw> law;
+      law.reset();
       const bool packs = kernels && covered(specimens[i], shakings[i], settings, c, law);
       if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c, law.has_value()) : nullptr)
         queues.add(kernel, c, law, i);
