@@ -158,6 +158,8 @@ struct Queue {
 
 class Queues {
  public:
+  explicit Queues(std::size_t capacity) : capacity_(capacity) {}
+
   void add(BatchKernel kernel, const BatchCase& c, const std::optional<SpeedLaw>& law, std::size_t sample) {
     Queue& queue = find(kernel, law);
     queue.cases.push_back(c);
@@ -188,9 +190,13 @@ class Queues {
   Queue& find(BatchKernel kernel, const std::optional<SpeedLaw>& law) {
     for (Queue& queue : queues_)
       if (queue.kernel == kernel && (!law || queue.laws.empty() || same_shape(queue.laws.front(), *law))) return queue;
-    return queues_.emplace_back(Queue{kernel});
+    Queue& queue = queues_.emplace_back(Queue{kernel});
+    queue.cases.reserve(capacity_);
+    queue.at.reserve(capacity_);
+    return queue;
   }
 
+  std::size_t capacity_;      // samples between two calls of compute()
   std::deque<Queue> queues_;  // which stay where they are, as cases point to laws
   std::vector<Response> answers_;
   std::vector<std::uint8_t> declined_;
@@ -221,7 +227,7 @@ void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking>
                    std::span<Response> responses) {
   using namespace dynamics;
   const BatchKernels* kernels = pick();
-  Queues queues;
+  Queues queues(std::min(group, specimens.size()));
   std::vector<std::size_t> single, order;
   BatchCase c{};
   std::optional<SpeedLaw> law;

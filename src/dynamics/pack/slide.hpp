@@ -90,7 +90,12 @@ class SlidePool {
     int knots = 0;
     std::uint16_t level = 0;  // of mu_s g
   };
-  // Where the slips are that have come to their crossings: tau after the knot before.
+  // Slips in the intervals before their crossings: when the speed is zero, if it was a parabola for ever.
+  struct Approach {
+    Pack knot, fall;
+    PackMask rises, turns;  // the speed is above zero at the crossing; it has no zero that counts
+  };
+  // Where they are then: tau after the knot before.
   struct Reached {
     Pack knot, tau, a;
     PackMask on, pushed;  // the slip goes on; or it ends, and the next starts at once
@@ -165,17 +170,17 @@ class SlidePool {
     return p;
   }
 
-  // From the ends of the slips of one half to those of the other's, and to where the next may start.
+  // The arithmetic of one half and the searches of the other.
   [[gnu::noinline]] void turn(int first, int other) {
-    Reached reached[half_slots / pack_lanes];
-    for (int i = 0; i < half_slots / pack_lanes; ++i) reach(first + i * pack_lanes, reached[i]);
+    Approach approaches[half_slots / pack_lanes];
+    for (int i = 0; i < half_slots / pack_lanes; ++i) approach(first + i * pack_lanes, approaches[i]);
     find_ends(other);
-    for (int i = 0; i < half_slots / pack_lanes; ++i) set_out(first + i * pack_lanes, reached[i]);
+    for (int i = 0; i < half_slots / pack_lanes; ++i) set_out(first + i * pack_lanes, approaches[i]);
     find_starts(other);
   }
 
-  // The ends of the slips. One whose speed turns before it is zero goes on.
-  [[gnu::always_inline]] void reach(int first, Reached& reached) {
+  // What takes long of the ends of the slips.
+  [[gnu::always_inline]] void approach(int first, Approach& to) {
     const Within floor(r_.stop + first);
     const Pack one(1.0), zero(0.0), two(2.0), h = load(r_.step + first), gk = load(r_.gk + first);
     const Pack start = load(r_.tau + first), V = load(r_.V + first), sigma = load(r_.sigma + first);
@@ -186,9 +191,19 @@ class SlidePool {
     const Pack rate = zero - sigma * floor.a - gk, half = Pack(-0.5) * sigma * floor.slope;
     const Pack square = rate * rate - Pack(4.0) * half * w, w_next = w + h * (rate + half * h);
     const Pack fall = choose(w > zero, two * w / (xsimd::sqrt(xsimd::max(square, zero)) - rate), zero);
-    const PackMask open = known < zero;
-    const PackMask on = open & (w_next > zero) & ((rate >= zero) | (square < zero) | (fall > h));
-    const Pack tau = choose(open, xsimd::min(fall, h), known), a = floor.acceleration(tau);
+    to.knot = knot;
+    to.fall = fall;
+    to.rises = (w_next > zero) & (known < zero);
+    to.turns = (rate >= zero) | (square < zero);
+  }
+
+  // The ends of the slips. One whose speed turns before it is zero goes on.
+  [[gnu::always_inline]] Reached arrive(int first, const Approach& to, const Within& floor) {
+    const Pack one(1.0), zero(0.0), h = load(r_.step + first), gk = load(r_.gk + first);
+    const Pack start = load(r_.tau + first), V = load(r_.V + first), sigma = load(r_.sigma + first);
+    const Pack known = load(r_.known + first), intervals = to.knot - one - load(r_.m + first);
+    const PackMask on = to.rises & (to.turns | (to.fall > h));
+    const Pack tau = choose(known < zero, xsimd::min(to.fall, h), known), a = floor.acceleration(tau);
     const Pack time = intervals * h + (tau - start);
     const Pack slid = time * (V - Pack(0.5) * sigma * gk * time) - (floor.displacement(tau) - load(r_.D + first));
     const Pack moved = choose(on, zero, slid), u = load(r_.u + first) + moved;
@@ -196,16 +211,13 @@ class SlidePool {
     store(r_.path + first, load(r_.path + first) + xsimd::abs(moved));
     store(r_.peak + first, xsimd::max(load(r_.peak + first), xsimd::abs(u)));
     store(r_.a + first, a);
-    reached.knot = knot;
-    reached.tau = tau;
-    reached.a = a;
-    reached.on = on;
-    reached.pushed = (!on) & (xsimd::abs(a) > load(r_.gs + first));
+    return {to.knot, tau, a, on, (!on) & (xsimd::abs(a) > load(r_.gs + first))};
   }
 
   // The start of the next slips, where the last have ended.
-  [[gnu::always_inline]] void set_out(int first, const Reached& last) {
+  [[gnu::always_inline]] void set_out(int first, const Approach& to) {
     const Within stopped(r_.stop + first);
+    const Reached last = arrive(first, to, stopped);
     const Pack one(1.0), zero(0.0), h = load(r_.step + first);
     const Pack gs = load(r_.gs + first), gk = load(r_.gk + first);
     const PackMask& pushed = last.pushed;
