@@ -14,11 +14,6 @@ bool constant_step(const FloorMotion& motion) {
   return true;
 }
 
-float at_least(double x) {
-  const float near = static_cast<float>(x);
-  return near < x ? std::nextafter(near, std::numeric_limits<float>::infinity()) : near;
-}
-
 // Before a knot with acceleration b, changed by `by` from the one before.
 double dip(double b, double by, double h) {
   if (!(by < 0 && b < 0)) return 0;
@@ -41,6 +36,44 @@ void fill(Row& row, const FloorMotion& motion, const std::vector<double>& c, dou
   const std::size_t n = motion.segments();
   for (std::size_t j = 0; j < n; ++j) row[j] = c[2 * j];
   row[n] = c[2 * n - 2] + c[2 * n - 1] * h;
+}
+
+void tabulate_columns(MotionTable& t) {
+  t.columns.reserve(t.acceleration.size() * table_columns);
+  for (std::size_t j = 0; j < t.acceleration.size(); ++j) {
+    const double a = t.acceleration[j], next = j + 1 < t.acceleration.size() ? t.acceleration[j + 1] : 0.0;
+    for (const double value : {a, t.velocity[j], t.displacement[j], (next - a) * t.rate_hz}) t.columns.push_back(value);
+  }
+}
+
+void tabulate_heights(MotionTable& t) {
+  const std::size_t all = t.acceleration.size(), knots = static_cast<std::size_t>(t.knots);
+  Row exact(2 * all, 0.0);
+  double most = 0;
+  for (std::size_t j = 0; j < knots; ++j) {
+    const double V = t.velocity[j], b = t.acceleration[j], by = j > 0 ? b - t.acceleration[j - 1] : 0.0;
+    exact[j] = V + dip(b, by, t.step_s);
+    exact[all + j] = dip(-b, -by, t.step_s) - V;
+    most = std::max({most, std::abs(exact[j]), std::abs(exact[all + j])});
+  }
+  t.heights_to_one = most > 0 ? (height_zero - 10) / most : 0;
+  t.backwards = static_cast<int>(all);
+  t.heights.assign(2 * all, largest_short);
+  for (std::size_t j = 0; j < knots; ++j)
+    for (const std::size_t k : {j, all + j})
+      t.heights[k] = static_cast<std::uint16_t>(std::floor(exact[k] * t.heights_to_one + height_zero) + 1);
+}
+
+void tabulate_levels(MotionTable& t) {
+  const std::size_t all = t.acceleration.size();
+  const double peak = *std::max_element(t.run_peak.begin(), t.run_peak.end());
+  t.levels_to_one = peak > 0 ? 65000 / peak : 0;
+  t.levels.assign(all, largest_short);
+  t.run_levels.assign(all, 0);
+  for (std::size_t j = 0; j < all; ++j) {
+    if (j < static_cast<std::size_t>(t.knots)) t.levels[j] = t.level(std::abs(t.acceleration[j]));
+    t.run_levels[j / level_run] = std::max(t.run_levels[j / level_run], t.levels[j]);
+  }
 }
 
 void keep_largest_of_later(Row& peaks) {
@@ -86,24 +119,9 @@ std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
   t.run_peak.assign(all / table_run + table_tail, 0.0);
   for (std::size_t j = 0; j < all; ++j)
     t.run_peak[j / table_run] = std::max(t.run_peak[j / table_run], std::abs(t.acceleration[j]));
-  t.columns.reserve(all * table_columns);
-  for (std::size_t j = 0; j < all; ++j)
-    for (const double value : {t.acceleration[j], t.velocity[j], t.displacement[j], 0.0}) t.columns.push_back(value);
-  for (auto* row : {&t.above, &t.below}) row->assign(all, 0.0F);
-  for (std::size_t j = 0; j < all; ++j) {
-    const bool moving = j >= 1 && j <= n;
-    const double b = moving ? t.acceleration[j] : 0.0, by = moving ? b - t.acceleration[j - 1] : 0.0;
-    t.above[j] = at_least(t.velocity[j] + dip(b, by, h));
-    t.below[j] = at_least(dip(-b, -by, h) - t.velocity[j]);
-  }
-  const double peak = *std::max_element(t.run_peak.begin(), t.run_peak.end());
-  t.levels_to_one = peak > 0 ? 32000 / peak : 0;
-  t.levels.assign(all, 0);
-  t.run_levels.assign(all, 0);
-  for (std::size_t j = 0; j < all; ++j) {
-    t.levels[j] = t.level(std::abs(t.acceleration[j]));
-    t.run_levels[j / level_run] = std::max(t.run_levels[j / level_run], t.levels[j]);
-  }
+  tabulate_columns(t);
+  tabulate_heights(t);
+  tabulate_levels(t);
   t.later_peak = t.run_peak;
   keep_largest_of_later(t.later_peak);
   if (!motion.vertical_mps2.empty() && continuous(motion, motion.vertical_mps2)) tabulate_vertical(t, motion);

@@ -35,13 +35,14 @@ struct LineAllocator {
   bool operator==(const LineAllocator&) const = default;
 };
 using Row = std::vector<double, LineAllocator<double>>;
-using FloatRow = std::vector<float, LineAllocator<float>>;
-using ShortRow = std::vector<std::int16_t, LineAllocator<std::int16_t>>;
+using ShortRow = std::vector<std::uint16_t, LineAllocator<std::uint16_t>>;
 
 inline constexpr int table_run = 8;    // knots a run
-inline constexpr int level_run = 4;    // knots a run of levels
+inline constexpr int level_run = 16;   // knots a run of levels
 inline constexpr int table_tail = 96;  // entries after the last knot
 inline constexpr int table_columns = 4;
+inline constexpr std::uint16_t largest_short = 65535;  // of heights and levels: of what is after the record
+inline constexpr double height_zero = 32000;
 
 struct MotionTable {
   double step_s = 0, rate_hz = 0;  // h and 1/h
@@ -52,19 +53,25 @@ struct MotionTable {
   Row margin;                      // M_j [m/s]
   Row run_peak;                    // max |a_j| over j = 8 r ... 8 r + 7 [m/s2]
   Row later_peak;                  // max |a_j| over all j >= 8 r [m/s2]
-  Row columns;                     // a_j, V_j, D_j and a zero, knot by knot
+  Row columns;                     // a_j, V_j, D_j and (a_{j+1} - a_j)/h, knot by knot
   // Where the motion has a continuous vertical channel v, else empty.
   Row vertical;             // v_j [m/s2]
   Row both;                 // a_j, v_j, knot by knot
   Row later_vertical_peak;  // max |v_j| over all j >= 8 r [m/s2]
-  // For searches, rounded so that none passes over a knot: at least V_j + d_j and -V_j + d_j.
-  FloatRow above, below;
-  ShortRow levels;           // level(|a_j|)
-  ShortRow run_levels;       // the largest of them over j = 4 r ... 4 r + 3
-  double levels_to_one = 0;  // [s2/m]
+  // For searches, in short integers, rounded so that none passes over a knot.
+  ShortRow heights;  // above height(V_j + d_j); from `backwards` on height(-V_j + d_j)
+  int backwards = 0;
+  double heights_to_one = 0;  // [s/m]
+  ShortRow levels;            // level(|a_j|)
+  ShortRow run_levels;        // the largest of them over j = 16 r ... 16 r + 15
+  double levels_to_one = 0;   // [s2/m]
 
+  double height(double velocity) const { return velocity * heights_to_one + height_zero; }
   // Never falls where `size` rises.
-  std::int16_t level(double size) const { return static_cast<std::int16_t>(std::fmin(size * levels_to_one, 32767)); }
+  std::uint16_t level(double size) const {
+    const double level = size * levels_to_one;
+    return level < largest_short ? static_cast<std::uint16_t>(level) : largest_short;
+  }
 };
 
 // Null where the motion is not piecewise linear with a constant step.

@@ -71,7 +71,8 @@ bool vertical_covered(const Specimen& specimen, const Shaking& shaking) {
          !shaking.motion->table->vertical.empty();
 }
 
-// False: no kernel covers it. `law`: of friction, where it has one.
+// False: no kernel covers it. `law`: of friction, where it has one. Of a block that only slides nothing else is set than
+// its kernel asks for.
 bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings,
              BatchCase& c, std::optional<SpeedLaw>& law) {
   if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1) return false;
@@ -84,6 +85,8 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
   if (specimen.model == Model::slide && !law && !shaken) {
     c.table = shaking.motion->table.get();
     c.scale = shaking.scale;
+    c.vertical_scale = 0;
+    c.law = nullptr;
     c.mu_s = specimen.friction.mu_s;
     c.mu_k = specimen.friction.mu_k;
     c.g = standard_gravity_mps2 * floor.gravity_factor;
@@ -155,6 +158,8 @@ struct Queue {
 
 class Queues {
  public:
+  explicit Queues(std::size_t capacity) : capacity_(capacity) {}
+
   void add(BatchKernel kernel, const BatchCase& c, const std::optional<SpeedLaw>& law, std::size_t sample) {
     Queue& queue = find(kernel, law);
     queue.cases.push_back(c);
@@ -185,9 +190,13 @@ class Queues {
   Queue& find(BatchKernel kernel, const std::optional<SpeedLaw>& law) {
     for (Queue& queue : queues_)
       if (queue.kernel == kernel && (!law || queue.laws.empty() || same_shape(queue.laws.front(), *law))) return queue;
-    return queues_.emplace_back(Queue{kernel});
+    Queue& queue = queues_.emplace_back(Queue{kernel});
+    queue.cases.reserve(capacity_);
+    queue.at.reserve(capacity_);
+    return queue;
   }
 
+  std::size_t capacity_;      // samples between two calls of compute()
   std::deque<Queue> queues_;  // which stay where they are, as cases point to laws
   std::vector<Response> answers_;
   std::vector<std::uint8_t> declined_;
@@ -218,14 +227,15 @@ void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking>
                    std::span<Response> responses) {
   using namespace dynamics;
   const BatchKernels* kernels = pick();
-  Queues queues;
+  Queues queues(std::min(group, specimens.size()));
   std::vector<std::size_t> single, order;
+  BatchCase c{};
+  std::optional<SpeedLaw> law;
   for (std::size_t first = 0; first < specimens.size(); first += group) {
     sort_by_record(shakings.subspan(first, std::min(group, specimens.size() - first)), order);
     for (const std::size_t place : order) {
       const std::size_t i = first + place;
-      BatchCase c{};
-      std::optional<SpeedLaw> law;
+      law.reset();
       const bool packs = kernels && covered(specimens[i], shakings[i], settings, c, law);
       if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c, law.has_value()) : nullptr)
         queues.add(kernel, c, law, i);

@@ -66,15 +66,28 @@ TEST(MotionTable, KeepsAContinuousVerticalChannelOnly) {
 TEST(MotionTable, SearchRowsPassOverNoKnot) {
   const FloorMotion motion = record();
   const MotionTable& t = *motion.table;
-  for (std::size_t j = 0; j < t.velocity.size(); ++j) {
-    EXPECT_GE(double{t.above[j]}, t.velocity[j]);
-    EXPECT_GE(double{t.below[j]}, -t.velocity[j]);
+  const auto all = static_cast<std::size_t>(t.backwards);
+  ASSERT_EQ(t.heights.size(), 2 * all);
+  for (std::size_t j = 0; j < 101; ++j) {
+    EXPECT_GE(t.heights[j], t.height(t.velocity[j]));
+    EXPECT_GE(t.heights[all + j], t.height(-t.velocity[j]));
+    EXPECT_LE(t.heights[j], 2 * height_zero);
     EXPECT_LE(t.levels[j], t.run_levels[j / level_run]);
     EXPECT_EQ(t.columns[j * table_columns + 2], t.displacement[j]);
-    for (const double limit : {0.0, 0.3, 1.0, 2.5, 100.0})
-      if (std::abs(t.acceleration[j]) >= limit) EXPECT_GE(t.levels[j], t.level(limit));
+    EXPECT_NEAR(t.columns[j * table_columns + 3] * t.step_s, t.acceleration[j + 1] - t.acceleration[j], 1e-15);
+    for (const double limit : {0.0, 0.3, 1.0, 2.5, 100.0}) {
+      const double a = std::abs(t.acceleration[j]);
+      const bool passed_over = t.levels[j] < t.level(limit);
+      if (a >= limit) EXPECT_FALSE(passed_over);
+      if (a < limit - 1e-4 * t.later_peak[0]) EXPECT_TRUE(passed_over);
+    }
   }
-  EXPECT_EQ(t.levels[150], 0);
+  for (std::size_t j = 101; j < all; ++j) {  // searches end here
+    EXPECT_EQ(t.heights[j], largest_short);
+    EXPECT_EQ(t.heights[all + j], largest_short);
+    EXPECT_EQ(t.levels[j], largest_short);
+    EXPECT_EQ(t.run_levels[j / level_run], largest_short);
+  }
 }
 
 // With t the time since knot j - 1, a block that slips in direction s has the speed
@@ -87,7 +100,8 @@ TEST(MotionTable, DipsBoundHowFarASpeedFallsBetweenKnots) {
   for (std::size_t j = 1; j < static_cast<std::size_t>(t.knots); ++j)
     for (const double s : {-1.0, 1.0})
       for (double friction = 0.01; friction < 3; friction += 0.01) {
-        const double dip = (s > 0 ? t.above : t.below)[j] - s * t.velocity[j];
+        const auto row = static_cast<std::size_t>(s > 0 ? 0 : t.backwards);
+        const double dip = (t.heights[row + j] - t.height(s * t.velocity[j])) / t.heights_to_one;
         const double a = t.acceleration[j - 1], slope = (t.acceleration[j] - a) / h;
         const auto speed = [&](double time) {
           const double V = t.velocity[j - 1] + time * (a + 0.5 * slope * time);

@@ -1,10 +1,6 @@
 // Searches along the rows of a record's table, several knots at a time.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <cstring>
-
 #include "base/motion_table.hpp"
 #include "base/pack.hpp"
 
@@ -49,66 +45,6 @@ inline int first_above(const MotionTable& t, int from, double limit) {
   }
   return run * table_run + __builtin_ctz(found);
 }
-
-// The same for a sample that asks often: it notes once which runs of `level_run` knots may hold such a knot, a bit for
-// each of 1024 of them.
-class LoudRuns {
- public:
-  void start(const MotionTable& table, double limit) {
-    table_ = &table;
-    level_ = Shorts(table.level(limit));
-    runs_ = static_cast<unsigned>((table.knots + level_run - 1) / level_run);
-    look(0);
-  }
-
-  // First knot j >= from that may have |a_j| > limit; a knot after the record: none. Sure but for one part in 32000 of
-  // the record's peak.
-  int next(unsigned from) {
-    for (unsigned run = from / level_run; (run = next_run(run)) < runs_; run += knots_at_once / level_run) {
-      const unsigned start = run * level_run, passed = from > start ? from - start : 0;
-      const std::uint64_t found = not_below(table_->levels.data() + start) & ~std::uint64_t{0} << passed;
-      if (found) return static_cast<int>(start) + __builtin_ctzll(found);
-    }
-    return table_->knots;
-  }
-
- private:
-  static constexpr unsigned window = 1024, knots_at_once = 32;
-
-  unsigned next_run(unsigned run) {
-    while (run < runs_) {
-      if (run >= first_ + window) look(run);
-      const unsigned bit = run - first_;
-      std::uint64_t ahead;
-      std::memcpy(&ahead, loud_ + bit / 8, sizeof ahead);
-      ahead >>= bit % 8;
-      if (ahead) return run + static_cast<unsigned>(__builtin_ctzll(ahead));
-      run = first_ + std::min(bit / 8 * 8 + 64, window);
-    }
-    return run;
-  }
-
-  // Bit i: levels[i] is not below that of the limit.
-  std::uint32_t not_below(const std::int16_t* levels) const {
-    std::uint32_t found = 0;
-    for (unsigned i = 0; i < knots_at_once; i += short_lanes)
-      found |= static_cast<std::uint32_t>(bits_not_below(Shorts::load_unaligned(levels + i), level_)) << i;
-    return found;
-  }
-
-  void look(unsigned run) {
-    first_ = run;
-    for (unsigned i = 0; i < window; i += knots_at_once) {
-      const std::uint32_t found = first_ + i < runs_ ? not_below(table_->run_levels.data() + first_ + i) : 0;
-      std::memcpy(loud_ + i / 8, &found, sizeof found);
-    }
-  }
-
-  const MotionTable* table_ = nullptr;
-  Shorts level_;
-  unsigned runs_ = 0, first_ = 0;
-  std::uint8_t loud_[window / 8 + 8] = {};
-};
 
 // max |a_j| over all j >= from.
 inline double peak_from(const MotionTable& t, int from) {

@@ -1,6 +1,8 @@
 // Searches along a record that only slide-rock asks for.
 #pragma once
 
+#include <algorithm>
+
 #include "dynamics/pack/search.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
