@@ -97,6 +97,14 @@ static inline void advance(const double** p, unsigned lanes, int by = 1) {
 #endif
 }
 
+// After packs and before scalar code that was compiled for older machines, which is slow while the upper parts of registers
+// are in use; the compiler does not see it where packs are in a function of their own.
+static inline void clear_upper_parts() {
+#if defined(__AVX__)
+  _mm256_zeroupper();
+#endif
+}
+
 static inline Pack choose(const PackMask& mask, const Pack& yes, const Pack& no) {
   return xsimd::select(mask, yes, no);
 }

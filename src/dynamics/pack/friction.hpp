@@ -9,6 +9,7 @@
 
 #include "base/pack.hpp"
 #include "dynamics/batch.hpp"
+#include "dynamics/pack/outside.hpp"
 #include "dynamics/pack/power.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 #include "dynamics/speed_law.hpp"
@@ -75,6 +76,18 @@ class SpeedFactor {
     for (int k = N - 1; k >= 0; --k) sum = sum + factor()[k];
     return sum;
   }
+  Real at(const Real& x) const {
+    Real value = factor()[N];
+#pragma GCC unroll 16
+    for (int k = N - 1; k >= 0; --k) value = value * x + factor()[k];
+    return value;
+  }
+  Real rate_at(const Real& x) const {
+    Real value = Real(double(N)) * factor()[N];
+#pragma GCC unroll 16
+    for (int k = N - 1; k >= 1; --k) value = value * x + Real(double(k)) * factor()[k];
+    return value;
+  }
   Real last_rate() const {
     Real sum = Real(double(N)) * factor()[N];
 #pragma GCC unroll 16
@@ -112,7 +125,7 @@ struct OwnConstants {
   const SpeedLaw& law;
   double value(int i) const { return law.nodes[i].value; }
   double shift(int i) const { return law.nodes[i].shift; }
-  static double exponential(double x) { return std::exp(x); }
+  static double exponential(double x) { return exp_outside(x); }
 };
 template <int N>
 using OwnFactor = SpeedFactor<N, double, OwnConstants>;
@@ -124,13 +137,15 @@ struct Coulomb {
   struct Rows {
     void enter(int, const BatchCase&) {}
     static Pack to_speed(int, const Pack&, const Pack&) { return Pack(0.0); }
-    auto all() { return std::array<double*, 0>{}; }
+    void copy(int, const Rows&, int) {}
   };
   template <int N>
   struct Factor : NoFactor {
     Factor(const Rows&, int) {}
     static Pack first() { return Pack(1.0); }
     static Pack last() { return Pack(1.0); }
+    static Pack at(const Pack&) { return Pack(1.0); }
+    static Pack rate_at(const Pack&) { return Pack(0.0); }
     static Pack first_rate() { return Pack(0.0); }
     static Pack last_rate() { return Pack(0.0); }
   };
@@ -155,14 +170,13 @@ struct BySpeed {
     }
     // What makes the slip of a step |w|; left: its part of an interval.
     Pack to_speed(int i, const Pack& sigma, const Pack& left) const { return sigma * load(per_step + i) / left; }
-    auto all() {
-      std::array<double*, 2 * speed_law_nodes + 1> rows;
-      rows[2 * speed_law_nodes] = per_step;
-      for (int n = 0; n < speed_law_nodes; ++n) {
-        rows[static_cast<std::size_t>(n)] = value[n];
-        rows[static_cast<std::size_t>(n + speed_law_nodes)] = shift[n];
+    void copy(int to, const Rows& other, int from) {
+      law = other.law;
+      for (int n = 0; n < law->count; ++n) {
+        value[n][to] = other.value[n][from];
+        shift[n][to] = other.shift[n][from];
       }
-      return rows;
+      per_step[to] = other.per_step[from];
     }
   };
   struct Constants {

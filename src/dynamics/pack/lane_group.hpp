@@ -36,6 +36,9 @@ class LaneGroup {
     copy_lane(r_, count_++, other.r_, i);
     other.close(i);
   }
+  const Rows& rows() const { return r_; }
+  // Lane `from` of a group with the same rows, as lane `to` of these.
+  void copy(int to, LaneGroup& other, int from) { copy_lane(r_, to, other.r_, from); }
 
  protected:
   using Gravity = typename Rows::Gravity;

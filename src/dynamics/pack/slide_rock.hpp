@@ -39,6 +39,21 @@ class SlideRock : public SlideRockSliding {
     settle();
   }
 
+  // After a part x of what is left of the interval the slip ends, or the stay on the corner; `top`: of the rotation.
+  void end_slip(double x, double top, bool impact) {
+    see_rotation(top);
+    if (impact) theta_ = 0;
+    if (!impact) w_ = 0;
+    forward(x);
+    if (impact) {
+      strike();
+    } else {
+      event();
+      choose_on_corner();
+    }
+    settle();
+  }
+
   // Back from the hops, at rest or not.
   void settle() {
     if (mode_ == Mode::rest) choose_flat();

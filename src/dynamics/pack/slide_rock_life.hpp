@@ -19,7 +19,7 @@ class SlideRockLife : public SlideRockHops {
   double valid_part(double omega, double w, int order) const {
     const double last = larger(magnitude(omega), magnitude(w) / c_.h);
     const double allowed = c_.law ? neglected_by_laws * left_ : neglected;
-    return last < allowed ? 1 : larger(1e-3, std::pow(allowed / last, 1.0 / (c_.law ? order - 1 : order)));
+    return last < allowed ? 1 : larger(1e-3, pow_outside(allowed / last, 1.0 / (c_.law ? order - 1 : order)));
   }
 
   // ---- rest

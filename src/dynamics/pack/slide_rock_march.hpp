@@ -5,8 +5,8 @@
 
 #include "base/pack.hpp"
 #include "dynamics/pack/corner_series.hpp"
-#include "dynamics/pack/rock_series.hpp"
 #include "dynamics/pack/lane_group.hpp"
+#include "dynamics/pack/rock_series.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
@@ -20,21 +20,25 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
 
  public:
   using Group::count;
-  // Bits of the lanes in which something happens; of those that strike the floor, and nothing else.
+  // Bits of the lanes that strike the floor, and nothing else; of the others in which something happens.
   struct Apart {
-    unsigned all = 0, strikes = 0;
+    unsigned strikes, others;
   };
   static constexpr int packs = march_slots / pack_lanes;
 
-  // One interval for every lane; none may be at the end of its record.
-  void march(Apart (&apart)[packs]) {
+  // One interval for every lane; none may be at the end of its record. How many lanes strike the floor.
+  int march(Apart (&apart)[packs]) {
     const Pack one(1.0);
+    int strikes = 0;
     for (int i = 0; i < count(); i += pack_lanes) {
       const int used = count() - i;
       const unsigned here = used < pack_lanes ? (1U << used) - 1 : (1U << pack_lanes) - 1;
       const bool whole = !bits(load(r_.left + i) != one);
-      apart[i / pack_lanes] = whole ? march<true>(i, here) : march<false>(i, here);
+      Apart& lanes = apart[i / pack_lanes];
+      lanes = whole ? march<true>(i, here) : march<false>(i, here);
+      strikes += __builtin_popcount(lanes.strikes);
     }
+    return strikes;
   }
 
   // How many intervals every lane can go before one meets the end of its record; 0: lane `which` has met it.
@@ -47,19 +51,77 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     return least;
   }
 
-  // Impacts in the lanes from i on: after which part of what is left of the interval, with which rate.
-  void strike(int i, double* parts, double* rates) const {
-    const Pack zero(0.0), one(1.0), left = load(r_.left + i), a = load(r_.a + i), push = load(r_.push + i);
+  // A pack of impacts.
+  struct Strikes {
+    StrikeRows rows;
+    alignas(64) double parts[pack_lanes], rates[pack_lanes];  // of what is left of the interval; falling
+    unsigned found;                                           // impacts; certainly the first ones
+    unsigned told, rock;  // those that count; that rock on, as far as the knot ahead
+  };
+
+  // The blocks of the first pack strike the floor. Those that rock on, certainly without a slip, or a row of hops that die
+  // out, stand on the other corner then, at the knot ahead unless something more happens before.
+  void strike(Strikes& s, unsigned here) {
+    const StrikeRows& k = s.rows;
+    const Pack zero(0.0), one(1.0), left = load(r_.left), a = load(r_.a), a_next = fetch(r_.next), change = a_next - a;
     RockSeries<N> y;
-    expand<false>(y, i, left, load(r_.omega + i), Interval(r_.shakes, i, r_.next + i).per_inertia(load(r_.gravity + i)),
-                  push, a, fetch(r_.next + i) - a);
+    expand<false>(y, 0, left, load(r_.omega), Interval(r_.shakes, 0, r_.next).per_inertia(load(r_.gravity)),
+                  load(r_.push), a, change);
     const Pack end = y.sum(y.theta), guess = first_zero(y.theta[0], y.omega[0], end);
     const Pack part = bracketed_root<N + 1>(y.theta, one, zero, one, guess, end <= zero);
-    store(parts, part);
-    store(rates, y.at(y.omega, part) / left);
+    const Pack falls = y.at(y.omega, part) / left, omega = zero - load(k.kept) * falls;
+    const Pack ahead = left - left * part, now = a + change * part;
+    // A block that rises first falls all the while.
+    const Pack bow = Pack(2.0) * xsimd::abs(y.omega[2]) + Pack(6.0) * xsimd::abs(y.omega[3]);
+    const PackMask once = (y.omega[0] < zero) | (y.omega[1] + bow < zero);
+    store(s.parts, part);
+    store(s.rates, falls);
+    s.found = bits(once & (part > zero) & (falls < zero));
+    s.told = bits(falls * falls >= load(k.told)) & here;
+    s.rock = Gravity::shaken ? 0 : bits(stand(k, omega, now, ahead, a_next)) & here & s.found;
+    if (s.rock) march<false>(0, s.rock);
   }
 
  private:
+  // On the corner that came down, with a rate; true: there is nothing else to it.
+  PackMask stand(const StrikeRows& k, const Pack& omega, const Pack& a, const Pack& ahead, const Pack& a_next) {
+    const Pack zero(0.0), two(2.0), arm = load(k.arm), height = load(k.height), omega2 = omega * omega;
+    const Pack gravity = load(k.gravity), push = load(k.push), weight = zero - load(r_.weight);
+    const Pack weight_g = load(r_.weight_g), mu = load(r_.mu), turned = load(r_.turned), base = load(r_.half_base);
+    const Pack pull = arm * gravity + height * (push * a), floor = weight * a;
+    const Pack fx = arm * omega2 - height * pull + floor, lift = zero - arm * pull - height * omega2;
+    const Pack grip = mu * (weight_g + lift) - xsimd::abs(fx);
+    const Pack room = xsimd::max(load(k.peak) - load(k.shift), zero);
+
+    const Pack most = xsimd::max(xsimd::abs(floor), xsimd::abs(weight * a_next)), swing = two * height * omega2;
+    const Pack hop_fx = load(k.fx) + load(k.fx1) * most + swing, hop_lift = load(k.lift) + load(k.lift1) * most + swing;
+    const PackMask dies = (load(k.row) * omega <= load(k.slow)) & (omega2 < load(k.last_told)) &
+                          (hop_fx * hop_fx + hop_lift * hop_lift < load(r_.seen)) &
+                          (hop_fx < mu * (weight_g - hop_lift));
+    const Pack limit2 = Pack(4.0) * xsimd::min(load(k.limit2), turned * turned);
+    const PackMask hops = (omega2 * omega2 < limit2 * (pull * pull)) & (xsimd::abs(floor) <= load(k.tips));
+    const PackMask rocks =
+        (grip > zero) & (omega2 >= load(k.rests)) & (ahead > Pack(1e-9)) & (omega > zero) & ~(dies | hops);
+
+    store(r_.theta, zero);
+    store(r_.omega, omega);
+    store(r_.rx, zero - arm);
+    store(r_.ry, height);
+    store(r_.a, a);
+    store(r_.left, ahead);
+    store(r_.grip, grip);
+    store(r_.square, fx * fx + lift * lift);
+    store(r_.gravity, gravity);
+    store(r_.push, push);
+    store(r_.weight, weight);
+    store(r_.room, room);
+    store(r_.look, xsimd::min(turned, xsimd::sqrt(two * room / base)));
+    store(r_.bend0, load(k.bend0));
+    store(r_.bend1, load(k.bend1));
+    store(r_.bend2, load(k.bend2));
+    return rocks;
+  }
+
   template <bool Whole>
   Apart march(int i, unsigned here) {
     const Pack zero(0.0), one(1.0), left = Whole ? one : load(r_.left + i);
@@ -95,8 +157,13 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     if (const PackMask about = turns & matters & ~(strange | slips | falls); bits(about))
       strange = strange | turn(y, i, omega1, about);
     const PackMask stays = strange | slips | falls;
-    if (const PackMask feels = tops & ~stays; bits(feels))
-      watch<Whole>(y, i, left, {omega, rx, ry, a_next}, feels, shakes);
+    if (const PackMask feels = tops & ~stays; bits(feels)) {
+      const Pack ends = xsimd::max(square0, square), rises = square - square0;
+      store(r_.seen + i, choose(feels, xsimd::max(seen, ends), seen));
+      // No top within: the force leaves its chord by 4 bend x (1 - x) at most.
+      const PackMask bows = feels & (rises * rises <= Pack(64.0) * (bend * bend) * ends);
+      if (bits(bows)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, bows, shakes);
+    }
 
     store(r_.theta + i, choose(stays, y.theta[0], theta));
     store(r_.omega + i, choose(stays, omega0, omega));
@@ -109,7 +176,9 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     if constexpr (!Whole) store(r_.left + i, choose(stays, left, one));
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all, Gravity::stride);
-    return {all, bits(falls & ~strange & ~slips & ~tops & (omega0 < zero) & (omega < zero)) & all};
+    const PackMask down = (omega0 < zero) | ((omega0 > zero) & (high + reach <= load(r_.look + i)));  // hops: no peak
+    const unsigned strikes = bits(falls & ~strange & ~slips & ~tops & down & (omega < zero)) & all;
+    return {strikes, all & ~strikes};
   }
 
   template <bool Whole, class Field>

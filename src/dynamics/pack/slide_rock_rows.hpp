@@ -80,9 +80,8 @@ struct SlipRows {
 
   void retire(int i) { seen[i] = 1e300; }
   auto all() {
-    return joined(std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
-                             k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen},
-                  law.all());
+    return std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
+                      k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen};
   }
 };
 
@@ -108,9 +107,7 @@ struct FlatRows {
     next[i] = stop[i] = still_ground;
   }
   void retire(int i) { seen[i] = 1e300; }
-  auto all() {
-    return joined(std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen}, law.all());
-  }
+  auto all() { return std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen}; }
 };
 
 // Least last term of a series that counts. The series of laws may converge slowly; what they neglect is a speed, which

@@ -16,6 +16,8 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
   using Group::r_;
 
  public:
+  static constexpr bool ends_in_packs = false;
+
   template <class Lane>
   static void release(Lane& lane) {
     lane.go_on();
@@ -48,7 +50,8 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
     const Pack size = load(r_.size + i), seen = load(r_.seen + i), peak = load(r_.peak + i);
     const Pack slower = xsimd::min(sigma * y.w[0], sigma * w), most = xsimd::max(first, last);
     const Pack force = friction * most, square = force * force / (left2 * left2);
-    const PackMask stops = ~(slower > bow), tips = ~(most + bend < load(r_.tips + i));
+    const PackMask starts = (sigma * y.w[0] >= zero) & (sigma * y.w[1] > bow);
+    const PackMask stops = ~((slower > bow) | starts), tips = ~(most + bend < load(r_.tips + i));
     const PackMask turns = (square * Pack(1.1) > seen) & ~(xsimd::abs(y.w[1]) > Pack(2.0) * bow);
     const PackMask stays = stops | tips | turns | ~(xsimd::abs(y.w[N + 1]) < Pack(neglected_by_laws) * size * left);
 
