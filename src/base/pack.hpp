@@ -109,4 +109,13 @@ static inline Pack choose(const PackMask& mask, const Pack& yes, const Pack& no)
   return xsimd::select(mask, yes, no);
 }
 
+// p[i] = x[i], where lane i holds.
+static inline void store_where(const PackMask& mask, double* p, const Pack& x) {
+#if defined(__AVX512F__)
+  _mm512_mask_store_pd(p, mask.data, x);
+#else
+  store(p, choose(mask, x, load(p)));
+#endif
+}
+
 }  // namespace freestand

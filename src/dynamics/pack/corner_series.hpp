@@ -16,18 +16,25 @@ Real versine(const Real& theta) {
   return Real(0.5) * square * sum;
 }
 
+// sum_i a_i b_{k-i}, those terms last that are known last, so that little waits for them.
+template <class Real>
+[[gnu::always_inline]] inline Real convolution(const Real* a, const Real* b, int k) {
+  if (k == 0) return a[0] * b[0];
+  if (k == 1) return a[0] * b[1] + a[1] * b[0];
+  Real sum = a[1] * b[k - 1];
+#pragma GCC unroll 16
+  for (int i = 2; i < k; ++i) sum = sum + a[i] * b[k - i];
+  return sum + (a[0] * b[k] + a[k] * b[0]);
+}
+
 // Series over the part of an interval that lies ahead, in x = time/hs: rates times hs, accelerations times hs^2.
 template <int N, class Real = double>
 struct CornerSeries {
   Real theta[N + 2], omega[N + 2], xi[N + 2], w[N + 2], rx[N + 1], ry[N + 1];
 
-  static Real product(const Real* a, const Real* b, int k) {
-    Real sum = a[0] * b[k];
-#pragma GCC unroll 16
-    for (int i = 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
-    return sum;
-  }
-  void integrate(int k, const Real& alpha, const Real& slip) {
+  // Coefficient k of a b.
+  [[gnu::always_inline]] static Real product(const Real* a, const Real* b, int k) { return convolution(a, b, k); }
+  [[gnu::always_inline]] void integrate(int k, const Real& alpha, const Real& slip) {
     const Real over(1.0 / (k + 1));
     theta[k + 1] = omega[k] * over;
     omega[k + 1] = alpha * over;

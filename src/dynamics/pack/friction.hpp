@@ -9,6 +9,7 @@
 
 #include "base/pack.hpp"
 #include "dynamics/batch.hpp"
+#include "dynamics/pack/corner_series.hpp"
 #include "dynamics/pack/outside.hpp"
 #include "dynamics/pack/power.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
@@ -66,7 +67,7 @@ class SpeedFactor {
   }
 
   // Coefficient k of F y.
-  Real times(const Real* y, int k) const { return product(factor(), y, k); }
+  [[gnu::always_inline]] Real times(const Real* y, int k) const { return product(factor(), y, k); }
   const Real* factor() const { return at_[law_.count]; }
   Real first() const { return factor()[0]; }
   Real first_rate() const { return factor()[1]; }
@@ -96,23 +97,19 @@ class SpeedFactor {
   }
 
  private:
-  static Real product(const Real* a, const Real* b, int k) {
-    Real sum = a[0] * b[k];
-#pragma GCC unroll 16
-    for (int i = 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
-    return sum;
-  }
-  static Real quotient(const Real* x, const Real* y, const Real* z, int k) {
+  [[gnu::always_inline]] static Real product(const Real* a, const Real* b, int k) { return convolution(a, b, k); }
+  [[gnu::always_inline]] static Real quotient(const Real* x, const Real* y, const Real* z, int k) {
     Real sum = x[k];
 #pragma GCC unroll 16
     for (int i = 1; i <= k; ++i) sum = sum - y[i] * z[k - i];
     return sum / y[0];
   }
-  static Real exponential(const Real* x, const Real* z, int k) {
-    Real sum = x[1] * z[k - 1];
+  [[gnu::always_inline]] static Real exponential(const Real* x, const Real* z, int k) {
+    if (k == 1) return x[1] * z[0];
+    Real sum = Real(double(k - 1)) * x[k - 1] * z[1];
 #pragma GCC unroll 16
-    for (int i = 2; i <= k; ++i) sum = sum + Real(double(i)) * x[i] * z[k - i];
-    return sum * Real(1.0 / k);
+    for (int i = k - 2; i > 0; --i) sum = sum + Real(double(i)) * x[i] * z[k - i];
+    return (sum + Real(double(k)) * x[k] * z[0]) * Real(1.0 / k);
   }
 
   const SpeedLaw& law_;

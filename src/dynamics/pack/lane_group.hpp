@@ -1,6 +1,7 @@
 // Lanes whose blocks do the same thing at present, side by side in rows without gaps.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "base/pack.hpp"
@@ -13,7 +14,10 @@ template <class Rows>
 class LaneGroup {
  public:
   LaneGroup() {
-    for (int i = 0; i < march_slots; ++i) r_.clear(i);
+    for (double* row : r_.all()) std::fill_n(row, march_slots, 1.0);
+    std::fill_n(r_.next, march_slots, still_ground);
+    std::fill_n(r_.stop, march_slots, still_ground);
+    for (int i = 0; i < march_slots; ++i) r_.retire(i);
   }
 
   int count() const { return count_; }

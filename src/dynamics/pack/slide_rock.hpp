@@ -29,12 +29,13 @@ class SlideRock : public SlideRockSliding {
     if (!in_a_group()) go_on();
   }
 
-  // Strikes the floor after a part x of what is left of the interval, with a rate per interval.
-  void strike_at(double x, double rate) {
+  void strike_at(const Impact& impact) {
+    see_rotation(impact.turned);
+    see_slip(impact.slid);
     theta_ = 0;
-    omega_ = side_ * rate / h_;
+    omega_ = side_ * impact.rate / h_;
     see_slip(xi_);
-    forward(x);
+    forward(impact.part);
     strike();
     settle();
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/pack/slide_rock_lane.hpp"
+#include "dynamics/pack/slide_rock_search.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -140,22 +141,16 @@ class SlideRockHops : public SlideRockLane {
     double &push = row.push, &lift = row.lift, &slow = row.slow;
     int end = static_cast<int>(span / slow) + 2;
     if (m_ + end > last_ || unit * bound_between(t_, m_, m_ + end) > bounds_.tips) return false;
-    double sum = 0, sum_lift = 0, variation = 0;
-    push = unit * magnitude(a[0]);
-    if (shaken_) lift = lifts * magnitude(v[0]);
-    for (int j = 0; j < end;) {
-      for (int k = j; shaken_ && k < end; ++k) {
-        lift = larger(lift, lifts * magnitude(v[k + 1]));
-        sum_lift += magnitude(v[k + 1] - v[k]);
-      }
-      for (; j < end; ++j) {
-        push = larger(push, unit * magnitude(a[j + 1]));
-        sum += magnitude(a[j + 1] - a[j]);
-      }
+    double variation = 0;
+    for (int done = 0; done < end;) {
+      done = end;
+      const Swing shaking = swing(a, end), lifting = shaken_ ? swing(v, end) : Swing{0, 0};
+      push = unit * shaking.most;
+      lift = lifts * lifting.most;
       const double rest = 1 - lift / c_.g;  // of gravity
       slow = bounds_.slow * rest - bounds_.slow1 * push;
       if (push > bounds_.tips * rest || push > slips_at(c_.g - lift)) return false;
-      variation = (unit * bounds_.fast * sum + lifts * bounds_.fast_lift * sum_lift) / slow;
+      variation = (unit * bounds_.fast * shaking.path + lifts * bounds_.fast_lift * lifting.path) / slow;
       const double need = span / slow * above_exp(0.5 * variation) + 2;
       if (!(need < longest_row) || m_ + need > last_) return false;
       end = static_cast<int>(need);

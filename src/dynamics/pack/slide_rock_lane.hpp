@@ -138,9 +138,10 @@ class SlideRockLane {
   }
   // It did so, and rocks on in lane i of the rows.
   template <class Gravity>
-  void came_down(const SlideRockRows<Gravity>& r, int i, bool told) {
+  void came_down(const SlideRockRows<Gravity>& r, int i, double peak, bool told) {
     side_ = -side_;
     room_ = r.room[i];
+    peak_slip_ = larger(peak_slip_, peak);
     impacts_ += told;
     in_between_ = true;
     event();

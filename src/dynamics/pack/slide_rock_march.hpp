@@ -8,6 +8,7 @@
 #include "dynamics/pack/lane_group.hpp"
 #include "dynamics/pack/rock_series.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
+#include "dynamics/pack/slide_rock_strikes.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -55,14 +56,14 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   struct Strikes {
     StrikeRows rows;
     alignas(64) double parts[pack_lanes], rates[pack_lanes];  // of what is left of the interval; falling
-    unsigned found;                                           // impacts; certainly the first ones
+    unsigned found;                                           // bits of the impacts of which that is certain
     unsigned told, rock;  // those that count; that rock on, as far as the knot ahead
   };
 
   // The blocks of the first pack strike the floor. Those that rock on, certainly without a slip, or a row of hops that die
   // out, stand on the other corner then, at the knot ahead unless something more happens before.
   void strike(Strikes& s, unsigned here) {
-    const StrikeRows& k = s.rows;
+    StrikeRows& k = s.rows;
     const Pack zero(0.0), one(1.0), left = load(r_.left), a = load(r_.a), a_next = fetch(r_.next), change = a_next - a;
     RockSeries<N> y;
     expand<false>(y, 0, left, load(r_.omega), Interval(r_.shakes, 0, r_.next).per_inertia(load(r_.gravity)),
@@ -73,16 +74,28 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack ahead = left - left * part, now = a + change * part;
     // A block that rises first falls all the while.
     const Pack bow = Pack(2.0) * xsimd::abs(y.omega[2]) + Pack(6.0) * xsimd::abs(y.omega[3]);
-    const PackMask once = (y.omega[0] < zero) | (y.omega[1] + bow < zero);
+    const PackMask rises = y.omega[0] > zero, once = (y.omega[0] < zero) | (y.omega[1] + bow < zero);
+    const PackMask tops = rises & once & top_matters(y, end);
+    if (bits(tops) & here) {
+      turn(y, 0, y.sum(y.omega), tops);
+      const Pack peak = load(k.peak);
+      store(k.peak, choose(tops, xsimd::max(peak, load(r_.room) - load(k.shift)), peak));
+    }
     store(s.parts, part);
     store(s.rates, falls);
-    s.found = bits(once & (part > zero) & (falls < zero));
-    s.told = bits(falls * falls >= load(k.told)) & here;
-    s.rock = Gravity::shaken ? 0 : bits(stand(k, omega, now, ahead, a_next)) & here & s.found;
+    s.found = bits(once & (part > zero) & (falls < zero)) & here;
+    s.told = bits(falls * falls >= load(k.told));
+    s.rock = Gravity::shaken ? 0 : bits(stand(k, omega, now, ahead, a_next)) & s.found;
     if (s.rock) march<false>(0, s.rock);
   }
 
  private:
+  // The block may rise higher than ever before, or slip farther then; theta: at the end of the step.
+  PackMask top_matters(const RockSeries<N>& y, const Pack& theta) const {
+    const Pack reach = xsimd::abs(y.omega[0]) + xsimd::abs(y.sum(y.omega)) + xsimd::abs(y.omega[1]);
+    return xsimd::max(y.theta[0], theta) + reach > load(r_.look);
+  }
+
   // On the corner that came down, with a rate; true: there is nothing else to it.
   PackMask stand(const StrikeRows& k, const Pack& omega, const Pack& a, const Pack& ahead, const Pack& a_next) {
     const Pack zero(0.0), two(2.0), arm = load(k.arm), height = load(k.height), omega2 = omega * omega;
@@ -137,10 +150,10 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack rate = xsimd::abs(y.omega[0]), reach = rate + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
     const Pack low = xsimd::min(y.theta[0], theta), high = xsimd::max(y.theta[0], theta);
     const PackMask matters = (high + reach > load(r_.look + i)) | (low < reach), falls = theta <= zero;
-    const PackMask turns = y.omega[0] * omega < zero,
-                   starts = (y.omega[0] == zero) & (y.omega[1] > Pack(-1e-11) * gravity);
-    const PackMask wavers = turns_twice(y, omega) | ((y.omega[0] * omega == zero) & ~(starts & (omega > zero)));
-    PackMask strange = (wavers & matters) | ~(theta < Pack(1.5)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
+    // Does the rotation turn? It may turn twice where its acceleration is large enough; from standstill it rises.
+    const Pack start = y.omega[0] + Pack(1e-280), rises_by = y.omega[1] + (start + start) + Pack(1e-11) * gravity;
+    const PackMask turns = start * omega < zero, wavers = ~turns & (start * rises_by <= zero);
+    PackMask strange = (wavers & matters) | ~(theta < Pack(1.57)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
     const Pack omega1 = omega;
     if constexpr (!Whole) omega = omega * (one / left);
 
@@ -151,33 +164,33 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack square0 = load(r_.square + i), square = fx * fx + lift * lift;
     const Pack bend =
         load(r_.bend0 + i) + (shakes.bent(load(r_.bend1 + i) * xsimd::abs(change)) + load(r_.bend2 + i) * rate) * rate;
-    const Pack most = xsimd::max(square0, square) * Pack(1 + 1.0 / 256) + Pack(257.0) * (bend * bend);
+    const Pack ends = xsimd::max(square0, square), bend2 = bend * bend;
+    const Pack most = ends * Pack(1 + 1.0 / 256) + Pack(257.0) * bend2;
     const Pack seen = load(r_.seen + i);
     const PackMask slips = xsimd::min(grip0, grip) <= bend, tops = most > seen;
     if (const PackMask about = turns & matters & ~(strange | slips | falls); bits(about))
       strange = strange | turn(y, i, omega1, about);
     const PackMask stays = strange | slips | falls;
-    if (const PackMask feels = tops & ~stays; bits(feels)) {
-      const Pack ends = xsimd::max(square0, square), rises = square - square0;
-      store(r_.seen + i, choose(feels, xsimd::max(seen, ends), seen));
-      // No top within: the force leaves its chord by 4 bend x (1 - x) at most.
-      const PackMask bows = feels & (rises * rises <= Pack(64.0) * (bend * bend) * ends);
-      if (bits(bows)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, bows, shakes);
-    }
+    // No top within where the force rises or falls all through: it leaves its chord by 4 bend x (1 - x) at most.
+    const Pack rises = square - square0;
+    const PackMask bows = tops & ~stays & (rises * rises <= Pack(64.0) * (bend2 * ends));
+    store(r_.seen + i, choose(stays, seen, xsimd::max(seen, ends)));
+    if (bits(bows)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, bows, shakes);
 
-    store(r_.theta + i, choose(stays, y.theta[0], theta));
-    store(r_.omega + i, choose(stays, omega0, omega));
-    store(r_.rx + i, choose(stays, y.rx[0], rx));
-    store(r_.ry + i, choose(stays, y.ry[0], ry));
-    store(r_.a + i, choose(stays, a, a_next));
+    const PackMask goes = ~stays;
+    store_where(goes, r_.theta + i, theta);
+    store_where(goes, r_.omega + i, omega);
+    store_where(goes, r_.rx + i, rx);
+    store_where(goes, r_.ry + i, ry);
+    store_where(goes, r_.a + i, a_next);
     shakes.keep(r_.shakes, i, stays);
-    store(r_.grip + i, choose(stays, grip0, grip));
-    store(r_.square + i, choose(stays, square0, square));
-    if constexpr (!Whole) store(r_.left + i, choose(stays, left, one));
+    store_where(goes, r_.grip + i, grip);
+    store_where(goes, r_.square + i, square);
+    if constexpr (!Whole) store_where(goes, r_.left + i, one);
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all, Gravity::stride);
-    const PackMask down = (omega0 < zero) | ((omega0 > zero) & (high + reach <= load(r_.look + i)));  // hops: no peak
-    const unsigned strikes = bits(falls & ~strange & ~slips & ~tops & down & (omega < zero)) & all;
+    const PackMask moves = omega0 != zero;
+    const unsigned strikes = bits(falls & ~strange & ~slips & ~tops & moves & (omega < zero)) & all;
     return {strikes, all & ~strikes};
   }
 
@@ -199,9 +212,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
 
   // The rotation turns, near a peak or the floor: the peaks. Lanes that touch the floor.
   PackMask turn(const RockSeries<N>& y, int i, const Pack& omega, const PackMask& lanes) {
-    const Pack zero(0.0), one(1.0), sense = choose(y.omega[0] > zero, one, zero - one);
-    const Pack guess = first_zero(sense * y.omega[0], sense * y.omega[1], sense * omega);
-    const Pack x = bracketed_root<N + 1>(y.omega, sense, zero, one, guess, lanes), theta = y.at(y.theta, x);
+    const Pack zero(0.0), theta = y.at(y.theta, turning_point(y, omega));
     const Pack base = load(r_.half_base + i), turned = load(r_.turned + i), room = load(r_.room + i);
     const Pack adds = base * versine(theta);
     const PackMask seen = lanes & (theta > zero);

@@ -26,7 +26,7 @@ class SlideRockPool {
 
   void run() {
     for (;;) {
-      const bool marching = rocks_.count() > 0;
+      const bool marching = rocks_.count() > pack_lanes;  // in full packs
       if (ready(hops_, marching))
         to_end(hops_);
       else if (ready(slip_ends_, marching))
@@ -35,7 +35,7 @@ class SlideRockPool {
         to_end(slips_);
       else if (slide(marching))
         continue;
-      else if (!marching)
+      else if (rocks_.count() == 0)
         return;
       else
         march();
@@ -112,12 +112,11 @@ class SlideRockPool {
       const int i = slots[l], p = i / pack_lanes;
       if (strike_.rock >> l & 1U) {
         rocks_.copy(i, strikes_, l);
-        lanes_[rocks_.lane(i)]->came_down(rocks_.rows(), i, strike_.told >> l & 1U);
+        lanes_[rocks_.lane(i)]->came_down(rocks_.rows(), i, strike_.rows.peak[l], strike_.told >> l & 1U);
       } else {
         apart[p].others |= 1U << i % pack_lanes;
         if (!(strike_.found >> l & 1U)) apart[p].strikes &= ~(1U << i % pack_lanes);
-        parts_[i] = strike_.parts[l];
-        rates_[i] = strike_.rates[l];
+        impacts_[i] = {strike_.parts[l], strike_.rates[l], strikes_.rows().turned[l], strike_.rows.peak[l]};
       }
     }
   }
@@ -125,9 +124,9 @@ class SlideRockPool {
   // What follows from an impact, for a lane by itself.
   void struck(int i) {
     const int lane = rocks_.lane(i);
-    const double part = parts_[i], rate = rates_[i];
+    const Impact impact = impacts_[i];
     rocks_.remove(*lanes_[lane], i);
-    lanes_[lane]->strike_at(part, rate);
+    lanes_[lane]->strike_at(impact);
     settle(lane);
   }
 
@@ -215,7 +214,7 @@ class SlideRockPool {
   std::size_t taken_ = 0;
   March rocks_, strikes_;  // those of the next impacts: the first pack of it
   typename March::Strikes strike_;
-  double parts_[march_slots], rates_[march_slots];  // of the lanes that go on by themselves after an impact
+  Impact impacts_[march_slots];  // of the lanes that go on by themselves after it
   SlideRockSlips<M, Gravity, Friction> slips_, slip_ends_;
   SlideRockSlides<slide_order, Friction> slides_;
   Hopping<Gravity> hops_;

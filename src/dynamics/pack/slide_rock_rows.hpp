@@ -29,17 +29,6 @@ struct SlideRockRows {
   const double* stop[march_slots];              // the last such value
   typename Gravity::Rows shakes;
 
-  // A lane in which nothing ever happens.
-  void clear(int i) {
-    omega[i] = rx[i] = ry[i] = a[i] = square[i] = 0;
-    gravity[i] = push[i] = weight[i] = bend0[i] = bend1[i] = bend2[i] = 0;
-    theta[i] = 0.5;
-    turned[i] = room[i] = 0;
-    grip[i] = weight_g[i] = mu[i] = left[i] = half_base[i] = 1;
-    look[i] = seen[i] = 1e300;
-    next[i] = stop[i] = still_ground;
-  }
-
   // Out of use: it causes no work.
   void retire(int i) {
     theta[i] = 0.5;
@@ -71,13 +60,6 @@ struct SlipRows {
   typename Friction::Rows law;
   typename Gravity::Rows shakes;
 
-  void clear(int i) {
-    for (double* row : {theta, omega, rx, xi, w, a, weight, weight_g, friction, half_base, lever_x, lever_y, seen})
-      row[i] = 0;
-    ry[i] = left[i] = k2[i] = size[i] = sigma[i] = look[i] = peak[i] = 1;
-    next[i] = stop[i] = still_ground;
-  }
-
   void retire(int i) { seen[i] = 1e300; }
   auto all() {
     return std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
@@ -102,10 +84,6 @@ struct FlatRows {
   const double* stop[march_slots];                                // the last such value
   typename Friction::Rows law;
 
-  void clear(int i) {
-    for (double* row : all()) row[i] = 1;
-    next[i] = stop[i] = still_ground;
-  }
   void retire(int i) { seen[i] = 1e300; }
   auto all() { return std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen}; }
 };

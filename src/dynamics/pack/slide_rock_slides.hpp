@@ -41,7 +41,7 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
     y.slide(friction, weight * a, weight * (a_next - a), r_.law.to_speed(i, sigma, left), factor);
     const Pack xi = y.sum(y.xi), w = y.sum(y.w), first = factor.first(), last = factor.last();
 
-    Pack bow = xsimd::abs(y.w[2]), bend = xsimd::abs(factor.factor()[2]);
+    Pack bow(0.0), bend = xsimd::abs(factor.factor()[2]);
 #pragma GCC unroll 16
     for (int k = 3; k <= N; ++k) {
       bow = bow + xsimd::abs(y.w[k]);
@@ -50,9 +50,11 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
     const Pack size = load(r_.size + i), seen = load(r_.seen + i), peak = load(r_.peak + i);
     const Pack slower = xsimd::min(sigma * y.w[0], sigma * w), most = xsimd::max(first, last);
     const Pack force = friction * most, square = force * force / (left2 * left2);
-    const PackMask starts = (sigma * y.w[0] >= zero) & (sigma * y.w[1] > bow);
-    const PackMask stops = ~((slower > bow) | starts), tips = ~(most + bend < load(r_.tips + i));
-    const PackMask turns = (square * Pack(1.1) > seen) & ~(xsimd::abs(y.w[1]) > Pack(2.0) * bow);
+    const Pack square_term = xsimd::abs(y.w[2]);  // which leaves its chord by a quarter
+    const PackMask starts = (sigma * y.w[0] >= zero) & (sigma * y.w[1] > square_term + bow);
+    const PackMask stops = ~((slower > Pack(0.25) * square_term + bow) | starts),
+                   tips = ~(most + bend < load(r_.tips + i));
+    const PackMask turns = (square * Pack(1.1) > seen) & ~(xsimd::abs(y.w[1]) > Pack(2.0) * (square_term + bow));
     const PackMask stays = stops | tips | turns | ~(xsimd::abs(y.w[N + 1]) < Pack(neglected_by_laws) * size * left);
 
     store(r_.xi + i, choose(stays, xi0, xi));

@@ -78,7 +78,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
             s.factor.at(x),
             s.factor.rate_at(x)};
     Pack seen, peak;
-    const PackMask strange = s.watch(end, slid, seen, peak) | ~sure | ~(x > zero) | ~(end.theta < Pack(1.5));
+    const PackMask strange = s.watch(end, slid, seen, peak) | ~sure | ~(x > zero) | ~(end.theta < Pack(1.57));
     keep(s, end, strange, seen, peak);
     store(ends.parts, x);
     store(ends.tops, top);
@@ -92,7 +92,16 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   };
   // Where a step ends.
   struct End {
-    Pack theta, omega, rx, ry, xi, w, gravity, factor, factor_rate;
+    Pack theta, omega, rx, ry, xi, w, gravity, factor, factor_rate, x;
+  };
+
+  // The force at the corner: its square, per interval, and the slope of that but for positive factors.
+  struct Touch {
+    Pack square, slope;
+    PackMask holds;
+  };
+  struct Place {
+    Pack rx, ry, omega, gravity, factor, factor_rate;
   };
 
   // What is left of an interval.
@@ -145,19 +154,52 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
           ((y.omega[0] * y.omega[1] < zero) & (xsimd::abs(y.omega[1]) > Pack(2.0) * xsimd::abs(y.omega[0])));
       return turns & ((high + reach > load(r.look + i)) | (low < reach));
     }
-    // All through the interval; w: at its end. The slip leaves its chord, and its tangent at the start, by its higher terms
-    // at most.
+    // All through the interval; w: at its end. The slip leaves its chord by its higher terms at most. One that starts from
+    // zero, or rises, does not come back to it.
     PackMask slips_on(const Pack& w) const {
-      const Pack zero(0.0), slip0 = sigma * y.w[0];
-      const Pack bow = xsimd::abs(y.w[2]) + xsimd::abs(y.w[3]) + xsimd::abs(y.w[4]);
-      return (xsimd::min(slip0, sigma * w) > bow) | ((slip0 >= zero) & (sigma * y.w[1] > bow));
+      const Pack zero(0.0), slip0 = sigma * y.w[0], rises = sigma * y.w[1], curve = sigma * y.w[2];
+      const Pack more = xsimd::abs(y.w[3]) + xsimd::abs(y.w[4]);
+      const PackMask leaves = (slip0 >= zero) & (rises > Pack(-1e-9) * weight_g * left2) & (rises + curve > more);
+      return (xsimd::min(slip0, sigma * w) > Pack(0.25) * xsimd::abs(curve) + Pack(0.5) * more) | leaves;
     }
     // Slip of the midpoint: u = xi + B (1 - cos theta).
     Pack midpoint(const Pack& xi, const Pack& theta) const { return xi + load(r.half_base + i) * versine(theta); }
 
+    [[gnu::always_inline]] Touch touch(const Place& at) const {
+      const Pack zero(0.0), two(2.0), &x = at.rx, &y1 = at.ry, &o = at.omega, mu = friction * at.factor;
+      const Pack q = x + mu * y1, n = at.gravity - y1 * o * o, d = k2 + x * q, per_d = Pack(1.0) / d;
+      const Pack f = n * k2 * per_d, lift = f - weight_g * left2;
+      const Pack n_rate = plus_rate(x * o * o * o - two * y1 * o * (n * q * per_d), shakes.lift() * left2);
+      Pack d_rate = o * (y1 * q + x * (y1 - mu * x)), change(0.0);
+      if constexpr (Friction::by_speed) {
+        const Pack mu_rate = friction * at.factor_rate;
+        d_rate = d_rate + x * mu_rate * y1;
+        change = mu * mu_rate * f * f * (d * d / k2);
+      }
+      const Pack slope = (n_rate * d - n * d_rate) * (mu * mu * f + lift) + change;
+      return {(mu * mu * f * f + lift * lift) / (left2 * left2), slope, (n > zero) & (d > Pack(0.05) * k2)};
+    }
+    // The largest square, where its slope is positive at the start and negative at x.
+    Pack top_between(const Touch& first, const Touch& last, const Pack& end) const {
+      const Pack zero(0.0);
+      Pack lo(0.0), hi = end, rises = first.slope, falls = last.slope, most = zero;
+      for (int round = 0; round < 2; ++round) {
+        const Pack x = lo + (hi - lo) * (rises / (rises - falls));
+        const Touch here = touch(
+            {y.at(y.rx, x), y.at(y.ry, x), y.at(y.omega, x), value_at(field, x), factor.at(x), factor.rate_at(x)});
+        const PackMask before = here.slope > zero;
+        lo = choose(before, x, lo);
+        rises = choose(before, here.slope, rises);
+        hi = choose(before, hi, x);
+        falls = choose(before, falls, here.slope);
+        most = xsimd::max(most, here.square);
+      }
+      return most;
+    }
+
     // The largest slip, at least `slid`, and squared acceleration up to the end of the step; true where that may be wrong.
     [[gnu::always_inline]] PackMask watch(const End& end, const Pack& slid, Pack& seen, Pack& peak) const {
-      const Pack zero(0.0), two(2.0), &rx = end.rx, &ry = end.ry, &omega = end.omega;
+      const Pack zero(0.0), &rx = end.rx, &ry = end.ry, &omega = end.omega;
       // u' = w + (lever_y r_x + lever_x r_y) omega.
       const Pack lever_x = load(r.lever_x + i), lever_y = load(r.lever_y + i),
                  size_u = xsimd::abs(midpoint(end.xi, end.theta));
@@ -166,30 +208,14 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
       PackMask strange = (before * after < zero) & (size_u + xsimd::abs(before) + xsimd::abs(after) > slid);
       peak = xsimd::max(slid, size_u);
 
-      const Pack gravity = weight_g * left2, mu0 = friction * factor.first(), mu = friction * end.factor;
-      const Pack q0 = y.rx[0] + mu0 * y.ry[0], n0 = at_start(field) - y.ry[0] * y.omega[0] * y.omega[0];
-      const Pack q = rx + mu * ry, n = end.gravity - ry * omega * omega, d0 = k2 + y.rx[0] * q0, d = k2 + rx * q;
-      strange = strange | ~((xsimd::min(n0, n) > zero) & (xsimd::min(d0, d) > Pack(0.05) * k2));
-      const Pack fy0 = n0 * k2 / d0, fy = n * k2 / d, lift0 = fy0 - gravity, lift = fy - gravity;
-      const Pack square =
-          xsimd::max(mu0 * mu0 * fy0 * fy0 + lift0 * lift0, mu * mu * fy * fy + lift * lift) / (left2 * left2);
+      const Touch first = touch({y.rx[0], y.ry[0], y.omega[0], at_start(field), factor.first(), factor.first_rate()});
+      const Touch last = touch({rx, ry, omega, end.gravity, end.factor, end.factor_rate});
+      strange = strange | ~(first.holds & last.holds);
       seen = load(r.seen + i);
+      const Pack square = xsimd::max(first.square, last.square);
       if (const PackMask feels = square * Pack(1.1) > seen; bits(feels)) {
-        // Slope of the squared force at both ends, but for positive factors.
-        const auto floor_lift = shakes.lift() * left2;
-        const auto slope = [&](const Pack& x, const Pack& y1, const Pack& o, const Pack& n1, const Pack& d1,
-                               const Pack& q1, const Pack& f, const Pack& m, const Pack& m_rate) {
-          const Pack alpha = n1 * q1 / d1, n_rate = plus_rate(x * o * o * o - two * y1 * o * alpha, floor_lift);
-          Pack d_rate = o * (y1 * q1 + x * (y1 - m * x)), change(0.0);
-          if constexpr (Friction::by_speed) {
-            d_rate = d_rate + x * m_rate * y1;
-            change = m * m_rate * f * f * (d1 * d1 / k2);
-          }
-          return (n_rate * d1 - n1 * d_rate) * (m * m * f + f - gravity) + change;
-        };
-        const Pack rate0 = friction * factor.first_rate(), rate = friction * end.factor_rate;
-        strange = strange | (feels & (slope(y.rx[0], y.ry[0], y.omega[0], n0, d0, q0, fy0, mu0, rate0) >= zero) &
-                             (slope(rx, ry, omega, n, d, q, fy, mu, rate) <= zero));
+        const PackMask tops = feels & (first.slope > zero) & (last.slope < zero);
+        if (bits(tops & ~strange)) seen = xsimd::max(seen, choose(tops, top_between(first, last, end.x), zero));
       }
       seen = xsimd::max(seen, square);
       return strange;
@@ -217,12 +243,12 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     const Pack zero(0.0), one(1.0);
     const Step s(r_, i);
     const auto& y = s.y;
-    const End end{y.sum(y.theta), y.sum(y.omega),  y.sum(y.rx),     y.sum(y.ry),         y.sum(y.xi),
-                  y.sum(y.w),     at_end(s.field), s.factor.last(), s.factor.last_rate()};
+    const End end{y.sum(y.theta), y.sum(y.omega),  y.sum(y.rx),     y.sum(y.ry),          y.sum(y.xi),
+                  y.sum(y.w),     at_end(s.field), s.factor.last(), s.factor.last_rate(), one};
     Pack seen, peak;
     const PackMask falls = end.theta <= zero;
     const PackMask stays = s.watch(end, load(r_.peak + i), seen, peak) | s.near_turn(end.omega, end.theta) | falls |
-                           ~(end.theta < Pack(1.5)) | ~s.settled() | ~s.slips_on(end.w);
+                           ~(end.theta < Pack(1.57)) | ~s.settled() | ~s.slips_on(end.w);
 
     keep(s, end, stays, seen, peak);
     store(r_.a + i, choose(stays, s.a, s.a_next));

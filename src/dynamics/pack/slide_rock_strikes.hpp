@@ -23,9 +23,10 @@ struct StrikeRows {
   alignas(64) double tips[pack_lanes];
 };
 
-// Right after the impact.
-struct Struck {
-  Pack omega, a, ahead;  // ahead: part of the interval
+// An impact of one block.
+struct Impact {
+  double part, rate;    // of what is left of the interval; per interval
+  double turned, slid;  // largest rotation and slip so far
 };
 
 }  // namespace
