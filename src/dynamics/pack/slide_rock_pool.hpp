@@ -30,7 +30,7 @@ class SlideRockPool {
       if (ready(hops_, marching))
         to_end(hops_);
       else if (ready(slip_ends_, marching))
-        end_slips();
+        end_slips(slip_ends_);
       else if (ready(slips_, marching))
         to_end(slips_);
       else if (slide(marching))
@@ -54,8 +54,12 @@ class SlideRockPool {
 
   bool slide(bool marching) {
     if constexpr (Friction::by_speed) {
-      if (!ready(slides_, marching)) return false;
-      to_end(slides_);
+      if (ready(slide_ends_, marching))
+        end_slips(slide_ends_);
+      else if (ready(slides_, marching))
+        to_end(slides_);
+      else
+        return false;
       return true;
     }
     return false;
@@ -139,7 +143,7 @@ class SlideRockPool {
       if (!(apart >> i & 1U)) continue;
       if constexpr (Group::ends_in_packs)
         if (group.ends() >> i & 1U) {
-          slip_ends_.take(group, i);
+          ends_of(group).take(group, i);
           continue;
         }
       const int lane = group.lane(i);
@@ -149,18 +153,22 @@ class SlideRockPool {
     }
   }
 
+  auto& ends_of(const SlideRockSlips<M, Gravity, Friction>&) { return slip_ends_; }
+  auto& ends_of(const SlideRockSlides<slide_order, Friction>&) { return slide_ends_; }
+
   // The last pack of the lanes whose slips end.
-  void end_slips() {
-    const int first = (slip_ends_.count() - 1) / pack_lanes * pack_lanes, count = slip_ends_.count() - first;
+  template <class Group>
+  void end_slips(Group& group) {
+    const int first = (group.count() - 1) / pack_lanes * pack_lanes, count = group.count() - first;
     SlipEnds ends;
-    slip_ends_.finish(first, (1U << count) - 1, ends);
+    group.finish(first, (1U << count) - 1, ends);
     clear_upper_parts();
     for (int l = count; l-- > 0;) {
-      const int number = slip_ends_.lane(first + l);
-      SlideRock<M, Gravity>& lane = *lanes_[number];
+      const int number = group.lane(first + l);
+      SlideRock<N, M, Gravity>& lane = *lanes_[number];
       const bool found = ends.found >> l & 1U;
       if (found) lane.end_in_between();
-      slip_ends_.remove(lane, first + l);
+      group.remove(lane, first + l);
       if (found)
         lane.end_slip(ends.parts[l], ends.tops[l], ends.impacts >> l & 1U);
       else
@@ -171,7 +179,7 @@ class SlideRockPool {
 
   // The lane goes on in a group, or with the next sample.
   void settle(int number) {
-    SlideRock<M, Gravity>& lane = *lanes_[number];
+    SlideRock<N, M, Gravity>& lane = *lanes_[number];
     if (lane.ended()) {
       hand_out(number);
       return refill(number);
@@ -216,9 +224,9 @@ class SlideRockPool {
   typename March::Strikes strike_;
   Impact impacts_[march_slots];  // of the lanes that go on by themselves after it
   SlideRockSlips<M, Gravity, Friction> slips_, slip_ends_;
-  SlideRockSlides<slide_order, Friction> slides_;
+  SlideRockSlides<slide_order, Friction> slides_, slide_ends_;
   Hopping<Gravity> hops_;
-  std::optional<SlideRock<M, Gravity>> lanes_[march_slots];
+  std::optional<SlideRock<N, M, Gravity>> lanes_[march_slots];
   std::size_t number_[march_slots];  // of the lane's sample
   int free_ = 0;                     // intervals until a record may end
 };

@@ -88,6 +88,12 @@ struct FlatRows {
   auto all() { return std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen}; }
 };
 
+// A pack of ends of slips.
+struct SlipEnds {
+  unsigned found, impacts;                                 // bits of the lanes; the others' slip stops
+  alignas(64) double parts[pack_lanes], tops[pack_lanes];  // of what is left of the interval; rotation at a turn before
+};
+
 // Least last term of a series that counts. The series of laws may converge slowly; what they neglect is a speed, which
 // stays for good, so it is less the shorter the step.
 constexpr double neglected = 3e-11, neglected_by_laws = 3e-13;  // least term of a series that counts

@@ -12,12 +12,6 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-// A pack of ends of slips.
-struct SlipEnds {
-  unsigned found, impacts;                                 // bits of the lanes; the others' slip stops
-  alignas(64) double parts[pack_lanes], tops[pack_lanes];  // of what is left of the interval; rotation at a turn before
-};
-
 template <int N, class Gravity, class Friction>
 class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   using Group = LaneGroup<SlipRows<Gravity, Friction>>;
@@ -55,7 +49,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     const PackMask slows = (s.sigma * y.w[0] > zero) &
                            (s.sigma * y.w[1] + two * xsimd::abs(y.w[2]) + Pack(6.0) * xsimd::abs(y.w[3]) < zero);
     const PackMask sure = (domed | ((y.omega[0] < zero) & (omega < zero)) | ~(falls | s.near_turn(omega, theta))) &
-                          choose_mask(stops, slows, s.slips_on(w)) & (falls | stops) & s.settled();
+                          ((stops & slows) | (s.slips_on(w) & ~stops)) & (falls | stops) & s.settled();
     const Pack lands = bracketed_root<N + 1>(y.theta, one, zero, one, first_zero(y.theta[0], y.omega[0], theta), falls);
     const Pack guess = first_zero(s.sigma * y.w[0], s.sigma * y.w[1], s.sigma * w);
     const Pack halts = bracketed_root<N + 1>(y.w, s.sigma, zero, one, guess, stops);
@@ -234,9 +228,6 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     store(r_.ry + i, choose(stays, s.y.ry[0], end.ry));
     store(r_.xi + i, choose(stays, s.y.xi[0], end.xi));
     store(r_.w + i, choose(stays, s.w0, end.w * per_left));
-  }
-  static PackMask choose_mask(const PackMask& mask, const PackMask& yes, const PackMask& no) {
-    return (mask & yes) | (no & ~mask);
   }
 
   Apart march(int i, unsigned here) {
