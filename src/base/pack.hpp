@@ -193,8 +193,25 @@ static inline void advance(const double** p, unsigned lanes, int by = 1) {
 #endif
 }
 
+// After packs and before scalar code that was compiled for older machines, which is slow while the upper parts of registers
+// are in use; the compiler does not see it where packs are in a function of their own.
+static inline void clear_upper_parts() {
+#if defined(__AVX__)
+  _mm256_zeroupper();
+#endif
+}
+
 static inline Pack choose(const PackMask& mask, const Pack& yes, const Pack& no) {
   return xsimd::select(mask, yes, no);
+}
+
+// p[i] = x[i], where lane i holds.
+static inline void store_where(const PackMask& mask, double* p, const Pack& x) {
+#if defined(__AVX512F__)
+  _mm512_mask_store_pd(p, mask.data, x);
+#else
+  store(p, choose(mask, x, load(p)));
+#endif
 }
 
 }  // namespace freestand

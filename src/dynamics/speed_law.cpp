@@ -9,6 +9,28 @@ namespace {
 bool binary(Op op) { return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide; }
 bool has_packs(Op op) { return binary(op) || op == Op::constant || op == Op::affine || op == Op::exp; }
 
+// The tape folds one operation into the next, and leaves behind what nobody asks for then.
+SpeedLaw without_unused(const SpeedLaw& all) {
+  bool used[speed_law_nodes + 1] = {};
+  used[all.count] = true;
+  for (int i = all.count; i > 0; --i) {
+    const Node& node = all.nodes[i - 1];
+    if (!used[i] || node.op == Op::constant) continue;
+    used[node.a] = true;
+    if (binary(node.op)) used[node.b] = true;
+  }
+  SpeedLaw law;
+  std::int16_t place[speed_law_nodes + 1] = {};
+  for (int i = 1; i <= all.count; ++i) {
+    if (!used[i]) continue;
+    Node& node = law.nodes[law.count] = all.nodes[i - 1];
+    node.a = place[node.a];
+    node.b = place[node.b];
+    place[i] = static_cast<std::int16_t>(++law.count);
+  }
+  return law;
+}
+
 }  // namespace
 
 bool same_shape(const SpeedLaw& a, const SpeedLaw& b) {
@@ -41,7 +63,7 @@ std::optional<SpeedLaw> speed_law(const Laws& laws) {
                             node.shift};
     place[static_cast<std::size_t>(i)] = ++law.count;
   }
-  return law;
+  return without_unused(law);
 }
 
 double friction_factor(const SpeedLaw& law, double speed) {

@@ -16,18 +16,25 @@ Real versine(const Real& theta) {
   return Real(0.5) * square * sum;
 }
 
+// sum_i a_i b_{k-i}, those terms last that are known last, so that little waits for them.
+template <class Real>
+[[gnu::always_inline]] inline Real convolution(const Real* a, const Real* b, int k) {
+  if (k == 0) return a[0] * b[0];
+  if (k == 1) return a[0] * b[1] + a[1] * b[0];
+  Real sum = a[1] * b[k - 1];
+#pragma GCC unroll 16
+  for (int i = 2; i < k; ++i) sum = sum + a[i] * b[k - i];
+  return sum + (a[0] * b[k] + a[k] * b[0]);
+}
+
 // Series over the part of an interval that lies ahead, in x = time/hs: rates times hs, accelerations times hs^2.
 template <int N, class Real = double>
 struct CornerSeries {
   Real theta[N + 2], omega[N + 2], xi[N + 2], w[N + 2], rx[N + 1], ry[N + 1];
 
-  static Real product(const Real* a, const Real* b, int k) {
-    Real sum = a[0] * b[k];
-#pragma GCC unroll 16
-    for (int i = 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
-    return sum;
-  }
-  void integrate(int k, const Real& alpha, const Real& slip) {
+  // Coefficient k of a b.
+  [[gnu::always_inline]] static Real product(const Real* a, const Real* b, int k) { return convolution(a, b, k); }
+  [[gnu::always_inline]] void integrate(int k, const Real& alpha, const Real& slip) {
     const Real over(1.0 / (k + 1));
     theta[k + 1] = omega[k] * over;
     omega[k + 1] = alpha * over;
@@ -53,21 +60,43 @@ struct CornerSeries {
   void slide_rock(const Gravity& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu,
                   const Real& to_speed, Factor& factor) {
     Real omega2[N + 1], q[N + 1], n[N + 1], d[N + 1], alpha[N + 1], fy[N + 1], per_d(1.0);
+    Real q_by(0.0), d_by(0.0), alpha_by(0.0), fy_by(0.0), slip_by(0.0);  // times F_k: what that adds to coefficient k
 #pragma GCC unroll 16
     for (int k = 0; k <= N; ++k) {
       factor.advance(k, to_speed * w[k]);
       omega2[k] = product(omega, omega, k);
-      q[k] = rx[k] + sigma_mu * factor.times(ry, k);
+      // Without F_k at first, for which the others would wait long.
+      q[k] = rx[k] + sigma_mu * factor.times_known(ry, k);
       n[k] = coefficient(gravity, k) - product(ry, omega2, k);
       d[k] = product(rx, q, k);
       if (k == 0) d[k] = d[k] + k2, per_d = Real(1.0) / d[k];
       Real numerator = product(n, q, k);
+      if (k > 0) {
+        Real known = d[1] * alpha[k - 1];
 #pragma GCC unroll 16
-      for (int i = 1; i <= k; ++i) numerator = numerator - d[i] * alpha[k - i];
+        for (int i = 2; i <= k; ++i) known = known + d[i] * alpha[k - i];
+        numerator = numerator - known;
+      }
       alpha[k] = numerator * per_d;
       fy[k] = n[k] - product(rx, alpha, k);
-      Real slip = product(rx, omega2, k) - sigma_mu * factor.times(fy, k) - product(ry, alpha, k);
+      Real slip = product(rx, omega2, k) - sigma_mu * factor.times_known(fy, k) - product(ry, alpha, k);
       if (k < 2) slip = slip - (k == 0 ? a0 : a1);
+      if constexpr (Factor::follows_speed) {
+        if (k == 0) {
+          q_by = sigma_mu * ry[0];
+          d_by = rx[0] * q_by;
+          alpha_by = (n[0] * q_by - alpha[0] * d_by) * per_d;
+          fy_by = Real(0.0) - rx[0] * alpha_by;
+          slip_by = Real(0.0) - sigma_mu * (fy[0] + factor.first() * fy_by) - ry[0] * alpha_by;
+        } else {
+          const Real own = factor.factor()[k];
+          q[k] = q[k] + q_by * own;
+          d[k] = d[k] + d_by * own;
+          alpha[k] = alpha[k] + alpha_by * own;
+          fy[k] = fy[k] + fy_by * own;
+          slip = slip + slip_by * own;
+        }
+      }
       integrate(k, alpha[k], slip);
     }
   }
@@ -78,6 +107,13 @@ struct CornerSeries {
 #pragma GCC unroll 16
     for (int k = M - 2; k >= 0; --k) total = total + c[k];
     return total;
+  }
+  template <int M>
+  static Real at(const Real (&c)[M], const Real& x) {
+    Real value = c[M - 1];
+#pragma GCC unroll 16
+    for (int k = M - 2; k >= 0; --k) value = value * x + c[k];
+    return value;
   }
 };
 

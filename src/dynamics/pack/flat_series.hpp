@@ -30,6 +30,13 @@ struct FlatSeries {
     for (int k = M - 2; k >= 0; --k) total = total + c[k];
     return total;
   }
+  template <int M>
+  static Real at(const Real (&c)[M], const Real& x) {
+    Real value = c[M - 1];
+#pragma GCC unroll 16
+    for (int k = M - 2; k >= 0; --k) value = value * x + c[k];
+    return value;
+  }
 };
 
 }  // namespace

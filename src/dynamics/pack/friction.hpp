@@ -9,6 +9,8 @@
 
 #include "base/pack.hpp"
 #include "dynamics/batch.hpp"
+#include "dynamics/pack/corner_series.hpp"
+#include "dynamics/pack/outside.hpp"
 #include "dynamics/pack/power.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 #include "dynamics/speed_law.hpp"
@@ -17,10 +19,11 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 struct NoFactor {
+  static constexpr bool follows_speed = false;
   template <class Real>
   void advance(int, const Real&) {}
   template <class Real>
-  static Real times(const Real* y, int k) {
+  static Real times_known(const Real* y, int k) {
     return y[k];
   }
 };
@@ -29,6 +32,8 @@ struct NoFactor {
 template <int N, class Real, class Constants>
 class SpeedFactor {
  public:
+  static constexpr bool follows_speed = true;
+
   SpeedFactor(const SpeedLaw& law, const Constants& constants) : law_(law), constants_(constants) {}
 
   // speed: coefficient k of |w| [m/s]; those before k were given.
@@ -64,8 +69,15 @@ class SpeedFactor {
     }
   }
 
-  // Coefficient k of F y.
-  Real times(const Real* y, int k) const { return product(factor(), y, k); }
+  // Coefficient k of F y, for k > 0 without the part of F_k.
+  [[gnu::always_inline]] Real times_known(const Real* y, int k) const {
+    const Real* f = factor();
+    if (k < 2) return f[0] * y[k];
+    Real sum = f[1] * y[k - 1];
+#pragma GCC unroll 16
+    for (int i = 2; i < k; ++i) sum = sum + f[i] * y[k - i];
+    return sum + f[0] * y[k];
+  }
   const Real* factor() const { return at_[law_.count]; }
   Real first() const { return factor()[0]; }
   Real first_rate() const { return factor()[1]; }
@@ -75,6 +87,18 @@ class SpeedFactor {
     for (int k = N - 1; k >= 0; --k) sum = sum + factor()[k];
     return sum;
   }
+  Real at(const Real& x) const {
+    Real value = factor()[N];
+#pragma GCC unroll 16
+    for (int k = N - 1; k >= 0; --k) value = value * x + factor()[k];
+    return value;
+  }
+  Real rate_at(const Real& x) const {
+    Real value = Real(double(N)) * factor()[N];
+#pragma GCC unroll 16
+    for (int k = N - 1; k >= 1; --k) value = value * x + Real(double(k)) * factor()[k];
+    return value;
+  }
   Real last_rate() const {
     Real sum = Real(double(N)) * factor()[N];
 #pragma GCC unroll 16
@@ -83,23 +107,19 @@ class SpeedFactor {
   }
 
  private:
-  static Real product(const Real* a, const Real* b, int k) {
-    Real sum = a[0] * b[k];
-#pragma GCC unroll 16
-    for (int i = 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
-    return sum;
-  }
-  static Real quotient(const Real* x, const Real* y, const Real* z, int k) {
+  [[gnu::always_inline]] static Real product(const Real* a, const Real* b, int k) { return convolution(a, b, k); }
+  [[gnu::always_inline]] static Real quotient(const Real* x, const Real* y, const Real* z, int k) {
     Real sum = x[k];
 #pragma GCC unroll 16
     for (int i = 1; i <= k; ++i) sum = sum - y[i] * z[k - i];
     return sum / y[0];
   }
-  static Real exponential(const Real* x, const Real* z, int k) {
-    Real sum = x[1] * z[k - 1];
+  [[gnu::always_inline]] static Real exponential(const Real* x, const Real* z, int k) {
+    if (k == 1) return x[1] * z[0];
+    Real sum = Real(double(k - 1)) * x[k - 1] * z[1];
 #pragma GCC unroll 16
-    for (int i = 2; i <= k; ++i) sum = sum + Real(double(i)) * x[i] * z[k - i];
-    return sum * Real(1.0 / k);
+    for (int i = k - 2; i > 0; --i) sum = sum + Real(double(i)) * x[i] * z[k - i];
+    return (sum + Real(double(k)) * x[k] * z[0]) * Real(1.0 / k);
   }
 
   const SpeedLaw& law_;
@@ -112,7 +132,7 @@ struct OwnConstants {
   const SpeedLaw& law;
   double value(int i) const { return law.nodes[i].value; }
   double shift(int i) const { return law.nodes[i].shift; }
-  static double exponential(double x) { return std::exp(x); }
+  static double exponential(double x) { return exp_outside(x); }
 };
 template <int N>
 using OwnFactor = SpeedFactor<N, double, OwnConstants>;
@@ -124,13 +144,15 @@ struct Coulomb {
   struct Rows {
     void enter(int, const BatchCase&) {}
     static Pack to_speed(int, const Pack&, const Pack&) { return Pack(0.0); }
-    auto all() { return std::array<double*, 0>{}; }
+    void copy(int, const Rows&, int) {}
   };
   template <int N>
   struct Factor : NoFactor {
     Factor(const Rows&, int) {}
     static Pack first() { return Pack(1.0); }
     static Pack last() { return Pack(1.0); }
+    static Pack at(const Pack&) { return Pack(1.0); }
+    static Pack rate_at(const Pack&) { return Pack(0.0); }
     static Pack first_rate() { return Pack(0.0); }
     static Pack last_rate() { return Pack(0.0); }
   };
@@ -155,14 +177,13 @@ struct BySpeed {
     }
     // What makes the slip of a step |w|; left: its part of an interval.
     Pack to_speed(int i, const Pack& sigma, const Pack& left) const { return sigma * load(per_step + i) / left; }
-    auto all() {
-      std::array<double*, 2 * speed_law_nodes + 1> rows;
-      rows[2 * speed_law_nodes] = per_step;
-      for (int n = 0; n < speed_law_nodes; ++n) {
-        rows[static_cast<std::size_t>(n)] = value[n];
-        rows[static_cast<std::size_t>(n + speed_law_nodes)] = shift[n];
+    void copy(int to, const Rows& other, int from) {
+      law = other.law;
+      for (int n = 0; n < law->count; ++n) {
+        value[n][to] = other.value[n][from];
+        shift[n][to] = other.shift[n][from];
       }
-      return rows;
+      per_step[to] = other.per_step[from];
     }
   };
   struct Constants {

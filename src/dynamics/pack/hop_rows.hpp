@@ -38,10 +38,6 @@ struct HopRows {
                       impacts,  ended,     weight[0], tip[0],   kappa[0], bend[0], kept[0], told[0],
                       rests[0], weight[1], tip[1],    kappa[1], bend[1],  kept[1], told[1], rests[1]};
   }
-  void clear(int i) {
-    for (double* row : all()) row[i] = 1;
-    next[i] = stop[i] = still_ground;
-  }
 };
 
 constexpr double hops_at_once = 16;  // until it is asked whether a row of hops dies out

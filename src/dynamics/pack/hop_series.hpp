@@ -44,14 +44,16 @@ struct HopSeries {
     const Pack root = xsimd::sqrt(xsimd::max(square, zero));
     return choose(flat, two * c1, c1 + root) / choose(flat, root - c2, zero - two * c2);
   }
-  // Exactly, in the lanes of `open`; on return those in which it was not found.
+  // Half the second derivative, to order 4 of the rotation.
+  Pack curve(const Pack& t) const { return c2 + t * (Pack(3.0) * c3 + t * (Pack(6.0) * c4)); }
+  // Exactly, by Halley's method, in the lanes of `open`; on return those in which it was not found.
   Pack landing(PackMask& open) const {
     Pack t = landing_about();
-    for (int round = 0; round < 12 && bits(open); ++round) {
-      const Pack step = height(t) / speed(t);
+    for (int round = 0; round < 2 || (round < 12 && bits(open)); ++round) {
+      const Pack f = height(t), slope = speed(t), step = f * slope / (slope * slope - f * curve(t));
       t = choose(open, t - step, t);
       open =
-          open & ~(xsimd::abs(step) <= Pack(1e-6) * xsimd::abs(t));  // and the step after this one is within round-off
+          open & ~(xsimd::abs(step) <= Pack(1e-5) * xsimd::abs(t));  // and the step after this one is within round-off
     }
     return t;
   }

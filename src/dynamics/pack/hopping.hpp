@@ -15,6 +15,8 @@ class Hopping : public LaneGroup<HopRows<Gravity>> {
   using Group::r_;
 
  public:
+  static constexpr bool ends_in_packs = false;
+
   template <class Lane>
   static void release(Lane& lane) {
     lane.settle();

@@ -14,7 +14,10 @@ template <class Rows>
 class LaneGroup {
  public:
   LaneGroup() {
-    for (int i = 0; i < march_slots; ++i) r_.clear(i);
+    for (double* row : r_.all()) std::fill_n(row, march_slots, 1.0);
+    std::fill_n(r_.next, march_slots, still_ground);
+    std::fill_n(r_.stop, march_slots, still_ground);
+    for (int i = 0; i < march_slots; ++i) r_.retire(i);
   }
 
   int count() const { return count_; }
@@ -37,6 +40,9 @@ class LaneGroup {
     copy_lane(r_, count_++, other.r_, i);
     other.close(i);
   }
+  const Rows& rows() const { return r_; }
+  // Lane `from` of a group with the same rows, as lane `to` of these.
+  void copy(int to, LaneGroup& other, int from) { copy_lane(r_, to, other.r_, from); }
 
  protected:
   using Gravity = typename Rows::Gravity;

@@ -12,19 +12,6 @@ namespace {
 constexpr int still_intervals = 16384;
 alignas(64) const double still_ground[still_intervals] = {};  // the floor after the record
 
-// Two lists of rows, one after the other.
-template <std::size_t A, std::size_t B>
-auto joined(const std::array<double*, A>& a, const std::array<double*, B>& b) {
-  if constexpr (B == 0) {
-    return a;
-  } else {
-    std::array<double*, A + B> all{};
-    for (std::size_t i = 0; i < A; ++i) all[i] = a[i];
-    for (std::size_t i = 0; i < B; ++i) all[A + i] = b[i];
-    return all;
-  }
-}
-
 // Lane `from` of the other rows becomes lane `to` of these.
 template <std::size_t Count>
 void copy_each(const std::array<double*, Count>& mine, int to, const std::array<double*, Count>& theirs, int from) {
@@ -33,6 +20,7 @@ void copy_each(const std::array<double*, Count>& mine, int to, const std::array<
 template <class Rows>
 void copy_lane(Rows& rows, int to, Rows& other, int from) {
   copy_each(rows.all(), to, other.all(), from);
+  if constexpr (requires { rows.law; }) rows.law.copy(to, other.law, from);
   if constexpr (Rows::Gravity::shaken) copy_each(rows.shakes.all(), to, other.shakes.all(), from);
   rows.next[to] = other.next[from];
   rows.stop[to] = other.stop[from];

@@ -15,7 +15,8 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N, class Gravity>
+// Orders of the steps that rock, and that slip.
+template <int N, int M, class Gravity>
 class SlideRock : public SlideRockSliding {
  public:
   using SlideRockSliding::SlideRockSliding;
@@ -29,13 +30,32 @@ class SlideRock : public SlideRockSliding {
     if (!in_a_group()) go_on();
   }
 
-  // Strikes the floor after a part x of what is left of the interval, with a rate per interval.
-  void strike_at(double x, double rate) {
+  void strike_at(const Impact& impact) {
+    see_rotation(impact.turned);
+    see_slip(impact.slid);
     theta_ = 0;
-    omega_ = side_ * rate / h_;
+    omega_ = side_ * impact.rate / h_;
     see_slip(xi_);
-    forward(x);
+    forward(impact.part);
     strike();
+    settle();
+  }
+
+  // After a part x of what is left of the interval the slip ends, or the stay on the corner; `top`: of the rotation.
+  void end_slip(double x, double top, bool impact) {
+    see_rotation(top);
+    if (impact) theta_ = 0;
+    if (!impact) w_ = 0;
+    forward(x);
+    if (impact) {
+      strike();
+    } else {
+      event();
+      if (mode_ == Mode::slide)
+        choose_flat();
+      else
+        choose_on_corner();
+    }
     settle();
   }
 
@@ -62,17 +82,20 @@ class SlideRock : public SlideRockSliding {
       case Mode::slide:
         slide();
         break;
+      case Mode::rock:
+        corner<N, false>();
+        break;
       default:
-        corner();
+        corner<M, true>();
     }
   }
 
   // ---- one corner
+  template <int K, bool slips>
   void corner() {
     const double hs = h_ * left_, hs2 = hs * hs;
     const Field next{next_floor(), Gravity::shaken ? next_gravity() : c_.g};
-    const bool slips = mode_ == Mode::slide_rock;
-    CornerSeries<N> y;
+    CornerSeries<K> y;
     y.theta[0] = theta_;
     y.omega[0] = omega_ * hs;
     y.rx[0] = rx_;
@@ -81,7 +104,7 @@ class SlideRock : public SlideRockSliding {
     y.w[0] = w_ * hs;
     const Forces begin = forces(rx_, ry_, omega_, field(), w_);
     if (!(begin.fy > 0)) return decline();
-    if (slips) {
+    if constexpr (slips) {
       slide_rock(y, hs, next);
     } else {
       const double over = hs2 / (c_.k2 + rx_ * rx_ + ry_ * ry_);
@@ -91,18 +114,18 @@ class SlideRock : public SlideRockSliding {
         y.rock(c_.g * over, a_ * over, (next.a - a_) * over);
     }
     // Which comes first?
-    const double reach = valid_part(y.omega[N + 1], y.w[N + 1], N + 1);
+    const double reach = valid_part(y.omega[K + 1], y.w[K + 1], K + 1, slips && c_.law);
     double x = reach;
     Cause cause = Cause::none;
-    double p[N + 2];
-    for (int k = 0; k < N + 2; ++k) p[k] = side_ * y.theta[k];
+    double p[K + 2];
+    for (int k = 0; k < K + 2; ++k) p[k] = side_ * y.theta[k];
     if (p[0] == 0 && p[1] == 0 && p[2] < 0 && p[2] > -1e-11 * c_.g * hs2 / c_.h) p[2] = 0;
-    const double falls = first_fall<N + 1>(p, reach);
+    const double falls = first_fall<K + 1>(p, reach);
     if (falls <= reach) x = falls, cause = Cause::impact;
     if (slips) {
-      for (int k = 0; k < N + 2; ++k) p[k] = sigma_ * y.w[k];
+      for (int k = 0; k < K + 2; ++k) p[k] = sigma_ * y.w[k];
       if (p[0] == 0 && p[1] < 0 && p[1] > -1e-9 * c_.g * hs2) p[1] = 0;
-      const double stops = first_fall<N + 1>(p, x);
+      const double stops = first_fall<K + 1>(p, x);
       if (stops <= x) x = stops, cause = Cause::stop;
     } else {
       const double held = grip(y, x, hs, next);
@@ -147,10 +170,11 @@ class SlideRock : public SlideRockSliding {
     }
   }
 
-  void slide_rock(CornerSeries<N>& y, double hs, Field next) const {
+  template <int K>
+  void slide_rock(CornerSeries<K>& y, double hs, Field next) const {
     const double hs2 = hs * hs, sigma_mu = sigma_ * c_.mu_k;
     if (c_.law) {
-      OwnFactor<N> factor(*c_.law, {*c_.law});
+      OwnFactor<K> factor(*c_.law, {*c_.law});
       y.slide_rock(c_.g * hs2, a_ * hs2, (next.a - a_) * hs2, c_.k2, sigma_mu, sigma_ / hs, factor);
     } else {
       NoFactor none;
@@ -168,21 +192,23 @@ class SlideRock : public SlideRockSliding {
 
   enum class Cause { none, impact, stop, grip };
 
-  template <int M>
-  static double value(const double (&c)[M], double x) {
-    double v = c[M - 1];
-    for (int k = M - 2; k >= 0; --k) v = v * x + c[k];
+  template <int terms>
+  static double value(const double (&c)[terms], double x) {
+    double v = c[terms - 1];
+    for (int k = terms - 2; k >= 0; --k) v = v * x + c[k];
     return v;
   }
 
   // mu_s f_y - |f_x| at x, rocking.
-  double grip(const CornerSeries<N>& y, double x, double hs, Field next) const {
+  template <int K>
+  double grip(const CornerSeries<K>& y, double x, double hs, Field next) const {
     const Forces f = rocking(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(next, x));
     return c_.mu_s * f.fy - magnitude(f.fx);
   }
 
   // Where the grip, which holds at both ends of the step, is lost in between; the end: nowhere.
-  double weakest(const CornerSeries<N>& y, double x, double hs, Field next, const Forces& begin, double last) const {
+  template <int K>
+  double weakest(const CornerSeries<K>& y, double x, double hs, Field next, const Forces& begin, double last) const {
     const double first = c_.mu_s * begin.fy - magnitude(begin.fx);
     if (smaller(first, last) > 0.05 * c_.g) return x;
     const double middle = 0.5 * x, here = grip(y, middle, hs, next);
@@ -194,7 +220,8 @@ class SlideRock : public SlideRockSliding {
   }
 
   // Illinois; the grip holds at the start, or was just found to.
-  double lost_grip(const CornerSeries<N>& y, double hi, double hs, Field next, double f_hi) const {
+  template <int K>
+  double lost_grip(const CornerSeries<K>& y, double hi, double hs, Field next, double f_hi) const {
     double lo = 0, f_lo = grip(y, 0, hs, next);
     if (!(f_lo > 0)) return 0;
     int side = 0;
@@ -218,11 +245,13 @@ class SlideRock : public SlideRockSliding {
     return hi;
   }
 
-  Forces forces_at(const CornerSeries<N>& y, double x, double hs, Field next) const {
+  template <int K>
+  Forces forces_at(const CornerSeries<K>& y, double x, double hs, Field next) const {
     return forces(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(next, x), value(y.w, x) / hs);
   }
 
-  void watch(const CornerSeries<N>& y, double x, double hs, Field next, const Forces& begin) {
+  template <int K>
+  void watch(const CornerSeries<K>& y, double x, double hs, Field next, const Forces& begin) {
     const double theta = value(y.theta, x), omega = value(y.omega, x), rx = value(y.rx, x), ry = value(y.ry, x);
     const Forces end = forces_at(y, x, hs, next);
     if (!(end.fy > 0)) return decline();
@@ -232,7 +261,7 @@ class SlideRock : public SlideRockSliding {
     const double c = arm(side_), lever = side_ * half_base_ / (c_.h * c_.h + c * c);
     const auto slip = [&](double at) { return value(y.xi, at) + side_ * half_base_ * versine(value(y.theta, at)); };
     if (y.omega[0] * omega < 0) {
-      const double top = sign_change<N + 1>(y.omega, x);
+      const double top = sign_change<K + 1>(y.omega, x);
       see_rotation(value(y.theta, top));
       see_slip(slip(top));
       const Forces f = forces_at(y, top, hs, next);
@@ -246,14 +275,15 @@ class SlideRock : public SlideRockSliding {
     const double before = y.w[0] + lever * (c_.h * rx_ + c * ry_) * y.omega[0];
     const double after = (mode_ == Mode::rock ? 0.0 : value(y.w, x)) + lever * (c_.h * rx + c * ry) * omega;
     if (before * after < 0 && magnitude(u) + magnitude(before) + magnitude(after) > peak_slip_) {
-      double rate[N + 1];
-      for (int k = 1; k <= N; ++k) rate[k] = k * (y.xi[k] - lever * (c_.h * y.ry[k] - c * y.rx[k]));
-      see_slip(slip(sign_change<N - 1>(rate + 1, x)));
+      double rate[K + 1];
+      for (int k = 1; k <= K; ++k) rate[k] = k * (y.xi[k] - lever * (c_.h * y.ry[k] - c * y.rx[k]));
+      see_slip(slip(sign_change<K - 1>(rate + 1, x)));
     }
   }
 
   // Where the squared acceleration has a top inside the step: between the ends its square is all but a parabola.
-  void feel_top(const CornerSeries<N>& y, double x, double hs, Field next, const Forces& begin, const Forces& end) {
+  template <int K>
+  void feel_top(const CornerSeries<K>& y, double x, double hs, Field next, const Forces& begin, const Forces& end) {
     const auto square = [&](const Forces& f) { return f.fx * f.fx + (f.fy - c_.g) * (f.fy - c_.g); };
     const double first = square(begin), last = square(end), more = 0.01 * (first + last);
     if (larger(first, last) + more < force2_) return;
@@ -269,7 +299,8 @@ class SlideRock : public SlideRockSliding {
     }
   }
 
-  void overturn(const CornerSeries<N>& y, double x, double hs, Field next) {
+  template <int K>
+  void overturn(const CornerSeries<K>& y, double x, double hs, Field next) {
     double lo = 0, hi = x;
     for (int round = 0; round < 50; ++round) {
       const double middle = 0.5 * (lo + hi);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/pack/slide_rock_lane.hpp"
+#include "dynamics/pack/slide_rock_search.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -77,18 +78,13 @@ class SlideRockHops : public SlideRockLane {
   bool dies_out() {
     const double omega = magnitude(omega_), square = omega * omega, span = bounds_.row * omega / h_;
     if (span > longest_row * bounds_.slow || square >= on(side_).told) return false;
-    double push = 0, lift = 0, slow = bounds_.slow, growth = 1;  // growth: exp(V)
-    if (m_ < last_ && !quiet_row(span, push, lift, slow, growth)) return false;
-    const double rotation = growth * square / (2 * slow);
-    const double least = m_ < last_ ? 1e-3 : 1e-5;  // at the end of all the hops' time counts
-    if (rotation > peak_rotation_ || rotation * c_.h > least * smaller(c_.left, c_.right)) return false;
-    if (magnitude(xi_) + half_base_ * rotation * rotation > peak_slip_ + least_slip) return false;
-    const double swing = 2 * c_.h * growth * square;
-    if (!unnoticed(push, lift, swing)) return false;
+    RowOfHops row{span, square, magnitude(a_), 0, bounds_.slow, 1};
+    if (!unnoticed(row)) return false;
+    if (m_ < last_ && !(quiet_row(row) && unnoticed(row))) return false;
     if (m_ >= last_) {
       hop_to_end(omega);
     } else if (const double both = on(-1).kept * on(1).kept; both > 0) {  // in a steady field
-      events_ += static_cast<int>(std::ceil(std::log(c_.rest_rotation / hop(side_, omega)) / std::log(both)));
+      events_ += static_cast<int>(std::ceil(log_outside(c_.rest_rotation / hop(side_, omega)) / log_outside(both)));
     }
     if (events_ > most_events) declined_ = true;
     return true;
@@ -129,35 +125,47 @@ class SlideRockHops : public SlideRockLane {
     return smaller(smaller(grip, b.unseen_push(fx, lift, force2_)), b.tips * (1 - share));
   }
 
-  // Is it certain that the floor does not tip the block while a row of hops lasts? span: the row's duration times slow,
-  // in intervals. Sets the bounds.
-  bool quiet_row(double span, double& push, double& lift, double& slow, double& growth) const {
-    const double unit = magnitude(c_.scale), *a = t_.acceleration.data() + m_;
+  struct RowOfHops {
+    double span, square;  // its duration times slow, in intervals; squared rate at the start
+    double push, lift;    // bounds of the floor's acceleration
+    double slow, growth;  // alpha at least; exp(V)
+  };
+
+  // An upper bound of exp(x), x >= 0.
+  static double above_exp(double x) { return x < 1.75 ? 1 + x * (1 + x) : exp_outside(x); }
+
+  // Is it certain that the floor does not tip the block while a row of hops lasts? Sets the bounds.
+  bool quiet_row(RowOfHops& row) const {
+    const double unit = magnitude(c_.scale), *a = t_.acceleration.data() + m_, span = row.span;
     const double lifts = magnitude(c_.vertical_scale), *v = shaken_ ? t_.vertical.data() + m_ : nullptr;
+    double &push = row.push, &lift = row.lift, &slow = row.slow;
     int end = static_cast<int>(span / slow) + 2;
     if (m_ + end > last_ || unit * bound_between(t_, m_, m_ + end) > bounds_.tips) return false;
-    double sum = 0, sum_lift = 0, variation = 0;
-    push = unit * magnitude(a[0]);
-    if (shaken_) lift = lifts * magnitude(v[0]);
-    for (int j = 0; j < end;) {
-      for (int k = j; shaken_ && k < end; ++k) {
-        lift = larger(lift, lifts * magnitude(v[k + 1]));
-        sum_lift += magnitude(v[k + 1] - v[k]);
-      }
-      for (; j < end; ++j) {
-        push = larger(push, unit * magnitude(a[j + 1]));
-        sum += magnitude(a[j + 1] - a[j]);
-      }
+    double variation = 0;
+    for (int done = 0; done < end;) {
+      done = end;
+      const Swing shaking = swing(a, end), lifting = shaken_ ? swing(v, end) : Swing{0, 0};
+      push = unit * shaking.most;
+      lift = lifts * lifting.most;
       const double rest = 1 - lift / c_.g;  // of gravity
       slow = bounds_.slow * rest - bounds_.slow1 * push;
       if (push > bounds_.tips * rest || push > slips_at(c_.g - lift)) return false;
-      variation = (unit * bounds_.fast * sum + lifts * bounds_.fast_lift * sum_lift) / slow;
-      const double need = span / slow * std::exp(0.5 * variation) + 2;
+      variation = (unit * bounds_.fast * shaking.path + lifts * bounds_.fast_lift * lifting.path) / slow;
+      const double need = span / slow * above_exp(0.5 * variation) + 2;
       if (!(need < longest_row) || m_ + need > last_) return false;
       end = static_cast<int>(need);
     }
-    growth = std::exp(variation);
+    row.growth = above_exp(variation);
     return true;
+  }
+
+  // A row of hops is no peak, and slips nowhere.
+  bool unnoticed(const RowOfHops& row) const {
+    const double rotation = row.growth * row.square / (2 * row.slow);
+    const double least = m_ < last_ ? 1e-3 : 1e-5;  // at the end of all the hops' time counts
+    if (rotation > peak_rotation_ || rotation * c_.h > least * smaller(c_.left, c_.right)) return false;
+    if (magnitude(xi_) + half_base_ * rotation * rotation > peak_slip_ + least_slip) return false;
+    return unnoticed(row.push, row.lift, 2 * c_.h * row.growth * row.square);
   }
 
   // Small hops neither slip nor make a new peak of the acceleration while the floor's is `push` at most, and `v`

@@ -5,11 +5,13 @@
 
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
-#include "dynamics/pack/search.hpp"
-#include "dynamics/pack/slide_rock_blow.hpp"
 #include "dynamics/pack/ground.hpp"
 #include "dynamics/pack/hop_rows.hpp"
+#include "dynamics/pack/outside.hpp"
+#include "dynamics/pack/search.hpp"
+#include "dynamics/pack/slide_rock_blow.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
+#include "dynamics/pack/slide_rock_strikes.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -105,17 +107,67 @@ class SlideRockLane {
     r.law.enter(i, c_);
   }
 
+  // The block in lane i of the rows is about to strike the floor as lane l of a pack.
+  template <class Gravity>
+  void come_down(const SlideRockRows<Gravity>& r, int i, StrikeRows& k, int l) {
+    const Ground &from = on(side_), &to = on(-side_);
+    const double h2 = h_ * h_, per_inertia = h2 * to.per_inertia;
+    see_room(r, i);
+    see_slip(xi_);
+    k.gravity[l] = c_.g * per_inertia;
+    k.push[l] = -side_ * c_.scale * per_inertia;
+    k.bend0[l] = to.bend0;
+    k.bend1[l] = to.bend1;
+    k.bend2[l] = to.bend2;
+    k.arm[l] = magnitude(to.arm);
+    k.height[l] = c_.h;
+    k.kept[l] = from.kept;
+    k.told[l] = from.told * h2;
+    k.rests[l] = sticks_ ? to.rests * h2 : 1e300;
+    k.peak[l] = peak_slip_;
+    k.shift[l] = -side_ * xi_;
+    k.limit2[l] = bounds_.limit2;
+    k.row[l] = bounds_.row;
+    k.slow[l] = longest_row * bounds_.slow * h2;
+    k.last_told[l] = to.told * h2;
+    k.fx[l] = bounds_.fx * h2;
+    k.fx1[l] = bounds_.fx1;
+    k.lift[l] = bounds_.lift * h2;
+    k.lift1[l] = bounds_.lift1;
+    k.tips[l] = bounds_.tips * h2;
+  }
+  // It did so, and rocks on in lane i of the rows.
+  template <class Gravity>
+  void came_down(const SlideRockRows<Gravity>& r, int i, double peak, bool told) {
+    side_ = -side_;
+    room_ = r.room[i];
+    peak_slip_ = larger(peak_slip_, peak);
+    impacts_ += told;
+    in_between_ = true;
+    event();
+  }
+
+  // Its slip, or its stay on the corner, is about to end in a pack.
+  void end_in_between() { in_between_ = true; }
+
   // Back from the packs.
   template <class Gravity>
   void leave(const SlideRockRows<Gravity>& r, int i) {
     peak_rotation_ = larger(peak_rotation_, r.turned[i]);
-    if (r.room[i] > room_) peak_slip_ = larger(peak_slip_, r.room[i] + side_ * xi_);
+    see_room(r, i);
     leave_rows(r, i);
+    if (in_between_ && r.left[i] < 1) {
+      left_ = r.left[i];
+      a_ = c_.scale * r.a[i];
+    }
+    in_between_ = false;
   }
   template <class Gravity, class Friction>
   void leave(const SlipRows<Gravity, Friction>& r, int i) {
     peak_slip_ = larger(peak_slip_, r.peak[i]);
-    if (!leave_rows(r, i)) return;
+    const bool moved = leave_rows(r, i);
+    in_between_ = false;
+    if (!moved) return;
     const double xi = side_ * r.xi[i];
     path_ += magnitude(xi - xi_);
     xi_ = xi;
@@ -170,10 +222,14 @@ class SlideRockLane {
     ry_ = r.ry[i];
     return true;
   }
+  template <class Gravity>
+  void see_room(const SlideRockRows<Gravity>& r, int i) {
+    if (r.room[i] > room_) peak_slip_ = larger(peak_slip_, r.room[i] + side_ * xi_);
+  }
   // False: it has not moved.
   template <class Rows>
   bool leave_floor(const Rows& r, int i) {
-    if (r.next[i] == entry_) return false;
+    if (r.next[i] == entry_) return in_between_;
     m_ += static_cast<int>(r.next[i] - entry_) / Rows::Gravity::stride;
     stand_at_knot();
     return true;
@@ -225,7 +281,7 @@ class SlideRockLane {
   double quiet(double a, double g) const { return smaller(tips_at(a, g), slips_at(g)); }
 
   // Of a slip with velocity w [m/s].
-  double mu_k(double w) const { return c_.law ? c_.mu_k * friction_factor(*c_.law, magnitude(w)) : c_.mu_k; }
+  double mu_k(double w) const { return c_.law ? c_.mu_k * friction_factor_outside(*c_.law, magnitude(w)) : c_.mu_k; }
 
   // Floor acceleration and effective gravity.
   struct Field {
@@ -252,7 +308,7 @@ class SlideRockLane {
     if (square > force2_) force2_ = square;
   }
   double slip_of(double xi, double theta) const {
-    const double half = std::sin(0.5 * theta);
+    const double half = sin_outside(0.5 * theta);
     return xi + side_ * half_base_ * 2 * half * half;
   }
   void see_slip(double u) { peak_slip_ = larger(peak_slip_, magnitude(u)); }
@@ -299,7 +355,8 @@ class SlideRockLane {
   double hopping_ = 0;  // time that the hops take that were not gone through
   mutable const double* entry_ = nullptr;
   int events_ = 0, impacts_ = 0;
-  bool hops_ = false;  // small hops lie ahead
+  bool hops_ = false;        // small hops lie ahead
+  bool in_between_ = false;  // in a pack: it may have moved without having reached a knot
   bool ended_ = false, declined_ = false, overturned_ = false;
 };
 

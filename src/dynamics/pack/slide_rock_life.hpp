@@ -16,10 +16,10 @@ class SlideRockLife : public SlideRockHops {
   using SlideRockHops::SlideRockHops;
 
   // Part of a step in which the terms left out by series of this order are small enough; their last ones per size.
-  double valid_part(double omega, double w, int order) const {
+  double valid_part(double omega, double w, int order, bool by_law) const {
     const double last = larger(magnitude(omega), magnitude(w) / c_.h);
-    const double allowed = c_.law ? neglected_by_laws * left_ : neglected;
-    return last < allowed ? 1 : larger(1e-3, std::pow(allowed / last, 1.0 / (c_.law ? order - 1 : order)));
+    const double allowed = by_law ? neglected_by_laws * left_ : neglected;
+    return last < allowed ? 1 : larger(1e-3, pow_outside(allowed / last, 1.0 / (by_law ? order - 1 : order)));
   }
 
   // ---- rest

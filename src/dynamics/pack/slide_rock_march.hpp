@@ -5,9 +5,10 @@
 
 #include "base/pack.hpp"
 #include "dynamics/pack/corner_series.hpp"
-#include "dynamics/pack/rock_series.hpp"
 #include "dynamics/pack/lane_group.hpp"
+#include "dynamics/pack/rock_series.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
+#include "dynamics/pack/slide_rock_strikes.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -20,21 +21,25 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
 
  public:
   using Group::count;
-  // Bits of the lanes in which something happens; of those that strike the floor, and nothing else.
+  // Bits of the lanes that strike the floor, and nothing else; of the others in which something happens.
   struct Apart {
-    unsigned all = 0, strikes = 0;
+    unsigned strikes, others;
   };
   static constexpr int packs = march_slots / pack_lanes;
 
-  // One interval for every lane; none may be at the end of its record.
-  void march(Apart (&apart)[packs]) {
+  // One interval for every lane; none may be at the end of its record. How many lanes strike the floor.
+  int march(Apart (&apart)[packs]) {
     const Pack one(1.0);
+    int strikes = 0;
     for (int i = 0; i < count(); i += pack_lanes) {
       const int used = count() - i;
       const unsigned here = used < pack_lanes ? (1U << used) - 1 : (1U << pack_lanes) - 1;
       const bool whole = !bits(load(r_.left + i) != one);
-      apart[i / pack_lanes] = whole ? march<true>(i, here) : march<false>(i, here);
+      Apart& lanes = apart[i / pack_lanes];
+      lanes = whole ? march<true>(i, here) : march<false>(i, here);
+      strikes += __builtin_popcount(lanes.strikes);
     }
+    return strikes;
   }
 
   // How many intervals every lane can go before one meets the end of its record; 0: lane `which` has met it.
@@ -47,19 +52,89 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     return least;
   }
 
-  // Impacts in the lanes from i on: after which part of what is left of the interval, with which rate.
-  void strike(int i, double* parts, double* rates) const {
-    const Pack zero(0.0), one(1.0), left = load(r_.left + i), a = load(r_.a + i), push = load(r_.push + i);
+  // A pack of impacts.
+  struct Strikes {
+    StrikeRows rows;
+    alignas(64) double parts[pack_lanes], rates[pack_lanes];  // of what is left of the interval; falling
+    unsigned found;                                           // bits of the impacts of which that is certain
+    unsigned told, rock;  // those that count; that rock on, as far as the knot ahead
+  };
+
+  // The blocks of the first pack strike the floor. Those that rock on, certainly without a slip, or a row of hops that die
+  // out, stand on the other corner then, at the knot ahead unless something more happens before.
+  void strike(Strikes& s, unsigned here) {
+    StrikeRows& k = s.rows;
+    const Pack zero(0.0), one(1.0), left = load(r_.left), a = load(r_.a), a_next = fetch(r_.next), change = a_next - a;
     RockSeries<N> y;
-    expand<false>(y, i, left, load(r_.omega + i), Interval(r_.shakes, i, r_.next + i).per_inertia(load(r_.gravity + i)),
-                  push, a, fetch(r_.next + i) - a);
+    expand<false>(y, 0, left, load(r_.omega), Interval(r_.shakes, 0, r_.next).per_inertia(load(r_.gravity)),
+                  load(r_.push), a, change);
     const Pack end = y.sum(y.theta), guess = first_zero(y.theta[0], y.omega[0], end);
     const Pack part = bracketed_root<N + 1>(y.theta, one, zero, one, guess, end <= zero);
-    store(parts, part);
-    store(rates, y.at(y.omega, part) / left);
+    const Pack falls = y.at(y.omega, part) / left, omega = zero - load(k.kept) * falls;
+    const Pack ahead = left - left * part, now = a + change * part;
+    // A block that rises first falls all the while.
+    const Pack bow = Pack(2.0) * xsimd::abs(y.omega[2]) + Pack(6.0) * xsimd::abs(y.omega[3]);
+    const PackMask rises = y.omega[0] > zero, once = (y.omega[0] < zero) | (y.omega[1] + bow < zero);
+    const PackMask tops = rises & once & top_matters(y, end);
+    if (bits(tops) & here) {
+      turn(y, 0, y.sum(y.omega), tops);
+      const Pack peak = load(k.peak);
+      store(k.peak, choose(tops, xsimd::max(peak, load(r_.room) - load(k.shift)), peak));
+    }
+    store(s.parts, part);
+    store(s.rates, falls);
+    s.found = bits(once & (part > zero) & (falls < zero)) & here;
+    s.told = bits(falls * falls >= load(k.told));
+    s.rock = Gravity::shaken ? 0 : bits(stand(k, omega, now, ahead, a_next)) & s.found;
+    if (s.rock) march<false>(0, s.rock);
   }
 
  private:
+  // The block may rise higher than ever before, or slip farther then; theta: at the end of the step.
+  PackMask top_matters(const RockSeries<N>& y, const Pack& theta) const {
+    const Pack reach = xsimd::abs(y.omega[0]) + xsimd::abs(y.sum(y.omega)) + xsimd::abs(y.omega[1]);
+    return xsimd::max(y.theta[0], theta) + reach > load(r_.look);
+  }
+
+  // On the corner that came down, with a rate; true: there is nothing else to it.
+  PackMask stand(const StrikeRows& k, const Pack& omega, const Pack& a, const Pack& ahead, const Pack& a_next) {
+    const Pack zero(0.0), two(2.0), arm = load(k.arm), height = load(k.height), omega2 = omega * omega;
+    const Pack gravity = load(k.gravity), push = load(k.push), weight = zero - load(r_.weight);
+    const Pack weight_g = load(r_.weight_g), mu = load(r_.mu), turned = load(r_.turned), base = load(r_.half_base);
+    const Pack pull = arm * gravity + height * (push * a), floor = weight * a;
+    const Pack fx = arm * omega2 - height * pull + floor, lift = zero - arm * pull - height * omega2;
+    const Pack grip = mu * (weight_g + lift) - xsimd::abs(fx);
+    const Pack room = xsimd::max(load(k.peak) - load(k.shift), zero);
+
+    const Pack most = xsimd::max(xsimd::abs(floor), xsimd::abs(weight * a_next)), swing = two * height * omega2;
+    const Pack hop_fx = load(k.fx) + load(k.fx1) * most + swing, hop_lift = load(k.lift) + load(k.lift1) * most + swing;
+    const PackMask dies = (load(k.row) * omega <= load(k.slow)) & (omega2 < load(k.last_told)) &
+                          (hop_fx * hop_fx + hop_lift * hop_lift < load(r_.seen)) &
+                          (hop_fx < mu * (weight_g - hop_lift));
+    const Pack limit2 = Pack(4.0) * xsimd::min(load(k.limit2), turned * turned);
+    const PackMask hops = (omega2 * omega2 < limit2 * (pull * pull)) & (xsimd::abs(floor) <= load(k.tips));
+    const PackMask rocks =
+        (grip > zero) & (omega2 >= load(k.rests)) & (ahead > Pack(1e-9)) & (omega > zero) & ~(dies | hops);
+
+    store(r_.theta, zero);
+    store(r_.omega, omega);
+    store(r_.rx, zero - arm);
+    store(r_.ry, height);
+    store(r_.a, a);
+    store(r_.left, ahead);
+    store(r_.grip, grip);
+    store(r_.square, fx * fx + lift * lift);
+    store(r_.gravity, gravity);
+    store(r_.push, push);
+    store(r_.weight, weight);
+    store(r_.room, room);
+    store(r_.look, xsimd::min(turned, xsimd::sqrt(two * room / base)));
+    store(r_.bend0, load(k.bend0));
+    store(r_.bend1, load(k.bend1));
+    store(r_.bend2, load(k.bend2));
+    return rocks;
+  }
+
   template <bool Whole>
   Apart march(int i, unsigned here) {
     const Pack zero(0.0), one(1.0), left = Whole ? one : load(r_.left + i);
@@ -75,10 +150,10 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack rate = xsimd::abs(y.omega[0]), reach = rate + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
     const Pack low = xsimd::min(y.theta[0], theta), high = xsimd::max(y.theta[0], theta);
     const PackMask matters = (high + reach > load(r_.look + i)) | (low < reach), falls = theta <= zero;
-    const PackMask turns = y.omega[0] * omega < zero,
-                   starts = (y.omega[0] == zero) & (y.omega[1] > Pack(-1e-11) * gravity);
-    const PackMask wavers = turns_twice(y, omega) | ((y.omega[0] * omega == zero) & ~(starts & (omega > zero)));
-    PackMask strange = (wavers & matters) | ~(theta < Pack(1.5)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
+    // Does the rotation turn? It may turn twice where its acceleration is large enough; from standstill it rises.
+    const Pack start = y.omega[0] + Pack(1e-280), rises_by = y.omega[1] + (start + start) + Pack(1e-11) * gravity;
+    const PackMask turns = start * omega < zero, wavers = ~turns & (start * rises_by <= zero);
+    PackMask strange = (wavers & matters) | ~(theta < Pack(1.57)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
     const Pack omega1 = omega;
     if constexpr (!Whole) omega = omega * (one / left);
 
@@ -89,27 +164,34 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack square0 = load(r_.square + i), square = fx * fx + lift * lift;
     const Pack bend =
         load(r_.bend0 + i) + (shakes.bent(load(r_.bend1 + i) * xsimd::abs(change)) + load(r_.bend2 + i) * rate) * rate;
-    const Pack most = xsimd::max(square0, square) * Pack(1 + 1.0 / 256) + Pack(257.0) * (bend * bend);
+    const Pack ends = xsimd::max(square0, square), bend2 = bend * bend;
+    const Pack most = ends * Pack(1 + 1.0 / 256) + Pack(257.0) * bend2;
     const Pack seen = load(r_.seen + i);
     const PackMask slips = xsimd::min(grip0, grip) <= bend, tops = most > seen;
     if (const PackMask about = turns & matters & ~(strange | slips | falls); bits(about))
       strange = strange | turn(y, i, omega1, about);
     const PackMask stays = strange | slips | falls;
-    if (const PackMask feels = tops & ~stays; bits(feels))
-      watch<Whole>(y, i, left, {omega, rx, ry, a_next}, feels, shakes);
+    // No top within where the force rises or falls all through: it leaves its chord by 4 bend x (1 - x) at most.
+    const Pack rises = square - square0;
+    const PackMask bows = tops & ~stays & (rises * rises <= Pack(64.0) * (bend2 * ends));
+    store(r_.seen + i, choose(stays, seen, xsimd::max(seen, ends)));
+    if (bits(bows)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, bows, shakes);
 
-    store(r_.theta + i, choose(stays, y.theta[0], theta));
-    store(r_.omega + i, choose(stays, omega0, omega));
-    store(r_.rx + i, choose(stays, y.rx[0], rx));
-    store(r_.ry + i, choose(stays, y.ry[0], ry));
-    store(r_.a + i, choose(stays, a, a_next));
+    const PackMask goes = ~stays;
+    store_where(goes, r_.theta + i, theta);
+    store_where(goes, r_.omega + i, omega);
+    store_where(goes, r_.rx + i, rx);
+    store_where(goes, r_.ry + i, ry);
+    store_where(goes, r_.a + i, a_next);
     shakes.keep(r_.shakes, i, stays);
-    store(r_.grip + i, choose(stays, grip0, grip));
-    store(r_.square + i, choose(stays, square0, square));
-    if constexpr (!Whole) store(r_.left + i, choose(stays, left, one));
+    store_where(goes, r_.grip + i, grip);
+    store_where(goes, r_.square + i, square);
+    if constexpr (!Whole) store_where(goes, r_.left + i, one);
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all, Gravity::stride);
-    return {all, bits(falls & ~strange & ~slips & ~tops & (omega0 < zero) & (omega < zero)) & all};
+    const PackMask moves = omega0 != zero;
+    const unsigned strikes = bits(falls & ~strange & ~slips & ~tops & moves & (omega < zero)) & all;
+    return {strikes, all & ~strikes};
   }
 
   template <bool Whole, class Field>
@@ -130,9 +212,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
 
   // The rotation turns, near a peak or the floor: the peaks. Lanes that touch the floor.
   PackMask turn(const RockSeries<N>& y, int i, const Pack& omega, const PackMask& lanes) {
-    const Pack zero(0.0), one(1.0), sense = choose(y.omega[0] > zero, one, zero - one);
-    const Pack guess = first_zero(sense * y.omega[0], sense * y.omega[1], sense * omega);
-    const Pack x = bracketed_root<N + 1>(y.omega, sense, zero, one, guess, lanes), theta = y.at(y.theta, x);
+    const Pack zero(0.0), theta = y.at(y.theta, turning_point(y, omega));
     const Pack base = load(r_.half_base + i), turned = load(r_.turned + i), room = load(r_.room + i);
     const Pack adds = base * versine(theta);
     const PackMask seen = lanes & (theta > zero);

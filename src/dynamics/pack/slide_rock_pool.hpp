@@ -6,8 +6,8 @@
 
 #include <optional>
 
-#include "dynamics/pack/slide_rock.hpp"
 #include "dynamics/pack/hopping.hpp"
+#include "dynamics/pack/slide_rock.hpp"
 #include "dynamics/pack/slide_rock_march.hpp"
 #include "dynamics/pack/slide_rock_slides.hpp"
 #include "dynamics/pack/slide_rock_slips.hpp"
@@ -26,16 +26,16 @@ class SlideRockPool {
 
   void run() {
     for (;;) {
-      const bool marching = rocks_.count() > 0;
-      if (ready(strikes_, marching))
-        strike();
-      else if (ready(hops_, marching))
+      const bool marching = rocks_.count() > pack_lanes;  // in full packs
+      if (ready(hops_, marching))
         to_end(hops_);
+      else if (ready(slip_ends_, marching))
+        end_slips(slip_ends_);
       else if (ready(slips_, marching))
         to_end(slips_);
       else if (slide(marching))
         continue;
-      else if (!marching)
+      else if (rocks_.count() == 0)
         return;
       else
         march();
@@ -43,6 +43,9 @@ class SlideRockPool {
   }
 
  private:
+  using March = SlideRockMarch<N, Gravity>;
+  using Apart = typename March::Apart;
+
   // A pack is full, or there is nothing better to do.
   template <class Group>
   static bool ready(const Group& group, bool marching) {
@@ -51,8 +54,12 @@ class SlideRockPool {
 
   bool slide(bool marching) {
     if constexpr (Friction::by_speed) {
-      if (!ready(slides_, marching)) return false;
-      to_end(slides_);
+      if (ready(slide_ends_, marching))
+        end_slips(slide_ends_);
+      else if (ready(slides_, marching))
+        to_end(slides_);
+      else
+        return false;
       return true;
     }
     return false;
@@ -63,18 +70,24 @@ class SlideRockPool {
     if (free_ <= 0) free_ = rocks_.free(which);
     if (free_ <= 0) return alone(which);
     --free_;
-    typename SlideRockMarch<N, Gravity>::Apart apart[SlideRockMarch<N, Gravity>::packs];
-    const int count = rocks_.count();
-    rocks_.march(apart);
-    for (int p = (count + pack_lanes - 1) / pack_lanes; p-- > 0;)
-      for (unsigned open = apart[p].all; open;) {  // downwards, as the last one fills a gap
+    Apart apart[March::packs];
+    const int packs = (rocks_.count() + pack_lanes - 1) / pack_lanes;
+    const int strikes = rocks_.march(apart);
+    if (enough(strikes)) strike(apart, packs);
+    clear_upper_parts();
+    for (int p = packs; p-- > 0;)
+      for (unsigned open = apart[p].others; open;) {  // downwards, as the last one fills a gap
         const int l = 31 - __builtin_clz(open), i = p * pack_lanes + l;
         open &= ~(1U << l);
         if (apart[p].strikes >> l & 1U)
-          strikes_.take(rocks_, i);
+          struck(i);
         else
           alone(i);
       }
+  }
+  // Impacts are gone through where there are enough of them; the others wait, and fall again in the next march.
+  bool enough(int strikes) const {
+    return strikes >= pack_lanes || (strikes > 0 && strikes * strikes >= rocks_.count());
   }
 
   void alone(int i) {
@@ -84,25 +97,55 @@ class SlideRockPool {
     settle(lane);
   }
 
-  // Impacts, for the last pack of the lanes that wait for them.
-  void strike() {
-    const int first = (strikes_.count() - 1) / pack_lanes * pack_lanes;
-    alignas(64) double parts[pack_lanes], rates[pack_lanes];
-    strikes_.strike(first, parts, rates);
-    for (int i = strikes_.count(); i-- > first;) {
-      const int lane = strikes_.lane(i);
-      strikes_.remove(*lanes_[lane], i);
-      lanes_[lane]->strike_at(parts[i - first], rates[i - first]);
-      settle(lane);
+  // Where it is not certain what follows, `others` says so.
+  void strike(Apart* apart, int packs) {
+    int slots[march_slots], count = 0;
+    for (int p = 0; p < packs; ++p)
+      for (unsigned open = apart[p].strikes; open; open &= open - 1)
+        slots[count++] = p * pack_lanes + __builtin_ctz(open);
+    for (int first = 0; enough(count - first); first += pack_lanes)
+      strike(slots + first, std::min(count - first, pack_lanes), apart);
+  }
+  void strike(const int* slots, int count, Apart* apart) {
+    for (int l = 0; l < count; ++l) {
+      strikes_.copy(l, rocks_, slots[l]);
+      lanes_[rocks_.lane(slots[l])]->come_down(rocks_.rows(), slots[l], strike_.rows, l);
     }
+    strikes_.strike(strike_, (1U << count) - 1);
+    for (int l = 0; l < count; ++l) {
+      const int i = slots[l], p = i / pack_lanes;
+      if (strike_.rock >> l & 1U) {
+        rocks_.copy(i, strikes_, l);
+        lanes_[rocks_.lane(i)]->came_down(rocks_.rows(), i, strike_.rows.peak[l], strike_.told >> l & 1U);
+      } else {
+        apart[p].others |= 1U << i % pack_lanes;
+        if (!(strike_.found >> l & 1U)) apart[p].strikes &= ~(1U << i % pack_lanes);
+        impacts_[i] = {strike_.parts[l], strike_.rates[l], strikes_.rows().turned[l], strike_.rows.peak[l]};
+      }
+    }
+  }
+
+  // What follows from an impact, for a lane by itself.
+  void struck(int i) {
+    const int lane = rocks_.lane(i);
+    const Impact impact = impacts_[i];
+    rocks_.remove(*lanes_[lane], i);
+    lanes_[lane]->strike_at(impact);
+    settle(lane);
   }
 
   // One step for a group that says which lanes leave it.
   template <class Group>
   void to_end(Group& group) {
     const std::uint64_t apart = group.march();
+    clear_upper_parts();
     for (int i = group.count() < 64 ? group.count() : 64; i-- > 0;) {
       if (!(apart >> i & 1U)) continue;
+      if constexpr (Group::ends_in_packs)
+        if (group.ends() >> i & 1U) {
+          ends_of(group).take(group, i);
+          continue;
+        }
       const int lane = group.lane(i);
       group.remove(*lanes_[lane], i);
       group.release(*lanes_[lane]);
@@ -110,9 +153,33 @@ class SlideRockPool {
     }
   }
 
+  auto& ends_of(const SlideRockSlips<M, Gravity, Friction>&) { return slip_ends_; }
+  auto& ends_of(const SlideRockSlides<slide_order, Friction>&) { return slide_ends_; }
+
+  // The last pack of the lanes whose slips end.
+  template <class Group>
+  void end_slips(Group& group) {
+    const int first = (group.count() - 1) / pack_lanes * pack_lanes, count = group.count() - first;
+    SlipEnds ends;
+    group.finish(first, (1U << count) - 1, ends);
+    clear_upper_parts();
+    for (int l = count; l-- > 0;) {
+      const int number = group.lane(first + l);
+      SlideRock<N, M, Gravity>& lane = *lanes_[number];
+      const bool found = ends.found >> l & 1U;
+      if (found) lane.end_in_between();
+      group.remove(lane, first + l);
+      if (found)
+        lane.end_slip(ends.parts[l], ends.tops[l], ends.impacts >> l & 1U);
+      else
+        lane.go_on();
+      settle(number);
+    }
+  }
+
   // The lane goes on in a group, or with the next sample.
   void settle(int number) {
-    SlideRock<M, Gravity>& lane = *lanes_[number];
+    SlideRock<N, M, Gravity>& lane = *lanes_[number];
     if (lane.ended()) {
       hand_out(number);
       return refill(number);
@@ -153,11 +220,13 @@ class SlideRockPool {
   Response* responses_;
   std::uint8_t* declined_;
   std::size_t taken_ = 0;
-  SlideRockMarch<N, Gravity> rocks_, strikes_;
-  SlideRockSlips<M, Gravity, Friction> slips_;
-  SlideRockSlides<slide_order, Friction> slides_;
+  March rocks_, strikes_;  // those of the next impacts: the first pack of it
+  typename March::Strikes strike_;
+  Impact impacts_[march_slots];  // of the lanes that go on by themselves after it
+  SlideRockSlips<M, Gravity, Friction> slips_, slip_ends_;
+  SlideRockSlides<slide_order, Friction> slides_, slide_ends_;
   Hopping<Gravity> hops_;
-  std::optional<SlideRock<M, Gravity>> lanes_[march_slots];
+  std::optional<SlideRock<N, M, Gravity>> lanes_[march_slots];
   std::size_t number_[march_slots];  // of the lane's sample
   int free_ = 0;                     // intervals until a record may end
 };

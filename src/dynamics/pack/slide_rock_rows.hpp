@@ -29,17 +29,6 @@ struct SlideRockRows {
   const double* stop[march_slots];              // the last such value
   typename Gravity::Rows shakes;
 
-  // A lane in which nothing ever happens.
-  void clear(int i) {
-    omega[i] = rx[i] = ry[i] = a[i] = square[i] = 0;
-    gravity[i] = push[i] = weight[i] = bend0[i] = bend1[i] = bend2[i] = 0;
-    theta[i] = 0.5;
-    turned[i] = room[i] = 0;
-    grip[i] = weight_g[i] = mu[i] = left[i] = half_base[i] = 1;
-    look[i] = seen[i] = 1e300;
-    next[i] = stop[i] = still_ground;
-  }
-
   // Out of use: it causes no work.
   void retire(int i) {
     theta[i] = 0.5;
@@ -71,18 +60,10 @@ struct SlipRows {
   typename Friction::Rows law;
   typename Gravity::Rows shakes;
 
-  void clear(int i) {
-    for (double* row : {theta, omega, rx, xi, w, a, weight, weight_g, friction, half_base, lever_x, lever_y, seen})
-      row[i] = 0;
-    ry[i] = left[i] = k2[i] = size[i] = sigma[i] = look[i] = peak[i] = 1;
-    next[i] = stop[i] = still_ground;
-  }
-
   void retire(int i) { seen[i] = 1e300; }
   auto all() {
-    return joined(std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
-                             k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen},
-                  law.all());
+    return std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
+                      k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen};
   }
 };
 
@@ -103,14 +84,14 @@ struct FlatRows {
   const double* stop[march_slots];                                // the last such value
   typename Friction::Rows law;
 
-  void clear(int i) {
-    for (double* row : all()) row[i] = 1;
-    next[i] = stop[i] = still_ground;
-  }
   void retire(int i) { seen[i] = 1e300; }
-  auto all() {
-    return joined(std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen}, law.all());
-  }
+  auto all() { return std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen}; }
+};
+
+// A pack of ends of slips.
+struct SlipEnds {
+  unsigned found, impacts;                                 // bits of the lanes; the others' slip stops
+  alignas(64) double parts[pack_lanes], tops[pack_lanes];  // of what is left of the interval; rotation at a turn before
 };
 
 // Least last term of a series that counts. The series of laws may converge slowly; what they neglect is a speed, which

@@ -48,6 +48,34 @@ inline double peak_of_both(const MotionTable& t, int from, int to, double scale,
   return seen;
 }
 
+// Of p[0 ... n]: the largest |p_j|, and the sum of |p_{j+1} - p_j|, in an order of its own; rows of table_run values may
+// be read beyond the end.
+struct Swing {
+  double most, path;
+};
+inline Swing swing(const double* p, int n) {
+  static_assert(table_run == 8);
+  alignas(64) static constexpr double places[] = {0, 1, 2, 3, 4, 5, 6, 7};
+  alignas(64) double most[table_run], path[table_run];
+  for (int i = 0; i < table_run; i += pack_lanes) {
+    const Pack zero(0.0), place = load(places + i);
+    Pack high(magnitude(p[0])), sum(0.0);
+    for (int j = 0; j < n; j += table_run) {
+      const Pack here = load_any(p + i + j), next = load_any(p + i + j + 1);
+      const PackMask within = place < Pack(static_cast<double>(n - j));
+      high = xsimd::max(high, choose(within, xsimd::abs(next), zero));
+      sum = sum + choose(within, xsimd::abs(next - here), zero);
+    }
+    store(most + i, high);
+    store(path + i, sum);
+  }
+  const auto all = [](const double(&x)[table_run], auto&& both) {
+    return both(both(both(x[0], x[4]), both(x[2], x[6])), both(both(x[1], x[5]), both(x[3], x[7])));
+  };
+  return {all(most, [](double x, double y) { return larger(x, y); }),
+          all(path, [](double x, double y) { return x + y; })};
+}
+
 // First knot j >= from at which |scale a_j| may be above share (g + lift v_j); t.knots: none.
 inline int first_loud(const MotionTable& t, int from, double scale, double lift, double share, double g) {
   const double *a = t.acceleration.data(), *v = t.vertical.data();

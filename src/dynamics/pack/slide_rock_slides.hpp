@@ -6,6 +6,7 @@
 #include "dynamics/pack/flat_series.hpp"
 #include "dynamics/pack/friction.hpp"
 #include "dynamics/pack/lane_group.hpp"
+#include "dynamics/pack/rock_series.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -16,6 +17,8 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
   using Group::r_;
 
  public:
+  static constexpr bool ends_in_packs = true;
+
   template <class Lane>
   static void release(Lane& lane) {
     lane.go_on();
@@ -23,34 +26,81 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
 
   // One interval for every block; bits of the blocks to which something happens, or whose record ends.
   std::uint64_t march() {
+    ends_ = 0;
     return Group::each_pack([this](int i, unsigned here) { return march(i, here); });
+  }
+  // Those of them whose slip ends.
+  std::uint64_t ends() const { return ends_; }
+
+  // The blocks from lane i on go to the end of their slips.
+  void finish(int i, unsigned here, SlipEnds& ends) {
+    const Pack zero(0.0), one(1.0), two(2.0), left = load(r_.left + i), sigma = load(r_.sigma + i);
+    FlatSeries<N, Pack> y;
+    typename Friction::template Factor<N> factor(r_.law, i);
+    const Pack friction = expand(y, factor, i, left, load(r_.a + i), fetch(r_.next + i));
+    const Pack w = y.sum(y.w), guess = first_zero(sigma * y.w[0], sigma * y.w[1], sigma * w);
+    const PackMask stops = sigma * w <= zero;
+    const PackMask slows = sigma * y.w[1] + two * xsimd::abs(y.w[2]) + Pack(6.0) * xsimd::abs(y.w[3]) < zero;
+    const Pack x = bracketed_root<N + 1>(y.w, sigma, zero, one, guess, stops);
+    const Pack most = xsimd::max(factor.first(), factor.at(x)), force = friction * most, left2 = left * left;
+    const PackMask found = stops & slows & (sigma * y.w[0] > zero) & (x > zero) & settled(y, i, left) &
+                           (most + bend(factor) < load(r_.tips + i));
+    const Pack xi = y.at(y.xi, x), seen = load(r_.seen + i), peak = load(r_.peak + i);
+    store_where(found, r_.xi + i, xi);
+    store_where(found, r_.w + i, zero);
+    store_where(found, r_.seen + i, xsimd::max(seen, force * force / (left2 * left2)));
+    store_where(found, r_.peak + i, xsimd::max(peak, xsimd::abs(xi)));
+    store(ends.parts, x);
+    store(ends.tops, zero);
+    ends.found = bits(found) & here;
+    ends.impacts = 0;
   }
 
  private:
+  // The friction of Coulomb's law, in the units of the series.
+  template <class Factor>
+  [[gnu::always_inline]] Pack expand(FlatSeries<N, Pack>& y, Factor& factor, int i, const Pack& left, const Pack& a,
+                                     const Pack& a_next) const {
+    const Pack left2 = left * left, weight = load(r_.weight + i) * left2;
+    const Pack friction = load(r_.friction + i) * (load(r_.weight_g + i) * left2);
+    y.xi[0] = load(r_.xi + i);
+    y.w[0] = load(r_.w + i) * left;
+    y.slide(friction, weight * a, weight * (a_next - a), r_.law.to_speed(i, load(r_.sigma + i), left), factor);
+    return friction;
+  }
+  PackMask settled(const FlatSeries<N, Pack>& y, int i, const Pack& left) const {
+    return xsimd::abs(y.w[N + 1]) < Pack(neglected_by_laws) * load(r_.size + i) * left;
+  }
+  // What the factor leaves its chord by, at most.
+  template <class Factor>
+  static Pack bend(const Factor& factor) {
+    Pack sum = xsimd::abs(factor.factor()[2]);
+#pragma GCC unroll 16
+    for (int k = 3; k <= N; ++k) sum = sum + xsimd::abs(factor.factor()[k]);
+    return sum;
+  }
+
   unsigned march(int i, unsigned here) {
     const Pack zero(0.0), one(1.0), left = load(r_.left + i), left2 = left * left, per_left = one / left;
     const Pack xi0 = load(r_.xi + i), w0 = load(r_.w + i), a = load(r_.a + i), a_next = fetch(r_.next + i);
-    const Pack weight = load(r_.weight + i) * left2, weight_g = load(r_.weight_g + i) * left2;
-    const Pack friction = load(r_.friction + i) * weight_g, sigma = load(r_.sigma + i);
+    const Pack sigma = load(r_.sigma + i);
     FlatSeries<N, Pack> y;
     typename Friction::template Factor<N> factor(r_.law, i);
-    y.xi[0] = xi0;
-    y.w[0] = w0 * left;
-    y.slide(friction, weight * a, weight * (a_next - a), r_.law.to_speed(i, sigma, left), factor);
+    const Pack friction = expand(y, factor, i, left, a, a_next);
     const Pack xi = y.sum(y.xi), w = y.sum(y.w), first = factor.first(), last = factor.last();
 
-    Pack bow = xsimd::abs(y.w[2]), bend = xsimd::abs(factor.factor()[2]);
+    Pack bow(0.0);
 #pragma GCC unroll 16
-    for (int k = 3; k <= N; ++k) {
-      bow = bow + xsimd::abs(y.w[k]);
-      bend = bend + xsimd::abs(factor.factor()[k]);
-    }
-    const Pack size = load(r_.size + i), seen = load(r_.seen + i), peak = load(r_.peak + i);
+    for (int k = 3; k <= N; ++k) bow = bow + xsimd::abs(y.w[k]);
+    const Pack seen = load(r_.seen + i), peak = load(r_.peak + i);
     const Pack slower = xsimd::min(sigma * y.w[0], sigma * w), most = xsimd::max(first, last);
     const Pack force = friction * most, square = force * force / (left2 * left2);
-    const PackMask stops = ~(slower > bow), tips = ~(most + bend < load(r_.tips + i));
-    const PackMask turns = (square * Pack(1.1) > seen) & ~(xsimd::abs(y.w[1]) > Pack(2.0) * bow);
-    const PackMask stays = stops | tips | turns | ~(xsimd::abs(y.w[N + 1]) < Pack(neglected_by_laws) * size * left);
+    const Pack square_term = xsimd::abs(y.w[2]);  // which leaves its chord by a quarter
+    const PackMask starts = (sigma * y.w[0] >= zero) & (sigma * y.w[1] > square_term + bow);
+    const PackMask stops = ~((slower > Pack(0.25) * square_term + bow) | starts);
+    const PackMask tips = ~(most + bend(factor) < load(r_.tips + i));
+    const PackMask turns = (square * Pack(1.1) > seen) & ~(xsimd::abs(y.w[1]) > Pack(2.0) * (square_term + bow));
+    const PackMask settles = settled(y, i, left), stays = stops | tips | turns | ~settles;
 
     store(r_.xi + i, choose(stays, xi0, xi));
     store(r_.w + i, choose(stays, w0, w * per_left));
@@ -60,8 +110,11 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
     store(r_.left + i, choose(stays, left, one));
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all);
+    ends_ |= static_cast<std::uint64_t>(all & bits(settles & (sigma * w <= zero))) << i;
     return all;
   }
+
+  std::uint64_t ends_ = 0;
 };
 
 }  // namespace

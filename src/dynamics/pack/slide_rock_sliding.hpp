@@ -41,7 +41,9 @@ class SlideRockSliding : public SlideRockLife {
   void leave(const FlatRows<Friction>& r, int i) {
     peak_slip_ = larger(peak_slip_, r.peak[i]);
     force2_ = larger(force2_, r.seen[i] / (h_ * h_ * h_ * h_));
-    if (!leave_floor(r, i)) return;
+    const bool moved = leave_floor(r, i);
+    in_between_ = false;
+    if (!moved) return;
     path_ += magnitude(r.xi[i] - xi_);
     xi_ = r.xi[i];
     w_ = r.w[i] / h_;
@@ -69,7 +71,7 @@ class SlideRockSliding : public SlideRockLife {
     y.w[0] = w_ * hs;
     y.slide(sigma_ * c_.mu_k * c_.g * hs2, a_ * hs2, (a1 - a_) * hs2, sigma_ / hs, factor);
 
-    double x = valid_part(0, y.w[N + 1], N + 1), p[N + 2];
+    double x = valid_part(0, y.w[N + 1], N + 1, true), p[N + 2];
     Ends ends = Ends::none;
     for (int k = 0; k < N + 2; ++k) p[k] = sigma_ * y.w[k];
     if (p[0] == 0 && p[1] < 0 && p[1] > -1e-9 * c_.g * hs2) p[1] = 0;

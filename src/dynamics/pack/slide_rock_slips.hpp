@@ -1,10 +1,12 @@
 // Blocks that slide-rock at present, side by side, and their steps in packs: an interval, or what is left of it, as long
-// as nothing happens in it: no impact, no end of the slip, no turn that could be a peak.
+// as nothing happens in it: no impact, no end of the slip, no turn that could be a peak. Where the slip or the stay on the
+// corner ends for certain, and nothing else happens before, up to there.
 #pragma once
 
 #include "base/pack.hpp"
 #include "dynamics/pack/corner_series.hpp"
 #include "dynamics/pack/lane_group.hpp"
+#include "dynamics/pack/rock_series.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
@@ -16,6 +18,8 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   using Group::r_;
 
  public:
+  static constexpr bool ends_in_packs = true;
+
   template <class Lane>
   static void release(Lane& lane) {
     lane.go_on();
@@ -23,91 +27,230 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
 
   // One interval for every block; bits of the blocks to which something happens, or whose record ends.
   std::uint64_t march() {
-    return Group::each_pack([this](int i, unsigned here) { return march(i, here); });
+    ends_ = 0;
+    return Group::each_pack([this](int i, unsigned here) {
+      const Apart apart = march(i, here);
+      ends_ |= static_cast<std::uint64_t>(apart.ends) << i;
+      return apart.all;
+    });
+  }
+  // Those of them whose slip or whose stay on the corner ends.
+  std::uint64_t ends() const { return ends_; }
+
+  // The blocks from lane i on go to the end of their slips.
+  void finish(int i, unsigned here, SlipEnds& ends) {
+    const Pack zero(0.0), one(1.0), two(2.0);
+    const Step s(r_, i);
+    const auto& y = s.y;
+    const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), w = y.sum(y.w);
+    const PackMask falls = theta <= zero, stops = s.sigma * w <= zero;
+    // Each is positive before, and falls to zero once.
+    const PackMask domed = y.omega[1] + two * xsimd::abs(y.omega[2]) + Pack(6.0) * xsimd::abs(y.omega[3]) < zero;
+    const PackMask slows = (s.sigma * y.w[0] > zero) &
+                           (s.sigma * y.w[1] + two * xsimd::abs(y.w[2]) + Pack(6.0) * xsimd::abs(y.w[3]) < zero);
+    const PackMask sure = (domed | ((y.omega[0] < zero) & (omega < zero)) | ~(falls | s.near_turn(omega, theta))) &
+                          ((stops & slows) | (s.slips_on(w) & ~stops)) & (falls | stops) & s.settled();
+    const Pack lands = bracketed_root<N + 1>(y.theta, one, zero, one, first_zero(y.theta[0], y.omega[0], theta), falls);
+    const Pack guess = first_zero(s.sigma * y.w[0], s.sigma * y.w[1], s.sigma * w);
+    const Pack halts = bracketed_root<N + 1>(y.w, s.sigma, zero, one, guess, stops);
+    const PackMask impacts = falls & ~(stops & (halts < lands));
+    const Pack x = choose(impacts, lands, halts);
+
+    Pack top(0.0), slid = load(r_.peak + i);
+    if (const PackMask tops = (y.omega[0] > zero) & (omega < zero); bits(tops) & here) {
+      const Pack at = bracketed_root<N + 1>(y.omega, one, zero, one, first_zero(y.omega[0], y.omega[1], omega), tops);
+      top = choose(tops & (at < x), y.at(y.theta, at), zero);
+      slid = choose(tops & (at < x), xsimd::max(slid, xsimd::abs(s.midpoint(y.at(y.xi, at), top))), slid);
+    }
+    End end{choose(impacts, zero, y.at(y.theta, x)),
+            y.at(y.omega, x),
+            y.at(y.rx, x),
+            y.at(y.ry, x),
+            y.at(y.xi, x),
+            choose(impacts, y.at(y.w, x), zero),
+            value_at(s.field, x),
+            s.factor.at(x),
+            s.factor.rate_at(x)};
+    Pack seen, peak;
+    const PackMask strange = s.watch(end, slid, seen, peak) | ~sure | ~(x > zero) | ~(end.theta < Pack(1.57));
+    keep(s, end, strange, seen, peak);
+    store(ends.parts, x);
+    store(ends.tops, top);
+    ends.found = here & ~bits(strange);
+    ends.impacts = bits(impacts);
   }
 
  private:
-  unsigned march(int i, unsigned here) {
-    const Pack zero(0.0), one(1.0), two(2.0), left = load(r_.left + i), left2 = left * left;
+  struct Apart {
+    unsigned all, ends;
+  };
+  // Where a step ends.
+  struct End {
+    Pack theta, omega, rx, ry, xi, w, gravity, factor, factor_rate, x;
+  };
+
+  // The force at the corner: its square, per interval, and the slope of that but for positive factors.
+  struct Touch {
+    Pack square, slope;
+    PackMask holds;
+  };
+  struct Place {
+    Pack rx, ry, omega, gravity, factor, factor_rate;
+  };
+
+  // What is left of an interval.
+  struct Step {
+    const SlipRows<Gravity, Friction>& r;
+    const int i;
+    const Pack left, left2, omega0, w0, a, a_next, weight_g, k2, friction, sigma;
+    const typename Gravity::Interval shakes;
+    typename Friction::template Factor<N> factor;
     CornerSeries<N, Pack> y;
-    y.theta[0] = load(r_.theta + i);
-    y.rx[0] = load(r_.rx + i);
-    y.ry[0] = load(r_.ry + i);
-    y.xi[0] = load(r_.xi + i);
-    const Pack omega0 = load(r_.omega + i), w0 = load(r_.w + i);
-    y.omega[0] = omega0 * left;
-    y.w[0] = w0 * left;
-    const Pack a = load(r_.a + i), a_next = fetch(r_.next + i), weight = load(r_.weight + i) * left2;
-    const Pack gravity = load(r_.weight_g + i) * left2, k2 = load(r_.k2 + i), friction = load(r_.friction + i);
-    const Pack sigma = load(r_.sigma + i), to_speed = r_.law.to_speed(i, sigma, left);
-    typename Friction::template Factor<N> factor(r_.law, i);
-    const typename Gravity::Interval shakes(r_.shakes, i, r_.next + i);
-    const auto field = shakes.gravity(load(r_.weight_g + i)) * left2;
-    const auto floor_lift = shakes.lift() * left2;
-    y.slide_rock(field, weight * a, weight * (a_next - a), k2, friction, to_speed, factor);
-    const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), rx = y.sum(y.rx), ry = y.sum(y.ry);
-    const Pack xi = y.sum(y.xi), w = y.sum(y.w);
+    decltype(shakes.gravity(weight_g) * left2) field;
 
-    const Pack reach = xsimd::abs(y.omega[0]) + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
-    const Pack low = xsimd::min(y.theta[0], theta), high = xsimd::max(y.theta[0], theta);
-    const PackMask turns = (y.omega[0] * omega <= zero) |
-                           ((y.omega[0] * y.omega[1] < zero) & (xsimd::abs(y.omega[1]) > two * xsimd::abs(y.omega[0])));
-    const Pack size = load(r_.size + i), last = xsimd::max(xsimd::abs(y.omega[N + 1]) * size, xsimd::abs(y.w[N + 1]));
-    PackMask stays = (turns & ((high + reach > load(r_.look + i)) | (low < reach))) | (theta <= zero) |
-                     ~(theta < Pack(1.5)) | ~(last < Friction::neglected(left) * size);
-
-    // The slip leaves its chord by its higher terms at most.
-    const Pack bow = xsimd::abs(y.w[2]) + xsimd::abs(y.w[3]) + xsimd::abs(y.w[4]);
-    stays = stays | ~(xsimd::min(sigma * y.w[0], sigma * w) > bow);
-
-    // Of the midpoint: u = xi + B (1 - cos theta), u' = w + (lever_y r_x + lever_x r_y) omega.
-    const Pack lever_x = load(r_.lever_x + i), lever_y = load(r_.lever_y + i);
-    const Pack u = xi + load(r_.half_base + i) * versine(theta), peak = load(r_.peak + i);
-    const Pack before = y.w[0] + (lever_y * y.rx[0] + lever_x * y.ry[0]) * y.omega[0];
-    const Pack after = w + (lever_y * rx + lever_x * ry) * omega, size_u = xsimd::abs(u);
-    stays = stays | ((before * after < zero) & (size_u + xsimd::abs(before) + xsimd::abs(after) > peak));
-
-    const Pack mu0 = friction * factor.first(), mu = friction * factor.last();
-    const Pack q0 = y.rx[0] + mu0 * y.ry[0], n0 = at_start(field) - y.ry[0] * y.omega[0] * y.omega[0];
-    const Pack q = rx + mu * ry, n = at_end(field) - ry * omega * omega, d0 = k2 + y.rx[0] * q0, d = k2 + rx * q;
-    stays = stays | ~((xsimd::min(n0, n) > zero) & (xsimd::min(d0, d) > Pack(0.05) * k2));
-    const Pack fy0 = n0 * k2 / d0, fy = n * k2 / d, seen = load(r_.seen + i);
-    const Pack lift0 = fy0 - gravity, lift = fy - gravity;
-    const Pack square =
-        xsimd::max(mu0 * mu0 * fy0 * fy0 + lift0 * lift0, mu * mu * fy * fy + lift * lift) / (left2 * left2);
-    if (const PackMask feels = square * Pack(1.1) > seen; bits(feels)) {
-      // Slope of the squared force at both ends, but for positive factors.
-      const auto slope = [&](const Pack& x, const Pack& y1, const Pack& o, const Pack& n1, const Pack& d1,
-                             const Pack& q1, const Pack& f, const Pack& m, const Pack& m_rate) {
-        const Pack alpha = n1 * q1 / d1, n_rate = plus_rate(x * o * o * o - two * y1 * o * alpha, floor_lift);
-        Pack d_rate = o * (y1 * q1 + x * (y1 - m * x)), change(0.0);
-        if constexpr (Friction::by_speed) {
-          d_rate = d_rate + x * m_rate * y1;
-          change = m * m_rate * f * f * (d1 * d1 / k2);
-        }
-        return (n_rate * d1 - n1 * d_rate) * (m * m * f + f - gravity) + change;
-      };
-      const Pack rate0 = friction * factor.first_rate(), rate = friction * factor.last_rate();
-      stays = stays | (feels & (slope(y.rx[0], y.ry[0], y.omega[0], n0, d0, q0, fy0, mu0, rate0) >= zero) &
-                       (slope(rx, ry, omega, n, d, q, fy, mu, rate) <= zero));
+    [[gnu::always_inline]] Step(const SlipRows<Gravity, Friction>& rows, int lane)
+        : r(rows),
+          i(lane),
+          left(load(r.left + i)),
+          left2(left * left),
+          omega0(load(r.omega + i)),
+          w0(load(r.w + i)),
+          a(load(r.a + i)),
+          a_next(fetch(r.next + i)),
+          weight_g(load(r.weight_g + i)),
+          k2(load(r.k2 + i)),
+          friction(load(r.friction + i)),
+          sigma(load(r.sigma + i)),
+          shakes(r.shakes, i, r.next + i),
+          factor(r.law, i),
+          field(shakes.gravity(weight_g) * left2) {
+      const Pack weight = load(r.weight + i) * left2;
+      y.theta[0] = load(r.theta + i);
+      y.rx[0] = load(r.rx + i);
+      y.ry[0] = load(r.ry + i);
+      y.xi[0] = load(r.xi + i);
+      y.omega[0] = omega0 * left;
+      y.w[0] = w0 * left;
+      y.slide_rock(field, weight * a, weight * (a_next - a), k2, friction, r.law.to_speed(i, sigma, left), factor);
     }
 
-    const Pack per_left = one / left;
-    store(r_.seen + i, choose(stays, seen, xsimd::max(seen, square)));
-    store(r_.peak + i, choose(stays, peak, xsimd::max(peak, size_u)));
-    store(r_.theta + i, choose(stays, y.theta[0], theta));
-    store(r_.omega + i, choose(stays, omega0, omega * per_left));
-    store(r_.rx + i, choose(stays, y.rx[0], rx));
-    store(r_.ry + i, choose(stays, y.ry[0], ry));
-    store(r_.xi + i, choose(stays, y.xi[0], xi));
-    store(r_.w + i, choose(stays, w0, w * per_left));
-    store(r_.a + i, choose(stays, a, a_next));
-    shakes.keep(r_.shakes, i, stays);
-    store(r_.left + i, choose(stays, left, one));
+    // The series' last terms are small enough.
+    PackMask settled() const {
+      const Pack size = load(r.size + i);
+      return xsimd::max(xsimd::abs(y.omega[N + 1]) * size, xsimd::abs(y.w[N + 1])) < Friction::neglected(left) * size;
+    }
+    // The rotation may turn where that matters; omega, theta: at the end of the interval.
+    PackMask near_turn(const Pack& omega, const Pack& theta) const {
+      const Pack zero(0.0), reach = xsimd::abs(y.omega[0]) + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
+      const Pack low = xsimd::min(y.theta[0], theta), high = xsimd::max(y.theta[0], theta);
+      const PackMask turns =
+          (y.omega[0] * omega <= zero) |
+          ((y.omega[0] * y.omega[1] < zero) & (xsimd::abs(y.omega[1]) > Pack(2.0) * xsimd::abs(y.omega[0])));
+      return turns & ((high + reach > load(r.look + i)) | (low < reach));
+    }
+    // All through the interval; w: at its end. The slip leaves its chord by its higher terms at most. One that starts from
+    // zero, or rises, does not come back to it.
+    PackMask slips_on(const Pack& w) const {
+      const Pack zero(0.0), slip0 = sigma * y.w[0], rises = sigma * y.w[1], curve = sigma * y.w[2];
+      const Pack more = xsimd::abs(y.w[3]) + xsimd::abs(y.w[4]);
+      const PackMask leaves = (slip0 >= zero) & (rises > Pack(-1e-9) * weight_g * left2) & (rises + curve > more);
+      return (xsimd::min(slip0, sigma * w) > Pack(0.25) * xsimd::abs(curve) + Pack(0.5) * more) | leaves;
+    }
+    // Slip of the midpoint: u = xi + B (1 - cos theta).
+    Pack midpoint(const Pack& xi, const Pack& theta) const { return xi + load(r.half_base + i) * versine(theta); }
+
+    [[gnu::always_inline]] Touch touch(const Place& at) const {
+      const Pack zero(0.0), two(2.0), &x = at.rx, &y1 = at.ry, &o = at.omega, mu = friction * at.factor;
+      const Pack q = x + mu * y1, n = at.gravity - y1 * o * o, d = k2 + x * q, per_d = Pack(1.0) / d;
+      const Pack f = n * k2 * per_d, lift = f - weight_g * left2;
+      const Pack n_rate = plus_rate(x * o * o * o - two * y1 * o * (n * q * per_d), shakes.lift() * left2);
+      Pack d_rate = o * (y1 * q + x * (y1 - mu * x)), change(0.0);
+      if constexpr (Friction::by_speed) {
+        const Pack mu_rate = friction * at.factor_rate;
+        d_rate = d_rate + x * mu_rate * y1;
+        change = mu * mu_rate * f * f * (d * d / k2);
+      }
+      const Pack slope = (n_rate * d - n * d_rate) * (mu * mu * f + lift) + change;
+      return {(mu * mu * f * f + lift * lift) / (left2 * left2), slope, (n > zero) & (d > Pack(0.05) * k2)};
+    }
+    // The largest square, where its slope is positive at the start and negative at x.
+    Pack top_between(const Touch& first, const Touch& last, const Pack& end) const {
+      const Pack zero(0.0);
+      Pack lo(0.0), hi = end, rises = first.slope, falls = last.slope, most = zero;
+      for (int round = 0; round < 2; ++round) {
+        const Pack x = lo + (hi - lo) * (rises / (rises - falls));
+        const Touch here = touch(
+            {y.at(y.rx, x), y.at(y.ry, x), y.at(y.omega, x), value_at(field, x), factor.at(x), factor.rate_at(x)});
+        const PackMask before = here.slope > zero;
+        lo = choose(before, x, lo);
+        rises = choose(before, here.slope, rises);
+        hi = choose(before, hi, x);
+        falls = choose(before, falls, here.slope);
+        most = xsimd::max(most, here.square);
+      }
+      return most;
+    }
+
+    // The largest slip, at least `slid`, and squared acceleration up to the end of the step; true where that may be wrong.
+    [[gnu::always_inline]] PackMask watch(const End& end, const Pack& slid, Pack& seen, Pack& peak) const {
+      const Pack zero(0.0), &rx = end.rx, &ry = end.ry, &omega = end.omega;
+      // u' = w + (lever_y r_x + lever_x r_y) omega.
+      const Pack lever_x = load(r.lever_x + i), lever_y = load(r.lever_y + i),
+                 size_u = xsimd::abs(midpoint(end.xi, end.theta));
+      const Pack before = y.w[0] + (lever_y * y.rx[0] + lever_x * y.ry[0]) * y.omega[0];
+      const Pack after = end.w + (lever_y * rx + lever_x * ry) * omega;
+      PackMask strange = (before * after < zero) & (size_u + xsimd::abs(before) + xsimd::abs(after) > slid);
+      peak = xsimd::max(slid, size_u);
+
+      const Touch first = touch({y.rx[0], y.ry[0], y.omega[0], at_start(field), factor.first(), factor.first_rate()});
+      const Touch last = touch({rx, ry, omega, end.gravity, end.factor, end.factor_rate});
+      strange = strange | ~(first.holds & last.holds);
+      seen = load(r.seen + i);
+      const Pack square = xsimd::max(first.square, last.square);
+      if (const PackMask feels = square * Pack(1.1) > seen; bits(feels)) {
+        const PackMask tops = feels & (first.slope > zero) & (last.slope < zero);
+        if (bits(tops & ~strange)) seen = xsimd::max(seen, choose(tops, top_between(first, last, end.x), zero));
+      }
+      seen = xsimd::max(seen, square);
+      return strange;
+    }
+  };
+
+  // The end of the step, but for the lanes that stay.
+  void keep(const Step& s, const End& end, const PackMask& stays, const Pack& seen, const Pack& peak) {
+    const Pack per_left = Pack(1.0) / s.left;
+    const int i = s.i;
+    store(r_.seen + i, choose(stays, load(r_.seen + i), seen));
+    store(r_.peak + i, choose(stays, load(r_.peak + i), peak));
+    store(r_.theta + i, choose(stays, s.y.theta[0], end.theta));
+    store(r_.omega + i, choose(stays, s.omega0, end.omega * per_left));
+    store(r_.rx + i, choose(stays, s.y.rx[0], end.rx));
+    store(r_.ry + i, choose(stays, s.y.ry[0], end.ry));
+    store(r_.xi + i, choose(stays, s.y.xi[0], end.xi));
+    store(r_.w + i, choose(stays, s.w0, end.w * per_left));
+  }
+
+  Apart march(int i, unsigned here) {
+    const Pack zero(0.0), one(1.0);
+    const Step s(r_, i);
+    const auto& y = s.y;
+    const End end{y.sum(y.theta), y.sum(y.omega),  y.sum(y.rx),     y.sum(y.ry),          y.sum(y.xi),
+                  y.sum(y.w),     at_end(s.field), s.factor.last(), s.factor.last_rate(), one};
+    Pack seen, peak;
+    const PackMask falls = end.theta <= zero;
+    const PackMask stays = s.watch(end, load(r_.peak + i), seen, peak) | s.near_turn(end.omega, end.theta) | falls |
+                           ~(end.theta < Pack(1.57)) | ~s.settled() | ~s.slips_on(end.w);
+
+    keep(s, end, stays, seen, peak);
+    store(r_.a + i, choose(stays, s.a, s.a_next));
+    s.shakes.keep(r_.shakes, i, stays);
+    store(r_.left + i, choose(stays, s.left, one));
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all, Gravity::stride);
-    return all;
+    return {all, all & bits((falls | (s.sigma * end.w <= zero)) & s.settled())};
   }
+
+  std::uint64_t ends_ = 0;
 };
 
 }  // namespace
