@@ -17,6 +17,7 @@ struct RockEnd {
 
 template <int N>
 struct RockSeries {
+  static constexpr int order = N + 1;                     // of omega
   Pack theta[N + 2], omega[N + 2], rx[N + 1], ry[N + 1];  // the rotation to one order more
 
   // gravity = g' h^2/J (dynamics/pack/gravity.hpp); a0, a1: floor acceleration and its rate, times h^2/J.
@@ -58,7 +59,9 @@ struct RockSeries {
   }
 
   RockEnd end(const Pack& a_next) const { return {sum(omega), sum(rx), sum(ry), a_next, sum(theta)}; }
+  Pack theta_at(const Pack& x) const { return at(theta, x); }
   Pack omega_at(const Pack& x) const { return at(omega, x); }
+  const Pack& last() const { return omega[N + 1]; }  // its last term
   void arm_at(const Pack& x, Pack& x_arm, Pack& y_arm) const {
     x_arm = at(rx, x);
     y_arm = at(ry, x);
@@ -125,13 +128,14 @@ inline Pack first_zero(const Pack& start, const Pack& slope, const Pack& end) {
 
 // Where the angular velocity, of one sign at the start and the other at the end, is zero: to about 1e-9, so that the
 // rotation there is exact.
-template <int N>
-Pack turning_point(const RockSeries<N>& y, const Pack& omega_end) {
+template <class Step>
+Pack turning_point(const Step& y, const Pack& omega_end) {
   const Pack one(1.0), zero(0.0), sense = choose(y.omega[0] > zero, one, zero - one);
   const Pack x = xsimd::min(first_zero(sense * y.omega[0], sense * y.omega[1], sense * omega_end), one);
-  Pack value = y.omega[N + 1], slope(0.0), bend(0.0);
+  constexpr int order = Step::order;
+  Pack value = y.omega[order], slope(0.0), bend(0.0);
 #pragma GCC unroll 16
-  for (int k = N; k >= 0; --k) {
+  for (int k = order - 1; k >= 0; --k) {
     bend = bend * x + slope;
     slope = slope * x + value;
     value = value * x + y.omega[k];

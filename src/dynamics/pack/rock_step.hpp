@@ -18,6 +18,7 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 struct RockStep {
+  static constexpr int order = 5;         // of omega
   Pack theta[1], omega[6], rx[1], ry[1];  // the start; omega: all its series
 
   // As RockSeries::expand.
@@ -55,13 +56,16 @@ struct RockStep {
     for (int k = 4; k >= 0; --k) value = value * x + omega[k];
     return value;
   }
-  void arm_at(const Pack& x, Pack& x_arm, Pack& y_arm) const {
-    Pack gained = omega[5] * Pack(1.0 / 6);
-    for (int k = 4; k >= 0; --k) gained = gained * x + omega[k] * Pack(1.0 / (k + 1));
-    turn(gained * x, x_arm, y_arm);
-  }
+  Pack theta_at(const Pack& x) const { return theta[0] + gained(x); }
+  void arm_at(const Pack& x, Pack& x_arm, Pack& y_arm) const { turn(gained(x), x_arm, y_arm); }
+  Pack last() const { return omega[5] * Pack(1.0 / 32); }  // about the first term left out
 
  private:
+  Pack gained(const Pack& x) const {
+    Pack value = omega[5] * Pack(1.0 / 6);
+    for (int k = 4; k >= 0; --k) value = value * x + omega[k] * Pack(1.0 / (k + 1));
+    return value * x;
+  }
   [[gnu::always_inline]] void turn(const Pack& angle, Pack& x, Pack& y) const {
     const Pack one(1.0), square = angle * angle;
     const Pack sine = angle * (one - square * (Pack(1.0 / 6) - square * Pack(1.0 / 120)));

@@ -3,10 +3,13 @@
 // peak, no loss of grip.
 #pragma once
 
+#include <type_traits>
+
 #include "base/pack.hpp"
 #include "dynamics/pack/corner_series.hpp"
 #include "dynamics/pack/lane_group.hpp"
 #include "dynamics/pack/rock_series.hpp"
+#include "dynamics/pack/rock_step.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
 #include "dynamics/pack/slide_rock_strikes.hpp"
 
@@ -18,6 +21,8 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   using Group = LaneGroup<SlideRockRows<Gravity>>;
   using Group::r_;
   using Interval = typename Gravity::Interval;
+  // Short steps of a floor that does not shake vertically go by derivatives.
+  using Step = std::conditional_t<(N < 8 && !Gravity::shaken), RockStep, RockSeries<N>>;
 
  public:
   using Group::count;
@@ -138,14 +143,15 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   template <bool Whole>
   Apart march(int i, unsigned here) {
     const Pack zero(0.0), one(1.0), left = Whole ? one : load(r_.left + i);
-    RockSeries<N> y;
+    Step y;
     const Pack a = load(r_.a + i), a_next = fetch(r_.next + i), change = a_next - a;
     const Pack push = load(r_.push + i), gravity = load(r_.gravity + i), omega0 = load(r_.omega + i);
     const Interval shakes(r_.shakes, i, r_.next + i);
     const auto field = shakes.per_inertia(gravity);
     expand<Whole>(y, i, left, omega0, field, push, a, change);
-    const Pack theta = y.sum(y.theta), rx = y.sum(y.rx), ry = y.sum(y.ry);
-    Pack omega = y.sum(y.omega);
+    RockEnd end = y.end(a_next);
+    const Pack theta = end.theta, rx = end.rx, ry = end.ry;
+    Pack omega = end.omega;
 
     const Pack rate = xsimd::abs(y.omega[0]), reach = rate + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
     const Pack low = xsimd::min(y.theta[0], theta), high = xsimd::max(y.theta[0], theta);
@@ -153,7 +159,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     // Does the rotation turn? It may turn twice where its acceleration is large enough; from standstill it rises.
     const Pack start = y.omega[0] + Pack(1e-280), rises_by = y.omega[1] + (start + start) + Pack(1e-11) * gravity;
     const PackMask turns = start * omega < zero, wavers = ~turns & (start * rises_by <= zero);
-    PackMask strange = (wavers & matters) | ~(theta < Pack(1.57)) | (xsimd::abs(y.omega[N + 1]) > Pack(neglected));
+    PackMask strange = (wavers & matters) | ~(theta < Pack(1.57)) | (xsimd::abs(y.last()) > Pack(neglected));
     const Pack omega1 = omega;
     if constexpr (!Whole) omega = omega * (one / left);
 
@@ -194,9 +200,9 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     return {strikes, all & ~strikes};
   }
 
-  template <bool Whole, class Field>
-  void expand(RockSeries<N>& y, int i, const Pack& left, const Pack& omega, const Field& gravity, const Pack& push,
-              const Pack& a, const Pack& change) const {
+  template <bool Whole, class Series, class Field>
+  [[gnu::always_inline]] void expand(Series& y, int i, const Pack& left, const Pack& omega, const Field& gravity,
+                                     const Pack& push, const Pack& a, const Pack& change) const {
     y.theta[0] = load(r_.theta + i);
     y.rx[0] = load(r_.rx + i);
     y.ry[0] = load(r_.ry + i);
@@ -211,8 +217,9 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   }
 
   // The rotation turns, near a peak or the floor: the peaks. Lanes that touch the floor.
-  PackMask turn(const RockSeries<N>& y, int i, const Pack& omega, const PackMask& lanes) {
-    const Pack zero(0.0), theta = y.at(y.theta, turning_point(y, omega));
+  template <class Series>
+  PackMask turn(const Series& y, int i, const Pack& omega, const PackMask& lanes) {
+    const Pack zero(0.0), theta = y.theta_at(turning_point(y, omega));
     const Pack base = load(r_.half_base + i), turned = load(r_.turned + i), room = load(r_.room + i);
     const Pack adds = base * versine(theta);
     const PackMask seen = lanes & (theta > zero);
@@ -226,7 +233,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
 
   // The squared acceleration may have a new peak.
   template <bool Whole>
-  void watch(const RockSeries<N>& y, int i, const Pack& left, const RockEnd& end, const PackMask& feels,
+  void watch(const Step& y, int i, const Pack& left, const RockEnd& end, const PackMask& feels,
              const Interval& shakes) {
     const Pack seen = load(r_.seen + i), a = load(r_.a + i), left2 = left * left, left4 = left2 * left2;
     RockEnd there = end;
