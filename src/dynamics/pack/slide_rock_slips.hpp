@@ -65,7 +65,8 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
             choose(impacts, y.at(y.w, x), zero),
             value_at(s.field, x),
             s.factor.at(x),
-            s.factor.rate_at(x)};
+            s.factor.rate_at(x),
+            x};
     Pack seen, peak;
     const PackMask strange = s.watch(end, slid, seen, peak) | ~sure | ~(x > zero) | ~(end.theta < Pack(1.57));
     keep(s, end, strange, turned, seen, peak);
