@@ -60,13 +60,11 @@ struct CornerSeries {
   void slide_rock(const Gravity& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu,
                   const Real& to_speed, Factor& factor) {
     Real omega2[N + 1], q[N + 1], n[N + 1], d[N + 1], alpha[N + 1], fy[N + 1], per_d(1.0);
-    Real q_by(0.0), d_by(0.0), alpha_by(0.0), fy_by(0.0), slip_by(0.0);  // times F_k: what that adds to coefficient k
 #pragma GCC unroll 16
     for (int k = 0; k <= N; ++k) {
       factor.advance(k, to_speed * w[k]);
       omega2[k] = product(omega, omega, k);
-      // Without F_k at first, for which the others would wait long.
-      q[k] = rx[k] + sigma_mu * factor.times_known(ry, k);
+      q[k] = rx[k] + sigma_mu * factor.times(ry, k);
       n[k] = coefficient(gravity, k) - product(ry, omega2, k);
       d[k] = product(rx, q, k);
       if (k == 0) d[k] = d[k] + k2, per_d = Real(1.0) / d[k];
@@ -79,24 +77,8 @@ struct CornerSeries {
       }
       alpha[k] = numerator * per_d;
       fy[k] = n[k] - product(rx, alpha, k);
-      Real slip = product(rx, omega2, k) - sigma_mu * factor.times_known(fy, k) - product(ry, alpha, k);
+      Real slip = product(rx, omega2, k) - sigma_mu * factor.times(fy, k) - product(ry, alpha, k);
       if (k < 2) slip = slip - (k == 0 ? a0 : a1);
-      if constexpr (Factor::follows_speed) {
-        if (k == 0) {
-          q_by = sigma_mu * ry[0];
-          d_by = rx[0] * q_by;
-          alpha_by = (n[0] * q_by - alpha[0] * d_by) * per_d;
-          fy_by = Real(0.0) - rx[0] * alpha_by;
-          slip_by = Real(0.0) - sigma_mu * (fy[0] + factor.first() * fy_by) - ry[0] * alpha_by;
-        } else {
-          const Real own = factor.factor()[k];
-          q[k] = q[k] + q_by * own;
-          d[k] = d[k] + d_by * own;
-          alpha[k] = alpha[k] + alpha_by * own;
-          fy[k] = fy[k] + fy_by * own;
-          slip = slip + slip_by * own;
-        }
-      }
       integrate(k, alpha[k], slip);
     }
   }

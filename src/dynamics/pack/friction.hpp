@@ -19,11 +19,10 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 struct NoFactor {
-  static constexpr bool follows_speed = false;
   template <class Real>
   void advance(int, const Real&) {}
   template <class Real>
-  static Real times_known(const Real* y, int k) {
+  static Real times(const Real* y, int k) {
     return y[k];
   }
 };
@@ -32,8 +31,6 @@ struct NoFactor {
 template <int N, class Real, class Constants>
 class SpeedFactor {
  public:
-  static constexpr bool follows_speed = true;
-
   SpeedFactor(const SpeedLaw& law, const Constants& constants) : law_(law), constants_(constants) {}
 
   // speed: coefficient k of |w| [m/s]; those before k were given.
@@ -69,15 +66,8 @@ class SpeedFactor {
     }
   }
 
-  // Coefficient k of F y, for k > 0 without the part of F_k.
-  [[gnu::always_inline]] Real times_known(const Real* y, int k) const {
-    const Real* f = factor();
-    if (k < 2) return f[0] * y[k];
-    Real sum = f[1] * y[k - 1];
-#pragma GCC unroll 16
-    for (int i = 2; i < k; ++i) sum = sum + f[i] * y[k - i];
-    return sum + f[0] * y[k];
-  }
+  // Coefficient k of F y.
+  [[gnu::always_inline]] Real times(const Real* y, int k) const { return product(factor(), y, k); }
   const Real* factor() const { return at_[law_.count]; }
   Real first() const { return factor()[0]; }
   Real first_rate() const { return factor()[1]; }

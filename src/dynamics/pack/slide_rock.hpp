@@ -41,9 +41,8 @@ class SlideRock : public SlideRockSliding {
     settle();
   }
 
-  // After a part x of what is left of the interval the slip ends, or the stay on the corner; `top`: of the rotation.
-  void end_slip(double x, double top, bool impact) {
-    see_rotation(top);
+  // After a part x of what is left of the interval the slip ends, or the stay on the corner.
+  void end_slip(double x, bool impact) {
     if (impact) theta_ = 0;
     if (!impact) w_ = 0;
     forward(x);

@@ -165,6 +165,7 @@ class SlideRockLane {
   template <class Gravity, class Friction>
   void leave(const SlipRows<Gravity, Friction>& r, int i) {
     peak_slip_ = larger(peak_slip_, r.peak[i]);
+    see_rotation(r.look[i]);
     const bool moved = leave_rows(r, i);
     in_between_ = false;
     if (!moved) return;

@@ -155,11 +155,11 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
 
     const Pack rate = xsimd::abs(y.omega[0]), reach = rate + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
     const Pack low = xsimd::min(y.theta[0], theta), high = xsimd::max(y.theta[0], theta);
-    const PackMask matters = (high + reach > load(r_.look + i)) | (low < reach), falls = theta <= zero;
+    const PackMask matters = (high + reach > load(r_.look + i)) | (low < reach);
     // Does the rotation turn? It may turn twice where its acceleration is large enough; from standstill it rises.
     const Pack start = y.omega[0] + Pack(1e-280), rises_by = y.omega[1] + (start + start) + Pack(1e-11) * gravity;
-    const PackMask turns = start * omega < zero, wavers = ~turns & (start * rises_by <= zero);
-    PackMask strange = (wavers & matters) | ~(theta < Pack(1.57)) | (xsimd::abs(y.last()) > Pack(neglected));
+    const Pack turning = start * omega, twice = start * rises_by;
+    const PackMask wavers = (turning >= zero) & (twice <= zero) & matters;
     const Pack omega1 = omega;
     if constexpr (!Whole) omega = omega * (one / left);
 
@@ -173,31 +173,30 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack ends = xsimd::max(square0, square), bend2 = bend * bend;
     const Pack most = ends * Pack(1 + 1.0 / 256) + Pack(257.0) * bend2;
     const Pack seen = load(r_.seen + i);
-    const PackMask slips = xsimd::min(grip0, grip) <= bend, tops = most > seen;
-    if (const PackMask about = turns & matters & ~(strange | slips | falls); bits(about))
-      strange = strange | turn(y, i, omega1, about);
-    const PackMask stays = strange | slips | falls;
+    // Nothing but an impact.
+    const PackMask sure =
+        (xsimd::min(grip0, grip) > bend) & (theta < Pack(1.57)) & (xsimd::abs(y.last()) <= Pack(neglected)) & ~wavers;
+    PackMask goes = sure & (theta > zero);
+    if (const PackMask about = goes & matters & (turning < zero); bits(about)) goes = goes & ~turn(y, i, omega1, about);
     // No top within where the force rises or falls all through: it leaves its chord by 4 bend x (1 - x) at most.
     const Pack rises = square - square0;
-    const PackMask bows = tops & ~stays & (rises * rises <= Pack(64.0) * (bend2 * ends));
-    store(r_.seen + i, choose(stays, seen, xsimd::max(seen, ends)));
+    const PackMask bows = goes & (most > seen) & (rises * rises <= Pack(64.0) * (bend2 * ends));
+    store_where(goes, r_.seen + i, xsimd::max(seen, ends));
     if (bits(bows)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, bows, shakes);
 
-    const PackMask goes = ~stays;
     store_where(goes, r_.theta + i, theta);
     store_where(goes, r_.omega + i, omega);
     store_where(goes, r_.rx + i, rx);
     store_where(goes, r_.ry + i, ry);
     store_where(goes, r_.a + i, a_next);
-    shakes.keep(r_.shakes, i, stays);
+    shakes.keep(r_.shakes, i, ~goes);
     store_where(goes, r_.grip + i, grip);
     store_where(goes, r_.square + i, square);
     if constexpr (!Whole) store_where(goes, r_.left + i, one);
-    const unsigned all = bits(stays) & here;
-    advance(r_.next + i, here & ~all, Gravity::stride);
-    const PackMask moves = omega0 != zero;
-    const unsigned strikes = bits(falls & ~strange & ~slips & ~tops & moves & (omega < zero)) & all;
-    return {strikes, all & ~strikes};
+    const unsigned on = bits(goes),
+                   strikes = bits(sure & (theta <= zero) & (most <= seen) & (omega < zero) & (omega0 != zero));
+    advance(r_.next + i, here & on, Gravity::stride);
+    return {here & strikes, here & ~(on | strikes)};
   }
 
   template <bool Whole, class Series, class Field>

@@ -170,7 +170,7 @@ class SlideRockPool {
       if (found) lane.end_in_between();
       group.remove(lane, first + l);
       if (found)
-        lane.end_slip(ends.parts[l], ends.tops[l], ends.impacts >> l & 1U);
+        lane.end_slip(ends.parts[l], ends.impacts >> l & 1U);
       else
         lane.go_on();
       settle(number);

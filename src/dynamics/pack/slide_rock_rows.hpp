@@ -53,7 +53,7 @@ struct SlipRows {
   alignas(64) double k2[march_slots], size[march_slots];          // gyration radius squared, height of the centre
   alignas(64) double friction[march_slots], sigma[march_slots];   // sigma mu_k; direction of the slip
   alignas(64) double half_base[march_slots], lever_x[march_slots], lever_y[march_slots];  // of the midpoint's slip
-  alignas(64) double look[march_slots];                     // no smaller rotation is a new peak
+  alignas(64) double look[march_slots];                                                   // the largest rotation so far
   alignas(64) double peak[march_slots], seen[march_slots];  // slip, squared acceleration: largest so far
   alignas(64) const double* next[march_slots];              // a at the end of the interval
   const double* stop[march_slots];                          // the last such value
@@ -90,8 +90,8 @@ struct FlatRows {
 
 // A pack of ends of slips.
 struct SlipEnds {
-  unsigned found, impacts;                                 // bits of the lanes; the others' slip stops
-  alignas(64) double parts[pack_lanes], tops[pack_lanes];  // of what is left of the interval; rotation at a turn before
+  unsigned found, impacts;               // bits of the lanes; the others' slip stops
+  alignas(64) double parts[pack_lanes];  // of what is left of the interval
 };
 
 // Least last term of a series that counts. The series of laws may converge slowly; what they neglect is a speed, which

@@ -51,7 +51,6 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
     store_where(found, r_.seen + i, xsimd::max(seen, force * force / (left2 * left2)));
     store_where(found, r_.peak + i, xsimd::max(peak, xsimd::abs(xi)));
     store(ends.parts, x);
-    store(ends.tops, zero);
     ends.found = bits(found) & here;
     ends.impacts = 0;
   }

@@ -45,10 +45,9 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     const Pack theta = y.sum(y.theta), omega = y.sum(y.omega), w = y.sum(y.w);
     const PackMask falls = theta <= zero, stops = s.sigma * w <= zero;
     // Each is positive before, and falls to zero once.
-    const PackMask domed = y.omega[1] + two * xsimd::abs(y.omega[2]) + Pack(6.0) * xsimd::abs(y.omega[3]) < zero;
     const PackMask slows = (s.sigma * y.w[0] > zero) &
                            (s.sigma * y.w[1] + two * xsimd::abs(y.w[2]) + Pack(6.0) * xsimd::abs(y.w[3]) < zero);
-    const PackMask sure = (domed | ((y.omega[0] < zero) & (omega < zero)) | ~(falls | s.near_turn(omega, theta))) &
+    const PackMask sure = (s.domed() | ((y.omega[0] < zero) & (omega < zero)) | ~(falls | s.wavers(omega, theta))) &
                           ((stops & slows) | (s.slips_on(w) & ~stops)) & (falls | stops) & s.settled();
     const Pack lands = bracketed_root<N + 1>(y.theta, one, zero, one, first_zero(y.theta[0], y.omega[0], theta), falls);
     const Pack guess = first_zero(s.sigma * y.w[0], s.sigma * y.w[1], s.sigma * w);
@@ -56,12 +55,8 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     const PackMask impacts = falls & ~(stops & (halts < lands));
     const Pack x = choose(impacts, lands, halts);
 
-    Pack top(0.0), slid = load(r_.peak + i);
-    if (const PackMask tops = (y.omega[0] > zero) & (omega < zero); bits(tops) & here) {
-      const Pack at = bracketed_root<N + 1>(y.omega, one, zero, one, first_zero(y.omega[0], y.omega[1], omega), tops);
-      top = choose(tops & (at < x), y.at(y.theta, at), zero);
-      slid = choose(tops & (at < x), xsimd::max(slid, xsimd::abs(s.midpoint(y.at(y.xi, at), top))), slid);
-    }
+    Pack turned = load(r_.look + i), slid = load(r_.peak + i);
+    if (const PackMask tops = s.tops(omega, theta); bits(tops) & here) s.turn(tops, omega, x, turned, slid);
     End end{choose(impacts, zero, y.at(y.theta, x)),
             y.at(y.omega, x),
             y.at(y.rx, x),
@@ -70,12 +65,12 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
             choose(impacts, y.at(y.w, x), zero),
             value_at(s.field, x),
             s.factor.at(x),
-            s.factor.rate_at(x)};
+            s.factor.rate_at(x),
+            x};
     Pack seen, peak;
     const PackMask strange = s.watch(end, slid, seen, peak) | ~sure | ~(x > zero) | ~(end.theta < Pack(1.57));
-    keep(s, end, strange, seen, peak);
+    keep(s, end, strange, turned, seen, peak);
     store(ends.parts, x);
-    store(ends.tops, top);
     ends.found = here & ~bits(strange);
     ends.impacts = bits(impacts);
   }
@@ -139,14 +134,36 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
       const Pack size = load(r.size + i);
       return xsimd::max(xsimd::abs(y.omega[N + 1]) * size, xsimd::abs(y.w[N + 1])) < Friction::neglected(left) * size;
     }
-    // The rotation may turn where that matters; omega, theta: at the end of the interval.
-    PackMask near_turn(const Pack& omega, const Pack& theta) const {
+    // The rotation is concave all through.
+    PackMask domed() const {
+      return y.omega[1] + Pack(2.0) * xsimd::abs(y.omega[2]) + Pack(6.0) * xsimd::abs(y.omega[3]) < Pack(0.0);
+    }
+    // It may rise higher than ever before; omega, theta: at the end of the interval.
+    PackMask rises_high(const Pack& omega, const Pack& theta) const {
+      const Pack reach = xsimd::abs(y.omega[0]) + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
+      return xsimd::max(y.theta[0], theta) + reach > load(r.look + i);
+    }
+    // It turns once, from rising to falling, and may do so higher than ever before.
+    PackMask tops(const Pack& omega, const Pack& theta) const {
+      const Pack zero(0.0);
+      return domed() & (y.omega[0] > zero) & (omega < zero) & rises_high(omega, theta);
+    }
+    // There, if it is before x: the largest rotation and slip.
+    void turn(const PackMask& lanes, const Pack& omega, const Pack& x, Pack& turned, Pack& slid) const {
+      const Pack zero(0.0), one(1.0), guess = first_zero(y.omega[0], y.omega[1], omega);
+      const Pack at = bracketed_root<N + 1>(y.omega, one, zero, one, guess, lanes), top = y.at(y.theta, at);
+      const PackMask seen = lanes & (at < x);
+      turned = choose(seen, xsimd::max(turned, top), turned);
+      slid = choose(seen, xsimd::max(slid, xsimd::abs(midpoint(y.at(y.xi, at), top))), slid);
+    }
+    // It may turn otherwise, where that matters.
+    PackMask wavers(const Pack& omega, const Pack& theta) const {
       const Pack zero(0.0), reach = xsimd::abs(y.omega[0]) + xsimd::abs(omega) + xsimd::abs(y.omega[1]);
-      const Pack low = xsimd::min(y.theta[0], theta), high = xsimd::max(y.theta[0], theta);
+      const Pack low = xsimd::min(y.theta[0], theta);
       const PackMask turns =
           (y.omega[0] * omega <= zero) |
           ((y.omega[0] * y.omega[1] < zero) & (xsimd::abs(y.omega[1]) > Pack(2.0) * xsimd::abs(y.omega[0])));
-      return turns & ((high + reach > load(r.look + i)) | (low < reach));
+      return turns & ~domed() & (rises_high(omega, theta) | (low < reach));
     }
     // All through the interval; w: at its end. The slip leaves its chord by its higher terms at most. One that starts from
     // zero, or rises, does not come back to it.
@@ -217,9 +234,11 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   };
 
   // The end of the step, but for the lanes that stay.
-  void keep(const Step& s, const End& end, const PackMask& stays, const Pack& seen, const Pack& peak) {
+  void keep(const Step& s, const End& end, const PackMask& stays, const Pack& turned, const Pack& seen,
+            const Pack& peak) {
     const Pack per_left = Pack(1.0) / s.left;
     const int i = s.i;
+    store(r_.look + i, choose(stays, load(r_.look + i), turned));
     store(r_.seen + i, choose(stays, load(r_.seen + i), seen));
     store(r_.peak + i, choose(stays, load(r_.peak + i), peak));
     store(r_.theta + i, choose(stays, s.y.theta[0], end.theta));
@@ -236,12 +255,14 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     const auto& y = s.y;
     const End end{y.sum(y.theta), y.sum(y.omega),  y.sum(y.rx),     y.sum(y.ry),          y.sum(y.xi),
                   y.sum(y.w),     at_end(s.field), s.factor.last(), s.factor.last_rate(), one};
-    Pack seen, peak;
+    Pack seen, peak, turned = load(r_.look + i), slid = load(r_.peak + i);
     const PackMask falls = end.theta <= zero;
-    const PackMask stays = s.watch(end, load(r_.peak + i), seen, peak) | s.near_turn(end.omega, end.theta) | falls |
+    if (const PackMask tops = s.tops(end.omega, end.theta) & ~falls; bits(tops))
+      s.turn(tops, end.omega, one, turned, slid);
+    const PackMask stays = s.watch(end, slid, seen, peak) | s.wavers(end.omega, end.theta) | falls |
                            ~(end.theta < Pack(1.57)) | ~s.settled() | ~s.slips_on(end.w);
 
-    keep(s, end, stays, seen, peak);
+    keep(s, end, stays, turned, seen, peak);
     store(r_.a + i, choose(stays, s.a, s.a_next));
     s.shakes.keep(r_.shakes, i, stays);
     store(r_.left + i, choose(stays, s.left, one));
