@@ -112,7 +112,7 @@ class RockHops : public RockLanes {
       const double inertia = c.k2 + c.h * c.h + c.right * c.left;
       const double alpha = c.g * 0.5 * (c.left + c.right) / inertia, speed = magnitude(rate) / c.table->step_s;
       const double time =
-          rests ? 0.0 : 2 * speed / alpha * (1 - std::pow(lane.kept, hops_to_rest(i))) / (1 - lane.kept);
+          rests ? 0.0 : 2 * speed / alpha * (1 - pow_outside(lane.kept, hops_to_rest(i))) / (1 - lane.kept);
       const double after = c.table->step_s * (knot(i) + 1 - r_.left[i]) + time;
       if (after > c.free_vibration_s) return decline(i);
       finish(i, Outcome::moved, c.table->step_s * (c.table->knots - 1) + after, 0.0);
@@ -168,7 +168,7 @@ class RockHops : public RockLanes {
   int hops_to_rest(int i) const {
     const Lane& lane = lanes_[i];
     const double ratio = lane.sample->rest_rotation / (lane.hop_here * r_.omega[i] * r_.omega[i]);
-    return lane.kept > 0 ? static_cast<int>(std::ceil(std::log(ratio) / (2 * std::log(lane.kept)))) : 1;
+    return lane.kept > 0 ? static_cast<int>(std::ceil(log_outside(ratio) / (2 * log_outside(lane.kept)))) : 1;
   }
 
   // The corner on which the lane does not stand.
@@ -182,10 +182,9 @@ class RockHops : public RockLanes {
     other.height[k] = c.h;
     other.gravity[k] = there.gravity;
     other.push[k] = right ? -there.push : there.push;
-    other.rests[k] = c.rest_rotation / there.hop;
+    other.rests[k] = there.rests;
     other.dying[k] = lane.dying;
-    const double small = HopBounds::small_rotation * (c.left < c.right ? c.left : c.right) / c.h;
-    other.small2[k] = small * small;
+    other.small2[k] = lane.small2;
   }
 
   // ---- small hops

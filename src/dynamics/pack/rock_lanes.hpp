@@ -8,6 +8,7 @@
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/ground.hpp"
+#include "dynamics/pack/outside.hpp"
 #include "dynamics/pack/rock_march.hpp"
 #include "dynamics/pack/search.hpp"
 
@@ -53,9 +54,11 @@ class RockLanes {
       double arm, gravity, push;  // as in the rows
       double kept;                // of the rate, at the impact that ends the stay on this side
       double hop;                 // rotation of a hop by omega^2
+      double rests;               // squared rate below which a block rests that has just come down here
     } left{}, right{};
     double kept = 0, hop_here = 0;  // of the side on which it stands
     int events = 0, impacts = 0;
+    double small2 = 0;   // squared rotation up to which hops are small
     double dying = 0;    // no row of hops dies out within `look` intervals that starts faster than this, per interval
     int restless = -1;   // up to this knot the floor pushes too hard for hops to die out
     bool after = false;  // the record is over
@@ -76,6 +79,8 @@ class RockLanes {
       Lane& lane = lanes_[i];
       lane = Lane{
           .sample = &c, .number = number, .left = side_of(c, -c.left, c.right), .right = side_of(c, c.right, -c.left)};
+      const double small = HopBounds::small_rotation * smaller(c.left, c.right) / c.h;
+      lane.small2 = small * small;
       lane.dying = dying_rate(c, larger(1 - lane.left.kept, 1 - lane.right.kept));
       r_.peak[i] = r_.force2[i] = 0;
       r_.weight[i] = c.scale * c.table->step_s * c.table->step_s;
@@ -166,15 +171,17 @@ class RockLanes {
     const double h2 = c.table->step_s * c.table->step_s;
     const double inertia = c.k2 + c.h * c.h + arm * arm, other_inertia = c.k2 + c.h * c.h + other * other;
     const double kept = (c.k2 + c.h * c.h + arm * other) / other_inertia;
-    return {arm, c.g * h2 / inertia, c.scale * h2 / inertia, c.factor * (kept > 0 ? kept : 0.0),
-            inertia / (2 * c.g * magnitude(arm) * h2)};
+    const double hop = inertia / (2 * c.g * magnitude(arm) * h2);
+    return {arm, c.g * h2 / inertia,   c.scale * h2 / inertia, c.factor * (kept > 0 ? kept : 0.0),
+            hop, c.rest_rotation / hop};
   }
 
   void finish(int i, Outcome outcome, double time, double theta) {
     const Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
     Response& out = responses_[lane.number];
-    const double base = 0.5 * (c.left + c.right), half = std::sin(0.5 * r_.peak[i]), half_end = std::sin(0.5 * theta);
+    const double base = 0.5 * (c.left + c.right), half = sin_outside(0.5 * r_.peak[i]),
+                 half_end = sin_outside(0.5 * theta);
     out = Response{};
     out.outcome = outcome;
     out.peak_rotation_rad = r_.peak[i];
