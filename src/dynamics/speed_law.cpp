@@ -31,6 +31,11 @@ SpeedLaw without_unused(const SpeedLaw& all) {
   return law;
 }
 
+bool fading(const SpeedLaw& law) {
+  const auto is = [&](int i, Op op) { return law.nodes[i].op == op && law.nodes[i].a == i; };
+  return law.count == 3 && is(0, Op::affine) && is(1, Op::exp) && is(2, Op::affine);
+}
+
 }  // namespace
 
 bool same_shape(const SpeedLaw& a, const SpeedLaw& b) {
@@ -63,7 +68,9 @@ std::optional<SpeedLaw> speed_law(const Laws& laws) {
                             node.shift};
     place[static_cast<std::size_t>(i)] = ++law.count;
   }
-  return without_unused(law);
+  law = without_unused(law);
+  law.fades = fading(law);
+  return law;
 }
 
 double friction_factor(const SpeedLaw& law, double speed) {

@@ -14,6 +14,7 @@ inline constexpr int speed_law_nodes = 8;
 struct SpeedLaw {
   Node nodes[speed_law_nodes];
   int count = 0;
+  bool fades = false;  // F = p + q exp(r |w| + s): nodes affine, exp, affine
 };
 
 // The same operations on the same places: the two differ in constants only, and go in one pack.

@@ -45,6 +45,8 @@ TEST(SpeedLaw, CarriesNoOperationThatNobodyAsksFor) {
 TEST(SpeedLaw, HasAShapeOfItsOwn) {
   EXPECT_TRUE(same_shape(law_of(exponential, {0.3, 0.2}), law_of(exponential, {-0.1, 0.5})));
   EXPECT_FALSE(same_shape(law_of(exponential, {0.3, 0.2}), law_of(rational, {0.3, 0.2})));
+  EXPECT_TRUE(law_of(exponential, {0.3, 0.2}).fades);
+  EXPECT_FALSE(law_of(rational, {0.3, 0.2}).fades);
 }
 
 }  // namespace

@@ -27,6 +27,17 @@ template <class Real>
   return sum + (a[0] * b[k] + a[k] * b[0]);
 }
 
+// sum_{i>0} a_i b_{k-i}; last = a_k, which may be known last.
+template <class Real>
+[[gnu::always_inline]] inline Real known(const Real* a, const Real& last, const Real* b, int k) {
+  if (k == 1) return last * b[0];
+  if (k == 2) return a[1] * b[1] + last * b[0];
+  Real sum = a[2] * b[k - 2];
+#pragma GCC unroll 16
+  for (int i = 3; i < k; ++i) sum = sum + a[i] * b[k - i];
+  return (sum + a[1] * b[k - 1]) + last * b[0];
+}
+
 // Series over the part of an interval that lies ahead, in x = time/hs: rates times hs, accelerations times hs^2.
 template <int N, class Real = double>
 struct CornerSeries {
@@ -54,32 +65,55 @@ struct CornerSeries {
       integrate(k, alpha, Real(0.0));
     }
   }
-  // sigma_mu = sigma mu_k; gravity, a0, a1 times hs^2. to_speed = sigma/hs makes w the speed |w| that the factor F on
-  // friction may ask for (dynamics/pack/friction.hpp).
+  // The pull of the corner, per mass: f_y = g' + r_y'' and T = sigma mu_k F f_y, as k^2 omega' = r_x f_y + r_y T; and
+  // (w + r_x')' = -T - a. sigma_mu = sigma mu_k; gravity, a0, a1 times hs^2. to_speed = sigma/hs makes w the speed |w|
+  // that the factor F on friction may ask for (dynamics/pack/friction.hpp).
   template <class Gravity, class Factor>
   void slide_rock(const Gravity& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu,
                   const Real& to_speed, Factor& factor) {
-    Real omega2[N + 1], q[N + 1], n[N + 1], d[N + 1], alpha[N + 1], fy[N + 1], per_d(1.0);
+    factor.expand([&](auto& f) { slide_rock_by(gravity, a0, a1, k2, sigma_mu, to_speed, f); });
+  }
+  template <class Gravity, class Factor>
+  void slide_rock_by(const Gravity& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu,
+                     const Real& to_speed, Factor& factor) {
+    Real fy[N + 1], pull[N + 1];
+    Real mu = sigma_mu;
+    if constexpr (Factor::varies) {
+      factor.advance(0, to_speed, w[0]);
+      mu = mu * factor.factor()[0];
+    }
+    const Real q = rx[0] + mu * ry[0], per_d = Real(1.0) / (k2 + rx[0] * q);
+    const Real q_per_d = q * per_d, ry_per_d = ry[0] * per_d;
+    Real ahead_x = ry[0] * omega[0], ahead_y = Real(0.0) - rx[0] * omega[0];  // coefficient k + 1
 #pragma GCC unroll 16
     for (int k = 0; k <= N; ++k) {
-      factor.advance(k, to_speed * w[k]);
-      omega2[k] = product(omega, omega, k);
-      q[k] = rx[k] + sigma_mu * factor.times(ry, k);
-      n[k] = coefficient(gravity, k) - product(ry, omega2, k);
-      d[k] = product(rx, q, k);
-      if (k == 0) d[k] = d[k] + k2, per_d = Real(1.0) / d[k];
-      Real numerator = product(n, q, k);
+      const Real over(1.0 / (k + 1));
+      const Real side = known(rx, ahead_x, omega, k + 1), up = known(ry, ahead_y, omega, k + 1);
+      const Real n = coefficient(gravity, k) - Real(k + 1.0) * side;
+      Real alpha = q_per_d * n, more(0.0);
       if (k > 0) {
-        Real known = d[1] * alpha[k - 1];
-#pragma GCC unroll 16
-        for (int i = 2; i <= k; ++i) known = known + d[i] * alpha[k - i];
-        numerator = numerator - known;
+        alpha = alpha + (known(rx, rx[k], fy, k) + known(ry, ry[k], pull, k)) * per_d;
+        if constexpr (Factor::varies) {
+          factor.advance(k, to_speed, w[k]);
+          more = sigma_mu * known(factor.factor(), factor.factor()[k], fy, k);
+          alpha = alpha + ry_per_d * more;
+        }
       }
-      alpha[k] = numerator * per_d;
-      fy[k] = n[k] - product(rx, alpha, k);
-      Real slip = product(rx, omega2, k) - sigma_mu * factor.times(fy, k) - product(ry, alpha, k);
-      if (k < 2) slip = slip - (k == 0 ? a0 : a1);
-      integrate(k, alpha[k], slip);
+      fy[k] = n - rx[0] * alpha;
+      pull[k] = mu * fy[k];
+      if (Factor::varies && k > 0) pull[k] = pull[k] + more;
+      Real slip = pull[k];
+      if (k < 2) slip = slip + (k == 0 ? a0 : a1);
+      theta[k + 1] = omega[k] * over;
+      omega[k + 1] = alpha * over;
+      xi[k + 1] = w[k] * over;
+      const Real rate = up + ry[0] * omega[k + 1];
+      w[k + 1] = Real(0.0) - rate - slip * over;
+      if (k == N) break;
+      rx[k + 1] = ahead_x;
+      ry[k + 1] = ahead_y;
+      ahead_x = rate * Real(1.0 / (k + 2));
+      ahead_y = (side + rx[0] * omega[k + 1]) * Real(-1.0 / (k + 2));
     }
   }
 

@@ -13,13 +13,16 @@ struct FlatSeries {
   // friction = sigma mu_k g hs^2; to_speed = sigma/hs makes w the speed |w|.
   template <class Factor>
   void slide(const Real& friction, const Real& a0, const Real& a1, const Real& to_speed, Factor& factor) {
+    factor.expand([&](auto& f) { slide_by(friction, a0, a1, to_speed, f); });
+  }
+  template <class Factor>
+  void slide_by(const Real& friction, const Real& a0, const Real& a1, const Real& to_speed, Factor& factor) {
 #pragma GCC unroll 16
     for (int k = 0; k <= N; ++k) {
-      factor.advance(k, to_speed * w[k]);
-      Real slip = Real(0.0) - friction * factor.factor()[k];
-      if (k < 2) slip = slip - (k == 0 ? a0 : a1);
-      xi[k + 1] = w[k] * Real(1.0 / (k + 1));
-      w[k + 1] = slip * Real(1.0 / (k + 1));
+      factor.advance(k, to_speed, w[k]);
+      const Real over(1.0 / (k + 1)), change = friction * over * factor.factor()[k];
+      xi[k + 1] = w[k] * over;
+      w[k + 1] = k < 2 ? (k == 0 ? a0 : a1) * (Real(0.0) - over) - change : Real(0.0) - change;
     }
   }
 

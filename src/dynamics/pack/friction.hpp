@@ -19,11 +19,10 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 struct NoFactor {
-  template <class Real>
-  void advance(int, const Real&) {}
-  template <class Real>
-  static Real times(const Real* y, int k) {
-    return y[k];
+  static constexpr bool varies = false;
+  template <class Expand>
+  void expand(Expand&& expand) {
+    expand(*this);
   }
 };
 
@@ -31,11 +30,23 @@ struct NoFactor {
 template <int N, class Real, class Constants>
 class SpeedFactor {
  public:
+  static constexpr bool varies = true;
   SpeedFactor(const SpeedLaw& law, const Constants& constants) : law_(law), constants_(constants) {}
 
-  // speed: coefficient k of |w| [m/s]; those before k were given.
-  [[gnu::always_inline]] void advance(int k, const Real& speed) {
-    at_[0][k] = speed;
+  // Calls expand(factor) with what gives the coefficients of F while those of the speed are found.
+  template <class Expand>
+  [[gnu::always_inline]] void expand(Expand&& expand) {
+    if (law_.fades) {
+      Fading fading{constants_, at_[law_.count]};
+      expand(fading);
+    } else {
+      expand(*this);
+    }
+  }
+
+  // to_speed w: coefficient k of |w| [m/s]; those before k were given.
+  [[gnu::always_inline]] void advance(int k, const Real& to_speed, const Real& w) {
+    at_[0][k] = to_speed * w;
     for (int i = 0; i < law_.count; ++i) {
       const Node& node = law_.nodes[i];
       const Real *x = at_[node.a], *y = at_[node.b];
@@ -66,8 +77,6 @@ class SpeedFactor {
     }
   }
 
-  // Coefficient k of F y.
-  [[gnu::always_inline]] Real times(const Real* y, int k) const { return product(factor(), y, k); }
   const Real* factor() const { return at_[law_.count]; }
   Real first() const { return factor()[0]; }
   Real first_rate() const { return factor()[1]; }
@@ -97,6 +106,41 @@ class SpeedFactor {
   }
 
  private:
+  // F = p + e, e = q exp(r |w| + s), e' = r |w|' e.
+  class Fading {
+   public:
+    static constexpr bool varies = true;
+    Fading(const Constants& constants, Real* out) : constants_(constants), out_(out) {}
+
+    [[gnu::always_inline]] void advance(int k, const Real& to_speed, const Real& w) {
+      if (k == 0) {
+        const Real rate = constants_.value(0);
+        rate_ = rate * to_speed;
+        start_ = constants_.value(2) * constants_.exponential(rate * (to_speed * w) + constants_.shift(0));
+        fall_ = rate_ * start_;
+        factor_[0] = start_ + constants_.shift(2);
+      } else {
+        factor_[k] = fall_ * w;
+        if (k > 1) factor_[k] = sum(k) * Real(1.0 / k) + factor_[k];
+        change_[k] = Real(double(k)) * (rate_ * w);
+      }
+      out_[k] = factor_[k];
+    }
+    const Real* factor() const { return factor_; }
+
+   private:
+    [[gnu::always_inline]] Real sum(int k) const {
+      Real sum = change_[1] * factor_[k - 1];
+#pragma GCC unroll 16
+      for (int i = 2; i < k; ++i) sum = sum + change_[i] * factor_[k - i];
+      return sum;
+    }
+
+    const Constants& constants_;
+    Real* out_;
+    Real rate_, start_, fall_, factor_[N + 1], change_[N + 1];
+  };
+
   [[gnu::always_inline]] static Real product(const Real* a, const Real* b, int k) { return convolution(a, b, k); }
   [[gnu::always_inline]] static Real quotient(const Real* x, const Real* y, const Real* z, int k) {
     Real sum = x[k];

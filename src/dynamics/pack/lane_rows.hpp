@@ -14,7 +14,9 @@ alignas(64) const double still_ground[still_intervals] = {};  // the floor after
 
 // Lane `from` of the other rows becomes lane `to` of these.
 template <std::size_t Count>
-void copy_each(const std::array<double*, Count>& mine, int to, const std::array<double*, Count>& theirs, int from) {
+[[gnu::always_inline]] inline void copy_each(const std::array<double*, Count>& mine, int to,
+                                             const std::array<double*, Count>& theirs, int from) {
+#pragma GCC unroll 64
   for (std::size_t k = 0; k < Count; ++k) mine[k][to] = theirs[k][from];
 }
 template <class Rows>

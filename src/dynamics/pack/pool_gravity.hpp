@@ -12,7 +12,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-constexpr int march_slots = 128;
+constexpr int march_slots = 120;  // no power of two, so that a lane's rows do not share a few places of the cache
 
 struct Steady {
   static constexpr bool shaken = false;

@@ -36,7 +36,7 @@ struct SlideRockRows {
     left[i] = 1;
     look[i] = seen[i] = 1e300;
   }
-  auto all() {
+  [[gnu::always_inline]] auto all() {
     return std::array{theta,    omega, rx,   ry,   a,     left,  grip,  square, gravity, push,     weight,
                       weight_g, mu,    look, seen, bend0, bend1, bend2, turned, room,    half_base};
   }
@@ -61,7 +61,7 @@ struct SlipRows {
   typename Gravity::Rows shakes;
 
   void retire(int i) { seen[i] = 1e300; }
-  auto all() {
+  [[gnu::always_inline]] auto all() {
     return std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
                       k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen};
   }
@@ -85,7 +85,9 @@ struct FlatRows {
   typename Friction::Rows law;
 
   void retire(int i) { seen[i] = 1e300; }
-  auto all() { return std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen}; }
+  [[gnu::always_inline]] auto all() {
+    return std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen};
+  }
 };
 
 // A pack of ends of slips.
