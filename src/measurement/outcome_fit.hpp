@@ -1,8 +1,9 @@
 // Fits to tests that say only whether the specimen overturned. The score (Brier's) of such tests is a flight of steps in
 // most numbers, and each step costs thousands of samples. So outcomes are tabulated (outcome_table.hpp) at points that
 // close in on the best: first over the whole range on coarse places, then twice over the box of the best points so far.
-// Everything else is read off the last table: the fit to all tests, those with a fold left out, and 95 % intervals, that
-// hold the fits to tests drawn with replacement (bootstrap) and all points that are worse by no more than chance: the
+// Everything else is read off the last table: the fit to all tests; predictions for tests left out, the mean over fits to
+// the other folds, resampled (bagging), as one fit alone jumps where one sample falls that stood before; and 95 % intervals,
+// that hold the fits to tests drawn with replacement (bootstrap) and all points that are worse by no more than chance: the
 // curvature of a flight of steps would say nothing.
 #pragma once
 
