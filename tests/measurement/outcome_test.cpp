@@ -148,6 +148,35 @@ TEST(Outcomes, FitFindsSlendernessAndScatterAgain) {
   EXPECT_NEAR(fit.score, right.error, 3 * right.standard_error);
 }
 
+// Outcomes are steps, so which point is best hangs on which points are looked at. What is predicted for tests left out
+// must not: ranges a little apart, and so other points, and each prediction is nearly the same.
+TEST(Outcomes, PredictionsForTestsLeftOutDoNotJump) {
+  const Dataset data = made_outcomes(120, {});
+  const Bench bench(data, 0);
+  OutcomeEffort effort;
+  effort.resamples = 10;
+  std::vector<ModelFit> fits;
+  for (const double least : {0.3, 0.31, 0.32}) {
+    ModelSpec model = rocking_model(true_size_m);
+    model.size = Number{.free = 2};
+    model.free.push_back({.name = "block.size_m",
+                          .unit = "m",
+                          .lower = least,
+                          .upper = 1.2,
+                          .low = least,
+                          .high = 1.2,
+                          .logarithmic = true});
+    fits.push_back(fit_outcomes(bench, model, {}, effort, run_here));
+  }
+  double square = 0;
+  for (const ModelFit& fit : fits)
+    for (std::size_t t = 0; t < fit.left_out.size(); ++t)
+      square += std::pow(fit.left_out[t].probability - fits[0].left_out[t].probability, 2);
+  const double difference = std::sqrt(square / static_cast<double>(2 * fits[0].left_out.size()));
+  std::printf("predictions differ by %.3f\n", difference);
+  EXPECT_LT(difference, 0.02);  // 0.033 where single fits predict
+}
+
 TEST(Outcomes, NothingIsMissingWhereNothingIs) {
   const Dataset data = made_outcomes(200, {});
   const Bench bench(data, 0);
