@@ -58,19 +58,20 @@ void add_placement_scatter(Prepared& p) {
 
 const char* calibration_method(const Bench& bench) {
   if (outcomes_only(bench.data()))
-    return "outcomes are computed for many placements of the specimen at points of a Sobol sequence that close in on "
-           "the "
-           "best; over these points, and over middle and scatter of the placements, Brier's score of the calibration "
-           "tests is made least; intervals of 95 % hold the fits to 200 draws of the tests with replacement, and all points "
-           "that are worse by no more than chance";
-  return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and Mead descends "
-         "(GSL "
-         "nmsimplex2), and once more from the best of those; the mean of ln(error^2) of the calibration tests is made "
-         "least; histories end in Levenberg and Marquardt's least squares (GSL multifit_nlinear), at the noise weighed "
-         "by "
-         "the covariance that replays of the floor's noise show; intervals of 95 % by the jackknife over the "
-         "tests, and not less than what each number alone may do: at the noise until the misfit rises by 3.84, of peaks "
-         "by 3.84 times their mean square, and elsewhere until ln(error^2) of the tests together rises by 0.05";
+    return "outcomes are computed for many placements of the specimen at points of a Sobol sequence that"
+           " close in on the best; over these points, and over middle and scatter of the placements, "
+           "Brier's score of the calibration tests is made least; tests left out are predicted by the "
+           "mean over 25 fits to draws of the others with replacement; intervals of 95 % hold the fits "
+           "to 200 draws of the tests with replacement, and all points that are worse by no more than "
+           "chance";
+  return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and "
+         "Mead descends (GSL nmsimplex2), and once more from the best of those; the mean of "
+         "ln(error^2) of the calibration tests is made least; histories end in Levenberg and "
+         "Marquardt's least squares (GSL multifit_nlinear), at the noise weighed by the covariance "
+         "that replays of the floor's noise show; intervals of 95 % by the jackknife over the tests, "
+         "and not less than what each number alone may do: at the noise until the misfit rises by "
+         "3.84, of peaks by 3.84 times their mean square, and elsewhere until ln(error^2) of the tests"
+         " together rises by 0.05";
 }
 
 nlohmann::ordered_json number_or_null(double value) {
