@@ -252,7 +252,7 @@ class SlideRockLane {
   double next_gravity() const { return shaken_ && m_ < last_ ? gravity_at(m_ + 1) : c_.g; }
   // From knot m on.
   double least_gravity(int m) const {
-    if (!shaken_) return c_.g;
+    if (!shaken_ || m > last_) return c_.g;
     return c_.g - magnitude(c_.vertical_scale) * t_.later_vertical_peak[static_cast<std::size_t>(m / table_run)];
   }
   double now() const { return h_ * (m_ + 1 - left_); }
