@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dynamics/pack/gravity.hpp"
+#include "dynamics/pack/polynomials.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -40,7 +41,7 @@ template <class Real>
 
 // Series over the part of an interval that lies ahead, in x = time/hs: rates times hs, accelerations times hs^2.
 template <int N, class Real = double>
-struct CornerSeries {
+struct CornerSeries : Polynomials<Real> {
   Real theta[N + 2], omega[N + 2], xi[N + 2], w[N + 2], rx[N + 1], ry[N + 1];
 
   // Coefficient k of a b.
@@ -115,21 +116,6 @@ struct CornerSeries {
       ahead_x = rate * Real(1.0 / (k + 2));
       ahead_y = (side + rx[0] * omega[k + 1]) * Real(-1.0 / (k + 2));
     }
-  }
-
-  template <int M>
-  static Real sum(const Real (&c)[M]) {
-    Real total = c[M - 1];
-#pragma GCC unroll 16
-    for (int k = M - 2; k >= 0; --k) total = total + c[k];
-    return total;
-  }
-  template <int M>
-  static Real at(const Real (&c)[M], const Real& x) {
-    Real value = c[M - 1];
-#pragma GCC unroll 16
-    for (int k = M - 2; k >= 0; --k) value = value * x + c[k];
-    return value;
   }
 };
 

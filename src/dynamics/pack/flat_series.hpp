@@ -2,12 +2,14 @@
 //     w' = -a - sigma mu_k F(|w|) g
 #pragma once
 
+#include "dynamics/pack/polynomials.hpp"
+
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 // Over the part of an interval that lies ahead, in x = time/hs: speeds times hs, accelerations times hs^2.
 template <int N, class Real = double>
-struct FlatSeries {
+struct FlatSeries : Polynomials<Real> {
   Real xi[N + 2], w[N + 2];
 
   // friction = sigma mu_k g hs^2; to_speed = sigma/hs makes w the speed |w|.
@@ -24,21 +26,6 @@ struct FlatSeries {
       xi[k + 1] = w[k] * over;
       w[k + 1] = k < 2 ? (k == 0 ? a0 : a1) * (Real(0.0) - over) - change : Real(0.0) - change;
     }
-  }
-
-  template <int M>
-  static Real sum(const Real (&c)[M]) {
-    Real total = c[M - 1];
-#pragma GCC unroll 16
-    for (int k = M - 2; k >= 0; --k) total = total + c[k];
-    return total;
-  }
-  template <int M>
-  static Real at(const Real (&c)[M], const Real& x) {
-    Real value = c[M - 1];
-#pragma GCC unroll 16
-    for (int k = M - 2; k >= 0; --k) value = value * x + c[k];
-    return value;
   }
 };
 

@@ -9,7 +9,6 @@
 #pragma once
 
 #include <cmath>
-#include <type_traits>
 
 #include "base/pack.hpp"
 #include "base/units.hpp"
@@ -20,8 +19,8 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-// N: order of the series where something happens; Step: how the others go.
-template <int N, class Step>
+// N: order of the series where something happens.
+template <int N>
 class RockPool : RockHops {
  public:
   using RockHops::RockHops;
@@ -41,6 +40,9 @@ class RockPool : RockHops {
   }
 
  private:
+  using Step = StepOf<N>;
+  static constexpr bool strikes_in_packs = std::is_same_v<Step, RockStep>;
+
   // One interval for every lane to which nothing happens. Those to which something does wait for each other.
   void march() {
     std::uint64_t falls;
@@ -48,7 +50,7 @@ class RockPool : RockHops {
     for (std::uint64_t open = apart; open;) {  // downwards, as the last one fills a gap
       const int k = 63 - __builtin_clzll(open), slot = rocks_.lane(k);
       open &= ~(std::uint64_t{1} << k);
-      if (N < 8 && (falls >> k & 1U)) {
+      if (strikes_in_packs && (falls >> k & 1U)) {
         to_strike(k);
         continue;
       }
@@ -253,7 +255,7 @@ class RockPool : RockHops {
 
 template <int N>
 void rock_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  RockPool<N, std::conditional_t<(N < 8), RockStep, RockSeries<N>>> pool(cases, count, responses, declined);
+  RockPool<N> pool(cases, count, responses, declined);
   pool.run();
 }
 

@@ -26,15 +26,15 @@ struct RockRows {
   alignas(64) const double* next[march_slots];                 // a at the end of the interval
   alignas(64) const double* stop[march_slots];                 // the last such value
 
-  void retire(int i) { omega[i] = push[i] = weight[i] = a[i] = 0, theta[i] = 0.5, left[i] = 1, next[i] = still_ground; }
-  auto all() { return std::array{theta, omega, rx, ry, gravity, push, weight, a, left, peak, force2}; }
-  void clear(int i) {
-    for (double* row : all()) row[i] = 1;
-    gravity[i] = 0;
+  // Out of use: it causes no work.
+  void retire(int i) {
+    omega[i] = gravity[i] = push[i] = weight[i] = a[i] = 0;
+    theta[i] = 0.5;
+    left[i] = 1;
     peak[i] = force2[i] = 1e300;
-    stop[i] = still_ground;
-    retire(i);
+    next[i] = still_ground;
   }
+  auto all() { return std::array{theta, omega, rx, ry, gravity, push, weight, a, left, peak, force2}; }
 };
 
 class RockMarch : public LaneGroup<RockRows> {

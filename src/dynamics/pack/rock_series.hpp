@@ -7,6 +7,7 @@
 
 #include "base/pack.hpp"
 #include "dynamics/pack/gravity.hpp"
+#include "dynamics/pack/polynomials.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -16,7 +17,7 @@ struct RockEnd {
 };
 
 template <int N>
-struct RockSeries {
+struct RockSeries : Polynomials<Pack> {
   static constexpr int order = N + 1;                     // of omega
   Pack theta[N + 2], omega[N + 2], rx[N + 1], ry[N + 1];  // the rotation to one order more
 
@@ -41,21 +42,6 @@ struct RockSeries {
     const Pack over(1.0 / (N + 1));
     theta[N + 1] = omega[N] * over;
     omega[N + 1] = (times(rx, N, gravity) - ry[N] * a0 - ry[N - 1] * a1) * over;
-  }
-
-  template <int M>
-  static Pack sum(const Pack (&c)[M]) {
-    Pack total = c[M - 1];
-#pragma GCC unroll 16
-    for (int k = M - 2; k >= 0; --k) total = total + c[k];
-    return total;
-  }
-  template <int M>
-  static Pack at(const Pack (&c)[M], const Pack& x) {
-    Pack value = c[M - 1];
-#pragma GCC unroll 16
-    for (int k = M - 2; k >= 0; --k) value = value * x + c[k];
-    return value;
   }
 
   RockEnd end(const Pack& a_next) const { return {sum(omega), sum(rx), sum(ry), a_next, sum(theta)}; }

@@ -11,6 +11,8 @@
 // rotation gained: sine and cosine to its seventh power, 1e-15 at 0.03 rad.
 #pragma once
 
+#include <type_traits>
+
 #include "base/pack.hpp"
 #include "dynamics/pack/rock_series.hpp"
 
@@ -74,6 +76,10 @@ struct RockStep {
     y = ry[0] - (ry[0] * lost + rx[0] * sine);
   }
 };
+
+// Of the pools for short steps, and for longer ones.
+template <int N>
+using StepOf = std::conditional_t<(N < 8), RockStep, RockSeries<N>>;
 
 }  // namespace
 }  // namespace freestand::dynamics::FREESTAND_ISA

@@ -22,7 +22,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   using Group::r_;
   using Interval = typename Gravity::Interval;
   // Short steps of a floor that does not shake vertically go by derivatives.
-  using Step = std::conditional_t<(N < 8 && !Gravity::shaken), RockStep, RockSeries<N>>;
+  using Step = std::conditional_t<Gravity::shaken, RockSeries<N>, StepOf<N>>;
 
  public:
   using Group::count;
