@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "base/units.hpp"
-#include "dynamics/effect.hpp"
 #include "support/keyed_random.hpp"
 #include "support/random_cases.hpp"
+#include "support/speed_laws.hpp"
 
 namespace freestand::test {
 namespace {
@@ -57,12 +57,6 @@ Samples random_block(Model model, std::uint64_t seed, std::size_t samples, Wante
 }
 
 // Friction that follows the speed, in two shapes that come in turns; it falls, or it rises.
-const dynamics::Effect exponential{.name = "exponential", .friction = [](const dynamics::At& at, const auto& p) {
-                                     return 1.0 - p[0] * (1.0 - exp(-at.speed / p[1]));
-                                   }};
-const dynamics::Effect rational{.name = "rational", .friction = [](const dynamics::At& at, const auto& p) {
-                                  return (p[1] + (1 - p[0]) * at.speed) / (p[1] + at.speed);
-                                }};
 
 void add_speed_laws(Samples& block) {
   for (std::size_t i = 0; i < block.specimens.size(); ++i) {

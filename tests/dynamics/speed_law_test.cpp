@@ -6,17 +6,12 @@
 #include <cmath>
 #include <vector>
 
-#include "dynamics/effect.hpp"
+#include "support/speed_laws.hpp"
 
 namespace freestand::dynamics {
 namespace {
 
-const Effect exponential{.name = "exponential", .friction = [](const At& at, const auto& p) {
-                           return 1.0 - p[0] * (1.0 - exp(-at.speed / p[1]));
-                         }};
-const Effect rational{.name = "rational", .friction = [](const At& at, const auto& p) {
-                        return (p[1] + (1 - p[0]) * at.speed) / (p[1] + at.speed);
-                      }};
+using test::exponential, test::rational;
 
 SpeedLaw law_of(const Effect& effect, std::vector<double> values) {
   Specimen specimen;

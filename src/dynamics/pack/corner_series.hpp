@@ -44,18 +44,6 @@ template <int N, class Real = double>
 struct CornerSeries : Polynomials<Real> {
   Real theta[N + 2], omega[N + 2], xi[N + 2], w[N + 2], rx[N + 1], ry[N + 1];
 
-  // Coefficient k of a b.
-  [[gnu::always_inline]] static Real product(const Real* a, const Real* b, int k) { return convolution(a, b, k); }
-  [[gnu::always_inline]] void integrate(int k, const Real& alpha, const Real& slip) {
-    const Real over(1.0 / (k + 1));
-    theta[k + 1] = omega[k] * over;
-    omega[k + 1] = alpha * over;
-    xi[k + 1] = w[k] * over;
-    w[k + 1] = slip * over;
-    if (k == N) return;
-    rx[k + 1] = product(ry, omega, k) * over;
-    ry[k + 1] = product(rx, omega, k) * Real(-1.0 / (k + 1));
-  }
   // gravity = g' (dynamics/pack/gravity.hpp), a0, a1: times hs^2/J.
   template <class Gravity>
   void rock(const Gravity& gravity, const Real& a0, const Real& a1) {
@@ -63,7 +51,14 @@ struct CornerSeries : Polynomials<Real> {
     for (int k = 0; k <= N; ++k) {
       Real alpha = times(rx, k, gravity) - ry[k] * a0;
       if (k > 0) alpha = alpha - ry[k - 1] * a1;
-      integrate(k, alpha, Real(0.0));
+      const Real over(1.0 / (k + 1));
+      theta[k + 1] = omega[k] * over;
+      omega[k + 1] = alpha * over;
+      xi[k + 1] = w[k] * over;
+      w[k + 1] = Real(0.0);
+      if (k == N) break;
+      rx[k + 1] = convolution(ry, omega, k) * over;
+      ry[k + 1] = convolution(rx, omega, k) * Real(-1.0 / (k + 1));
     }
   }
   // The pull of the corner, per mass: f_y = g' + r_y'' and T = sigma mu_k F f_y, as k^2 omega' = r_x f_y + r_y T; and

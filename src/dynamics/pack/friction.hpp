@@ -66,7 +66,7 @@ class SpeedFactor {
           z[k] = x[k] - y[k];
           break;
         case Op::multiply:
-          z[k] = product(x, y, k);
+          z[k] = convolution(x, y, k);
           break;
         case Op::divide:
           z[k] = quotient(x, y, z, k);
@@ -141,7 +141,6 @@ class SpeedFactor {
     Real rate_, start_, fall_, factor_[N + 1], change_[N + 1];
   };
 
-  [[gnu::always_inline]] static Real product(const Real* a, const Real* b, int k) { return convolution(a, b, k); }
   [[gnu::always_inline]] static Real quotient(const Real* x, const Real* y, const Real* z, int k) {
     Real sum = x[k];
 #pragma GCC unroll 16
