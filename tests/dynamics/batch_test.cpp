@@ -57,7 +57,6 @@ Samples random_block(Model model, std::uint64_t seed, std::size_t samples, Wante
 }
 
 // Friction that follows the speed, in two shapes that come in turns; it falls, or it rises.
-
 void add_speed_laws(Samples& block) {
   for (std::size_t i = 0; i < block.specimens.size(); ++i) {
     KeyedRandom random(171, i);
