@@ -49,7 +49,8 @@ const BatchKernels* pick() {
 #endif
 }
 
-constexpr double least_tolerance = 1e-10;
+// That the packs keep; where friction follows the speed, and of Bouc-Wen's contact.
+constexpr double least_tolerance = 1e-13, least_of_laws = 1e-10;
 constexpr double endless_base = 1e6;  // half of it, times the height: a block that only slides
 
 bool covered_bouc_wen(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor,
@@ -79,7 +80,8 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
   if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = speed_law(Laws(specimen))))) return false;
   const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty();
   if (floor.push_mps2 != 0 || (shaken && (law || !vertical_covered(specimen, shaking)))) return false;
-  if (settings.tolerance < least_tolerance || settings.event_limit < 10000) return false;
+  const bool exact = !law && specimen.model != Model::bouc_wen;
+  if (settings.tolerance < (exact ? least_tolerance : least_of_laws) || settings.event_limit < 10000) return false;
   if (specimen.model == Model::bouc_wen) return covered_bouc_wen(specimen, shaking, floor, settings, c);
   if (!admissible(specimen, shaking, floor, settings)) return false;
   if (specimen.model == Model::slide && !law && !shaken) {
@@ -126,8 +128,13 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const Settings& s
   return covered(setup.specimen, setup.shaking, setup.floor, settings, c, law);
 }
 
-// What the steps' order must follow: length of a step, times p.
-constexpr double fine_step = 0.03, coarse_step = 0.15;
+// Length of a step, times p, up to which the closed step (order 7 of the rate) and the series of order 9 are good for
+// every tolerance down to the first one given here; below it they shrink, as the first term left out must.
+constexpr double fine_step = 0.06, coarse_step = 0.15, good_for = 1e-10;
+
+double longest_step(double step, int order, double tolerance) {
+  return tolerance < good_for ? step * std::pow(tolerance / good_for, 1.0 / (order + 1)) : step;
+}
 
 double step_in_own_time(const BatchCase& c) {
   const double size = std::hypot(c.h, std::fmin(c.left, c.right));
@@ -142,11 +149,12 @@ BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, con
   if (specimen.model == Model::bouc_wen) return kernels.bouc_wen;
   if (specimen.model != Model::rock && specimen.model != Model::slide_rock) return nullptr;
   const double step = step_in_own_time(c);
-  if (!(step < coarse_step)) return nullptr;
-  if (specimen.model == Model::rock) return step < fine_step ? kernels.rock : kernels.rock_coarse;
-  if (shaken) return step < fine_step ? kernels.slide_rock_shaken : kernels.slide_rock_shaken_coarse;
-  if (law) return step < fine_step ? kernels.slide_rock_by_speed : kernels.slide_rock_by_speed_coarse;
-  return step < fine_step ? kernels.slide_rock : kernels.slide_rock_coarse;
+  if (!(step < longest_step(coarse_step, 9, c.tolerance))) return nullptr;
+  const bool fine = step < longest_step(fine_step, 7, c.tolerance);
+  if (specimen.model == Model::rock) return fine ? kernels.rock : kernels.rock_coarse;
+  if (shaken) return fine ? kernels.slide_rock_shaken : kernels.slide_rock_shaken_coarse;
+  if (law) return fine ? kernels.slide_rock_by_speed : kernels.slide_rock_by_speed_coarse;
+  return fine ? kernels.slide_rock : kernels.slide_rock_coarse;
 }
 
 struct Queue {

@@ -34,7 +34,7 @@ parallel::Words rows_of(const parallel::Communicator& world, const Study& study,
   for (std::int64_t i = world.rank(); i < stretches; i += world.size()) {
     const std::uint64_t sample = pick(study.seed, i, stretches, samples);
     plain.append(sample, values);
-    tight.append(sample, values);
+    tight.append_alone(sample, values);
   }
   parallel::Words words(values.size());
   std::transform(values.begin(), values.end(), words.begin(), [](double x) { return std::bit_cast<std::int64_t>(x); });

@@ -1,9 +1,9 @@
 // How far a sweep's numbers can be trusted: some samples again, at a tighter tolerance.
 //
 // Up to `checked_samples` samples, one picked from each of as many equal stretches of the sweep by (seed, stretch), are
-// integrated at the study's tolerance and at a hundredth of it, with the same draws. Where both stood, the differences
-// of their demands are the error estimate; where they end differently, the sample is chaotic (near overturning), and
-// the share of such samples tells how much of a probability rests on chance.
+// integrated as the sweep does and, never in packs, at a hundredth of the tolerance, with the same draws. Where both
+// stood, the differences of their demands are the error estimate; where they end differently, the sample is chaotic (near
+// overturning), and the share of such samples tells how much of a probability rests on chance.
 #pragma once
 
 #include <nlohmann/json.hpp>

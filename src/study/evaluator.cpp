@@ -79,6 +79,13 @@ Outcome Evaluator::append(std::uint64_t sample, std::vector<double>& values) con
   return append(sample, 1, values).front();
 }
 
+Outcome Evaluator::append_alone(std::uint64_t sample, std::vector<double>& values) const {
+  const Realisation drawn = parts_->realise(sample);
+  const Response response = respond(drawn.specimen, drawn.shaking, parts_->settings);
+  parts_->append(drawn, response, values);
+  return response.outcome;
+}
+
 std::vector<Outcome> Evaluator::append(std::uint64_t first, std::size_t count, std::vector<double>& values) const {
   std::vector<Realisation> drawn;
   std::vector<Specimen> specimens;

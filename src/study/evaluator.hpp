@@ -25,7 +25,10 @@ class Evaluator {
   // and all of a sample that failed, are nan.
   Outcome append(std::uint64_t sample, std::vector<double>& values) const;
 
-  // The same for samples first ... first + count - 1, integrated in packs: the same rows, to the bit, in blocks of any
+  // The same, integrated by itself, never in a pack: to check those.
+  Outcome append_alone(std::uint64_t sample, std::vector<double>& values) const;
+
+  // The same as append(), for samples first ... first + count - 1, integrated in packs: the same rows, to the bit, in blocks of any
   // size. Tells the outcomes in order.
   std::vector<Outcome> append(std::uint64_t first, std::size_t count, std::vector<double>& values) const;
 

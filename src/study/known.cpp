@@ -7,7 +7,8 @@ namespace freestand::study {
 
 Known registries() {
   Known known;
-  for (const auto& edp : edp::all()) known.edps.push_back({edp.name, edp.binary, edp.default_capacities, edp.by_default});
+  for (const auto& edp : edp::all())
+    known.edps.push_back({edp.name, edp.binary, edp.default_capacities, edp.by_default});
   for (const auto* measure : intensity::all()) {
     KnownIntensity intensity{measure->name, "", 0};
     if (measure->parameter) {

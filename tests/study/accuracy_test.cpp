@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "base/units.hpp"
 #include "study/known.hpp"
+#include "support/keyed_random.hpp"
+#include "support/scratch.hpp"
 
 namespace freestand::study {
 namespace {
@@ -55,6 +59,25 @@ TEST(Accuracy, FlipsComeWithTheirExactInterval) {
   const Accuracy accuracy = checked(slender(""), 200);
   ASSERT_EQ(accuracy.flips, 0);
   EXPECT_NEAR(accuracy.flip_share_upper, 1 - std::pow(0.025, 1.0 / 200), 1e-12);
+}
+
+// Slides are exact in packs and one by one, but for round-off, at any tolerance: the same numbers would mean that packs had
+// been held against packs.
+TEST(Accuracy, PacksAreHeldAgainstSingleSamples) {
+  const test::Scratch folder("accuracy");
+  std::ofstream record(folder / "noise.csv");
+  record << "time_s,floor_acceleration_mps2\n";
+  test::KeyedRandom random(16, 0);
+  for (int i = 0; i < 1000; ++i) record << 0.01 * i << ',' << 3 * random.normal() << '\n';
+  record.close();
+  const Study study = parse_study(
+      "seed: 3\nsamples: 200\nblock: {width_m: 0.4, height_m: 1.8}\nmodel: slide\nfriction: {mu: {uniform: [0.1, "
+      "0.4]}}\n"
+      "motions: [{records: noise.csv}]\n",
+      folder / "some.yaml", registries());
+  const DemandError slip = of(checked(study, 200), "peak_slip_m");
+  EXPECT_GT(slip.p95, 0);
+  EXPECT_LT(slip.p95, 1e-11);
 }
 
 TEST(Accuracy, ALooseToleranceFlipsOutcomesAndSaysSo) {

@@ -7,7 +7,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 
 void slide_rock_shaken(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
-  slide_rock_samples<5, 5, Coulomb, Shaken>(cases, count, responses, declined);
+  slide_rock_samples<6, 6, Coulomb, Shaken>(cases, count, responses, declined);
 }
 
 void slide_rock_shaken_coarse(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {
