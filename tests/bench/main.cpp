@@ -1,12 +1,12 @@
-// Benchmark of the kernel on the standard jobs (jobs.hpp), beside two peers on the same samples in the same run. The
-// second runs twice: (b) with one step per knot, the fastest that makes sense, and (c) with as many as it takes to be as
-// accurate as the kernel.
+// Benchmark of the kernel on the standard jobs (jobs.hpp), beside two peers on the same samples in the same run. Odeint
+// runs in three ways: (b) dopri5 with one step per knot, the fastest that makes sense; (c) dopri5 and (d) fehlberg78, of
+// order 8, with as many steps as it takes to be as accurate as the kernel.
 //
 //   build/release/benchmark_kernel [--benchmark_filter=P2] [--benchmark_repetitions=9] ...
 //
 // Times are of the processor, so that other work on the machine counts little.
 // FREESTAND_BENCH_SAMPLES sets the number of samples per job. The runs are interleaved at random, medians are told.
-// Errors are medians over the samples of |demand - demand of a tight run| (tolerance 1e-12), relative to the latter,
+// Errors are medians over the samples of |demand - demand of a tight run| (tolerance 1e-13), relative to the latter,
 // among samples that moved and stand in both; `flips` counts samples with another outcome. Where a peer is too slow for
 // all samples of a job, its time and errors are those of the first ones.
 #include <benchmark/benchmark.h>
@@ -106,40 +106,44 @@ std::vector<Answer> in_packs(const Job& job, std::size_t count) {
 }
 
 std::vector<Answer> tight_run(const Job& job) {
-  const auto one = [](const Specimen& b, const Shaking& s) { return answer(respond(b, s, {.tolerance = 1e-12})); };
+  const auto one = [](const Specimen& b, const Shaking& s) { return answer(respond(b, s, {.tolerance = 1e-13})); };
   return one_by_one(one)(job, job.samples());
 }
 
-// Odeint with the fewest steps per knot that make its median error no larger than the kernel's; round-off is not told
-// from round-off. Finds them on its first call.
+// Odeint with the fewest steps per knot that make its median error no larger than the kernel's; below 1e-13 round-off is
+// not told from round-off. Finds them on its first call.
 class AsAccurate {
  public:
+  using Peer = PeerResponse (*)(const Specimen&, const Shaking&, const OdeintSteps&);
+  explicit AsAccurate(Peer peer) : peer_(peer) {}
   std::vector<Answer> operator()(const Job& job, std::size_t count) {
-    if (steps_ == 0) find(job);
+    if (steps_.per_knot == 0) find(job);
     return answers(job, count);
   }
 
  private:
   void find(const Job& job) {
     const auto truth = tight_run(job);
-    const double wanted = std::max(accuracy(job, in_packs(job, job.samples()), truth).median, 1e-14);
-    for (steps_ = 1; steps_ < most_steps; ++steps_)
+    const double wanted = std::max(accuracy(job, in_packs(job, job.samples()), truth).median, round_off);
+    for (steps_.per_knot = 1; steps_.per_knot < most_steps; ++steps_.per_knot)
       if (accuracy(job, answers(job, job.samples()), truth).median <= wanted) return;
   }
   std::vector<Answer> answers(const Job& job, std::size_t count) const {
-    const auto one = [this](const Specimen& b, const Shaking& s) { return answer(odeint_peer(b, s, steps_)); };
+    const auto one = [this](const Specimen& b, const Shaking& s) { return answer(peer_(b, s, steps_)); };
     return one_by_one(one)(job, count);
   }
 
   static constexpr int most_steps = 16;
-  int steps_ = 0;
+  static constexpr double round_off = 1e-13;
+  Peer peer_;
+  OdeintSteps steps_{.per_knot = 0, .root_s = 1e-16};
 };
 
 std::vector<Row> rows_of(const Job& job) {
   const bool bouc_wen = job.specimens[0].model == Model::bouc_wen;
   const auto scalar = [](const Specimen& b, const Shaking& s) { return answer(respond(b, s)); };
   const auto odeint = [bouc_wen](const Specimen& b, const Shaking& s) {
-    return answer(bouc_wen ? odeint_bouc_wen(b, s) : odeint_peer(b, s));
+    return answer(bouc_wen ? odeint_bouc_wen(b, s) : dopri5_peer(b, s));
   };
   const auto cvode = [bouc_wen, peer = std::make_shared<CvodePeer>(1e-9)](const Specimen& b, const Shaking& s) {
     return answer(bouc_wen ? cvode_bouc_wen(b, s) : (*peer)(b, s));
@@ -150,7 +154,9 @@ std::vector<Row> rows_of(const Job& job) {
       {&job, "freestand, one by one", one_by_one(scalar), false, all, {}, {}, {}},
       {&job, "(a) CVODE", one_by_one(cvode), true, job.for_cvode, {}, {}, {}},
       {&job, "(b) odeint dopri5", one_by_one(odeint), job.for_odeint < all, job.for_odeint, {}, {}, {}}};
-  if (!bouc_wen) rows.push_back({&job, "(c) odeint, as accurate", AsAccurate(), false, all, {}, {}, {}});
+  if (bouc_wen) return rows;
+  rows.push_back({&job, "(c) dopri5, as accurate", AsAccurate(dopri5_peer), false, all, {}, {}, {}});
+  rows.push_back({&job, "(d) fehlberg78, same", AsAccurate(fehlberg78_peer), false, all, {}, {}, {}});
   return rows;
 }
 
@@ -174,8 +180,8 @@ class Collector : public benchmark::BenchmarkReporter {
 };
 
 void print(const std::vector<Row>& rows) {
-  std::printf("\n%-4s %-24s %12s %10s %8s %9s %9s %6s %6s %8s %8s %8s\n", "job", "solver", "samples/s", "us/sample",
-              "events", "error", "99 %", "flips", "failed", "to (a)", "to (b)", "to (c)");
+  std::printf("\n%-4s %-24s %12s %10s %8s %9s %9s %6s %6s %8s %8s %8s %8s\n", "job", "solver", "samples/s", "us/sample",
+              "events", "error", "99 %", "flips", "failed", "to (a)", "to (b)", "to (c)", "to (d)");
   std::map<std::string, std::map<char, double>> peers;
   for (const Row& row : rows)
     if (row.solver[0] == '(' && !row.seconds.empty()) peers[row.job->name][row.solver[1]] = row.seconds_a_sample();
@@ -183,9 +189,10 @@ void print(const std::vector<Row>& rows) {
     if (row.seconds.empty()) continue;
     const double seconds = row.seconds_a_sample();
     const auto ratio = [&](char peer) { return peers[row.job->name][peer] / seconds; };
-    std::printf("%-4s %-24s %12.0f %10.3f %8.1f %9.1e %9.1e %6d %6d %8.1f %8.1f %8.1f\n", row.job->name.c_str(),
+    std::printf("%-4s %-24s %12.0f %10.3f %8.1f %9.1e %9.1e %6d %6d %8.1f %8.1f %8.1f %8.1f\n", row.job->name.c_str(),
                 row.solver.c_str(), 1 / seconds, 1e6 * seconds, row.accuracy.events, row.accuracy.median,
-                row.accuracy.high, row.accuracy.flips, row.accuracy.failed, ratio('a'), ratio('b'), ratio('c'));
+                row.accuracy.high, row.accuracy.flips, row.accuracy.failed, ratio('a'), ratio('b'), ratio('c'),
+                ratio('d'));
   }
 }
 

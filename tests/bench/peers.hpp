@@ -19,9 +19,14 @@ class CvodePeer {
   Solver* solver_;
 };
 
-// Boost.odeint's runge_kutta_dopri5, inlined: so many equal steps per knot (shorter where an event cuts one), events
-// located by the Illinois method on its dense output, quiet waits skipped knot by knot.
-PeerResponse odeint_peer(const Specimen& specimen, const Shaking& shaking, int steps_per_knot = 1);
+// Boost.odeint's runge_kutta_dopri5, and its runge_kutta_fehlberg78, inlined: so many equal steps per knot (shorter where
+// an event cuts one), events located by the Illinois method on the polynomial of the step, quiet waits skipped knot by knot.
+struct OdeintSteps {
+  int per_knot = 1;
+  double root_s = 1e-13;  // width to which an event is located
+};
+PeerResponse dopri5_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps = {});
+PeerResponse fehlberg78_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps);
 
 // The same two on model bouc_wen: dopri5 with its step chosen by its error, and CVODE, BDF where the contact is stiff.
 PeerResponse odeint_bouc_wen(const Specimen& specimen, const Shaking& shaking);

@@ -1,7 +1,13 @@
+// One sample by a Runge-Kutta method of Boost.odeint, from knot to knot. Method<D> of D unknowns has
+//     step(rates, x, dx, begin, next, dnext, h)        one step
+//     inside(t, x, dx, begin, next, dnext, end)        what the polynomial of the step says
+//     inside_is_exact                                  as exact as its end; otherwise a shorter step goes there
+// Each method in its own source file: in one, the compiler inlines neither as well.
+#pragma once
+
 #include <algorithm>
 #include <array>
 #include <boost/numeric/odeint/algebra/array_algebra.hpp>
-#include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <cmath>
 
 #include "peers.hpp"
@@ -9,13 +15,8 @@
 namespace freestand::bench {
 namespace {
 
-namespace odeint = boost::numeric::odeint;
-
 template <std::size_t D>
 using Values = std::array<double, D>;
-
-template <std::size_t D>
-using Dopri5 = odeint::runge_kutta_dopri5<Values<D>, double, Values<D>, double, odeint::array_algebra>;
 
 // Root of f on [lo, hi] with f(lo) > 0 >= f(hi) (Dowell & Jarratt 1971).
 template <class F>
@@ -41,10 +42,11 @@ double illinois(F&& f, double lo, double f_lo, double hi, double f_hi, double wi
   return hi;
 }
 
-class Sample {
+template <template <std::size_t> class Method>
+class OdeintSample {
  public:
-  Sample(const Specimen& specimen, const Shaking& shaking, int steps_per_knot)
-      : block_(specimen, 1e-9), record_(shaking), longest_(record_.dt / steps_per_knot) {}
+  OdeintSample(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps)
+      : block_(specimen, 1e-9), record_(shaking), longest_(record_.dt / steps.per_knot), root_s_(steps.root_s) {}
 
   PeerResponse run() {
     const int last = record_.count + static_cast<int>(60 / record_.dt);
@@ -96,12 +98,14 @@ class Sample {
     response_.acceleration_mps2 = std::max(response_.acceleration_mps2, std::sqrt(acceleration2_));
   }
 
-  // Steps from knot to knot, one or several, while the mode lasts. `rates`: right-hand side; `read`: values -> state; `first_event`:
-  // looks at the step and tells the first event and when; `watch`: peaks of the step.
-  template <std::size_t D, class Rates, class Read, class Event, class Watch>
-  bool march(Values<D> x, Rates&& rates, Read&& read, Event&& first_event, Watch&& watch) {
-    Dopri5<D> stepper;
-    Values<D> dx{}, next{}, dnext{};
+  // Steps from knot to knot, one or several, while the mode lasts. `rates`: right-hand side; `read`: values -> state;
+  // `witness`: of an event, zero at it; `first_event`: looks at the step and tells the first event and when; `watch`: peaks
+  // of the step.
+  template <std::size_t D, class Rates, class Read, class Witness, class Event, class Watch>
+  bool march(const Values<D>& start, Rates&& rates, Read&& read, Witness&& witness, Event&& first_event,
+             Watch&& watch) {
+    Method<D> method;
+    Values<D> x = start, dx{}, next{}, dnext{};
     rates(x, dx, offset_);
     for (const int last = record_.count + static_cast<int>(60 / record_.dt); knot_ < last;) {
       const double left = record_.dt - offset_;
@@ -111,18 +115,26 @@ class Sample {
         continue;
       }
       const bool to_knot = left < 1.001 * longest_;
-      const double h = to_knot ? left : longest_;
-      stepper.do_step(rates, x, dx, offset_, next, dnext, h);
-      const double begin = offset_, end = begin + h;
-      const auto dense = [&](double t) {
-        Values<D> at;
-        stepper.calc_state(t, at, x, dx, begin, next, dnext, end);
+      const double h = to_knot ? left : longest_, begin = offset_, end = begin + h;
+      method.step(rates, x, dx, begin, next, dnext, h);
+      const auto inside = [&](double t) { return method.inside(t, x, dx, begin, next, dnext, end); };
+      const auto exactly = [&](double t) {
+        if constexpr (Method<D>::inside_is_exact) return inside(t);
+        Values<D> at, rate;
+        method.step(rates, x, dx, begin, at, rate, t - begin);
         return at;
       };
       double when = end;
-      const PeerEvent event = first_event(x, next, dense, begin, end, when);
-      const Values<D> there = when == end ? next : dense(when);
-      watch(x, there, dense, begin, when);
+      const PeerEvent event = first_event(x, next, inside, begin, end, when);
+      if constexpr (!Method<D>::inside_is_exact) {
+        if (when < end && when > begin) {
+          const double back = 1e-3 * (when - begin), value = witness(event, inside(when), when);
+          const double slope = (value - witness(event, inside(when - back), when - back)) / back;
+          when = std::clamp(when - witness(event, exactly(when), when) / slope, begin, end);
+        }
+      }
+      const Values<D> there = when == end ? next : exactly(when);
+      watch(x, there, inside, exactly, begin, when);
       if (event != PeerEvent::none) {
         read(there, y_);
         offset_ = when;
@@ -155,7 +167,7 @@ class Sample {
       lo = begin + part * (end - begin);
       f_lo = f(lo);
     }
-    when = f_lo > 0 ? illinois(f, lo, f_lo, end, f_end, 1e-13) : begin;
+    when = f_lo > 0 ? illinois(f, lo, f_lo, end, f_end, root_s_) : begin;
     return true;
   }
 
@@ -172,7 +184,9 @@ class Sample {
     using X = Values<2>;
     const double sigma = y_.sigma, pull = -sigma * PeerBlock::g;
     const bool may_tip = block_.can_rock && block_.drop > 0;
-    const auto tipping = [&](double w) { return block_.b - block_.mu_at(w) * block_.h; };
+    const auto witness = [&](PeerEvent event, const X& x, double) {
+      return event == PeerEvent::tip ? block_.b - block_.mu_at(x[1]) * block_.h : sigma * x[1];
+    };
     observe_forces(pull * block_.mu_k, PeerBlock::g);
     return march<2>(
         X{y_.xi, y_.w},
@@ -180,20 +194,20 @@ class Sample {
           dx[0] = x[1];
           dx[1] = pull * block_.mu_at(x[1]) - acceleration(t);
         },
-        [](const X& x, PeerState& y) { y.xi = x[0], y.w = x[1]; },
-        [&](const X& x, const X& next, auto& dense, double begin, double end, double& when) {
-          const auto witness = [&](double t) { return sigma * dense(t)[1]; };
+        [](const X& x, PeerState& y) { y.xi = x[0], y.w = x[1]; }, witness,
+        [&](const X& x, const X& next, auto& inside, double begin, double end, double& when) {
+          const auto stopping = [&](double t) { return witness(PeerEvent::stop, inside(t), t); };
+          const auto tipping = [&](double t) { return witness(PeerEvent::tip, inside(t), t); };
           PeerEvent event = PeerEvent::none;
-          if (crossing(witness, sigma * x[1], sigma * next[1], begin, end, when)) event = PeerEvent::stop;
+          if (crossing(stopping, sigma * x[1], sigma * next[1], begin, end, when)) event = PeerEvent::stop;
           if (may_tip) {
-            const double w_end = when == end ? next[1] : dense(when)[1];
-            earlier(
-                PeerEvent::tip, [&](double t) { return tipping(dense(t)[1]); }, tipping(x[1]), tipping(w_end), begin,
-                when, event);
+            const double tips = witness(PeerEvent::tip, x, begin),
+                         tips_then = when == end ? witness(PeerEvent::tip, next, end) : tipping(when);
+            earlier(PeerEvent::tip, tipping, tips, tips_then, begin, when, event);
           }
           return event;
         },
-        [&](const X&, const X& there, auto&, double, double) {
+        [&](const X&, const X& there, auto&, auto&, double, double) {
           response_.slip_m = std::max(response_.slip_m, std::abs(there[0]));
         });
   }
@@ -206,6 +220,9 @@ class Sample {
       observed_ = f;
       return block_.mu_s * f.fy - std::abs(f.fx);
     };
+    const auto witness = [&](PeerEvent event, const X& x, double t) {
+      return event == PeerEvent::grip ? grip(x, t) : s * x[0];
+    };
     double grip_before = block_.can_slip ? grip({y_.theta, y_.omega}, offset_) : 0;
     return march<2>(
         X{y_.theta, y_.omega},
@@ -213,37 +230,37 @@ class Sample {
           dx[0] = x[1];
           dx[1] = block_.rock_alpha(s, x[0], acceleration(t));
         },
-        [](const X& x, PeerState& y) { y.theta = x[0], y.omega = x[1]; },
-        [&](const X& x, const X& next, auto& dense, double begin, double end, double& when) {
+        [](const X& x, PeerState& y) { y.theta = x[0], y.omega = x[1]; }, witness,
+        [&](const X& x, const X& next, auto& inside, double begin, double end, double& when) {
+          const auto impact = [&](double t) { return witness(PeerEvent::impact, inside(t), t); };
           PeerEvent event = PeerEvent::none;
-          if (crossing([&](double t) { return s * dense(t)[0]; }, s * x[0], s * next[0], begin, when, when))
-            event = PeerEvent::impact;
+          if (crossing(impact, s * x[0], s * next[0], begin, when, when)) event = PeerEvent::impact;
           if (std::abs(next[0]) > pi / 2) return PeerEvent::overturned;
           const double grip_after = grip(next, end);
           observe_forces(observed_.fx, observed_.fy);
           if (block_.can_slip) {
-            const double after = when == end ? grip_after : grip(dense(when), when);
-            earlier(
-                PeerEvent::grip, [&](double t) { return grip(dense(t), t); }, grip_before, after, begin, when, event);
+            const auto gripping = [&](double t) { return grip(inside(t), t); };
+            earlier(PeerEvent::grip, gripping, grip_before, when == end ? grip_after : gripping(when), begin, when,
+                    event);
             grip_before = grip_after;
           }
           return event;
         },
-        [&](const X& x, const X& there, auto& dense, double begin, double when) {
-          turn(x, there, dense, begin, when);
+        [&](const X& x, const X& there, auto& inside, auto& exactly, double begin, double when) {
+          turn(x, there, inside, exactly, begin, when);
         });
   }
 
   // Peak of the rotation inside a step, and what it moves the base by where the corner is stuck.
-  template <std::size_t D, class Dense>
-  void turn(const Values<D>& x, const Values<D>& next, Dense& dense, double begin, double when) {
-    if (x[1] * next[1] < 0) {
+  template <std::size_t D, class Inside, class Exactly>
+  void turn(const Values<D>& x, const Values<D>& there, Inside& inside, Exactly& exactly, double begin, double when) {
+    if (x[1] * there[1] < 0) {
       const double sign = x[1] > 0 ? 1 : -1;
       const double top =
-          illinois([&](double t) { return sign * dense(t)[1]; }, begin, sign * x[1], when, sign * next[1], 1e-9);
-      observe_turn<D>(dense(top)[0]);
+          illinois([&](double t) { return sign * inside(t)[1]; }, begin, sign * x[1], when, sign * there[1], 1e-9);
+      observe_turn<D>(exactly(top)[0]);
     }
-    observe_turn<D>(next[0]);
+    observe_turn<D>(there[0]);
   }
   template <std::size_t D>
   void observe_turn(double theta) {
@@ -255,37 +272,39 @@ class Sample {
     using X = Values<4>;
     const double s = y_.s, sigma = y_.sigma;
     const auto state = [&](const X& x) { return PeerState{PeerMode::slide_rock, s, sigma, x[0], x[1], x[2], x[3]}; };
+    const auto witness = [&](PeerEvent event, const X& x, double) {
+      return event == PeerEvent::stop ? sigma * x[3] : s * x[0];
+    };
     return march<4>(
         X{y_.theta, y_.omega, y_.xi, y_.w},
         [&](const X& x, X& dx, double t) {
           const PeerForces f = block_.slide_rock_forces(s, sigma, x[0], x[1], x[3], acceleration(t));
           dx = {x[1], f.alpha, x[3], f.slip_acceleration};
         },
-        [](const X& x, PeerState& y) { y.theta = x[0], y.omega = x[1], y.xi = x[2], y.w = x[3]; },
-        [&](const X& x, const X& next, auto& dense, double begin, double end, double& when) {
+        [](const X& x, PeerState& y) { y.theta = x[0], y.omega = x[1], y.xi = x[2], y.w = x[3]; }, witness,
+        [&](const X& x, const X& next, auto& inside, double begin, double end, double& when) {
+          const auto impact = [&](double t) { return witness(PeerEvent::impact, inside(t), t); };
+          const auto stopping = [&](double t) { return witness(PeerEvent::stop, inside(t), t); };
           PeerEvent event = PeerEvent::none;
-          if (crossing([&](double t) { return s * dense(t)[0]; }, s * x[0], s * next[0], begin, when, when))
-            event = PeerEvent::impact;
-          const double w_end = when == end ? next[3] : dense(when)[3];
-          earlier(
-              PeerEvent::stop, [&](double t) { return sigma * dense(t)[3]; }, sigma * x[3], sigma * w_end, begin, when,
-              event);
+          if (crossing(impact, s * x[0], s * next[0], begin, when, when)) event = PeerEvent::impact;
+          const double w_then = when == end ? next[3] : inside(when)[3];
+          earlier(PeerEvent::stop, stopping, sigma * x[3], sigma * w_then, begin, when, event);
           if (std::abs(next[0]) > pi / 2) return PeerEvent::overturned;
           const PeerForces f = block_.slide_rock_forces(s, sigma, next[0], next[1], next[3], acceleration(end));
           if (f.fy <= 0 && event == PeerEvent::none) return PeerEvent::lift;
           observe_forces(f.fx, f.fy);
           return event;
         },
-        [&](const X& x, const X& end, auto& dense, double begin, double when) {
-          turn(x, end, dense, begin, when);
-          const double before = block_.slip_rate(state(x)), after = block_.slip_rate(state(end));
+        [&](const X& x, const X& there, auto& inside, auto& exactly, double begin, double when) {
+          turn(x, there, inside, exactly, begin, when);
+          const double before = block_.slip_rate(state(x)), after = block_.slip_rate(state(there));
           if (before * after < 0) {
             const double sign = before > 0 ? 1 : -1;
-            const double top = illinois([&](double t) { return sign * block_.slip_rate(state(dense(t))); }, begin,
+            const double top = illinois([&](double t) { return sign * block_.slip_rate(state(inside(t))); }, begin,
                                         sign * before, when, sign * after, 1e-9);
-            observe_slip(state(dense(top)));
+            observe_slip(state(exactly(top)));
           }
-          observe_slip(state(end));
+          observe_slip(state(there));
         });
   }
 
@@ -297,13 +316,8 @@ class Sample {
   double acceleration2_ = 0;
   int knot_ = 0;
   double offset_ = 0;
-  double longest_;  // step [s]
+  double longest_, root_s_;  // step; width to which a root is found
 };
 
 }  // namespace
-
-PeerResponse odeint_peer(const Specimen& specimen, const Shaking& shaking, int steps_per_knot) {
-  return Sample(specimen, shaking, steps_per_knot).run();
-}
-
 }  // namespace freestand::bench
