@@ -74,14 +74,15 @@ class RockMarch : public LaneGroup<RockRows> {
     const Pack seen = load(r_.force2 + i), over = whole ? one : one / left, over2 = over * over;
     const Pack most = watch_force(y, scaled(r_.weight, left2), gravity, push, a, change, end, one,
                                   whole ? seen : seen * (left2 * left2), false);
-    store(r_.force2 + i, choose(stays, seen, whole ? most : most * (over2 * over2)));
-    store(r_.peak + i, choose(stays, peak, xsimd::max(peak, end.theta)));
-    store(r_.theta + i, choose(stays, y.theta[0], end.theta));
-    store(r_.omega + i, choose(stays, load(r_.omega + i), whole ? end.omega : end.omega * over));
-    store(r_.rx + i, choose(stays, y.rx[0], end.rx));
-    store(r_.ry + i, choose(stays, y.ry[0], end.ry));
-    store(r_.a + i, choose(stays, a, a_next));
-    if (!whole) store(r_.left + i, choose(stays, left, one));
+    const PackMask goes = ~stays;
+    store_where(goes, r_.force2 + i, whole ? most : most * (over2 * over2));
+    store_where(goes, r_.peak + i, xsimd::max(peak, end.theta));
+    store_where(goes, r_.theta + i, end.theta);
+    store_where(goes, r_.omega + i, whole ? end.omega : end.omega * over);
+    store_where(goes, r_.rx + i, end.rx);
+    store_where(goes, r_.ry + i, end.ry);
+    store_where(goes, r_.a + i, a_next);
+    if (!whole) store_where(goes, r_.left + i, one);
     const unsigned apart = bits(stays) & here;
     advance(r_.next + i, here & ~apart);
     falls_ |= std::uint64_t{bits(falls & (end.theta <= zero)) & apart} << i;
@@ -92,7 +93,7 @@ class RockMarch : public LaneGroup<RockRows> {
   template <class Step>
   static PackMask falls_all_along(const Step& y, const RockEnd& end) {
     const Pack zero(0.0);
-    return (y.omega[0] < zero) & (end.omega < zero) & (y.omega[1] <= Pack(-2.0) * y.omega[0]);
+    return ~(y.omega[0] >= zero) & ~(end.omega > zero) & (y.omega[1] + y.omega[0] <= zero - y.omega[0]);
   }
 
   // Turning within the interval, a block comes less than `beyond` further than at its end. Without a branch, as it would
@@ -100,10 +101,10 @@ class RockMarch : public LaneGroup<RockRows> {
   template <class Step>
   static PackMask something_happens(const Step& y, const RockEnd& end, const Pack& peak, const PackMask& falls) {
     const Pack zero(0.0), beyond = xsimd::abs(end.omega - y.omega[0]) + xsimd::abs(y.omega[1]);
-    const PackMask rises = (y.omega[0] >= zero) & (y.omega[1] >= zero) & (end.omega > zero);
-    const PackMask touches = (end.theta <= beyond) & ~(rises | (falls & (end.theta > zero)));
-    const PackMask tops =
-        (end.theta + beyond > xsimd::max(peak, y.theta[0])) & (y.omega[0] >= zero) & (end.omega <= zero);
+    const PackMask rises = y.omega[0] >= zero, rises_then = end.omega > zero;
+    const PackMask rises_all_along = rises & rises_then & (y.omega[1] >= zero);
+    const PackMask touches = (end.theta <= beyond) & ~(rises_all_along | (falls & ~(end.theta <= zero)));
+    const PackMask tops = (end.theta + beyond > xsimd::max(peak, y.theta[0])) & rises & ~rises_then;
     return touches | tops | ~(end.theta < Pack(0.5 * pi));
   }
 

@@ -27,17 +27,16 @@ struct RockStep {
     const Pack sx = a1 * rx[0], sy = a1 * ry[0], pull = gravity * ry[0] + a0 * rx[0], k = pull - w2;
     const Pack alpha = gravity * rx[0] - a0 * ry[0], alpha2 = alpha * alpha, spin = alpha * w, sxw = sx * w,
                syw = sy * w;
-    const Pack second = pull * w - sy, third = alpha * k + times(2, sxw);
-    const Pack fourth = second * k - times(3, alpha * (spin - sx)) + times(2, syw * w);
-    const Pack fifth = third * k + second * (times(4, sx) - times(9, spin)) +
-                       alpha * (times(7, syw) - times(3, alpha2)) - times(2, sxw * w2);
-    const Pack sixth = fourth * k + third * (times(5, sx) - times(12, spin)) +
-                       second * (times(11, syw) - times(9, second * w) - times(18, alpha2)) +
-                       alpha * (times(7, sy * alpha) - times(13, sxw * w)) - times(2, syw * (w2 * w));
-    const Pack seventh = fifth * k + fourth * (times(6, sx) - times(15, spin)) +
-                         third * (times(16, syw) - times(30, alpha2 + second * w)) +
-                         second * (times(25, alpha * sy) - times(45, alpha * second) - times(24, sxw * w)) -
-                         alpha * (times(33, sxw * alpha) + times(21, syw * w2)) + times(2, sxw * (w2 * w2));
+    const Pack second = pull * w - sy, third = alpha * k + times(2, sxw), bend = sx - times(3, spin);  // bend: K'
+    const Pack fourth = times(3, alpha * (sx - spin)) + times(2, syw * w) + second * k;
+    const Pack by_second = sx + times(3, bend), by_third = by_second + bend, by_fourth = by_third + bend;
+    const Pack twist = alpha2 + second * w;  // of spin
+    const Pack fifth = alpha * (times(7, syw) - times(3, alpha2)) - times(2, sxw * w2) + second * by_second + third * k;
+    const Pack sixth = alpha * (times(7, sy * alpha) - times(13, sxw * w)) - times(2, syw * (w2 * w)) +
+                       second * (times(11, syw) - times(9, twist + alpha2)) + third * by_third + fourth * k;
+    const Pack seventh = sxw * (times(2, w2 * w2) - times(33, alpha2)) - times(21, spin * (sy * w2)) +
+                         second * (alpha * (times(25, sy) - times(45, second)) - times(24, sxw * w)) +
+                         third * (times(16, syw) - times(30, twist)) + fourth * by_fourth + fifth * k;
     omega[1] = alpha;
     omega[2] = second * Pack(1.0 / 2);
     omega[3] = third * Pack(1.0 / 6);

@@ -101,12 +101,12 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
     const PackMask turns = (square * Pack(1.1) > seen) & ~(xsimd::abs(y.w[1]) > Pack(2.0) * (square_term + bow));
     const PackMask settles = settled(y, i, left), stays = stops | tips | turns | ~settles;
 
-    store(r_.xi + i, choose(stays, xi0, xi));
-    store(r_.w + i, choose(stays, w0, w * per_left));
-    store(r_.seen + i, choose(stays, seen, xsimd::max(seen, square)));
-    store(r_.peak + i, choose(stays, peak, xsimd::max(peak, xsimd::abs(xi))));
-    store(r_.a + i, choose(stays, a, a_next));
-    store(r_.left + i, choose(stays, left, one));
+    store_where(~stays, r_.xi + i, xi);
+    store_where(~stays, r_.w + i, w * per_left);
+    store_where(~stays, r_.seen + i, xsimd::max(seen, square));
+    store_where(~stays, r_.peak + i, xsimd::max(peak, xsimd::abs(xi)));
+    store_where(~stays, r_.a + i, a_next);
+    store_where(~stays, r_.left + i, one);
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all);
     ends_ |= static_cast<std::uint64_t>(all & bits(settles & (sigma * w <= zero))) << i;

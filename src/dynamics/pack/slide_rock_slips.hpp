@@ -237,16 +237,17 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   void keep(const Step& s, const End& end, const PackMask& stays, const Pack& turned, const Pack& seen,
             const Pack& peak) {
     const Pack per_left = Pack(1.0) / s.left;
+    const PackMask goes = ~stays;
     const int i = s.i;
-    store(r_.look + i, choose(stays, load(r_.look + i), turned));
-    store(r_.seen + i, choose(stays, load(r_.seen + i), seen));
-    store(r_.peak + i, choose(stays, load(r_.peak + i), peak));
-    store(r_.theta + i, choose(stays, s.y.theta[0], end.theta));
-    store(r_.omega + i, choose(stays, s.omega0, end.omega * per_left));
-    store(r_.rx + i, choose(stays, s.y.rx[0], end.rx));
-    store(r_.ry + i, choose(stays, s.y.ry[0], end.ry));
-    store(r_.xi + i, choose(stays, s.y.xi[0], end.xi));
-    store(r_.w + i, choose(stays, s.w0, end.w * per_left));
+    store_where(goes, r_.look + i, turned);
+    store_where(goes, r_.seen + i, seen);
+    store_where(goes, r_.peak + i, peak);
+    store_where(goes, r_.theta + i, end.theta);
+    store_where(goes, r_.omega + i, end.omega * per_left);
+    store_where(goes, r_.rx + i, end.rx);
+    store_where(goes, r_.ry + i, end.ry);
+    store_where(goes, r_.xi + i, end.xi);
+    store_where(goes, r_.w + i, end.w * per_left);
   }
 
   Apart march(int i, unsigned here) {
@@ -263,9 +264,9 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
                            ~(end.theta < Pack(1.57)) | ~s.settled() | ~s.slips_on(end.w);
 
     keep(s, end, stays, turned, seen, peak);
-    store(r_.a + i, choose(stays, s.a, s.a_next));
+    store_where(~stays, r_.a + i, s.a_next);
     s.shakes.keep(r_.shakes, i, stays);
-    store(r_.left + i, choose(stays, s.left, one));
+    store_where(~stays, r_.left + i, one);
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all, Gravity::stride);
     return {all, all & bits((falls | (s.sigma * end.w <= zero)) & s.settled())};
