@@ -117,15 +117,23 @@ Job effects_job(const std::vector<FloorMotion>& records, std::size_t samples) {
 
 }  // namespace
 
-std::vector<FloorMotion> benchmark_records() {
-  std::vector<FloorMotion> records;
+std::vector<FloorMotion> benchmark_records(double vertical_share) {
+  std::vector<std::vector<double>> channels;
   for (std::size_t i = 0; i < record_count; ++i) {
     KeyedRandom random(20, i);
     auto values = record_values(random);
     scale_to_peak(values, 1);
     if (i % 2 == 1) add_pulse(random, values);
     scale_to_peak(values, 1);
-    records.push_back(piecewise_linear("record " + std::to_string(i), record_step_s, values));
+    channels.push_back(values);
+  }
+  std::vector<FloorMotion> records;
+  for (std::size_t i = 0; i < record_count; ++i) {
+    std::vector<double> vertical;
+    if (vertical_share > 0)
+      for (const double value : channels[(i + record_count / 2) % record_count])
+        vertical.push_back(vertical_share * value);
+    records.push_back(piecewise_linear("record " + std::to_string(i), record_step_s, channels[i], vertical));
   }
   return records;
 }

@@ -33,8 +33,9 @@ struct Job {
   std::size_t samples() const { return specimens.size(); }
 };
 
-// The records that the jobs share; they must outlive the jobs.
-std::vector<FloorMotion> benchmark_records();
+// The records that the jobs share; they must outlive the jobs. vertical_share > 0: with a vertical channel, so much of
+// another record.
+std::vector<FloorMotion> benchmark_records(double vertical_share = 0);
 std::vector<Job> benchmark_jobs(const std::vector<FloorMotion>& records, std::size_t samples);
 
 }  // namespace freestand::bench
