@@ -49,23 +49,23 @@ class Hopping : public LaneGroup<HopRows<Gravity>> {
     const PackMask crosses = holds & (end > zero);
     PackMask open = holds & ~crosses;
     const Pack landing = y.landing(open), t = choose(crosses, left, landing), speed = y.speed(t);
-    const PackMask lands = holds & ~crosses & ~open & (t > zero) & (t <= left), stays = ~(crosses | lands);
+    const PackMask lands = holds & ~crosses & ~open & (t > zero) & (t <= left), goes = crosses | lands, stays = ~goes;
 
     const Pack falls = xsimd::abs(speed), ahead = left - t, rises = falls * on(r_.kept);
     const PackMask to_knot = crosses | (lands & (ahead < Pack(1e-12)));
     const PackMask told = lands & (falls * falls >= on(r_.told));
     const Pack rests = choose(right, load(r_.rests[0] + i), load(r_.rests[1] + i));
     const PackMask ends = lands & (rises * rises < rests);
-    const Pack hops = load(r_.hops + i) + choose(lands, one, zero);
-    store(r_.theta + i, choose(stays, theta, choose(lands, zero, end)));
-    store(r_.omega + i, choose(stays, omega, choose(lands, rises, speed)));
-    store(r_.a + i, choose(stays, a, choose(to_knot, a_next, a + rate * t)));
+    const Pack hops = load(r_.hops + i) + one;
+    store_where(goes, r_.theta + i, choose(lands, zero, end));
+    store_where(goes, r_.omega + i, choose(lands, rises, speed));
+    store_where(goes, r_.a + i, choose(to_knot, a_next, a + rate * t));
     shakes.keep(r_.shakes, i, stays, to_knot, t);
-    store(r_.left + i, choose(stays, left, choose(to_knot, one, ahead)));
-    store(r_.side + i, choose(lands, zero - side, side));
-    store(r_.hops + i, hops);
-    store(r_.impacts + i, load(r_.impacts + i) + choose(told, one, zero));
-    store(r_.ended + i, choose(ends, one, zero));
+    store_where(goes, r_.left + i, choose(to_knot, one, ahead));
+    store_where(lands, r_.side + i, zero - side);
+    store_where(lands, r_.hops + i, hops);
+    store_where(told, r_.impacts + i, load(r_.impacts + i) + one);
+    store_where(ends, r_.ended + i, one);
     advance(r_.next + i, bits(to_knot) & here, Gravity::stride);
     return bits(stays | ends | (lands & (hops >= Pack(hops_at_once))));
   }

@@ -130,8 +130,9 @@ class RockLanes {
   void feel_rest(int i, int m, int end, double done) {
     const MotionTable& t = *lanes_[i].sample->table;
     const double* a = t.acceleration.data();
-    const double unit = r_.weight[i] * r_.weight[i], bound = bound_between(t, m, end);
-    if (bound * bound * unit <= r_.force2[i]) return;
+    const double unit = r_.weight[i] * r_.weight[i];
+    const auto unseen = [&](double peak) { return peak * peak * unit > r_.force2[i]; };
+    if (!unseen(t.later_peak[static_cast<std::size_t>(m / table_run)]) || !unseen(bound_between(t, m, end))) return;
     double most = magnitude(done > 0 ? a[m] + (a[m + 1] - a[m]) * done : a[m]);
     if (end == t.knots)
       most = larger(most, peak_from(t, m + 1));

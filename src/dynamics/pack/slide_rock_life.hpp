@@ -70,7 +70,8 @@ class SlideRockLife : public SlideRockHops {
     feel(a_, g_);
     if (shaken_)
       force2_ = peak_of_both(t_, m_ + 1, end, c_.scale, c_.vertical_scale, force2_);
-    else
+    else if (const double later = c_.scale * t_.later_peak[static_cast<std::size_t>((m_ + 1) / table_run)];
+             later * later > force2_)
       feel(c_.scale * (end == t_.knots ? peak_from(t_, m_ + 1) : peak_between(t_, m_ + 1, end)), c_.g);
   }
 
