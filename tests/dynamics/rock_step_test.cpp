@@ -47,7 +47,7 @@ TEST(RockStep, HasTheCoefficientsOfTheSeries) {
     const auto step = expanded<RockStep>(c);
     const auto series = expanded<RockSeries<8>>(c);
     for (int k = 0; k <= RockStep::order; ++k)
-      EXPECT_NEAR(step.omega[k].get(0), series.omega[k].get(0), 20 * round_off) << i << " " << k;
+      EXPECT_NEAR(step.omega_term(k).get(0), series.omega[k].get(0), 20 * round_off) << i << " " << k;
   }
 }
 

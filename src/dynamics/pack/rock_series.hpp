@@ -45,6 +45,7 @@ struct RockSeries : Polynomials<Pack> {
   }
 
   RockEnd end(const Pack& a_next) const { return {sum(omega), sum(rx), sum(ry), a_next, sum(theta)}; }
+  const Pack& omega_term(int k) const { return omega[k]; }
   Pack theta_at(const Pack& x) const { return at(theta, x); }
   Pack omega_at(const Pack& x) const { return at(omega, x); }
   const Pack& last() const { return omega[N + 1]; }  // its last term
@@ -119,12 +120,12 @@ Pack turning_point(const Step& y, const Pack& omega_end) {
   const Pack one(1.0), zero(0.0), sense = choose(y.omega[0] > zero, one, zero - one);
   const Pack x = xsimd::min(first_zero(sense * y.omega[0], sense * y.omega[1], sense * omega_end), one);
   constexpr int order = Step::order;
-  Pack value = y.omega[order], slope(0.0), bend(0.0);
+  Pack value = y.omega_term(order), slope(0.0), bend(0.0);
 #pragma GCC unroll 16
   for (int k = order - 1; k >= 0; --k) {
     bend = bend * x + slope;
     slope = slope * x + value;
-    value = value * x + y.omega[k];
+    value = value * x + y.omega_term(k);
   }
   const Pack next = x - value * slope / (slope * slope - value * bend);
   return xsimd::min(xsimd::max(next, zero), one);
@@ -152,7 +153,7 @@ template <class Step, class Gravity, class Lift = Level>
   const Pack square = fx * fx + fy * fy;
   const PackMask near = square > Pack(0.999) * seen;
   if (!always && !bits(near)) return seen;
-  const Pack cross = two * y.omega[0] * y.omega[1], alpha1 = two * y.omega[2];
+  const Pack cross = two * y.omega[0] * y.omega[1], alpha1 = two * y.omega_term(2);
   const Pack rx1 = y.ry[0] * y.omega[0], ry1 = zero - y.rx[0] * y.omega[0];
   const Pack gx = ry1 * y.omega[1] + y.ry[0] * alpha1 - rx1 * omega2 - y.rx[0] * cross + weight * rate_a;
   const Pack gy = less_rate(rx1 * y.omega[1] + y.rx[0] * alpha1 + ry1 * omega2 + y.ry[0] * cross, lift);

@@ -18,7 +18,8 @@ namespace {
 
 struct RockStep {
   static constexpr int order = 7;                 // of omega
-  Pack theta[1], omega[order + 1], rx[1], ry[1];  // the start; omega: all its series
+  Pack theta[order + 2], omega[2], rx[1], ry[1];  // the start; theta: all its series, omega: its rate, too
+  Pack omega_term(int k) const { return Pack(k + 1.0) * theta[k + 1]; }
 
   // As RockSeries::expand.
   [[gnu::always_inline]] void expand(const Pack& gravity, const Pack& a0, const Pack& a1) {
@@ -38,21 +39,24 @@ struct RockStep {
                          second * (alpha * (times(25, sy) - times(45, second)) - times(24, sxw * w)) +
                          third * (times(16, syw) - times(30, twist)) + fourth * by_fourth + fifth * k;
     omega[1] = alpha;
-    omega[2] = second * Pack(1.0 / 2);
-    omega[3] = third * Pack(1.0 / 6);
-    omega[4] = fourth * Pack(1.0 / 24);
-    omega[5] = fifth * Pack(1.0 / 120);
-    omega[6] = sixth * Pack(1.0 / 720);
-    omega[7] = seventh * Pack(1.0 / 5040);
+    theta[1] = w;
+    theta[2] = alpha * Pack(1.0 / 2);
+    theta[3] = second * Pack(1.0 / 6);
+    theta[4] = third * Pack(1.0 / 24);
+    theta[5] = fourth * Pack(1.0 / 120);
+    theta[6] = fifth * Pack(1.0 / 720);
+    theta[7] = sixth * Pack(1.0 / 5040);
+    theta[8] = seventh * Pack(1.0 / 40320);
   }
 
   [[gnu::always_inline]] RockEnd end(const Pack& a_next) const {
     RockEnd end;
     end.omega = omega[0];
     Pack gained = omega[0];
+#pragma GCC unroll 16
     for (int k = 1; k <= order; ++k) {  // the last term to be known last
-      end.omega = end.omega + omega[k];
-      gained = gained + omega[k] * Pack(1.0 / (k + 1));
+      gained = gained + theta[k + 1];
+      end.omega = end.omega + omega_term(k);
     }
     end.theta = theta[0] + gained;
     turn(gained, end.rx, end.ry);
@@ -61,18 +65,20 @@ struct RockStep {
   }
 
   Pack omega_at(const Pack& x) const {
-    Pack value = omega[order];
-    for (int k = order - 1; k >= 0; --k) value = value * x + omega[k];
+    Pack value = omega_term(order);
+#pragma GCC unroll 16
+    for (int k = order - 1; k >= 0; --k) value = value * x + omega_term(k);
     return value;
   }
   Pack theta_at(const Pack& x) const { return theta[0] + gained(x); }
   void arm_at(const Pack& x, Pack& x_arm, Pack& y_arm) const { turn(gained(x), x_arm, y_arm); }
-  Pack last() const { return omega[order] * Pack(1.0 / 32); }  // about the first term left out
+  Pack last() const { return theta[order + 1] * Pack(1.0 / 4); }  // about the first term left out
 
  private:
   Pack gained(const Pack& x) const {
-    Pack value = omega[order] * Pack(1.0 / (order + 1));
-    for (int k = order - 1; k >= 0; --k) value = value * x + omega[k] * Pack(1.0 / (k + 1));
+    Pack value = theta[order + 1];
+#pragma GCC unroll 16
+    for (int k = order; k >= 1; --k) value = value * x + theta[k];
     return value * x;
   }
   [[gnu::always_inline]] void turn(const Pack& angle, Pack& x, Pack& y) const {

@@ -36,7 +36,6 @@ class RockStrikes : public LaneGroup<RockRows> {
   struct Fall {
     RockStep y;
     Pack left, left2, gravity, push, a, change;
-    Pack theta[RockStep::order + 2];  // its series
   };
 
   template <int count>
@@ -47,8 +46,8 @@ class RockStrikes : public LaneGroup<RockRows> {
     for (int q = 0; q < count; ++q) {
       Fall& f = falls[q];
       fall(f, q * pack_lanes);
-      const Pack end = Polynomials<Pack>::sum(f.theta), guess = first_zero(f.theta[0], f.theta[1], end);
-      impacts[q] = {f.theta, one, zero, one, guess, end <= zero};
+      const Pack end = Polynomials<Pack>::sum(f.y.theta), guess = first_zero(f.y.theta[0], f.y.theta[1], end);
+      impacts[q] = {f.y.theta, one, zero, one, guess, end <= zero};
     }
     narrow_all<RockStep::order + 1>(impacts);
     for (int q = 0; q < count; ++q) change_corners(falls[q], impacts[q].x, other, q * pack_lanes, struck);
@@ -66,8 +65,6 @@ class RockStrikes : public LaneGroup<RockRows> {
     f.y.rx[0] = load(r_.rx + i);
     f.y.ry[0] = load(r_.ry + i);
     f.y.expand(f.gravity, f.push * f.a, f.push * f.change);
-    f.theta[0] = f.y.theta[0];
-    for (int k = 0; k <= RockStep::order; ++k) f.theta[k + 1] = f.y.omega[k] * Pack(1.0 / (k + 1));
   }
 
   // `part`: of what is left of the interval, at the impact.
