@@ -1,5 +1,5 @@
-// What each effect costs: the slide-rock samples of job P3 (jobs.hpp) with one effect of the catalogue at the middle of its
-// usual range, in blocks as a sweep computes them, beside the same samples without it, in packs and one by one.
+// What each effect costs: the slide-rock samples of job P3 (jobs.hpp) with one effect of the catalogue, within its usual
+// range, in blocks as a sweep computes them, beside the same samples without it, in packs and one by one.
 //
 //   build/release/benchmark_effects [samples]
 //
@@ -19,14 +19,15 @@ namespace {
 
 constexpr int runs = 5;
 
-double middle(const dynamics::Parameter& p) {
+// Where a range has zero in its middle, an effect vanishes there.
+double usual(const dynamics::Parameter& p) {
   if (!p.fitted && p.fallback) return *p.fallback;
-  return p.low > 0 ? std::sqrt(p.low * p.high) : 0.5 * (p.low + p.high);
+  return p.low > 0 ? std::sqrt(p.low * p.high) : p.low + 0.75 * (p.high - p.low);
 }
 
 std::vector<Specimen> with(const dynamics::Effect& effect, std::vector<Specimen> specimens) {
   EffectUse use{&effect, {}};
-  for (const auto& parameter : effect.parameters) use.parameters.push_back(middle(parameter));
+  for (const auto& parameter : effect.parameters) use.parameters.push_back(usual(parameter));
   for (Specimen& specimen : specimens) specimen.effects = {use};
   return specimens;
 }
