@@ -28,8 +28,8 @@ class Evaluator {
   // The same, integrated by itself, never in a pack: to check those.
   Outcome append_alone(std::uint64_t sample, std::vector<double>& values) const;
 
-  // The same as append(), for samples first ... first + count - 1, integrated in packs: the same rows, to the bit, in blocks of any
-  // size. Tells the outcomes in order.
+  // The same as append(), for samples first ... first + count - 1, integrated in packs: the same rows, to the bit, in
+  // blocks of any size. Tells the outcomes in order.
   std::vector<Outcome> append(std::uint64_t first, std::size_t count, std::vector<double>& values) const;
 
   const MotionSet& motions() const;

@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <functional>
 
 #include "effects/effects.hpp"
 #include "jobs.hpp"

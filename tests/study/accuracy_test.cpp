@@ -71,9 +71,8 @@ TEST(Accuracy, PacksAreHeldAgainstSingleSamples) {
   for (int i = 0; i < 1000; ++i) record << 0.01 * i << ',' << 3 * random.normal() << '\n';
   record.close();
   const Study study = parse_study(
-      "seed: 3\nsamples: 200\nblock: {width_m: 0.4, height_m: 1.8}\nmodel: slide\nfriction: {mu: {uniform: [0.1, "
-      "0.4]}}\n"
-      "motions: [{records: noise.csv}]\n",
+      "seed: 3\nsamples: 200\nblock: {width_m: 0.4, height_m: 1.8}\nmodel: slide\n"
+      "friction: {mu: {uniform: [0.1, 0.4]}}\nmotions: [{records: noise.csv}]\n",
       folder / "some.yaml", registries());
   const DemandError slip = of(checked(study, 200), "peak_slip_m");
   EXPECT_GT(slip.p95, 0);

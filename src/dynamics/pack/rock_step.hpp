@@ -16,7 +16,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-struct RockStep {
+struct RockStep : Polynomials<Pack> {
   static constexpr int order = 7;                 // of omega
   Pack theta[order + 2], omega[2], rx[1], ry[1];  // the start; theta: all its series, omega: its rate, too
   Pack omega_term(int k) const { return Pack(k + 1.0) * theta[k + 1]; }

@@ -46,7 +46,7 @@ class RockStrikes : public LaneGroup<RockRows> {
     for (int q = 0; q < count; ++q) {
       Fall& f = falls[q];
       fall(f, q * pack_lanes);
-      const Pack end = Polynomials<Pack>::sum(f.y.theta), guess = first_zero(f.y.theta[0], f.y.theta[1], end);
+      const Pack end = f.y.sum(f.y.theta), guess = first_zero(f.y.theta[0], f.y.theta[1], end);
       impacts[q] = {f.y.theta, one, zero, one, guess, end <= zero};
     }
     narrow_all<RockStep::order + 1>(impacts);

@@ -81,7 +81,7 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
 
   unsigned march(int i, unsigned here) {
     const Pack zero(0.0), one(1.0), left = load(r_.left + i), left2 = left * left, per_left = one / left;
-    const Pack xi0 = load(r_.xi + i), w0 = load(r_.w + i), a = load(r_.a + i), a_next = fetch(r_.next + i);
+    const Pack a = load(r_.a + i), a_next = fetch(r_.next + i);
     const Pack sigma = load(r_.sigma + i);
     FlatSeries<N, Pack> y;
     typename Friction::template Factor<N> factor(r_.law, i);
