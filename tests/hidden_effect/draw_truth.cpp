@@ -41,20 +41,6 @@ const std::map<std::string, std::vector<Range>>& strengths() {
   return all;
 }
 
-TruthEffect draw_effect(KeyedRandom& random, const std::string& name) {
-  const auto found = strengths().find(name);
-  if (found == strengths().end()) throw std::invalid_argument("no effect is called " + name);
-  TruthEffect effect{name, {}};
-  for (const Range& range : found->second) {
-    double& value = effect.parameters[range.key];
-    value = random.log_uniform(range.low, range.high);
-    const bool other = random.chance(0.5);
-    if (range.draw == Draw::either_sign && other) value = -value;
-    if (range.draw == Draw::or_its_inverse && other) value = 1 / value;
-  }
-  return effect;
-}
-
 // Three in ten of those that show on both kinds of block are slender.
 Habit draw_habit(KeyedRandom& random, const std::vector<std::string>& effects) {
   const auto any = [&](std::initializer_list<const char*> names) {
@@ -72,6 +58,20 @@ Habit draw_habit(KeyedRandom& random, const std::vector<std::string>& effects) {
 }
 
 }  // namespace
+
+TruthEffect draw_effect(KeyedRandom& random, const std::string& name) {
+  const auto found = strengths().find(name);
+  if (found == strengths().end()) throw std::invalid_argument("no effect is called " + name);
+  TruthEffect effect{name, {}};
+  for (const Range& range : found->second) {
+    double& value = effect.parameters[range.key];
+    value = random.log_uniform(range.low, range.high);
+    const bool other = random.chance(0.5);
+    if (range.draw == Draw::either_sign && other) value = -value;
+    if (range.draw == Draw::or_its_inverse && other) value = 1 / value;
+  }
+  return effect;
+}
 
 DrawnTruth draw_truth(KeyedRandom& random, const std::vector<std::string>& effects) {
   DrawnTruth d;

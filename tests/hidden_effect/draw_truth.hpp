@@ -19,7 +19,8 @@ struct DrawnTruth {
   Truth truth;
 };
 
-// Throws std::invalid_argument on an effect that does not exist.
+// Both throw std::invalid_argument on an effect that does not exist.
+TruthEffect draw_effect(KeyedRandom& random, const std::string& name);
 DrawnTruth draw_truth(KeyedRandom& random, const std::vector<std::string>& effects);
 
 }  // namespace freestand::test

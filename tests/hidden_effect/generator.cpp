@@ -73,7 +73,10 @@ const std::vector<Law>& laws() {
       {"wall_impact",
        {"gap_m", "restitution"},
        {0},
-       [](Rules& r, const Values& p) { r.laws.wall_gap_m = p[0], r.laws.wall_restitution = p[1]; }},
+       [](Rules& r, const Values& p) {
+         auto& wall = r.laws.walls[p[0] < 0 ? 0 : 1];
+         if (!wall || std::abs(p[0]) < wall->gap_m) wall = {std::abs(p[0]), p[1]};
+       }},
       {"moving_contents",
        {"mass_ratio", "frequency_hz", "damping"},
        {0.02},
@@ -170,9 +173,11 @@ class Run {
     const double dt = floor_.dt_s, t = static_cast<double>(i) * dt;
     FloorLine line{t, a[i], 0, (a[i + 1] - a[i]) / dt, 0};
     if (!v.empty()) line.v = v[i], line.v_rate = (v[i + 1] - v[i]) / dt;
+    deeds_ = 0;
     if (stepper_.rest(line, t, dt)) return true;
     for (double k = 0; k < splits_; ++k) {
       if (!stepper_.step(line, t + k * dt / splits_, dt / splits_)) return over("painleve");
+      deeds_ |= deed();
       history_.peak_slip_m = std::max(history_.peak_slip_m, std::abs(stepper_.slip()));
       history_.peak_rotation_rad = std::max(history_.peak_rotation_rad, std::abs(stepper_.rotation()));
       if (std::abs(stepper_.rotation()) > pi / 2) return over("overturned");
@@ -185,7 +190,18 @@ class Run {
     history_.outcome = outcome;
     return false;
   }
+  unsigned deed() const {
+    const MoreauStepper::Strikes strikes = stepper_.strikes();
+    const unsigned blows = (stepper_.landed_nearly_flat() ? landed_nearly_flat : 0U) |
+                             (strikes.face ? struck_by_face : 0U) | (strikes.lower ? struck_by_lower_edge : 0U) |
+                             (strikes.upper ? struck_by_upper_edge : 0U) | (strikes.in_flight ? struck_in_flight : 0U) |
+                             (stepper_.chain_broken() ? broke_the_chain : 0U);
+    if (stepper_.flies()) return blows | flew;
+    if (stepper_.closed(left) && stepper_.closed(right)) return blows | (stepper_.slips() ? slid : 0U);
+    return blows | (stepper_.slips() ? slide_rocked : rocked) | (stepper_.at_wall() ? leaned : 0U);
+  }
   void note() {
+    history_.deeds.push_back(deeds_);
     history_.slip_m.push_back(stepper_.slip());
     history_.rotation_rad.push_back(stepper_.rotation());
     history_.block_acceleration_mps2.push_back(stepper_.acceleration());
@@ -194,6 +210,7 @@ class Run {
   MoreauStepper stepper_;
   const FloorSamples& floor_;
   double splits_;
+  unsigned deeds_ = 0;
   TruthHistory history_;
 };
 

@@ -40,9 +40,25 @@ struct FloorSamples {
   std::vector<double> horizontal_mps2, vertical_mps2;
 };
 
+// What the contacts did at any time between two samples, as bits.
+enum TruthDeed : unsigned {
+  slid = 1,          // both corners closed, slipping
+  rocked = 2,        // one corner closed, stuck
+  slide_rocked = 4,  // one corner closed, slipping
+  flew = 8,          // no corner closed
+  struck_by_face = 16,
+  struck_by_lower_edge = 32,
+  struck_by_upper_edge = 64,
+  struck_in_flight = 128,
+  leaned = 256,  // on one corner, and against a wall
+  broke_the_chain = 512,
+  landed_nearly_flat = 1024  // both corners within a tenth of a micrometre: which one came first nobody can tell
+};
+
 // At the times of the floor's samples, from 0.
 struct TruthHistory {
   double dt_s = 0;
+  std::vector<unsigned> deeds;  // up to each of the times, since the one before: TruthDeed
   std::vector<double> slip_m, rotation_rad, block_acceleration_mps2;  // as in a measurement, without noise
   std::string outcome;  // at_rest | moved | overturned | painleve; the last two hold the values of their last instant
   double peak_slip_m = 0, residual_slip_m = 0, slid_path_m = 0, peak_rotation_rad = 0;

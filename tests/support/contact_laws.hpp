@@ -7,7 +7,9 @@
 // middle of the base.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "base/units.hpp"
@@ -42,8 +44,26 @@ struct ContactLaws {
   double push_mps2 = 0, gravity_mps2 = standard_gravity_mps2, vertical_scale = 0;
 
   // Legs: force on the block -(W^2 y + 2 z W y').
-  double legs_radps = 0, legs_damping = 0;      // 0: no legs
-  double wall_gap_m = 0, wall_restitution = 0;  // 0: no wall; the sign is the side
+  double legs_radps = 0, legs_damping = 0;  // 0: no legs
+  // Walls, upright and smooth, one on either side at most.
+  struct Wall {
+    double gap_m = 0, restitution = 0;  // from the side face of the block as it stands at first
+  };
+  std::array<std::optional<Wall>, 2> walls;  // to the left, to the right
+  bool walled() const { return walls[0] || walls[1]; }
+
+  // A chain that runs level to a wall far behind and pulls at one point of the block.
+  struct Chain {
+    int side = 1;                               // pulls back when the point has moved there
+    double right_m = 0, up_m = 0;               // the point, from the centre of mass
+    double slack_m = 0, stiffness_per_s2 = 0;   // stiffness over mass
+    double strength_mps2 = 0;                   // over mass; what pulls harder breaks it for good
+    double pull(double displacement_m) const {  // of the point
+      return stiffness_per_s2 * std::fmax(side * displacement_m - slack_m, 0);
+    }
+  };
+  std::optional<Chain> chain;
+
   // Contents: q'' = -(x_c'' + a) - W^2 q - 2 z W q', force r (W^2 q + 2 z W q'), the block carries M = 1 - r sideways.
   double contents_ratio = 0, contents_radps = 0, contents_damping = 0;
 

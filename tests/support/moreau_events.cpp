@@ -24,6 +24,8 @@ double crossing(double start, double rate, double end, double dt) {
 
 bool MoreauStepper::step(const FloorLine& floor, double t, double dt) {
   closing_speed_ = 0;
+  landed_nearly_flat_ = false;
+  strikes_ = {};
   const double end = t + dt;
   for (int cut = 0; cut < 60; ++cut) {
     Refused refused;
@@ -52,8 +54,8 @@ bool MoreauStepper::step(const FloorLine& floor, double t, double dt) {
 MoreauStepper::Event MoreauStepper::first_event(const State& before, const State& after, double t, double dt,
                                                 const Refused& refused) const {
   Event event;
-  const auto earlier = [&](Event::Kind kind, double time) {
-    if (event.kind == Event::Kind::none || time < event.after) event = {kind, time};
+  const auto earlier = [&](Event::Kind kind, double time, int edge = -1) {
+    if (event.kind == Event::Kind::none || time < event.after) event = {kind, time, edge};
   };
   for (const Corner k : {left, right}) {
     if (before.closed[k]) continue;
@@ -62,11 +64,15 @@ MoreauStepper::Event MoreauStepper::first_event(const State& before, const State
     if (end < 0) earlier(Event::Kind::closing, crossing(gap(before, k), rate, end, dt));
   }
   const bool carried = before.grip != Grip::none && after.grip != Grip::none;
-  if (laws_.wall_gap_m != 0 && before.wall == 0 && carried) {
-    const double side = laws_.wall_gap_m > 0 ? 1 : -1;
-    const double start = side * (laws_.wall_gap_m - contact_position(before));
-    const double end = side * (laws_.wall_gap_m - contact_position(after));
-    if (end < 0 && side * after.w > 0) earlier(Event::Kind::wall, crossing(start, -side * before.w, end, dt));
+  for (int edge = 0; edge < edge_count && laws_.walled(); ++edge) {
+    if (!laws_.walls[static_cast<std::size_t>(edge / 2)] || (before.touching >> edge & 1U) != 0) continue;
+    const double start = clearance(before, edge), end = clearance(after, edge);
+    const double rate = -into_wall(before, edge);
+    if (end < 0 && end < start) earlier(Event::Kind::wall, crossing(start, rate, end, dt), edge);
+  }
+  if (laws_.chain && !before.chain_broken && chain_pull(after) > laws_.chain->strength_mps2) {
+    const double start = chain_pull(before), rise = chain_pull(after) - start;
+    earlier(Event::Kind::chain_break, std::clamp(dt * (laws_.chain->strength_mps2 - start) / rise, 0.0, dt));
   }
   if (direction(before.grip) != 0 && carried && after.grip != before.grip && std::isfinite(refused.slip))
     earlier(Event::Kind::slip_end, std::clamp(dt * before.w / (before.w - refused.slip), 0.0, dt));
@@ -89,7 +95,10 @@ void MoreauStepper::meet(const Event& event, double t, double dt) {
     case Event::Kind::closing:
       return collide(t, dt);
     case Event::Kind::wall:
-      return meet_wall(t, dt);
+      return meet_wall(event.edge, t, dt);
+    case Event::Kind::chain_break:
+      state_.chain_broken = true;
+      return;
     case Event::Kind::slip_end:
       if (laws_.legs_radps == 0) state_.v.x -= state_.w;
       return hold(t);
@@ -134,6 +143,9 @@ void MoreauStepper::collide(double t, double dt) {
     closing_speed_ = std::max(closing_speed_, speed);
   }
   if (!any) return;
+  constexpr double nearly = 1e-7;  // [m]
+  if (before.grip == Grip::none && state_.theta != 0 && gap(state_, left) < nearly && gap(state_, right) < nearly)
+    landed_nearly_flat_ = true;
   const bool flat = step.near[left] && step.near[right], struck = state_.grip != Grip::none;
   if (flat && struck) {
     // The base meets the floor: from here on it is flat to the last bit.
@@ -147,10 +159,7 @@ void MoreauStepper::collide(double t, double dt) {
     strike(carrier(before));
   } else {
     step.free = state_.v;
-    step.speed = std::abs(state_.w);
-    step.place.u_m = slip();
-    step.place.path_m = state_.path;
-    step.place.time_s = t;
+    look_about(step, t);
     Case c;
     Refused refused;
     if (!choose(step, state_, c, true, refused)) return;
@@ -183,6 +192,7 @@ void MoreauStepper::strike(Corner from) {
   const double kept = (along - body_.left_m * body_.right_m) / (along + arm_to * arm_to);
   const double slip = state_.v.x - h * state_.v.q;
   const double rate = body_.impact_factor * std::max(0.0, kept) * state_.v.q;
+  state_.touching = 0;  // what this presses into a wall strikes it next
   state_.closed = {to == left, to == right};
   state_.v = {slip + h * rate, rate * (to == left ? -arm_to : arm_to), rate};
 }
@@ -194,22 +204,72 @@ bool MoreauStepper::short_hop(double dt) const {
   return 200 * std::abs(state_.v.q) * inertia < laws_.gravity_mps2 * lever * dt;
 }
 
-void MoreauStepper::meet_wall(double t, double dt) {
-  const double before = state_.v.x, speed = state_.w;
-  state_.x += laws_.wall_gap_m - contact_position(state_);
-  const double back = laws_.wall_restitution * speed;
-  state_.v.x -= speed + back;
-  state_.w_rate = state_.corner_rate = state_.base_rate = 0;
-  state_.contents_v -= state_.v.x - before;
-  if (std::abs(back) < standard_gravity_mps2 * dt) {
-    state_.v.x += back;
-    state_.contents_v -= back;
-    state_.wall = laws_.wall_gap_m > 0 ? 1 : -1;
-    hold(t);
+// Into its wall, of an edge.
+double MoreauStepper::into_wall(const State& state, int edge) const {
+  return (edge / 2 == left ? -1 : 1) * (state.v.x + state.v.q * edge_arm(edge, state.c, state.s).y);
+}
+
+// What the laws see in a blow: the weight as normal force, the speed at which the contact came.
+void MoreauStepper::look_about(Step& step, double t) const {
+  const Corner k = state_.grip == Grip::none && !step.near[left] ? right : state_.grip == Grip::none ? left : carrier(state_);
+  const bool flies = state_.grip == Grip::none;
+  step.speed = std::abs(flies ? state_.v.x + state_.v.q * step.stop[k].y : state_.w);
+  step.place.u_m = slip();
+  step.place.path_m = state_.path;
+  step.place.time_s = t;
+  step.place.normal_g = laws_.gravity_mps2 / standard_gravity_mps2;
+}
+
+void MoreauStepper::meet_wall(int edge, double t, double dt) {
+  const double speed = into_wall(state_, edge);
+  const unsigned bit = 1U << edge, face = 3U << (edge & ~1);
+  if (!(speed > 0)) {  // it stands there, and something begins to push it
+    state_.touching |= standing(state_) ? face : bit;
     return;
   }
-  state_.w = -back;
-  state_.grip = state_.w > 0 ? Grip::to_right : Grip::to_left;
+  const State before = state_;
+  double back = laws_.walls[static_cast<std::size_t>(edge / 2)]->restitution * speed;
+  if (back < standard_gravity_mps2 * dt) back = 0;
+  if (standing(state_)) {
+    strikes_.face = true;
+    state_.v.x = (edge / 2 == left ? 1 : -1) * back;
+    if (back == 0) state_.touching |= face;
+  } else {
+    (edge % 2 == lower ? strikes_.lower : strikes_.upper) = true;
+    if (!strike_edge(edge, back, t)) return;
+    if (back != 0) state_.touching &= ~bit;
+  }
+  strikes_.in_flight = strikes_.in_flight || before.grip == Grip::none;
+  if (state_.grip != Grip::none) {
+    state_.w = state_.closed[left] && state_.closed[right] ? state_.v.x : state_.w;
+    if (state_.grip != Grip::stuck || standing(state_))
+      state_.grip = state_.w > 0 ? Grip::to_right : state_.w < 0 ? Grip::to_left : Grip::stuck;
+    if (state_.grip == Grip::stuck && before.grip != Grip::stuck) hold(t);
+  }
+  state_.margin = std::numeric_limits<double>::quiet_NaN();
+  state_.w_rate = state_.corner_rate = state_.base_rate = 0;
+  state_.contents_v -= state_.v.x - before.v.x;
+}
+
+// The edge leaves its wall at the speed `back`; the corners and the other edges that carry take part.
+bool MoreauStepper::strike_edge(int edge, double back, double t) {
+  Step step;
+  step.t = t;
+  step.blow = true;
+  step.near = state_.closed;
+  step.touching = state_.touching | 1U << edge;
+  step.struck = edge;
+  step.rebound = back;
+  for (const Corner k : {left, right}) step.push[k] = step.stop[k] = arm(k, state_.c, state_.s);
+  for (int e = 0; e < edge_count; ++e) step.wall_push[e] = step.wall_stop[e] = edge_arm(e, state_.c, state_.s);
+  step.free = state_.v;
+  look_about(step, t);
+  Case c;
+  Refused refused;
+  if (!choose(step, state_, c, true, refused)) return false;
+  state_.v = c.next;
+  state_.w = c.slip;
+  return true;
 }
 
 }  // namespace freestand::test

@@ -19,9 +19,18 @@
 // tries to stick with mu_s, and reverses with mu_k otherwise. Both corners closed and stuck: only the sum of the two
 // friction forces is determined, and it is bounded by mu_s times the sum of the normal forces.
 //
+// A block that cannot slip lifts off from both corners only; on one of them it turns about a hinge, as Housner's does.
+//
 // With legs the corner is that of the block over them and the foot under them slips: stuck, its force is that of the
-// legs; legs pass on no blow. A block pressed against the wall: friction holds it as far as it can, the wall takes the
-// rest, both in the way that their laws act (friction on the corner, the wall through the centre of mass).
+// legs; legs pass on no blow, and a foot in the air has no force, so that its legs relax.
+//
+// Walls: the side face of the block is a rectangle's, as high over the centre of mass as the base is under it. Its two
+// ends, the lower and the upper edge, meet a smooth wall each on its own. A blow turns the edge's speed v into -e v; the
+// corners that are closed, and edges that rest against walls, take part in it as in a step, without rebound. An edge
+// that comes so slowly that its rebound would be over within the step stays at the wall: from then on
+//   0 <= p_wall  perpendicular to  J_wall v+ <= 0.
+// The upright face meets the wall as a whole and comes back upright. A block that stands against the wall: friction
+// holds it as far as it can, the wall takes the rest, and pushes where it has to between floor and top.
 #pragma once
 
 #include <array>
@@ -33,6 +42,8 @@
 namespace freestand::test {
 
 enum Corner { left = 0, right = 1 };
+enum Edge { lower = 0, upper = 1 };
+inline constexpr int edge_count = 4;  // of both sides: number 2 side + edge
 enum class Grip { none, stuck, to_right, to_left };  // friction state of the closed corners; none: nothing closed
 inline int direction(Grip grip) { return grip == Grip::to_right ? 1 : grip == Grip::to_left ? -1 : 0; }
 
@@ -70,6 +81,15 @@ class MoreauStepper {
   bool closed(Corner k) const { return state_.closed[k]; }
   bool slips() const { return state_.grip == Grip::to_left || state_.grip == Grip::to_right; }
   bool flies() const { return state_.grip == Grip::none; }
+  // It came down from flight so flat that less than anyone computes decides which corner came first.
+  bool landed_nearly_flat() const { return landed_nearly_flat_; }
+  bool at_wall() const { return state_.touching != 0; }
+  // What met a wall in the last step.
+  struct Strikes {
+    bool face = false, lower = false, upper = false, in_flight = false;
+  };
+  Strikes strikes() const { return strikes_; }
+  bool chain_broken() const { return state_.chain_broken; }
   double closing_speed() const { return closing_speed_; }  // of the corner that closed in the last step, 0: none
 
  private:
@@ -92,13 +112,18 @@ class MoreauStepper {
     double contents = 0, contents_v = 0, contents_rate = 0;
     double acceleration = 0;
     double margin = std::numeric_limits<double>::quiet_NaN(), margin_time = 0;  // grip to spare, in the last step
-    int wall = 0;                                                               // pressed against it on that side
+    unsigned touching = 0;                                                      // edges at walls, as bits
+    bool chain_broken = false;
   };
   // One step, before its impulses are known.
   struct Step {
     double t, dt;
     std::array<Arm, 2> push, stop;  // arms of the impulses, and of the velocities that must not point into the floor
     std::array<bool, 2> near{false, false};
+    std::array<Arm, edge_count> wall_push, wall_stop;  // of the edges, likewise
+    unsigned touching = 0;                             // edges that may meet an impulse
+    int struck = -1;                                   // edge that leaves the wall at `rebound`
+    double rebound = 0;
     Velocity free;        // what the velocity becomes without contact
     double a = 0, g = 0;  // at the middle
     double leg_force = 0, contents_force = 0;
@@ -109,14 +134,23 @@ class MoreauStepper {
   // The impulses of a case, and what they lead to.
   struct Case {
     Velocity next;
-    double tangential = 0, wall = 0;
+    double tangential = 0;
+    std::array<double, edge_count> wall{};
     std::array<double, 2> normal{0, 0};
     double slip = 0, legs = 0;  // speed of the foot and deflection of the legs after it
     double total() const { return normal[left] + normal[right]; }
   };
   struct Event {
-    enum class Kind { none, closing, wall, slip_end, grip_break } kind = Kind::none;
+    enum class Kind { none, closing, wall, slip_end, grip_break, chain_break } kind = Kind::none;
     double after = 0;
+    int edge = -1;
+  };
+  // Which contacts carry in a case.
+  struct Contacts {
+    bool left = false, right = false;
+    unsigned edges = 0;  // as bits
+    bool none() const { return !left && !right; }
+    bool flat() const { return left && right; }
   };
 
   // Of the case that would go on as before, where it was not allowed.
@@ -130,14 +164,21 @@ class MoreauStepper {
   double contact_position(const State& state) const;  // displacement of the carrying corner
   double middle_speed(const State& state) const;
   void turn(State& state, double theta) const;
+  Arm edge_arm(int edge, double c, double s) const;
+  double clearance(const State& state, int edge) const;  // from its wall
+  bool standing(const State& state) const { return state.theta == 0 && state.v.q == 0; }
+  double chain_displacement(double x, double c, double s) const;
+  double chain_pull(const State& state) const;
   Step prepare(const State& state, const FloorLine& floor, double t, double dt) const;
-  bool impulses(const Step& step, const State& state, bool with_left, bool with_right, Grip grip, bool pressed,
-                Case& c) const;
-  bool one_corner(const Step& step, Corner k, Grip grip, bool pressed, Case& c) const;
-  void both_corners(const Step& step, const State& state, Grip grip, bool pressed, Case& c) const;
+  bool impulses(const Step& step, const State& state, Contacts contacts, Grip grip, Case& c) const;
+  bool one_corner(const Step& step, Corner k, Grip grip, Case& c) const;
+  void both_corners(const Step& step, Grip grip, Case& c) const;
+  bool against_face(const Step& step, int side, Case& c) const;
+  bool with_edges(const Step& step, Contacts contacts, Grip grip, Case& c) const;
   void sway(const Step& step, const State& state, Grip grip, Case& c) const;
-  bool allowed(const Step& step, const State& state, Grip grip, bool pressed, bool with_left, bool with_right,
-               const Case& c) const;
+  bool allowed(const Step& step, const State& state, Contacts contacts, Grip grip, const Case& c) const;
+  bool possible(const Step& step, const State& state, Contacts contacts, Grip grip) const;
+  bool hinged(const Step& step) const;
   double holding(const Step& step, const Case& c) const;
   double margin(const Step& step, const Case& c) const;
   bool choose(const Step& step, State& state, Case& chosen, bool closing, Refused& refused) const;
@@ -152,12 +193,17 @@ class MoreauStepper {
   void collide(double t, double dt);
   void strike(Corner from);
   bool short_hop(double dt) const;
-  void meet_wall(double t, double dt);
+  double into_wall(const State& state, int edge) const;
+  void look_about(Step& step, double t) const;
+  void meet_wall(int edge, double t, double dt);
+  bool strike_edge(int edge, double back, double t);
 
   ContactBody body_;
   ContactLaws laws_;
   State state_;
   double closing_speed_ = 0;
+  bool landed_nearly_flat_ = false;
+  Strikes strikes_;
 };
 
 }  // namespace freestand::test

@@ -1,0 +1,160 @@
+#include "judge/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/simulate.hpp>
+
+#include "hidden_effect/kernel_specimen.hpp"
+
+namespace freestand::test {
+namespace {
+
+constexpr double step_s = 1e-4, accuracy = 1e-6, margin = 6, fanned_out = 1e-4, edge = 1e-7;
+
+using Integrator = Response (*)(const Specimen&, const freestand::Shaking&, const Settings&, History*);
+
+struct Answer {
+  const char* who;
+  Response response;
+  History history;
+};
+
+Answer answer(const JudgedCase& c, const char* who, Integrator integrate, double tolerance) {
+  const FloorMotion motion = motion_of(c.floor);
+  const freestand::Shaking shaking{&motion, 1, 1, 0};
+  Settings settings;
+  settings.free_vibration_s = 1;
+  settings.tolerance = tolerance;
+  Answer a{who, {}, {}};
+  a.history.step_s = c.floor.dt_s;
+  a.response = integrate(specimen_of(c.truth), shaking, settings, &a.history);
+  return a;
+}
+
+// The stepper's history, and how far off it may be at each sample.
+struct Evidence {
+  TruthHistory history;
+  std::vector<double> own;  // up to where it has fanned out
+};
+
+double distance(const TruthHistory& a, const TruthHistory& b, std::size_t i) {
+  return std::max(std::abs(a.slip_m[i] - b.slip_m[i]), std::abs(a.rotation_rad[i] - b.rotation_rad[i]));
+}
+
+void doubt(Evidence& evidence, const TruthHistory& other) {
+  double own = 0;
+  for (std::size_t i = 0; i < evidence.own.size(); ++i) {
+    own = std::max(own, distance(evidence.history, other, i));
+    evidence.own[i] = std::max(own, evidence.own[i]);
+    if (evidence.own[i] > fanned_out) evidence.own.resize(i);
+  }
+}
+
+Evidence evidence(const JudgedCase& c, double step) {
+  Evidence e{simulate(c.truth, c.floor, 0.5 * step), {}};
+  e.own.assign(c.floor.horizontal_mps2.size(), 0);
+  doubt(e, simulate(c.truth, c.floor, step));
+  return e;
+}
+
+// The same on floors a little weaker and stronger, which move the history as little unless it stands on an edge.
+void doubt_edges(Evidence& evidence, const JudgedCase& c, double step) {
+  for (const double factor : {1 - edge, 1 + edge}) {
+    FloorSamples floor = c.floor;
+    for (double& a : floor.horizontal_mps2) a *= factor;
+    for (double& v : floor.vertical_mps2) v *= factor;
+    doubt(evidence, simulate(c.truth, floor, 0.5 * step));
+  }
+}
+
+// First time at which it came down from flight so flat that which corner came first is below what anyone computes [s].
+double landing_nearly_flat(const Evidence& e, const Answer& a) {
+  constexpr double at_once = 1e-4;  // [s]
+  double first = 1e300;
+  for (std::size_t i = 0; i < e.history.deeds.size() && first > 1e299; ++i)
+    if (e.history.deeds[i] & landed_nearly_flat) first = (static_cast<double>(i) - 1) * e.history.dt_s;
+  const auto& events = a.history.events;
+  for (std::size_t i = 0; i + 1 < events.size(); ++i)
+    if (events[i].from == Mode::flight && events[i].impact && events[i + 1].impact &&
+        events[i + 1].time_s - events[i].time_s < at_once)
+      return std::min(first, events[i].time_s);
+  return first;
+}
+
+bool broke_off(const Response& response) { return *failure(response.outcome) != '\0'; }
+
+// Empty: within what is allowed.
+std::string difference(const Evidence& e, const Answer& a) {
+  const TruthHistory& h = e.history;
+  const double undecided_s = landing_nearly_flat(e, a);
+  for (std::size_t i = 0; i < e.own.size(); ++i) {
+    if (static_cast<double>(i) * h.dt_s > undecided_s) return "";
+    if (i >= a.history.points.size()) {
+      if (!broke_off(a.response) || h.outcome == "painleve") return "";
+      return fmt::format("{} broke off ({}) at {:.4f} s, the stepper goes on", a.who, name(a.response.outcome),
+                         a.response.end_time_s);
+    }
+    const HistoryPoint& p = a.history.points[i];
+    if (h.outcome == "overturned" && a.response.outcome == Outcome::overturned && std::abs(h.rotation_rad[i]) > pi / 2)
+      return "";  // both lie
+    const double off = std::max(std::abs(h.slip_m[i] - p.slip_m), std::abs(h.rotation_rad[i] - p.rotation_rad));
+    if (!(off <= accuracy + margin * e.own[i]))
+      return fmt::format("{} ({}) at {:.3f} s: slip {:.7f} against {:.7f} m, rotation {:.7f} against {:.7f} rad, own {:.1e}", a.who,
+                         name(p.mode), p.time_s, p.slip_m, h.slip_m[i], p.rotation_rad, h.rotation_rad[i], e.own[i]);
+  }
+  if (e.own.size() == h.slip_m.size() && undecided_s > a.response.end_time_s && h.outcome == "moved" && broke_off(a.response))
+    return fmt::format("{}: outcome {} against moved", a.who, name(a.response.outcome));
+  return "";
+}
+
+}  // namespace
+
+Judgement judge(const JudgedCase& c) {
+  const Answer answers[] = {answer(c, "respond", respond, 1e-12),
+                            answer(c, "respond_reference", respond_reference, 1e-10)};
+  const auto first_difference = [&](const Evidence& e) {
+    for (const Answer& a : answers)
+      if (std::string text = difference(e, a); !text.empty()) return text;
+    return std::string();
+  };
+  Evidence e = evidence(c, step_s);
+  Judgement result;
+  if (!first_difference(e).empty()) {
+    e = evidence(c, 0.25 * step_s);
+    result.what = first_difference(e);
+    if (!result.what.empty()) {
+      doubt_edges(e, c, 0.25 * step_s);
+      result.finding = first_difference(e).empty() ? Finding::on_an_edge : Finding::disagrees;
+    }
+  }
+  result.compared = e.own.size();
+  result.samples = e.history.slip_m.size();
+  for (std::size_t i = 0; i < e.own.size(); ++i) result.deeds |= e.history.deeds[i];
+  return result;
+}
+
+std::string side_by_side(const JudgedCase& c, std::size_t from, std::size_t to) {
+  const Answer fast = answer(c, "respond", respond, 1e-12);
+  const Evidence e = evidence(c, 0.25 * step_s);
+  std::string text = fmt::format("time_s a v | respond: slip rotation mode | stepper: slip rotation deeds own; respond ends {} at {:.5f}, stepper {}\n",
+                                 name(fast.response.outcome), fast.response.end_time_s, e.history.outcome);
+  for (std::size_t i = from; i < std::min(to, e.history.slip_m.size()); ++i) {
+    text += fmt::format("{:.4f} {:8.4f} {:8.4f} | ", static_cast<double>(i) * c.floor.dt_s, c.floor.horizontal_mps2[i],
+                        c.floor.vertical_mps2.empty() ? 0.0 : c.floor.vertical_mps2[i]);
+    if (i < fast.history.points.size()) {
+      const HistoryPoint& p = fast.history.points[i];
+      text += fmt::format("{:12.8f} {:12.8f} {:10} | ", p.slip_m, p.rotation_rad, name(p.mode));
+    }
+    text += fmt::format("{:12.8f} {:12.8f} {:4x} {:.1e}\n", e.history.slip_m[i], e.history.rotation_rad[i],
+                        e.history.deeds[i], i < e.own.size() ? e.own[i] : -1.0);
+  }
+  for (const Event& event : fast.history.events)
+    if (event.time_s > static_cast<double>(from) * c.floor.dt_s && event.time_s < static_cast<double>(to) * c.floor.dt_s)
+      text += fmt::format("event {:.7f} {} -> {} pivot {}{}\n", event.time_s, name(event.from), name(event.to), event.pivot,
+                          event.impact ? " impact" : "");
+  return text;
+}
+
+}  // namespace freestand::test

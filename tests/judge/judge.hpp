@@ -1,0 +1,32 @@
+// One case by the contact time-stepper and by the kernel's two integrators.
+//
+// The stepper's error is measured by its step: run again with half of it, its history changes by `own`. The kernel may be
+// off by a micrometre and six times the largest `own` so far (its error falls at least with the step, so that half a
+// step leaves at most what it changed; six for what a change can hide). Where `own` has passed 0.1 mm the history is
+// chaotic, and nothing after it is compared. A disagreement is one only if a stepper four times as fine still sees it,
+// and if the stepper's own history on a floor that is stronger or weaker by 1e-7 is not as far off: that is an edge, on which any
+// error decides.
+#pragma once
+
+#include <freestand/response.hpp>
+#include <string>
+
+#include "judge/judged_case.hpp"
+
+namespace freestand::test {
+
+enum class Finding { agrees, on_an_edge, disagrees };
+
+struct Judgement {
+  Finding finding = Finding::agrees;
+  std::string what;  // of a disagreement: who, when, by how much
+  std::size_t compared = 0, samples = 0;
+  unsigned deeds = 0;  // of the compared time: TruthDeed
+};
+
+Judgement judge(const JudgedCase&);
+
+// The kernel's and the stepper's histories side by side, one line a sample of [from, to), for whoever looks for a cause.
+std::string side_by_side(const JudgedCase&, std::size_t from, std::size_t to);
+
+}  // namespace freestand::test

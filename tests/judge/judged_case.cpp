@@ -1,0 +1,186 @@
+#include "judge/judged_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/effects.hpp"
+#include "hidden_effect/draw_truth.hpp"
+#include "hidden_effect/shaking.hpp"
+
+namespace freestand::test {
+namespace {
+
+constexpr double g = standard_gravity_mps2, floor_step_s = 0.005;
+
+bool excludes(const std::string& effect, const std::string& other) {
+  const effects::Effect* found = effects::find(effect);
+  if (!found) return false;
+  return std::find(found->excludes.begin(), found->excludes.end(), other) != found->excludes.end();
+}
+
+bool go_together(const std::string& a, const std::string& b) {
+  if (a == b) return a == "slack_tether" || a == "wall_impact";
+  return !excludes(a, b) && !excludes(b, a);
+}
+
+const char* model_name(TruthModel model) {
+  static constexpr const char* names[] = {"slide", "rock", "slide_rock"};
+  return names[static_cast<int>(model)];
+}
+
+bool goes_with(const std::vector<std::string>& effects, TruthModel model) {
+  return std::none_of(effects.begin(), effects.end(),
+                      [&](const std::string& effect) { return excludes(effect, model_name(model)); });
+}
+
+bool possible(const Recipe& recipe) {
+  const auto holds = [&](const char* effect) {
+    return std::find(recipe.effects.begin(), recipe.effects.end(), effect) != recipe.effects.end();
+  };
+  switch (recipe.setting) {
+    case Setting::slide:
+      return goes_with(recipe.effects, TruthModel::slide);
+    case Setting::rock:
+      return goes_with(recipe.effects, TruthModel::rock);
+    case Setting::thrown:
+      return !holds("vertical_shaking");  // it is in there anyway
+    case Setting::on_a_slope:
+      return !holds("floor_tilt");
+    default:
+      return true;
+  }
+}
+
+TruthModel draw_model(KeyedRandom& random, const Recipe& recipe) {
+  switch (recipe.setting) {
+    case Setting::slide:
+      return TruthModel::slide;
+    case Setting::rock:
+      return TruthModel::rock;
+    case Setting::slide_rock:
+      return TruthModel::slide_rock;
+    default:
+      break;
+  }
+  const double which = random.unit();
+  const TruthModel model = which < 0.7    ? TruthModel::slide_rock
+                           : which < 0.85 ? TruthModel::slide
+                                          : TruthModel::rock;
+  return goes_with(recipe.effects, model) ? model : TruthModel::slide_rock;
+}
+
+// Half width over height of the centre of mass from 0.12 to 1.2, friction about that ratio, so that the block slides,
+// rocks, or does both.
+Truth draw_block(KeyedRandom& random, TruthModel model) {
+  const double height_m = random.log_uniform(0.6, 2.4), slenderness = random.log_uniform(0.12, 1.2);
+  double mu = slenderness * random.log_uniform(0.5, 2);
+  if (model == TruthModel::slide) mu = random.log_uniform(0.08, 0.6);
+  if (model == TruthModel::rock) mu = 5;
+  Truth truth = rectangular_truth(slenderness * height_m, height_m, std::min(mu, 1.2));
+  if (random.chance(0.25)) {
+    truth.left_m *= random.uniform(0.75, 1.2);
+    truth.right_m *= random.uniform(0.75, 1.2);
+    truth.gyration2_m2 *= random.uniform(0.85, 1.2);
+  }
+  if (random.chance(0.25)) truth.mu_s *= random.uniform(1.05, 1.5);
+  truth.model = model;
+  truth.impact = random.chance(0.4) ? TruthImpact::coulomb : TruthImpact::housner;
+  return truth;
+}
+
+// A second tether or wall stands on the other side.
+void to_other_side(TruthEffect& effect, const TruthEffect& first) {
+  for (const char* key : {"slack_m", "gap_m"})
+    if (effect.parameters.count(key))
+      effect.parameters[key] = std::copysign(effect.parameters[key], -first.parameters.at(key));
+}
+
+std::vector<TruthEffect> draw_effects(KeyedRandom& random, const Recipe& recipe) {
+  std::vector<TruthEffect> drawn;
+  for (const std::string& name : recipe.effects) {
+    drawn.push_back(draw_effect(random, name));
+    if (drawn.size() == 2 && drawn[0].name == name) to_other_side(drawn[1], drawn[0]);
+  }
+  const auto holds = [&](const char* name) {
+    return std::any_of(drawn.begin(), drawn.end(), [&](const TruthEffect& effect) { return effect.name == name; });
+  };
+  if (recipe.setting == Setting::thrown && !holds("vertical_shaking")) drawn.push_back({"vertical_shaking", {}});
+  if (recipe.setting == Setting::on_a_slope && !holds("floor_tilt"))
+    drawn.push_back({"floor_tilt", {{"angle_rad", random.uniform(-0.15, 0.15)}}});
+  return drawn;
+}
+
+// From three quarters to five times what moves the block; vertically up to 0.8 g, or from 1.1 to 2.5 g where it is to
+// be thrown.
+FloorSamples draw_floor(KeyedRandom& random, const Truth& truth, Setting setting) {
+  static constexpr Shaking kinds[] = {Shaking::pulse, Shaking::stochastic, Shaking::both};
+  FloorSamples floor;
+  floor.dt_s = floor_step_s;
+  const Shaking kind = kinds[static_cast<int>(3 * random.unit())];
+  floor.horizontal_mps2 = draw_shaking(random, kind, {}, floor_step_s, kind == Shaking::pulse ? 6 : 3);
+  floor.vertical_mps2 = draw_vertical(random, floor_step_s, floor.horizontal_mps2.size());
+  const double tips = std::min(truth.left_m, truth.right_m) / truth.height_m;
+  const double moves = truth.model == TruthModel::slide  ? truth.mu_s
+                       : truth.model == TruthModel::rock ? tips
+                                                         : std::min(truth.mu_s, tips);
+  const double sign = random.chance(0.5) ? 1 : -1, peak = sign * moves * g * random.log_uniform(0.75, 5);
+  const double up = g * (setting == Setting::thrown ? random.uniform(1.1, 2.5) : random.uniform(0.1, 0.8));
+  for (double& a : floor.horizontal_mps2) a *= peak;
+  for (double& v : floor.vertical_mps2) v *= up;
+  return floor;
+}
+
+}  // namespace
+
+const char* name(Setting setting) {
+  static constexpr const char* names[setting_count] = {"slide", "rock", "slide_rock", "thrown", "on_a_slope"};
+  return names[static_cast<int>(setting)];
+}
+
+std::vector<Recipe> recipes() {
+  std::vector<Recipe> all;
+  const auto add = [&](std::vector<std::string> effects, int setting) {
+    Recipe recipe{std::move(effects), static_cast<Setting>(setting % setting_count)};
+    if (possible(recipe)) all.push_back(std::move(recipe));
+  };
+  const std::vector<std::string>& effects = catalogue_effects();
+  for (int setting = 0; setting < setting_count; ++setting) add({}, setting);
+  for (const std::string& effect : effects)
+    for (int setting = 0; setting < setting_count; ++setting) add({effect}, setting);
+  int turn = 0;
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    for (std::size_t j = i; j < effects.size(); ++j)
+      if (go_together(effects[i], effects[j])) {
+        // Settings that the pair does not go with are passed over.
+        const std::size_t before = all.size();
+        while (all.size() == before) add({effects[i], effects[j]}, turn++);
+      }
+  return all;
+}
+
+std::string JudgedCase::text() const {
+  std::string line = fmt::format("{}: {}, {}, left {:.6g} m, right {:.6g} m, height {:.6g} m, k2 {:.6g} m2, mu_s {:.6g}, mu_k {:.6g}",
+                                 number, model_name(truth.model),
+                                 truth.impact == TruthImpact::housner ? "housner" : "coulomb", truth.left_m,
+                                 truth.right_m, truth.height_m, truth.gyration2_m2, truth.mu_s, truth.mu_k);
+  for (const TruthEffect& effect : truth.effects) {
+    line += ", " + effect.name + " {";
+    for (const auto& [key, value] : effect.parameters) line += fmt::format(" {}: {:.6g}", key, value);
+    line += " }";
+  }
+  return line;
+}
+
+JudgedCase judged_case(std::uint64_t seed, std::uint64_t number) {
+  static const std::vector<Recipe> all = recipes();
+  KeyedRandom random(seed, number);
+  JudgedCase result{seed, number, all[number % all.size()], {}, {}};
+  result.truth = draw_block(random, draw_model(random, result.recipe));
+  result.truth.effects = draw_effects(random, result.recipe);
+  result.floor = draw_floor(random, result.truth, result.recipe.setting);
+  return result;
+}
+
+}  // namespace freestand::test

@@ -1,0 +1,44 @@
+// The cases that are judged: one specimen with one or two effects on one floor, each a pure function of (seed, number).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hidden_effect/generator.hpp"
+
+namespace freestand::test {
+
+// How the block is made to move, beside its effects.
+enum class Setting {
+  slide,        // model slide
+  rock,         // model rock
+  slide_rock,   // model slide_rock
+  thrown,       // the floor shakes vertically as well, strongly enough to throw the block up; any model
+  on_a_slope    // floor_tilt as well; any model
+};
+inline constexpr int setting_count = 5;
+const char* name(Setting setting);
+
+// What a case is drawn from: the effects that it is about, and its setting.
+struct Recipe {
+  std::vector<std::string> effects;
+  Setting setting = Setting::slide_rock;
+};
+
+// Every effect alone in every setting that it goes with, then every pair of effects that go together (slack_tether and
+// wall_impact with themselves too, one a side); the settings of pairs take turns.
+std::vector<Recipe> recipes();
+
+struct JudgedCase {
+  std::uint64_t seed = 0, number = 0;
+  Recipe recipe;
+  Truth truth;
+  FloorSamples floor;
+  std::string text() const;  // one line that describes the case, for messages
+};
+
+// Number `number` is of recipe number mod recipes().size().
+JudgedCase judged_case(std::uint64_t seed, std::uint64_t number);
+
+}  // namespace freestand::test

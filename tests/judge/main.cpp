@@ -1,0 +1,64 @@
+// judge [--cases 5000] [--first 0] [--seed 1] [--show N --from S --to S]: the kernel before the contact time-stepper. A
+// table per effect and setting, and every disagreement as a case that can be repeated. Exit 1 if there is any.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "judge/tally.hpp"
+
+namespace freestand::test {
+namespace {
+
+struct Options {
+  std::uint64_t seed = 1, first = 0, cases = 5000;
+  int threads = 1;
+  std::vector<double> show_s;
+};
+
+Tally judge_all(const Options& options) {
+  Tally tally;
+  std::mutex one_at_a_time;
+  std::atomic<std::uint64_t> next{options.first};
+  const auto work = [&] {
+    for (std::uint64_t n = next++; n < options.first + options.cases; n = next++) {
+      const JudgedCase c = judged_case(options.seed, n);
+      const Judgement judgement = judge(c);
+      const std::lock_guard<std::mutex> lock(one_at_a_time);
+      tally.add(c, judgement);
+      if (judgement.finding == Finding::agrees) continue;
+      fmt::print("{} [{}] {}\n    {}\n", judgement.finding == Finding::disagrees ? "DISAGREES" : "edge",
+                 name(c.recipe.setting), c.text(), judgement.what);
+      std::fflush(stdout);
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < options.threads; ++i) threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  return tally;
+}
+
+}  // namespace
+}  // namespace freestand::test
+
+int main(int count, char** words) {
+  freestand::test::Options options;
+  CLI::App parser("the kernel before the contact time-stepper");
+  parser.add_option("--seed", options.seed, "of the cases");
+  parser.add_option("--first", options.first, "number of the first case");
+  parser.add_option("--cases", options.cases, "how many");
+  parser.add_option("--threads", options.threads, "side by side")->check(CLI::Range(1, 1024));
+  parser.add_option("--show", options.show_s, "from, to [s]: both histories of the first case, and no judgement")->expected(2);
+  CLI11_PARSE(parser, count, words);
+  if (!options.show_s.empty()) {
+    const freestand::test::JudgedCase c = freestand::test::judged_case(options.seed, options.first);
+    const auto sample = [&](double t) { return static_cast<std::size_t>(t / c.floor.dt_s); };
+    fmt::print("{}\n{}", c.text(), freestand::test::side_by_side(c, sample(options.show_s[0]), sample(options.show_s[1])));
+    return 0;
+  }
+  const freestand::test::Tally tally = freestand::test::judge_all(options);
+  fmt::print("{}", tally.table());
+  return tally.total().disagreements ? 1 : 0;
+}
