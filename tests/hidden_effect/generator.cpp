@@ -13,6 +13,7 @@ namespace {
 struct Rules {
   ContactBody body;
   ContactLaws laws;
+  double left_of_base = 1;  // share of the base that is not lost at the corners
 };
 using Values = std::vector<double>;
 
@@ -87,7 +88,9 @@ const std::vector<Law>& laws() {
       {"reduced_base",
        {"ratio"},
        {},
-       [](Rules& r, const Values& p) { r.body.left_m *= 1 - p[0], r.body.right_m *= 1 - p[0]; }},
+       [](Rules& r, const Values& p) {
+         r.body.left_m *= 1 - p[0], r.body.right_m *= 1 - p[0], r.left_of_base *= 1 - p[0];
+       }},
       {"offset_mass",
        {"eccentricity"},
        {},
@@ -105,10 +108,17 @@ const std::vector<Law>& laws() {
        {"rise", "time_s"},
        {},
        [](Rules& r, const Values& p) { r.laws.ageing = p[0], r.laws.ageing_time_s = p[1]; }},
+      {"chain",
+       {"side", "height_m", "slack_m", "stiffness_per_s2", "strength_mps2"},
+       {},
+       [](Rules& r, const Values& p) {
+         const double left = r.body.left_m / r.left_of_base, right = r.body.right_m / r.left_of_base;
+         r.laws.chain = {static_cast<int>(p[0]), p[0] > 0 ? -left : right, p[1] - r.body.height_m, p[2], p[3], p[4]};
+       }},
   };
   return all;
 }
-constexpr std::size_t in_catalogue = 17;
+constexpr std::size_t in_catalogue = 17, outside = 3;
 
 Values values_of(const Law& law, const TruthEffect& effect) {
   for (const auto& [key, value] : effect.parameters)
@@ -137,8 +147,11 @@ Rules rules_of(const Truth& truth) {
   for (const TruthEffect& effect : truth.effects) {
     const auto law = std::find_if(laws().begin(), laws().end(), [&](const Law& l) { return l.name == effect.name; });
     if (law == laws().end()) throw std::invalid_argument("no effect is called " + effect.name);
-    law->act(rules, values_of(*law, effect));
+    if (law->name != "chain") law->act(rules, values_of(*law, effect));
   }
+  // A chain hangs on the block as the other effects leave it.
+  for (const TruthEffect& effect : truth.effects)
+    if (effect.name == "chain") laws().back().act(rules, values_of(laws().back(), effect));
   return rules;
 }
 
@@ -236,7 +249,7 @@ const std::vector<std::string>& catalogue_effects() {
 }
 
 const std::vector<std::string>& outside_effects() {
-  static const std::vector<std::string> result = names(in_catalogue, laws().size());
+  static const std::vector<std::string> result = names(in_catalogue, in_catalogue + outside);
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <freestand/specimen.hpp>
 #include <stdexcept>
 
+#include "dynamics/chain.hpp"
 #include "effects/effects.hpp"
 #include "hidden_effect/generator.hpp"
 
@@ -21,6 +22,17 @@ inline EffectUse effect_use(const TruthEffect& truth) {
   return use;
 }
 
+inline EffectUse chain_use(const TruthEffect& truth, const Block& block) {
+  const auto& p = truth.parameters;
+  dynamics::Chain chain;
+  chain.slack_m = p.at("slack_m");
+  chain.stiffness_npm = p.at("stiffness_per_s2") * block.mass_kg;
+  chain.strength_n = p.at("strength_mps2") * block.mass_kg;
+  chain.height_m = p.at("height_m");
+  chain.side = static_cast<int>(p.at("side"));
+  return dynamics::use(chain, block);
+}
+
 inline Specimen specimen_of(const Truth& truth) {
   static constexpr Model models[] = {Model::slide, Model::rock, Model::slide_rock};
   Specimen specimen;
@@ -29,7 +41,8 @@ inline Specimen specimen_of(const Truth& truth) {
   specimen.model = models[static_cast<int>(truth.model)];
   specimen.impact = {truth.impact == TruthImpact::housner ? ImpactLaw::housner : ImpactLaw::coulomb,
                      truth.impact_factor};
-  for (const TruthEffect& effect : truth.effects) specimen.effects.push_back(effect_use(effect));
+  for (const TruthEffect& effect : truth.effects)
+    specimen.effects.push_back(effect.name == "chain" ? chain_use(effect, specimen.block) : effect_use(effect));
   return specimen;
 }
 

@@ -135,7 +135,27 @@ Judgement judge(const JudgedCase& c) {
   return result;
 }
 
-std::string side_by_side(const JudgedCase& c, std::size_t from, std::size_t to) {
+// The same floor, its lines cut into ten pieces each.
+JudgedCase finer(const JudgedCase& c) {
+  constexpr std::size_t pieces = 10;
+  JudgedCase result = c;
+  result.floor.dt_s /= pieces;
+  const auto cut = [](std::vector<double>& samples) {
+    std::vector<double> all;
+    for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+      for (std::size_t k = 0; k < pieces; ++k)
+        all.push_back(samples[i] + (samples[i + 1] - samples[i]) * static_cast<double>(k) / pieces);
+    samples = all;
+  };
+  cut(result.floor.horizontal_mps2);
+  cut(result.floor.vertical_mps2);
+  return result;
+}
+
+std::string side_by_side(const JudgedCase& coarse, double from_s, double to_s) {
+  const JudgedCase c = finer(coarse);
+  const auto sample = [&](double t) { return static_cast<std::size_t>(t / c.floor.dt_s); };
+  const std::size_t from = sample(from_s), to = sample(to_s);
   const Answer fast = answer(c, "respond", respond, 1e-12);
   const Evidence e = evidence(c, 0.25 * step_s);
   std::string text = fmt::format("time_s a v | respond: slip rotation mode | stepper: slip rotation deeds own; respond ends {} at {:.5f}, stepper {}\n",
@@ -145,13 +165,13 @@ std::string side_by_side(const JudgedCase& c, std::size_t from, std::size_t to) 
                         c.floor.vertical_mps2.empty() ? 0.0 : c.floor.vertical_mps2[i]);
     if (i < fast.history.points.size()) {
       const HistoryPoint& p = fast.history.points[i];
-      text += fmt::format("{:12.8f} {:12.8f} {:10} | ", p.slip_m, p.rotation_rad, name(p.mode));
+      text += fmt::format("{:12.9f} {:12.5e} {:10} | ", p.slip_m, p.rotation_rad, name(p.mode));
     }
-    text += fmt::format("{:12.8f} {:12.8f} {:4x} {:.1e}\n", e.history.slip_m[i], e.history.rotation_rad[i],
+    text += fmt::format("{:12.9f} {:12.5e} {:4x} {:.1e}\n", e.history.slip_m[i], e.history.rotation_rad[i],
                         e.history.deeds[i], i < e.own.size() ? e.own[i] : -1.0);
   }
   for (const Event& event : fast.history.events)
-    if (event.time_s > static_cast<double>(from) * c.floor.dt_s && event.time_s < static_cast<double>(to) * c.floor.dt_s)
+    if (event.time_s > from_s && event.time_s < to_s)
       text += fmt::format("event {:.7f} {} -> {} pivot {}{}\n", event.time_s, name(event.from), name(event.to), event.pivot,
                           event.impact ? " impact" : "");
   return text;

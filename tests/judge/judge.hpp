@@ -26,7 +26,7 @@ struct Judgement {
 
 Judgement judge(const JudgedCase&);
 
-// The kernel's and the stepper's histories side by side, one line a sample of [from, to), for whoever looks for a cause.
-std::string side_by_side(const JudgedCase&, std::size_t from, std::size_t to);
+// The kernel's and the stepper's histories side by side, ten lines a sample, for whoever looks for a cause.
+std::string side_by_side(const JudgedCase&, double from_s, double to_s);
 
 }  // namespace freestand::test

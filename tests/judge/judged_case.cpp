@@ -12,7 +12,7 @@
 namespace freestand::test {
 namespace {
 
-constexpr double g = standard_gravity_mps2, floor_step_s = 0.005;
+constexpr double g = standard_gravity_mps2, floor_step_s = 0.005, most_mu = 0.65;
 
 bool excludes(const std::string& effect, const std::string& other) {
   const effects::Effect* found = effects::find(effect);
@@ -72,14 +72,13 @@ TruthModel draw_model(KeyedRandom& random, const Recipe& recipe) {
 }
 
 // Half width over height of the centre of mass from 0.12 to 1.2, friction about that ratio, so that the block slides,
-// rocks, or does both.
-Truth draw_block(KeyedRandom& random, TruthModel model) {
+// rocks, or does both. Friction stays well under 4/3, Painleve's paradox, with the effects that raise it.
+Truth draw_block(KeyedRandom& random, TruthModel model, bool chained) {
   const double height_m = random.log_uniform(0.6, 2.4), slenderness = random.log_uniform(0.12, 1.2);
   double mu = slenderness * random.log_uniform(0.5, 2);
   if (model == TruthModel::slide) mu = random.log_uniform(0.08, 0.6);
-  if (model == TruthModel::rock) mu = 5;
-  Truth truth = rectangular_truth(slenderness * height_m, height_m, std::min(mu, 1.2));
-  if (random.chance(0.25)) {
+  Truth truth = rectangular_truth(slenderness * height_m, height_m, std::min(mu, most_mu));
+  if (!chained && random.chance(0.25)) {  // a chain's face is told by the width alone
     truth.left_m *= random.uniform(0.75, 1.2);
     truth.right_m *= random.uniform(0.75, 1.2);
     truth.gyration2_m2 *= random.uniform(0.85, 1.2);
@@ -92,15 +91,37 @@ Truth draw_block(KeyedRandom& random, TruthModel model) {
 
 // A second tether or wall stands on the other side.
 void to_other_side(TruthEffect& effect, const TruthEffect& first) {
-  for (const char* key : {"slack_m", "gap_m"})
-    if (effect.parameters.count(key))
-      effect.parameters[key] = std::copysign(effect.parameters[key], -first.parameters.at(key));
+  for (const char* key : {"slack_m", "gap_m"}) {
+    if (!effect.parameters.count(key)) continue;
+    double& own = effect.parameters[key];
+    if (own == 0) own = 0.03;
+    own = std::copysign(own, first.parameters.at(key) < 0 ? 1 : -1);
+  }
 }
 
-std::vector<TruthEffect> draw_effects(KeyedRandom& random, const Recipe& recipe) {
+TruthEffect draw_chain(KeyedRandom& random, const Truth& truth) {
+  const double circular = 2 * pi * random.log_uniform(1, 8);
+  return {"chain",
+          {{"side", random.chance(0.5) ? 1 : -1},
+           {"height_m", random.uniform(0.6, 2) * truth.height_m},
+           {"slack_m", random.chance(0.3) ? 0 : random.uniform(0, 0.03)},
+           {"stiffness_per_s2", circular * circular},
+           {"strength_mps2", random.chance(0.5) ? 1e3 : random.log_uniform(0.3, 5)}}};
+}
+
+// A wall in three touches the block from the start, on its right.
+TruthEffect draw_wall(KeyedRandom& random) {
+  TruthEffect wall = draw_effect(random, "wall_impact");
+  if (random.chance(1.0 / 3)) wall.parameters["gap_m"] = 0;
+  return wall;
+}
+
+std::vector<TruthEffect> draw_effects(KeyedRandom& random, const Recipe& recipe, const Truth& truth) {
   std::vector<TruthEffect> drawn;
   for (const std::string& name : recipe.effects) {
-    drawn.push_back(draw_effect(random, name));
+    drawn.push_back(name == "chain"         ? draw_chain(random, truth)
+                    : name == "wall_impact" ? draw_wall(random)
+                                            : draw_effect(random, name));
     if (drawn.size() == 2 && drawn[0].name == name) to_other_side(drawn[1], drawn[0]);
   }
   const auto holds = [&](const char* name) {
@@ -139,13 +160,22 @@ const char* name(Setting setting) {
   return names[static_cast<int>(setting)];
 }
 
+const std::vector<std::string>& judged_effects() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> names = catalogue_effects();
+    names.emplace_back("chain");
+    return names;
+  }();
+  return all;
+}
+
 std::vector<Recipe> recipes() {
   std::vector<Recipe> all;
   const auto add = [&](std::vector<std::string> effects, int setting) {
     Recipe recipe{std::move(effects), static_cast<Setting>(setting % setting_count)};
     if (possible(recipe)) all.push_back(std::move(recipe));
   };
-  const std::vector<std::string>& effects = catalogue_effects();
+  const std::vector<std::string>& effects = judged_effects();
   for (int setting = 0; setting < setting_count; ++setting) add({}, setting);
   for (const std::string& effect : effects)
     for (int setting = 0; setting < setting_count; ++setting) add({effect}, setting);
@@ -177,8 +207,10 @@ JudgedCase judged_case(std::uint64_t seed, std::uint64_t number) {
   static const std::vector<Recipe> all = recipes();
   KeyedRandom random(seed, number);
   JudgedCase result{seed, number, all[number % all.size()], {}, {}};
-  result.truth = draw_block(random, draw_model(random, result.recipe));
-  result.truth.effects = draw_effects(random, result.recipe);
+  const auto& about = result.recipe.effects;
+  const bool chained = std::find(about.begin(), about.end(), "chain") != about.end();
+  result.truth = draw_block(random, draw_model(random, result.recipe), chained);
+  result.truth.effects = draw_effects(random, result.recipe, result.truth);
   result.floor = draw_floor(random, result.truth, result.recipe.setting);
   return result;
 }

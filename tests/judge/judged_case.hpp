@@ -20,6 +20,9 @@ enum class Setting {
 inline constexpr int setting_count = 5;
 const char* name(Setting setting);
 
+// The catalogue, and the chain.
+const std::vector<std::string>& judged_effects();
+
 // What a case is drawn from: the effects that it is about, and its setting.
 struct Recipe {
   std::vector<std::string> effects;

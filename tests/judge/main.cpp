@@ -54,8 +54,7 @@ int main(int count, char** words) {
   CLI11_PARSE(parser, count, words);
   if (!options.show_s.empty()) {
     const freestand::test::JudgedCase c = freestand::test::judged_case(options.seed, options.first);
-    const auto sample = [&](double t) { return static_cast<std::size_t>(t / c.floor.dt_s); };
-    fmt::print("{}\n{}", c.text(), freestand::test::side_by_side(c, sample(options.show_s[0]), sample(options.show_s[1])));
+    fmt::print("{}\n{}", c.text(), freestand::test::side_by_side(c, options.show_s[0], options.show_s[1]));
     return 0;
   }
   const freestand::test::Tally tally = freestand::test::judge_all(options);

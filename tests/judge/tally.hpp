@@ -23,6 +23,8 @@ class Tally {
   std::vector<std::string> empty_cells() const;
 
  private:
+  int visits(const std::string& effect, const std::string& deed) const;
+
   Count total_;
   std::map<std::string, std::map<Setting, Count>> settings_;
   std::map<std::string, std::map<std::string, int>> visits_;  // effect -> deed -> cases
