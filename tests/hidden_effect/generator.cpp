@@ -206,9 +206,9 @@ class Run {
   unsigned deed() const {
     const MoreauStepper::Strikes strikes = stepper_.strikes();
     const unsigned blows = (stepper_.landed_nearly_flat() ? landed_nearly_flat : 0U) |
-                             (strikes.face ? struck_by_face : 0U) | (strikes.lower ? struck_by_lower_edge : 0U) |
-                             (strikes.upper ? struck_by_upper_edge : 0U) | (strikes.in_flight ? struck_in_flight : 0U) |
-                             (stepper_.chain_broken() ? broke_the_chain : 0U);
+                           (strikes.face ? struck_by_face : 0U) | (strikes.lower ? struck_by_lower_edge : 0U) |
+                           (strikes.upper ? struck_by_upper_edge : 0U) | (strikes.in_flight ? struck_in_flight : 0U) |
+                           (stepper_.chain_broken() ? broke_the_chain : 0U);
     if (stepper_.flies()) return blows | flew;
     if (stepper_.closed(left) && stepper_.closed(right)) return blows | (stepper_.slips() ? slid : 0U);
     return blows | (stepper_.slips() ? slide_rocked : rocked) | (stepper_.at_wall() ? leaned : 0U);

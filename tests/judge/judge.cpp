@@ -101,10 +101,12 @@ std::string difference(const Evidence& e, const Answer& a) {
       return "";  // both lie
     const double off = std::max(std::abs(h.slip_m[i] - p.slip_m), std::abs(h.rotation_rad[i] - p.rotation_rad));
     if (!(off <= accuracy + margin * e.own[i]))
-      return fmt::format("{} ({}) at {:.3f} s: slip {:.7f} against {:.7f} m, rotation {:.7f} against {:.7f} rad, own {:.1e}", a.who,
-                         name(p.mode), p.time_s, p.slip_m, h.slip_m[i], p.rotation_rad, h.rotation_rad[i], e.own[i]);
+      return fmt::format(
+          "{} ({}) at {:.3f} s: slip {:.7f} against {:.7f} m, rotation {:.7f} against {:.7f} rad, own {:.1e}", a.who,
+          name(p.mode), p.time_s, p.slip_m, h.slip_m[i], p.rotation_rad, h.rotation_rad[i], e.own[i]);
   }
-  if (e.own.size() == h.slip_m.size() && undecided_s > a.response.end_time_s && h.outcome == "moved" && broke_off(a.response))
+  if (e.own.size() == h.slip_m.size() && undecided_s > a.response.end_time_s && h.outcome == "moved" &&
+      broke_off(a.response))
     return fmt::format("{}: outcome {} against moved", a.who, name(a.response.outcome));
   return "";
 }
@@ -158,8 +160,10 @@ std::string side_by_side(const JudgedCase& coarse, double from_s, double to_s) {
   const std::size_t from = sample(from_s), to = sample(to_s);
   const Answer fast = answer(c, "respond", respond, 1e-12);
   const Evidence e = evidence(c, 0.25 * step_s);
-  std::string text = fmt::format("time_s a v | respond: slip rotation mode | stepper: slip rotation deeds own; respond ends {} at {:.5f}, stepper {}\n",
-                                 name(fast.response.outcome), fast.response.end_time_s, e.history.outcome);
+  std::string text = fmt::format(
+      "time_s a v | respond: slip rotation mode | stepper: slip rotation deeds own; respond ends {} at {:.5f}, stepper "
+      "{}\n",
+      name(fast.response.outcome), fast.response.end_time_s, e.history.outcome);
   for (std::size_t i = from; i < std::min(to, e.history.slip_m.size()); ++i) {
     text += fmt::format("{:.4f} {:8.4f} {:8.4f} | ", static_cast<double>(i) * c.floor.dt_s, c.floor.horizontal_mps2[i],
                         c.floor.vertical_mps2.empty() ? 0.0 : c.floor.vertical_mps2[i]);
@@ -172,8 +176,8 @@ std::string side_by_side(const JudgedCase& coarse, double from_s, double to_s) {
   }
   for (const Event& event : fast.history.events)
     if (event.time_s > from_s && event.time_s < to_s)
-      text += fmt::format("event {:.7f} {} -> {} pivot {}{}\n", event.time_s, name(event.from), name(event.to), event.pivot,
-                          event.impact ? " impact" : "");
+      text += fmt::format("event {:.7f} {} -> {} pivot {}{}\n", event.time_s, name(event.from), name(event.to),
+                          event.pivot, event.impact ? " impact" : "");
   return text;
 }
 

@@ -65,9 +65,7 @@ TruthModel draw_model(KeyedRandom& random, const Recipe& recipe) {
       break;
   }
   const double which = random.unit();
-  const TruthModel model = which < 0.7    ? TruthModel::slide_rock
-                           : which < 0.85 ? TruthModel::slide
-                                          : TruthModel::rock;
+  const TruthModel model = which < 0.7 ? TruthModel::slide_rock : which < 0.85 ? TruthModel::slide : TruthModel::rock;
   return goes_with(recipe.effects, model) ? model : TruthModel::slide_rock;
 }
 
@@ -191,10 +189,10 @@ std::vector<Recipe> recipes() {
 }
 
 std::string JudgedCase::text() const {
-  std::string line = fmt::format("{}: {}, {}, left {:.6g} m, right {:.6g} m, height {:.6g} m, k2 {:.6g} m2, mu_s {:.6g}, mu_k {:.6g}",
-                                 number, model_name(truth.model),
-                                 truth.impact == TruthImpact::housner ? "housner" : "coulomb", truth.left_m,
-                                 truth.right_m, truth.height_m, truth.gyration2_m2, truth.mu_s, truth.mu_k);
+  std::string line =
+      fmt::format("{}: {}, {}, left {:.6g} m, right {:.6g} m, height {:.6g} m, k2 {:.6g} m2, mu_s {:.6g}, mu_k {:.6g}",
+                  number, model_name(truth.model), truth.impact == TruthImpact::housner ? "housner" : "coulomb",
+                  truth.left_m, truth.right_m, truth.height_m, truth.gyration2_m2, truth.mu_s, truth.mu_k);
   for (const TruthEffect& effect : truth.effects) {
     line += ", " + effect.name + " {";
     for (const auto& [key, value] : effect.parameters) line += fmt::format(" {}: {:.6g}", key, value);

@@ -11,11 +11,11 @@ namespace freestand::test {
 
 // How the block is made to move, beside its effects.
 enum class Setting {
-  slide,        // model slide
-  rock,         // model rock
-  slide_rock,   // model slide_rock
-  thrown,       // the floor shakes vertically as well, strongly enough to throw the block up; any model
-  on_a_slope    // floor_tilt as well; any model
+  slide,       // model slide
+  rock,        // model rock
+  slide_rock,  // model slide_rock
+  thrown,      // the floor shakes vertically as well, strongly enough to throw the block up; any model
+  on_a_slope   // floor_tilt as well; any model
 };
 inline constexpr int setting_count = 5;
 const char* name(Setting setting);

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "judge/known_gaps.hpp"
 #include "judge/tally.hpp"
 
 namespace freestand::test {
@@ -29,7 +30,9 @@ Tally judge_all(const Options& options) {
       const std::lock_guard<std::mutex> lock(one_at_a_time);
       tally.add(c, judgement);
       if (judgement.finding == Finding::agrees) continue;
-      fmt::print("{} [{}] {}\n    {}\n", judgement.finding == Finding::disagrees ? "DISAGREES" : "edge",
+      const bool disagrees = judgement.finding == Finding::disagrees;
+      const std::string gap = disagrees ? known_gap(c, judgement) : "";
+      fmt::print("{} [{}] {}\n    {}\n", disagrees ? gap.empty() ? "DISAGREES" : "disagrees (" + gap + ")" : "edge",
                  name(c.recipe.setting), c.text(), judgement.what);
       std::fflush(stdout);
     }
@@ -50,7 +53,8 @@ int main(int count, char** words) {
   parser.add_option("--first", options.first, "number of the first case");
   parser.add_option("--cases", options.cases, "how many");
   parser.add_option("--threads", options.threads, "side by side")->check(CLI::Range(1, 1024));
-  parser.add_option("--show", options.show_s, "from, to [s]: both histories of the first case, and no judgement")->expected(2);
+  parser.add_option("--show", options.show_s, "from, to [s]: both histories of the first case, and no judgement")
+      ->expected(2);
   CLI11_PARSE(parser, count, words);
   if (!options.show_s.empty()) {
     const freestand::test::JudgedCase c = freestand::test::judged_case(options.seed, options.first);

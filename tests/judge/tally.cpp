@@ -60,7 +60,8 @@ std::string Tally::table() const {
   for (const auto& [bit, deed] : wall_deeds) text += fmt::format(" {}: {};", deed, visits("wall_impact", deed));
   text += fmt::format(" chains broken: {}\n", visits("chain", "broken"));
   return text + fmt::format("{} cases, {:.0f} % of their time compared, {} on an edge, {} disagree\n", total_.cases,
-                            100.0 * static_cast<double>(total_.compared) / static_cast<double>(std::max<std::size_t>(1, total_.samples)),
+                            100.0 * static_cast<double>(total_.compared) /
+                                static_cast<double>(std::max<std::size_t>(1, total_.samples)),
                             total_.edges, total_.disagreements);
 }
 

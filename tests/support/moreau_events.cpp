@@ -155,6 +155,9 @@ void MoreauStepper::collide(double t, double dt) {
     state_.c = 1;
     for (const Corner k : {left, right}) step.push[k] = step.stop[k] = arm(k, 1, 0);
   }
+  step.touching = state_.touching;
+  for (int e = 0; step.touching != 0 && e < edge_count; ++e)
+    step.wall_push[e] = step.wall_stop[e] = edge_arm(e, state_.c, state_.s);
   if (flat && struck && body_.housner) {
     strike(carrier(before));
   } else {
@@ -211,7 +214,9 @@ double MoreauStepper::into_wall(const State& state, int edge) const {
 
 // What the laws see in a blow: the weight as normal force, the speed at which the contact came.
 void MoreauStepper::look_about(Step& step, double t) const {
-  const Corner k = state_.grip == Grip::none && !step.near[left] ? right : state_.grip == Grip::none ? left : carrier(state_);
+  const Corner k = state_.grip == Grip::none && !step.near[left] ? right
+                   : state_.grip == Grip::none                   ? left
+                                                                 : carrier(state_);
   const bool flies = state_.grip == Grip::none;
   step.speed = std::abs(flies ? state_.v.x + state_.v.q * step.stop[k].y : state_.w);
   step.place.u_m = slip();

@@ -34,7 +34,9 @@ bool solve(double (&a)[4][5], int n) {
 
 // Largest ratio of tangential to normal impulse of a contact that is stuck in this case.
 double MoreauStepper::holding(const Step& step, const Case& c) const {
-  return laws_.holding(step.place, step.age, c.tangential < 0 ? 1 : -1);
+  ContactLaws::Place place = step.place;
+  if (!step.blow) place.normal_g = c.total() / (step.dt * standard_gravity_mps2);
+  return laws_.holding(place, step.age, c.tangential < 0 ? 1 : -1);
 }
 
 // Both closed: the base is flat, lift speeds zero means Y' = 0 and theta' = 0.
@@ -88,10 +90,15 @@ bool MoreauStepper::one_corner(const Step& step, Corner k, Grip grip, Case& c) c
     c.tangential = (-slip * nn + lift * tn) / det;
   } else {
     const int sigma = direction(grip);
-    const double mu = laws_.sliding(step.place, step.speed, sigma), w = nn - sigma * mu * nt;
-    if (w == 0) return false;
-    N = -lift / w;
-    c.tangential = -sigma * mu * N;
+    ContactLaws::Place place = step.place;
+    // Friction that depends on the normal force, which depends on friction.
+    for (int round = laws_.pressure_exponent != 0 && !step.blow ? 8 : 1; round > 0; --round) {
+      const double mu = laws_.sliding(place, step.speed, sigma), w = nn - sigma * mu * nt;
+      if (w == 0) return false;
+      N = -lift / w;
+      c.tangential = -sigma * mu * N;
+      if (!step.blow) place.normal_g = N / (step.dt * standard_gravity_mps2);
+    }
   }
   c.next.x = step.free.x + c.tangential / M;
   c.next.y = step.free.y + N;
@@ -133,7 +140,9 @@ bool MoreauStepper::with_edges(const Step& step, Contacts contacts, Grip grip, C
     row[n++] = {s, 0, s * step.wall_stop[edge].y};
   }
   if (n > 3) return false;  // three velocities
-  const auto speed = [](const Velocity& along, const Velocity& v) { return along.x * v.x + along.y * v.y + along.q * v.q; };
+  const auto speed = [](const Velocity& along, const Velocity& v) {
+    return along.x * v.x + along.y * v.y + along.q * v.q;
+  };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n; ++j) a[i][j] = speed(row[i], impulse[j].per_unit);
     a[i][4] = aim[i] - speed(row[i], step.free);
@@ -228,11 +237,12 @@ bool MoreauStepper::choose(const Step& step, State& state, Case& chosen, bool cl
   std::array<Grip, 4> order{Grip::none, Grip::stuck, Grip::to_right, Grip::to_left};
   if (!closing && state.grip == Grip::to_right) order = {Grip::none, Grip::to_right, Grip::stuck, Grip::to_left};
   if (!closing && state.grip == Grip::to_left) order = {Grip::none, Grip::to_left, Grip::stuck, Grip::to_right};
-  static constexpr std::array<std::array<bool, 2>, 4> sets{{{false, false}, {true, true}, {true, false}, {false, true}}};
+  static constexpr std::array<std::array<bool, 2>, 4> sets{
+      {{false, false}, {true, true}, {true, false}, {false, true}}};
   for (const Grip grip : order)
-    for (unsigned edges = 0; edges <= step.touching; ++edges) {
-      if ((edges & ~step.touching) != 0) continue;
-      for (const auto& [with_left, with_right] : sets) {
+    for (const auto& [with_left, with_right] : sets)
+      for (unsigned edges = 0; edges <= step.touching; ++edges) {
+        if ((edges & ~step.touching) != 0) continue;
         const Contacts contacts{with_left, with_right, edges};
         if (!possible(step, state, contacts, grip) || !impulses(step, state, contacts, grip, chosen)) continue;
         if (allowed(step, state, contacts, grip, chosen)) {
@@ -246,7 +256,6 @@ bool MoreauStepper::choose(const Step& step, State& state, Case& chosen, bool cl
           if (grip == Grip::stuck) refused.margin = margin(step, chosen);
         }
       }
-    }
   return false;
 }
 

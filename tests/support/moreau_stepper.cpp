@@ -81,7 +81,8 @@ MoreauStepper::Step MoreauStepper::prepare(const State& state, const FloorLine& 
   const auto set_arms = [&](std::array<Arm, 2>& corners, std::array<Arm, edge_count>& edges) {
     turn(turned, 0.5 * dt * state.v.q);
     for (const Corner k : {left, right}) corners[k] = arm(k, turned.c, turned.s);
-    for (int edge = 0; state.touching != 0 && edge < edge_count; ++edge) edges[edge] = edge_arm(edge, turned.c, turned.s);
+    for (int edge = 0; state.touching != 0 && edge < edge_count; ++edge)
+      edges[edge] = edge_arm(edge, turned.c, turned.s);
   };
   set_arms(step.push, step.wall_push);
   const double middle_c = turned.c, middle_s = turned.s;
@@ -124,18 +125,12 @@ MoreauStepper::Step MoreauStepper::prepare(const State& state, const FloorLine& 
 bool MoreauStepper::advance(State& state, const FloorLine& floor, double t, double dt, std::optional<Grip> forced,
                             Refused& refused) const {
   const State before = state;
-  Step step = prepare(before, floor, t, dt);
+  const Step step = prepare(before, floor, t, dt);
   Case c;
-  // Friction that depends on the normal force, which depends on it where the block rocks.
-  const bool one = before.closed[left] != before.closed[right];
-  for (int round = laws_.pressure_exponent != 0 && one ? 4 : 1; round > 0; --round) {
-    state = before;
-    if (forced && before.grip != Grip::none) {
-      if (!impulses(step, before, {before.closed[left], before.closed[right], 0}, *forced, c)) return false;
-    } else if (!choose(step, state, c, false, refused)) {
-      return false;
-    }
-    step.place.normal_g = c.total() / (dt * standard_gravity_mps2);
+  if (forced && before.grip != Grip::none) {
+    if (!impulses(step, before, {before.closed[left], before.closed[right], 0}, *forced, c)) return false;
+  } else if (!choose(step, state, c, false, refused)) {
+    return false;
   }
   move(before, state, step, c);
   return true;

@@ -43,7 +43,7 @@ namespace freestand::test {
 
 enum Corner { left = 0, right = 1 };
 enum Edge { lower = 0, upper = 1 };
-inline constexpr int edge_count = 4;  // of both sides: number 2 side + edge
+inline constexpr int edge_count = 4;                 // of both sides: number 2 side + edge
 enum class Grip { none, stuck, to_right, to_left };  // friction state of the closed corners; none: nothing closed
 inline int direction(Grip grip) { return grip == Grip::to_right ? 1 : grip == Grip::to_left ? -1 : 0; }
 
