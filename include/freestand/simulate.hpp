@@ -14,7 +14,9 @@ struct Settings {
   int event_limit = 100000;
 };
 
-// Taylor integrator of the sweep. Never throws, never allocates unless `history` is given.
+// Taylor integrator of the sweep. Never throws, never allocates unless `history` is given. What cannot be integrated (a
+// size that is not above zero, mu_s below mu_k, an impact factor above 1, laws that find no room together) is not_finite,
+// here and below.
 Response respond(const Specimen&, const Shaking&, const Settings& = {}, History* history = nullptr);
 
 // The same for many samples at once, in packs as wide as the machine's instruction set; what no pack covers is computed

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <freestand/response.hpp>
 #include <freestand/simulate.hpp>
+#include <span>
 
 #include "base/motion_table.hpp"
 #include "dynamics/bouc_wen_contact.hpp"
@@ -41,5 +42,13 @@ struct BatchKernels {
   BatchKernel slide_rock_shaken, slide_rock_shaken_coarse;  // the floor shakes vertically
   BatchKernel bouc_wen;                                     // with kappa = 0
 };
+
+// Those that respond_batch takes: the widest that this machine has, or what FREESTAND_ISA asks for if it has that. Null:
+// none, every sample is computed alone.
+const BatchKernels* batch_kernels();
+
+// respond_batch; says how many samples were computed alone.
+std::size_t respond_and_count(std::span<const Specimen>, std::span<const Shaking>, const Settings&,
+                              std::span<Response>);
 
 }  // namespace freestand::dynamics

@@ -37,7 +37,7 @@ BoucWenLife::BoucWenLife(const Setup& setup, const Settings& settings_, History*
       history_(history) {
   if (history_) history_->points.clear(), history_->events.clear();
   if (laws) law_state.sides = laws->initial_sides();
-  if (laws && (laws->tape.overflow() || !(laws->carried_mass > 0))) finish(Outcome::not_finite);
+  if (laws && !laws->sound()) finish(Outcome::not_finite);
   if (cursor.motion_over() && push == 0 && !laws) finish(Outcome::moved);
 }
 

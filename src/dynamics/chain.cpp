@@ -5,21 +5,12 @@
 namespace freestand::dynamics {
 namespace {
 
-enum : std::size_t {
-  stiffness,
-  strength,
-  slack,
-  side,
-  height,
-  half_base,
-  above_centre,
-  offset
-};  // per mass; offset: of the centre of mass from the middle of the base
+enum : std::size_t { stiffness, strength, slack, side, height, half_width };  // forces per mass
 
 // Displacement of the chain's point towards the side that is held back, less the slack.
 Value stretch(const At& at, const Parameters& p) {
   const double s = p[side];
-  return s * (at.u + p[height] * sin(at.theta)) - p[half_base] * (cos(at.theta) - 1.0) - p[slack];
+  return s * (at.u + p[height] * sin(at.theta)) - p[half_width] * (cos(at.theta) - 1.0) - p[slack];
 }
 
 Value pull(const At& at, const Parameters& p) {
@@ -29,10 +20,11 @@ Value pull(const At& at, const Parameters& p) {
 
 Value force(const At& at, const Parameters& p) { return -p[side] * pull(at, p); }
 
-// Arm: height of the chain's point over the centre of mass.
+// Arm: height of the chain's point over the centre of mass, which effects may have moved off the middle of the base.
 Value moment(const At& at, const Parameters& p) {
-  const double across = -p[side] * p[half_base] - p[offset];
-  return (p[above_centre] * cos(at.theta) - across * sin(at.theta)) * force(at, p);
+  const double middle = 0.5 * (at.block.right_m - at.block.left_m);  // from the centre of mass
+  const double across = middle - p[side] * p[half_width], above = p[height] - at.block.height_m;
+  return (above * cos(at.theta) - across * sin(at.theta)) * force(at, p);
 }
 
 const Effect& law() {
@@ -50,11 +42,9 @@ const Effect& law() {
 }  // namespace
 
 EffectUse use(const Chain& chain, const Block& block) {
-  const double middle = 0.5 * (block.right_m - block.left_m);  // from the centre of mass to the middle of the base
-  return {
-      &law(),
-      {chain.stiffness_npm / block.mass_kg, std::min(chain.strength_n / block.mass_kg, 1e300), chain.slack_m,
-       static_cast<double>(chain.side), chain.height_m, block.half_base_m(), chain.height_m - block.height_m, -middle}};
+  return {&law(),
+          {chain.stiffness_npm / block.mass_kg, std::min(chain.strength_n / block.mass_kg, 1e300), chain.slack_m,
+           static_cast<double>(chain.side), chain.height_m, block.half_base_m()}};
 }
 
 }  // namespace freestand::dynamics

@@ -22,7 +22,8 @@ struct Chain {
   int side = 1;              // +1: holds the block back when it moves to the right
 };
 
-// The chain as a law of the equations of motion. The use refers to a declaration that lasts as long as the program.
+// The chain as a law of the equations of motion, at the face of the block as it is given: effects that crush corners or
+// move the centre of mass leave it there. The use refers to a declaration that lasts as long as the program.
 EffectUse use(const Chain&, const Block&);
 
 }  // namespace freestand::dynamics

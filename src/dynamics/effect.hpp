@@ -24,6 +24,7 @@ namespace freestand::dynamics {
 struct At {
   Value u, v, theta, omega, t, path, normal, side, sigma, speed;
   double mu = 0;                 // kinetic friction coefficient without the effects [1]
+  Block block = {};              // as the effects leave it
   Value acceleration;            // absolute, of the centre of mass [m/s2]; rates of states only
   std::vector<Value> own_state;  // the effect's own states
 };
@@ -68,12 +69,12 @@ struct OwnState {
 };
 
 struct Effect {
-  std::string name;
-  std::string summary;  // one line
-  std::string law;      // as an equation
-  std::string source;
-  std::string suspect;  // what in a measurement points to it
-  std::vector<Parameter> parameters;
+  std::string name = {};
+  std::string summary = {};  // one line
+  std::string law = {};      // as an equation
+  std::string source = {};
+  std::string suspect = {};  // what in a measurement points to it
+  std::vector<Parameter> parameters = {};
   std::vector<std::string> excludes = {};  // effects and models that it does not go with
   std::string twins = {};                  // effects that look the same on some data, and what parts them
 

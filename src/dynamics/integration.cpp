@@ -31,7 +31,7 @@ bool admissible(const Specimen& specimen, const Shaking& shaking, const FloorInp
     if (!(number >= 0) || !std::isfinite(number)) return false;
   return std::isfinite(shaking.scale) && std::isfinite(shaking.vertical_scale) && shaking.motion &&
          shaking.motion->degree >= 0 && shaking.motion->degree <= max_floor_degree &&
-         specimen.friction.mu_s >= specimen.friction.mu_k;
+         specimen.friction.mu_s >= specimen.friction.mu_k && specimen.impact.factor <= 1;
 }
 
 Integration::Integration(const Setup& setup, const Settings& settings_, History* history)
@@ -42,7 +42,7 @@ Integration::Integration(const Setup& setup, const Settings& settings_, History*
       recorder(history, rig),
       p_(setup.specimen.block.p_radps()) {
   if (!rig.laws) return;
-  if (rig.laws->tape.overflow() || !(rig.laws->carried_mass > 0)) stop(Outcome::not_finite);
+  if (!rig.laws->sound()) stop(Outcome::not_finite);
   state.sides = rig.laws->initial_sides();
 }
 

@@ -6,7 +6,7 @@
 namespace freestand::dynamics {
 namespace {
 
-At inputs(Tape& tape) {
+At inputs(Tape& tape, const Specimen& specimen) {
   const auto input = [&](Input which) { return tape.input(which); };
   return {.u = input(Input::u),
           .v = input(Input::v),
@@ -18,6 +18,8 @@ At inputs(Tape& tape) {
           .side = input(Input::side),
           .sigma = input(Input::sigma),
           .speed = input(Input::speed),
+          .mu = specimen.friction.mu_k,
+          .block = specimen.block,
           .acceleration = input(Input::acceleration),
           .own_state = {}};
 }
@@ -25,11 +27,24 @@ At inputs(Tape& tape) {
 }  // namespace
 
 Laws::Laws(const Specimen& specimen) {
+  std::size_t wanted = 0;
+  for (const auto& use : specimen.effects) wanted += use.effect->states.size();
+  if (wanted > max_states) {
+    excess = Excess::states;
+    return;
+  }
+  record(specimen);
+  if (!tape.overflow()) return;
+  const Excess found = tape.out_of_kinks() ? Excess::kinks : Excess::operations;
+  *this = Laws();
+  excess = found;
+}
+
+void Laws::record(const Specimen& specimen) {
   std::vector<At> at;
   for (const auto& [effect, parameters] : specimen.effects) {
-    at.push_back(inputs(tape));
-    at.back().mu = specimen.friction.mu_k;
-    for (std::size_t i = 0; i < effect->states.size() && states < max_states; ++i)
+    at.push_back(inputs(tape, specimen));
+    for (std::size_t i = 0; i < effect->states.size(); ++i)
       at.back().own_state.push_back(tape.input(Input::state, states++));
   }
   const auto combine = [&](auto hook, int& result, auto with) {
@@ -53,7 +68,6 @@ Laws::Laws(const Specimen& specimen) {
   for (std::size_t i = 0; i < specimen.effects.size(); ++i) {
     const auto& [effect, parameters] = specimen.effects[i];
     for (const OwnState& own : effect->states) {
-      if (state == max_states) break;
       rate[static_cast<std::size_t>(state)] = own.rate(at[i], parameters).node;
       relative_velocity[static_cast<std::size_t>(state++)] = own.relative_velocity;
     }

@@ -9,8 +9,14 @@
 
 namespace freestand::dynamics {
 
+// What laws ask for that there is no room for.
+enum class Excess { none, operations, kinks, states };
+
 struct Laws {
   explicit Laws(const Specimen& specimen);
+
+  Excess excess = Excess::none;  // other than none: no law is recorded
+  bool sound() const { return excess == Excess::none && carried_mass > 0; }
 
   Tape tape;
   // Nodes of the results; -1 where no effect has a say. Nodes [input_count, forces_end) serve force and moment,
@@ -32,6 +38,10 @@ struct Laws {
   std::uint32_t initial_sides() const;
   // Something has broken.
   bool broken(std::uint32_t sides) const;
+
+ private:
+  Laws() = default;
+  void record(const Specimen& specimen);
 };
 
 // Specimen and floor as the effects that are no part of the equations of motion leave them.

@@ -50,7 +50,7 @@ bool same_shape(const SpeedLaw& a, const SpeedLaw& b) {
 std::optional<SpeedLaw> speed_law(const Laws& laws) {
   const bool more = laws.force >= 0 || laws.moment >= 0 || laws.states > 0 || laws.wall.gap_m != 0 ||
                     laws.legs.frequency_radps > 0 || laws.carried_mass != 1 || laws.tape.kink_count() > 0;
-  if (more || laws.friction < 0 || laws.tape.overflow()) return {};
+  if (more || laws.friction < 0) return {};
   constexpr int speed = static_cast<int>(Input::speed);
   if (laws.tape.dependence(laws.friction) & ~(1U << speed)) return {};
   // Where each node of the tape is in the law; -1: it takes no part.
@@ -73,8 +73,11 @@ std::optional<SpeedLaw> speed_law(const Laws& laws) {
   return law;
 }
 
-double friction_factor(const SpeedLaw& law, double speed) {
-  double at[speed_law_nodes + 1] = {speed};
+namespace {
+
+// The values of all operations, that of the speed itself first.
+void evaluate(const SpeedLaw& law, double speed, double (&at)[speed_law_nodes + 1]) {
+  at[0] = speed;
   for (int i = 0; i < law.count; ++i) {
     const Node& node = law.nodes[i];
     const double x = at[node.a], y = at[node.b];
@@ -102,7 +105,28 @@ double friction_factor(const SpeedLaw& law, double speed) {
         z = std::exp(x);
     }
   }
+}
+
+}  // namespace
+
+double friction_factor(const SpeedLaw& law, double speed) {
+  double at[speed_law_nodes + 1];
+  evaluate(law, speed, at);
   return at[law.count];
+}
+
+double steepest_exponent(const SpeedLaw& law, double change) {
+  constexpr double fastest = 10;  // [m/s]
+  double most = 0;
+  double before[speed_law_nodes + 1], after[speed_law_nodes + 1];
+  for (double speed = 0; speed < fastest; speed = 2 * speed + change) {
+    evaluate(law, speed, before);
+    evaluate(law, speed + change, after);
+    for (int i = 0; i < law.count; ++i)
+      if (law.nodes[i].op == Op::exp) most = std::fmax(most, std::abs(after[law.nodes[i].a] - before[law.nodes[i].a]));
+    if (law.fades) break;  // its exponent is a straight line
+  }
+  return most;
 }
 
 }  // namespace freestand::dynamics

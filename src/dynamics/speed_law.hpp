@@ -26,4 +26,7 @@ std::optional<SpeedLaw> speed_law(const Laws& laws);
 // F(|w|).
 double friction_factor(const SpeedLaw& law, double speed);
 
+// By how much the argument of one of its exponentials changes at most while the speed changes by so much [m/s].
+double steepest_exponent(const SpeedLaw& law, double change);
+
 }  // namespace freestand::dynamics

@@ -9,10 +9,9 @@ Tape::Tape() {
 Value Tape::append(Op op, int a, int b, double value, double shift) {
   if (const int same = find(op, a, b, value, shift); same >= 0) return {this, same};
   const bool kink = op == Op::abs || op == Op::positive || op == Op::step || op == Op::latch;
-  if (size_ == max_nodes || (kink && kink_count_ == max_kinks)) {
-    overflow_ = true;
-    return {this, 0};
-  }
+  out_of_nodes_ |= size_ == max_nodes;
+  out_of_kinks_ |= kink && kink_count_ == max_kinks;
+  if (overflow()) return {this, 0};
   const int node = size_++;
   nodes_[at(node)] = {op, static_cast<std::int16_t>(a), static_cast<std::int16_t>(b), value, shift};
   const bool binary = op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide;
@@ -39,7 +38,7 @@ Value Tape::append_circular(Op op, int a) {
   const int first = size_;
   append(Op::sin, a, first + 1);
   append(Op::cos, a, first);
-  return overflow_ ? Value{this, 0} : Value{this, op == Op::sin ? first : first + 1};
+  return overflow() ? Value{this, 0} : Value{this, op == Op::sin ? first : first + 1};
 }
 
 Value Tape::affine(Value x, double factor, double shift) {

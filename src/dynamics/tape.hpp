@@ -86,7 +86,9 @@ class Tape {
   Value append_circular(Op op, int a);  // sin or cos
 
   int size() const { return size_; }
-  bool overflow() const { return overflow_; }
+  // Something found no room: the tape is of no use.
+  bool overflow() const { return out_of_nodes_ || out_of_kinks_; }
+  bool out_of_kinks() const { return out_of_kinks_; }
   bool depends(int node, Input on) const { return depends_[at(node)] >> static_cast<int>(on) & 1U; }
   std::uint32_t dependence(int node) const { return depends_[at(node)]; }
   int kink_count() const { return kink_count_; }
@@ -110,7 +112,7 @@ class Tape {
   std::array<std::int16_t, max_kinks> kinks_;
   int size_ = input_count, section_ = input_count;
   int kink_count_ = 0;
-  bool overflow_ = false;
+  bool out_of_nodes_ = false, out_of_kinks_ = false;
 
  public:
   Tape();

@@ -63,8 +63,9 @@ void Tally::add(const Sample& sample) {
 void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t group, const Sample& sample) {
   const EdpOptions& edp = options_.edps[e];
   const bool over = sample.outcome == Outcome::overturned;
+  const bool fallen = over && edp.censored;  // above every capacity
   const double value = sample.edp[e];
-  if (!over && !std::isfinite(value)) {
+  if (!fallen && !std::isfinite(value)) {
     ++count_[layout_.missing + e];
     return;
   }
@@ -74,7 +75,7 @@ void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t group, const Sam
   ++counts[still ? 1 : over ? 2 : 3];
 
   const std::vector<double>& capacity = capacity_[e];
-  const auto above = [&](std::size_t c) { return over || (!still && value > capacity[c]); };
+  const auto above = [&](std::size_t c) { return fallen || (!still && value > capacity[c]); };
   for (std::size_t c = 0; c < capacity.size(); ++c)
     if (above(c)) ++count_[layout_.at_exceeding(e, bin, group) + c];
   for (std::size_t a = 0; a < options_.axes.size(); ++a) {

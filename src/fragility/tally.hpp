@@ -49,8 +49,8 @@ class Tally {
   // Throws Error listing everything that is wrong with the options.
   explicit Tally(Options options);
 
-  // Samples that failed numerically are counted by outcome and enter nothing else; overturned ones are censored: they
-  // have no EDP, and count as above every capacity.
+  // Samples that failed numerically are counted by outcome and enter nothing else. Overturned ones have no EDP, where it
+  // is censored, and count as above every capacity; others (did the connection break?) they have.
   void add(const Sample& sample);
 
   // Every row of a table with the columns im_<name>, edp_<name>, outcome, those of the axes, and motion where

@@ -19,7 +19,8 @@ std::vector<double> column(const Table& table, const std::string& name) {
 
 fragility::EdpOptions edp_options(const std::string& name, const std::vector<double>& capacities) {
   const edp::Edp& edp = edp::find(name);
-  return {edp.name, edp.unit, edp.symbol, edp.binary, edp.still, edp.binary ? std::vector<double>{} : capacities};
+  return {edp.name,    edp.unit, edp.symbol, edp.binary, edp.still, edp.binary ? std::vector<double>{} : capacities,
+          edp.censored};
 }
 
 std::vector<double> capacities_of(const FragilityPart& part, const std::string& edp) {

@@ -110,13 +110,6 @@ void check_used(Section& section, const EffectPart& part, const std::vector<std:
   }
 }
 
-// One effect of the study, at its own numbers, must fit on a tape beside others.
-bool fits(const Effect& effect, std::size_t parameters) {
-  Specimen specimen{Block::rectangular(1, 1, 1), {0.5, 0.5}, {}};
-  specimen.effects.push_back({&effect, std::vector<double>(parameters, 1.0)});
-  return !dynamics::Laws(specimen).tape.overflow();
-}
-
 EffectPart read_formula(Section& section, const std::string& name) {
   EffectPart part{.name = name, .parameters = {}};
   part.friction = section.text("friction", "");
@@ -141,10 +134,6 @@ EffectPart read_formula(Section& section, const std::string& name) {
     check_used(section, part, names);
     check_values(section, part, names);
   }
-  if (part.effect && !fits(*part.effect, names.size()))
-    section.problem("name", fmt::format("the formulas of effect {} are too long (they make more than {} operations): "
-                                        "shorten them",
-                                        name, dynamics::max_nodes - dynamics::input_count));
   return part;
 }
 
@@ -210,7 +199,9 @@ std::vector<EffectPart> read_effects(Section& file, Model model) {
     if (!effect.effect) continue;
     section.finish();
     check_company(section, effect, effects, model);
+    const bool room = no_room_for(effects, {}).empty();
     effects.push_back(std::move(effect));
+    if (const std::string text = room ? no_room_for(effects, {}) : ""; !text.empty()) section.problem("name", text);
   }
   return effects;
 }

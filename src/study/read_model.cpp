@@ -192,6 +192,9 @@ ModelPart read_model(Section& file) {
                    "effect impact_loss does not go with impact law coulomb (its impulse follows from friction alone): "
                    "remove the effect, or use housner");
   model.chain = read_chain(file);
+  if (const std::string text = no_room_for(model.effects, model.chain);
+      model.chain && !text.empty() && no_room_for(model.effects, {}).empty())
+    file.problem("chain", text);
   if (model.chain && model.block.mass.line == 0)
     file.problem("chain",
                  "chain holds a block whose mass is not given (its stiffness and strength are forces): add "

@@ -11,6 +11,9 @@ ModelPart read_model(Section& file);
 
 std::vector<EffectPart> read_effects(Section& file, Model model);
 
+// What is said where the laws of effects and chain do not find room together; "" where they do.
+std::string no_room_for(const std::vector<EffectPart>&, const std::optional<ChainPart>&);
+
 // Entries of `motions`; globs start at `folder`.
 std::vector<MotionSource> read_motions(Section& file, const std::filesystem::path& folder, Files);
 

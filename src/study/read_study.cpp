@@ -82,15 +82,7 @@ void refuse_distributions(const Study& study, Problems& problems) {
     if (q && !is_fixed(q->value))
       problems.add(q->line, fmt::format("{} is a distribution (a case is one sample): give a number", q->name));
   };
-  const ModelPart& m = study.model;
-  for (const auto& q : {m.block.width, m.block.height, m.block.slenderness, m.block.size}) check(q);
-  for (const auto& q : {m.friction.mu, m.friction.mu_k, m.friction.mu_s, m.friction.static_ratio}) check(q);
-  check(m.block.mass);
-  check(m.impact.factor);
-  if (const auto& b = m.bouc_wen)
-    for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) check(q);
-  for (const auto& effect : m.effects)
-    for (const auto& q : effect.parameters) check(q);
+  for (const Quantity& q : quantities(study.model)) check(q);
   for (const auto& source : study.motions) {
     check(source.amplitude);
     check(source.period);

@@ -50,19 +50,11 @@ void fill_dimensions(YAML::Node model, Validation& v) {
 
 // Every number of the model that is no distribution.
 void check_fixed(const ModelPart& model, Problems& problems) {
-  const auto check = [&](const std::optional<Quantity>& q) {
-    if (q && !is_fixed(q->value))
-      problems.add(q->line, fmt::format("{} is a distribution (a measured specimen has one value): give a number, or "
-                                        "{{calibrate: [lower, upper]}}",
-                                        q->name));
-  };
-  for (const auto& q : {model.block.width, model.block.height, model.block.slenderness, model.block.size}) check(q);
-  for (const auto& q : {model.friction.mu, model.friction.mu_k, model.friction.mu_s, model.friction.static_ratio})
-    check(q);
-  check(model.block.mass);
-  check(model.impact.factor);
-  for (const auto& effect : model.effects)
-    for (const auto& q : effect.parameters) check(q);
+  for (const Quantity& q : quantities(model))
+    if (!is_fixed(q.value))
+      problems.add(q.line, fmt::format("{} is a distribution (a measured specimen has one value): give a number, or "
+                                       "{{calibrate: [lower, upper]}}",
+                                       q.name));
 }
 
 // What is calibrated must stay within what its effect can be, on the whole of its range.

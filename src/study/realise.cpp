@@ -62,28 +62,6 @@ std::string column_name(std::string dotted) {
   return dotted;
 }
 
-// The quantities of the model in the order of their columns.
-std::vector<Quantity> model_quantities(const ModelPart& model) {
-  std::vector<Quantity> all;
-  const auto add = [&](const std::optional<Quantity>& quantity) {
-    if (quantity) all.push_back(*quantity);
-  };
-  for (const auto& q : {model.block.width, model.block.height, model.block.slenderness, model.block.size}) add(q);
-  add(model.block.mass);
-  for (const auto& q : {model.friction.mu, model.friction.mu_k, model.friction.mu_s, model.friction.static_ratio})
-    add(q);
-  if (const auto& b = model.bouc_wen)
-    for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) add(q);
-  add(model.impact.factor);
-  for (const auto& effect : model.effects)
-    for (const auto& q : effect.parameters) add(q);
-  if (model.chain) {
-    for (const auto& q : {model.chain->slack, model.chain->stiffness, model.chain->strength}) add(q);
-    add(model.chain->height);
-  }
-  return all;
-}
-
 const std::vector<Column>& derived_columns() {
   static const std::vector<Column> columns = {
       {"block_width_m", "m", "width of the block"},
@@ -142,7 +120,7 @@ struct Realiser::Parts {
 Realiser::Parts::Parts(const Study& study, MotionSet set)
     : model(study.model),
       motions(std::move(set)),
-      quantities(model_quantities(study.model)),
+      quantities(study::quantities(study.model)),
       source_stream(study.plan(), "motion.source") {
   for (const auto& quantity : quantities) {
     draws.emplace_back(study.plan(), quantity);

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <freestand/specimen.hpp>
 #include <limits>
-#include <optional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +75,9 @@ struct ModelPart {
   std::vector<EffectPart> effects;
   std::optional<ChainPart> chain;
 };
+
+// Every number of the model, in the order of its columns.
+std::vector<Quantity> quantities(const ModelPart&);
 
 // One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
 struct MotionSource {

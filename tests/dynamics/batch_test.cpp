@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/units.hpp"
+#include "support/isa.hpp"
 #include "support/keyed_random.hpp"
 #include "support/random_cases.hpp"
 #include "support/speed_laws.hpp"
@@ -143,30 +144,24 @@ Count compare(const char* label, const Samples& block) {
   return count;
 }
 
-class Isa {
- public:
-  explicit Isa(const char* name) { setenv("FREESTAND_ISA", name, 1); }
-  ~Isa() { unsetenv("FREESTAND_ISA"); }
-  Isa(const Isa&) = delete;
-  Isa& operator=(const Isa&) = delete;
-};
-
 struct Kind {
   std::string name;
   Model model;
   bool by_speed = false, coulomb = false, vertical = false;
+  std::size_t alone = 3;  // of 300 samples, at most
 };
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
+Samples block_of(const Kind& kind, std::size_t samples) {
+  Samples all = random_block(kind.model, 40 + static_cast<std::uint64_t>(kind.model), samples,
+                             {.coulomb = kind.coulomb, .vertical = kind.vertical});
+  if (kind.by_speed) add_speed_laws(all);
+  return all;
+}
+
 class Batch : public testing::TestWithParam<Kind> {
  protected:
-  Samples block(std::size_t samples) const {
-    const Kind& kind = GetParam();
-    Samples all = random_block(kind.model, 40 + static_cast<std::uint64_t>(kind.model), samples,
-                               {.coulomb = kind.coulomb, .vertical = kind.vertical});
-    if (kind.by_speed) add_speed_laws(all);
-    return all;
-  }
+  Samples block(std::size_t samples) const { return block_of(GetParam(), samples); }
 };
 
 TEST_P(Batch, AgreesWithSingleSamples) {
@@ -214,13 +209,14 @@ TEST_P(Batch, IsAsAccurateAsPromised) {
   }
 }
 
-// The steps in packs are others than those of single samples: the same bits would mean that no kernel covers a kind.
+// All but those few in which something happens that the packs leave to single samples: a flight, a dip of a rough record.
 TEST_P(Batch, IsComputedInPacks) {
-  const Samples all = block(100);
-  const auto packs = compute(all);
-  int alone = 0;
-  for (std::size_t i = 0; i < packs.size(); ++i) alone += same_bits(packs[i], single(all, i, 1, 1e-9));
-  EXPECT_LT(alone, 50);
+  if (!dynamics::batch_kernels()) GTEST_SKIP() << "no kernels";
+  const Samples all = block(300);
+  std::vector<Response> responses(all.specimens.size());
+  const std::size_t alone = dynamics::respond_and_count(all.specimens, all.shakings, {}, responses);
+  std::printf("%zu of %zu alone\n", alone, responses.size());
+  EXPECT_LE(alone, GetParam().alone);
 }
 
 TEST_P(Batch, SameBitsInAnyOrderAndCompany) {
@@ -242,15 +238,6 @@ TEST_P(Batch, SameBitsInAnyOrderAndCompany) {
     few.shakings.assign(all.shakings.begin(), all.shakings.begin() + static_cast<std::ptrdiff_t>(count));
     const auto responses = compute(few);
     for (std::size_t i = 0; i < count; ++i) EXPECT_TRUE(same_bits(responses[i], expected[i])) << count << " " << i;
-  }
-}
-
-TEST_P(Batch, SameBitsWithAnyInstructionSet) {
-  const Samples all = block(300);
-  const auto expected = compute(all);
-  for (const char* level : {"v2", "v3", "v4"}) {
-    const Isa forced(level);
-    EXPECT_EQ(differing(compute(all), expected), 0) << level;
   }
 }
 
@@ -276,16 +263,35 @@ TEST_P(Batch, MirrorsWithTheShaking) {
   EXPECT_EQ(wrong, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Batch,
-                         testing::Values(Kind{"Slide", Model::slide}, Kind{"Rock", Model::rock},
-                                         Kind{"SlideRock", Model::slide_rock}, Kind{"SlideBySpeed", Model::slide, true},
-                                         Kind{"SlideRockBySpeed", Model::slide_rock, true},
-                                         Kind{"RockWithCoulomb", Model::rock, false, true},
-                                         Kind{"SlideRockWithCoulomb", Model::slide_rock, false, true},
-                                         Kind{"SlideShaken", Model::slide, false, false, true},
-                                         Kind{"SlideRockShaken", Model::slide_rock, false, false, true},
-                                         Kind{"SlideRockShakenWithCoulomb", Model::slide_rock, false, true, true}),
-                         [](const auto& info) { return info.param.name; });
+const Kind kinds[] = {{"Slide", Model::slide},
+                      {"Rock", Model::rock},
+                      {"SlideRock", Model::slide_rock},
+                      {"SlideBySpeed", Model::slide, true},
+                      {"SlideRockBySpeed", Model::slide_rock, true},
+                      {"RockWithCoulomb", Model::rock, false, true},
+                      {"SlideRockWithCoulomb", Model::slide_rock, false, true},
+                      {"SlideShaken", Model::slide, false, false, true},
+                      {"SlideRockShaken", Model::slide_rock, false, false, true},
+                      {"SlideRockShakenWithCoulomb", Model::slide_rock, false, true, true}};
+INSTANTIATE_TEST_SUITE_P(Kinds, Batch, testing::ValuesIn(kinds), [](const auto& info) { return info.param.name; });
+
+class BatchOnEachMachine : public testing::TestWithParam<std::tuple<Kind, const char*>> {};
+
+TEST_P(BatchOnEachMachine, SameBits) {
+  const auto& [kind, level] = GetParam();
+  const Samples all = block_of(kind, 300);
+  const auto with = [&](const char* name) {
+    const Isa forced(name);
+    return forced.there() ? compute(all) : std::vector<Response>();
+  };
+  const auto least = with("v2"), wider = with(level);
+  if (least.empty() || wider.empty()) GTEST_SKIP() << "this machine, or this build, lacks v2 or " << level;
+  EXPECT_EQ(differing(wider, least), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Levels, BatchOnEachMachine,
+                         testing::Combine(testing::ValuesIn(kinds), testing::Values("v3", "v4")),
+                         [](const auto& info) { return std::get<0>(info.param).name + "_" + std::get<1>(info.param); });
 
 // Low friction, many hops that die out slowly.
 TEST(BatchOfSlenderBlocks, AgreesWithSingleSamples) {
@@ -294,6 +300,22 @@ TEST(BatchOfSlenderBlocks, AgreesWithSingleSamples) {
   EXPECT_LE(count.differ, 1);
   EXPECT_LE(count.sensitive, 0.03 * samples);
   EXPECT_LE(count.events, 0.01 * samples);
+}
+
+// Friction that falls within a speed of a micrometre a second: series that hold for a small part of a step only.
+TEST(BatchOfSteepSpeedLaws, AgreesWithSingleSamples) {
+  const int samples = 100;
+  for (const Model model : {Model::slide, Model::slide_rock}) {
+    Samples block = random_block(model, 145, samples);
+    for (std::size_t i = 0; i < block.specimens.size(); ++i) {
+      KeyedRandom random(172, i);
+      const double drop = random.uniform(-0.3, 0.6), speed = random.log_uniform(1e-8, 1e-3);
+      block.specimens[i].effects = {{i % 3 == 0 ? &rational : &exponential, {drop, speed}}};
+    }
+    const Count count = compare("steep", block);
+    EXPECT_EQ(count.differ, 0);
+    EXPECT_LE(count.sensitive, 0.1 * samples);
+  }
 }
 
 // The floor falls away under blocks that rest, slide and rock.

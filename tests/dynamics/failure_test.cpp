@@ -124,6 +124,59 @@ TEST_P(Failure, InputThatIsNoNumberIsAnOutcome) {
   }
 }
 
+// An impact that gives back more than Housner's rate makes energy; static friction below kinetic is none. In every way
+// to an answer, and for each model.
+TEST(InadmissibleInput, IsAnOutcomeInEveryWayToAnAnswer) {
+  const FloorMotion record = piecewise_linear("steps", 0.1, {0, 4, -5, 6, -4, 0});
+  const Shaking shaking{&record};
+  for (const Model model : {Model::slide, Model::rock, Model::slide_rock, Model::bouc_wen})
+    for (int which = 0; which < 3; ++which) {
+      std::vector<Specimen> specimens(9, plain_block());
+      for (Specimen& specimen : specimens) specimen.model = model;
+      Specimen& bad = specimens[4];
+      if (which == 1) bad.impact.factor = 1.0001;
+      if (which == 2) bad.friction = {0.3, 0.3001};
+      const Outcome expected = which == 0 ? Outcome::moved : Outcome::not_finite;
+      EXPECT_EQ(respond(bad, shaking).outcome, expected) << static_cast<int>(model) << ' ' << which;
+      EXPECT_EQ(respond_reference(bad, shaking).outcome, expected) << static_cast<int>(model) << ' ' << which;
+      std::vector<Response> block(specimens.size());
+      respond_batch(specimens, std::vector<Shaking>(specimens.size(), shaking), {}, block);
+      for (std::size_t i = 0; i < block.size(); ++i)
+        EXPECT_EQ(block[i].outcome, i == 4 ? expected : Outcome::moved) << static_cast<int>(model) << ' ' << which;
+    }
+}
+
+// Laws that do not find room together: none of them acts, and no sample is computed.
+TEST(InadmissibleInput, MoreStatesOrOperationsThanThereIsRoomFor) {
+  const dynamics::Effect states{
+      .name = "states",
+      .force = [](const dynamics::At& at, const auto&) { return -1e-3 * at.own_state.at(6); },
+      .states = std::vector<dynamics::OwnState>(
+          7, {.name = "s", .rate = [](const dynamics::At& at, const auto&) { return at.own_state.at(6) + at.v; }})};
+  const dynamics::Effect operations{.name = "operations", .force = [](const dynamics::At& at, const auto&) {
+                                      dynamics::Value sum = at.u;
+                                      for (int i = 0; i < 200; ++i) sum = sum * at.v + at.u;
+                                      return sum;
+                                    }};
+  const dynamics::Effect bends{.name = "bends", .force = [](const dynamics::At& at, const auto&) {
+                                 dynamics::Value sum = at.u;
+                                 for (int i = 0; i < 20; ++i) sum = sum + abs(at.u - 0.01 * i);
+                                 return -1e-3 * sum;
+                               }};
+  const FloorMotion record = piecewise_linear("steps", 0.1, {0, 4, -5, 6, -4, 0});
+  for (const Model model : {Model::slide, Model::slide_rock, Model::bouc_wen})
+    for (const dynamics::Effect* effect : {&states, &operations, &bends}) {
+      Specimen specimen = plain_block();
+      specimen.model = model;
+      specimen.effects = {{effect, {}}};
+      std::vector<Response> block(1);
+      respond_batch({&specimen, 1}, std::vector<Shaking>{{&record}}, {}, block);
+      EXPECT_EQ(block[0].outcome, Outcome::not_finite) << effect->name;
+      EXPECT_EQ(respond(specimen, {&record}).outcome, Outcome::not_finite) << effect->name;
+      EXPECT_EQ(respond_reference(specimen, {&record}).outcome, Outcome::not_finite) << effect->name;
+    }
+}
+
 // X = 100 u: the slip grows as exp(10 t) for as long as the block is watched.
 TEST_P(Failure, ALawThatFeedsTheMotionIsAnOutcome) {
   const dynamics::Effect feed{.name = "feed",

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "support/keyed_random.hpp"
 
@@ -62,6 +63,22 @@ TEST(RockStep, EndsWhereTheSeriesDoes) {
     const double angle = c.angle + a.theta.get(0) - 0.1;
     EXPECT_NEAR(a.rx.get(0), -c.size * std::cos(angle), c.size * round_off) << i;
     EXPECT_NEAR(a.ry.get(0), c.size * std::sin(angle), c.size * round_off) << i;
+  }
+}
+
+// Polynomials whose root lies where Halley's steps come near it by a constant share each: far out on a flat one, and
+// beside a second root.
+TEST(BracketedRoot, IsFoundWhereStepsConvergeSlowly) {
+  const auto root = [](const std::vector<double>& c, double lo, double hi, double guess) {
+    Pack p[10];
+    for (std::size_t k = 0; k < 10; ++k) p[k] = Pack(k < c.size() ? c[k] : 0.0);
+    return bracketed_root<9>(p, Pack(1.0), Pack(lo), Pack(hi), Pack(guess), Pack(1.0) > Pack(0.0)).get(0);
+  };
+  for (const double at : {0.5, 0.1, 0.01, 1e-3})  // at^9 - x^9
+    EXPECT_NEAR(root({std::pow(at, 9), 0, 0, 0, 0, 0, 0, 0, 0, -1}, 0, 1, 1), at, 1e-12) << at;
+  for (const double apart : {1e-2, 1e-4, 1e-5}) {  // (r - x)(x - r + apart): round-off of 1e-16 moves r by 1e-16/apart
+    const double r = 0.3, other = r - apart;
+    EXPECT_NEAR(root({-r * other, r + other, -1}, r - 0.5 * apart, 1, 1), r, 1e-15 / apart) << apart;
   }
 }
 

@@ -44,7 +44,16 @@ struct General {
 };
 
 // Vanishes at its neutral parameters (to 1e-10, and to the bit where it is no part of the equations of motion), mirrors
-// to the bit, agrees between the two integrators, and matters: on random specimens under random motions.
+// to the bit, agrees between the two integrators (to 1e-8), and matters: on random specimens under random motions, at
+// tolerance 1e-12. What a change of the shaking by a hundred tolerances does to the answer is allowed on top.
 void expect_general(const General& general);
+
+// How far two answers are apart: the largest difference of a slip, a path or a rotation [m], [rad]; 1 where one overturned
+// and the other did not.
+double distance(const Response& a, const Response& b);
+
+// The most that changes of the shaking by parts of the size given, up and down, move an answer.
+double moved_by(double part, const Specimen& specimen, const Shaking& shaking, const Settings& settings,
+                const Response& answer);
 
 }  // namespace freestand::test

@@ -128,6 +128,35 @@ TEST(Tally, BinaryDemandIsItselfTheProbability) {
   EXPECT_TRUE(tally.histogram(1, 0).empty());
 }
 
+// Of a demand that is known of overturned samples too (a connection broke before, or it did not), these count by what it
+// was; of the others, as above every capacity.
+TEST(Tally, OverturnedSamplesCountByTheirOwnValueWhereTheyHaveOne) {
+  Options o = options();
+  o.edps = {{.name = "connection_failed", .binary = true, .capacities = {}, .censored = false},
+            {.name = "delta", .capacities = {0.5}}};
+  o.axes[0].edge = {0, 1};
+  Tally tally(o);
+  // Of 100 samples 40 overturn, of these 10 after the connection broke; it breaks in 5 of those that stand.
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    const bool over = i < 40, broken = i % 4 == 0 && i < 60;
+    const double edp[] = {broken ? 1.0 : 0.0, over ? nan : 0.1}, axis[] = {0.5};
+    tally.add({i, 0.5, 3, over ? Outcome::overturned : Outcome::moved, edp, axis});
+  }
+  std::int64_t broken = 0, above = 0, in_cell = 0;
+  for (std::size_t g = 0; g < tally.layout().groups; ++g) {
+    broken += tally.exceeding(0, 0, g, 0);
+    above += tally.exceeding(1, 0, g, 0);
+    in_cell += tally.axis_exceeding(0, 0, 0, 0, g, 0);
+  }
+  EXPECT_EQ(broken, 15);
+  EXPECT_EQ(in_cell, 15);
+  EXPECT_EQ(above, 40);
+  EXPECT_EQ(total(tally, 0, 0).n, 100);
+  EXPECT_EQ(total(tally, 0, 0).over, 40);
+  const Result result = fit(tally);
+  EXPECT_DOUBLE_EQ(result.edps[0].surface.probability[0], 0.15);
+}
+
 TEST(Tally, AnySplitInAnyOrderGivesTheSameBits) {
   Tally whole(options());
   constexpr std::uint64_t n = 4000;

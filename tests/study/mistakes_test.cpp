@@ -129,6 +129,28 @@ TEST(StudyMistakes, InFrictionModelImpactAndEffects) {
   });
 }
 
+// Each formula finds room for itself on the tape of a sample, both do not; nor with the chain, which bends twice.
+TEST(StudyMistakes, FormulasThatDoNotFindRoomTogether) {
+  const auto with_effects = [](const std::string& text) { return sound + "effects:\n" + text; };
+  const auto formula = [](const std::string& name, const std::string& text) {
+    return "  - {name: " + name + ", force: \"" + text + "\"}\n";
+  };
+  std::string factors, bends = "abs(u)";
+  for (int i = 0; i < 90; ++i) factors += "*v";
+  for (int i = 1; i < 15; ++i) bends += "+abs(u-0.0" + std::to_string(10 + i) + ")";
+  const std::string chain = "chain: {stiffness_npm: 1e4, strength_n: 2736}\n";
+  EXPECT_EQ(problems(with_effects(formula("one", "u" + factors))), "");
+  EXPECT_EQ(problems(with_effects(formula("one", bends))), "");
+  expect_each({
+      {with_effects(formula("one", "u" + factors + factors)), "7", "the laws of one are too long for one sample"},
+      {with_effects(formula("one", "u" + factors) + formula("two", "theta" + factors)), "8",
+       "the laws of one, two are too long for one sample (they make more than 143 operations)"},
+      {with_effects(formula("one", bends) + formula("two", "abs(v)+abs(v-0.1)")), "8",
+       "the laws of one, two bend too often for one sample"},
+      {with_effects(formula("one", bends)) + chain, "8", "the laws of one and the chain bend too often"},
+  });
+}
+
 TEST(StudyMistakes, InMotions) {
   expect_each({
       {block + friction + fragility + samples, "1", "motions is missing"},
@@ -234,6 +256,9 @@ TEST(CaseMistakes, ACaseIsOneSample) {
   EXPECT_THAT(case_problems(block + friction), HasSubstr("motion is missing"));
   EXPECT_THAT(case_problems(block + "friction: {mu: {uniform: [0.1, 0.2]}}\n" + motion),
               HasSubstr("one.yaml:2: friction.mu is a distribution (a case is one sample)"));
+  EXPECT_THAT(
+      case_problems(block + friction + motion + "chain: {stiffness_npm: {uniform: [1e4, 1e5]}, strength_n: 2736}\n"),
+      HasSubstr("one.yaml:4: chain.stiffness_npm is a distribution (a case is one sample)"));
   EXPECT_THAT(case_problems(block + friction + "motion: {pulse: [A, B], period_s: 0.5, peak_acceleration_g: 0.6}\n"),
               HasSubstr("name one pulse"));
   EXPECT_THAT(case_problems(block + friction + motion + "samples: 3\n"), HasSubstr("unknown key samples"));

@@ -6,7 +6,16 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-// Newton's method in a bracket: f(lo) > 0 >= f(hi), f = sum_k c[k] x^k.
+template <int M>
+double evaluate(const double* c, double x) {
+  double value = c[M];
+#pragma GCC unroll 16
+  for (int k = M - 1; k >= 0; --k) value = value * x + c[k];
+  return value;
+}
+
+// Newton's method in a bracket: f(lo) > 0 >= f(hi), f = sum_k c[k] x^k. Where it does not find the root in so many steps,
+// the bracket is halved until nothing is left of it.
 template <int M>
 double newton_in(const double* c, double lo, double hi, double x) {
   if (!(x > lo && x < hi)) x = 0.5 * (lo + hi);
@@ -22,17 +31,13 @@ double newton_in(const double* c, double lo, double hi, double x) {
     if (!(next >= lo && next <= hi)) next = 0.5 * (lo + hi);
     const double step = next - x;
     x = next;
-    if (step < 1e-10 && step > -1e-10) break;  // the step after this one is within round-off
+    if (step < 1e-10 && step > -1e-10) return x;  // the step after this one is within round-off
   }
-  return x;
-}
-
-template <int M>
-double evaluate(const double* c, double x) {
-  double value = c[M];
-#pragma GCC unroll 16
-  for (int k = M - 1; k >= 0; --k) value = value * x + c[k];
-  return value;
+  for (int round = 0; round < 60; ++round) {
+    const double middle = 0.5 * (lo + hi);
+    (evaluate<M>(c, middle) > 0 ? lo : hi) = middle;
+  }
+  return hi;
 }
 
 // Where f changes its sign on (0, end], given that f(0) and f(end) differ in sign.

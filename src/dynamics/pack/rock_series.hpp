@@ -78,13 +78,31 @@ struct Bracket {
     const Pack square = slope * slope, curve = value * bend, halley = x - value * slope / (square - curve);
     const PackMask leads = (halley >= lo) & (halley <= hi) & (square > xsimd::abs(curve));
     const Pack next = choose(leads, halley, Pack(0.5) * (lo + hi));
-    const PackMask settled = xsimd::abs(next - x) <= Pack(1e-6);  // and the step after this one is within round-off
+    // What is left after a step of Halley's is its third power by the square of bend over slope: round-off then.
+    const Pack step = xsimd::abs(next - x);
+    const PackMask settled = leads & (step <= Pack(1e-6)) & (xsimd::abs(bend) * step <= Pack(3e-5) * xsimd::abs(slope));
     x = choose(open, next, x);
     open = open & ~settled;
   }
+
+  // Halves the bracket, in the lanes still open, until nothing is left of it.
+  template <int M>
+  [[gnu::noinline]] void halve() {
+    for (int round = 0; round < 60; ++round) {
+      const Pack middle = Pack(0.5) * (lo + hi);
+      Pack value = c[M];
+#pragma GCC unroll 16
+      for (int k = M - 1; k >= 0; --k) value = value * middle + c[k];
+      const PackMask above = sign * value > Pack(0.0);
+      lo = choose(above, middle, lo);
+      hi = choose(above, hi, middle);
+    }
+    x = choose(open, hi, x);
+  }
 };
 
-// Several packs side by side: where each operation waits for the one before, the packs fill each other's gaps.
+// Several packs side by side: where each operation waits for the one before, the packs fill each other's gaps. Lanes in
+// which so many steps have not found the root (it has others beside it, or the polynomial is flat) halve their brackets.
 template <int M, int count>
 void narrow_all(Bracket (&roots)[count]) {
 #pragma GCC unroll 2
@@ -96,6 +114,8 @@ void narrow_all(Bracket (&roots)[count]) {
 #pragma GCC unroll 2
     for (Bracket& root : roots) root.template narrow<M>();
   }
+  for (Bracket& root : roots)
+    if (bits(root.open)) root.template halve<M>();
 }
 
 template <int M>

@@ -114,6 +114,7 @@ class SlideRock : public SlideRockSliding {
     }
     // Which comes first?
     const double reach = valid_part(y.omega[K + 1], y.w[K + 1], K + 1, slips && c_.law);
+    if (reach == 0) return decline();
     double x = reach;
     Cause cause = Cause::none;
     double p[K + 2];

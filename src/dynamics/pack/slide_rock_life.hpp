@@ -15,11 +15,14 @@ class SlideRockLife : public SlideRockHops {
  protected:
   using SlideRockHops::SlideRockHops;
 
-  // Part of a step in which the terms left out by series of this order are small enough; their last ones per size.
+  // Part of a step in which the terms left out by series of this order are small enough; their last ones per size. 0:
+  // no part that is worth a step, the sample is better computed alone.
   double valid_part(double omega, double w, int order, bool by_law) const {
     const double last = larger(magnitude(omega), magnitude(w) / c_.h);
     const double allowed = by_law ? neglected_by_laws * left_ : neglected;
-    return last < allowed ? 1 : larger(1e-3, pow_outside(allowed / last, 1.0 / (by_law ? order - 1 : order)));
+    if (last < allowed) return 1;
+    const double part = pow_outside(allowed / last, 1.0 / (by_law ? order - 1 : order));
+    return part > 1e-3 ? part : 0;
   }
 
   // ---- rest

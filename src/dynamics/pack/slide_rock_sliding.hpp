@@ -72,6 +72,7 @@ class SlideRockSliding : public SlideRockLife {
     y.slide(sigma_ * c_.mu_k * c_.g * hs2, a_ * hs2, (a1 - a_) * hs2, sigma_ / hs, factor);
 
     double x = valid_part(0, y.w[N + 1], N + 1, true), p[N + 2];
+    if (x == 0) return decline();
     Ends ends = Ends::none;
     for (int k = 0; k < N + 2; ++k) p[k] = sigma_ * y.w[k];
     if (p[0] == 0 && p[1] < 0 && p[1] > -1e-9 * c_.g * hs2) p[1] = 0;

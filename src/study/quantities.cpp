@@ -1,0 +1,26 @@
+#include "study/study.hpp"
+
+namespace freestand::study {
+
+std::vector<Quantity> quantities(const ModelPart& model) {
+  std::vector<Quantity> all;
+  const auto add = [&](const std::optional<Quantity>& quantity) {
+    if (quantity) all.push_back(*quantity);
+  };
+  for (const auto& q : {model.block.width, model.block.height, model.block.slenderness, model.block.size}) add(q);
+  add(model.block.mass);
+  for (const auto& q : {model.friction.mu, model.friction.mu_k, model.friction.mu_s, model.friction.static_ratio})
+    add(q);
+  if (const auto& b = model.bouc_wen)
+    for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) add(q);
+  add(model.impact.factor);
+  for (const auto& effect : model.effects)
+    for (const auto& q : effect.parameters) add(q);
+  if (model.chain) {
+    for (const auto& q : {model.chain->slack, model.chain->stiffness, model.chain->strength}) add(q);
+    add(model.chain->height);
+  }
+  return all;
+}
+
+}  // namespace freestand::study

@@ -1,0 +1,89 @@
+// The effects of the catalogue in blocks of samples: each sample is answered as alone. To the bit where it is computed
+// alone, and to what freestand/simulate.hpp promises of packs where these take the effect.
+#include <cstdio>
+#include <set>
+
+#include "effects/effect_fixture.hpp"
+#include "support/keyed_random.hpp"
+
+namespace freestand::test {
+namespace {
+
+// Those that change block, impact, friction or floor in ways that packs know.
+const std::set<std::string> in_packs = {"impact_loss",  "offset_mass",     "rate_strengthening", "rate_weakening",
+                                        "reduced_base", "static_friction", "vertical_shaking"};
+
+struct Samples {
+  std::vector<RandomCase> cases;  // which own the motions
+  std::vector<Specimen> specimens;
+  std::vector<Shaking> shakings;
+};
+
+// Random samples, every third without the effect.
+Samples samples_with(const effects::Effect& effect, Model model, std::size_t count) {
+  CaseFamily family;
+  family.seed = 91;
+  family.one_model = 0;
+  family.vertical = effect.name == "vertical_shaking" ? 1 : 0;
+  family.vertical_peak_g = 0.6;
+  family.duration_low_s = 3;
+  family.duration_high_s = 5;
+  Samples samples;
+  for (std::size_t i = 0; i < count; ++i) {
+    samples.cases.push_back(random_case(family, i));
+    samples.specimens.push_back(samples.cases.back().specimen);
+    samples.shakings.push_back(samples.cases.back().shaking);
+    Specimen& specimen = samples.specimens.back();
+    specimen.model = model;
+    if (effect.name == "impact_loss") specimen.impact.law = ImpactLaw::housner;
+    if (i % 3 == 2) continue;
+    KeyedRandom random(92, i);
+    specimen.effects = {{&effect, {}}};
+    for (const auto& p : effect.parameters) specimen.effects[0].parameters.push_back(random.uniform(p.low, p.high));
+  }
+  return samples;
+}
+
+bool same_bits(const Response& a, const Response& b) {
+  return a.outcome == b.outcome && a.peak_slip_m == b.peak_slip_m && a.residual_slip_m == b.residual_slip_m &&
+         a.slid_path_m == b.slid_path_m && a.peak_rotation_rad == b.peak_rotation_rad &&
+         a.residual_rotation_rad == b.residual_rotation_rad && a.peak_acceleration_mps2 == b.peak_acceleration_mps2 &&
+         a.connection_failed == b.connection_failed && a.impacts == b.impacts && a.events == b.events &&
+         a.end_time_s == b.end_time_s;
+}
+
+TEST(CatalogueInBlocks, EachSampleIsAnsweredAsAlone) {
+  constexpr std::size_t count = 60;
+  for (const auto& effect : effects::all())
+    for (const Model model : {Model::slide_rock, Model::slide}) {
+      const auto& excludes = effect.excludes;
+      if (model == Model::slide && std::find(excludes.begin(), excludes.end(), "slide") != excludes.end()) continue;
+      const Samples samples = samples_with(effect, model, count);
+      std::vector<Response> block(count);
+      respond_batch(samples.specimens, samples.shakings, {}, block);
+      int bits = 0, sensitive = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Response alone = respond(samples.specimens[i], samples.shakings[i]);
+        const bool with = !samples.specimens[i].effects.empty();
+        if (same_bits(block[i], alone)) {
+          bits += with;
+          continue;
+        }
+        EXPECT_TRUE(!with || in_packs.count(effect.name)) << effect.name << ' ' << i << " is answered otherwise";
+        const double apart = distance(block[i], alone);
+        if (apart <= 1e-7) continue;
+        ++sensitive;
+        EXPECT_LE(apart, moved_by(1e-8, samples.specimens[i], samples.shakings[i], {}, alone))
+            << effect.name << ' ' << i << ' ' << samples.cases[i].text();
+      }
+      EXPECT_LE(sensitive, static_cast<int>(count) / 10) << effect.name;
+      std::printf("%s: %d of 40 with the effect have the bits of single samples, %d of all are sensitive\n",
+                  effect.name.c_str(), bits, sensitive);
+      if (in_packs.count(effect.name)) {
+        EXPECT_LE(bits, 15) << effect.name << " is computed alone";  // some rest, and are the same either way
+      }
+    }
+}
+
+}  // namespace
+}  // namespace freestand::test
