@@ -58,3 +58,14 @@ build() {
   fi
   cmake --build "build/$preset" --parallel "$(cores)" ${1:+--target "$@"}
 }
+
+# The same, and a warning of the compiler is a mistake: build_without_warnings PRESET [TARGETS...]
+build_without_warnings() {
+  local folder=$freestand_root/build/$1
+  mkdir -p "$folder"
+  build "$@" 2>&1 | tee "$folder/build.log"
+  if grep -q 'warning:' "$folder/build.log"; then
+    rm -f "$folder/.ninja_deps"  # so that the next build says it again
+    die 1 "the build warns (see $folder/build.log): mend what it warns of"
+  fi
+}

@@ -139,7 +139,7 @@ class Parser : public mu::ParserBase {
 std::string beginning(const std::string& token) {
   std::size_t end = 0;
   while (end < token.size() && (std::isalnum(static_cast<unsigned char>(token[end])) || token[end] == '_')) ++end;
-  return "\"" + token.substr(0, std::max<std::size_t>(end, 1)) + "\"";
+  return '"' + token.substr(0, std::max<std::size_t>(end, 1)) + '"';
 }
 
 std::string problem(const mu::ParserError& error) {

@@ -33,7 +33,7 @@ struct Interval {
 
 struct ModelFit {
   ModelSpec model;
-  Values x;
+  Values x = {};
   double score = 0;  // mean over the calibration tests
   int evaluations = 0;
   bool left_out_refitted = false;           // else left_out is what the fit to all gives

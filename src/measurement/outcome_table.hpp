@@ -17,7 +17,7 @@ struct TablePoint {
 struct OutcomeTable {
   ModelSpec model, without;  // without: the last effect; the same numbers in front
   std::vector<std::size_t> tests;
-  Places places;
+  Places places = {};
   std::vector<TablePoint> points = {};
 };
 
@@ -28,7 +28,7 @@ struct TableFit {
   std::size_t point = 0;
   Values x;  // with middle and scatter of the placements
   double score = 0;
-  std::vector<double> probability;  // of each test of the table
+  std::vector<double> probability = {};  // of each test of the table
 };
 
 class TableSearch {

@@ -13,7 +13,7 @@ struct OutcomeSuggestion {
   double scale = 1;                      // on it; negative: turned round
   std::vector<double> probability = {};  // of overturning, of each model
   int repeats = 0;                       // that part the two nearest by two standard errors
-  std::string sentence;
+  std::string sentence = {};
 };
 
 // models: as fitted, two and more; names: of them, for the sentence. The motions of the calibration tests of which the

@@ -29,7 +29,7 @@ struct Accuracy {
   std::int64_t checked = 0;
   std::int64_t flips = 0;       // outcomes that differ
   double flip_share_upper = 0;  // upper end of the exact 95 % interval of their share
-  std::vector<DemandError> demands;
+  std::vector<DemandError> demands = {};
 };
 
 // The same numbers, to the bit, on any number of ranks. Collective; the answer is on the root, empty on the others.

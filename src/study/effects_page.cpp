@@ -30,7 +30,8 @@ std::string wrapped(std::string result, const std::string& text, std::size_t mar
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     if (!line.empty() && line.size() + 1 + end - at > width) flush();
-    line += (line.empty() ? "" : " ") + text.substr(at, end - at);
+    if (!line.empty()) line += ' ';
+    line += text.substr(at, end - at);
     at = end + 1;
   }
   flush();

@@ -9,7 +9,7 @@ import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCRIPTS = [*(ROOT / "jobs").glob("*"), ROOT / "tests/run", ROOT / ".ci/run"]
+SCRIPTS = [*(ROOT / "jobs").glob("*"), ROOT / "tests/run", ROOT / "tests/memcheck", ROOT / ".ci/run"]
 
 
 def packages(optional=False):
@@ -105,6 +105,22 @@ class Install(Stage):
         self.environment["FREESTAND_INSTALL"] = "no"
         self.assertEqual(self.install().returncode, 0)
         self.assertEqual(self.called("dpkg-query"), [])
+
+
+class Build(Stage):
+    def build(self, output):
+        self.stand_in("cmake", f'case "$*" in --build*) echo "{output}";; esac')
+        script = f'set -euo pipefail; . {ROOT}/jobs/lib.sh; freestand_root={self.folder}; build_without_warnings release'
+        return self.run_script("bash", "-c", script)
+
+    def test_a_warning_is_a_mistake(self):
+        result = self.build("a.cpp:1:2: warning: unused variable x")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("a.cpp:1:2: warning: unused variable x", result.stdout)
+        self.assertIn("the build warns", result.stderr)
+
+    def test_silence_is_none(self):
+        self.assertEqual(self.build("[1/2] Building CXX object a.cpp.o").returncode, 0)
 
 
 class Mpirun(Stage):

@@ -78,8 +78,12 @@ TEST(MotionTable, SearchRowsPassOverNoKnot) {
     for (const double limit : {0.0, 0.3, 1.0, 2.5, 100.0}) {
       const double a = std::abs(t.acceleration[j]);
       const bool passed_over = t.levels[j] < t.level(limit);
-      if (a >= limit) EXPECT_FALSE(passed_over);
-      if (a < limit - 1e-4 * t.later_peak[0]) EXPECT_TRUE(passed_over);
+      if (a >= limit) {
+        EXPECT_FALSE(passed_over);
+      }
+      if (a < limit - 1e-4 * t.later_peak[0]) {
+        EXPECT_TRUE(passed_over);
+      }
     }
   }
   for (std::size_t j = 101; j < all; ++j) {  // searches end here

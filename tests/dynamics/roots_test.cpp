@@ -53,7 +53,9 @@ TEST(Roots, FirstOfManyIsFound) {
     if (close || (positive != roots.end() && std::abs(*positive - unit) < 1e-6 * unit)) continue;
     const auto tau = first(with_roots(roots, pairs, random.log_uniform(1e-6, 1e6)), unit);
     ASSERT_EQ(tau.has_value(), any) << i;
-    if (any) EXPECT_NEAR(*tau, *positive, 1e-9 * unit) << i;
+    if (any) {
+      EXPECT_NEAR(*tau, *positive, 1e-9 * unit) << i;
+    }
     found += any;
   }
   EXPECT_GT(found, 4000);

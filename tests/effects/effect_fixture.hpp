@@ -45,7 +45,7 @@ struct General {
 
 // Vanishes at its neutral parameters (to 1e-10, and to the bit where it is no part of the equations of motion), mirrors
 // to the bit, agrees between the two integrators (to 1e-8), and matters: on random specimens under random motions, at
-// tolerance 1e-12. What a change of the shaking by a hundred tolerances does to the answer is allowed on top.
+// tolerance 1e-12. What a hundred tolerances do to the answer is allowed on top.
 void expect_general(const General& general);
 
 // How far two answers are apart: the largest difference of a slip, a path or a rotation [m], [rad]; 1 where one overturned

@@ -92,7 +92,9 @@ TEST(MakeSet, TestsMoveAsOnShakeTables) {
     for (const MadeTest& t : set.tests) {
       held_out += t.holdout;
       EXPECT_EQ(t.truth.outcome, "moved") << set.name << t.id;
-      if (set.drawn.habit == Habit::slides) EXPECT_GE(largest(t.truth.slip_m), 0.0145) << set.name << t.id;
+      if (set.drawn.habit == Habit::slides) {
+        EXPECT_GE(largest(t.truth.slip_m), 0.0145) << set.name << t.id;
+      }
       EXPECT_LE(largest(t.truth.slip_m), 0.6);
       EXPECT_LE(largest(t.truth.rotation_rad), 0.6 * alpha);
       EXPECT_EQ(t.rotation_rad.empty(), set.drawn.habit == Habit::slides);
