@@ -59,7 +59,7 @@ class Peaks {
     response_.peak_rotation_rad = max_abs(flight.theta, tau, response_.peak_rotation_rad);
     Series<double, N> u = flight.x;
     const double d = 0.5 * (rig.right - rig.left);
-    Series<double, N> sine, cosine;
+    Series<double, N> sine = Series<double, N>::zero(), cosine = sine;
     sine[0] = std::sin(flight.theta[0]);
     cosine[0] = std::cos(flight.theta[0]);
     for (int k = 0; k < N; ++k) {

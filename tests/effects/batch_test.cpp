@@ -35,7 +35,8 @@ Samples samples_with(const effects::Effect& effect, Model model, std::size_t cou
     samples.shakings.push_back(samples.cases.back().shaking);
     Specimen& specimen = samples.specimens.back();
     specimen.model = model;
-    if (effect.name == "impact_loss") specimen.impact.law = ImpactLaw::housner;
+    // Packs take laws of the slip speed with Housner's impacts only.
+    if (effect.name == "impact_loss" || effect.name.rfind("rate_", 0) == 0) specimen.impact.law = ImpactLaw::housner;
     if (i % 3 == 2) continue;
     KeyedRandom random(92, i);
     specimen.effects = {{&effect, {}}};
