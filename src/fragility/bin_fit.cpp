@@ -30,16 +30,6 @@ Total total_of(const Tally& tally, std::size_t edp, std::size_t bin) {
   return total;
 }
 
-double mean_im(const Tally& tally, std::size_t bin) {
-  double n = 0, sum = 0;
-  for (std::size_t i = 0; i < TallyLayout::cells_per_bin; ++i) {
-    const ImCell cell = tally.im_cell(bin * TallyLayout::cells_per_bin + i);
-    n += static_cast<double>(cell.n);
-    sum += cell.im_sum;
-  }
-  return n > 0 ? sum / n : unknown;
-}
-
 void set_probability(std::int64_t hits, std::int64_t trials, double confidence, double& p, double& lower,
                      double& upper) {
   if (trials == 0) return;
@@ -80,7 +70,7 @@ BinFit fit_bin(const Tally& tally, std::size_t edp, std::size_t index, Estimated
   bin.n_over = counts.over;
   bin.n_moved = counts.moved;
   bin.motions = motions;
-  bin.im_mean = mean_im(tally, index);
+  bin.im_mean = tally.mean_im(index);
   set_probability(counts.still, counts.n - counts.over, options.confidence, bin.p_still, bin.p_still_lower,
                   bin.p_still_upper);
   set_probability(counts.over, counts.n, options.confidence, bin.p_over, bin.p_over_lower, bin.p_over_upper);

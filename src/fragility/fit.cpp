@@ -72,8 +72,10 @@ Result fit(const Tally& tally, EstimatedNull& null) {
   result.im_unit = options.im_unit;
   result.im_edge = options.im_edge;
   result.confidence = options.confidence;
-  for (std::size_t b = 0; b + 1 < options.im_edge.size(); ++b)
-    result.im_centre.push_back((options.im_edge[b] + options.im_edge[b + 1]) / 2);
+  for (std::size_t b = 0; b + 1 < options.im_edge.size(); ++b) {
+    const double mean = tally.mean_im(b);
+    result.im.push_back(std::isnan(mean) ? (options.im_edge[b] + options.im_edge[b + 1]) / 2 : mean);
+  }
   for (int i = 0; i < outcome_count; ++i)
     result.outcome_counts[static_cast<std::size_t>(i)] = tally.count_of(static_cast<Outcome>(i));
   result.samples = tally.samples();
@@ -100,7 +102,7 @@ HalfWidth half_width(const Result& result) {
       if (edp.bins[bin].n == 0 || half <= largest) continue;
       largest = half;
       width.edp = edp.name;
-      width.im = result.im_centre[bin];
+      width.im = result.im[bin];
       width.capacity = edp.capacity[i % edp.capacity.size()];
     }
   if (largest >= 0 && width.points > 0) width.largest = largest;

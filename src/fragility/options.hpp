@@ -25,6 +25,10 @@ struct AxisOptions {
   std::vector<double> edge;  // increasing, at least two
 };
 
+// What Options::resamples may be: two make a spread, and each has a counter of its own in Resampling.
+inline constexpr int least_resamples = 2, most_resamples = 60000;
+inline constexpr int least_minimum_samples = 2;  // a fit needs two
+
 struct Options {
   std::string im_name;  // as in the column im_<name>
   std::string im_unit = "1";

@@ -71,15 +71,17 @@ struct Probit {
   }
 };
 
-// Fisher scoring with step halving, until the objective would rise by less than `enough`: the line is then known to about
-// sqrt(enough) standard errors.
-constexpr double enough = 1e-14;
+// Fisher scoring with step halving. The last step is the first that would raise the objective by less than `enough`, so
+// that the line is known to much better than sqrt(enough) standard errors; or by less than the objective's own rounding,
+// beneath which no comparison of two values means anything.
+constexpr double enough = 1e-12, rounding = 1e-15;
 
 Eigen::Vector2d maximise(const Probit& probit, Eigen::Vector2d line) {
   Probit::Value value = probit.at(line);
   for (int iteration = 0; iteration < 200; ++iteration) {
     Eigen::Vector2d step = value.information.ldlt().solve(value.gradient);
     const double gain = step.dot(value.gradient);
+    if (gain < std::max(enough, rounding * std::fabs(value.objective))) return line + step;
     Probit::Value next = probit.at(line + step);
     for (int halving = 0; halving < 40 && !(next.objective >= value.objective); ++halving) {
       step /= 2;
@@ -88,7 +90,6 @@ Eigen::Vector2d maximise(const Probit& probit, Eigen::Vector2d line) {
     if (!(next.objective >= value.objective)) break;
     line += step;
     value = next;
-    if (gain < enough) break;
   }
   return line;
 }
@@ -124,10 +125,6 @@ OverturningFit fit_overturning(const std::vector<OverturningPoint>& points, cons
   if (!(fit.b > 0)) return fit;
   fit.median = std::exp(-fit.a / fit.b);
   fit.dispersion = 1 / fit.b;
-  const Eigen::Matrix2d covariance = probit.at(line).information.inverse();
-  const Eigen::Vector2d median_gradient = fit.median * Eigen::Vector2d(-1 / fit.b, fit.a / (fit.b * fit.b));
-  fit.median_se = std::sqrt(median_gradient.dot(covariance * median_gradient));
-  fit.dispersion_se = std::sqrt(covariance(1, 1)) / (fit.b * fit.b);
   return fit;
 }
 

@@ -13,13 +13,12 @@ struct OverturningPoint {
   double im, n, over;
 };
 
-// P = Phi(a + b ln IM); median = exp(-a/b), dispersion = 1/b. median_se and dispersion_se by the Fisher information and
-// the delta method. penalised: the outcomes separate (some intensity parts all that overturned from all that stood), so
+// P = Phi(a + b ln IM); median = exp(-a/b), dispersion = 1/b. penalised: the outcomes separate (some intensity parts all that overturned from all that stood), so
 // that the likelihood has no maximum; Jeffreys' prior is multiplied to it (Firth 1993; Kosmidis & Firth, Biometrika
 // 108, 2021), which keeps the estimate finite.
 struct OverturningFit {
   double a = unknown, b = unknown;
-  double median = unknown, dispersion = unknown, median_se = unknown, dispersion_se = unknown;
+  double median = unknown, dispersion = unknown;
   bool penalised = false;
 };
 
@@ -31,7 +30,8 @@ OverturningFit fit_overturning(const std::vector<OverturningPoint>& points, cons
 // P at an intensity; 0 where im <= 0, NaN where the fit is.
 double overturning_probability(const OverturningFit& fit, double im);
 
-// The curve of a tally, with its band from resampled motions. Cells with IM <= 0 do not enter.
+// The curve of a tally, with everything that says how good it is from resampled motions. Cells with IM <= 0 do not enter
+// the fit.
 OverturningCurve overturning_curve(const Tally& tally, const Resampling& resampling);
 
 }  // namespace freestand::fragility

@@ -9,21 +9,23 @@ namespace {
 
 constexpr int grid_points = 81;
 
+// Counts by fine cell of IM and by group of motions. Cells without samples are left out.
 struct Cells {
-  std::vector<double> im;
-  Eigen::MatrixXd n, over;  // [group, cell]
+  std::vector<double> im;        // mean of its samples
+  std::vector<std::size_t> bin;  // in which it lies
+  Eigen::MatrixXd n, over;       // [group, cell]
 };
 
 Cells cells_of(const Tally& tally) {
   const auto groups = static_cast<Eigen::Index>(tally.layout().groups);
   const auto all = static_cast<Eigen::Index>(tally.layout().im_cell_count());
-  Cells cells{{}, Eigen::MatrixXd(groups, all), Eigen::MatrixXd(groups, all)};
+  Cells cells{{}, {}, Eigen::MatrixXd(groups, all), Eigen::MatrixXd(groups, all)};
   Eigen::Index used = 0;
   for (std::size_t i = 0; i < tally.layout().im_cell_count(); ++i) {
     const ImCell total = tally.im_cell(i);
-    const double im = total.n > 0 ? total.im_sum / static_cast<double>(total.n) : 0;
-    if (!(im > 0)) continue;
-    cells.im.push_back(im);
+    if (total.n == 0) continue;
+    cells.im.push_back(total.im_sum / static_cast<double>(total.n));
+    cells.bin.push_back(i / TallyLayout::cells_per_bin);
     for (Eigen::Index g = 0; g < groups; ++g) {
       cells.n(g, used) = static_cast<double>(tally.im_cell_n(i, static_cast<std::size_t>(g)));
       cells.over(g, used) = static_cast<double>(tally.im_cell_over(i, static_cast<std::size_t>(g)));
@@ -39,21 +41,63 @@ std::vector<OverturningPoint> points_of(const std::vector<double>& im, const Eig
                                         const Eigen::RowVectorXd& over) {
   std::vector<OverturningPoint> points;
   for (Eigen::Index i = 0; i < n.size(); ++i)
-    if (n(i) > 0) points.push_back({im[static_cast<std::size_t>(i)], n(i), over(i)});
+    if (n(i) > 0 && im[static_cast<std::size_t>(i)] > 0)
+      points.push_back({im[static_cast<std::size_t>(i)], n(i), over(i)});
   return points;
 }
 
-// The curve of one resample on the grid; 0 or 1 throughout where no sample, or every sample, of it overturned.
-void append_curve(const std::vector<OverturningPoint>& points, const OverturningFit& start,
-                  const std::vector<double>& grid, std::vector<std::vector<double>>& values) {
-  double n = 0, over = 0;
-  for (const auto& point : points) {
-    n += point.n;
-    over += point.over;
+// A fitted curve, or 0 or 1 throughout where no sample, or every sample, overturned.
+struct Shape {
+  OverturningFit fit;
+  double share = unknown;
+
+  Shape(const std::vector<OverturningPoint>& points, const OverturningFit& start) : fit(fit_overturning(points, start)) {
+    double n = 0, over = 0;
+    for (const auto& point : points) {
+      n += point.n;
+      over += point.over;
+    }
+    if (over == 0 || over == n) share = over / n;
   }
-  const OverturningFit fit = fit_overturning(points, start);
-  for (std::size_t i = 0; i < grid.size(); ++i)
-    values[i].push_back(over == 0 || over == n ? over / n : overturning_probability(fit, grid[i]));
+  double operator()(double im) const {
+    return std::isnan(share) ? overturning_probability(fit, im) : im > 0 ? share : 0;
+  }
+};
+
+// Counted share less the curve, by bin; NaN where a bin holds fewer samples than `least`.
+std::vector<double> misfits(const Cells& cells, std::size_t bins, const Eigen::RowVectorXd& n,
+                            const Eigen::RowVectorXd& over, const Shape& shape, double least) {
+  std::vector<double> there(bins, 0), difference(bins, 0);
+  for (Eigen::Index i = 0; i < n.size(); ++i) {
+    const std::size_t cell = static_cast<std::size_t>(i), bin = cells.bin[cell];
+    there[bin] += n(i);
+    difference[bin] += over(i) - n(i) * shape(cells.im[cell]);
+  }
+  for (std::size_t b = 0; b < bins; ++b) difference[b] = there[b] >= least ? difference[b] / there[b] : unknown;
+  return difference;
+}
+
+// The largest of |a - b| that is known, and where; {0, size} when none is.
+struct Largest {
+  double value = 0;
+  std::size_t at;
+};
+Largest largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  Largest largest{0, a.size()};
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (std::fabs(a[i] - b[i]) >= largest.value) largest = {std::fabs(a[i] - b[i]), i};
+  return largest;
+}
+
+// Half the width of the middle 68 % of resampled estimates, expanded for the number of groups G by sqrt(G/(G - 1)): a
+// standard error that a few resamples in which overturning hardly grows with IM (any median may come out) do not spoil.
+double standard_error(std::vector<double> values, int groups) {
+  std::erase_if(values, [](double value) { return !std::isfinite(value); });
+  if (values.size() < 2 || groups < 2) return unknown;
+  std::sort(values.begin(), values.end());
+  constexpr double below = 0.15865525393145707;  // Phi(-1)
+  return 0.5 * (sorted_quantile(values, 1 - below) - sorted_quantile(values, below)) *
+         std::sqrt(groups / (groups - 1.0));
 }
 
 // Equally spaced from the first positive edge (or a hundredth of the last) to the last edge.
@@ -66,35 +110,89 @@ std::vector<double> grid_of(const std::vector<double>& edge) {
   return grid;
 }
 
+// What is known of the curve from resampled motions.
+class Resampled {
+ public:
+  Resampled(const Tally& tally, const Cells& cells, const Shape& shape, const Resampling& resampling)
+      : tally_(tally), cells_(cells), shape_(shape), n_(resampling.totals(cells.n)), over_(resampling.totals(cells.over)) {
+    const std::vector<bool> there = tally.groups_with_samples();
+    motions_ = static_cast<int>(std::count(there.begin(), there.end(), true));
+    for (Eigen::Index r = 0; r < n_.rows(); ++r)
+      shapes_.emplace_back(points_of(cells.im, n_.row(r), over_.row(r)), shape.fit);
+  }
+
+  void errors(OverturningCurve& curve) const {
+    std::vector<double> median, dispersion;
+    for (const Shape& shape : shapes_) {
+      median.push_back(shape.fit.median);
+      dispersion.push_back(shape.fit.dispersion);
+    }
+    curve.median_se = standard_error(median, motions_);
+    curve.dispersion_se = standard_error(dispersion, motions_);
+  }
+
+  void band(OverturningCurve& curve) const {
+    for (std::size_t i = 0; i < curve.grid.size(); ++i) {
+      std::vector<double> values;
+      for (const Shape& shape : shapes_) values.push_back(shape(curve.grid[i]));
+      curve.probability[i] = shape_(curve.grid[i]);
+      const Interval band = percentile_interval(values, curve.probability[i], tally_.options().confidence, motions_);
+      curve.lower[i] = band.lower;
+      curve.upper[i] = band.upper;
+    }
+  }
+
+  // The resampled misfits scatter about those of the samples as those do about the true ones.
+  void misfit(OverturningCurve& curve) const {
+    const std::size_t bins = tally_.layout().bins;
+    const std::vector<double> none(bins, 0), found = misfits(cells_, bins, cells_.n.colwise().sum(),
+                                                             cells_.over.colwise().sum(), shape_,
+                                                             tally_.options().minimum_samples);
+    const auto [size, bin] = largest_difference(found, none);
+    if (bin == bins) return;
+    curve.misfit = size;
+    curve.misfit_im = tally_.mean_im(bin);
+    if (motions_ < 2) return;
+    const double expand = std::sqrt(motions_ / (motions_ - 1.0));
+    int larger = 0;
+    for (Eigen::Index r = 0; r < n_.rows(); ++r) {
+      const auto again = misfits(cells_, bins, n_.row(r), over_.row(r), shapes_[static_cast<std::size_t>(r)], 1);
+      if (expand * largest_difference(again, found).value >= size) ++larger;
+    }
+    curve.misfit_p = (1.0 + larger) / (1.0 + static_cast<double>(n_.rows()));
+  }
+
+ private:
+  const Tally& tally_;
+  const Cells& cells_;
+  const Shape& shape_;
+  Eigen::MatrixXd n_, over_;  // [resample, cell]
+  int motions_ = 0;
+  std::vector<Shape> shapes_;  // [resample]
+};
+
 }  // namespace
 
 OverturningCurve overturning_curve(const Tally& tally, const Resampling& resampling) {
   const Cells cells = cells_of(tally);
-  const OverturningFit fit = fit_overturning(points_of(cells.im, cells.n.colwise().sum(), cells.over.colwise().sum()));
+  const Shape shape(points_of(cells.im, cells.n.colwise().sum(), cells.over.colwise().sum()), {});
   OverturningCurve curve;
-  curve.median = fit.median;
-  curve.dispersion = fit.dispersion;
-  curve.median_se = fit.median_se;
-  curve.dispersion_se = fit.dispersion_se;
-  curve.penalised = fit.penalised;
+  curve.median = shape.fit.median;
+  curve.dispersion = shape.fit.dispersion;
+  curve.penalised = shape.fit.penalised;
   curve.grid = grid_of(tally.options().im_edge);
-  const std::size_t points = curve.grid.size();
-  curve.probability.assign(points, unknown);
+  curve.probability.assign(curve.grid.size(), unknown);
   curve.lower = curve.upper = curve.probability;
-  if (std::isnan(fit.median)) return curve;
-
-  std::vector<std::vector<double>> values(points);
-  const Eigen::MatrixXd n = resampling.totals(cells.n), over = resampling.totals(cells.over);
-  for (Eigen::Index r = 0; r < n.rows(); ++r)
-    append_curve(points_of(cells.im, n.row(r), over.row(r)), fit, curve.grid, values);
-  const std::vector<bool> there = tally.groups_with_samples();
-  const int motions = static_cast<int>(std::count(there.begin(), there.end(), true));
-  for (std::size_t i = 0; i < points; ++i) {
-    curve.probability[i] = overturning_probability(fit, curve.grid[i]);
-    const Interval band = percentile_interval(values[i], curve.probability[i], tally.options().confidence, motions);
-    curve.lower[i] = band.lower;
-    curve.upper[i] = band.upper;
+  if (!cells.im.empty()) {
+    curve.im_least = cells.im.front();
+    curve.im_most = cells.im.back();
   }
+  if (std::isnan(curve.median)) return curve;
+  curve.extrapolated = curve.median < curve.im_least || curve.median > curve.im_most;
+  const Resampled resampled(tally, cells, shape, resampling);
+  resampled.errors(curve);
+  resampled.band(curve);
+  resampled.misfit(curve);
   return curve;
 }
 

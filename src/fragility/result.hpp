@@ -102,15 +102,23 @@ struct EdpResult {
 // does not grow with IM.
 struct OverturningCurve {
   double median = unknown, dispersion = unknown;        // unit of IM, 1
-  double median_se = unknown, dispersion_se = unknown;  // from the Fisher information, samples taken as independent
+  double median_se = unknown, dispersion_se = unknown;  // from resampled motions
   bool penalised = false;
+  // The intensities swept: mean IM of the lowest and of the highest fine cell that holds samples. A median outside of
+  // them is an extrapolation.
+  double im_least = unknown, im_most = unknown;
+  bool extrapolated = false;
+  // Largest |curve - counted share| over the bins with enough samples, in which of them (its mean IM), and the chance of
+  // a larger one if the curve were true, from resampled motions.
+  double misfit = unknown, misfit_im = unknown, misfit_p = unknown;
   std::vector<double> grid;                       // IM, from the first positive edge to the last
   std::vector<double> probability, lower, upper;  // [grid], band from resampled motions
 };
 
 struct Result {
   std::string im_name, im_unit;
-  std::vector<double> im_edge, im_centre;  // n + 1 and n
+  std::vector<double> im_edge;  // n + 1
+  std::vector<double> im;       // n: where a bin stands, the mean IM of its samples (its middle where it has none)
   double confidence = 0.95;
   std::array<std::int64_t, outcome_count> outcome_counts{};  // in the order of Outcome
   std::int64_t samples = 0;                                  // all, = sum of outcome_counts

@@ -1,3 +1,4 @@
+#include <limits>
 #include <numeric>
 
 #include "fragility/histogram.hpp"
@@ -54,6 +55,16 @@ ImCell Tally::im_cell(std::size_t cell) const {
   for (std::size_t g = 0; g < layout_.groups; ++g) total.n += im_cell_n(cell, g);
   total.im_sum = sum_[layout_.im_sums + cell].value();
   return total;
+}
+
+double Tally::mean_im(std::size_t bin) const {
+  double n = 0, sum = 0;
+  for (std::size_t i = 0; i < TallyLayout::cells_per_bin; ++i) {
+    const ImCell cell = im_cell(bin * TallyLayout::cells_per_bin + i);
+    n += static_cast<double>(cell.n);
+    sum += cell.im_sum;
+  }
+  return n > 0 ? sum / n : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::int64_t Tally::im_cell_n(std::size_t cell, std::size_t group) const {

@@ -63,10 +63,11 @@ void validate(const Options& o) {
         axis.edge.size() >= 2 && increasing(axis.edge),
         fmt::format("edges of axis {} are not usable (at least two, increasing): correct the list", axis.name));
   problems.expect(
-      o.minimum_samples >= 2,
+      o.minimum_samples >= least_minimum_samples,
       fmt::format("minimum of {} samples a bin is not usable (a fit needs two): give 2 or more", o.minimum_samples));
-  problems.expect(o.resamples >= 2 && o.resamples <= 60000,
-                  fmt::format("{} resamples are not usable (2 to 60000): 500 is usual", o.resamples));
+  problems.expect(o.resamples >= least_resamples && o.resamples <= most_resamples,
+                  fmt::format("{} resamples are not usable ({} to {}): 500 is usual", o.resamples, least_resamples,
+                              most_resamples));
   problems.expect(o.confidence > 0 && o.confidence < 1,
                   fmt::format("confidence {} is not usable (between 0 and 1): 0.95 is usual", o.confidence));
   problems.expect(

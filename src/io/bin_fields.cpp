@@ -10,7 +10,7 @@ double get(const BinFit& bin) {
   return static_cast<double>(bin.*member);
 }
 
-constexpr auto one = FieldUnit::one, edp = FieldUnit::edp, im = FieldUnit::im;
+constexpr auto one = FieldUnit::one, edp = FieldUnit::edp;
 
 // clang-format off
 constexpr BinField fields[] = {
@@ -19,7 +19,6 @@ constexpr BinField fields[] = {
   {"n_over", true, one, "samples that overturned", get<&BinFit::n_over>},
   {"n_moved", true, one, "samples that moved and stood", get<&BinFit::n_moved>},
   {"motions", true, one, "groups of floor motions in the bin", get<&BinFit::motions>},
-  {"im_mean", false, im, "mean intensity of the samples", get<&BinFit::im_mean>},
   {"p_still", false, one, "probability of standing still, given no overturning", get<&BinFit::p_still>},
   {"p_still_lower", false, one, "lower end of its exact binomial interval", get<&BinFit::p_still_lower>},
   {"p_still_upper", false, one, "upper end of its exact binomial interval", get<&BinFit::p_still_upper>},

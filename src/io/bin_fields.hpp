@@ -7,7 +7,7 @@
 
 namespace freestand::io {
 
-enum class FieldUnit { one, edp, im };
+enum class FieldUnit { one, edp };
 
 struct BinField {
   const char* name;

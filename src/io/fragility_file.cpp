@@ -16,6 +16,8 @@ using fragility::Result;
 using h5::Dataset;
 using h5::Group;
 
+const std::string at_mean = "mean of the samples of each bin (its middle where it has none), ";
+
 // A coordinate: its own dimension scale, named as it is.
 Dataset coordinate(Group& group, const std::string& name, const std::vector<double>& values, const std::string& unit,
                    const std::string& description) {
@@ -24,14 +26,13 @@ Dataset coordinate(Group& group, const std::string& name, const std::vector<doub
   return dataset;
 }
 
-void write_bins(Group& group, const Dataset& im, const Result& result, const EdpResult& edp) {
+void write_bins(Group& group, const Dataset& im, const EdpResult& edp) {
   for (const BinField& field : bin_fields()) {
     std::vector<double> values;
     for (const BinFit& bin : edp.bins) values.push_back(field.value(bin));
-    const std::string& unit = field.unit == FieldUnit::edp ? edp.unit : result.im_unit;
     Dataset dataset = field.whole ? group.put(field.name, std::vector<std::int64_t>(values.begin(), values.end()))
                                   : group.put(field.name, values);
-    dataset.attach(0, im).describe(field.unit == FieldUnit::one ? "1" : unit, field.description);
+    dataset.attach(0, im).describe(field.unit == FieldUnit::one ? "1" : edp.unit, field.description);
   }
 }
 
@@ -100,9 +101,9 @@ void write_edp(Group& parent, const Result& result, const EdpResult& edp) {
   group.attribute("symbol", edp.symbol);
   group.attribute("kind", edp.binary ? "binary" : "continuous");
   write_regressions(group, edp.regressions);
-  const Dataset im = coordinate(group, "im", result.im_centre, result.im_unit, result.im_name);
+  const Dataset im = coordinate(group, "im", result.im, result.im_unit, at_mean + result.im_name);
   const Dataset capacity = coordinate(group, "capacity", edp.capacity, edp.unit, "capacity");
-  write_bins(group, im, result, edp);
+  write_bins(group, im, edp);
   write_surface(group, im, capacity, edp);
   write_distribution(group, im, edp);
   if (edp.axes.empty()) return;
@@ -164,7 +165,7 @@ void write_fragility(const std::filesystem::path& path, const Provenance& proven
   write_root(root, provenance, result);
   Group im = root.make_group("im");
   coordinate(im, "edge", result.im_edge, result.im_unit, "edges of the bins, " + result.im_name);
-  im.put("centre", result.im_centre).scale("im").describe(result.im_unit, result.im_name);
+  im.put("centre", result.im).scale("im").describe(result.im_unit, at_mean + result.im_name);
   Group edps = root.make_group("edp");
   for (const EdpResult& edp : result.edps) write_edp(edps, result, edp);
   write_overturning(root, result);
@@ -172,13 +173,13 @@ void write_fragility(const std::filesystem::path& path, const Provenance& proven
 }
 
 std::string bins_csv(const Result& result) {
-  std::string text = "edp,unit,im_lower,im_upper,im_centre";
+  std::string text = "edp,unit,im,im_lower,im_upper";
   for (const BinField& field : bin_fields()) text += fmt::format(",{}", field.name);
   text += '\n';
   for (const EdpResult& edp : result.edps)
     for (std::size_t i = 0; i < edp.bins.size(); ++i) {
-      text += fmt::format("{},{},{},{},{}", cell(edp.name), cell(edp.unit), cell(result.im_edge[i]),
-                          cell(result.im_edge[i + 1]), cell(result.im_centre[i]));
+      text += fmt::format("{},{},{},{},{}", cell(edp.name), cell(edp.unit), cell(result.im[i]),
+                          cell(result.im_edge[i]), cell(result.im_edge[i + 1]));
       for (const BinField& field : bin_fields())
         if (field.name == std::string_view("status"))
           text += fmt::format(",{}", name(edp.bins[i].status));
@@ -190,15 +191,16 @@ std::string bins_csv(const Result& result) {
 }
 
 std::string surface_csv(const Result& result) {
-  std::string text = "im,edp,capacity,probability,lower,upper,empirical,status\n";
+  std::string text = "im,im_lower,im_upper,edp,capacity,probability,lower,upper,empirical,status\n";
   for (const EdpResult& edp : result.edps)
     for (std::size_t i = 0; i < edp.bins.size(); ++i)
       for (std::size_t k = 0; k < edp.capacity.size(); ++k) {
         const std::size_t at = i * edp.capacity.size() + k;
         const fragility::Surface& surface = edp.surface;
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", cell(result.im_centre[i]), cell(edp.name),
-                            cell(edp.capacity[k]), cell(surface.probability[at]), cell(surface.lower[at]),
-                            cell(surface.upper[at]), cell(surface.empirical[at]), name(edp.bins[i].status));
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", cell(result.im[i]), cell(result.im_edge[i]),
+                            cell(result.im_edge[i + 1]), cell(edp.name), cell(edp.capacity[k]),
+                            cell(surface.probability[at]), cell(surface.lower[at]), cell(surface.upper[at]),
+                            cell(surface.empirical[at]), name(edp.bins[i].status));
       }
   return text;
 }

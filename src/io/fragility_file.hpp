@@ -13,13 +13,14 @@ inline constexpr const char* fragility_format = "freestand-fragility/1";
 
 // By one process. Groups: /im {edge, centre}; /edp/NAME with the fields of BinFit [im] under their names, `im` and
 // `capacity` (dimension scales), surface/, distribution/, axis/AXIS/, and attributes unit, symbol, kind and the
-// regressions; /overturning. Missing values are NaN.
+// regressions; /overturning. A bin stands at the mean IM of its samples (Result::im). Missing values are NaN.
 void write_fragility(const std::filesystem::path& path, const Provenance&, const fragility::Result&);
 
-// The text of bins.csv: one row per EDP and bin, the columns of /edp/NAME beside edp, unit, im_lower, im_upper,
-// im_centre. Missing values are empty, numbers read back to the same bits.
+// The text of bins.csv: one row per EDP and bin, the columns of /edp/NAME beside edp, unit, im, im_lower, im_upper.
+// Missing values are empty, numbers read back to the same bits.
 std::string bins_csv(const fragility::Result&);
-// The text of surface.csv: im, edp, capacity, probability, lower, upper, empirical, status.
+// The text of surface.csv: im, im_lower, im_upper, edp, capacity, probability, lower, upper,
+// empirical, status.
 std::string surface_csv(const fragility::Result&);
 
 // "fitted", "too_few", "rejected", "counts_only"

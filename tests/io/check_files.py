@@ -68,7 +68,8 @@ def fragility_h5py(path):
         is_close(root.attrs["outcome_counts"], [1, 2, 3, 4, 5, 6])
         assert list(root.attrs["warnings"]) == ["one thing.", "another thing."]
         is_close(root["im/edge"][:], [0, 1, 2, 4])
-        is_close(root["im/centre"][:], [0.5, 1.5, 3])
+        is_close(root["im/centre"][:], [0.5, 1.25, 3])
+        is_close(root["edp/delta/im"][:], [0.5, 1.25, 3])
         assert h5py.h5ds.is_scale(root["im/centre"].id)
         edp = root["edp/delta"]
         assert edp.attrs["unit"] == "m" and edp.attrs["symbol"] == "Δ" and edp.attrs["kind"] == "continuous"
@@ -94,7 +95,7 @@ def fragility_xarray(path, engine):
     xarray = need("xarray")
     need({"netcdf4": "netCDF4"}.get(engine, engine))
     with xarray.open_dataset(path, group="edp/delta", engine=engine) as data:
-        assert data["lambda"].dims == ("im",) and float(data["lambda"].sel(im=1.5)) == 1.25
+        assert data["lambda"].dims == ("im",) and float(data["lambda"].sel(im=1.25)) == 1.25
     with xarray.open_dataset(path, group="edp/delta/surface", engine=engine) as data:
         assert data["probability"].dims == ("im", "capacity"), data["probability"].dims
     with xarray.open_dataset(path, group="edp/delta/axis/friction_mu_k", engine=engine) as data:

@@ -46,7 +46,7 @@ fragility::Result example() {
   result.im_name = "pga";
   result.im_unit = "g";
   result.im_edge = {0, 1, 2, 4};
-  result.im_centre = {0.5, 1.5, 3};
+  result.im = {0.5, 1.25, 3};  // not their middles
   result.outcome_counts = {1, 2, 3, 4, 5, 6};
   result.samples = 21;
   fragility::EdpResult binary;
@@ -98,7 +98,7 @@ TEST(FragilityFile, AnEmptyResultIsAFileToo) {
   const test::Scratch scratch("fragility");
   fragility::Result nothing;
   nothing.im_edge = {0, 1};
-  nothing.im_centre = {0.5};
+  nothing.im = {0.5};
   write_fragility(scratch / "x.h5", provenance(), nothing);
   EXPECT_EQ(h5::File::open(scratch / "x.h5").root().open_group("edp").names().size(), 0u);
 }
@@ -126,7 +126,8 @@ TEST(BinsCsv, HasOneRowPerEdpAndBin) {
   for (const auto& row : table) EXPECT_EQ(row.size(), table[0].size());
   EXPECT_EQ(cell_of(table, 2, "edp"), "delta");
   EXPECT_EQ(cell_of(table, 2, "im_lower"), "1");
-  EXPECT_EQ(cell_of(table, 2, "im_centre"), "1.5");
+  EXPECT_EQ(cell_of(table, 2, "im_upper"), "2");
+  EXPECT_EQ(cell_of(table, 2, "im"), "1.25");
   EXPECT_EQ(cell_of(table, 2, "n"), "101");
   EXPECT_EQ(cell_of(table, 2, "lambda"), "1.25");
   EXPECT_EQ(std::stod(cell_of(table, 2, "p_over")), 0.1);
@@ -139,11 +140,11 @@ TEST(BinsCsv, HasOneRowPerEdpAndBin) {
 TEST(SurfaceCsv, HasOneRowPerPoint) {
   const auto table = table_of(surface_csv(example()));
   ASSERT_EQ(table.size(), 1u + 3 * 2 + 3);
-  EXPECT_EQ(table[0], (std::vector<std::string>{"im", "edp", "capacity", "probability", "lower", "upper", "empirical",
-                                                "status"}));
-  EXPECT_EQ(table[4], (std::vector<std::string>{"1.5", "delta", "2", "1.125", "8", "9", "0", "rejected"}));
-  EXPECT_EQ(table[5], (std::vector<std::string>{"3", "delta", "0.5", "2", "8", "9", "", "too_few"}));
-  EXPECT_EQ(table[9], (std::vector<std::string>{"3", "overturned", "0.5", "1", "1", "1", "1", "too_few"}));
+  EXPECT_EQ(table[0], (std::vector<std::string>{"im", "im_lower", "im_upper", "edp", "capacity", "probability", "lower",
+                                                "upper", "empirical", "status"}));
+  EXPECT_EQ(table[4], (std::vector<std::string>{"1.25", "1", "2", "delta", "2", "1.125", "8", "9", "0", "rejected"}));
+  EXPECT_EQ(table[5], (std::vector<std::string>{"3", "2", "4", "delta", "0.5", "2", "8", "9", "", "too_few"}));
+  EXPECT_EQ(table[9], (std::vector<std::string>{"3", "2", "4", "overturned", "0.5", "1", "1", "1", "1", "too_few"}));
 }
 
 TEST(Summary, TellsWhatASweepFound) {

@@ -198,6 +198,10 @@ TEST(StudyMistakes, InFragility) {
        "5", "axis motion.pta_g has one value only"},
       {with_fragility("{edp: [delta], confidence: 1}"), "5", "between 0 and 1"},
       {with_fragility("{edp: [delta], resamples: many}"), "5", "a whole number"},
+      {with_fragility("{edp: [delta], resamples: 1}"), "5", "a whole number from 2 to 60000"},
+      {with_fragility("{edp: [delta], resamples: 60001}"), "5", "a whole number from 2 to 60000"},
+      {with_fragility("{edp: [delta], minimum_samples: 1}"), "5", "a whole number from 2"},
+      {with_fragility("{edp: [delta], false_discovery: 0}"), "5", "between 0 and 1"},
   });
 }
 

@@ -58,7 +58,7 @@ TEST(Study, EverythingThatIsGivenIsRead) {
       "  - {pulse: {choice: [A, c2], weights: [1, 2]}, period_s: 1, peak_velocity_mps: -0.5, scale: 1.2, weight: 3}\n"
       "  - {pulse: sine, period_s: {uniform: [0.3, 2]}, peak_acceleration_g: 0.5}\n"
       "fragility: {im: {name: sa_g, period_s: 0.7}, bins: {edges: [0, 1, 4]}, edp: peak_slip_m,\n"
-      "            capacities: {peak_slip_m: [0.1]}, resamples: 0, confidence: 0.9, empirical_fallback: false,\n"
+      "            capacities: {peak_slip_m: [0.1]}, resamples: 200, confidence: 0.9, empirical_fallback: false,\n"
       "            axes: [block.alpha_rad, {name: motion.period_s, bins: {count: 3, spacing: log}}]}\n");
   EXPECT_EQ(study.name, "a: b");
   EXPECT_EQ(study.samples, 500000U);
