@@ -12,7 +12,7 @@ from .problem import Problem
 
 OUTCOMES = ("at_rest", "moved", "overturned", "painleve", "step_limit", "not_finite")
 FITTED, TOO_FEW, REJECTED, COUNTED = 0, 1, 2, 3  # COUNTED: enough samples, too few that moved and stood
-PER_BIN = ("n n_still n_over n_moved im_mean p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
+PER_BIN = ("n n_still n_over n_moved p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
            "omega omega_se mean standard_deviation ks_statistic ks_p_textbook ks_critical_textbook ks_p_estimated "
            "ks_critical_estimated ad_statistic ad_p_estimated fdr_rejected status").split()
 
@@ -54,22 +54,22 @@ class Sweep:
     im: str
     im_unit: str
     edge: np.ndarray
+    centre: np.ndarray       # where a bin stands: the mean intensity of its samples, or its middle where it has none
     edps: list
     overturning: dict        # empty where it is not there
     draws: dict              # column -> values; empty without samples.h5
     outcome: np.ndarray      # [sample] int
-    motions: list
+    motions: list            # names
+    is_record: np.ndarray    # [motion] 1: a record, 0: a family of pulses
+
+    @property
+    def level(self):
+        """"95 %": of every interval and band."""
+        return words.level(float(self.attributes.get("confidence", 0.95)))
 
     @property
     def im_symbol(self):
         return words.intensity(self.im, str(self.attributes.get("im_symbol", "")))
-
-    @property
-    def centre(self):
-        """Where a bin is drawn: at the mean intensity of its samples, or in its middle where there are none."""
-        middle = 0.5 * (self.edge[1:] + self.edge[:-1])
-        mean = self.edps[0].bins["im_mean"] if self.edps else middle
-        return np.where((mean >= self.edge[:-1]) & (mean <= self.edge[1:]), mean, middle)
 
     @property
     def view(self):
@@ -88,6 +88,10 @@ class Sweep:
 
     def continuous(self):
         return [edp for edp in self.edps if edp.kind != "binary" and edp.capacity.size]
+
+    def happenings(self):
+        """Demands that happen or not, but for overturning, which has a picture of its own."""
+        return [edp for edp in self.edps if edp.kind == "binary" and edp.name != "overturned" and edp.surface]
 
 
 @dataclass
@@ -186,8 +190,9 @@ def _overturning(root):
         return {}
     group = root["overturning"]
     result = {key: _numbers(group, key) for key in ("grid", "probability", "lower", "upper")}
-    result.update({key: float(group.attrs.get(key, np.nan)) for key in ("median", "dispersion", "median_se", "dispersion_se")})
-    result["penalised"] = bool(group.attrs.get("penalised", 0))
+    result.update({key: float(group.attrs.get(key, np.nan)) for key in
+                   ("median", "dispersion", "median_se", "dispersion_se", "misfit", "misfit_im", "misfit_p")})
+    result.update({key: bool(group.attrs.get(key, 0)) for key in ("penalised", "extrapolated")})
     return result
 
 
@@ -204,9 +209,9 @@ def _json(path):
 
 
 def _samples(path):
-    """Draws, outcomes and motion names of samples.h5; empty where the file is not there."""
+    """Draws, outcomes, motion names and which of them are records, of samples.h5; empty where the file is not there."""
     if not path.exists():
-        return {}, np.zeros(0, int), []
+        return {}, np.zeros(0, int), [], np.zeros(0, int)
     with _open(path, "freestand-samples/1") as root:
         if "samples" not in root or "outcome" not in root["samples"]:
             raise Problem(f"{path} has no /samples/outcome: it is incomplete; finish it with `freestand sweep --resume`")
@@ -218,7 +223,8 @@ def _samples(path):
                 draws[name] = _numbers(group, name)
         outcome = _numbers(group, "outcome").astype(int)
         motions = [_text(item) for item in root["motions/name"][()]] if "motions/name" in root else []
-    return {name: values for name, values in draws.items() if values.shape == outcome.shape}, outcome, motions
+        is_record = _numbers(root["motions"], "is_record").astype(int) if "motions/is_record" in root else np.zeros(0, int)
+    return {name: values for name, values in draws.items() if values.shape == outcome.shape}, outcome, motions, is_record
 
 
 def read_sweep(folder):
@@ -243,14 +249,16 @@ def _read_sweep(folder):
         edge = _numbers(root["im"], "edge")
         if edge.size < 2 or not np.all(np.diff(edge) > 0):
             raise Problem(f"{path}: /im/edge does not increase: the file is damaged; run `freestand fit` again")
+        centre = _numbers(root["im"], "centre", (edge.size - 1,))
         edps = [_edp(group, name, edge.size - 1) for name, group in root["edp"].items()]
         overturning = _overturning(root)
     names = attributes.get("outcome_names", OUTCOMES)
     names = names.split() if isinstance(names, str) else names
     outcomes = dict(zip(names, np.atleast_1d(attributes.get("outcome_counts", [])).astype(int).tolist()))
-    draws, outcome, motions = _samples(folder / "samples.h5")
+    draws, outcome, motions, is_record = _samples(folder / "samples.h5")
     return Sweep(folder, attributes, summary, outcomes or summary.get("outcomes", {}), str(attributes.get("im", "im")),
-                 str(attributes.get("im_unit", "1")), edge, _in_order(edps, summary), overturning, draws, outcome, motions)
+                 str(attributes.get("im_unit", "1")), edge, centre, _in_order(edps, summary), overturning, draws, outcome, motions,
+                 is_record)
 
 
 def _in_order(edps, summary):

@@ -22,6 +22,11 @@ BEYOND = {
     "impacts": "take more than {} impacts",
     "peak_acceleration": "feel more than {}",
 }
+# name in the files -> what happens, for titles, of demands that happen or not.
+HAPPENINGS = {
+    "connection_failed": "the connection fails",
+    "wall_hit": "the block strikes the wall",
+}
 INTENSITIES = {"report": "PTA/(μg)\u00a0−\u00a01"}
 DRAWS = {
     "friction_mu": "friction coefficient μ",
@@ -76,6 +81,11 @@ def beyond(name, symbol, capacity):
     return (BEYOND.get(name) or BEYOND.get(stem) or symbol.join(("exceed ", "\u00a0=\u00a0{}"))).format(capacity)
 
 
+def happening(name):
+    """"the connection fails": what happens or not."""
+    return HAPPENINGS.get(name, name.replace("_", " "))
+
+
 def intensity(name, symbol=""):
     """Symbol of an intensity measure."""
     stem = split_unit(name)[0]
@@ -115,6 +125,11 @@ def number(value, digits=2):
 
 def percent(share):
     return "0 %" if share == 0 else "< 0.1 %" if share < 0.001 else f"{100 * share:.0f} %" if share > 0.0995 else f"{100 * share:.1f} %"
+
+
+def level(confidence):
+    """"95 %": of an interval."""
+    return f"{100 * confidence:.4g} %"
 
 
 def plain(value):

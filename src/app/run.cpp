@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "app/command.hpp"
-#include "parallel/progress.hpp"
+#include "app/times.hpp"
 #include "study/fit.hpp"
 #include "study/known.hpp"
 #include "study/sweep.hpp"
@@ -53,11 +53,10 @@ Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit
       fmt::print(stderr, "stopped early: finished blocks are kept in {}; go on with --resume\n", options.folder);
     return Exit::resumable;
   }
-  if (with_fit) study::fit(context.world, options.folder, context.command_line, &summary);
+  double fit_s = 0;
+  if (with_fit) fit_s = study::fit(context.world, options.folder, context.command_line, options.quiet, &summary).wall_s;
   if (context.world.is_root() && !options.quiet)
-    fmt::print("{} samples in {} on {} {} ({:.0f} samples/s); results in {}\n", summary.samples,
-               parallel::duration_text(summary.wall_s), context.world.size(),
-               context.world.size() == 1 ? "rank" : "ranks", summary.samples_per_s, options.folder);
+    fmt::print("{}; results in {}\n", times_text(summary, fit_s, context.world.size()), options.folder);
   return Exit::done;
 }
 

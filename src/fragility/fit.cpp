@@ -40,7 +40,22 @@ Distribution coarsened(const Tally& tally, std::size_t edp) {
   return result;
 }
 
-EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resampling, EstimatedNull& null) {
+// Counts the steps of a fit: of each EDP its bins with their surface and each axis, and the overturning curve.
+class Told {
+ public:
+  Told(const Options& options, const Steps& steps)
+      : steps_(steps), total_(options.edps.size() * (1 + options.axes.size()) + 1) {}
+  void step() {
+    ++done_;
+    if (steps_) steps_(done_, total_);
+  }
+
+ private:
+  const Steps& steps_;
+  std::size_t done_ = 0, total_;
+};
+
+EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resampling, EstimatedNull& null, Told& told) {
   const EdpOptions& options = tally.options().edps[e];
   EdpResult result;
   result.name = options.name;
@@ -50,8 +65,11 @@ EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resamplin
   result.capacity = capacities(options);
   result.bins = fit_bins(tally, e, null);
   result.surface = surface(tally, e, resampling, result.bins);
-  for (std::size_t a = 0; a < tally.options().axes.size(); ++a)
+  told.step();
+  for (std::size_t a = 0; a < tally.options().axes.size(); ++a) {
     result.axes.push_back(axis_surface(tally, e, a, resampling));
+    told.step();
+  }
   if (options.binary) return result;
   result.distribution = coarsened(tally, e);
   result.regressions = regressions(tally.regression(e), result.bins);
@@ -60,12 +78,12 @@ EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resamplin
 
 }  // namespace
 
-Result fit(const Tally& tally) {
+Result fit(const Tally& tally, const Steps& steps) {
   EstimatedNull null(tally.options().seed);
-  return fit(tally, null);
+  return fit(tally, null, steps);
 }
 
-Result fit(const Tally& tally, EstimatedNull& null) {
+Result fit(const Tally& tally, EstimatedNull& null, const Steps& steps) {
   const Options& options = tally.options();
   Result result;
   result.im_name = options.im_name;
@@ -84,8 +102,10 @@ Result fit(const Tally& tally, EstimatedNull& null) {
   result.motions = static_cast<int>(std::count(there.begin(), there.end(), true));
 
   const Resampling resampling(tally.groups(), there, options.resamples, options.seed);
-  for (std::size_t e = 0; e < options.edps.size(); ++e) result.edps.push_back(fit_edp(tally, e, resampling, null));
+  Told told(options, steps);
+  for (std::size_t e = 0; e < options.edps.size(); ++e) result.edps.push_back(fit_edp(tally, e, resampling, null, told));
   result.overturning = overturning_curve(tally, resampling);
+  told.step();
   result.warnings = warnings(tally, result);
   return result;
 }

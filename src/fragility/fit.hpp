@@ -1,6 +1,8 @@
 // From a tally to everything that is reported: fits per bin, goodness of fit, surfaces with bands, overturning curve.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <string>
 
 #include "fragility/goodness.hpp"
@@ -11,9 +13,10 @@ namespace freestand::fragility {
 
 // A pure function of the tally and its options (seed, resamples ...): the same bits every time. `null` only saves the
 // time of simulating the same test statistics again when fits are repeated; it must carry the seed of the options to
-// give the same.
-Result fit(const Tally& tally);
-Result fit(const Tally& tally, EstimatedNull& null);
+// give the same. `told` hears of each step that is done.
+using Steps = std::function<void(std::size_t done, std::size_t total)>;
+Result fit(const Tally& tally, const Steps& told = {});
+Result fit(const Tally& tally, EstimatedNull& null, const Steps& told = {});
 
 // How well the surfaces IM x C are known, for `until: {half_width: ...}`: the largest (upper - lower)/2 over all points. A
 // point without a band (too few samples, or too few motions) in a bin that the sweep does reach counts as unknown, which

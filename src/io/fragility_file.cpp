@@ -121,6 +121,12 @@ void write_overturning(Group& root, const Result& result) {
   group.attribute("median_se", curve.median_se);
   group.attribute("dispersion_se", curve.dispersion_se);
   group.attribute("penalised", curve.penalised ? 1 : 0);
+  group.attribute("im_least", curve.im_least);
+  group.attribute("im_most", curve.im_most);
+  group.attribute("extrapolated", curve.extrapolated ? 1 : 0);
+  group.attribute("misfit", curve.misfit);
+  group.attribute("misfit_im", curve.misfit_im);
+  group.attribute("misfit_p", curve.misfit_p);
   const Dataset grid = coordinate(group, "grid", curve.grid, result.im_unit, result.im_name);
   group.put("probability", curve.probability).attach(0, grid).describe("1", "P(overturning)");
   group.put("lower", curve.lower).attach(0, grid).describe("1", "lower end of the band, from resampled motions");

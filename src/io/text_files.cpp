@@ -80,7 +80,13 @@ Json fragility_summary(const Provenance& provenance, const fragility::Result& re
                          {"dispersion", curve.dispersion},
                          {"median_se", curve.median_se},
                          {"dispersion_se", curve.dispersion_se},
-                         {"penalised", curve.penalised}};
+                         {"penalised", curve.penalised},
+                         {"im_least", curve.im_least},
+                         {"im_most", curve.im_most},
+                         {"extrapolated", curve.extrapolated},
+                         {"misfit", curve.misfit},
+                         {"misfit_im", curve.misfit_im},
+                         {"misfit_p", curve.misfit_p}};
   json["warnings"] = result.warnings;
   json["provenance"] = provenance_json(provenance);
   return json;

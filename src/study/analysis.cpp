@@ -1,5 +1,7 @@
 #include "study/analysis.hpp"
 
+#include <algorithm>
+
 #include "edp/edp.hpp"
 #include "fragility/fit.hpp"
 #include "fragility/tally.hpp"
@@ -60,21 +62,39 @@ fragility::Options fragility_options(const Study& study, const Table& first,
   options.motion_is_record = motion_is_record;
   options.resamples = part.resamples;
   options.confidence = part.confidence;
+  options.minimum_samples = part.minimum_samples;
+  options.false_discovery = part.false_discovery;
+  options.empirical_fallback = part.empirical_fallback;
   options.seed = study.seed;
   return options;
 }
 
 fragility::Result analyse(const parallel::Communicator& world, const Study& study,
                           const std::vector<std::uint8_t>& motion_is_record, std::int64_t blocks,
-                          std::int64_t block_size, const ReadTable& read) {
+                          std::int64_t block_size, const ReadTable& read, parallel::StepDisplay* display) {
   const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_is_record);
   fragility::Tally tally(options);
-  for (std::int64_t block = world.rank(); block < blocks; block += world.size())
+  const auto show = [&](const char* what, std::size_t done, std::size_t total) {
+    if (display) display->show(what, done, total);
+  };
+  for (std::int64_t block = world.rank(); block < blocks; block += world.size()) {
     tally.add(read(block), static_cast<std::uint64_t>(block * block_size));
+    show("reading blocks of samples", static_cast<std::size_t>(block + 1), static_cast<std::size_t>(blocks));
+  }
   parallel::Words words = tally.words();
   world.sum_in_place(words);
   if (!world.is_root()) return {};
-  return fragility::fit(fragility::Tally::from_words(options, words));
+  return fragility::fit(fragility::Tally::from_words(options, words),
+                        [&](std::size_t done, std::size_t total) { show("fit", done, total); });
+}
+
+std::vector<std::string> analysed_columns(const FragilityPart& part) {
+  std::vector<std::string> names = {"im_" + part.im.name, "outcome", "motion"};
+  for (const std::string& edp : part.edp) names.push_back("edp_" + edp);
+  for (const AxisPart& axis : part.axes) names.push_back(Realiser::column_of(axis.name));
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
 }
 
 }  // namespace freestand::study

@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "base/table.hpp"
 #include "fragility/options.hpp"
 #include "fragility/result.hpp"
 #include "parallel/communicator.hpp"
+#include "parallel/step_display.hpp"
 #include "study/study.hpp"
 
 namespace freestand::study {
@@ -26,9 +28,13 @@ fragility::Options fragility_options(const Study&, const Table& first,
 using ReadTable = std::function<Table(std::int64_t block)>;
 
 // Tallies the blocks, of block_size samples each but the last, dealt to the ranks, and analyses them. The result stands
-// on the root, the others get an empty one. The same to the bit on any number of ranks. Collective.
+// on the root, the others get an empty one. The same to the bit on any number of ranks. display: of the root, told how
+// far it is; null: none. Collective.
 fragility::Result analyse(const parallel::Communicator&, const Study&,
                           const std::vector<std::uint8_t>& motion_is_record, std::int64_t blocks,
-                          std::int64_t block_size, const ReadTable&);
+                          std::int64_t block_size, const ReadTable&, parallel::StepDisplay* display = nullptr);
+
+// Names of the columns that it reads.
+std::vector<std::string> analysed_columns(const FragilityPart&);
 
 }  // namespace freestand::study

@@ -1,5 +1,6 @@
 #include "study/fit.hpp"
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "io/fragility_file.hpp"
@@ -9,35 +10,60 @@
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
 #include "study/doubts.hpp"
+#include "study/edited_study.hpp"
+#include "study/read_parts.hpp"
 
 namespace freestand::study {
 namespace {
 
 constexpr std::int64_t rows_at_once = 8192;
 
-nlohmann::ordered_json timing_json(const SweepSummary& sweep, int ranks) {
-  return {{"wall_s", sweep.wall_s},
-          {"samples_per_s", sweep.samples_per_s},
-          {"samples_computed", sweep.computed},
-          {"ranks", ranks}};
+// Seconds of each phase and of all of them; without the sweep's where another run made the samples.
+nlohmann::ordered_json timing_json(const SweepSummary* sweep, double fit_s, int ranks) {
+  nlohmann::ordered_json json{{"wall_s", fit_s + (sweep ? sweep->wall_s : 0)}};
+  if (sweep) {
+    json["sweep_s"] = sweep->compute_s;
+    json["accuracy_s"] = sweep->accuracy_s;
+    json["write_s"] = sweep->write_s;
+    json["samples_per_s"] = sweep->samples_per_s;
+    json["samples_computed"] = sweep->computed;
+  }
+  json["fit_s"] = fit_s;
+  json["ranks"] = ranks;
+  return json;
+}
+
+// The study to go by: on the root first, so that what is wrong is told once.
+EditedStudy study_of(const parallel::Communicator& world, const std::string& swept, const std::filesystem::path& folder) {
+  const std::filesystem::path file = study_path(folder);
+  std::string text;
+  world.on_root([&] {
+    text = std::filesystem::exists(file) ? read_text(file) : swept;
+    edited_study(swept, text, file);
+  });
+  return edited_study(swept, world.broadcast(text), file);
 }
 
 }  // namespace
 
-void fit(const parallel::Communicator& world, const std::filesystem::path& folder, const std::string& command,
-         const SweepSummary* sweep) {
+FitSummary fit(const parallel::Communicator& world, const std::filesystem::path& folder, const std::string& command,
+               bool quiet, const SweepSummary* sweep) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto so_far = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const io::SampleReader reader(samples_path(folder));
-  const Study study = parse_stored(reader.provenance().study, folder);
+  const auto [study, changed] = study_of(world, reader.provenance().study, folder);
   const io::BlockLayout layout{reader.rows(), rows_at_once};
+  const std::vector<std::string> columns = analysed_columns(study.fragility);
+  parallel::StepDisplay display(quiet || !world.is_root());
   const fragility::Result result =
       analyse(world, study, reader.motion_is_record(), layout.blocks(), rows_at_once,
-              [&](std::int64_t block) { return reader.read(block * rows_at_once, layout.rows(block)); });
+              [&](std::int64_t block) { return reader.read(block * rows_at_once, layout.rows(block), columns); }, &display);
   world.on_root([&] {
     io::Provenance provenance = io::provenance_here(command, world.size());
-    provenance.study = reader.provenance().study;
+    provenance.study = expanded(study);
     provenance.effects = reader.provenance().effects;
     provenance.accuracy = reader.provenance().accuracy;
-    provenance.study_name = reader.provenance().study_name;
+    provenance.study_name = study.name;
     provenance.seed = reader.provenance().seed;
     provenance.samples = reader.provenance().samples;
     io::write_fragility(folder / "fragility.h5", provenance, result);
@@ -47,10 +73,13 @@ void fit(const parallel::Communicator& world, const std::filesystem::path& folde
     summary["accuracy"] = nlohmann::ordered_json::parse(provenance.accuracy);
     for (const auto& doubt : doubts(study)) summary["warnings"].push_back(doubt);
     for (const auto& warning : accuracy_warnings(summary["accuracy"])) summary["warnings"].push_back(warning);
-    if (sweep) summary["timing"] = timing_json(*sweep, world.size());
+    summary["motion_entries"] = study.motions.size();
+    summary["study_changed"] = changed;
+    summary["timing"] = timing_json(sweep, so_far(), world.size());
     summary["files"] = {"samples.h5", "fragility.h5", "bins.csv", "surface.csv", "study.yaml"};
     io::write_text(folder / "summary.json", io::json_text(summary));
   });
+  return {reader.rows(), so_far(), changed};
 }
 
 }  // namespace freestand::study

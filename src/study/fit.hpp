@@ -3,16 +3,24 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "parallel/communicator.hpp"
 #include "study/sweep.hpp"
 
 namespace freestand::study {
 
-// Reads DIR/samples.h5 and writes the other files beside it. The study is the one stored in samples.h5. sweep: what the
-// run that made them took, for the summary; null: not known. Collective. Throws Error (Exit::data) if samples.h5 cannot
-// be used.
-void fit(const parallel::Communicator&, const std::filesystem::path& folder, const std::string& command,
-         const SweepSummary* sweep = nullptr);
+struct FitSummary {
+  std::int64_t samples = 0;
+  double wall_s = 0;
+  std::vector<std::string> changed;  // keys of study.yaml that were used otherwise than the sweep had them
+};
+
+// Reads DIR/samples.h5 and writes the other files beside it. The study is the one stored in samples.h5, with the fragility
+// block of DIR/study.yaml where that is there (edited_study.hpp). quiet: no progress. sweep: what the run that made the
+// samples took, for the summary; null: not known. Collective. Throws Error: samples.h5 cannot be used (Exit::data),
+// study.yaml is not the study that was swept (Exit::usage).
+FitSummary fit(const parallel::Communicator&, const std::filesystem::path& folder, const std::string& command,
+               bool quiet = false, const SweepSummary* sweep = nullptr);
 
 }  // namespace freestand::study

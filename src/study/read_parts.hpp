@@ -30,6 +30,9 @@ std::vector<AxisChoice> axis_choices(const ModelPart&, const std::vector<MotionS
 // `fragility`, defaults where it is absent. No choices: axes are not checked.
 FragilityPart read_fragility(Section& file, const Known&, const std::vector<AxisChoice>&);
 
+// Everything in a file; throws Error where it cannot be read.
+std::string read_text(const std::filesystem::path& file);
+
 // The mapping of the file, or nothing (syntax errors and empty files are problems).
 std::optional<YAML::Node> parse_yaml(const std::string& text, Problems&);
 

@@ -12,18 +12,6 @@
 namespace freestand::study {
 namespace {
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream && !std::filesystem::is_directory(file)) text << stream.rdbuf();
-  if (!stream || std::filesystem::is_directory(file))
-    throw Error(fmt::format("{} cannot be read ({}): check the path", file.string(),
-                            std::filesystem::is_directory(file) ? "it is a folder"
-                            : std::filesystem::exists(file)     ? "no permission"
-                                                                : "no such file"));
-  return text.str();
-}
-
 void read_common(Section& file, const std::filesystem::path& path, Study& study) {
   study.name = file.text("name", path.stem().string());
   study.folder = path.parent_path();
@@ -91,6 +79,18 @@ void refuse_distributions(const Study& study, Problems& problems) {
 
 }  // namespace
 
+std::string read_text(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (stream && !std::filesystem::is_directory(file)) text << stream.rdbuf();
+  if (!stream || std::filesystem::is_directory(file))
+    throw Error(fmt::format("{} cannot be read ({}): check the path", file.string(),
+                            std::filesystem::is_directory(file) ? "it is a folder"
+                            : std::filesystem::exists(file)     ? "no permission"
+                                                                : "no such file"));
+  return text.str();
+}
+
 std::optional<YAML::Node> parse_yaml(const std::string& text, Problems& problems) {
   try {
     YAML::Node node = YAML::Load(text);
@@ -117,7 +117,7 @@ Study parse_study(const std::string& text, const std::filesystem::path& path, co
     study.motions = read_motions(file, path.parent_path(), look);
     // What the study draws is known only when its parts are sound.
     const auto choices =
-        problems.empty() && look == Files::look ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
+        problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
     study.fragility = read_fragility(file, known, choices);
     file.finish();
   }

@@ -1,51 +1,17 @@
 #include "study/spread_jobs.hpp"
 
-#include <fmt/format.h>
-
 #include <bit>
-#include <chrono>
 #include <memory>
 #include <numeric>
 
-#include "parallel/progress.hpp"
 #include "parallel/schedule.hpp"
+#include "parallel/step_display.hpp"
 
 namespace freestand::study {
 namespace {
 
 using measurement::Values;
 using parallel::Words;
-
-// What is going on: a line that is rewritten on a terminal, one plain line a minute elsewhere.
-class Display {
- public:
-  Display(bool quiet) : quiet_(quiet), terminal_(parallel::on_terminal()) {}
-  ~Display() {
-    if (open_) fmt::print(stderr, "\n");
-  }
-  Display(const Display&) = delete;
-  Display& operator=(const Display&) = delete;
-
-  void show(const std::string& what, std::size_t done, std::size_t total) {
-    const auto now = Clock::now();
-    const double since = std::chrono::duration<double>(now - last_).count();
-    if (quiet_ || since < (terminal_ ? 0.2 : 60)) return;
-    last_ = now;
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const std::string line = fmt::format("{}: {}/{}, {} so far", what, done, total, parallel::duration_text(elapsed));
-    if (terminal_)
-      fmt::print(stderr, "\r\033[K{}", line);
-    else
-      fmt::print(stderr, "{}\n", line);
-    std::fflush(stderr);
-    open_ = terminal_;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  bool quiet_, terminal_, open_ = false;
-  Clock::time_point start_ = Clock::now(), last_ = Clock::now();
-};
 
 // Every rank's answers on every rank: lengths first, then the bits of the numbers, each written by one rank.
 std::vector<Values> share(const parallel::Communicator& world, const std::vector<Values>& mine) {
@@ -72,7 +38,7 @@ std::vector<Values> share(const parallel::Communicator& world, const std::vector
 }  // namespace
 
 measurement::Jobs spread_jobs(const parallel::Communicator& world, bool quiet) {
-  const auto display = std::make_shared<Display>(quiet || !world.is_root());
+  const auto display = std::make_shared<parallel::StepDisplay>(quiet || !world.is_root());
   return [world, display](const std::string& what, std::size_t n, const measurement::Job& job) {
     std::vector<Values> mine(n);
     std::vector<std::int64_t> todo(n);

@@ -64,7 +64,6 @@ class Sweep {
         store_(blocks_path(options.folder), fingerprint(study) + evaluator_.motions().fingerprint()) {}
 
   SweepSummary run() {
-    const auto start = Clock::now();
     take_stock();
     std::int64_t samples = first_round();
     for (;;) {
@@ -77,8 +76,8 @@ class Sweep {
       samples = std::min(total(), 2 * samples);
     }
     summary_.samples = samples;
-    summary_.wall_s = seconds_since(start);
-    summary_.samples_per_s = compute_s_ > 0 ? static_cast<double>(summary_.computed) / compute_s_ : 0;
+    summary_.wall_s = seconds_since(start_);
+    if (summary_.compute_s > 0) summary_.samples_per_s = static_cast<double>(summary_.computed) / summary_.compute_s;
     return summary_;
   }
 
@@ -120,7 +119,7 @@ class Sweep {
         world_, todo,
         [&](std::int64_t block, const parallel::Beat& beat) { return compute_block(samples, block, beat); },
         progress ? &*progress : nullptr);
-    compute_s_ += seconds_since(start);
+    summary_.compute_s += seconds_since(start);
     if (!complete) return false;
     summary_.computed += samples - there;
     finished_.insert(finished_.end(), todo.begin(), todo.end());
@@ -164,7 +163,10 @@ class Sweep {
   }
 
   void write(std::int64_t samples) {
+    const auto check = Clock::now();
     const Accuracy accuracy = check_accuracy(world_, study_, evaluator_, samples);
+    summary_.accuracy_s = seconds_since(check);
+    const auto writing = Clock::now();
     io::SamplesHeader header{io::provenance_here(options_.command, world_.size()), evaluator_.columns(),
                              evaluator_.motions().names(), evaluator_.motions().is_record()};
     header.provenance.study = expanded(study_);
@@ -176,8 +178,10 @@ class Sweep {
     io::write_samples(samples_path(options_.folder), header, layout(samples),
                       [&](std::int64_t block) { return store_.read(block).values; });
     world_.on_root([&] { store_.clear(); });
+    summary_.write_s = seconds_since(writing);
   }
 
+  const Clock::time_point start_ = Clock::now();  // before the motions are read
   const Communicator& world_;
   const Study& study_;
   const SweepOptions& options_;
@@ -185,7 +189,6 @@ class Sweep {
   parallel::BlockStore store_;
   parallel::Words finished_;
   SweepSummary summary_;
-  double compute_s_ = 0;
 };
 
 }  // namespace

@@ -26,8 +26,10 @@ struct SweepSummary {
   bool complete = false;  // false: stopped on request, `resume` goes on (exit 75)
   std::int64_t samples = 0;
   std::int64_t computed = 0;  // by this run; the others were there
-  double wall_s = 0;
-  double samples_per_s = 0;  // of this run, all ranks together
+  // From the start to the end, and what of it went into integrating samples, into checking their accuracy and into
+  // writing samples.h5.
+  double wall_s = 0, compute_s = 0, accuracy_s = 0, write_s = 0;
+  double samples_per_s = 0;  // while integrating, all ranks together
 };
 
 // Computes the blocks that are not there yet and writes samples.h5. With `until`, goes on in rounds, each twice as long

@@ -88,6 +88,8 @@ def fragility_h5py(path):
         assert root["edp/overturned"].attrs["kind"] == "binary" and "distribution" not in root["edp/overturned"]
         over = root["overturning"]
         assert over.attrs["median"] == 1.5 and np.isnan(over.attrs["median_se"]) and over.attrs["penalised"] == 1
+        assert over.attrs["extrapolated"] == 1 and over.attrs["im_least"] == 0.25 and over.attrs["im_most"] == 1.25
+        assert over.attrs["misfit"] == 0.125 and over.attrs["misfit_im"] == 0.75 and np.isnan(over.attrs["misfit_p"])
         is_close(over["probability"][:], [0.25, 0.75])
 
 

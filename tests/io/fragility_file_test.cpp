@@ -61,6 +61,11 @@ fragility::Result example() {
   result.overturning.median = 1.5;
   result.overturning.dispersion = 0.5;
   result.overturning.penalised = true;
+  result.overturning.im_least = 0.25;
+  result.overturning.im_most = 1.25;
+  result.overturning.extrapolated = true;
+  result.overturning.misfit = 0.125;
+  result.overturning.misfit_im = 0.75;
   result.overturning.grid = {1, 2};
   result.overturning.probability = {0.25, 0.75};
   result.overturning.lower = {0, 0};
@@ -161,6 +166,11 @@ TEST(Summary, TellsWhatASweepFound) {
   EXPECT_TRUE(json["edps"]["delta"]["regression"]["sd_slope"].is_null());
   EXPECT_EQ(json["overturning"]["median"], 1.5);
   EXPECT_TRUE(json["overturning"]["median_se"].is_null());
+  EXPECT_EQ(json["overturning"]["extrapolated"], true);
+  EXPECT_EQ(json["overturning"]["im_most"], 1.25);
+  EXPECT_EQ(json["overturning"]["misfit"], 0.125);
+  EXPECT_EQ(json["overturning"]["misfit_im"], 0.75);
+  EXPECT_TRUE(json["overturning"]["misfit_p"].is_null());
   EXPECT_EQ(json["warnings"].size(), 2u);
   EXPECT_EQ(json["provenance"]["git_commit"], "abc");
 }

@@ -62,6 +62,7 @@ def draw(samples, seed):
         "im_report": (im, "1", "PTA/(mu g) - 1"),
         "edp_delta": (np.where(moved, delta, np.where(outcome == 0, 0.0, np.nan)), "1", "U w_p^2 / PTA"),
         "edp_peak_rotation_over_alpha": (np.where(moved, rotation, np.where(outcome == 0, 0.0, np.nan)), "1", "peak rotation / alpha"),
+        "edp_connection_failed": ((random.uniform(size=samples) < 0.09 * np.maximum(im, 0)).astype(np.uint8), "1", "connection failed"),
         "edp_overturned": ((outcome == 2).astype(np.uint8), "1", "overturned"),
         "outcome": (outcome, "1", "how the sample ended"),
         "impacts": (random.poisson(2, samples).astype(np.int32), "1", "rocking impacts"),
@@ -82,14 +83,13 @@ def exceedance(part, capacity):
     return part["p_over"] + (1 - part["p_over"]) * (1 - part["p_still"]) * tail
 
 
-def count_bin(still, over, im):
+def count_bin(still, over):
     """The counted columns of one bin; the rest is nan."""
     n, n_still, n_over = len(still), int(still.sum()), int(over.sum())
     part = {name: np.nan for name in PER_BIN}
     part.update(n=n, n_still=n_still, n_over=n_over, n_moved=n - n_still - n_over, fdr_rejected=0, status=3 if n >= 30 else 1)
     if n == 0:
         return part
-    part["im_mean"] = im.mean()
     part["p_over"], standing = n_over / n, n - n_over
     part["p_over_lower"], part["p_over_upper"] = binomial(n_over, n)
     if standing:
@@ -98,9 +98,9 @@ def count_bin(still, over, im):
     return part
 
 
-def fit_bin(values, still, over, im, random):
+def fit_bin(values, still, over, random):
     """One bin of one EDP as a dictionary of the per-bin columns."""
-    part, moved = count_bin(still, over, im), np.log(values[~still & ~over])
+    part, moved = count_bin(still, over), np.log(values[~still & ~over])
     if len(moved) < 30:
         return part
     lam, omega = moved.mean(), moved.std()
@@ -119,7 +119,7 @@ def fit_bin(values, still, over, im, random):
     return part
 
 
-PER_BIN = ("n n_still n_over n_moved im_mean p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
+PER_BIN = ("n n_still n_over n_moved p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
            "omega omega_se mean standard_deviation ks_statistic ks_p_textbook ks_critical_textbook ks_p_estimated "
            "ks_critical_estimated ad_statistic ad_p_estimated fdr_rejected status").split()
 WHOLE = {"n", "n_still", "n_over", "n_moved", "fdr_rejected", "status"}
@@ -192,7 +192,8 @@ def make_sweep(folder, samples=6000, seed=1):
             root[f"samples/{name}"].attrs.update(unit=unit, description=description)
             root[f"samples/{name}"].dims[0].attach_scale(root["samples/sample"])
         root["samples/outcome"].attrs["flag_meanings"] = " ".join(OUTCOMES)
-        root["motions/name"] = np.array(["pulse A", "pulse B", "pulse C1"], dtype=h5py.string_dtype())
+        root["motions/name"] = np.array(["A", "B", "C1"], dtype=h5py.string_dtype())
+        root["motions/is_record"] = np.zeros(3, np.uint8)
     usable = (outcome <= 2) & (im >= EDGES[0]) & (im < EDGES[-1])
     which = np.where(usable, np.searchsorted(EDGES, im, side="right") - 1, -1)
     still, over = outcome == 0, outcome == 2
@@ -201,11 +202,12 @@ def make_sweep(folder, samples=6000, seed=1):
         root.attrs.update(provenance("freestand-fragility/1", samples))
         root.attrs.update(im="report", im_unit="1", outcome_counts=counts)
         root.attrs["outcome_names"] = np.array(OUTCOMES, dtype=h5py.string_dtype())
-        root["im/edge"], root["im/centre"] = EDGES, (EDGES[1:] + EDGES[:-1]) / 2
+        root["im/edge"] = EDGES
+        root["im/centre"] = [im[which == i].mean() if (which == i).any() else (EDGES[i] + EDGES[i + 1]) / 2 for i in range(len(EDGES) - 1)]
         root["im/centre"].make_scale("im")
         for name, symbol in (("delta", "Δ"), ("peak_rotation_over_alpha", "θ/α")):
             values = columns[f"edp_{name}"][0]
-            parts = [fit_bin(*(column[which == i] for column in (values, still, over, im)), random) for i in range(len(EDGES) - 1)]
+            parts = [fit_bin(*(column[which == i] for column in (values, still, over)), random) for i in range(len(EDGES) - 1)]
             group = write_edp(root, name, {"unit": "1", "symbol": symbol, "kind": "continuous"}, parts)
             group["capacity"] = CAPACITY
             group["capacity"].make_scale("capacity")
@@ -223,19 +225,32 @@ def make_sweep(folder, samples=6000, seed=1):
                                   "too_few": int((status == 1).sum())}
             write_csv(folder, name, parts, group)
         nobody = np.zeros(samples, bool)
-        ones = [count_bin(nobody[which == i], over[which == i], im[which == i]) for i in range(len(EDGES) - 1)]
+        ones = [count_bin(nobody[which == i], over[which == i]) for i in range(len(EDGES) - 1)]
         binary = write_edp(root, "overturned", {"unit": "1", "symbol": "overturned", "kind": "binary"}, ones)
         binary["capacity"] = np.array([0.5])
         for key in ("probability", "lower", "upper", "empirical"):
             binary[f"surface/{key}"] = np.array([[part["p_over"]] for part in ones])
+        write_happening(root, "connection_failed", columns["edp_connection_failed"][0] > 0, which, ones)
         write_overturning(root, ones)
     (folder / "summary.json").write_text(json.dumps({
         "format": "freestand-summary/1", "study_name": "refrigerator", "samples": samples, "seed": 1,
         "outcomes": dict(zip(OUTCOMES, map(int, counts))), "im": "report", "edps": summary_edps,
-        "timing": {"wall_s": 12.5, "samples_per_s": samples / 12.5, "ranks": 2},
+        "motion_entries": 7,
+        "timing": {"wall_s": 20.5, "sweep_s": 12.5, "accuracy_s": 2.0, "write_s": 1.0, "fit_s": 5.0, "samples_per_s": samples / 12.5, "ranks": 2},
         "files": ["samples.h5", "fragility.h5", "bins.csv", "surface.csv"],
         "warnings": ["1 sample met Painlevé's paradox and is in no fit."]}, indent=1))
     return folder
+
+
+def write_happening(root, name, happened, which, parts):
+    group = write_edp(root, name, {"unit": "1", "symbol": name.replace("_", " "), "kind": "binary"}, parts)
+    group["capacity"] = np.array([0.5])
+    k = np.array([happened[which == i].sum() for i in range(len(parts))])
+    n = np.array([part["n"] for part in parts])
+    few = n < 30
+    share, limits = k / np.maximum(n, 1), np.array([binomial(*pair) for pair in zip(k, n)])
+    for key, values in (("probability", share), ("lower", limits[:, 0]), ("upper", limits[:, 1]), ("empirical", share)):
+        group[f"surface/{key}"] = np.where(few, np.nan, values)[:, None]
 
 
 def write_overturning(root, parts):
@@ -247,7 +262,8 @@ def write_overturning(root, parts):
     best = max(((m, s) for m in np.linspace(1, 12, 60) for s in np.linspace(0.2, 1.5, 40)),
                key=lambda ms: stats.binom.logpmf(k[use], n[use], stats.norm.cdf(np.log(centre[use] / ms[0]) / ms[1])).sum())
     group = root.create_group("overturning")
-    group.attrs.update(median=best[0], dispersion=best[1], median_se=0.1, dispersion_se=0.05, penalised=0, im="report")
+    group.attrs.update(median=best[0], dispersion=best[1], median_se=0.1, dispersion_se=0.05, penalised=0, im="report", im_least=0.02,
+                       im_most=8.6, extrapolated=0, misfit=0.08, misfit_im=2.6, misfit_p=0.21)
     p = stats.norm.cdf(np.log(grid / best[0]) / best[1])
     group["grid"], group["probability"] = grid, p
     group["lower"], group["upper"] = np.clip(p - 0.03, 0, 1), np.clip(p + 0.03, 0, 1)

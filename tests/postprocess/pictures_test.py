@@ -8,6 +8,7 @@ from unittest import mock
 import support
 from support import make_results
 
+import h5py
 import numpy as np
 from freestand_post import pictures, reading, style
 from matplotlib.text import Text
@@ -61,7 +62,7 @@ class Pictures(unittest.TestCase):
         per_edp = ["fragility_{}", "surface_{}", "axis_{}_friction_mu_k", "axis_{}_pulse_period_s", "goodness_{}"]
         expected = {form.format(edp) for edp in ("delta", "peak_rotation_over_alpha") for form in per_edp}
         expected.remove("axis_peak_rotation_over_alpha_friction_mu_k")
-        self.assertEqual(set(self.drawn), expected | {"overturning", "coverage", "stands", "falls"})
+        self.assertEqual(set(self.drawn), expected | {"overturning", "happening_connection_failed", "coverage", "stands", "falls"})
 
     def test_no_two_texts_overlap(self):
         for name, picture in self.drawn.items():
@@ -110,6 +111,44 @@ class Pictures(unittest.TestCase):
         self.assertIn("Δ\u00a0=\u00a02 ", title)
         self.assertAlmostEqual(np.interp(at, sweep.centre, p), 0.5, delta=0.02)
 
+    def test_bins_stand_at_the_mean_of_their_samples(self):
+        with h5py.File(support.sweep() / "samples.h5") as samples, h5py.File(support.sweep() / "fragility.h5") as root:
+            im, edge = samples["samples/im_report"][()], root["im/edge"][()]
+            usable = samples["samples/outcome"][()] <= 2
+        sweep = reading.read_sweep(support.sweep())
+        means = [im[usable & (im >= low) & (im < high)].mean() for low, high in zip(edge[:-1], edge[1:])]
+        np.testing.assert_allclose(sweep.centre, means, rtol=1e-12)
+        for name in ("fragility_delta", "happening_connection_failed"):
+            lines = [line.get_xdata() for line in self.drawn[name].figure.axes[0].get_lines()]
+            self.assertTrue(any(len(x) == len(means) and np.array_equal(x, sweep.centre) for x in lines), name)
+
+    def test_what_happens_or_not_is_drawn(self):
+        picture = self.drawn["happening_connection_failed"]
+        self.assertTrue(picture.finding.startswith("The connection fails in "), picture.finding)
+        share = reading.read_sweep(support.sweep()).happenings()[0].surface["probability"][:, 0]
+        lines = [line.get_ydata() for line in picture.figure.axes[0].get_lines()]
+        self.assertTrue(any(len(y) == len(share) and np.array_equal(y, share, equal_nan=True) for y in lines))
+
+    def test_intervals_are_called_what_they_are(self):
+        sweep = reading.read_sweep(support.sweep())
+        sweep.attributes["confidence"] = 0.9
+        sweep.edps[0].axes = sweep.edps[0].axes[:1]
+        sweep.edps = [edp for edp in sweep.edps if edp.name != "peak_rotation_over_alpha"]
+        for picture in pictures.draw(sweep):
+            said = " ".join([picture.caption, *style.take_headline(picture.figure)])
+            with self.subTest(picture.name):
+                self.assertNotIn("95 %", said)
+                if picture.name.startswith(("fragility", "axis", "overturning", "happening")):
+                    self.assertIn("90 %", said)
+
+    def test_misfit_and_extrapolation_of_the_overturning_curve_are_told(self):
+        sweep = reading.read_sweep(support.sweep())
+        self.assertIn("misses the counted shares by up to 0.08", self.drawn["overturning"].caption)
+        sweep.overturning.update(extrapolated=True, misfit_p=0.01)
+        (picture,) = [picture for picture in pictures.draw(sweep) if picture.name == "overturning"]
+        self.assertIn("one curve is too simple", picture.caption)
+        self.assertIn("an extrapolation", style.take_headline(picture.figure)[1])
+
     def test_failed_bins_are_marked(self):
         sweep = reading.read_sweep(support.sweep())
         failed = int((sweep.edps[0].bins["status"] == 2).sum())
@@ -156,7 +195,7 @@ class MissingPieces(unittest.TestCase):
         self.assertNotIn("goodness_delta", drawn)
 
     def test_empty_bins_single_bin_and_nothing_overturned(self):
-        edp, binary = self.sweep.edps
+        edp, _, binary = self.sweep.edps
         binary.bins["n_over"][:] = 0
         for name in ("p_over", "p_over_lower", "p_over_upper"):
             binary.bins[name][:] = 0.0

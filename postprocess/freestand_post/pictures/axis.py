@@ -7,7 +7,7 @@ from . import Picture
 
 order = 30
 CAPTION = ("Left: share of samples with {symbol} above C = {capacity}, by intensity (across) and {axis} (up); grey cells hold too "
-           "few samples. Right: the same for the lowest, a middle and the highest range, with 95 % bands.")
+           "few samples. Right: the same for the lowest, a middle and the highest range, with {level} bands.")
 
 
 def pictures(results):
@@ -42,8 +42,9 @@ def _picture(sweep, edp, axis):
               ylabel=f"P({symbol} > {capacity})")
     style.grid(right)
     finding = _finding(sweep, axis, k, p, symbol, capacity, im)
-    style.headline(fig, finding, f"Share of samples with {symbol} > {capacity} over intensity and {label}; grey: too few samples; band: 95 % interval.")
-    text = CAPTION.format(symbol=symbol, capacity=capacity, axis=label)
+    style.headline(fig, finding, f"Share of samples with {symbol} > {capacity} over intensity and {label}; grey: too few samples; "
+                                 f"band: {sweep.level} interval.")
+    text = CAPTION.format(symbol=symbol, capacity=capacity, axis=label, level=sweep.level)
     return Picture(f"axis_{edp.name}_{axis.name}", fig, finding, text, "sweep", edp.name)
 
 

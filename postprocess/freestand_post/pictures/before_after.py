@@ -9,7 +9,7 @@ from ..validation import Validation
 from . import Picture
 
 order = 170
-CAPTION = "The same sweep with the model before and after: probability that {what}, against {im}; bands: 95 % intervals."
+CAPTION = "The same sweep with the model before and after: probability that {what}, against {im}; bands: {level}."
 
 
 def pictures(results):
@@ -78,9 +78,10 @@ def _picture(before, after):
     axes[0].set_ylabel("probability")
     style.legend_above(axes, ncol=2)
     finding = _finding(before, after, common, sides[1][2])
-    style.headline(fig, finding, "The same sweep with both models; bands: 95 % intervals.")
+    level = " and ".join(dict.fromkeys((before.level, after.level))) + " intervals"
+    style.headline(fig, finding, f"The same sweep with both models; bands: {level}.")
     exceeds = [f"the {words.demand_meaning(common[0].name)} exceeds a capacity (a specimen that overturns exceeds them all)"] if common else []
-    text = CAPTION.format(what=", and that ".join(exceeds + ["the specimen overturns"] * over), im=before.im_symbol)
+    text = CAPTION.format(what=", and that ".join(exceeds + ["the specimen overturns"] * over), im=before.im_symbol, level=level)
     return Picture("before_after", fig, finding, text, "before_after")
 
 

@@ -7,7 +7,7 @@ from ..reading import REJECTED, TOO_FEW, Sweep
 from . import Picture
 
 order = 10
-CAPTION = ("Lines: probability that {symbol} exceeds C; bands: 95 % interval; points: share counted in each bin, hollow where "
+CAPTION = ("Lines: probability that {symbol} exceeds C; bands: {level} interval; points: share counted in each bin, hollow where "
            "the lognormal fails its test of fit and the counted share replaces it. Below: what became of the samples of each bin.")
 
 
@@ -34,7 +34,7 @@ def _picture(sweep, edp):
     style.headline(fig, finding, _subtitle(sweep, edp))
     if labels:
         style.end_labels(top, labels, high, 0.06 * tall, 0.025 * (high - low), min(tall, 1.0))
-    return Picture(f"fragility_{edp.name}", fig, finding, CAPTION.format(symbol=symbol), "sweep", edp.name)
+    return Picture(f"fragility_{edp.name}", fig, finding, CAPTION.format(symbol=symbol, level=sweep.level), "sweep", edp.name)
 
 
 def _curves(ax, sweep, edp, which, symbol):
@@ -109,4 +109,4 @@ def _subtitle(sweep, edp):
     bins = (f"{words.count(n.min())} to {words.count(n.max())} in a bin" if n.size else "no bin with enough of them")
     study = sweep.summary.get("study_name") or "sweep"
     return (f"{study}: {words.plural(sweep.samples, 'sample')}, {bins}. {words.capitalised(words.demand_meaning(edp.name))}; "
-            "band: 95 % interval.")
+            f"band: {sweep.level} interval.")

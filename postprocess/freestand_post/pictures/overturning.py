@@ -6,15 +6,14 @@ from ..reading import Sweep
 from . import Picture
 
 order = 50
-POINTS = "Points: share of overturned samples in each bin; bars: exact binomial 95 % interval."
-CURVE = (" Line and band: lognormal curve fitted to all bins at once by maximum likelihood. Where points leave the band, one curve is "
-         "too simple.")
+POINTS = "Points: share of overturned samples in each bin; bars: exact binomial {level} interval."
+CURVE = (" Line and band: lognormal curve fitted to all bins at once by maximum likelihood; errors and band from resampled motions.")
 
 
 def pictures(results):
     if not isinstance(results, Sweep) or not results.edps:
         return
-    bins = next((edp.bins for edp in results.edps if edp.kind == "binary"), results.edps[0].bins)
+    bins = next((edp.bins for edp in results.edps if edp.name == "overturned"), results.edps[0].bins)
     if np.isfinite(bins["p_over"]).any():
         yield _picture(results, bins)
 
@@ -40,7 +39,16 @@ def _picture(sweep, bins):
         ax.plot([curve["median"]] * 2 + [sweep.view[0]], [0, 0.5, 0.5], color=style.MUTED, lw=0.8, ls=(0, (1, 2)))
     finding = _finding(sweep, bins, curve, drawn, im)
     style.headline(fig, finding, _subtitle(sweep, curve, drawn))
-    return Picture("overturning", fig, finding, POINTS + CURVE * drawn, "sweep")
+    return Picture("overturning", fig, finding, _caption(sweep, curve, drawn), "sweep")
+
+
+def _caption(sweep, curve, drawn):
+    text = POINTS.format(level=sweep.level) + (CURVE if drawn else "")
+    if drawn and np.isfinite(curve["misfit"]):
+        text += (f" It misses the counted shares by up to {words.probability(curve['misfit'])}, "
+                 f"{words.is_(f'at {sweep.im_symbol}', curve['misfit_im'], sweep.im_unit)} (p {words.equals(words.p_value(curve['misfit_p']))})"
+                 + (": one curve is too simple." if curve["misfit_p"] < 0.05 else "."))
+    return text
 
 
 def _finding(sweep, bins, curve, drawn, im):
@@ -56,8 +64,8 @@ def _finding(sweep, bins, curve, drawn, im):
 
 def _subtitle(sweep, curve, drawn):
     if not drawn:
-        return "Counted shares with exact binomial 95 % intervals; no curve could be fitted."
-    beyond = " (beyond the range swept)" if curve["median"] > sweep.edge[-1] else ""
+        return f"Counted shares with exact binomial {sweep.level} intervals; no curve could be fitted."
+    beyond = " (beyond the range swept: an extrapolation)" if curve["extrapolated"] else ""
     text = (f"Lognormal curve: median {words.plus_minus(curve['median'], curve['median_se'])}{beyond}, dispersion "
             f"{words.plus_minus(curve['dispersion'], curve['dispersion_se'])} (standard errors)")
-    return text + ("; penalised, since the outcomes separate." if curve["penalised"] else "; bars: exact 95 % intervals.")
+    return text + ("; penalised, since the outcomes separate." if curve["penalised"] else f"; bars: exact {sweep.level} intervals.")

@@ -1,0 +1,26 @@
+#include "app/times.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "parallel/progress.hpp"
+
+namespace freestand::app {
+
+std::string short_duration(double seconds) {
+  return seconds < 9.95 ? fmt::format("{:.1f} s", seconds) : parallel::duration_text(seconds);
+}
+
+std::string times_text(const study::SweepSummary& sweep, double fit_s, int ranks) {
+  std::vector<std::string> parts;
+  if (sweep.computed > 0)
+    parts = {fmt::format("sweep {} ({:.0f} samples/s)", short_duration(sweep.compute_s), sweep.samples_per_s),
+             "accuracy check " + short_duration(sweep.accuracy_s), "writing " + short_duration(sweep.write_s)};
+  if (fit_s > 0) parts.push_back("fit " + short_duration(fit_s));
+  return fmt::format("{} samples in {} on {} {}{}{}", sweep.samples, short_duration(sweep.wall_s + fit_s), ranks,
+                     ranks == 1 ? "rank" : "ranks", parts.empty() ? "" : ": ", fmt::join(parts, ", "));
+}
+
+}  // namespace freestand::app

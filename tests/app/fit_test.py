@@ -1,0 +1,77 @@
+"""`fit` by itself: by the fragility block of the study.yaml beside the samples, and by nothing else that was edited there."""
+
+import csv
+import json
+import unittest
+
+from support import InFolder, h5py, study_text
+
+
+class Fit(InFolder):
+    def sweep(self):
+        self.out = self.folder / "out"
+        self.done = self.succeed(["run", self.write("study.yaml", study_text(samples=2000)), "-o", self.out], 2)
+
+    def edit(self, old, new):
+        path = self.out / "study.yaml"
+        text = path.read_text()
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new))
+
+    def test_an_edited_study_is_used_or_refused_and_it_says_so(self):
+        self.sweep()
+        self.assertIn("by the study as it was swept", self.succeed(["fit", self.out]).stdout)
+        before = (self.out / "bins.csv").read_text()
+        self.edit("confidence: 0.95", "confidence: 0.8")
+        self.edit("bins: {count: 5, spacing: equal_count}\n  edp", "bins: {edges: [0, 1, 3]}\n  edp")
+        done = self.succeed(["fit", self.out], 2)
+        self.assertIn("by fragility.bins, fragility.confidence of", done.stdout)
+        with h5py.File(self.out / "fragility.h5") as file:
+            self.assertEqual(file.attrs["confidence"], 0.8)
+            self.assertEqual(list(file["im/edge"][()]), [0, 1, 3])
+            self.assertIn("confidence: 0.8", file.attrs["study"])
+        summary = json.loads((self.out / "summary.json").read_text())
+        self.assertEqual(summary["study_changed"], ["fragility.bins", "fragility.confidence"])
+        kept = (self.out / "fragility.h5").read_bytes()
+        self.edit("dispersion: 0.4", "dispersion: 0.5")
+        self.fail_with(2, ["fit", self.out], "study.yaml:", "friction.mu_k", "is 0.5", "made with 0.4", ranks=2)
+        self.assertEqual((self.out / "fragility.h5").read_bytes(), kept)
+        self.edit("dispersion: 0.5", "dispersion: 0.4")
+        self.edit("resamples: 50", "resamples: 1")
+        self.fail_with(2, ["fit", self.out], "study.yaml:", "fragility.resamples is 1")
+        (self.out / "study.yaml").unlink()
+        self.succeed(["fit", self.out])
+        self.assertEqual((self.out / "bins.csv").read_text(), before)
+
+    def test_a_bin_stands_at_the_mean_of_its_samples_everywhere(self):
+        self.sweep()
+        with h5py.File(self.out / "samples.h5") as file:
+            im, usable = file["samples/im_report"][()], file["samples/outcome"][()] <= 2
+        with h5py.File(self.out / "fragility.h5") as file:
+            edge, centre = file["im/edge"][()], file["im/centre"][()]
+            self.assertEqual(list(file["edp/delta/im"][()]), list(centre))
+        for i, (low, high) in enumerate(zip(edge[:-1], edge[1:])):
+            inside = usable & (im >= low) & ((im < high) | ((i == len(centre) - 1) & (im == high)))
+            self.assertAlmostEqual(centre[i] / im[inside].mean(), 1, delta=1e-9)
+        for name in ("bins.csv", "surface.csv"):
+            with open(self.out / name, newline="") as file:
+                rows = list(csv.DictReader(file))
+            self.assertEqual(sorted({(float(r["im"]), float(r["im_lower"]), float(r["im_upper"])) for r in rows}),
+                             sorted(zip(centre, edge[:-1], edge[1:])))
+
+    def test_times_are_told_by_phase_and_in_total(self):
+        self.sweep()
+        self.assertRegex(self.done.stdout, r"2000 samples in .* on 2 ranks: sweep .* \(\d+ samples/s\), accuracy check .*, "
+                                           r"writing .*, fit .*; results in")
+        timing = json.loads((self.out / "summary.json").read_text())["timing"]
+        phases = [timing[key] for key in ("sweep_s", "accuracy_s", "write_s", "fit_s")]
+        self.assertTrue(all(seconds > 0 for seconds in phases), timing)
+        self.assertLessEqual(sum(phases), timing["wall_s"] + 1e-9)
+        self.assertAlmostEqual(timing["samples_per_s"], timing["samples_computed"] / timing["sweep_s"], delta=1e-6 * timing["samples_per_s"])
+        self.succeed(["fit", self.out])
+        timing = json.loads((self.out / "summary.json").read_text())["timing"]
+        self.assertEqual(timing["wall_s"], timing["fit_s"])
+
+
+if __name__ == "__main__":
+    unittest.main()
