@@ -17,7 +17,8 @@ void tell(const study::FitSummary& summary, const std::string& folder) {
                              ? "by the study as it was swept"
                              : fmt::format("by {} of {}, changed since the sweep", fmt::join(summary.changed, ", "),
                                            study::study_path(folder).string());
-  fmt::print("{} samples fitted in {}, {}; results in {}\n", summary.samples, short_duration(summary.wall_s), by, folder);
+  fmt::print("{} samples fitted in {}, {}; results in {}\n", summary.samples, short_duration(summary.wall_s), by,
+             folder);
 }
 
 }  // namespace

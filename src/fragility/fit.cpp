@@ -103,7 +103,8 @@ Result fit(const Tally& tally, EstimatedNull& null, const Steps& steps) {
 
   const Resampling resampling(tally.groups(), there, options.resamples, options.seed);
   Told told(options, steps);
-  for (std::size_t e = 0; e < options.edps.size(); ++e) result.edps.push_back(fit_edp(tally, e, resampling, null, told));
+  for (std::size_t e = 0; e < options.edps.size(); ++e)
+    result.edps.push_back(fit_edp(tally, e, resampling, null, told));
   result.overturning = overturning_curve(tally, resampling);
   told.step();
   result.warnings = warnings(tally, result);

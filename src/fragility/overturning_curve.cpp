@@ -51,7 +51,8 @@ struct Shape {
   OverturningFit fit;
   double share = unknown;
 
-  Shape(const std::vector<OverturningPoint>& points, const OverturningFit& start) : fit(fit_overturning(points, start)) {
+  Shape(const std::vector<OverturningPoint>& points, const OverturningFit& start)
+      : fit(fit_overturning(points, start)) {
     double n = 0, over = 0;
     for (const auto& point : points) {
       n += point.n;
@@ -114,7 +115,11 @@ std::vector<double> grid_of(const std::vector<double>& edge) {
 class Resampled {
  public:
   Resampled(const Tally& tally, const Cells& cells, const Shape& shape, const Resampling& resampling)
-      : tally_(tally), cells_(cells), shape_(shape), n_(resampling.totals(cells.n)), over_(resampling.totals(cells.over)) {
+      : tally_(tally),
+        cells_(cells),
+        shape_(shape),
+        n_(resampling.totals(cells.n)),
+        over_(resampling.totals(cells.over)) {
     const std::vector<bool> there = tally.groups_with_samples();
     motions_ = static_cast<int>(std::count(there.begin(), there.end(), true));
     for (Eigen::Index r = 0; r < n_.rows(); ++r)
@@ -145,9 +150,9 @@ class Resampled {
   // The resampled misfits scatter about those of the samples as those do about the true ones.
   void misfit(OverturningCurve& curve) const {
     const std::size_t bins = tally_.layout().bins;
-    const std::vector<double> none(bins, 0), found = misfits(cells_, bins, cells_.n.colwise().sum(),
-                                                             cells_.over.colwise().sum(), shape_,
-                                                             tally_.options().minimum_samples);
+    const std::vector<double> none(bins, 0),
+        found = misfits(cells_, bins, cells_.n.colwise().sum(), cells_.over.colwise().sum(), shape_,
+                        tally_.options().minimum_samples);
     const auto [size, bin] = largest_difference(found, none);
     if (bin == bins) return;
     curve.misfit = size;

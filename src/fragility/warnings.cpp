@@ -66,15 +66,15 @@ void about_overturning(const Tally& tally, const Result& result, std::vector<std
   if (over == 0) return;
   const OverturningCurve& curve = result.overturning;
   if (curve.extrapolated)
-    out.push_back(
-        fmt::format("The median of the overturning curve ({:.3g}) lies outside the intensities swept, {:.3g} to {:.3g}: "
-                    "it is an extrapolation.",
-                    curve.median, curve.im_least, curve.im_most));
+    out.push_back(fmt::format(
+        "The median of the overturning curve ({:.3g}) lies outside the intensities swept, {:.3g} to {:.3g}: "
+        "it is an extrapolation.",
+        curve.median, curve.im_least, curve.im_most));
   if (curve.misfit_p < misfit_level && curve.misfit > misfit_to_warn_of)
-    out.push_back(
-        fmt::format("The overturning curve misses the counted shares by up to {:.2f}, at an IM of {:.3g} (p = {:.2g}): one "
-                    "lognormal curve is too simple.",
-                    curve.misfit, curve.misfit_im, curve.misfit_p));
+    out.push_back(fmt::format(
+        "The overturning curve misses the counted shares by up to {:.2f}, at an IM of {:.3g} (p = {:.2g}): one "
+        "lognormal curve is too simple.",
+        curve.misfit, curve.misfit_im, curve.misfit_p));
   if (curve.penalised && !std::isnan(curve.median))
     out.push_back(
         "One intensity parts all samples that overturned from all that stood: the overturning curve is a penalised "

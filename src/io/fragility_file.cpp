@@ -184,8 +184,8 @@ std::string bins_csv(const Result& result) {
   text += '\n';
   for (const EdpResult& edp : result.edps)
     for (std::size_t i = 0; i < edp.bins.size(); ++i) {
-      text += fmt::format("{},{},{},{},{}", cell(edp.name), cell(edp.unit), cell(result.im[i]),
-                          cell(result.im_edge[i]), cell(result.im_edge[i + 1]));
+      text += fmt::format("{},{},{},{},{}", cell(edp.name), cell(edp.unit), cell(result.im[i]), cell(result.im_edge[i]),
+                          cell(result.im_edge[i + 1]));
       for (const BinField& field : bin_fields())
         if (field.name == std::string_view("status"))
           text += fmt::format(",{}", name(edp.bins[i].status));

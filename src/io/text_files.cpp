@@ -76,16 +76,11 @@ Json fragility_summary(const Provenance& provenance, const fragility::Result& re
   json["edps"] = Json::object();
   for (const fragility::EdpResult& edp : result.edps) json["edps"][edp.name] = edp_summary(edp);
   const fragility::OverturningCurve& curve = result.overturning;
-  json["overturning"] = {{"median", curve.median},
-                         {"dispersion", curve.dispersion},
-                         {"median_se", curve.median_se},
-                         {"dispersion_se", curve.dispersion_se},
-                         {"penalised", curve.penalised},
-                         {"im_least", curve.im_least},
-                         {"im_most", curve.im_most},
-                         {"extrapolated", curve.extrapolated},
-                         {"misfit", curve.misfit},
-                         {"misfit_im", curve.misfit_im},
+  json["overturning"] = {{"median", curve.median},       {"dispersion", curve.dispersion},
+                         {"median_se", curve.median_se}, {"dispersion_se", curve.dispersion_se},
+                         {"penalised", curve.penalised}, {"im_least", curve.im_least},
+                         {"im_most", curve.im_most},     {"extrapolated", curve.extrapolated},
+                         {"misfit", curve.misfit},       {"misfit_im", curve.misfit_im},
                          {"misfit_p", curve.misfit_p}};
   json["warnings"] = result.warnings;
   json["provenance"] = provenance_json(provenance);

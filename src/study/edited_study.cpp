@@ -86,12 +86,13 @@ EditedStudy edited_study(const std::string& swept, const std::string& text, cons
       edited.changed.push_back(second_level(key));
       continue;
     }
-    problems.add(line_of_key(YAML::Load(text), key),
-                 fmt::format("{} is {}, and the samples were made with {} ({}): take it back, or run the study into another "
-                             "folder",
-                             key, now, then,
-                             of_intensity ? "they hold no other intensity measure"
-                                          : "only the fragility block can change after the sweep"));
+    problems.add(
+        line_of_key(YAML::Load(text), key),
+        fmt::format("{} is {}, and the samples were made with {} ({}): take it back, or run the study into another "
+                    "folder",
+                    key, now, then,
+                    of_intensity ? "they hold no other intensity measure"
+                                 : "only the fragility block can change after the sweep"));
     problems.throw_if_any();
   }
   std::sort(edited.changed.begin(), edited.changed.end());

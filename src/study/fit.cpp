@@ -34,7 +34,8 @@ nlohmann::ordered_json timing_json(const SweepSummary* sweep, double fit_s, int 
 }
 
 // The study to go by: on the root first, so that what is wrong is told once.
-EditedStudy study_of(const parallel::Communicator& world, const std::string& swept, const std::filesystem::path& folder) {
+EditedStudy study_of(const parallel::Communicator& world, const std::string& swept,
+                     const std::filesystem::path& folder) {
   const std::filesystem::path file = study_path(folder);
   std::string text;
   world.on_root([&] {
@@ -55,9 +56,9 @@ FitSummary fit(const parallel::Communicator& world, const std::filesystem::path&
   const io::BlockLayout layout{reader.rows(), rows_at_once};
   const std::vector<std::string> columns = analysed_columns(study.fragility);
   parallel::StepDisplay display(quiet || !world.is_root());
-  const fragility::Result result =
-      analyse(world, study, reader.motion_is_record(), layout.blocks(), rows_at_once,
-              [&](std::int64_t block) { return reader.read(block * rows_at_once, layout.rows(block), columns); }, &display);
+  const fragility::Result result = analyse(
+      world, study, reader.motion_is_record(), layout.blocks(), rows_at_once,
+      [&](std::int64_t block) { return reader.read(block * rows_at_once, layout.rows(block), columns); }, &display);
   world.on_root([&] {
     io::Provenance provenance = io::provenance_here(command, world.size());
     provenance.study = expanded(study);

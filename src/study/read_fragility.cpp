@@ -211,10 +211,11 @@ FragilityPart read_fragility(Section& file, const Known& known, const std::vecto
   part.edp = read_edps(section, known);
   part.capacities = read_capacities(section, known, part.edp);
   part.axes = read_axes(section, choices);
-  part.resamples = static_cast<int>(
-      section.integer("resamples", 500, fragility::least_resamples, fragility::most_resamples));
+  part.resamples =
+      static_cast<int>(section.integer("resamples", 500, fragility::least_resamples, fragility::most_resamples));
   part.confidence = section.number("confidence", 0.95, {.lower = 0, .upper = 1, .why = "it must lie between 0 and 1"});
-  part.minimum_samples = static_cast<int>(section.integer("minimum_samples", 30, fragility::least_minimum_samples, 1000000));
+  part.minimum_samples =
+      static_cast<int>(section.integer("minimum_samples", 30, fragility::least_minimum_samples, 1000000));
   part.false_discovery =
       section.number("false_discovery", 0.05, {.lower = 0, .upper = 1, .why = "it must lie between 0 and 1"});
   part.empirical_fallback = section.flag("empirical_fallback", true);

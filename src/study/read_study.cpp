@@ -116,8 +116,7 @@ Study parse_study(const std::string& text, const std::filesystem::path& path, co
     read_design(file, study);
     study.motions = read_motions(file, path.parent_path(), look);
     // What the study draws is known only when its parts are sound.
-    const auto choices =
-        problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
+    const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
     study.fragility = read_fragility(file, known, choices);
     file.finish();
   }

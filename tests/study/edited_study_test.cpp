@@ -37,8 +37,7 @@ TEST(EditedStudy, WhatWasSweptIsNoChange) {
 TEST(EditedStudy, KeysOfTheFragilityBlockAreUsed) {
   const EditedStudy edited = edited_study(
       swept(), sound + "  confidence: 0.9\n  bins: {edges: [0, 1, 2]}\n  capacities: {delta: [1]}\n", "study.yaml");
-  EXPECT_THAT(edited.changed,
-              testing::ElementsAre("fragility.bins", "fragility.capacities", "fragility.confidence"));
+  EXPECT_THAT(edited.changed, testing::ElementsAre("fragility.bins", "fragility.capacities", "fragility.confidence"));
   EXPECT_EQ(edited.study.fragility.confidence, 0.9);
   EXPECT_THAT(edited.study.fragility.bins.edges, testing::ElementsAre(0, 1, 2));
   const EditedStudy without = edited_study(swept(), changed(sound, "[friction.mu_k]", "[]"), "study.yaml");
@@ -47,10 +46,12 @@ TEST(EditedStudy, KeysOfTheFragilityBlockAreUsed) {
 }
 
 TEST(EditedStudy, WhatTheSamplesWereMadeWithCannotChange) {
-  EXPECT_THAT(problem(changed(sound, "0.3", "0.4")),
-              testing::StartsWith("out/study.yaml:3: friction.mu_k.uniform[1] is 0.4, and the samples were made with 0.3"));
+  EXPECT_THAT(
+      problem(changed(sound, "0.3", "0.4")),
+      testing::StartsWith("out/study.yaml:3: friction.mu_k.uniform[1] is 0.4, and the samples were made with 0.3"));
   EXPECT_THAT(problem(changed(sound, "samples: 1000", "samples: 2000")), testing::HasSubstr(":5: samples is 2000"));
-  EXPECT_THAT(problem(changed(sound, "period_s: 0.5", "period_s: 1")), testing::HasSubstr(":4: motions[0].period_s is 1"));
+  EXPECT_THAT(problem(changed(sound, "period_s: 0.5", "period_s: 1")),
+              testing::HasSubstr(":4: motions[0].period_s is 1"));
   EXPECT_THAT(problem("seed: 3\n" + sound), testing::HasSubstr(":1: seed is 3, and the samples were made with 1"));
   EXPECT_THAT(problem("effects: [{name: floor_tilt, angle_rad: 0.01}]\n" + sound),
               testing::HasSubstr("effects[0].name is floor_tilt"));

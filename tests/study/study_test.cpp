@@ -192,7 +192,8 @@ TEST(Configs, EveryKeyShowsTheDefaults) {
   text << stream.rdbuf();
   Study shown = parse_study(text.str(), file, registries(), Files::ignore);
   const Study least = parse_study(
-      "name: every key\nsamples: 20000\nblock: {width_m: 0.6, height_m: 1.8, mass_kg: 1}\nfriction: {mu_k: {uniform: [0.1, 0.3]}}\n"
+      "name: every key\nsamples: 20000\nblock: {width_m: 0.6, height_m: 1.8, mass_kg: 1}\nfriction: {mu_k: {uniform: "
+      "[0.1, 0.3]}}\n"
       "effects:\n  - {name: vertical_shaking}\n  - {name: my_seam, friction: 'mu*(1 + a*sin(2*pi*u/l))', parameters: "
       "{a: 0.3, l_m: 0.05}}\nchain: {stiffness_npm: 4e5, strength_n: 2736}\nmotions:\n"
       "  - {pulse: [A, B], period_s: 0.5, peak_acceleration_g: {uniform: [0.1, 2]}}\n"
