@@ -34,7 +34,7 @@ class Folder(unittest.TestCase):
 class Reads(Folder):
     def test_whole_sweep(self):
         sweep = reading.read_sweep(self.folder)
-        self.assertEqual([edp.name for edp in sweep.edps], ["delta", "peak_rotation_over_alpha", "overturned"])
+        self.assertEqual([edp.name for edp in sweep.edps], ["delta", "peak_rotation_over_alpha", "connection_failed", "overturned"])
         self.assertEqual([edp.name for edp in sweep.continuous()], ["delta", "peak_rotation_over_alpha"])
         self.assertEqual(sweep.samples, 6000)
         self.assertEqual(sum(sweep.outcomes.values()), 6000)

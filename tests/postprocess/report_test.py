@@ -163,7 +163,8 @@ class Figures(Temporary):
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         target = folder / "figures"
         captions = json.loads((target / "captions.json").read_text(encoding="utf-8"))
-        self.assertEqual(set(captions), {"fragility_delta", "surface_delta", "goodness_delta", "overturning"})
+        self.assertEqual(set(captions), {"fragility_delta", "surface_delta", "goodness_delta", "overturning",
+                                         "happening_connection_failed"})
         for name in captions:
             self.assertTrue((target / f"{name}.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>"))
             self.assertEqual((target / f"{name}.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
