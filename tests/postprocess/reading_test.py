@@ -39,7 +39,7 @@ class Reads(Folder):
         self.assertEqual(sweep.samples, 6000)
         self.assertEqual(sum(sweep.outcomes.values()), 6000)
         np.testing.assert_array_equal(sweep.edge, make_results.EDGES)
-        self.assertEqual(sweep.motions, ["pulse A", "pulse B", "pulse C1"])
+        self.assertEqual(sweep.motions, ["A", "B", "C1"])
         self.assertEqual(sweep.outcome.size, 6000)
         self.assertIn("friction_mu_k", sweep.draws)
         self.assertFalse([name for name in sweep.draws if name.startswith(("im_", "edp_"))])
