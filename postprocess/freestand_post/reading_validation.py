@@ -73,7 +73,7 @@ class Diagnosis:
     sentences: list
     findings: list
     base: dict
-    candidates: list         # of dict, best first
+    candidates: list         # of dict: the best, its rivals, the others by their errors
     noise_floor: float
     base_mu: float
     recovered: list          # of Table
@@ -81,9 +81,8 @@ class Diagnosis:
 
     @property
     def best(self):
-        """The first that counts as best; of none the one with the least left-out error; empty without candidates."""
-        known = [row for row in self.candidates if np.isfinite(row["error_left_out"])]
-        return next((row for row in known if row["rival"]), None) or min(known, key=lambda row: row["error_left_out"], default={})
+        """The candidate that the verdict speaks of; empty where there is none."""
+        return next((row for row in self.candidates if row["effect"] == self.raw.get("best")), {})
 
 
 class _Node:

@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
-#include <tuple>
 
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
@@ -12,6 +10,8 @@ namespace freestand::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t rows = 10;  // of the table, beside the base
 
 // Only where tests were left out of fits is there an error of tests left out.
 void tell_row(const Json& c, const std::string& name) {
@@ -24,31 +24,16 @@ void tell_row(const Json& c, const std::string& name) {
              c["rival"].get<bool>() ? "<" : "");
 }
 
-// Those that cannot be told from the best, then those that were fitted to the end, then the rest; each by its error.
-std::vector<Json> in_order(const Json& candidates) {
-  std::vector<Json> shown;
-  for (const auto& c : candidates)
-    if (c["visible"].get<bool>()) shown.push_back(c);
-  const auto place = [](const Json& c) {
-    const bool left_out = c["left_out_refitted"].get<bool>();
-    const Json& error = c[left_out ? "error_left_out" : "error_calibration"];
-    return std::tuple(!c["rival"].get<bool>(), !left_out, error.is_null() ? 1e300 : error.get<double>());
-  };
-  std::stable_sort(shown.begin(), shown.end(), [&](const Json& a, const Json& b) { return place(a) < place(b); });
-  return shown;
-}
-
 void tell(const Json& json, const std::string& file) {
   const bool histories = json["error_unit"] == "noise units";
   fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11}\n", "error (" + json["error_unit"].get<std::string>() + ")",
              "calibration", "left out", "", histories ? "floor noise" : "");
   if (histories) fmt::print("{:>88}\n", "allowed for");
   tell_row(json["base"], "as it is");
-  int shown = 0;
-  const auto candidates = in_order(json["candidates"]);
-  for (const auto& c : candidates)
-    if (shown++ < 10) tell_row(c, "with " + c["effect"].get<std::string>());
-  if (candidates.size() > 10) fmt::print("and {} more\n", candidates.size() - 10);
+  std::size_t seen = 0;
+  for (const auto& c : json["candidates"])
+    if (c["visible"].get<bool>() && seen++ < rows) tell_row(c, "with " + c["effect"].get<std::string>());
+  if (seen > rows) fmt::print("and {} more\n", seen - rows);
   std::string effects;
   for (const auto& effect : json["effects"]) effects += " " + effect.get<std::string>();
   fmt::print("verdict: {}{}\n", json["verdict"].get<std::string>(), effects);

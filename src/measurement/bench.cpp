@@ -33,6 +33,19 @@ FloorMotion with_noise(const FloorMotion& motion, double horizontal, double vert
   return piecewise_linear(motion.name, motion.knot_s[1] - motion.knot_s[0], a, v);
 }
 
+Reach reach_of(const Test& test) {
+  Reach reach;
+  for (const double slip : test.slip_m) {
+    reach.least_m = std::min(reach.least_m, slip);
+    reach.greatest_m = std::max(reach.greatest_m, slip);
+  }
+  if (const auto peak = test.peaks.peak_slip_m) {
+    reach.least_m = std::min(reach.least_m, -*peak);
+    reach.greatest_m = std::max(reach.greatest_m, *peak);
+  }
+  return reach;
+}
+
 }  // namespace
 
 const char* name(Channel channel) {
@@ -114,14 +127,7 @@ Prediction predict(const ModelSpec& model, const Test& test, std::span<const dou
 Bench::Bench(const Dataset& data, int replays) : data_(data), replays_(data.tests.size()) {
   for (std::size_t i = 0; i < data.tests.size(); ++i) {
     const Test& test = data.tests[i];
-    for (const double slip : test.slip_m) {
-      reach_.least_m = std::min(reach_.least_m, slip);
-      reach_.greatest_m = std::max(reach_.greatest_m, slip);
-    }
-    if (const auto peak = test.peaks.peak_slip_m) {
-      reach_.least_m = std::min(reach_.least_m, -*peak);
-      reach_.greatest_m = std::max(reach_.greatest_m, *peak);
-    }
+    reach_.push_back(reach_of(test));
     const bool recorded = test.has_history() && test.motion.degree == 1;
     const double given = data.noise.floor_acceleration_mps2;
     const double horizontal = !recorded   ? 0
@@ -133,6 +139,22 @@ Bench::Bench(const Dataset& data, int replays) : data_(data), replays_(data.test
     for (int k = 0; recorded && k < replays; ++k)
       replays_[i].push_back(with_noise(test.motion, horizontal, vertical, static_cast<std::uint64_t>(k), stream));
   }
+}
+
+Reach Bench::reach() const {
+  std::vector<std::size_t> tests;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (test(i).role == Role::calibration) tests.push_back(i);
+  return reach(tests);
+}
+
+Reach Bench::reach(const std::vector<std::size_t>& tests) const {
+  Reach all;
+  for (const std::size_t i : tests) {
+    all.least_m = std::min(all.least_m, reach_[i].least_m);
+    all.greatest_m = std::max(all.greatest_m, reach_[i].greatest_m);
+  }
+  return all;
 }
 
 double Bench::noise(Channel channel) const {

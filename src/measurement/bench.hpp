@@ -48,7 +48,9 @@ class Bench {
   double noise(Channel) const;
   double floor_noise_mps2(std::size_t test) const { return floor_noise_mps2_[test]; }
   const std::vector<FloorMotion>& replays(std::size_t test) const { return replays_[test]; }
-  Reach reach() const { return reach_; }
+  // Of the measured slips: of the calibration tests, or of these. Tests held out or left out reach nothing of a fit.
+  Reach reach() const;
+  Reach reach(const std::vector<std::size_t>& tests) const;
 
   Spread spread(const ModelSpec&, std::size_t test, std::span<const double> x, const Prediction& nominal) const;
 
@@ -56,7 +58,7 @@ class Bench {
   const Dataset& data_;
   std::vector<double> floor_noise_mps2_;
   std::vector<std::vector<FloorMotion>> replays_;
-  Reach reach_;
+  std::vector<Reach> reach_;  // of each test
 };
 
 }  // namespace freestand::measurement

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "base/digits.hpp"
 
@@ -30,34 +31,21 @@ class Decision {
   Decision(const Bench& bench, Diagnosis& d) : bench_(bench), d_(d), histories_(kind_of_set(bench) == Kind::history) {}
 
   void take() {
-    sort();
-    Candidate* best = find_best();
-    mark(best);
-    if (!better_than_base(best)) return finish_without(best);
-    for (Candidate& c : d_.candidates) c.rival = &c == best || is_rival(c, *best);
-    drop_needless();
-    std::vector<const Candidate*> rivals;
-    for (const Candidate& c : d_.candidates)
-      if (c.rival) rivals.push_back(&c);
-    if (!good_enough(*best)) {
-      d_.verdict = Verdict::unknown;
-      say(
-          fmt::format("the best effect, {}, still leaves an error of {:.2f} where noise explains 1: none of the "
-                      "catalogue is the one; look at the recovered force, and write its law as a formula",
-                      joined(best->effects), best->explained));
-      return;
+    for (Candidate& c : d_.candidates) c.practical = practical(c.fit, d_.base.fit.x.size());
+    std::stable_sort(d_.candidates.begin(), d_.candidates.end(), [](const Candidate& a, const Candidate& b) {
+      return a.visible != b.visible ? a.visible : a.fit.mean_left_out() < b.fit.mean_left_out();
+    });
+    const Candidate* best = find_best();
+    if (best && better_than_base(*best)) {
+      mark_rivals(*best);
+      if (good_enough(*best))
+        best = name_rivals();
+      else
+        nothing_suffices(*best);
+    } else {
+      nothing_helps(best);
     }
-    d_.verdict = rivals.size() > 1 ? Verdict::ambiguous : Verdict::missing;
-    for (const Candidate* rival : rivals)
-      for (const auto& effect : rival->effects)
-        if (std::find(d_.effects.begin(), d_.effects.end(), effect) == d_.effects.end()) d_.effects.push_back(effect);
-    say(rivals.size() > 1
-            ? fmt::format("{} cannot be told apart on these tests: each brings the error to the noise",
-                          joined(d_.effects))
-            : fmt::format("{} brings the left-out error from {} to {}, and every rival is worse by more than "
-                          "chance{}",
-                          joined(best->effects), three_digits(pooled_left_out(d_.base)),
-                          three_digits(pooled_left_out(*best)), but_for(*best)));
+    put_in_order(bench_, best, d_);
   }
 
  private:
@@ -74,7 +62,7 @@ class Decision {
     std::vector<std::string> odd;
     for (const Candidate& c : d_.candidates)
       if (c.visible && c.fit.left_out_refitted && !c.practical && c.effects.size() <= best.effects.size() &&
-          c.effects != best.effects && !brings_nothing(c) && !worse(c, best))
+          c.effects != best.effects && !brings_nothing(c) && !parted(c, best))
         odd.push_back(joined(c.effects));
     return odd.empty() ? ""
                        : fmt::format(", but for {} with numbers that are not met in practice", fmt::join(odd, ", "));
@@ -94,13 +82,6 @@ class Decision {
         three_digits(pooled(bench_, tests, closest->fit.calibration).error));
   }
 
-  void sort() {
-    std::stable_sort(d_.candidates.begin(), d_.candidates.end(), [](const Candidate& a, const Candidate& b) {
-      return a.visible != b.visible ? a.visible : a.fit.mean_left_out() < b.fit.mean_left_out();
-    });
-    for (Candidate& c : d_.candidates) c.practical = practical(c.fit, d_.base.fit.x.size());
-  }
-
   // More numbers that do not even bring the fitted tests closer than those without them gain nothing on tests left out
   // but by luck: one fit with a test left out stayed where another strayed.
   bool brings_nothing(const Candidate& c) const {
@@ -115,9 +96,9 @@ class Decision {
 
   // Of the candidates, by misfit (histories) or left-out score; simple and practical ones first where the rest cannot be
   // told from them.
-  Candidate* find_best() {
-    Candidate* best = nullptr;
-    for (Candidate& c : d_.candidates) {
+  const Candidate* find_best() const {
+    const Candidate* best = nullptr;
+    for (const Candidate& c : d_.candidates) {
       if (!c.visible || !c.fit.left_out_refitted || brings_nothing(c)) continue;
       if (!best) {
         best = &c;
@@ -126,34 +107,37 @@ class Decision {
       const double gain = histories_ ? best->misfit - c.misfit : best->fit.mean_left_out() - c.fit.mean_left_out();
       const bool simpler = c.effects.size() < best->effects.size() || (c.practical && !best->practical);
       const bool harder = c.effects.size() > best->effects.size() || (!c.practical && best->practical);
-      if (harder ? worse(*best, c) : simpler ? !worse(c, *best) : gain > 0) best = &c;
+      if (harder ? parted(*best, c) : simpler ? !parted(c, *best) : gain > 0) best = &c;
     }
     return best;
   }
 
-  // Is a worse than b by more than chance?
-  bool worse(const Candidate& a, const Candidate& b) const {
-    if (histories_) {
-      const double left = std::max(0.0, b.misfit - samples() - 3 * std::sqrt(2 * samples()));
-      return a.misfit - b.misfit > chance_misfit + 0.5 * left;
-    }
-    const Pooled difference = paired_difference(a.fit.left_out, b.fit.left_out);
-    const double n = static_cast<double>(a.fit.left_out.size());
-    return difference.error > gsl_cdf_tdist_Pinv(0.975, n - 1) * difference.standard_error && difference.error > 1e-9;
+  // By the misfit that allows for the floor's noise: is that of a larger by more than chance?
+  bool misfits_more(const Candidate& a, const Candidate& b) const {
+    const double left = std::max(0.0, b.misfit - samples() - 3 * std::sqrt(2 * samples()));
+    return a.misfit - b.misfit > chance_misfit + 0.5 * left;
+  }
+
+  // Is a worse than b by more than chance? The misfit knows the noise only as it is stated; so of two histories' models
+  // that both are at the noise, tests left out must say it too, test by test, and never may their table say the contrary.
+  bool parted(const Candidate& a, const Candidate& b) const {
+    if (!histories_) return worse_left_out(a, b);
+    return misfits_more(a, b) && pooled_left_out(a) > pooled_left_out(b) &&
+           (a.explained > std::max(at_noise, 1.1 * b.explained) || worse_left_out(a, b));
   }
   double samples() const { return total(d_.samples); }
 
-  bool is_rival(const Candidate& c, const Candidate& best) const {
-    if (!c.visible || !c.fit.left_out_refitted || !c.practical || c.effects.size() > best.effects.size()) return false;
-    if (brings_nothing(c)) return false;
-    return !worse(c, best) && (!histories_ || c.explained <= std::max(at_noise, 1.1 * best.explained));
+  void mark_rivals(const Candidate& best) {
+    for (Candidate& c : d_.candidates)
+      c.rival = &c == &best || (c.visible && c.fit.left_out_refitted && c.practical && !brings_nothing(c) &&
+                                c.effects.size() <= best.effects.size() && !parted(c, best));
+    drop_needless();
   }
 
   // Also by the plain error: a base that strayed after one test that the floor's noise had turned elsewhere looks worse to
   // the covariance of its own replays than it is. And by more than its own replays stray.
-  bool better_than_base(const Candidate* best) const {
-    if (!best || !worse(d_.base, *best)) return false;
-    return !histories_ || (pooled_left_out(*best) < pooled_left_out(d_.base) && gain_beyond_strays(*best) > chance_misfit);
+  bool better_than_base(const Candidate& best) const {
+    return parted(d_.base, best) && (!histories_ || gain_beyond_strays(best) > chance_misfit);
   }
 
   double gain_beyond_strays(const Candidate& best) const {
@@ -187,7 +171,45 @@ class Decision {
 
   bool good_enough(const Candidate& c) const { return !histories_ || c.explained <= at_noise; }
 
-  void finish_without(const Candidate* best) {
+  // The rivals become the verdict. Returns the one of least left-out error.
+  const Candidate* name_rivals() {
+    std::vector<const Candidate*> rivals;
+    for (const Candidate& c : d_.candidates)
+      if (c.rival) rivals.push_back(&c);
+    std::stable_sort(rivals.begin(), rivals.end(),
+                     [&](const Candidate* a, const Candidate* b) { return pooled_left_out(*a) < pooled_left_out(*b); });
+    std::vector<std::string> told;
+    for (const Candidate* rival : rivals) {
+      told.push_back(fmt::format("{} ({})", joined(rival->effects), three_digits(pooled_left_out(*rival))));
+      for (const auto& effect : rival->effects)
+        if (std::find(d_.effects.begin(), d_.effects.end(), effect) == d_.effects.end()) d_.effects.push_back(effect);
+    }
+    const Candidate& best = *rivals.front();
+    d_.verdict = rivals.size() > 1 ? Verdict::ambiguous : Verdict::missing;
+    if (rivals.size() > 1)
+      say(
+          fmt::format("{} cannot be told apart on these tests: by their errors on tests left out, in brackets, chance "
+                      "may have put either first",
+                      joined(told)));
+    else
+      say(
+          fmt::format("{} brings the left-out error from {} to {}; every other effect leaves more than noise explains, "
+                      "or misses the tests left out by more, beyond chance{}",
+                      joined(best.effects), three_digits(pooled_left_out(d_.base)), three_digits(pooled_left_out(best)),
+                      but_for(best)));
+    return &best;
+  }
+
+  void nothing_suffices(const Candidate& best) {
+    d_.verdict = Verdict::unknown;
+    d_.reason = Reason::none_suffices;
+    say(
+        fmt::format("the best effect, {}, still leaves an error of {:.2f} where noise explains 1: none of the "
+                    "catalogue is the one; look at the recovered force, and write its law as a formula",
+                    joined(best.effects), best.explained));
+  }
+
+  void nothing_helps(const Candidate* best) {
     if (base_at_the_noise()) {
       d_.verdict = Verdict::none;
       say(best ? fmt::format(
@@ -197,23 +219,12 @@ class Decision {
                : nothing_gained());
     } else {
       d_.verdict = Verdict::unknown;
+      d_.reason = Reason::none_helps;
       say(
           fmt::format("the model misses the measurements by {:.3g} where noise explains 1, and no effect of the "
                       "catalogue lowers that by more than chance: look at the recovered force",
                       d_.base.explained));
     }
-  }
-
-  void mark(const Candidate* best) {
-    if (!best) return;
-    for (Candidate& c : d_.candidates) {
-      const Pooled difference = paired_difference(c.fit.left_out, best->fit.left_out);
-      c.difference = difference.error;
-      c.difference_se = difference.standard_error;
-    }
-    const Pooled difference = paired_difference(d_.base.fit.left_out, best->fit.left_out);
-    d_.base.difference = difference.error;
-    d_.base.difference_se = difference.standard_error;
   }
 
   const Bench& bench_;
@@ -222,6 +233,16 @@ class Decision {
 };
 
 }  // namespace
+
+const char* name(Verdict verdict) {
+  constexpr const char* names[] = {"none", "missing", "ambiguous", "unknown"};
+  return names[static_cast<int>(verdict)];
+}
+
+const char* name(Reason reason) {
+  constexpr const char* names[] = {"", "data", "none_helps", "none_suffices"};
+  return names[static_cast<int>(reason)];
+}
 
 Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b) {
   const auto n = static_cast<double>(a.size());
@@ -232,6 +253,32 @@ Pooled paired_difference(const std::vector<TestError>& a, const std::vector<Test
     variance += std::pow(a[i].score - b[i].score - difference.error, 2) / std::max(n - 1, 1.0);
   difference.standard_error = std::sqrt(variance / std::max(n, 1.0));
   return difference;
+}
+
+bool worse_left_out(const Candidate& a, const Candidate& b) {
+  const Pooled difference = paired_difference(a.fit.left_out, b.fit.left_out);
+  const double n = static_cast<double>(a.fit.left_out.size());
+  return difference.error > gsl_cdf_tdist_Pinv(0.975, n - 1) * difference.standard_error && difference.error > 1e-9;
+}
+
+void put_in_order(const Bench& bench, const Candidate* best, Diagnosis& d) {
+  const Candidate reference = best ? *best : d.base;
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const auto mark = [&](Candidate& c) {
+    const Pooled difference = paired_difference(c.fit.left_out, reference.fit.left_out);
+    c.difference = difference.error;
+    c.difference_se = difference.standard_error;
+  };
+  mark(d.base);
+  for (Candidate& c : d.candidates) mark(c);
+  const auto place = [&](const Candidate& c) {
+    const bool to_the_end = c.fit.left_out_refitted;
+    return std::tuple(!c.visible, c.effects != reference.effects, !c.rival, !to_the_end,
+                      pooled(bench, tests, to_the_end ? c.fit.left_out : c.fit.calibration).error);
+  };
+  std::stable_sort(d.candidates.begin(), d.candidates.end(),
+                   [&](const Candidate& a, const Candidate& b) { return place(a) < place(b); });
+  if (best) d.best = 0;
 }
 
 bool practical(const ModelFit& fit, std::size_t known) {

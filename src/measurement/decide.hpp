@@ -21,7 +21,14 @@ Kind kind_of_set(const Bench&);  // of its first calibration test
 // Fills misfits, explained and delta_bic of base and candidates.
 void judge_histories(const Bench&, const Judge&, Diagnosis&, const Jobs&);
 
-// Sorts the candidates and fills verdict, effects, differences, rivals, sentences.
+// Does a miss the tests left out by more than b, beyond chance? Of paired differences of their scores, Student's t at
+// 97.5 %: one that is as good in truth is held to be worse in one set of forty.
+bool worse_left_out(const Candidate& a, const Candidate& b);
+
+// Orders the candidates, with the best of them first, and marks their differences to it. none: as they are, of the base.
+void put_in_order(const Bench&, const Candidate* best, Diagnosis&);
+
+// Fills verdict, reason, effects, best, rivals, differences, sentences, and orders the candidates.
 void decide(const Bench&, Diagnosis&);
 
 }  // namespace freestand::measurement

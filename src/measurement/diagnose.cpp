@@ -11,7 +11,9 @@
 
 #include "measurement/decide.hpp"
 #include "measurement/diagnose_outcomes.hpp"
+#include "measurement/left_out.hpp"
 #include "measurement/outcome_fit.hpp"
+#include "measurement/pairs.hpp"
 #include "measurement/starts.hpp"
 #include "measurement/strides.hpp"
 
@@ -25,7 +27,13 @@ class Diagnoser {
  public:
   Diagnoser(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue, const DiagnosisOptions& options,
             const Jobs& jobs)
-      : bench_(bench), base_(base), catalogue_(catalogue), options_(options), jobs_(jobs) {}
+      : bench_(bench),
+        base_(base),
+        catalogue_(catalogue),
+        options_(options),
+        jobs_(jobs),
+        tests_(tests_of(bench.data(), Role::calibration).size()),
+        pairs_(tests_) {}
 
   Diagnosis run() {
     fit_base();
@@ -65,23 +73,25 @@ class Diagnoser {
     if (!options_.start.empty()) task.starts = {options_.start};
     auto fits = fit_models(bench_, {task}, wide(), jobs_);
     polish(bench_, {&fits[0]}, options_.effort, 0.05, jobs_);
-    leave_out(bench_, {&fits[0]}, options_.effort, jobs_);
+    leave_out({&fits[0]});
     out_.base.fit = std::move(fits[0]);
   }
 
-  // The base with its starts drawn together around where it fitted: effects move its numbers, but not anywhere.
+  void leave_out(std::vector<ModelFit*> fits) {
+    search_left_out(bench_, base_, std::move(fits), options_.effort, jobs_);
+  }
+
   ModelSpec narrowed(const ModelFit& fit) const {
     ModelSpec model = fit.model;
-    for (std::size_t i = 0; i < model.free.size(); ++i) {
-      Free& free = model.free[i];
-      if (free.name.rfind("effects.", 0) == 0) continue;
-      const double z = to_unit(free, fit.x[i]);
-      const double half = free.logarithmic ? std::log(1.6) / std::log(free.high / free.low) : 0.15;
-      const double low = from_unit(free, z - half), high = from_unit(free, z + half);
-      free.low = low;
-      free.high = high;
-    }
+    narrow(model, fit.x, model.free.size());
     return model;
+  }
+
+  // What a model that is joined to this one knows of it without each fold.
+  static std::vector<std::vector<Values>> known_of(const ModelFit& fit) {
+    std::vector<std::vector<Values>> known;
+    for (const Values& x : fit.fold_x) known.push_back({x});
+    return known;
   }
 
   std::vector<bool> visible(const ModelFit& fit, const std::vector<const dynamics::Effect*>& effects) const {
@@ -97,7 +107,7 @@ class Diagnoser {
   void fit_singles() {
     std::vector<const dynamics::Effect*> effects;
     for (const auto* effect : catalogue_)
-      if (goes_with(base_, *effect) && allowed(*effect)) effects.push_back(effect);
+      if (goes_with(base_, *effect) && fewer_numbers_than(tests_, base_, *effect)) effects.push_back(effect);
     const std::vector<bool> seen = visible(out_.base.fit, effects);
     std::vector<FitTask> tasks;
     std::vector<std::size_t> of_task;
@@ -108,7 +118,8 @@ class Diagnoser {
       out_.candidates.push_back(std::move(candidate));
       if (!seen[i]) continue;
       tasks.push_back({.model = with_effect(base, *effects[i], bench_.reach()),
-                       .starts = starts_of(*effects[i], out_.candidates.back().fit.model)});
+                       .starts = starts_of(*effects[i], out_.candidates.back().fit.model),
+                       .known = known_of(out_.base.fit)});
       of_task.push_back(i);
     }
     auto fits = fit_models(bench_, tasks, options_.effort, jobs_);
@@ -130,15 +141,11 @@ class Diagnoser {
   void name_untried() {
     std::vector<std::string> names;
     for (const auto* effect : catalogue_)
-      if (goes_with(base_, *effect) && !allowed(*effect)) names.push_back(effect->name);
+      if (goes_with(base_, *effect) && !fewer_numbers_than(tests_, base_, *effect)) names.push_back(effect->name);
+    for (const auto& [a, b] : pairs_.refused()) names.push_back(a + " with " + b);
     if (!names.empty())
       out_.sentences.push_back(
           fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
-  }
-
-  // More numbers than tests: nothing could be left out.
-  bool allowed(const dynamics::Effect& effect, std::size_t more = 0) const {
-    return base_.free.size() + fitted_numbers(effect) + more < tests_of(bench_.data(), Role::calibration).size();
   }
 
   // Polishes and leaves out, for the best candidates from `first` on that gain anything on the base.
@@ -155,14 +162,14 @@ class Diagnoser {
       gaining.pop_back();
     }
     refine(bench_, gaining, options_.effort, jobs_);
-    leave_out(bench_, gaining, options_.effort, jobs_);
+    leave_out(gaining);
     evaluate(bench_, rest, jobs_);
   }
 
   const Candidate& best() const {
     const Candidate* found = &out_.base;
     for (const Candidate& c : out_.candidates)
-      if (c.visible && c.fit.mean_left_out() < found->fit.mean_left_out()) found = &c;
+      if (c.visible && c.fit.left_out_refitted && c.fit.mean_left_out() < found->fit.mean_left_out()) found = &c;
     return *found;
   }
 
@@ -181,7 +188,7 @@ class Diagnoser {
   }
 
   bool second_effect_wanted() const {
-    if (tests_of(bench_.data(), Role::calibration).size() < 4 || kind_of_set(bench_) != Kind::history) return false;
+    if (tests_ < 4 || kind_of_set(bench_) != Kind::history) return false;
     const double at = best().explained, base = out_.base.explained;
     return base > base_at_noise && at > may_hide_another;
   }
@@ -199,10 +206,10 @@ class Diagnoser {
     for (const Candidate* seed : order) {
       std::vector<const dynamics::Effect*> others;
       for (const auto* effect : catalogue_)
-        if (goes_with(seed->fit.model, *effect) && allowed(*effect)) others.push_back(effect);
+        if (pairs_.may_be(seed->fit.model, seed->effects[0], *effect)) others.push_back(effect);
       const std::vector<bool> seen = visible(seed->fit, others);
       for (std::size_t i = 0; i < others.size(); ++i)
-        if (seen[i] && !tried(seed->effects[0], others[i]->name))
+        if (seen[i] && !pairs_.tried(seed->effects[0], others[i]->name))
           join(seed->effects[0], seed->fit, *others[i], pairs, tasks);
     }
     finish_pairs(std::move(pairs), tasks);
@@ -227,10 +234,14 @@ class Diagnoser {
   ModelFit part_of(const Candidate& pair, std::size_t which) const {
     const auto& effect = of_catalogue(pair.effects[which]);
     const std::size_t base = base_.free.size(), own = fitted_numbers(effect);
-    const auto from = pair.fit.x.begin() + static_cast<long>(which == 0 ? base : pair.fit.x.size() - own);
-    ModelFit part{.model = with_effect(base_, effect, bench_.reach()), .x = pair.fit.x};
-    part.x.resize(base);
-    part.x.insert(part.x.end(), from, from + static_cast<long>(own));
+    const auto numbers = [&](Values x) {
+      const Values mine(which == 0 ? x.begin() + static_cast<long>(base) : x.end() - static_cast<long>(own), x.end());
+      x.resize(base);
+      x.insert(x.end(), mine.begin(), mine.begin() + static_cast<long>(own));
+      return x;
+    };
+    ModelFit part{.model = with_effect(base_, effect, bench_.reach()), .x = numbers(pair.fit.x)};
+    for (const Values& x : pair.fit.fold_x) part.fold_x.push_back(numbers(x));
     return part;
   }
 
@@ -246,7 +257,7 @@ class Diagnoser {
       const std::string& name = best_pair.effects[stays];
       std::vector<const dynamics::Effect*> others;
       for (const auto* effect : catalogue_)
-        if (goes_with(part.model, *effect) && allowed(*effect) && !tried(name, effect->name)) others.push_back(effect);
+        if (!pairs_.tried(name, effect->name) && pairs_.may_be(part.model, name, *effect)) others.push_back(effect);
       const std::vector<bool> seen = visible(part, others);
       for (std::size_t i = 0; i < others.size(); ++i)
         if (seen[i]) join(name, part, *others[i], pairs, tasks);
@@ -258,18 +269,13 @@ class Diagnoser {
 
   void join(const std::string& name, const ModelFit& fit, const dynamics::Effect& other, std::vector<Candidate>& pairs,
             std::vector<FitTask>& tasks) {
-    tried_pairs_.push_back({name, other.name});
+    pairs_.add(name, other.name);
     pairs.push_back({.effects = {name, other.name}, .fit = fit});
     tasks.push_back({.model = with_effect(narrowed(fit), other, bench_.reach())});
     tasks.back().starts = starts_from({fit.x}, tasks.back().model, 24 * fitted_numbers(other));
     tasks.back().screened = false;
+    tasks.back().known = known_of(fit);
     pairs.back().fit.model = tasks.back().model;
-  }
-
-  bool tried(const std::string& a, const std::string& b) const {
-    return std::any_of(tried_pairs_.begin(), tried_pairs_.end(), [&](const auto& pair) {
-      return (pair[0] == a && pair[1] == b) || (pair[0] == b && pair[1] == a);
-    });
   }
 
   // Would one of the two do, from where the pair stands? Its own fit may have stuck elsewhere.
@@ -283,9 +289,10 @@ class Diagnoser {
       if (c.effects.size() != 1 || !c.visible) continue;
       const bool first = c.effects[0] == pair.effects[0];
       if (!first && c.effects[0] != pair.effects[1]) continue;
-      const Values x = part_of(pair, first ? 0 : 1).x;
-      tasks.push_back({.model = c.fit.model, .starts = {c.fit.x, x}, .screened = false});
-      for (Values& end : at_the_ends(c.fit.model, x, base)) tasks.back().starts.push_back(std::move(end));
+      const ModelFit part = part_of(pair, first ? 0 : 1);
+      tasks.push_back({.model = c.fit.model, .starts = {c.fit.x, part.x}, .screened = false, .known = known_of(part)});
+      for (std::size_t k = 0; k < part.fold_x.size(); ++k) tasks.back().known[k].push_back(out_.base.fit.fold_x[k]);
+      for (Values& end : at_the_ends(c.fit.model, part.x, base)) tasks.back().starts.push_back(std::move(end));
       singles.push_back(&c);
     }
     auto fits = fit_models(bench_, tasks, options_.effort, jobs_);
@@ -296,12 +303,12 @@ class Diagnoser {
       better.push_back(&singles[i]->fit);
     }
     polish(bench_, better, options_.effort, 0.05, jobs_);
-    leave_out(bench_, better, options_.effort, jobs_);
+    leave_out(better);
     return !better.empty();
   }
 
   // Single effects that the tests can see, and all pairs of them, to be fitted from anywhere.
-  std::vector<FitTask> singles_and_pairs() const {
+  std::vector<FitTask> singles_and_pairs() {
     std::vector<const dynamics::Effect*> seen;
     for (const Candidate& c : out_.candidates)
       if (c.effects.size() == 1 && c.visible) seen.push_back(&of_catalogue(c.effects[0]));
@@ -313,8 +320,7 @@ class Diagnoser {
     for (std::size_t i = 0; i < seen.size(); ++i) {
       const ModelSpec single = with_effect(base_, *seen[i], bench_.reach());
       for (std::size_t k = i + 1; k < seen.size(); ++k)
-        if (goes_with(single, *seen[k]) && allowed(*seen[i], fitted_numbers(*seen[k])))
-          take(with_effect(single, *seen[k], bench_.reach()));
+        if (pairs_.may_be(single, seen[i]->name, *seen[k])) take(with_effect(single, *seen[k], bench_.reach()));
       take(single);
     }
     return tasks;
@@ -335,7 +341,7 @@ class Diagnoser {
     std::vector<ModelFit*> better;
     for (const std::size_t i : places) better.push_back(&out_.candidates[i].fit);
     refine(bench_, better, options_.effort, jobs_);
-    leave_out(bench_, better, options_.effort, jobs_);
+    leave_out(better);
     return !better.empty();
   }
 
@@ -367,16 +373,12 @@ class Diagnoser {
   const Catalogue& catalogue_;
   const DiagnosisOptions& options_;
   const Jobs& jobs_;
-  std::vector<std::vector<std::string>> tried_pairs_;
+  std::size_t tests_;
+  Pairs pairs_;
   Diagnosis out_;
 };
 
 }  // namespace
-
-const char* name(Verdict verdict) {
-  constexpr const char* names[] = {"none", "missing", "ambiguous", "unknown"};
-  return names[static_cast<int>(verdict)];
-}
 
 Diagnosis diagnose(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue,
                    const DiagnosisOptions& options, const Jobs& jobs) {

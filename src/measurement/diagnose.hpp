@@ -6,21 +6,22 @@
 //      best few with every other. Where even these leave an error above the noise, singles and all pairs are fitted
 //      once more by strides (strides.hpp).
 //   3. Histories: models are compared by their misfit G = r^T C^-1 r of the tests left out (judge.hpp), where a wrong
-//      model shows as some tens and more, and chance as a few. Peaks and outcomes: by paired differences of the
-//      left-out scores with their standard error.
+//      model shows as some tens and more, and chance as a few; and two that are both at the noise, as peaks and outcomes
+//      always, by paired differences of the left-out scores with their standard error.
 //
 // Tests that say only whether the specimen overturned go their own way (diagnose_outcomes.hpp).
 //
 //   none       no model beats the base by more than chance
-//   missing    one does and is at the noise, and every rival is worse by more than chance
+//   missing    one does and is at the noise, and every rival is above it or worse by more than chance
 //   ambiguous  rivals at the noise cannot be told apart
-//   unknown    the base is worse than the noise and so is everything else
+//   unknown    the base is worse than the noise and so is everything else; or the data are wrong (Reason)
 //
 // A rival that needs a parameter far from where its effect is met (three times beyond the catalogue's range) to imitate
 // another is not held to be one.
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "measurement/judge.hpp"
 #include "measurement/model_fit.hpp"
@@ -29,6 +30,10 @@ namespace freestand::measurement {
 
 enum class Verdict { none, missing, ambiguous, unknown };
 const char* name(Verdict);
+
+// Why the verdict is unknown: the data are wrong; no effect helps; effects help, and the best leaves more than noise makes.
+enum class Reason { none, data, none_helps, none_suffices };
+const char* name(Reason);
 
 inline constexpr double unjudged = std::numeric_limits<double>::quiet_NaN();
 
@@ -49,9 +54,11 @@ struct Candidate {
 
 struct Diagnosis {
   Verdict verdict = Verdict::none;
+  Reason reason = Reason::none;
   std::vector<std::string> effects;  // to add, in order; ambiguous: the rivals
   Candidate base;
-  std::vector<Candidate> candidates;  // best first by the left-out error
+  std::vector<Candidate> candidates;  // the best, its rivals, others that were fitted to the end, the rest
+  std::optional<std::size_t> best;    // of the candidates: the one that the verdict speaks of
   std::vector<double> noise_floor;    // error that the best model itself would show, of each calibration test
   std::vector<double> samples;        // of each calibration test
   std::vector<double> strays;         // Judge::strays() of the base

@@ -45,7 +45,6 @@ class OutcomeDiagnoser {
     } else {
       nothing_found();
     }
-    order();
     describe_candidates();
     return std::move(out_);
   }
@@ -113,8 +112,7 @@ class OutcomeDiagnoser {
       const Pooled gain = paired_difference(without.fit.left_out, c.fit.left_out);
       c.rival = c.effects == chosen.effects || (!beyond_chance(behind, tests_, 1) && gain.error > gain.standard_error);
     }
-    mark_differences(chosen);
-    order();
+    put_in_order(bench_, &chosen, out_);
     for (const Candidate& c : out_.candidates)
       if (c.rival) {
         rivals.push_back(&c);
@@ -134,39 +132,40 @@ class OutcomeDiagnoser {
       say(fmt::format("{} cannot be told from it on these tests: its left-out score is {:.4f}, {:.4f} +- {:.4f} higher",
                       label(*rival), left_out(*rival), rival->difference, rival->difference_se));
     }
+    doubt(chosen);
   }
 
-  void mark_differences(const Candidate& best) {
-    const auto mark = [&](Candidate& c) {
-      const Pooled difference = paired_difference(c.fit.left_out, best.fit.left_out);
-      c.difference = difference.error;
-      c.difference_se = difference.standard_error;
-    };
-    for (Candidate& c : out_.candidates) mark(c);
-    mark(out_.base);
+  // Effects help, and something more is missing.
+  void doubt(const Candidate& chosen) {
+    if (!surer_than_it_may_be(chosen.fit.calibration)) return;
+    out_.verdict = Verdict::unknown;
+    out_.reason = Reason::none_suffices;
+    out_.effects.clear();
+    const Pooled chance = expected_brier(chosen.fit.calibration);
+    say(
+        fmt::format("even with {} the model is surer than it may be: its Brier score is {:.4f} where chance alone "
+                    "would make {:.4f} +- "
+                    "{:.4f}; something is missing that no effect of the catalogue explains",
+                    label(chosen), chosen.fit.score, chance.error, chance.standard_error));
   }
 
   void nothing_found() {
     const Candidate* best = nullptr;
     for (const Candidate& c : out_.candidates)
       if (c.visible && c.fit.left_out_refitted && (!best || left_out(c) < left_out(*best))) best = &c;
-    mark_differences(best ? *best : out_.base);
-    out_.verdict = Verdict::none;
+    put_in_order(bench_, best, out_);
+    best = best ? &out_.candidates.front() : nullptr;
+    if (surer_than_it_may_be(out_.base.fit.calibration)) {
+      out_.verdict = Verdict::unknown;
+      out_.reason = Reason::none_helps;
+      say("the model is surer than it may be: something is missing, and it is no effect of the catalogue");
+    }
     if (!best) return say("no effect promises to lower the Brier score of the base");
     const Pooled gain = paired_difference(out_.base.fit.left_out, best->fit.left_out);
     say(fmt::format(
         "no effect lowers the left-out Brier score by more than chance: the best of {}, {}, changes it from "
         "{:.4f} to {:.4f}, a gain of {:.4f} +- {:.4f}",
         tried_, label(*best), left_out(out_.base), left_out(*best), gain.error, gain.standard_error));
-  }
-
-  void order() {
-    const auto rank = [](const Candidate& c) { return !c.visible ? 2 : c.fit.left_out_refitted ? 0 : 1; };
-    std::stable_sort(out_.candidates.begin(), out_.candidates.end(), [&](const Candidate& a, const Candidate& b) {
-      return rank(a) != rank(b) ? rank(a) < rank(b)
-             : rank(a) == 0     ? left_out(a) < left_out(b)
-                                : rank(a) == 1 && a.fit.score < b.fit.score;
-    });
   }
 
   void describe_base() {
@@ -226,6 +225,13 @@ Pooled expected_brier(const std::vector<TestError>& errors) {
   }
   expected.standard_error = std::sqrt(expected.standard_error) / n;
   return expected;
+}
+
+bool surer_than_it_may_be(const std::vector<TestError>& errors) {
+  double brier = 0;
+  for (const TestError& e : errors) brier += e.score / static_cast<double>(errors.size());
+  const Pooled chance = expected_brier(errors);
+  return brier > chance.error + 2 * chance.standard_error;
 }
 
 bool beyond_chance(const Pooled& difference, std::size_t tests, std::size_t tried) {

@@ -4,7 +4,8 @@
 // something are fitted with tests left out in ten groups, and once more as a second effect beside the best. Judged by
 // Brier's score of the tests left out, paired test by test: an effect is accepted that lowers it by more than chance, at
 // 97.5 % of Student's t divided by the number of effects that were looked at; a rival of the best lowers it by more than
-// its standard error and cannot be told from the best at 97.5 %.
+// its standard error and cannot be told from the best at 97.5 %. Where the model that comes out is still surer than it
+// may be, something is missing that no effect explains, and the verdict is `unknown`.
 #pragma once
 
 #include "measurement/decide.hpp"
@@ -18,6 +19,10 @@ Diagnosis diagnose_outcomes(const Bench&, const ModelSpec& base, const std::vect
 // Brier's score that the model would have if its probabilities were right, mean of p (1 - p), and how much chance moves
 // it: sqrt(sum p (1 - p) (1 - 2 p)^2)/n.
 Pooled expected_brier(const std::vector<TestError>&);
+
+// Is Brier's score above what the model's own probabilities make by more than two standard deviations of chance? Then it
+// lacks something, whoever asks.
+bool surer_than_it_may_be(const std::vector<TestError>&);
 
 // Is the difference above 0 by more than chance, when it is the best of so many?
 bool beyond_chance(const Pooled& difference, std::size_t tests, std::size_t tried);

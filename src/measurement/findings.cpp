@@ -190,9 +190,9 @@ class Findings {
         "{:.4f} "
         "+- {:.4f}: {}",
         whose, brier, chance, sd,
-        brier > chance + 2 * sd   ? "the model is surer than it may be, something is missing"
-        : brier < chance - 2 * sd ? "the model is less sure than it might be"
-                                  : "chance explains what is missed");
+        surer_than_it_may_be(errors) ? "the model is surer than it may be, something is missing"
+        : brier < chance - 2 * sd    ? "the model is less sure than it might be"
+                                     : "chance explains what is missed");
     const double spread = std::sqrt(chance * n);
     if (std::abs(expected - static_cast<double>(overturned)) > 2 * spread)
       say("{} of the {} tests overturned where the model expects {:.0f} +- {:.0f}: it is too {}", overturned, whose,

@@ -253,7 +253,9 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
   const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
   leave_out(
       bench, {&fit},
-      [&](const ModelFit& whole, const Tests& seen) { return least_squares(judge, seen, whole.model, whole.x, 1); },
+      [&](const ModelFit& whole, std::size_t, const Tests& seen) {
+        return least_squares(judge, seen, whole.model, whole.x, 1);
+      },
       jobs);
   const Objective total = [&](std::span<const double> x) {
     double sum = 0;

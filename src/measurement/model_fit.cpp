@@ -96,10 +96,6 @@ void append(Values& values, const TestError& e) {
   values.insert(values.end(), {e.score, e.noise_units, e.relative, e.probability});
 }
 
-// Of the mean of ln(e^2), or as a share of the mean of ln(predicted/measured)^2: what the rest of the tests gain by less is
-// no reason to leave the fit to all of them, and where motions are chaotic one would stray a long way for it.
-constexpr double chance_gain = 0.005;
-
 // 95 % intervals from the scatter of the fits with folds left out.
 std::vector<Interval> jackknife(const ModelFit& fit) {
   std::vector<Interval> intervals;
@@ -151,7 +147,9 @@ std::vector<ModelFit> fit_models(const Bench& bench, const std::vector<FitTask>&
     fits.push_back({.model = tasks[t].model,
                     .x = best.front().x,
                     .score = best.front().score,
-                    .evaluations = static_cast<int>(points[t].size())});
+                    .evaluations = static_cast<int>(points[t].size()),
+                    .known = tasks[t].known,
+                    .by_strides = measure == mean_stride_score});
     for (std::size_t k = 0; k < best.size(); ++k) {
       places.push_back({t, k});
       starts.push_back(best[k].x);
@@ -201,15 +199,10 @@ void refine(const Bench& bench, std::vector<ModelFit*> fits, const Effort& effor
 
 void leave_out(const Bench& bench, std::vector<ModelFit*> fits, const Effort& effort, const Jobs& jobs) {
   const auto tests = tests_of(bench.data(), Role::calibration);
-  const Refit refit = [&](const ModelFit& fit, const std::vector<std::size_t>& seen) {
+  const Refit refit = [&](const ModelFit& fit, std::size_t, const std::vector<std::size_t>& seen) {
     std::vector<std::size_t> seen_tests;
     for (const std::size_t i : seen) seen_tests.push_back(tests[i]);
-    const Objective rest = objective(bench, fit.model, seen_tests);
-    Fitted found = simplex(fit.model.free, rest, fit.x, 0.02, effort.fold_budget);
-    const double score = rest(fit.x);
-    const bool histories = !seen_tests.empty() && bench.test(seen_tests.front()).has_history();
-    if (found.score > score - chance_gain * (histories ? 1.0 : score)) found.x = fit.x, found.score = score;
-    return found;
+    return simplex(fit.model.free, objective(bench, fit.model, seen_tests), fit.x, 0.02, effort.fold_budget);
   };
   leave_out(bench, std::move(fits), refit, jobs);
 }
@@ -226,7 +219,7 @@ void leave_out(const Bench& bench, std::vector<ModelFit*> fits, const Refit& ref
     std::vector<std::size_t> seen, unseen;
     for (std::size_t t = 0; t < tests.size(); ++t)
       (fold[t] == k ? unseen : seen).push_back(fold[t] == k ? tests[t] : t);
-    const Fitted found = refit(fit, seen);
+    const Fitted found = refit(fit, k, seen);
     Values answer = packed(found);
     for (const TestError& error : test_errors(bench, unseen, fit.model, found.x)) append(answer, error);
     return answer;

@@ -24,7 +24,7 @@ struct Effort {
   std::size_t descended = 1000;          // tasks, the best by their screened points; the others stay there
   int budget = 80;                       // evaluations of each descent
   int polish = 160;                      // of one more, from the best of the descents
-  int fold_budget = 45;                  // of a fit with tests left out, from the fit to all
+  int fold_budget = 60;                  // of a fit with tests left out, from the fit to all, or from each start
 };
 
 struct Interval {
@@ -36,6 +36,10 @@ struct ModelFit {
   Values x = {};
   double score = 0;  // mean over the calibration tests
   int evaluations = 0;
+  // What the fits with a fold left out start from (left_out.hpp). known: of each fold, numbers that other models have
+  // without it, as far as they go; by_strides: found by strides, from anywhere.
+  std::vector<std::vector<Values>> known = {};
+  bool by_strides = false;
   bool left_out_refitted = false;           // else left_out is what the fit to all gives
   std::vector<Values> fold_x = {};          // of each fold
   std::vector<TestError> calibration = {};  // of each calibration test, with x
@@ -51,6 +55,7 @@ struct FitTask {
   ModelSpec model;
   std::vector<Values> starts = {};
   bool screened = true;
+  std::vector<std::vector<Values>> known = {};  // as of ModelFit
 };
 
 // Folds of n calibration tests: every test alone where there are up to 12, else 10 groups. Fold of each test.
@@ -71,12 +76,14 @@ void polish(const Bench&, std::vector<ModelFit*>, const Effort&, double step, co
 // numbers hold one simplex up).
 void refine(const Bench&, std::vector<ModelFit*>, const Effort&, const Jobs&);
 
-// Fits with each fold left out; fills fold_x, left_out, intervals.
-void leave_out(const Bench&, std::vector<ModelFit*>, const Effort&, const Jobs&);
-
-// The same with another way to refit: from fit.x to these of the calibration tests (positions among them).
-using Refit = std::function<Fitted(const ModelFit& fit, const std::vector<std::size_t>& seen)>;
+// Fits with each fold left out; fills fold_x, left_out, intervals. refit: the fit to these of the calibration tests
+// (positions among them), all but those of the fold.
+using Refit = std::function<Fitted(const ModelFit& fit, std::size_t fold, const std::vector<std::size_t>& seen)>;
 void leave_out(const Bench&, std::vector<ModelFit*>, const Refit&, const Jobs&);
+
+// The same by descents from the fit to all: what each test moves, for intervals. A verdict on tests left out asks for
+// more (left_out.hpp).
+void leave_out(const Bench&, std::vector<ModelFit*>, const Effort&, const Jobs&);
 
 // Errors of the calibration tests with x; left_out the same, without a refit.
 void evaluate(const Bench&, std::vector<ModelFit*>, const Jobs&);

@@ -17,6 +17,31 @@ Values joined(Values x, const Values& own) {
 
 }  // namespace
 
+ModelSpec within_reach(const ModelSpec& joined, const ModelSpec& base, const Values& known, const Reach& reach) {
+  ModelSpec model = joined;
+  std::copy(base.free.begin(), base.free.end(), model.free.begin());
+  if (!known.empty()) narrow(model, known, base.free.size());
+  for (std::size_t e = base.effects.size(); e < model.effects.size(); ++e) {
+    const EffectTerm& term = model.effects[e];
+    for (std::size_t p = 0; p < term.parameters.size(); ++p)
+      if (const int place = term.parameters[p].free; place >= 0)
+        model.free[static_cast<std::size_t>(place)] = free_parameter(*term.effect, term.effect->parameters[p], reach);
+  }
+  return model;
+}
+
+void narrow(ModelSpec& model, const Values& x, std::size_t numbers) {
+  for (std::size_t i = 0; i < numbers; ++i) {
+    Free& free = model.free[i];
+    if (free.name.rfind("effects.", 0) == 0) continue;
+    const double z = to_unit(free, x[i]);
+    const double half = free.logarithmic ? std::log(1.6) / std::log(free.high / free.low) : 0.15;
+    const double low = from_unit(free, z - half), high = from_unit(free, z + half);
+    free.low = low;
+    free.high = high;
+  }
+}
+
 std::vector<Values> at_the_ends(const ModelSpec& model, const Values& x, std::size_t numbers) {
   std::vector<Values> points;
   for (std::size_t i = 0; i < numbers; ++i)

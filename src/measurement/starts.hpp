@@ -7,6 +7,14 @@
 
 namespace freestand::measurement {
 
+// The first so many numbers of a model, but those of effects, start near where they stand in x: effects that are joined
+// move them, but not anywhere.
+void narrow(ModelSpec&, const Values& x, std::size_t numbers);
+
+// The model with the ranges that its fit starts in: the numbers of the base that it grew from near `known`, where that is
+// not empty; those of the effects that were joined to the base as far as these tests reach.
+ModelSpec within_reach(const ModelSpec&, const ModelSpec& base, const Values& known, const Reach&);
+
 // x with each of its first `numbers` in turn at either end of its range (friction at its upper end: nothing slips).
 std::vector<Values> at_the_ends(const ModelSpec&, const Values& x, std::size_t numbers);
 

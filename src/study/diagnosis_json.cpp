@@ -26,6 +26,8 @@ Json numbers(const std::vector<double>& values) {
   return list;
 }
 
+std::string label(const Candidate& c) { return fmt::format("{}", fmt::join(c.effects, "+")); }
+
 Json candidate_json(const Bench& bench, const Candidate& c) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   const Pooled in = pooled(bench, tests, c.fit.calibration), out = pooled(bench, tests, c.fit.left_out);
@@ -36,7 +38,7 @@ Json candidate_json(const Bench& bench, const Candidate& c) {
     if (i < c.fit.intervals.size()) interval = {c.fit.intervals[i].lower, c.fit.intervals[i].upper};
     parameters[free.name] = {{"value", c.fit.x[i]}, {"unit", free.unit}, {"interval", interval}};
   }
-  return {{"effect", fmt::format("{}", fmt::join(c.effects, "+"))},
+  return {{"effect", label(c)},
           {"effects", c.effects},
           {"visible", c.visible},
           {"parameters", parameters},
@@ -152,7 +154,9 @@ double noise_floor(const Bench& bench, const Diagnosis& d) {
 void withdraw_if_spoilt(const Quality& quality, Diagnosis& d) {
   if (!quality.spoilt()) return;
   d.verdict = Verdict::unknown;
+  d.reason = Reason::data;
   d.effects.clear();
+  d.best.reset();
   for (Candidate& c : d.candidates) c.rival = false;
   d.sentences = {
       "the measurements look wrong in a sign, a time or a unit (see the findings): no effect can be named before "
@@ -183,24 +187,22 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
   Diagnosis d = measurement::diagnose(bench, p->model, catalogue, options, jobs);
   const Quality quality = examine(bench, d.base.fit, options.effort, jobs);
   withdraw_if_spoilt(quality, d);
-  const Candidate* best = &d.base;
-  for (const Candidate& c : d.candidates)
-    if (c.visible && c.fit.left_out_refitted && c.fit.mean_left_out() < best->fit.mean_left_out()) best = &c;
-
   Json json = {{"format", "freestand-diagnosis/1"},
                {"study", run.study},
                {"measurements", p->measurements},
                {"name", p->data.name},
                {"error_unit", error_unit(bench)},
                {"verdict", name(d.verdict)},
+               {"reason", d.reason == Reason::none ? Json(nullptr) : Json(name(d.reason))},
                {"effects", d.effects},
+               {"best", d.best ? Json(label(d.candidates[*d.best])) : Json(nullptr)},
                {"sentences", d.sentences},
                {"findings", quality.findings},
                {"noise_floor", number_or_null(noise_floor(bench, d))},
                {"base", candidate_json(bench, d.base)}};
   json["candidates"] = Json::array();
   for (const Candidate& c : d.candidates) json["candidates"].push_back(candidate_json(bench, c));
-  json["recovered_force"] = recovered_json(bench, d, *best);
+  json["recovered_force"] = recovered_json(bench, d, d.best ? d.candidates[*d.best] : d.base);
   json["suggested_motion"] = d.verdict == Verdict::ambiguous ? suggestion_json(bench, d, jobs) : Json(nullptr);
   add_provenance(json, world, run);
   return json;

@@ -21,6 +21,7 @@ using measurement::Test;
 
 constexpr const char* format_name = "freestand-measurements/1";
 constexpr Range size_range = {.lower = 0, .why = "a size must be above zero"};
+constexpr Range noise_range = {.lower = 0, .why = "errors are told in units of it, so that it must be above zero"};
 const std::vector<std::string> peak_keys = {"peak_slip_m", "residual_slip_m", "peak_rotation_rad",
                                             "peak_acceleration_g", "overturned"};
 
@@ -41,10 +42,10 @@ measurement::Noise read_noise(Section& file) {
   const YAML::Node* node = file.find("noise");
   if (!node) return noise;
   Section section(*node, "noise", file.line("noise"), file.problems());
-  noise.slip_m = section.number("slip_m", 0, size_range);
-  noise.rotation_rad = section.number("rotation_rad", 0, size_range);
-  noise.block_acceleration_mps2 = section.number("block_acceleration_mps2", 0, size_range);
-  noise.floor_acceleration_mps2 = section.number("floor_acceleration_mps2", 0, size_range);
+  noise.slip_m = section.number("slip_m", 0, noise_range);
+  noise.rotation_rad = section.number("rotation_rad", 0, noise_range);
+  noise.block_acceleration_mps2 = section.number("block_acceleration_mps2", 0, noise_range);
+  noise.floor_acceleration_mps2 = section.number("floor_acceleration_mps2", 0, noise_range);
   section.finish();
   return noise;
 }
@@ -149,12 +150,14 @@ void read_tests(Section& file, Dataset& set) {
   }
 }
 
+// A number that is there, and wrong, has been told already.
 void check_noise(Section& file, const Dataset& set) {
+  const YAML::Node* given = file.find("noise");
   const auto any = [&](auto channel) {
     return std::any_of(set.tests.begin(), set.tests.end(), [&](const Test& t) { return !(t.*channel).empty(); });
   };
   const auto needed = [&](bool there, double noise, const char* key) {
-    if (there && noise == 0)
+    if (there && noise == 0 && !(given && (!given->IsMap() || (*given)[key])))
       file.problem("noise", fmt::format("noise.{} is missing (errors are told in units of the sensor's noise): add its "
                                         "standard deviation",
                                         key));

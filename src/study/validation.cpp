@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,14 @@ using namespace measurement;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+// The first few.
+std::string listed(const std::vector<std::string>& ids) {
+  constexpr std::size_t most = 4;
+  const std::vector<std::string> shown(ids.begin(), ids.begin() + static_cast<long>(std::min(ids.size(), most)));
+  return fmt::format("{}{}", fmt::join(shown, ", "),
+                     ids.size() > most ? fmt::format(" and {} more", ids.size() - most) : "");
+}
+
 void check_dimensions(const Prepared& p) {
   Problems problems(p.measurements);
   for (const Test& test : p.data.tests)
@@ -37,6 +46,21 @@ void check_vertical(const Prepared& p) {
                             "give floor_vertical_acceleration_mps2, or remove the effect",
                             p.validation.file.string(), p.measurements),
                 Exit::data);
+}
+
+// Histories, peaks and outcomes are judged each by a loss of its own, and the sum of two of them means nothing.
+void check_one_kind(const Prepared& p) {
+  constexpr const char* names[] = {"histories", "peaks alone", "outcomes alone"};
+  std::vector<std::string> ids[3], told;
+  for (const Test& test : p.data.tests) ids[static_cast<int>(kind(test))].push_back(test.id);
+  for (int k = 0; k < 3; ++k)
+    if (!ids[k].empty()) told.push_back(fmt::format("{} ({})", names[k], listed(ids[k])));
+  if (told.size() > 1)
+    throw Error(
+        fmt::format("{}: the tests hold {} (errors of different kinds have no common scale): split the file into "
+                    "one for each kind, and hold the model against each with --measurements",
+                    p.measurements, fmt::join(told, " and ")),
+        Exit::data);
 }
 
 // Outcomes are judged by probabilities: placements scatter.
@@ -110,6 +134,7 @@ std::unique_ptr<Prepared> prepare(const parallel::Communicator& world, Validatio
   });
   p->data = read_measurements(p->measurements);
   p->model = model_spec(p->validation, false);
+  check_one_kind(*p);
   check_dimensions(*p);
   check_vertical(*p);
   add_placement_scatter(*p);

@@ -3,6 +3,7 @@ a formula as an effect, and what is said of broken measurements."""
 
 import json
 import pathlib
+import re
 import shutil
 import unittest
 
@@ -112,6 +113,23 @@ class Validation(InFolder):
         data = self.study.with_name("dataset.yaml")
         data.write_text(data.read_text(encoding="utf-8").replace("file: t02.csv", "file: t01.csv"), encoding="utf-8")
         self.fail_with(3, ["compare", self.study, "-o", self.folder / "t", "--quiet"], "test t02 has the file of test t01")
+
+    def test_tests_of_two_kinds_are_refused(self):
+        data = self.study.with_name("dataset.yaml")
+        data.write_text(data.read_text(encoding="utf-8") + "  - {id: fell, pulse: B, period_s: 0.8, peak_acceleration_g: 0.9, "
+                        "role: calibration, overturned: true}\n", encoding="utf-8")
+        for verb in ("compare", "diagnose"):
+            self.fail_with(3, [verb, self.study, "-o", self.folder / verb, "--quiet"], "histories (t01, ", "outcomes alone (fell)", "split")
+
+    def test_a_noise_of_zero_is_not_missing(self):
+        data = self.study.with_name("dataset.yaml")
+        text = data.read_text(encoding="utf-8")
+        noise = re.search(r"(?m)^  slip_m: .*$", text).group()
+        command = ["compare", self.study, "-o", self.folder / "zero", "--quiet"]
+        data.write_text(text.replace(noise, "  slip_m: 0"), encoding="utf-8")
+        self.assertNotIn("missing", self.fail_with(3, command, "noise.slip_m is 0", "must be above zero").stderr)
+        data.write_text(re.sub(r"(?m)^noise:\n(  .*\n)*", "noise: 0\n", text), encoding="utf-8")
+        self.assertNotIn("missing", self.fail_with(3, command, "noise is a single value", "keys").stderr)
 
     def test_nothing_to_calibrate(self):
         study = self.copy("fixed", ("t03", "t04", "t05"))

@@ -2,7 +2,7 @@
 """Does the diagnosis name what is hidden? The confusion table, and the rates, over made sets.
 
     confusion.py -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--ranks 1] [--again]
-                 [--build build/release]
+                 [--unpicked] [--build build/release]
 
 Makes each set (make_sets), runs `freestand diagnose` on it, and, where the answer is right, `freestand add` for each
 hidden effect. One line per set as it is done; DIR/results.jsonl keeps them, so that a later run goes on from there, and
@@ -42,6 +42,7 @@ def options():
     parser.add_argument("--tests", type=int, default=10)
     parser.add_argument("--duration", type=float, default=20)
     parser.add_argument("--ranks", type=int, default=1)
+    parser.add_argument("--unpicked", action="store_true", help="floors as they come, down to such as do not move the specimen")
     parser.add_argument("--again", action="store_true", help="do finished sets again")
     parser.add_argument("--table", action="store_true", help="print the table of what is done, and do nothing")
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build/release"))
@@ -95,7 +96,7 @@ class Bench:
     def made(self, effects, seed):
         o = self.options
         subprocess.run([self.make_sets, "-o", self.sets, "--effects", effects, "--first", str(seed), "--seeds", "1",
-                        "--tests", str(o.tests), "--duration", str(o.duration)], check=True, capture_output=True)
+                        "--tests", str(o.tests), "--duration", str(o.duration)] + ["--unpicked"] * o.unpicked, check=True, capture_output=True)
         name = f"{effects}-{seed}"
         (self.sets / f"{name}.yaml").write_text(STUDY.format(name))
         return name, json.loads((self.sets / "answers.json").read_text())[name]
@@ -103,7 +104,7 @@ class Bench:
     def one(self, effects, seed):
         name, answer = self.made(effects, seed)
         result = {"name": name, "effects": effects, "seed": seed, "tests": self.options.tests,
-                  "duration": self.options.duration, "kind": answer_kind(answer), "twins": answer["twins"],
+                  "duration": self.options.duration, "unpicked": self.options.unpicked, "kind": answer_kind(answer), "twins": answer["twins"],
                   "habit": answer["habit"], "plain_error": answer["plain_error_noise_units"]}
         start = time.monotonic()
         done = self.run("diagnose", f"{name}.yaml", "-o", f"{name}.diagnosis", "--overwrite")
@@ -146,7 +147,7 @@ def ladder(study):
 def known(o):
     file = o.output / "results.jsonl"
     lines = [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
-    return {r["name"]: r for r in lines if r["tests"] == o.tests and r["duration"] == o.duration}
+    return {r["name"]: r for r in lines if (r["tests"], r["duration"], r.get("unpicked", False)) == (o.tests, o.duration, o.unpicked)}
 
 
 def number(value, form="{:.3g}"):

@@ -76,7 +76,7 @@ class Maker {
     const bool any = !test.holdout && random.chance(0.2);
     MadeTest best;
     best.truth_error = std::numeric_limits<double>::infinity();
-    for (int motion = 0; motion < 60 && best.truth_error > (any ? 1e9 : followed); ++motion) {
+    for (int motion = 0; motion < 60 && best.truth_error > (any || request_.unpicked ? 1e9 : followed); ++motion) {
       if (!shake(random, set.drawn, vertical, test)) continue;
       measure(random, set, test);
       test.truth_error = error_of(set, test, simulate(set.drawn.truth, test.measured_floor, step_s));
@@ -102,7 +102,8 @@ class Maker {
     test.floor = draw_floor(random, d, vertical);
     for (int trial = 0; trial < 8; ++trial) {
       test.truth = simulate(d.truth, test.floor, step_s);
-      const double factor = rescaling(d, test.truth);
+      const bool fell = test.truth.outcome == "overturned" || test.truth.outcome == "painleve";
+      const double factor = request_.unpicked && !fell ? 0 : rescaling(d, test.truth);
       if (factor == 0) return true;
       scale(test.floor, factor);
     }
@@ -114,8 +115,9 @@ class Maker {
     const double which = random.unit();
     const Shaking kind = which < 0.35 ? Shaking::pulse : which < 0.8 ? Shaking::stochastic : Shaking::both;
     FloorSamples floor{dt_s, draw_shaking(random, kind, {}, dt_s, request_.duration_s), {}};
-    const double hold_mps2 = standard_gravity_mps2 * std::min(d.truth.mu_s, d.width_m / d.height_m);
-    const double peak_mps2 = hold_mps2 * random.uniform(1.3, 3.2);
+    const double hold = std::min(request_.unpicked ? d.truth.mu_k : d.truth.mu_s, d.width_m / d.height_m);
+    const double times = request_.unpicked ? random.uniform(1.2, 3) : random.uniform(1.3, 3.2);
+    const double peak_mps2 = standard_gravity_mps2 * hold * times;
     scale(floor, peak_mps2);
     if (!vertical) return floor;
     const bool still = kind == Shaking::pulse && random.chance(0.5);

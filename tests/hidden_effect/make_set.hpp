@@ -9,7 +9,8 @@
 //
 // The noise of a floor makes some motions other ones (long rocking, stops on a rough floor): the truth itself, on the
 // floor as measured, misses them. One calibration test in five may be such a one; of the others and of all held-out
-// tests the truth stays within 1.15 noise units, so that there is something a model can be asked for.
+// tests the truth stays within 1.15 noise units, so that there is something a model can be asked for. A set that is
+// unpicked has floors as they come: a contact that just holds, or just does not, is where rivals come close.
 #pragma once
 
 #include <cstdint>
@@ -29,6 +30,7 @@ struct SetRequest {
   int tests = 10;          // of which three in ten, one at least, are held out
   double duration_s = 20;  // mean length of a stochastic motion
   double least_error = 6;  // without any of the effects [noise units]: weaker draws are made again, eight at most
+  bool unpicked = false;   // floors of 1.2 to 3 mu g as they come, whatever they do
 };
 
 struct MadeTest {

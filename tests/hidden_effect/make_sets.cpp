@@ -1,5 +1,5 @@
-// make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20]: measurement sets
-// DIR/<effect>-<seed>/, and what is hidden in them in DIR/answers.json. make_sets --list: what is hidden by default.
+// make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--unpicked]:
+// measurement sets DIR/<effect>-<seed>/, and what is hidden in them in DIR/answers.json. make_sets --list: what is hidden by default.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -17,7 +17,7 @@ struct Options {
   std::uint64_t seeds = 5, first = 1;
   int tests = 10;
   double duration_s = 20;
-  bool list = false;
+  bool list = false, unpicked = false;
 };
 
 nlohmann::ordered_json known_answers(const std::filesystem::path& file) {
@@ -31,7 +31,9 @@ void make(const Options& options) {
   nlohmann::ordered_json answers = known_answers(file);
   for (std::uint64_t seed = options.first; seed < options.first + options.seeds; ++seed)
     for (const std::string& effects : options.effects) {
-      const MadeSet set = make_set({split_effects(effects), seed, options.tests, options.duration_s});
+      SetRequest request{split_effects(effects), seed, options.tests, options.duration_s};
+      request.unpicked = options.unpicked;
+      const MadeSet set = make_set(request);
       write_set(set, options.folder / set.name);
       answers[set.name] = answer_of(set);
       std::ofstream(file) << answers.dump(1) << '\n';
@@ -54,6 +56,7 @@ int main(int count, char** words) {
   parser.add_option("--first", options.first, "first seed");
   parser.add_option("--tests", options.tests, "tests of a set")->check(CLI::Range(2, 99));
   parser.add_option("--duration", options.duration_s, "mean length of a stochastic motion [s]");
+  parser.add_flag("--unpicked", options.unpicked, "floors as they come, down to such as do not move the specimen");
   CLI11_PARSE(parser, count, words);
   if (options.list) {
     for (const std::string& effects : freestand::test::default_effects()) fmt::print("{}\n", effects);

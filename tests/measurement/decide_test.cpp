@@ -33,12 +33,17 @@ Candidate candidate(const Bench& bench, std::vector<std::string> effects, double
 }
 
 // strays: of every test of the base.
-Diagnosis decided(const Bench& bench, double error, double explained, double strays = 0) {
+Diagnosis undecided(const Bench& bench, double strays) {
   const std::size_t tests = tests_of(bench.data(), Role::calibration).size();
   Diagnosis d;
   d.samples.assign(tests, samples / static_cast<double>(tests));
   d.strays.assign(tests, strays);
   d.base = candidate(bench, {}, 5.5, 2.9);
+  return d;
+}
+
+Diagnosis decided(const Bench& bench, double error, double explained, double strays = 0) {
+  Diagnosis d = undecided(bench, strays);
   d.candidates = {candidate(bench, {"reduced_base"}, error, explained)};
   decide(bench, d);
   return d;
@@ -66,6 +71,78 @@ TEST(Decide, AnEffectThatGainsLessThanReplaysOfTheBaseStrayIsNotMissing) {
   const Diagnosis d = decided(bench, 1.05, 1.0, samples * 2.9 * 2.9);
   EXPECT_EQ(d.verdict, Verdict::none);
   EXPECT_TRUE(d.effects.empty());
+}
+
+// As candidate(), with the error of each test left out [noise units].
+Candidate with_errors(const Bench& bench, std::vector<std::string> effects, const std::vector<double>& errors,
+                      double explained) {
+  Candidate c = candidate(bench, std::move(effects), 1, explained);
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    c.fit.left_out[i] = {.score = 2 * std::log(errors[i]), .noise_units = errors[i]};
+  return c;
+}
+
+Diagnosis decided_among(const Bench& bench, std::vector<Candidate> candidates) {
+  Diagnosis d = undecided(bench, 0);
+  d.candidates = std::move(candidates);
+  decide(bench, d);
+  return d;
+}
+
+// Static friction was hidden. The misfit that allows for the floor's noise prefers rate weakening by 60, the tests left
+// out prefer static friction: nobody may be named alone.
+TEST(Decide, NoEffectIsNamedAloneOverOneThatMissesTheTestsLeftOutByLess) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  const Diagnosis d =
+      decided_among(bench, {with_errors(bench, {"rate_weakening"}, {1.05, 1.9, 1.2, 1.15}, 1.0),
+                            with_errors(bench, {"static_friction"}, {1.06, 1.3, 1.15, 1.14}, std::sqrt(1.06))});
+  EXPECT_EQ(d.verdict, Verdict::ambiguous);
+  EXPECT_EQ(d.effects, (std::vector<std::string>{"static_friction", "rate_weakening"}));
+  ASSERT_TRUE(d.best.has_value());
+  EXPECT_EQ(d.candidates[*d.best].effects, (std::vector<std::string>{"static_friction"}));
+}
+
+// Paired test by test, a rival that is a little worse in all of them is told apart though both scatter far more.
+TEST(Decide, ARivalThatIsWorseInEveryTestIsToldApart) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  const Diagnosis d =
+      decided_among(bench, {with_errors(bench, {"rate_weakening"}, {1.2, 2.3, 1.4, 1.6}, std::sqrt(1.06)),
+                            with_errors(bench, {"static_friction"}, {1.0, 2.0, 1.15, 1.32}, 1.0)});
+  EXPECT_EQ(d.verdict, Verdict::missing);
+  EXPECT_EQ(d.effects, (std::vector<std::string>{"static_friction"}));
+}
+
+// One test reaches the wall. What the floor's noise does not explain there no scatter among the other tests excuses.
+TEST(Decide, ARivalThatLeavesMoreThanNoiseExplainsIsNone) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  const Diagnosis d = decided_among(bench, {with_errors(bench, {"wall_impact"}, {1.01, 1.02, 0.99, 1.0}, 1.0),
+                                            with_errors(bench, {"slack_tether"}, {1.01, 1.02, 12, 1.0}, 6)});
+  EXPECT_EQ(d.verdict, Verdict::missing);
+  EXPECT_EQ(d.effects, (std::vector<std::string>{"wall_impact"}));
+}
+
+// What a pair gains on one effect alone counts by tests as well.
+TEST(Decide, APairIsNotNamedOverOneOfItsEffectsThatIsAsGood) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  const Diagnosis d =
+      decided_among(bench, {with_errors(bench, {"static_friction", "viscous_drag"}, {1.0, 1.4, 1.05, 1.1}, 1.0),
+                            with_errors(bench, {"static_friction"}, {1.02, 1.2, 1.1, 1.05}, std::sqrt(1.06))});
+  EXPECT_EQ(d.verdict, Verdict::missing);
+  EXPECT_EQ(d.effects, (std::vector<std::string>{"static_friction"}));
+}
+
+TEST(Decide, SaysWhyTheAnswerIsUnknown) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  const Diagnosis useless = decided(bench, 9.4, 1.1), not_enough = decided(bench, 2.0, 1.8);
+  EXPECT_EQ(useless.verdict, Verdict::unknown);
+  EXPECT_EQ(useless.reason, Reason::none_helps);
+  EXPECT_EQ(not_enough.verdict, Verdict::unknown);
+  EXPECT_EQ(not_enough.reason, Reason::none_suffices);
 }
 
 }  // namespace

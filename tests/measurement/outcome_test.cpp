@@ -188,6 +188,25 @@ TEST(Outcomes, NothingIsMissingWhereNothingIs) {
   EXPECT_LT(std::abs(d.base.fit.score - narrower.fit.score), 0.004);
 }
 
+// Placements scatter five times as much as this model believes. What compare would call missing, the diagnosis cannot call
+// none, though no effect helps.
+TEST(Outcomes, AModelThatIsSurerThanItMayBeLacksSomething) {
+  const Dataset data = made_outcomes(80, {});
+  const Bench bench(data, 0);
+  ModelSpec sure = rocking_model(true_size_m);
+  sure.placement_scatter = Number{.value = 0.2 * true_scatter};
+  sure.free.pop_back();
+  OutcomeEffort effort;
+  effort.resamples = 10;
+  const Diagnosis d = diagnose_outcomes(bench, sure, {effects::find("static_friction")}, {}, effort, run_here);
+  EXPECT_TRUE(surer_than_it_may_be(d.base.fit.calibration));
+  EXPECT_EQ(d.verdict, Verdict::unknown);
+  EXPECT_EQ(d.reason, Reason::none_helps);
+  EXPECT_TRUE(d.effects.empty());
+  EXPECT_TRUE(surer_than_it_may_be({{.score = 0.81, .probability = 0.1}, {.score = 0.81, .probability = 0.9}}));
+  EXPECT_FALSE(surer_than_it_may_be({{.score = 0.01, .probability = 0.1}, {.score = 0.01, .probability = 0.9}}));
+}
+
 TEST(Outcomes, AsymmetryIsNamed) {
   const Dataset data = made_outcomes(200, {{effects::find("offset_mass"), {0.25}}});
   const Bench bench(data, 0);

@@ -60,6 +60,12 @@ class Reads(Temporary):
         self.assertEqual([table.variable for table in found.recovered], ["time_s", "speed_mps", "direction", "normal_g"])
         self.assertEqual(reading_validation.read_diagnosis(make.diagnosis(self.folder, "none")).suggestion, {})
 
+    def test_the_best_is_the_one_that_the_file_names(self):
+        found = [make.candidate("static_friction", 1.2), make.candidate("rate_weakening", 1.4, True)]
+        chosen = reading_validation.read_diagnosis(make.diagnosis(self.folder, candidates=found, best="static_friction"))
+        self.assertEqual(chosen.best["effect"], "static_friction")
+        self.assertEqual(reading_validation.read_diagnosis(make.diagnosis(self.folder, candidates=found, best=None)).best, {})
+
     def test_missing_parts_are_empty(self):
         make.write(self.folder, "diagnosis.json", {"format": "freestand-diagnosis/1", "verdict": "none", "candidates": []})
         found = reading_validation.read_diagnosis(self.folder)
@@ -179,7 +185,7 @@ class Drawn(Temporary):
 
     def test_effects_without_an_error_on_tests_left_out_are_crosses(self):
         found = [make.candidate("viscous_drag", 1.0, True), make.candidate("rate_strengthening", 1.01) | {"practical": False},
-                 make.candidate("flexible_legs", 2.0) | {"left_out_refitted": False}, make.candidate("floor_tilt", 3.0)]
+                 make.candidate("floor_tilt", 3.0), make.candidate("flexible_legs", 2.0) | {"left_out_refitted": False}]
         drawn = self.draw(make.diagnosis(self.folder / "crosses", candidates=found))["ranking"]
         (axes,) = drawn.figure.axes
         self.assertEqual([label.get_text() for label in axes.get_yticklabels()],

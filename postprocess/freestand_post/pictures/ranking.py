@@ -22,7 +22,6 @@ def pictures(results):
 
 def _picture(diagnosis, k):
     rows = [row for row in diagnosis.candidates if row.get("visible", True) and np.isfinite(row["error_left_out"])]
-    rows.sort(key=lambda row: (not row["rival"], not row["left_out_refitted"], row["error_left_out"]))
     more, rows = len(rows) - SHOWN, rows[:SHOWN]
     value = np.array([row["error_left_out"] for row in rows])
     error = np.nan_to_num([row["error_left_out_se"] * row["left_out_refitted"] for row in rows])

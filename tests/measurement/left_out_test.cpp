@@ -1,0 +1,94 @@
+// What is left out, or held out, reaches nothing of a fit.
+#include "measurement/left_out.hpp"
+
+#include <gtest/gtest.h>
+
+#include "effects/effects.hpp"
+#include "measurement/diagnose.hpp"
+#include "measurement/made_tests.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+Specimen block(double mu, std::vector<EffectUse> effects = {}) {
+  Specimen s;
+  s.block = Block::rectangular(0.8, 0.6, 100);
+  s.friction = {mu, mu};
+  s.effects = std::move(effects);
+  return s;
+}
+
+// The same set with other slips in one test, further than in any other.
+Dataset with_other_slips(Dataset data, std::size_t test) {
+  for (double& slip : data.tests[test].slip_m) slip *= -3;
+  return data;
+}
+
+// The base, and the base with a wall, each with tests left out.
+std::vector<ModelFit> left_out_fits(const Dataset& data) {
+  const Bench bench(data, 0);
+  const ModelSpec base = test::free_friction();
+  auto fits = fit_models(bench, {{.model = base}}, {}, run_here);
+  search_left_out(bench, base, {&fits[0]}, {}, run_here);
+  FitTask wall{.model = with_effect(base, *effects::find("wall_impact"), bench.reach())};
+  for (const Values& x : fits[0].fold_x) wall.known.push_back({x});
+  fits.push_back(fit_models(bench, {wall}, {}, run_here).front());
+  search_left_out(bench, base, {&fits[1]}, {}, run_here);
+  return fits;
+}
+
+TEST(LeftOut, AFitDoesNotDependOnWhatWasMeasuredInTheTestLeftOut) {
+  const Dataset data = test::made_dataset(block(0.2));
+  const auto fits = left_out_fits(data), others = left_out_fits(with_other_slips(data, 2));
+  for (std::size_t m = 0; m < fits.size(); ++m) {
+    ASSERT_NE(fits[m].x, others[m].x) << m;
+    EXPECT_EQ(fits[m].fold_x[2], others[m].fold_x[2]) << m;
+    EXPECT_NE(fits[m].fold_x[1], others[m].fold_x[1]) << m;
+  }
+}
+
+// At the noise as well, where little is gained by it.
+TEST(LeftOut, AFitIsTheBestOfTheTestsThatItSees) {
+  const Dataset data = test::made_dataset(block(0.237));
+  const Bench bench(data, 0);
+  const ModelSpec base = test::free_friction();
+  auto fits = fit_models(bench, {{.model = base}}, {}, run_here);
+  polish(bench, {&fits[0]}, {}, 0.05, run_here);
+  search_left_out(bench, base, {&fits[0]}, {}, run_here);
+  const auto tests = tests_of(data, Role::calibration);
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    auto seen = tests;
+    seen.erase(seen.begin() + static_cast<long>(k));
+    EXPECT_NE(fits[0].fold_x[k], fits[0].x) << k;
+    EXPECT_LT(mean_score(bench, seen, base, fits[0].fold_x[k]), mean_score(bench, seen, base, fits[0].x)) << k;
+  }
+  for (const TestError& e : fits[0].left_out) EXPECT_NEAR(e.noise_units, 1, 0.1);
+}
+
+TEST(HeldOut, ReachesNoRangeAndNoLandmark) {
+  const Dataset data = test::made_dataset(block(0.2));
+  const Dataset other = with_other_slips(data, 4);
+  ASSERT_EQ(data.tests[4].role, Role::holdout);
+  const Reach reach = Bench(data, 0).reach(), with_other = Bench(other, 0).reach();
+  EXPECT_EQ(reach.least_m, with_other.least_m);
+  EXPECT_EQ(reach.greatest_m, with_other.greatest_m);
+}
+
+// Four tests, two effects: pairs whose numbers are as many as the tests are told, and not tried.
+TEST(Pairs, WithAsManyNumbersAsTestsAreNotTried) {
+  const auto* tilt = effects::find("floor_tilt");
+  const Dataset data = test::made_dataset(block(0.2, {{effects::find("viscous_drag"), {2.0}}, {tilt, {0.03}}}));
+  const Bench bench(data, 4);
+  DiagnosisOptions options;
+  options.effort.budget = options.effort.polish = 40;
+  const Diagnosis d =
+      diagnose(bench, test::free_friction(), {tilt, effects::find("rate_weakening")}, options, run_here);
+  for (const Candidate& c : d.candidates) EXPECT_LT(c.fit.x.size(), 4U) << c.effects.back();
+  const bool told = std::any_of(d.sentences.begin(), d.sentences.end(), [](const std::string& sentence) {
+    return sentence.find("not tried") == 0 && sentence.find("floor_tilt with rate_weakening") != std::string::npos;
+  });
+  EXPECT_TRUE(told);
+}
+
+}  // namespace
+}  // namespace freestand::measurement
