@@ -18,9 +18,15 @@ Specimen block(double mu, std::vector<EffectUse> effects = {}) {
   return s;
 }
 
-// The same set with other slips in one test, further than in any other.
-Dataset with_other_slips(Dataset data, std::size_t test) {
-  for (double& slip : data.tests[test].slip_m) slip *= -3;
+constexpr std::size_t furthest = 3;  // the test for calibration in which the block slips furthest
+constexpr Effort little = {.screened_per_number = 8,
+                           .starts = 1,
+                           .budget = 20,
+                           .polish = 20,
+                           .fold_budget = 20};  // what it finds matters little here
+
+Dataset with_other_slips(Dataset data, std::size_t test, double factor) {
+  for (double& slip : data.tests[test].slip_m) slip *= factor;
   return data;
 }
 
@@ -28,21 +34,20 @@ Dataset with_other_slips(Dataset data, std::size_t test) {
 std::vector<ModelFit> left_out_fits(const Dataset& data) {
   const Bench bench(data, 0);
   const ModelSpec base = test::free_friction();
-  auto fits = fit_models(bench, {{.model = base}}, {}, run_here);
-  search_left_out(bench, base, {&fits[0]}, {}, run_here);
+  auto fits = fit_models(bench, {{.model = base}}, little, run_here);
+  search_left_out(bench, base, {&fits[0]}, little, run_here);
   FitTask wall{.model = with_effect(base, *effects::find("wall_impact"), bench.reach())};
   for (const Values& x : fits[0].fold_x) wall.known.push_back({x});
-  fits.push_back(fit_models(bench, {wall}, {}, run_here).front());
-  search_left_out(bench, base, {&fits[1]}, {}, run_here);
+  fits.push_back(fit_models(bench, {wall}, little, run_here).front());
+  search_left_out(bench, base, {&fits[1]}, little, run_here);
   return fits;
 }
 
 TEST(LeftOut, AFitDoesNotDependOnWhatWasMeasuredInTheTestLeftOut) {
   const Dataset data = test::made_dataset(block(0.2));
-  const auto fits = left_out_fits(data), others = left_out_fits(with_other_slips(data, 2));
+  const auto fits = left_out_fits(data), others = left_out_fits(with_other_slips(data, furthest, 1.005));
   for (std::size_t m = 0; m < fits.size(); ++m) {
-    ASSERT_NE(fits[m].x, others[m].x) << m;
-    EXPECT_EQ(fits[m].fold_x[2], others[m].fold_x[2]) << m;
+    EXPECT_EQ(fits[m].fold_x[furthest], others[m].fold_x[furthest]) << m;
     EXPECT_NE(fits[m].fold_x[1], others[m].fold_x[1]) << m;
   }
 }
@@ -67,7 +72,7 @@ TEST(LeftOut, AFitIsTheBestOfTheTestsThatItSees) {
 
 TEST(HeldOut, ReachesNoRangeAndNoLandmark) {
   const Dataset data = test::made_dataset(block(0.2));
-  const Dataset other = with_other_slips(data, 4);
+  const Dataset other = with_other_slips(data, 4, -9);
   ASSERT_EQ(data.tests[4].role, Role::holdout);
   const Reach reach = Bench(data, 0).reach(), with_other = Bench(other, 0).reach();
   EXPECT_EQ(reach.least_m, with_other.least_m);
@@ -78,9 +83,9 @@ TEST(HeldOut, ReachesNoRangeAndNoLandmark) {
 TEST(Pairs, WithAsManyNumbersAsTestsAreNotTried) {
   const auto* tilt = effects::find("floor_tilt");
   const Dataset data = test::made_dataset(block(0.2, {{effects::find("viscous_drag"), {2.0}}, {tilt, {0.03}}}));
-  const Bench bench(data, 4);
+  const Bench bench(data, 2);
   DiagnosisOptions options;
-  options.effort.budget = options.effort.polish = 40;
+  options.effort = little;
   const Diagnosis d =
       diagnose(bench, test::free_friction(), {tilt, effects::find("rate_weakening")}, options, run_here);
   for (const Candidate& c : d.candidates) EXPECT_LT(c.fit.x.size(), 4U) << c.effects.back();
