@@ -135,17 +135,14 @@ class OutcomeDiagnoser {
     doubt(chosen);
   }
 
-  // Effects help, and something more is missing.
+  // What has been found stands by its own gain. But compare would say that something is missing, and so does this.
   void doubt(const Candidate& chosen) {
     if (!surer_than_it_may_be(chosen.fit.calibration)) return;
-    out_.verdict = Verdict::unknown;
-    out_.reason = Reason::none_suffices;
-    out_.effects.clear();
     const Pooled chance = expected_brier(chosen.fit.calibration);
     say(
         fmt::format("even with {} the model is surer than it may be: its Brier score is {:.4f} where chance alone "
                     "would make {:.4f} +- "
-                    "{:.4f}; something is missing that no effect of the catalogue explains",
+                    "{:.4f}; something more is missing, and it is no effect of the catalogue",
                     label(chosen), chosen.fit.score, chance.error, chance.standard_error));
   }
 

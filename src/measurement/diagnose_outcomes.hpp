@@ -4,8 +4,8 @@
 // something are fitted with tests left out in ten groups, and once more as a second effect beside the best. Judged by
 // Brier's score of the tests left out, paired test by test: an effect is accepted that lowers it by more than chance, at
 // 97.5 % of Student's t divided by the number of effects that were looked at; a rival of the best lowers it by more than
-// its standard error and cannot be told from the best at 97.5 %. Where the model that comes out is still surer than it
-// may be, something is missing that no effect explains, and the verdict is `unknown`.
+// its standard error and cannot be told from the best at 97.5 %. Where no effect is accepted and
+// the base is surer than it may be, something is missing that no effect explains: the verdict is `unknown`.
 #pragma once
 
 #include "measurement/decide.hpp"
