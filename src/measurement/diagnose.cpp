@@ -142,7 +142,9 @@ class Diagnoser {
     std::vector<std::string> names;
     for (const auto* effect : catalogue_)
       if (goes_with(base_, *effect) && !fewer_numbers_than(tests_, base_, *effect)) names.push_back(effect->name);
-    for (const auto& [a, b] : pairs_.refused()) names.push_back(a + " with " + b);
+    if (const auto& pairs = pairs_.refused(); !pairs.empty())
+      names.push_back(fmt::format("{} pair{}, as {} with {}", pairs.size(), pairs.size() == 1 ? "" : "s",
+                                  pairs.begin()->first, pairs.begin()->second));
     if (!names.empty())
       out_.sentences.push_back(
           fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
