@@ -70,19 +70,6 @@ TEST(LeftOut, AFitIsTheBestOfTheTestsThatItSees) {
   for (const TestError& e : fits[0].left_out) EXPECT_NEAR(e.noise_units, 1, 0.1);
 }
 
-// A contact that just holds or just does not makes valleys in which a search by fewer tests sticks: that is no error of
-// the model.
-TEST(LeftOut, ASearchThatSticksDoesNotCountAgainstTheModel) {
-  const auto* still = effects::find("static_friction");
-  const Dataset data = test::made_dataset(block(0.2, {{still, {1.6}}}));
-  const Bench bench(data, 0);
-  const ModelSpec base = test::free_friction();
-  ModelFit fit{.model = with_effect(base, *still, bench.reach()), .x = {0.2, 1.6}};
-  fit.known.assign(4, {Values{0.3}});
-  search_left_out(bench, base, {&fit}, {.fold_budget = 4}, run_here);
-  for (const TestError& e : fit.left_out) EXPECT_LT(e.noise_units, 1.2);
-}
-
 TEST(HeldOut, ReachesNoRangeAndNoLandmark) {
   const Dataset data = test::made_dataset(block(0.2));
   const Dataset other = with_other_slips(data, 4, -9);
