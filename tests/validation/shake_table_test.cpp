@@ -90,6 +90,18 @@ TEST(ShakeTable, DataSetsHoldTheRowsOfTable5_1) {
   }
 }
 
+// The face of a specimen is its slender side, its profile the wide one (Table 3.1).
+TEST(ShakeTable, WidthsAreThoseOfTheShakenSides) {
+  constexpr double inch = 0.0254;
+  const auto width = [](const char* file) {
+    return *study::read_measurements(folder + file + ".yaml").specimen.width_m;
+  };
+  EXPECT_NEAR(width("forma"), 24.5 * inch, 1e-4);
+  EXPECT_NEAR(width("kelvinator"), 25.0 * inch, 1e-4);
+  EXPECT_NEAR(width("asp_face"), 23.0 * inch, 1e-4);
+  EXPECT_NEAR(width("asp_profile"), 30.0 * inch, 1e-4);
+}
+
 // An independent plain calculation of the same 28 peaks gave 0.45 and 0.82, and a scatter of 0.55 in ln with the
 // friction of the slow pull.
 TEST(ShakeTable, FrictionOfASlowPullResistsTooMuch) {
