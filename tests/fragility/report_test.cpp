@@ -100,15 +100,35 @@ TEST(Report, KolmogorovSmirnovStatistics) {
   EXPECT_NEAR(statistic(rare_motions, data("table_8_1.csv", "mu_best_fit")), 0.186, 0.0005);
 }
 
-// The textbook value accepts the 2 % motions, the right one does not.
-TEST(Report, TwoPercentMotionsAreRejectedOnceTheirParametersCountAsEstimated) {
-  const Data rare = data("table_8_1.csv", "mu_best_fit");
-  const double s = statistic(rare_motions, rare);
+// What chance makes of S when the two slopes of the line come from the same data, by simulation of that very fit: neither the
+// textbook's null (no parameter fitted) nor that of one lognormal (lambda and omega fitted). All three lines stand, as the
+// report says. The figures are those of a simulation written apart, 20000 data sets for each.
+TEST(Report, LinesStandUnderTheNullOfTheirOwnFit) {
+  struct Expected {
+    const char *table, *mu;
+    double s, critical, p;
+  };
+  for (const auto& [table, mu, expected_s, expected_critical, expected_p] :
+       {Expected{"table_8_1.csv", "mu_best_fit", 0.185, 0.230, 0.20},
+        Expected{"table_5_1.csv", "mu_slow_pull", 0.152, 0.195, 0.26},
+        Expected{"table_5_1.csv", "mu_best_fit", 0.141, 0.198, 0.39}}) {
+    const Data points = data(table, mu);
+    const LinearDemand line = fit_linear_demand(points.im, points.delta);
+    const double s = statistic(line, points);
+    const std::vector<double> null = linear_demand_null(line, points.im, 20000, 1);
+    const auto below = static_cast<double>(std::lower_bound(null.begin(), null.end(), s) - null.begin());
+    EXPECT_NEAR(s, expected_s, 0.001) << table;
+    EXPECT_NEAR(null[static_cast<std::size_t>(0.95 * 20000)], expected_critical, 0.003) << table;  // 2 standard errors
+    EXPECT_NEAR(1 - below / 20000, expected_p, 0.015) << table;
+  }
+}
+
+// With the null of one lognormal in its place the 2 % motions would be rejected.
+TEST(Report, TheNullOfOneLognormalIsAnother) {
+  const double s = statistic(rare_motions, data("table_8_1.csv", "mu_best_fit"));
   EXPECT_LT(s, kolmogorov_critical(0.05, 27));
-  EXPECT_GT(kolmogorov_p(s, 27), 0.25);
   EstimatedNull null(1);
   EXPECT_GT(s, null.ks_critical(0.05, 27));
-  EXPECT_LT(null.ks_p(s, 27), 0.05);
 }
 
 TEST(Report, DesignExample) {
