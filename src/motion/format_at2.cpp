@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "motion/component.hpp"
 #include "motion/record_format.hpp"
 
 namespace freestand::motion {
@@ -54,6 +55,17 @@ std::string read_unit(const RecordText& text, std::size_t until) {
   return "g";
 }
 
+// The last entry of the line of event, date, station and component: "..., Corralitos, UP".
+std::optional<bool> is_vertical(const RecordText& text) {
+  for (std::size_t i = 0; i < count_line(text) && i < text.size(); ++i) {
+    const auto entries = split(text.line(i), ",");
+    if (entries.size() < 3) continue;
+    const auto component = split(entries.back(), " \t(");
+    if (!component.empty() && is_vertical_word(component.front())) return true;
+  }
+  return {};
+}
+
 bool recognises(const RecordText& text) { return count_line(text) < std::min(text.size(), header_lines); }
 
 RawRecord read(const RecordText& text) {
@@ -69,7 +81,8 @@ RawRecord read(const RecordText& text) {
 const RegisteredFormat here{{.name = "at2",
                              .summary = "PEER .AT2: NPTS= and DT= in the header, accelerations in g",
                              .recognises = recognises,
-                             .read = read}};
+                             .read = read,
+                             .is_vertical = is_vertical}};
 
 }  // namespace
 }  // namespace freestand::motion

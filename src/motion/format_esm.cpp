@@ -26,6 +26,9 @@ bool recognises(const RecordText& text) {
   return text.line(0).substr(0, 11) == "EVENT_NAME:" && text.find("SAMPLING_INTERVAL_S:", 0, 100) < text.size();
 }
 
+// The stream is a channel code: HNE, HNN, HNZ.
+std::optional<bool> is_vertical(const RecordText& text) { return entry(text, "STREAM").value.ends_with('Z'); }
+
 RawRecord read(const RecordText& text) {
   const Entry type = entry(text, "DATA_TYPE"), step = entry(text, "SAMPLING_INTERVAL_S");
   const Entry size = entry(text, "NDATA"), unit = entry(text, "UNITS");
@@ -44,7 +47,8 @@ RawRecord read(const RecordText& text) {
 const RegisteredFormat here{{.name = "esm",
                              .summary = "ESM ASCII (Engineering Strong Motion database), one channel",
                              .recognises = recognises,
-                             .read = read}};
+                             .read = read,
+                             .is_vertical = is_vertical}};
 
 }  // namespace
 }  // namespace freestand::motion

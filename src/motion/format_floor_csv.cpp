@@ -65,7 +65,8 @@ const RegisteredFormat here{{.name = "floor_csv",
                              .summary = "csv with columns time_s, floor_acceleration_mps2 "
                                         "[, floor_vertical_acceleration_mps2], constant step",
                              .recognises = recognises,
-                             .read = read}};
+                             .read = read,
+                             .is_vertical = [](const RecordText&) { return std::optional<bool>(false); }}};
 
 }  // namespace
 }  // namespace freestand::motion

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "motion/component.hpp"
 #include "motion/record_format.hpp"
 
 namespace freestand::motion {
@@ -40,6 +41,12 @@ bool recognises(const RecordText& text) {
   return text.line(0).substr(0, 11) == "Origin Time" && text.find("Scale Factor", 0, header_lines) < text.size();
 }
 
+// K-NET writes N-S, E-W and U-D; KiK-net 1 to 3 in the borehole and 4 to 6 above it, in the same order.
+std::optional<bool> is_vertical(const RecordText& text) {
+  const std::string_view direction = entry(text, "Dir.").value;
+  return is_vertical_word(direction) || direction == "3" || direction == "6";
+}
+
 RawRecord read(const RecordText& text) {
   const Entry rate = entry(text, "Sampling Freq"), duration = entry(text, "Duration Time");
   const double frequency = text.number(rate.line, rate.value.substr(0, rate.value.find_first_not_of("0123456789.")));
@@ -56,7 +63,8 @@ RawRecord read(const RecordText& text) {
 const RegisteredFormat here{{.name = "knet",
                              .summary = "K-NET and KiK-net ASCII, one channel; the mean is taken off",
                              .recognises = recognises,
-                             .read = read}};
+                             .read = read,
+                             .is_vertical = is_vertical}};
 
 }  // namespace
 }  // namespace freestand::motion

@@ -3,6 +3,9 @@
 // sampling rate.
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "motion/component.hpp"
 #include "motion/record_format.hpp"
 
 namespace freestand::motion {
@@ -20,6 +23,15 @@ std::size_t whole(const RecordText& text, std::size_t line, double value) {
   return static_cast<std::size_t>(value);
 }
 
+// One of the lines of text ends in "component=   up".
+std::optional<bool> is_vertical(const RecordText& text) {
+  const std::size_t line = text.find("component=", 0, text_lines);
+  if (line >= std::min(text.size(), text_lines)) return {};
+  const std::string words = lower_case(text.line(line));
+  const auto component = split(std::string_view(words).substr(words.find("component=") + 10), " ");
+  return !component.empty() && is_vertical_word(component.front());
+}
+
 RawRecord read(const RecordText& text) {
   std::size_t line = text_lines;
   const std::vector<double> integer = text.block(line, integers, integer_width);
@@ -35,8 +47,11 @@ RawRecord read(const RecordText& text) {
   return record;
 }
 
-const RegisteredFormat here{
-    {.name = "smc", .summary = "USGS SMC accelerogram, one channel, cm/s2", .recognises = recognises, .read = read}};
+const RegisteredFormat here{{.name = "smc",
+                             .summary = "USGS SMC accelerogram, one channel, cm/s2",
+                             .recognises = recognises,
+                             .read = read,
+                             .is_vertical = is_vertical}};
 
 }  // namespace
 }  // namespace freestand::motion

@@ -13,6 +13,9 @@
 namespace freestand::motion {
 namespace {
 
+// Beyond these a response of a minute is lost in the rounding of time, or takes the record's whole length to begin.
+constexpr double shortest_step_s = 1e-6, longest_step_s = 10;
+
 std::string format_names() {
   std::string names;
   for (const RecordFormat& format : registry<RecordFormat>()) names += (names.empty() ? "" : ", ") + format.name;
@@ -24,7 +27,9 @@ const RecordFormat& choose_format(const RecordText& text, const std::string& wan
     if (wanted.empty() ? format.recognises(text) : format.name == wanted) return format;
   if (!wanted.empty())
     throw Error(fmt::format("no record format \"{}\" (the formats are {}): name one of these", wanted, format_names()));
-  text.fail(0, fmt::format("no known record format (the formats are {}): convert the record to one of these",
+  text.fail(0, fmt::format("no known record format (the formats are {}): convert the record to one of these, for "
+                           "example to csv with the "
+                           "columns time_s and floor_acceleration_mps2",
                            format_names()));
 }
 
@@ -38,6 +43,11 @@ double choose_step(const RecordText& text, const RawRecord& raw, const ReadOptio
   const double dt = raw.dt_s ? *raw.dt_s : *options.dt_s;
   if (!(dt > 0) || !std::isfinite(dt))
     text.fail(fmt::format("the time step {} s is of no use (not a positive number): correct it", dt));
+  if (dt < shortest_step_s || dt > longest_step_s)
+    text.fail(fmt::format(
+        "the time step is {:.3g} s (no instrument samples a floor faster than {:g} s or slower than {:g} s): "
+        "is its time in seconds?",
+        dt, shortest_step_s, longest_step_s));
   return dt;
 }
 
@@ -64,12 +74,7 @@ double choose_unit(const RecordText& text, const RawRecord& raw, const ReadOptio
   return stated;
 }
 
-const RawChannel& choose_channel(const RecordText& text, const RawRecord& raw, const std::string& wanted) {
-  if (wanted.empty()) {
-    for (const RawChannel& channel : raw.channels)
-      if (!channel.vertical) return channel;
-    return raw.channels.front();
-  }
+const RawChannel& named_channel(const RecordText& text, const RawRecord& raw, const std::string& wanted) {
   std::string names;
   for (std::size_t i = 0; i < raw.channels.size(); ++i) {
     const std::string& name = raw.channels[i].name;
@@ -79,6 +84,21 @@ const RawChannel& choose_channel(const RecordText& text, const RawRecord& raw, c
   }
   throw Error(fmt::format("{}: no channel \"{}\" (the channels are {}): name one of these", text.path().string(),
                           wanted, names));
+}
+
+const RawChannel& choose_channel(const RecordText& text, const RawRecord& raw, const ReadOptions& options) {
+  const bool vertical = options.component == Component::vertical;
+  const auto first = std::find_if(raw.channels.begin(), raw.channels.end(),
+                                  [&](const RawChannel& channel) { return channel.vertical == vertical; });
+  const RawChannel& chosen = !options.channel.empty()      ? named_channel(text, raw, options.channel)
+                             : first == raw.channels.end() ? raw.channels.front()
+                                                           : *first;
+  if (options.component == Component::horizontal && chosen.vertical)
+    text.fail(
+        fmt::format("channel {} is vertical, and a horizontal one is needed (the floor would shake sideways with "
+                    "it): give the file as the vertical record, or name another channel",
+                    chosen.name));
+  return chosen;
 }
 
 std::vector<double> in_mps2(std::vector<double> values, double unit) {
@@ -94,12 +114,12 @@ struct Samples {
 Samples read_samples(const std::filesystem::path& path, const ReadOptions& options) {
   const RecordText text(path);
   const RawRecord raw = choose_format(text, options.format).read(text);
-  const RawChannel& horizontal = choose_channel(text, raw, options.channel);
-  if (horizontal.values.size() < 2) text.fail("fewer than two samples (no motion): get the whole file");
+  const RawChannel& chosen = choose_channel(text, raw, options);
+  if (chosen.values.size() < 2) text.fail("fewer than two samples (no motion): get the whole file");
   const double unit = choose_unit(text, raw, options);
-  Samples samples{choose_step(text, raw, options), in_mps2(horizontal.values, unit), {}};
+  Samples samples{choose_step(text, raw, options), in_mps2(chosen.values, unit), {}};
   for (const RawChannel& channel : raw.channels)
-    if (channel.vertical && &channel != &horizontal && channel.values.size() == horizontal.values.size() &&
+    if (channel.vertical && &channel != &chosen && channel.values.size() == chosen.values.size() &&
         samples.vertical.empty())
       samples.vertical = in_mps2(channel.values, unit);
   return samples;
@@ -109,6 +129,7 @@ void add_vertical(Samples& samples, const ReadOptions& options) {
   ReadOptions own = options;
   own.vertical_file.clear();
   own.channel.clear();
+  own.component = Component::vertical;
   Samples vertical = read_samples(options.vertical_file, own);
   if (std::abs(vertical.dt_s - samples.dt_s) > 1e-6 * samples.dt_s)
     throw Error(fmt::format("{}: another time step ({} s) than the horizontal record ({} s): resample one of them",

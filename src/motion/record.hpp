@@ -9,6 +9,8 @@
 
 namespace freestand::motion {
 
+enum class Component { any, horizontal, vertical };
+
 // What the user says about a record. A file that says otherwise is an error: nothing is overridden silently.
 struct ReadOptions {
   std::optional<double> dt_s = {};  // time step; needed by plain one-column files
@@ -16,6 +18,8 @@ struct ReadOptions {
   std::string format = {};          // name of a format; empty: found from the content
   std::string channel =
       {};  // of files that hold several: its number ("2") or name ("H1"); empty: the first horizontal one
+  // Of files that hold several channels: `horizontal` refuses a vertical one, `vertical` takes that first.
+  Component component = Component::any;
   std::string vertical_file = {};  // record of the vertical component, same step; the shorter of the two ends at rest
 };
 

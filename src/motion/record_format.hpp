@@ -28,6 +28,8 @@ struct RecordFormat {
   std::string summary;                              // one line
   bool (*recognises)(const RecordText&) = nullptr;  // no two formats recognise the same text
   RawRecord (*read)(const RecordText&) = nullptr;
+  // Of formats with one component, from the beginning of the file: is it vertical? Nothing: the header does not say.
+  std::optional<bool> (*is_vertical)(const RecordText&) = nullptr;
 };
 
 using RegisteredFormat = Registered<RecordFormat>;

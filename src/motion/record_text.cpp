@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cerrno>
 #include <charconv>
@@ -10,7 +11,6 @@
 #include <cstring>
 #include <freestand/error.hpp>
 #include <fstream>
-#include <sstream>
 
 namespace freestand::motion {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 constexpr std::string_view blanks = " \t\v\f\x1a";  // old files end in the last of these
 constexpr std::string_view separators = " \t\v\f\x1a,;";
 
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const std::filesystem::path& path, std::size_t most_bytes) {
   const auto refuse = [&](const std::string& why) {
     throw Error(fmt::format("cannot read the record {} ({}): check the path", path.string(), why), Exit::data);
   };
@@ -26,10 +26,14 @@ std::string read_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path, ignored)) refuse("it is a folder");
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse(std::strerror(errno));
-  std::ostringstream content;
-  content << file.rdbuf();
+  std::string content;
+  std::array<char, 65536> part;
+  while (file && content.size() < most_bytes) {
+    file.read(part.data(), static_cast<std::streamsize>(std::min(part.size(), most_bytes - content.size())));
+    content.append(part.data(), static_cast<std::size_t>(file.gcount()));
+  }
   if (file.bad()) refuse("it broke off");
-  return content.str();
+  return content;
 }
 
 std::vector<std::string_view> split_lines(std::string_view text) {
@@ -66,7 +70,8 @@ Number leading_number(std::string_view text) {
 
 }  // namespace
 
-RecordText::RecordText(const std::filesystem::path& path) : path_(path), content_(read_file(path)) {
+RecordText::RecordText(const std::filesystem::path& path, std::size_t most_bytes)
+    : path_(path), content_(read_file(path, most_bytes)) {
   std::string_view text = content_;
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   lines_ = split_lines(text);

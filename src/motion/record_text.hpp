@@ -11,8 +11,8 @@ namespace freestand::motion {
 
 class RecordText {
  public:
-  // Reads the file; lines end in LF, CR LF or CR. Throws Error when it cannot be read or is empty.
-  explicit RecordText(const std::filesystem::path& path);
+  // Reads the file, or its beginning; lines end in LF, CR LF or CR. Throws Error when it cannot be read or is empty.
+  explicit RecordText(const std::filesystem::path& path, std::size_t most_bytes = static_cast<std::size_t>(-1));
 
   std::size_t size() const { return lines_.size(); }
   std::string_view line(std::size_t i) const { return i < lines_.size() ? lines_[i] : std::string_view(); }

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "base/units.hpp"
+#include "motion/component.hpp"
 #include "motion/identify.hpp"
+#include "motion/offset.hpp"
 #include "motion/peaks.hpp"
 #include "motion/record.hpp"
 #include "support/data.hpp"
@@ -124,6 +126,33 @@ TEST(RealRecords, KnownPulsesAreIdentified) {
   for (const char* file : {"RSN763_LOMAP_GIL067.AT2", "RSN763_LOMAP_GIL337.AT2"})
     EXPECT_EQ(identify_pulse(read_record(test::records_dir() / "usgs_gmprocess" / file)).type, "A")
         << file;  // table 5.1
+}
+
+TEST(RealRecords, VerticalOnesAreKnownForThatAndNoOthers) {
+  FREESTAND_NEEDS_RECORDS();
+  std::size_t vertical = 0;
+  for (const Indexed& record : index_of_records()) {
+    if (record.path().extension() == ".V2") continue;  // three channels
+    const std::string sign = vertical_sign(record.path());
+    vertical += !sign.empty();
+    EXPECT_EQ(!sign.empty(), is_vertical_word(record.component) || record.component == "HNZ")
+        << record.file << ", " << record.component << ": " << sign;
+  }
+  EXPECT_EQ(vertical, 38u);
+}
+
+TEST(RealRecords, NoneHasAnOffsetThatIsDoubted) {
+  FREESTAND_NEEDS_RECORDS();
+  for (const Indexed& record : index_of_records()) {
+    const bool metric = record.suite == "vertical_gm_urm";
+    ReadOptions options;
+    if (metric || record.suite == "slammer" || record.suite == "fema_p695_farfield" ||
+        record.suite == "openseesrt_tcu065")
+      options = {.dt_s = record.dt_s, .unit = metric ? "m/s2" : "g"};
+    const Offset found = offset(read_record(record.path(), options));
+    EXPECT_FALSE(found.doubtful()) << record.path() << ": " << found.acceleration_mps2 << " m/s2, " << found.leaving_mps
+                                   << " against " << found.shaking_mps << " m/s";
+  }
 }
 
 TEST(RealRecords, PairOfHorizontalAndVerticalReads) {

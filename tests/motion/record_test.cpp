@@ -212,6 +212,8 @@ TEST_F(Record, UnreadableFilesAreDataErrors) {
 TEST_F(Record, FormatCanBeNamed) {
   const auto path = write("x", "1\n2\n");
   expect_samples(read_record(path, {.dt_s = 1, .unit = "g", .format = "plain"}), 1, {1, 2}, g);
+  for (const double dt : {1e-300, 1e-7, 11.0, 1e300})
+    expect_data_error(path, 0, "is its time in seconds?", {.dt_s = dt, .unit = "g", .format = "plain"});
   expect_usage_error(path, "no record format \"peer\"", {.dt_s = 1, .unit = "g", .format = "peer"});
 }
 
