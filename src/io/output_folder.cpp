@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/durable_file.hpp"
+#include "io/own_files.hpp"
 
 namespace freestand::io {
 namespace {
@@ -53,7 +54,7 @@ void remove_results(const fs::path& folder) {
 
 }  // namespace
 
-void prepare_output_folder(const fs::path& folder, Existing existing) {
+void prepare_output_folder(const fs::path& folder, Existing existing, const std::vector<std::string>& writes) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw Error(fmt::format("{} cannot take results (it is a file): name a folder", folder.string()));
@@ -66,6 +67,8 @@ void prepare_output_folder(const fs::path& folder, Existing existing) {
         fmt::format("{} is not empty (results of another run would mix with this one's): name another folder, or "
                     "add --overwrite",
                     folder.string()));
+  refuse_others(folder, writes);
+  if (existing == Existing::overwrite) refuse_others(folder, {std::begin(results), std::end(results)});
   const fs::path probe = folder / "write-test";
   write_durably(aside_name(probe), "freestand\n");
   remove_file(aside_name(probe));

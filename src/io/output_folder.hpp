@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace freestand::io {
 
@@ -15,10 +17,11 @@ enum class Existing {
   resume      // everything stays
 };
 
-// Makes the folder and its parents, and checks that files can be written there, before long work starts. Throws Error
-// (Exit::usage): not empty and `refuse`, not a folder, no write permission; a full disk is Exit::resumable. One rank
-// does it for all.
-void prepare_output_folder(const std::filesystem::path& folder, Existing);
+// Makes the folder and its parents, and checks that files can be written there, before long work starts. `writes`: names
+// that will be written beside the results. Throws Error (Exit::usage): not empty and `refuse`, not a folder, no write
+// permission, a file in it would be replaced that freestand did not write (own_files.hpp); a full disk is
+// Exit::resumable. One rank does it for all.
+void prepare_output_folder(const std::filesystem::path& folder, Existing, const std::vector<std::string>& writes = {});
 
 // Text file, whole or not there (durable_file.hpp).
 void write_text(const std::filesystem::path& path, std::string_view text);

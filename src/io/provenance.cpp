@@ -86,6 +86,7 @@ void write_provenance(h5::Group& root, const std::string& format, const Provenan
   root.attribute("study", from.study);
   root.attribute("effects", from.effects);
   root.attribute("accuracy", from.accuracy);
+  root.attribute("doubts", from.doubts);
   root.attribute("seed", static_cast<std::int64_t>(from.seed));
   root.attribute("samples", from.samples);
   root.attribute("version", from.version);
@@ -110,6 +111,7 @@ Provenance read_provenance(const h5::Group& root, const std::string& format) {
   from.study = root.text_attribute("study");
   if (root.has_attribute("effects")) from.effects = root.text_attribute("effects");
   if (root.has_attribute("accuracy")) from.accuracy = root.text_attribute("accuracy");
+  if (root.has_attribute("doubts")) from.doubts = root.text_attribute("doubts");
   from.seed = static_cast<std::uint64_t>(root.integer_attribute("seed"));
   from.samples = root.integer_attribute("samples");
   from.version = root.text_attribute("version");

@@ -49,7 +49,8 @@ std::string history_csv(const History& history) {
 }
 
 Json response_summary(const Response& response) {
-  return {{"peak_slip_m", response.peak_slip_m},
+  return {{"format", response_format},
+          {"peak_slip_m", response.peak_slip_m},
           {"residual_slip_m", response.residual_slip_m},
           {"slid_path_m", response.slid_path_m},
           {"peak_rotation_rad", response.peak_rotation_rad},

@@ -25,7 +25,7 @@ std::set<std::string> names_in(const fs::path& folder) {
 
 void put(const fs::path& path) {
   fs::create_directories(path.parent_path());
-  std::ofstream(path) << "x";
+  std::ofstream(path) << (path.filename() == "surface.csv" ? "im,edp,capacity,probability\n" : "x");
 }
 
 TEST(OutputFolder, IsMadeWithItsParents) {
@@ -46,7 +46,7 @@ TEST(OutputFolder, WithSomethingInItIsRefused) {
 
 TEST(OutputFolder, OverwriteRemovesResultsAndNothingElse) {
   const test::Scratch scratch("out");
-  for (const char* name : {"samples.h5", "bins.csv", ".samples.h5.part", "thesis.txt", "blocks/block-00000001.bin",
+  for (const char* name : {"surface.csv", ".samples.h5.part", "thesis.txt", "blocks/block-00000001.bin",
                            "blocks/.block-00000002.bin.h.1.part"})
     put(scratch / name);
   prepare_output_folder(scratch.folder(), Existing::overwrite);
@@ -55,6 +55,18 @@ TEST(OutputFolder, OverwriteRemovesResultsAndNothingElse) {
   put(scratch / "blocks/block-00000001.bin");
   prepare_output_folder(scratch.folder(), Existing::overwrite);
   EXPECT_EQ(names_in(scratch.folder()), (std::set<std::string>{"thesis.txt", "blocks", "blocks/mine.txt"}));
+}
+
+TEST(OutputFolder, OverwriteReplacesNoFileOfAnyoneElse) {
+  const test::Scratch scratch("out");
+  for (const char* name : {"summary.json", "study.yaml", "surface.csv"}) put(scratch / name);
+  EXPECT_THAT(error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), Existing::overwrite); }),
+              HasSubstr("summary.json would be replaced"));
+  fs::remove(scratch / "summary.json");
+  for (const Existing existing : {Existing::overwrite, Existing::resume})
+    EXPECT_THAT(error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), existing, {"study.yaml"}); }),
+                HasSubstr("study.yaml would be replaced"));
+  EXPECT_EQ(names_in(scratch.folder()), (std::set<std::string>{"study.yaml", "surface.csv"}));
 }
 
 TEST(OutputFolder, ResumeLeavesEverything) {

@@ -1,0 +1,22 @@
+// Which files freestand wrote: a file of anyone else is never replaced.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace freestand::io {
+
+// The text behind a first line, a comment, that holds the text's hash. For files that are made to be read and edited: with
+// any change they are the user's.
+std::string signed_text(std::string_view text);
+
+// Did freestand write the file, as far as its content tells? HDF5 and JSON: their format is one of freestand's; CSV: the
+// header has the columns of a result; HTML: the page names its maker; any other text: its signature holds.
+bool is_own(const std::filesystem::path&);
+
+// Throws Error (Exit::usage) that names those of `names` in the folder that freestand did not write.
+void refuse_others(const std::filesystem::path& folder, const std::vector<std::string>& names);
+
+}  // namespace freestand::io

@@ -1,0 +1,78 @@
+// freestand knows its own files by their content, and takes no others for them.
+#include "io/own_files.hpp"
+
+#include <fstream>
+
+#include "base/durable_file.hpp"
+#include "io/h5.hpp"
+#include "support/error_text.hpp"
+#include "support/scratch.hpp"
+
+namespace freestand::io {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+class OwnFiles : public testing::Test {
+ protected:
+  bool own(const std::string& name, const std::string& text) const {
+    write_durably(folder_ / name, text);
+    return is_own(folder_ / name);
+  }
+  test::Scratch folder_{"own"};
+};
+
+TEST_F(OwnFiles, SignedTextIsOwnUntilItChanges) {
+  const std::string text = signed_text("samples: 3\nseed: 1\n");
+  EXPECT_THAT(text, HasSubstr("\nsamples: 3\nseed: 1\n"));
+  EXPECT_TRUE(own("study.yaml", text));
+  EXPECT_TRUE(own("any.name", text));
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::string changed = text;
+    changed[i] = changed[i] == 'x' ? 'y' : 'x';
+    EXPECT_FALSE(own("study.yaml", changed)) << i;
+  }
+  EXPECT_FALSE(own("study.yaml", text + "# mine\n"));
+  EXPECT_FALSE(own("study.yaml", text.substr(0, text.find('\n'))));
+  EXPECT_FALSE(own("study.yaml", "samples: 3\n"));
+  EXPECT_FALSE(own("study.yaml", ""));
+}
+
+TEST_F(OwnFiles, ResultsByTheirFormat) {
+  h5::File file = h5::File::create(folder_ / "samples.h5");
+  file.root().attribute("format", "freestand-samples/1");
+  file.finish();
+  EXPECT_TRUE(is_own(folder_ / "samples.h5"));
+  h5::File other = h5::File::create(folder_ / "other.h5");
+  other.finish();
+  EXPECT_FALSE(is_own(folder_ / "other.h5"));
+  EXPECT_FALSE(own("text.h5", "no HDF5"));
+  EXPECT_TRUE(own("summary.json", "{\n  \"format\": \"freestand-summary/1\"\n}\n"));
+  EXPECT_FALSE(own("summary.json", "{\"mine\": 1}\n"));
+  EXPECT_TRUE(own("surface.csv", "im,edp,capacity,probability,lower\n"));
+  EXPECT_FALSE(own("history.csv", "time_s,floor_acceleration_mps2\n"));
+  EXPECT_TRUE(own("report.html", "<!DOCTYPE html>\n<meta name=\"generator\" content=\"freestand\">\n"));
+  EXPECT_FALSE(own("report.html", "<!DOCTYPE html>\n"));
+  EXPECT_FALSE(is_own(folder_.folder()));
+}
+
+TEST_F(OwnFiles, OthersAreRefusedByName) {
+  own("study.yaml", "samples: 3\n");
+  own("summary.json", "{}\n");
+  own("case.yaml", signed_text("x: 1\n"));
+  std::filesystem::create_symlink("nowhere", folder_ / "bins.csv");
+  EXPECT_THAT(
+      test::error_text(
+          Exit::usage,
+          [&] {
+            refuse_others(folder_.folder(), {"study.yaml", "summary.json", "case.yaml", "bins.csv", "none.csv"});
+          }),
+      AllOf(HasSubstr("study.yaml"), HasSubstr("summary.json"), HasSubstr("bins.csv"), Not(HasSubstr("case.yaml")),
+            Not(HasSubstr("none.csv"))));
+  refuse_others(folder_.folder(), {"case.yaml", "none.csv"});
+}
+
+}  // namespace
+}  // namespace freestand::io
