@@ -6,6 +6,7 @@
 #include "app/command.hpp"
 #include "base/digits.hpp"
 #include "io/output_folder.hpp"
+#include "io/own_files.hpp"
 
 namespace freestand::app {
 namespace {
@@ -27,27 +28,19 @@ void tell(const std::string& file, const std::string& content) {
   fmt::print("study in {}\n", file);
 }
 
-// A path of the study beside another folder: relative keys of the study must still be found.
-void check_target(const Options& options) {
-  const std::filesystem::path target = options.output;
+void check_target(const std::filesystem::path& target, const Options& options) {
   if (std::filesystem::exists(target) && !options.overwrite)
     throw Error(
         fmt::format("{} exists already (it would be lost): choose another name, or give --overwrite", options.output));
-  const auto folder = [](const std::filesystem::path& file) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file)).parent_path();
-  };
-  if (folder(target) != folder(options.study))
-    throw Error(
-        fmt::format("{} lies in another folder than {} (what the study names lies relative to it): write it "
-                    "beside the study",
-                    options.output, options.study));
+  io::refuse_others(target.parent_path(), {target.filename().string()});
 }
 
 Exit add(const Context& context, const Options& options) {
-  context.world.on_root([&] { check_target(options); });
-  const std::string text = study::add(context.world, options.run(context), options.effect);
+  const std::filesystem::path target = options.output;
+  context.world.on_root([&] { check_target(target, options); });
+  const std::string text = study::add(context.world, options.run(context), options.effect, target.parent_path());
   context.world.on_root([&] {
-    io::write_text(options.output, "# " + context.command_line + "\n" + text);
+    io::write_text(target, io::signed_text("# " + context.command_line + "\n" + text));
     if (!options.quiet) tell(options.output, text);
   });
   return Exit::done;
@@ -59,7 +52,7 @@ void add_add(CLI::App& parser, Work& work) {
   auto options = std::make_shared<Options>();
   CLI::App* verb =
       parser.add_subcommand("add", "the study with one more effect in it, fitted, and the ladder of errors");
-  add_options(*verb, *options, "study to be written, in the same folder", "replace the file if it is there");
+  add_options(*verb, *options, "study to be written", "replace the file if freestand wrote it");
   verb->add_option("effect", options->effect, "name of the catalogue; or a formula, as YAML text or in a file")
       ->required();
   verb->callback([options, &work] { work = [options](const Context& context) { return add(context, *options); }; });

@@ -6,6 +6,7 @@
 
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
+#include "io/own_files.hpp"
 #include "io/text_files.hpp"
 
 namespace freestand::app {
@@ -81,12 +82,14 @@ void tell(const Json& json, const std::string& folder) {
 
 Exit compare(const Context& context, const ValidationOptions& options) {
   const std::filesystem::path folder = options.output;
-  context.world.on_root(
-      [&] { io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse); });
+  context.world.on_root([&] {
+    io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+                              {"fitted.yaml"});
+  });
   const auto [json, fitted] = study::compare(context.world, options.run(context), folder);
   context.world.on_root([&, &json = json, &fitted = fitted] {
     io::write_text(folder / "comparison.json", io::json_text(json));
-    io::write_text(folder / "fitted.yaml", "# " + context.command_line + "\n" + fitted);
+    io::write_text(folder / "fitted.yaml", io::signed_text("# " + context.command_line + "\n" + fitted));
     if (!options.quiet) tell(json, folder.string());
   });
   return Exit::done;

@@ -6,6 +6,7 @@
 #include "app/command.hpp"
 #include "base/units.hpp"
 #include "io/output_folder.hpp"
+#include "motion/component.hpp"
 #include "motion/identify.hpp"
 #include "motion/peaks.hpp"
 #include "motion/record.hpp"
@@ -82,6 +83,8 @@ Exit show(const Options& options) {
   for (const std::string& file : options.files) {
     const FloorMotion motion = motion::read_record(file, read);
     fmt::print("{}", description(motion));
+    if (const std::string sign = motion::vertical_sign(file); !sign.empty())
+      fmt::print("  a vertical component: {}\n", sign);
     if (!options.convert.empty()) convert(motion, options);
   }
   return Exit::done;

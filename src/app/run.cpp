@@ -25,7 +25,7 @@ study::Study read(const Context& context, const std::string& file) {
 
 Exit check(const Context& context, const Options& options) {
   const study::Study study = read(context, options.study);
-  if (context.world.is_root()) fmt::print("{}", study::expanded(study));
+  if (context.world.is_root()) fmt::print("{}", study::expanded(study, ""));
   return Exit::done;
 }
 

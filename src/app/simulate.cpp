@@ -7,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
+#include "io/own_files.hpp"
 #include "io/text_files.hpp"
 #include "study/accuracy.hpp"
 
@@ -21,14 +22,14 @@ struct Options {
 Exit simulate(const Options& options) {
   const study::Case c = study::read_case(options.file);
   const std::filesystem::path folder = options.folder;
-  io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse);
+  io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse, {"case.yaml"});
   const study::Simulation result = study::simulate(c, options.reference);
   for (const std::string& doubt : result.doubts) fmt::print(stderr, "doubtful: {}\n", doubt);
   io::write_text(folder / "history.csv", io::history_csv(result.history));
   nlohmann::ordered_json summary = io::response_summary(result.response);
   summary["accuracy"] = study::accuracy_json(c.study.tolerance, result.response, result.tighter);
   io::write_text(folder / "summary.json", io::json_text(summary));
-  io::write_text(folder / "case.yaml", study::expanded(c.study));
+  io::write_text(folder / "case.yaml", io::signed_text(study::expanded(c, folder)));
   fmt::print("{}: peak slip {:.4g} m, peak rotation {:.4g} rad (alpha {:.4g} rad), {} events; results in {}\n",
              name(result.response.outcome), result.response.peak_slip_m, result.response.peak_rotation_rad,
              result.specimen.block.alpha_rad(), result.response.events, folder.string());

@@ -16,7 +16,9 @@
 namespace freestand::study {
 
 inline constexpr std::int64_t checked_samples = 200;
-inline constexpr double tightest_tolerance = 1e-13;
+// A step adds some 500 rounded terms, each by up to 1.1e-16 of a state of size 1: up to 5e-14, below which a tolerance
+// says nothing. A study's tolerance must leave room for a tighter one.
+inline constexpr double tightest_tolerance = 1e-13, least_tolerance = 1e-12;
 
 struct DemandError {
   std::string name, unit;

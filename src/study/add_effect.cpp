@@ -146,7 +146,8 @@ YAML::Node ladder_node(const std::vector<LadderStep>& ladder) {
 
 }  // namespace
 
-std::string add(const parallel::Communicator& world, const ValidationRun& run, const std::string& effect) {
+std::string add(const parallel::Communicator& world, const ValidationRun& run, const std::string& effect,
+                const std::filesystem::path& folder) {
   const Jobs jobs = spread_jobs(world, run.quiet);
   const auto before = prepare(world, run, 16);
   world.on_root([&] { effect_node(effect); });
@@ -170,6 +171,7 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   ladder.push_back(step_of(entry["name"].as<std::string>(), *after, fit, jobs));
   write_numbers(root, fit);
   root["ladder"] = ladder_node(ladder);
+  write_paths(root, *before, folder);
   return study_text(root);
 }
 

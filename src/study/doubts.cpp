@@ -6,12 +6,16 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "motion/offset.hpp"
+#include "study/problems.hpp"
 
 namespace freestand::study {
 namespace {
 
 constexpr double longest_m = 50, steepest_rad = 1.2, roughest = 2, longest_period_s = 20, strongest_g = 10,
                  fastest_mps = 10, coarsest_step_s = 0.1;
+// Two thirds of a lognormal's values span a factor of e^(2 dispersion): here 100, which no dimension or coefficient does.
+constexpr double widest_dispersion = 2.3;
 
 double median(const Quantity& quantity) { return sampling::quantile(quantity.value, 0.5); }
 
@@ -22,8 +26,34 @@ class Doubter {
     const double value = median(*quantity);
     if (std::abs(value) > largest) said.push_back(fmt::format("{} is {:.4g}: {}", quantity->name, value, question));
   }
+  void ask_dispersion(const std::optional<Quantity>& quantity) {
+    const auto* lognormal = quantity ? std::get_if<sampling::Lognormal>(&quantity->value) : nullptr;
+    if (!lognormal || lognormal->dispersion <= widest_dispersion) return;
+    said.push_back(
+        fmt::format("{} has the dispersion {:.4g}, with which two thirds of its values span a factor of {:.2g}: is "
+                    "it the standard deviation of the natural logarithm?",
+                    quantity->name, lognormal->dispersion, std::exp(2 * lognormal->dispersion)));
+  }
   std::vector<std::string> said;
 };
+
+void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
+  doubter.ask(source.period, longest_period_s, "is it in seconds?");
+  for (const auto& quantity : {source.amplitude, source.period}) doubter.ask_dispersion(quantity);
+  if (!source.vertical_records.empty() && !shaken)
+    doubter.said.push_back(fmt::format(
+        "vertical_records of {} are read, but nothing lets them act: add the effect vertical_shaking", source.records));
+  if (!source.left_out.empty())
+    doubter.said.push_back(
+        fmt::format("vertical components that {} matches are left out: {}", source.records, joined(source.left_out)));
+  if (!source.amplitude) return;
+  const sampling::Support amplitudes = support(source.amplitude->value);
+  if (amplitudes.lower == 0 && amplitudes.upper == 0)
+    doubter.said.push_back(fmt::format("{} is 0: nothing will shake", source.amplitude->name));
+  if (source.amplitude->unit == "1") return;
+  const bool in_g = source.amplitude->unit == "g";
+  doubter.ask(source.amplitude, in_g ? strongest_g : fastest_mps, in_g ? "is it in g?" : "is it in m/s?");
+}
 
 }  // namespace
 
@@ -37,20 +67,12 @@ std::vector<std::string> doubts(const Study& study) {
     doubter.ask(mu, roughest, "is it a friction coefficient?");
   const bool shaken = std::any_of(study.model.effects.begin(), study.model.effects.end(),
                                   [](const EffectPart& effect) { return effect.name == "vertical_shaking"; });
-  for (const MotionSource& source : study.motions) {
-    doubter.ask(source.period, longest_period_s, "is it in seconds?");
-    if (!source.vertical_records.empty() && !shaken)
-      doubter.said.push_back(
-          fmt::format("vertical_records of {} are read, but nothing lets them act: add the effect vertical_shaking",
-                      source.records));
-    if (!source.amplitude || source.amplitude->unit == "1") continue;
-    const bool in_g = source.amplitude->unit == "g";
-    doubter.ask(source.amplitude, in_g ? strongest_g : fastest_mps, in_g ? "is it in g?" : "is it in m/s?");
-  }
+  for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
+  for (const MotionSource& source : study.motions) ask_of_source(source, shaken, doubter);
   return std::move(doubter.said);
 }
 
-std::vector<std::string> doubts(const Study& study, const MotionSet& motions) {
+std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& motions) {
   std::vector<std::string> said;
   for (std::size_t s = 0; s < study.motions.size(); ++s) {
     const MotionSource& source = study.motions[s];
@@ -61,12 +83,23 @@ std::vector<std::string> doubts(const Study& study, const MotionSet& motions) {
       const double step = motion.duration_s() / static_cast<double>(motion.segments());
       if (step > coarsest_step_s)
         said.push_back(fmt::format("the time step of {} is {:.4g} s: is its time in seconds?", motion.name, step));
+      if (const motion::Offset offset = motion::offset(motion); offset.doubtful())
+        said.push_back(
+            fmt::format("{} has an offset of {:.3g} m/s2: with it alone the floor would leave at {:.3g} m/s, and the "
+                        "shaking reaches {:.3g} m/s without it; is its zero right?",
+                        motion.name, offset.acceleration_mps2, offset.leaving_mps, offset.shaking_mps));
       const double peak_g = (*motions.entries)[entry].peak_mps2 / standard_gravity_mps2;
       if (as_it_is && peak_g * std::abs(median(*source.amplitude)) > strongest_g)
         said.push_back(fmt::format("the floor of {} reaches {:.3g} g: is its unit right?", motion.name,
                                    peak_g * std::abs(median(*source.amplitude))));
     }
   }
+  return said;
+}
+
+std::vector<std::string> doubts(const Study& study, const MotionSet& motions) {
+  std::vector<std::string> said = doubts(study);
+  for (std::string& more : doubts_of_records(study, motions)) said.push_back(std::move(more));
   return said;
 }
 

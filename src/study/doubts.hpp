@@ -1,4 +1,5 @@
-// Numbers that a study may well have, but that look as if they were in another unit. One plain sentence each.
+// What a study may well have, but looks like a slip: numbers in another unit, a record with an offset, and vertical components
+// left out of a pattern. One plain sentence each.
 #pragma once
 
 #include "study/realise.hpp"
@@ -8,6 +9,8 @@ namespace freestand::study {
 // Of its numbers, by their medians.
 std::vector<std::string> doubts(const Study&);
 // Of its records, as their median scale leaves them.
+std::vector<std::string> doubts_of_records(const Study&, const MotionSet&);
+// Both.
 std::vector<std::string> doubts(const Study&, const MotionSet&);
 
 }  // namespace freestand::study

@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+
 #include "base/random.hpp"
+#include "study/paths.hpp"
 #include "study/study.hpp"
 
 namespace freestand::study {
@@ -35,8 +38,9 @@ class Mapping {
     if (quantity) entries_.push_back(pair(*quantity));
   }
   std::string flow() const { return fmt::format("{{{}}}", fmt::join(entries_, ", ")); }
-  // One entry a line, the first after a dash.
+  // One entry a line, the first after a dash; or all of them below a key.
   std::string item() const { return fmt::format("  - {}\n", fmt::join(entries_, "\n    ")); }
+  std::string block() const { return fmt::format("  {}\n", fmt::join(entries_, "\n  ")); }
 
  private:
   std::vector<std::string> entries_;
@@ -100,7 +104,8 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
   return "chain: " + m.flow() + "\n";
 }
 
-std::string source_text(const MotionSource& source) {
+// file, vertical_file: the keys of recorded motions.
+Mapping source_mapping(const MotionSource& source, const char* file, const char* vertical_file) {
   Mapping m;
   if (source.kind == MotionSource::Kind::pulses) {
     m.add("pulse", to_string(source.pulses));
@@ -108,8 +113,8 @@ std::string source_text(const MotionSource& source) {
     m.add(source.amplitude);
     m.add("scale", number_text(source.pulse_scale));
   } else {
-    m.add("records", text_value(source.records));
-    if (!source.vertical_records.empty()) m.add("vertical_records", text_value(source.vertical_records));
+    m.add(file, text_value(source.records));
+    if (!source.vertical_records.empty()) m.add(vertical_file, text_value(source.vertical_records));
     if (source.amplitude && source.amplitude->name == "motion.pta_g")
       m.add("scale_to", fmt::format("{{{}}}", pair(*source.amplitude)));
     else
@@ -119,8 +124,28 @@ std::string source_text(const MotionSource& source) {
     if (!source.format.empty()) m.add("format", text_value(source.format));
     if (!source.channel.empty()) m.add("channel", text_value(source.channel));
   }
+  return m;
+}
+
+std::string source_text(const MotionSource& source) {
+  Mapping m = source_mapping(source, "records", "vertical_records");
   m.add("weight", number_text(source.weight));
   return m.item();
+}
+
+// Does anything of the study lie where a relative path says?
+bool has_relative_paths(const Study& study) {
+  const auto relative = [](const std::string& path) {
+    return !path.empty() && !std::filesystem::path(path).is_absolute();
+  };
+  return std::any_of(study.motions.begin(), study.motions.end(), [&](const MotionSource& source) {
+    return relative(source.records) || relative(source.vertical_records);
+  });
+}
+
+std::string paths_from(const Study& study, const std::filesystem::path& folder) {
+  const std::string way = way_between(folder, study.folder);
+  return way.empty() || !has_relative_paths(study) ? "" : fmt::format("paths_from: {}\n", text_value(way));
 }
 
 std::string bins_text(const BinsPart& bins) {
@@ -166,6 +191,20 @@ std::string all_but_name(const Study& study) {
 }  // namespace
 
 std::string expanded(const Study& study) { return "name: " + text_value(study.name) + "\n" + all_but_name(study); }
+
+std::string expanded(const Study& study, const std::filesystem::path& folder) {
+  return paths_from(study, folder) + expanded(study);
+}
+
+std::string expanded(const Case& one, const std::filesystem::path& folder) {
+  const Study& study = one.study;
+  return paths_from(study, folder) +
+         fmt::format("name: {}\ntolerance: {}\nfree_vibration_s: {}\n", text_value(study.name),
+                     number_text(study.tolerance), number_text(study.free_vibration_s)) +
+         model_text(study.model) + chain_text(study.model.chain) + "motion:\n" +
+         source_mapping(study.motions.front(), "file", "vertical_file").block() +
+         fmt::format("output_step_s: {}\n", number_text(one.output_step_s));
+}
 
 std::string fingerprint(const Study& study) {
   // The first word changes whenever the same study begins to give other numbers.

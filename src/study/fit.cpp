@@ -5,13 +5,14 @@
 
 #include "io/fragility_file.hpp"
 #include "io/output_folder.hpp"
+#include "io/own_files.hpp"
 #include "io/samples_file.hpp"
 #include "io/text_files.hpp"
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
-#include "study/doubts.hpp"
 #include "study/edited_study.hpp"
 #include "study/read_parts.hpp"
+#include "study/until.hpp"
 
 namespace freestand::study {
 namespace {
@@ -51,6 +52,8 @@ FitSummary fit(const parallel::Communicator& world, const std::filesystem::path&
                bool quiet, const SweepSummary* sweep) {
   const auto start = std::chrono::steady_clock::now();
   const auto so_far = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+  const std::vector<std::string> written = {"fragility.h5", "bins.csv", "surface.csv", "summary.json"};
+  world.on_root([&] { io::refuse_others(folder, written); });
   const io::SampleReader reader(samples_path(folder));
   const auto [study, changed] = study_of(world, reader.provenance().study, folder);
   const io::BlockLayout layout{reader.rows(), rows_at_once};
@@ -64,6 +67,7 @@ FitSummary fit(const parallel::Communicator& world, const std::filesystem::path&
     provenance.study = expanded(study);
     provenance.effects = reader.provenance().effects;
     provenance.accuracy = reader.provenance().accuracy;
+    provenance.doubts = reader.provenance().doubts;
     provenance.study_name = study.name;
     provenance.seed = reader.provenance().seed;
     provenance.samples = reader.provenance().samples;
@@ -72,8 +76,10 @@ FitSummary fit(const parallel::Communicator& world, const std::filesystem::path&
     io::write_text(folder / "surface.csv", io::surface_csv(result));
     nlohmann::ordered_json summary = io::fragility_summary(provenance, result);
     summary["accuracy"] = nlohmann::ordered_json::parse(provenance.accuracy);
-    for (const auto& doubt : doubts(study)) summary["warnings"].push_back(doubt);
+    for (const auto& doubt : nlohmann::json::parse(provenance.doubts))
+      summary["warnings"].push_back(doubt.get<std::string>());
     for (const auto& warning : accuracy_warnings(summary["accuracy"])) summary["warnings"].push_back(warning);
+    tell_until(study, result, summary);
     summary["motion_entries"] = study.motions.size();
     summary["study_changed"] = changed;
     summary["timing"] = timing_json(sweep, so_far(), world.size());

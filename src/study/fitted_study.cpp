@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "study/calibrate_keys.hpp"
+#include "study/paths.hpp"
 
 namespace freestand::study {
 namespace {
@@ -55,11 +56,20 @@ std::string study_text(YAML::Node root) {
   return std::string(out.c_str()) + "\n";
 }
 
+void write_paths(YAML::Node root, const Prepared& p, const std::filesystem::path& folder) {
+  const std::filesystem::path& start = p.validation.folder;
+  if (p.measurements != p.validation.measurements)
+    root["measurements"] = std::filesystem::proximate(p.measurements, start.empty() ? "." : start).generic_string();
+  root.remove("paths_from");
+  const std::string way = way_between(folder, start);
+  if (!way.empty()) root["paths_from"] = way;
+}
+
 std::string fitted_study(const Prepared& p, const ModelFit& fit, const std::filesystem::path& folder) {
   YAML::Node root = YAML::Load(p.validation.text);
   write_block(root, p);
   write_numbers(root, fit);
-  root["measurements"] = std::filesystem::proximate(p.measurements, folder).generic_string();
+  write_paths(root, p, folder);
   return study_text(root);
 }
 

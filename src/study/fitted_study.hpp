@@ -18,6 +18,9 @@ void write_numbers(YAML::Node root, const measurement::ModelFit&);
 // The file, one line for each part of the model.
 std::string study_text(YAML::Node root);
 
+// The way to what the study names, and the measurements that were taken, for a file in `folder`.
+void write_paths(YAML::Node root, const Prepared&, const std::filesystem::path& folder);
+
 // The study as it was read, fitted, for a file in another folder.
 std::string fitted_study(const Prepared&, const measurement::ModelFit&, const std::filesystem::path& folder);
 

@@ -23,10 +23,12 @@ Entry load_pulse(const std::string& name) {
   return entry;
 }
 
-// Name of a record in the result files: its path as seen from the study file, so that results do not depend on where
-// the study lies.
-std::string record_name(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  return (folder.empty() ? file : file.lexically_proximate(folder)).generic_string();
+// Name of a record in the result files: its path as the study gives it, so that results do not depend on where the study
+// lies, nor on the folder that it is read from.
+std::string record_name(const std::filesystem::path& file, const MotionSource& source,
+                        const std::filesystem::path& folder) {
+  const bool whole = folder.empty() || std::filesystem::path(source.records).is_absolute();
+  return (whole ? file.lexically_normal() : file.lexically_proximate(folder)).generic_string();
 }
 
 Entry load_record(const MotionSource& source, std::size_t i, const std::filesystem::path& folder) {
@@ -35,15 +37,17 @@ Entry load_record(const MotionSource& source, std::size_t i, const std::filesyst
   options.unit = source.unit;
   options.format = source.format;
   options.channel = source.channel;
+  options.component = motion::Component::horizontal;
   if (!source.vertical_files.empty()) options.vertical_file = source.vertical_files[i].string();
   Entry entry{motion::read_record(source.files[i], options), false, 0, 0};
-  entry.motion.name = record_name(source.files[i], folder);
+  entry.motion.name = record_name(source.files[i], source, folder);
   const motion::MotionPeaks peaks = motion::peaks(entry.motion);
   entry.peak_mps2 = peaks.pga_mps2;
   entry.peak_mps = peaks.pgv_mps;
-  if (source.amplitude && source.amplitude->name == "motion.pta_g" && !(entry.peak_mps2 > 0))
+  if (!(entry.peak_mps2 > 0))
     throw Error(
-        fmt::format("{} cannot be scaled to a peak (it is zero throughout): leave it out", source.files[i].string()),
+        fmt::format("{} is zero throughout (nothing would shake, whatever its scale): leave it out, or get it again",
+                    source.files[i].string()),
         Exit::data);
   return entry;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 namespace freestand::study {
 namespace {
@@ -64,7 +65,9 @@ int edit_distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+std::string nearest(std::string_view given, const std::vector<std::string>& candidates) {
+  std::string word(given);
+  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   int least = std::max(1, static_cast<int>(word.size()) / 3) + 1;
   std::string found;
   for (const auto& candidate : candidates) {

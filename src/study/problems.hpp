@@ -37,7 +37,7 @@ class Problems {
 // Least number of insertions, deletions, replacements and exchanges of neighbours between two words.
 int edit_distance(std::string_view a, std::string_view b);
 
-// The candidate nearest to `word`: the same word with a unit, or the least edit distance. Empty when none is near (more
+// The candidate nearest to `word`, whatever its case: the same word with a unit, or the least edit distance. Empty when none is near (more
 // than a third of the word would have to change).
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 

@@ -75,7 +75,9 @@ IntensityPart read_intensity(Section& section, const Known& known) {
   if (mapping) {
     if (!found->parameter.empty())
       im.period_s = mapping->number(found->parameter, found->fallback,
-                                    {.lower = 0, .why = "the number of a measure must be above zero"});
+                                    {.lower = 1e-3,
+                                     .lower_open = false,
+                                     .why = "it must be at least 0.001: a stiffer oscillator only follows the floor"});
     mapping->finish();
   }
   return im;

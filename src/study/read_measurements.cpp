@@ -8,6 +8,7 @@
 
 #include "base/units.hpp"
 #include "measurement/test_file.hpp"
+#include "motion/component.hpp"
 #include "motion/pulse.hpp"
 #include "motion/record.hpp"
 #include "study/read_parts.hpp"
@@ -98,6 +99,9 @@ void read_input(Section& section, const Dataset& set, Test& test) {
     if (section.has("file")) read_test_file(path("file"), set.sampling_dt_s, test);
     if (section.has("motion")) {
       const auto file = path("motion");
+      if (const std::string sign = motion::vertical_sign(file); !sign.empty())
+        section.problem("motion", fmt::format("{} is {}, a vertical component ({}): name the horizontal one",
+                                              section.name("motion"), file.string(), sign));
       test.motion = motion::read_record(file);
       test.source = file.string();
     }

@@ -1,6 +1,7 @@
 // Where the floor motions of a study come from: pulses and records.
 #include <fmt/format.h>
 
+#include "motion/component.hpp"
 #include "motion/pulse.hpp"
 #include "motion/record.hpp"
 #include "study/read_parts.hpp"
@@ -8,7 +9,8 @@
 namespace freestand::study {
 namespace {
 
-constexpr Range period_range = {.lower = 0, .why = "a period must be above zero"};
+constexpr Range period_range = {
+    .lower = 1e-6, .lower_open = false, .why = "a period must be above zero, and a shorter one moves nothing"};
 constexpr Range pta_range = {.lower = 0, .why = "a peak that a record is scaled to must be above zero"};
 constexpr Range weight_range = {.lower = 0, .why = "a weight must be above zero"};
 
@@ -71,6 +73,25 @@ std::vector<std::filesystem::path> find_files(Section& section, const std::strin
   }
 }
 
+// Vertical components that a pattern matched are left out; one that is named itself is a problem.
+void leave_out_vertical(Section& section, const std::string& key, MotionSource& source) {
+  std::string named;
+  std::erase_if(source.files, [&](const std::filesystem::path& file) {
+    const std::string sign = motion::vertical_sign(file);
+    if (sign.empty()) return false;
+    source.left_out.push_back(fmt::format("{} ({})", file.filename().string(), sign));
+    if (source.records.ends_with(file.filename().string())) named = file.string();
+    return true;
+  });
+  if (source.left_out.empty() || !(source.files.empty() || !named.empty())) return;
+  section.problem(key,
+                  fmt::format("{}: {} {} (it would shake the floor sideways): give a horizontal component here, and "
+                              "this one as {}, with the effect vertical_shaking",
+                              section.name(key), joined(source.left_out),
+                              source.left_out.size() == 1 ? "is a vertical component" : "are vertical components",
+                              key == "file" ? "vertical_file" : "vertical_records"));
+}
+
 void read_amplitude(Section& section, MotionSource& source) {
   std::optional<Quantity> peak;
   if (const YAML::Node* node = section.find("scale_to")) {
@@ -98,6 +119,7 @@ void read_records(Section& section, MotionSource& source, const std::string& key
   source.channel = section.text("channel", "");
   read_amplitude(section, source);
   source.files = find_files(section, key, source.records, folder, look);
+  leave_out_vertical(section, key, source);
   source.vertical_files = find_files(section, vertical_key, source.vertical_records, folder, look);
   if (!source.vertical_files.empty() && source.vertical_files.size() != source.files.size())
     section.problem(

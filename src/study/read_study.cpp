@@ -6,18 +6,24 @@
 #include <fstream>
 #include <sstream>
 
+#include "study/accuracy.hpp"
 #include "study/calibrate_keys.hpp"
+#include "study/paths.hpp"
 #include "study/read_parts.hpp"
 
 namespace freestand::study {
 namespace {
 
-void read_common(Section& file, const std::filesystem::path& path, Study& study) {
+void read_common(Section& file, const std::filesystem::path& path, Study& study, Files look = Files::look) {
   study.name = file.text("name", path.stem().string());
-  study.folder = path.parent_path();
+  study.folder = read_paths_from(file, path, look);
   study.tolerance =
       file.number("tolerance", study.tolerance,
-                  {.lower = 0, .upper = 1e-2, .upper_open = false, .why = "it must lie between 0 and 0.01"});
+                  {.lower = least_tolerance,
+                   .upper = 1e-2,
+                   .lower_open = false,
+                   .upper_open = false,
+                   .why = "it must lie between 1e-12, below which round-off is the greater error, and 0.01"});
   study.free_vibration_s = file.number("free_vibration_s", study.free_vibration_s, range::not_negative);
   study.model = read_model(file);
 }
@@ -29,6 +35,8 @@ std::uint64_t default_block_size(std::uint64_t samples) {
 }
 
 constexpr std::uint64_t most_samples = 1ULL << 50;
+constexpr std::uint64_t most_blocks = 1ULL
+                                      << 22;  // each is a file of one folder for a while, and a number on every rank
 
 void read_until(Section& file, Study& study) {
   const YAML::Node* node = file.find("until");
@@ -62,6 +70,12 @@ void read_design(Section& file, Study& study) {
                  "latin_hypercube does not go with until (its strata depend on the number of samples): give "
                  "samples, or use sobol");
   study.block_size = file.integer("block_size", default_block_size(study.samples), 1, 1U << 20);
+  if (study.samples / study.block_size > most_blocks)
+    file.problem(
+        study.until ? "until" : "samples",
+        fmt::format("{} samples in blocks of {} are more than {} blocks (each is a file until the sweep ends): "
+                    "lower {}, or raise block_size",
+                    study.samples, study.block_size, most_blocks, study.until ? "at_most" : "samples"));
 }
 
 // A case is one sample: no distribution anywhere.
@@ -75,6 +89,13 @@ void refuse_distributions(const Study& study, Problems& problems) {
     check(source.amplitude);
     check(source.period);
   }
+}
+
+// A case given for a study, or the other way round, is told as that, and not by what it lacks.
+void refuse_other_kind(Section& file, const char* wanted, const char* other, const char* problem, Problems& problems) {
+  if (file.has(wanted) || !file.has(other)) return;
+  file.problem(other, problem);
+  problems.throw_if_any();
 }
 
 }  // namespace
@@ -112,9 +133,12 @@ Study parse_study(const std::string& text, const std::filesystem::path& path, co
     sweep_model(*root, problems);
     Section file(*root, "", 1, problems);
     problems.throw_if_any();
-    read_common(file, path, study);
+    refuse_other_kind(file, "motions", "motion",
+                      "this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it",
+                      problems);
+    read_common(file, path, study, look);
     read_design(file, study);
-    study.motions = read_motions(file, path.parent_path(), look);
+    study.motions = read_motions(file, study.folder, look);
     // What the study draws is known only when its parts are sound.
     const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
     study.fragility = read_fragility(file, known, choices);
@@ -130,9 +154,11 @@ Case parse_case(const std::string& text, const std::filesystem::path& path) {
   if (const auto root = parse_yaml(text, problems)) {
     Section file(*root, "", 1, problems);
     problems.throw_if_any();
+    refuse_other_kind(file, "motion", "motions",
+                      "this is a study (it has `motions`; a case has `motion`): `freestand run` takes it", problems);
     read_common(file, path, one.study);
     one.study.samples = one.study.block_size = 1;
-    one.study.motions = {read_motion(file, path.parent_path())};
+    one.study.motions = {read_motion(file, one.study.folder)};
     one.output_step_s = file.number("output_step_s", one.output_step_s, range::positive);
     refuse_distributions(one.study, problems);
     file.finish();

@@ -9,6 +9,7 @@
 
 #include "effects/effects.hpp"
 #include "study/calibrate_keys.hpp"
+#include "study/paths.hpp"
 #include "study/read_parts.hpp"
 
 namespace freestand::study {
@@ -77,8 +78,9 @@ void check_ranges(const Validation& v, int line, Problems& problems) {
 void read_all(const YAML::Node& root, Validation& v, Problems& problems) {
   Section file(root, "", 1, problems);
   v.name = file.text("name", v.file.stem().string());
+  v.folder = read_paths_from(file, v.file);
   if (file.find("measurements")) {
-    v.measurements = v.file.parent_path() / file.text("measurements", "");
+    v.measurements = v.folder / file.text("measurements", "");
     v.measurements_line = file.line("measurements");
   }
   const YAML::Node* node = file.find("model");

@@ -39,13 +39,15 @@ struct Calibrated {
 struct LadderStep {
   std::string step;  // "base", or the effect that was added
   double error_calibration = 0, error_holdout = 0;
-  double noise_floor = 0, noise_floor_holdout = 0;  // what noise alone would make, in the calibration tests; held-out ones
-  double explained_holdout = 0;                     // error_holdout with the floor's noise allowed for
+  double noise_floor = 0,
+         noise_floor_holdout = 0;  // what noise alone would make, in the calibration tests; held-out ones
+  double explained_holdout = 0;    // error_holdout with the floor's noise allowed for
 };
 
 struct Validation {
   std::string name;
   std::filesystem::path file, measurements;
+  std::filesystem::path folder;  // relative paths start here (paths.hpp)
   int measurements_line = 0;
   ModelPart model;  // numbers to be calibrated stand there with their value, or with the middle of their range
   bool width_given = false, height_given = false, mass_given = false;

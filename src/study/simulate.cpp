@@ -1,17 +1,37 @@
 #include "study/simulate.hpp"
 
+#include <fmt/format.h>
+
+#include <freestand/error.hpp>
+
 #include "study/accuracy.hpp"
 #include "study/doubts.hpp"
 #include "study/realise.hpp"
 
 namespace freestand::study {
 
+namespace {
+
+constexpr double most_rows = 2e6;  // 0.5 GB in memory and as text
+
+void check_rows(const Case& c, double shaking_s) {
+  const double most_s = shaking_s + c.study.free_vibration_s;
+  if (most_s <= most_rows * c.output_step_s) return;
+  throw Error(
+      fmt::format("output_step_s is {}, and the history can be {:.4g} s long (more than {:.0f} rows, which are half "
+                  "a gigabyte): raise output_step_s to {:.2g} or more, or lower free_vibration_s",
+                  c.output_step_s, most_s, most_rows, most_s / most_rows));
+}
+
+}  // namespace
+
 Simulation simulate(const Case& c, bool reference) {
   const MotionSet motions = load_motions(c.study);
   const Realiser realise(c.study, motions);
   const Realisation sample = realise(0);
-  Simulation out{.specimen = sample.specimen, .response = {}, .tighter = {}, .history = {}, .doubts = doubts(c.study)};
-  for (std::string& doubt : doubts(c.study, motions)) out.doubts.push_back(std::move(doubt));
+  check_rows(c, sample.shaking.duration_s());
+  Simulation out{
+      .specimen = sample.specimen, .response = {}, .tighter = {}, .history = {}, .doubts = doubts(c.study, motions)};
   out.history.step_s = c.output_step_s;
   const auto solve = reference ? respond_reference : respond;
   Settings settings = integration_settings(c.study);

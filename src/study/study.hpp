@@ -94,7 +94,8 @@ struct MotionSource {
   // Records; all alike likely.
   std::string records;                                // glob, folder or file, relative to the folder of the study file
   std::string vertical_records;                       // the same for vertical components, paired in the order of names
-  std::vector<std::filesystem::path> files;           // what `records` matched, sorted by name
+  std::vector<std::filesystem::path> files;           // what `records` matched, sorted by name, but
+  std::vector<std::string> left_out;                  // vertical components, and why they are taken for that
   std::vector<std::filesystem::path> vertical_files;  // empty, or one for each of `files`
   std::optional<double> dt_s;                         // the rest as motion::ReadOptions
   std::string unit, format, channel;
@@ -148,7 +149,7 @@ struct UntilPart {
 
 struct Study {
   std::string name;              // key `name`, or the stem of the file
-  std::filesystem::path folder;  // of the study file: record globs start here; no part of the expanded text
+  std::filesystem::path folder;  // relative paths start here: the study file's folder, or its key paths_from
   std::uint64_t seed = 1;
   std::uint64_t samples = 0;  // with `until`: until->at_most
   std::optional<UntilPart> until;
@@ -204,8 +205,13 @@ Case parse_case(const std::string& text, const std::filesystem::path& file);
 // The study that a result of this program stores; its records are not looked for. `origin` names it in messages.
 Study parse_stored(const std::string& expanded, const std::filesystem::path& origin);
 
-// The whole study, every default written out, as YAML that parses back to the same study.
+// The whole study, every default written out, as YAML that parses back to the same study in the same folder.
 std::string expanded(const Study&);
+
+// The same for a file in `folder`: where paths start elsewhere, `paths_from` leads there. It is relative, so that studies,
+// records and results may be moved together.
+std::string expanded(const Study&, const std::filesystem::path& folder);
+std::string expanded(const Case&, const std::filesystem::path& folder);
 
 // Hash (16 hexadecimal digits) of all that determines the numbers in the result files; the name does not. The contents
 // of records count through MotionSet::fingerprint.

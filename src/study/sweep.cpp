@@ -10,6 +10,7 @@
 
 #include "fragility/fit.hpp"
 #include "io/output_folder.hpp"
+#include "io/own_files.hpp"
 #include "io/samples_file.hpp"
 #include "parallel/checkpoint.hpp"
 #include "parallel/progress.hpp"
@@ -48,8 +49,7 @@ bool already_complete(const Study& study, const std::filesystem::path& folder) {
 MotionSet load_together(const Communicator& world, const Study& study) {
   world.on_root([&] {
     const MotionSet motions = load_motions(study);
-    for (const auto& said : {doubts(study), doubts(study, motions)})
-      for (const std::string& doubt : said) fmt::print(stderr, "doubtful: {}\n", doubt);
+    for (const std::string& doubt : doubts(study, motions)) fmt::print(stderr, "doubtful: {}\n", doubt);
   });
   return load_motions(study);
 }
@@ -172,6 +172,7 @@ class Sweep {
     header.provenance.study = expanded(study_);
     header.provenance.effects = effects_json(study_).dump();
     header.provenance.accuracy = world_.broadcast(accuracy_json(accuracy).dump());
+    header.provenance.doubts = nlohmann::json(doubts(study_, evaluator_.motions())).dump();
     header.provenance.study_name = study_.name;
     header.provenance.seed = study_.seed;
     header.provenance.samples = samples;
@@ -201,11 +202,13 @@ SweepSummary sweep(const Communicator& world, const Study& study, const SweepOpt
   const parallel::StopOnSignal stop_on_signal;
   parallel::Words complete{0};
   world.on_root([&] {
-    io::prepare_output_folder(options.folder, options.resume      ? io::Existing::resume
-                                              : options.overwrite ? io::Existing::overwrite
-                                                                  : io::Existing::refuse);
+    io::prepare_output_folder(options.folder,
+                              options.resume      ? io::Existing::resume
+                              : options.overwrite ? io::Existing::overwrite
+                                                  : io::Existing::refuse,
+                              {study_path(options.folder).filename().string()});
     if (options.resume) complete[0] = already_complete(study, options.folder);
-    io::write_text(study_path(options.folder), expanded(study));
+    io::write_text(study_path(options.folder), io::signed_text(expanded(study, options.folder)));
   });
   if (world.broadcast(complete)[0])
     return {.complete = true, .samples = static_cast<std::int64_t>(study.samples), .computed = 0};

@@ -68,8 +68,9 @@ struct Compared {
 Compared compare(const parallel::Communicator&, const ValidationRun&, const std::filesystem::path& folder);
 nlohmann::ordered_json diagnose(const parallel::Communicator&, const ValidationRun&);
 
-// The study with the effect in it, fitted, as YAML text. effect: a name of the catalogue, a mapping in YAML
+// The study with the effect in it, fitted, as YAML text for a file in `folder`. effect: a name of the catalogue, a mapping in YAML
 // ("{name: bumps, friction: ..., parameters: {a: {calibrate: [0, 1]}}}"), or a file that holds one.
-std::string add(const parallel::Communicator&, const ValidationRun&, const std::string& effect);
+std::string add(const parallel::Communicator&, const ValidationRun&, const std::string& effect,
+                const std::filesystem::path& folder);
 
 }  // namespace freestand::study

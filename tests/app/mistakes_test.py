@@ -1,6 +1,8 @@
 """What a user does wrong is told clearly, with the right exit code, and nothing is lost."""
 
+import json
 import os
+import re
 import resource
 import unittest
 
@@ -94,6 +96,30 @@ class Mistakes(InFolder):
         self.fail_with(3, ["fit", self.folder], "samples.h5")
         (self.folder / "samples.h5").write_bytes(b"not HDF5")
         self.fail_with(3, ["fit", self.folder], "samples.h5")
+
+    def test_what_would_take_all_memory_is_refused_at_once(self):
+        case = re.sub("output_step_s.*", "", (CONFIGS / "case.yaml").read_text())
+        for name, line in (("step", "output_step_s: 1e-320"), ("long", "free_vibration_s: 1e300")):
+            self.fail_with(2, ["simulate", self.write(f"{name}.yaml", case + line + "\n"), "-o", self.folder / name],
+                           "more than 2000000 rows", preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (4 << 30,) * 2))
+
+    def test_vertical_and_silent_records(self):
+        rows = "".join(f"{0.01 * i:.2f} {0.3 * (-1) ** (i // 25)}\n" for i in range(200))
+        for name in ("a-NS.txt", "a-UP.txt"):
+            self.write(name, rows)
+        self.write("silent.txt", "".join(f"{0.01 * i:.2f} 0\n" for i in range(200)))
+        self.write("offset.csv", "time_s,floor_acceleration_mps2\n" + "".join(
+            f"{0.01 * i:.2f},{3 + 3 * (-1) ** (i // 25)}\n" for i in range(1000)))
+        plain = lambda text, more: text.replace("scale_to: {pta_g: 0.5}", more)
+        done = self.succeed(["run", self.write("s.yaml", plain(with_records("a-*.txt"), "unit: g")), "-o", self.folder / "a"])
+        self.assertIn("a-UP.txt", done.stderr)
+        warnings = json.loads((self.folder / "a" / "summary.json").read_text())["warnings"]
+        self.assertTrue(any("a-UP.txt" in warning for warning in warnings), warnings)
+        self.check(plain(with_records("a-UP.txt"), "unit: g"), "a-UP.txt", "vertical_records")
+        self.check(plain(with_records("silent.txt"), "unit: g"), "silent.txt is zero throughout", code=3)
+        done = self.succeed(["run", self.write("s.yaml", plain(with_records("offset.csv"), "scale: 0.1")), "-o",
+                             self.folder / "b"])
+        self.assertRegex(done.stderr, r"offset.csv has an offset of 3\.0\d m/s2")
 
     def test_simulate_writes_what_the_contract_says(self):
         out = self.folder / "case"

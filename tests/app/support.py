@@ -82,8 +82,8 @@ class InFolder(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done
 
-    def fail_with(self, code, arguments, *words, ranks=1):
-        done = run(arguments, ranks)
+    def fail_with(self, code, arguments, *words, ranks=1, **options):
+        done = run(arguments, ranks, **options)
         self.assertEqual(done.returncode, code, done.stderr)
         for word in words:
             self.assertIn(word, done.stderr)

@@ -1,5 +1,6 @@
 """`until` goes on in rounds until the surface is known well enough, and a resumed one stops at the same place."""
 
+import json
 import unittest
 
 from support import InFolder, datasets, h5py, study_text
@@ -22,6 +23,24 @@ class Until(InFolder):
         one = self.folder / "one"
         self.succeed(["run", self.write("u.yaml", TEXT), "-o", one, "--quiet"])
         self.assertEqual(datasets(one / "samples.h5"), datasets(folder / "samples.h5"))
+
+    def test_what_was_not_reached_is_told(self):
+        text = TEXT.replace("half_width: 0.08, at_most: 200000", "half_width: 0.001, at_most: 1024")
+        out = self.folder / "out"
+        done = self.succeed(["run", self.write("u.yaml", text), "-o", out])
+        self.assertIn("was to be known to +-0.001", done.stderr)
+        summary = json.loads((out / "summary.json").read_text())
+        until = summary["until"]
+        self.assertEqual((until["half_width_wanted"], until["samples"], until["at_most"], until["reached"]),
+                         (0.001, 1024, 1024, False))
+        with h5py.File(out / "fragility.h5") as file:
+            surface = file["edp/delta/surface"]
+            half_width = (surface["upper"][()] - surface["lower"][()]).max() / 2
+        self.assertGreaterEqual(until["half_width_reached"], half_width)
+        self.assertTrue(any("was to be known" in warning for warning in summary["warnings"]))
+        reached = TEXT.replace("half_width: 0.08", "half_width: 0.49")
+        self.succeed(["run", self.write("v.yaml", reached), "-o", self.folder / "v"])
+        self.assertTrue(json.loads((self.folder / "v" / "summary.json").read_text())["until"]["reached"])
 
 
 if __name__ == "__main__":

@@ -161,6 +161,7 @@ TEST(StudyMistakes, InMotions) {
       {with_motion("{pulse: A, peak_acceleration_g: 1}"), "3", "has no period"},
       {with_motion("{pulse: A, period_s: 1}"), "3", "has no amplitude"},
       {with_motion("{pulse: A, period_s: 0, peak_acceleration_g: 1}"), "3", "a period must be above zero"},
+      {with_motion("{pulse: A, period_s: 1e-300, peak_acceleration_g: 1}"), "3", "a shorter one moves nothing"},
       {with_motion("{pulse: A, period: 1, period_s: 1, peak_acceleration_g: 1}"), "3", "write period_s"},
       {with_motion("{pulse: A, period_s: 1, peak_acceleration_g: 1, peak_velocity_mps: 1}"), "3",
        "one determines the other"},
@@ -175,7 +176,7 @@ TEST(StudyMistakes, InMotions) {
 TEST(StudyMistakes, InFragility) {
   expect_each({
       {with_fragility("{edp: [delta], im: pta}"), "5", "pta is not known (did you mean pta_g?)"},
-      {with_fragility("{edp: [delta], im: {name: sa_g, period_s: 0}}"), "5", "above zero"},
+      {with_fragility("{edp: [delta], im: {name: sa_g, period_s: 1e-9}}"), "5", "a stiffer oscillator only follows the floor"},
       {with_fragility("{edp: [delta], im: {name: pta_g, period_s: 1}}"), "5", "unknown key period_s"},
       {with_fragility("{edp: [dleta]}"), "5",
        "dleta is not known (did you mean delta?): name some of delta, overturned"},
@@ -219,10 +220,21 @@ TEST(StudyMistakes, InTheSweep) {
       {sound + "design: sobal\n", "6", "did you mean sobol?"},
       {sound + "seed: -1\n", "6", "seed is -1"},
       {sound + "tolerance: 0\n", "6", "tolerance is 0"},
+      {sound + "tolerance: 1e-30\n", "6", "tolerance is 1e-30 (it must lie between 1e-12"},
+      {without + "samples: 1000000000000000\n", "5", "are more than 4194304 blocks"},
+      {without + "until: {half_width: 0.02, at_most: 1000000000000}\nblock_size: 2\n", "5", "lower at_most"},
       {sound + "free_vibration: 3\n", "6", "write free_vibration_s"},
       {sound + "block_size: 0\n", "6", "block_size is 0"},
       {sound + "sampels: 3\n", "6", "did you mean samples?"},
   });
+}
+
+TEST(StudyMistakes, ACaseIsNoStudy) {
+  const std::string motion = "motion: {pulse: B, period_s: 0.5, peak_acceleration_g: 0.6}\n";
+  EXPECT_EQ(problems(block + friction + motion),
+            "folder/some.yaml:3: this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it");
+  EXPECT_EQ(case_problems(sound),
+            "one.yaml:3: this is a study (it has `motions`; a case has `motion`): `freestand run` takes it");
 }
 
 TEST(StudyMistakes, InYamlItself) {

@@ -20,6 +20,7 @@ TEST(Problems, NearestSuggestsOnlyWhatIsNear) {
   const std::vector<std::string> keys = {"width_m", "height_m", "mass_kg"};
   EXPECT_EQ(nearest("hieght_m", keys), "height_m");
   EXPECT_EQ(nearest("colour", keys), "");
+  EXPECT_EQ(nearest("WIDTH_M", keys), "width_m");
   EXPECT_EQ(hint("masskg", keys), "did you mean mass_kg?");
   EXPECT_EQ(hint("colour", keys), "known: width_m, height_m, mass_kg");
 }

@@ -11,6 +11,7 @@
 #include "base/units.hpp"
 #include "motion/peaks.hpp"
 #include "motion/pulse.hpp"
+#include "study/doubts.hpp"
 #include "study/known.hpp"
 #include "study_text.hpp"
 #include "support/data.hpp"
@@ -190,7 +191,26 @@ TEST_F(Records, EveryUnusableOneIsReported) {
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::data);
     EXPECT_THAT(error.what(), testing::HasSubstr("c.csv:3"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("d.csv cannot be scaled to a peak"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("d.csv is zero throughout"));
+  }
+}
+
+TEST_F(Records, VerticalOnesAreLeftOutOfAPatternAndRefusedByName) {
+  std::ofstream(folder_ / "records" / "c-UP.txt") << "0 0\n0.1 1\n0.2 -1\n";
+  std::ofstream(folder_ / "records" / "c-NS.txt") << "0 0\n0.1 1\n0.2 -1\n";
+  const Study swept = study("{records: \"records/c*\", unit: g}");
+  EXPECT_EQ(load_motions(swept).names(), std::vector<std::string>{"records/c-NS.txt"});
+  EXPECT_THAT(doubts(swept), testing::ElementsAre(testing::AllOf(testing::HasSubstr("c-UP.txt (its name ends in UP)"),
+                                                                 testing::HasSubstr("left out"))));
+  EXPECT_EQ(load_motions(study("{records: \"records/c*\", vertical_records: \"records/*UP.txt\", unit: g}")).size(),
+            1u);
+  try {
+    study("{records: records/c-UP.txt, unit: g}");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("c-UP.txt (its name ends in UP) is a vertical component"),
+                               testing::HasSubstr("vertical_records")));
   }
 }
 

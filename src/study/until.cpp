@@ -1,0 +1,30 @@
+#include "study/until.hpp"
+
+#include <fmt/format.h>
+
+#include "fragility/fit.hpp"
+
+namespace freestand::study {
+
+void tell_until(const Study& study, const fragility::Result& result, nlohmann::ordered_json& summary) {
+  if (!study.until) return;
+  const fragility::HalfWidth reached = fragility::half_width(result);
+  const double wanted = study.until->half_width;
+  summary["until"] = {{"half_width_wanted", wanted},
+                      {"half_width_reached", reached.largest},
+                      {"reached", reached.largest <= wanted},
+                      {"samples", result.samples},
+                      {"at_most", study.until->at_most},
+                      {"widest", {{"edp", reached.edp}, {"im", reached.im}, {"capacity", reached.capacity}}}};
+  if (reached.largest <= wanted) return;
+  const std::string where =
+      reached.edp.empty() ? "" : fmt::format(", {} at an intensity of {:.3g} the least", reached.edp, reached.im);
+  const std::string warning = fmt::format(
+      "the surface was to be known to +-{:.3g}, and after {} samples, the most that until allows, it is known to "
+      "+-{:.3g}{}: raise at_most, take more records, or wider bins",
+      wanted, result.samples, reached.largest, where);
+  summary["warnings"].push_back(warning);
+  fmt::print(stderr, "{}\n", warning);
+}
+
+}  // namespace freestand::study
