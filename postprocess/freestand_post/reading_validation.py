@@ -42,6 +42,7 @@ class Table:
     columns: dict            # name -> values
     share_explained: float = np.nan
     law_effects: list = field(default_factory=list)
+    law_follows: bool = False  # the law changes with this variable
 
 
 @dataclass
@@ -68,6 +69,7 @@ class Diagnosis:
     raw: dict
     name: str
     verdict: str
+    reason: str              # of the verdict unknown: data, none_helps, none_suffices; else empty
     effects: list
     unit: str
     sentences: list
@@ -172,7 +174,8 @@ def _table(node, columns):
     law = node.node("law")
     if law:
         table.columns["law"] = law.numbers("mu", size)
-        table.law_effects = law.texts("effects") or [law.text("effect")]
+        table.law_effects = law.texts("effects")
+        table.law_follows = law.value.get("follows") is True
     return table
 
 
@@ -230,7 +233,8 @@ def _candidate(node):
     for name in parameters.value if parameters else ():
         found = parameters.node(name)
         if found:
-            row["parameters"].append(found.row("value", "unit") | {"name": name, "interval": found.interval("interval")})
+            row["parameters"].append(found.row("value", "unit") | {"name": name, "interval": found.interval("interval"),
+                                                                     "no_interval": found.text("no_interval")})
     return row
 
 
@@ -248,7 +252,7 @@ def read_diagnosis(folder):
             "between": suggestion.texts("between"), "specimen": specimen if isinstance(specimen, str) else "",
             "motion": motion.row("period_s peak_acceleration_g vertical_peak_acceleration_g", "pulse") if motion else {}}
     return Diagnosis(
-        pathlib.Path(folder), root.value, _name(root, folder), verdict, root.texts("effects"),
+        pathlib.Path(folder), root.value, _name(root, folder), verdict, root.text("reason"), root.texts("effects"),
         root.text("error_unit", "noise units"), root.texts("sentences"), root.texts("findings"), _candidate(base) if base else {},
         [_candidate(node) for node in root.nodes("candidates", needed=True)], root.number("noise_floor"),
         recovered.number("base_mu") if recovered else np.nan,

@@ -2,7 +2,7 @@
 import math
 import re
 
-from . import validation, words
+from . import validation, verdict, words
 from . import validation_tables as tables
 from .pictures import before_after, outcomes
 
@@ -14,8 +14,10 @@ def content(results, figures):
     of = {name: [] for name in SECTIONS}
     for figure in figures:
         of[figure["section"]].append(figure)
+    reason = results.diagnosis.reason if results.diagnosis else ""
     unknown = results.diagnosis is not None and results.diagnosis.verdict == "unknown"
-    hero = next((of[name][0] for name in ("recovered",) * unknown + ("ladder", "ranking", "outcomes", "peaks", "worst") if of[name]), None)
+    order = () if reason == verdict.WITHDRAWN else ("recovered",) * unknown + ("ladder", "ranking", "outcomes", "peaks", "worst")
+    hero = next((of[name][0] for name in order if of[name]), None)
     if hero:
         of[hero["section"]] = of[hero["section"]][1:]
     return {
@@ -36,20 +38,13 @@ def _fitted_model(results):
 
 def _title(results):
     """The verdict in one line."""
-    name, diagnosis, first, last = results.name, results.diagnosis, results.first, results.last
+    name, diagnosis, last = results.name, results.diagnosis, results.last
     if diagnosis is None and results.after_found():
         return f"{name}: the model {validation.model_name(last.effects)}, held against the measurements"
     if diagnosis is None:
         return f"{name}: {_compared(last)}"
-    several, was = len(diagnosis.effects) > 1, results.after_found()
-    if diagnosis.verdict == "missing":
-        verb = ("were" if was else "are") if several else ("was" if was else "is")
-        return f"{name}: the missing effect{'s' * several} {verb} {validation.effects(diagnosis.effects)}"
-    if diagnosis.verdict == "ambiguous":
-        return f"{name}: the missing effect is {validation.effects(diagnosis.effects, ' or ')}, and these tests cannot tell which"
-    if diagnosis.verdict == "unknown":
-        return f"{name}: the model lacks something that no effect of the catalogue explains"
-    return f"{name}: these tests show no missing effect"
+    was = results.after_found() and set(diagnosis.effects) <= set(last.effects)
+    return f"{name}: {verdict.title(diagnosis, was)}"
 
 
 def _compared(comparison):
@@ -93,8 +88,9 @@ def _headline(results):
         best = diagnosis.best
         found.append((diagnosis.base.get("error_left_out", math.nan), "base model, on tests left out of the fit"))
         name = validation.effect(best.get("effect", ""))
+        chance = diagnosis.verdict == "none" or diagnosis.reason == "none_helps"
         found.append((best.get("error_left_out", math.nan), f"best candidate, {name}: better by no more than chance"
-                      if diagnosis.verdict == "none" else f"with {name}, on tests left out of the fit"))
+                      if chance else f"with {name}, on tests left out of the fit"))
     else:
         for k in sorted({0, len(results.comparisons) - 1}):
             comparison = results.comparisons[k]

@@ -82,7 +82,8 @@ def _parameter(row):
     unit = "" if row["unit"] in ("", "1") else words.UNITS.get(row["unit"], row["unit"])
     bounds = [row.get("lower", math.nan), row.get("upper", math.nan)]
     return {"name": validation.parameter(row["name"]), "value": words.number(row["value"], 4), "unit": unit,
-            "interval": f"{words.number(low, 4)} to {words.number(high, 4)}" if math.isfinite(low) and math.isfinite(high) else "–",
+            "interval": f"{words.number(low, 4)} to {words.number(high, 4)}" if math.isfinite(low) and math.isfinite(high) else
+                        f"none: {row['no_interval']}" if row.get("no_interval") else "–",
             "bounds": f"{words.plain(bounds[0])} to {words.plain(bounds[1])}" if np.isfinite(bounds).all() else "–"}
 
 

@@ -24,6 +24,16 @@ void tell_row(const Json& c, const std::string& name) {
              c["rival"].get<bool>() ? "<" : "");
 }
 
+// Why the verdict names no effect, or more than one.
+std::string why(const Json& json) {
+  if (json["verdict"] == "ambiguous") return " (these tests cannot tell them apart)";
+  const std::string reason = json.contains("reason") && json["reason"].is_string() ? json["reason"] : "";
+  if (reason == "data") return " (withdrawn: the measurements look wrong)";
+  if (reason == "none_helps") return " (no effect of the catalogue lowers the error by more than chance)";
+  if (reason == "none_suffices") return " (effects help, and the best of them leaves more than noise makes)";
+  return "";
+}
+
 void tell(const Json& json, const std::string& file) {
   const bool histories = json["error_unit"] == "noise units";
   fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11}\n", "error (" + json["error_unit"].get<std::string>() + ")",
@@ -36,7 +46,7 @@ void tell(const Json& json, const std::string& file) {
   if (seen > rows) fmt::print("and {} more\n", seen - rows);
   std::string effects;
   for (const auto& effect : json["effects"]) effects += " " + effect.get<std::string>();
-  fmt::print("verdict: {}{}\n", json["verdict"].get<std::string>(), effects);
+  fmt::print("verdict: {}{}{}\n", json["verdict"].get<std::string>(), effects, why(json));
   for (const char* list : {"sentences", "findings"})
     for (const auto& sentence : json[list]) fmt::print("* {}\n", sentence.get<std::string>());
   if (!json["suggested_motion"].is_null())

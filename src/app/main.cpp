@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "app/command.hpp"
+#include "base/shown_text.hpp"
 #include "io/provenance.hpp"
 
 namespace {
@@ -20,7 +21,8 @@ int tell(const CLI::App& parser, const std::string& verb, const CLI::ParseError&
       known += (known.empty() ? "" : ", ") + one->get_name();
     }
     if (!known.empty()) {
-      fmt::print(stderr, "{} is no command (freestand has {}): choose one, or see freestand --help\n", verb, known);
+      fmt::print(stderr, "{} is no command (freestand has {}): choose one, or see freestand --help\n",
+                 freestand::shown(verb), known);
       return static_cast<int>(freestand::Exit::usage);
     }
   }
@@ -65,7 +67,7 @@ int main(int argc, char** argv) {
     const freestand::parallel::Session session(&argc, &argv);
     return run(argc, argv, session.world());
   } catch (const freestand::Error& error) {  // MPI does not start
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", freestand::printable(error.what(), freestand::Lines::keep));
     return static_cast<int>(error.exit());
   }
 }

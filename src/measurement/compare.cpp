@@ -13,6 +13,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t bins = 10;
+constexpr double half_window_s = 0.03;  // of the smoothing that tells speed and direction
 
 ChannelError channel_error(Channel channel, double noise, const std::vector<double>& measured,
                            const std::vector<double>& model) {
@@ -52,8 +53,8 @@ void add_samples(const Bench& bench, const TestComparison& c, std::vector<Sample
   const Test& test = bench.test(c.test);
   if (test.slip_m.empty() || bench.noise(Channel::slip) <= 0) return;
   const bool turns = !test.rotation_rad.empty();
-  const Smooth motion = smooth(test.slip_m, test.dt_s, 6);
-  const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, 6);
+  const Smooth motion = smooth(test.slip_m, test.dt_s, half_window_s);
+  const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, half_window_s);
   const std::vector<Phase> phase = phases(bench, test);
   const auto lag = std::max<std::size_t>(1, static_cast<std::size_t>(0.1 / test.dt_s));
   const auto residual = [&](std::size_t k) {
@@ -64,7 +65,7 @@ void add_samples(const Bench& bench, const TestComparison& c, std::vector<Sample
   };
   double path = 0;
   for (std::size_t k = 0; k < test.slip_m.size(); ++k) {
-    const double t = static_cast<double>(k) * test.dt_s, speed = std::abs(motion.rate[k]);
+    const double t = static_cast<double>(k) * test.dt_s, rate = motion.firm_rate(k), speed = std::abs(rate);
     const bool slips = speed > least;
     if (slips) path += speed * test.dt_s;
     const double v = test.has_vertical() ? vertical_acceleration({&test.motion, 1, 1, 1}, t) : 0;
@@ -73,8 +74,8 @@ void add_samples(const Bench& bench, const TestComparison& c, std::vector<Sample
         {r,
          k < lag ? 0 : r - residual(k - lag),
          phase[k],
-         {speed, path, motion.value[k], slips ? std::copysign(1.0, motion.rate[k]) : 0.0, 1 + v / standard_gravity_mps2,
-          t, std::abs(horizontal_acceleration(test.shaking(), t)) / standard_gravity_mps2}});
+         {speed, path, motion.value[k], slips ? std::copysign(1.0, rate) : 0.0, 1 + v / standard_gravity_mps2, t,
+          std::abs(horizontal_acceleration(test.shaking(), t)) / standard_gravity_mps2}});
   }
 }
 
@@ -155,15 +156,15 @@ const char* name(Phase phase) {
 std::vector<Phase> phases(const Bench& bench, const Test& test) {
   const std::size_t n = test.slip_m.size();
   const auto near = std::max<std::size_t>(1, static_cast<std::size_t>(0.1 / test.dt_s));
-  const Smooth motion = smooth(test.slip_m, test.dt_s, 6);
-  const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, 6);
+  const Smooth motion = smooth(test.slip_m, test.dt_s, half_window_s);
+  const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, half_window_s);
   std::vector<Phase> phase(n, Phase::stuck);
   std::size_t onset = n, last_moving = 0, impact = n, last_stuck_before = 0;
   double last_direction = 0, last_side = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double turn = test.rotation_rad.empty() ? 0 : test.rotation_rad[k];
     const bool rocks = std::abs(turn) > 5 * bench.noise(Channel::rotation) && bench.noise(Channel::rotation) > 0;
-    const double direction = std::abs(motion.rate[k]) > least ? std::copysign(1.0, motion.rate[k]) : 0;
+    const double rate = motion.firm_rate(k), direction = std::abs(rate) > least ? std::copysign(1.0, rate) : 0;
     if (rocks) {
       if (last_side * turn < 0) impact = k;
       last_side = turn;

@@ -43,6 +43,7 @@ struct Test {
   // horizontal, of the centre of mass [m/s2].
   std::vector<double> slip_m, rotation_rad, block_acceleration_mps2;
   Peaks peaks;
+  std::vector<std::string> unused_columns;  // of its file, whose names say nothing to freestand
 
   bool has_history() const { return !slip_m.empty() || !rotation_rad.empty() || !block_acceleration_mps2.empty(); }
   bool has_vertical() const { return !motion.vertical_mps2.empty(); }

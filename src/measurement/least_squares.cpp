@@ -185,30 +185,52 @@ double end_of_range(const Objective& total, double rise, const ModelFit& fit, st
   return at(within)[i];
 }
 
+void widen(Interval& interval, double lower, double upper) {
+  interval = {std::min(interval.lower, lower), std::max(interval.upper, upper)};
+}
+
 // Widens intervals to what the number alone may do. The jackknife is blind to a number that no test determines: no refit
 // moves it.
 void widen_intervals(const Objective& total, double rise, ModelFit& fit, const Jobs& jobs) {
   const auto ends = jobs("intervals", 2 * fit.x.size(), [&](std::size_t k) {
     return Values{end_of_range(total, rise, fit, k / 2, k % 2 == 0 ? -1 : 1)};
   });
-  for (std::size_t i = 0; i < fit.intervals.size(); ++i) {
-    Interval& interval = fit.intervals[i];
-    interval = {std::min(interval.lower, ends[2 * i][0]), std::max(interval.upper, ends[2 * i + 1][0])};
-  }
+  for (std::size_t i = 0; i < fit.intervals.size(); ++i) widen(fit.intervals[i], ends[2 * i][0], ends[2 * i + 1][0]);
 }
 
 constexpr double chi_square_95 = 3.84;  // of one degree of freedom
 
 // Of a model that is far from the noise, or of peaks: peaks scatter by what the fit leaves of them, and of histories no
 // likelihood is known: a twentieth of one test's squared error counts.
-void widen_by_score(const Bench& bench, const Tests& tests, ModelFit& fit, Kind kind, const Jobs& jobs) {
-  const auto n = static_cast<double>(tests.size()), known = static_cast<double>(fit.x.size());
-  const Objective total = [&](std::span<const double> x) { return n * mean_score(bench, tests, fit.model, x); };
-  const double rise = kind == Kind::history ? 0.05 : chi_square_95 * n * fit.score / std::max(n - known, 1.0);
-  widen_intervals(total, std::max(rise, 1e-9), fit, jobs);
-}
+struct ByScore {
+  Objective total;
+  double rise;
+  ByScore(const Bench& bench, const Tests& tests, const ModelFit& fit) {
+    const auto n = static_cast<double>(tests.size()), known = static_cast<double>(fit.x.size());
+    const bool histories = kind(bench.test(tests.front())) == Kind::history;
+    total = [&bench, &tests, &fit, n](std::span<const double> x) { return n * mean_score(bench, tests, fit.model, x); };
+    rise = std::max(histories ? 0.05 : chi_square_95 * n * fit.score / std::max(n - known, 1.0), 1e-9);
+  }
+};
 
 }  // namespace
+
+void widen_by_score(const Bench& bench, std::vector<ModelFit*> fits, const Jobs& jobs) {
+  const Tests tests = tests_of(bench.data(), Role::calibration);
+  struct Place {
+    std::size_t fit, number;
+  };
+  std::vector<Place> places;
+  for (std::size_t f = 0; f < fits.size(); ++f)
+    for (std::size_t i = 0; i < fits[f]->intervals.size(); ++i) places.push_back({f, i});
+  const auto ends = jobs("intervals", 2 * places.size(), [&](std::size_t k) {
+    const ModelFit& fit = *fits[places[k / 2].fit];
+    const ByScore by(bench, tests, fit);
+    return Values{end_of_range(by.total, by.rise, fit, places[k / 2].number, k % 2 == 0 ? -1 : 1)};
+  });
+  for (std::size_t p = 0; p < places.size(); ++p)
+    widen(fits[places[p].fit]->intervals[places[p].number], ends[2 * p][0], ends[2 * p + 1][0]);
+}
 
 void descend_by_derivatives(const Bench& bench, std::vector<ModelFit*> fits, const Jobs& jobs) {
   const auto calibration = tests_of(bench.data(), Role::calibration);
@@ -234,7 +256,7 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
   const Kind judged = calibration.empty() ? Kind::history : kind(bench.test(calibration.front()));
   if (calibration.empty() || judged != Kind::history) {
     leave_out(bench, {&fit}, effort, jobs);
-    if (judged == Kind::peaks) widen_by_score(bench, calibration, fit, judged, jobs);
+    if (judged == Kind::peaks) widen_by_score(bench, {&fit}, jobs);
     return;
   }
   Tests all(calibration.size());
@@ -247,7 +269,7 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
   fit.score = mean_score(bench, calibration, fit.model, fit.x);
   if (!near) {
     leave_out(bench, {&fit}, effort, jobs);
-    widen_by_score(bench, calibration, fit, judged, jobs);
+    widen_by_score(bench, {&fit}, jobs);
     return;
   }
   const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);

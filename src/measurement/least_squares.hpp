@@ -30,4 +30,8 @@ void descend_by_derivatives(const Bench&, std::vector<ModelFit*>, const Jobs&);
 // the sum of their squares rises by 3.84 times their mean square. Outcomes: leave_out() alone.
 void settle(const Bench&, ModelFit&, const Effort&, const Jobs&);
 
+// Intervals of fits to histories or peaks, by the scores as settle() does far from the noise. A jackknife whose refits
+// all stay where the fit is has none of its own.
+void widen_by_score(const Bench&, std::vector<ModelFit*>, const Jobs&);
+
 }  // namespace freestand::measurement

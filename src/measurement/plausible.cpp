@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/shown_text.hpp"
 #include "base/units.hpp"
+#include "measurement/findings_motion.hpp"
 #include "measurement/ground.hpp"
 #include "measurement/plausible_offsets.hpp"
 #include "measurement/smooth.hpp"
@@ -42,6 +44,7 @@ class Doubter {
       offsets(i);
     }
     tell();
+    columns();
     for (const Channel channel : {Channel::slip, Channel::rotation}) noise(channel);
     return std::move(out_);
   }
@@ -78,11 +81,11 @@ class Doubter {
   // not many times.
   bool faster(const Test& test, bool rotated, double times) const {
     if (test.slip_m.empty() || rotated) return false;
-    const auto half = std::max<std::size_t>(3, static_cast<std::size_t>(0.04 / test.dt_s));
-    const std::vector<double> floor = smooth(floor_displacement(test), test.dt_s, half).rate;
+    constexpr double half_window_s = 0.04;
+    const std::vector<double> floor = smooth(floor_displacement(test), test.dt_s, half_window_s).rate;
     const auto [least, most] = std::minmax_element(floor.begin(), floor.end());
-    const double noise = bench_.noise(Channel::slip) * rate_noise(test.dt_s, half);
-    return greatest(smooth(test.slip_m, test.dt_s, half).rate) > times * (*most - *least) + 8 * noise;
+    const double noise = bench_.noise(Channel::slip) * rate_noise(test.dt_s, half_window_s);
+    return greatest(smooth(test.slip_m, test.dt_s, half_window_s).rate) > times * (*most - *least) + 8 * noise;
   }
 
   void floor(const Test& test) {
@@ -133,6 +136,20 @@ class Doubter {
       say("the slip of {} is faster than the floor's velocities differ, which friction alone does not bring about: is "
           "floor_acceleration_mps2 in m/s2?",
           fmt::join(fast_, ", "));
+  }
+
+  // Columns that are not read, with the tests that have them.
+  void columns() {
+    std::vector<std::pair<std::string, std::vector<std::string>>> unused;
+    for (std::size_t i = 0; i < bench_.size(); ++i)
+      for (const std::string& name : bench_.test(i).unused_columns) {
+        const auto same = std::find_if(unused.begin(), unused.end(), [&](const auto& c) { return c.first == name; });
+        (same == unused.end() ? unused.emplace_back(name, std::vector<std::string>{}) : *same)
+            .second.push_back(bench_.test(i).id);
+      }
+    for (const auto& [name, ids] : unused)
+      say("column {} of {} {} is not used: it is none of those that a test may have", shown(name),
+          ids.size() > 1 ? "tests" : "test", listed(ids));
   }
 
   void noise(Channel channel) {

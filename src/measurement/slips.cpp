@@ -8,7 +8,8 @@ std::vector<Slip> slips(const Test& test, const Smooth& motion, double least_spe
   std::vector<Slip> found;
   const auto direction = [&](std::size_t i) {
     const bool turned = !test.rotation_rad.empty() && std::abs(test.rotation_rad[i]) > 6 * rotation_noise_rad;
-    return turned || std::abs(motion.rate[i]) < least_speed_mps ? 0.0 : motion.rate[i] > 0 ? 1.0 : -1.0;
+    const double rate = motion.firm_rate(i);
+    return turned || std::abs(rate) < least_speed_mps ? 0.0 : rate > 0 ? 1.0 : -1.0;
   };
   for (std::size_t i = 0; i < motion.rate.size(); ++i) {
     const double sigma = direction(i);

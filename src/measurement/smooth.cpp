@@ -21,10 +21,14 @@ struct Moments {
 
 }  // namespace
 
-Smooth smooth(const std::vector<double>& samples, double dt_s, std::size_t half) {
-  const std::size_t n = samples.size(), window = 2 * half + 1;
-  Smooth out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n)};
-  if (n < window || half == 0) return out;
+std::size_t half_window_samples(double half_window_s, double dt_s) {
+  return std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(half_window_s / dt_s)));
+}
+
+Smooth smooth(const std::vector<double>& samples, double dt_s, double half_window_s) {
+  const std::size_t half = half_window_samples(half_window_s, dt_s), n = samples.size(), window = 2 * half + 1;
+  Smooth out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n), half};
+  if (n < window) return out;
   const Moments m(half);
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t centre = std::clamp(i, half, n - 1 - half);
@@ -45,10 +49,16 @@ Smooth smooth(const std::vector<double>& samples, double dt_s, std::size_t half)
   return out;
 }
 
-double rate_noise(double dt_s, std::size_t half) { return 1 / (std::sqrt(Moments(half).two) * dt_s); }
+double Smooth::firm_rate(std::size_t i) const {
+  return rate.size() > 2 * half ? rate[std::clamp(i, half, rate.size() - 1 - half)] : 0;
+}
 
-double second_noise(double dt_s, std::size_t half) {
-  const Moments m(half);
+double rate_noise(double dt_s, double half_window_s) {
+  return 1 / (std::sqrt(Moments(half_window_samples(half_window_s, dt_s)).two) * dt_s);
+}
+
+double second_noise(double dt_s, double half_window_s) {
+  const Moments m(half_window_samples(half_window_s, dt_s));
   return 2 * std::sqrt(m.n / m.determinant()) / (dt_s * dt_s);
 }
 

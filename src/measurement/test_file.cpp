@@ -5,12 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/key_names.hpp"
+#include "base/shown_text.hpp"
 #include "motion/record_text.hpp"
 
 namespace freestand::measurement {
 namespace {
 
 using motion::RecordText;
+
+const std::vector<std::string> needed_columns = {"time_s", "floor_acceleration_mps2", "slip_m"};
+const std::vector<std::string> known_columns = {
+    "time_s",       "floor_acceleration_mps2", "floor_vertical_acceleration_mps2", "slip_m",
+    "rotation_rad", "block_acceleration_mps2"};
+
+bool holds(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
 
 struct Columns {
   std::vector<std::string> names;
@@ -29,43 +40,82 @@ std::size_t header_line(const RecordText& text) {
   return line;
 }
 
+// As table programs and loggers write it.
+bool is_gap(std::string_view cell) {
+  const std::string word = motion::lower_case(cell);
+  return word.empty() || word == "nan" || word == "na" || word == "n/a" || word == "#n/a" || word == "null" ||
+         word.find_first_not_of('-') == std::string::npos;
+}
+
 void read_row(const RecordText& text, std::size_t line, Columns& columns) {
-  std::string_view rest = text.line(line);
-  std::size_t column = 0;
-  for (bool more = true; more; ++column) {
-    const std::size_t comma = rest.find(',');
-    const std::string_view cell = motion::trim(rest.substr(0, comma));
-    more = comma != std::string_view::npos;
-    if (more) rest.remove_prefix(comma + 1);
-    if (column >= columns.names.size()) continue;
+  const auto row = motion::cells(text.line(line));
+  if (row.size() != columns.names.size())
+    text.fail(line, fmt::format("{} columns (the header has {}): correct the line{}", row.size(), columns.names.size(),
+                                row.size() > columns.names.size() ? "; numbers have points, not commas" : ""));
+  for (std::size_t column = 0; column < row.size(); ++column) {
+    const std::string_view cell = row[column];
+    if (!holds(known_columns, columns.names[column])) continue;
     const std::string& name = columns.names[column];
-    if (cell.empty())
-      text.fail(line, fmt::format("{} is empty (a gap cannot be compared with anything): cut the test there, or fill "
-                                  "the gap where the signal allows it",
-                                  name));
-    const double value = text.number(line, cell);
-    if (!std::isfinite(value))
+    if (is_gap(cell))
       text.fail(line, fmt::format("{} is {} (a gap cannot be compared with anything): cut the test there, or fill the "
                                   "gap where the signal allows it",
-                                  name, cell));
-    columns.values[column].push_back(value);
+                                  name, cell.empty() ? "empty" : shown(cell)));
+    columns.values[column].push_back(text.number(line, cell));
   }
-  if (column != columns.names.size())
-    text.fail(line, fmt::format("{} columns (the header has {}): correct the line", column, columns.names.size()));
   columns.lines.push_back(line);
+}
+
+// What the header's line looks like, where it cannot be one: other separators, or numbers.
+void check_header(const RecordText& text, std::size_t header) {
+  const std::string_view line = text.line(header);
+  const auto has = [&](char c) { return line.find(c) != std::string_view::npos; };
+  if (!has(',') && (has(';') || has('\t')))
+    text.fail(header,
+              fmt::format("the columns are parted by {} (a test's csv has commas between its columns, and points "
+                          "in its numbers): write it out again so",
+                          has(';') ? "semicolons" : "tabs"));
+  if (line.find_first_not_of("0123456789+-.,eE \t") == std::string_view::npos)
+    text.fail(header, fmt::format("no names of columns (the first line holds numbers): write {} above them",
+                                  fmt::join(needed_columns, ",")));
+}
+
+// A channel under another name or in another unit would be left out of every comparison, or read as what it is not.
+void check_names(const RecordText& text, std::size_t header, const std::vector<std::string>& names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string &name = names[i], as_shown = shown(name);
+    if (name.empty())
+      text.fail(header, fmt::format("column {} has no name (a comma too many?): name it, or remove it", i + 1));
+    if (std::find(names.begin(), names.begin() + static_cast<long>(i), name) != names.begin() + static_cast<long>(i))
+      text.fail(header, fmt::format("column {} stands twice (which one is it?): remove or rename one", as_shown));
+    if (holds(known_columns, name)) continue;
+    for (const std::string& known : known_columns) {
+      if (holds(names, known) || without_unit(name) != without_unit(known)) continue;
+      if (without_unit(name) == name)
+        text.fail(header,
+                  fmt::format("column {} has no unit (every column carries its own): write {}", as_shown, known));
+      text.fail(header, fmt::format("column {} has another unit (freestand reads SI, here {}): convert it and write {}",
+                                    as_shown, unit_of(known), known));
+    }
+    const std::string near = nearest(name, known_columns);
+    if (!near.empty() && !holds(names, near))
+      text.fail(header, fmt::format("unknown column {} (did you mean {}?): correct the name, or remove the column",
+                                    as_shown, near));
+  }
+  for (const std::string& needed : needed_columns)
+    if (!holds(names, needed))
+      text.fail(header, fmt::format("no column {} (the columns are {}): add it, or correct the name", needed,
+                                    shown(motion::trim(text.line(header)), 200)));
 }
 
 Columns read_columns(const RecordText& text) {
   Columns columns;
   const std::size_t header = header_line(text);
-  for (const auto name : motion::split(text.line(header), ",")) columns.names.emplace_back(motion::trim(name));
+  check_header(text, header);
+  for (const auto name : motion::cells(text.line(header))) columns.names.emplace_back(name);
+  check_names(text, header, columns.names);
   columns.values.resize(columns.names.size());
   for (std::size_t line = header + 1; line < text.size(); ++line)
     if (!motion::trim(text.line(line)).empty()) read_row(text, line, columns);
-  for (const char* needed : {"time_s", "floor_acceleration_mps2", "slip_m"})
-    if (!columns.find(needed))
-      text.fail(header, fmt::format("no column {} (the columns are {}): add it, or correct the name", needed,
-                                    motion::trim(text.line(header))));
   if (columns.lines.size() < 10)
     text.fail(fmt::format("{} rows (a history needs at least 10): check the file", columns.lines.size()));
   return columns;
@@ -106,6 +156,8 @@ void read_test_file(const std::filesystem::path& path, double dt_s, Test& test) 
   test.slip_m = *columns.find("slip_m");
   if (const auto* rotation = columns.find("rotation_rad")) test.rotation_rad = *rotation;
   if (const auto* block = columns.find("block_acceleration_mps2")) test.block_acceleration_mps2 = *block;
+  for (const std::string& name : columns.names)
+    if (!holds(known_columns, name)) test.unused_columns.push_back(name);
 }
 
 }  // namespace freestand::measurement

@@ -1,6 +1,7 @@
 // ESM ASCII (DYNA 1.2): lines "KEY: value", then one value a line.
 #include <fmt/format.h>
 
+#include "base/shown_text.hpp"
 #include "motion/record_format.hpp"
 
 namespace freestand::motion {
@@ -34,7 +35,7 @@ RawRecord read(const RecordText& text) {
   const Entry size = entry(text, "NDATA"), unit = entry(text, "UNITS");
   if (lower_case(type.value).find("acceleration") == std::string::npos)
     text.fail(type.line,
-              fmt::format("not a record of acceleration (the header says {}): use the .ACC. file", type.value));
+              fmt::format("not a record of acceleration (the header says {}): use the .ACC. file", shown(type.value)));
   std::size_t line = 0;
   while (line < text.size() && text.line(line).find(':') != std::string_view::npos) ++line;
   const std::size_t count = text.count(size.line, size.value);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/shown_text.hpp"
 #include "motion/record_format.hpp"
 
 namespace freestand::motion {
@@ -11,16 +12,6 @@ namespace {
 
 constexpr std::string_view time_name = "time_s", horizontal_name = "floor_acceleration_mps2",
                            vertical_name = "floor_vertical_acceleration_mps2";
-
-std::vector<std::string_view> cells(std::string_view line) {
-  std::vector<std::string_view> parts;
-  for (std::size_t begin = 0; begin <= line.size();) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    parts.push_back(trim(line.substr(begin, end - begin)));
-    begin = end + 1;
-  }
-  return parts;
-}
 
 std::size_t header_line(const RecordText& text) {
   std::size_t line = 0;
@@ -41,8 +32,8 @@ RawRecord read(const RecordText& text) {
   };
   const std::size_t time = place(time_name), horizontal = place(horizontal_name), vertical = place(vertical_name);
   if (horizontal == names.size())
-    text.fail(header,
-              fmt::format("no column {} (the columns are {}): add it", horizontal_name, trim(text.line(header))));
+    text.fail(header, fmt::format("no column {} (the columns are {}): add it", horizontal_name,
+                                  shown(trim(text.line(header)), 200)));
   std::vector<double> times;
   std::vector<std::size_t> lines;
   RawRecord record{{}, "m/s2", {RawChannel{"horizontal", false, {}}}};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/shown_text.hpp"
 #include "motion/component.hpp"
 #include "motion/record_format.hpp"
 
@@ -31,8 +32,8 @@ double scale_factor(const RecordText& text) {
   const Entry factor = entry(text, "Scale Factor");
   const std::size_t unit = factor.value.find("(gal)/");
   if (unit == std::string_view::npos)
-    text.fail(factor.line,
-              fmt::format("cannot read the scale factor \"{}\" (not \"a(gal)/b\"): get the file again", factor.value));
+    text.fail(factor.line, fmt::format("cannot read the scale factor \"{}\" (not \"a(gal)/b\"): get the file again",
+                                       shown(factor.value)));
   return text.number(factor.line, factor.value.substr(0, unit)) /
          text.number(factor.line, factor.value.substr(unit + 6));
 }

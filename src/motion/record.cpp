@@ -7,6 +7,7 @@
 #include <cmath>
 #include <freestand/error.hpp>
 
+#include "base/shown_text.hpp"
 #include "base/units.hpp"
 #include "motion/record_format.hpp"
 
@@ -80,10 +81,10 @@ const RawChannel& named_channel(const RecordText& text, const RawRecord& raw, co
     const std::string& name = raw.channels[i].name;
     if (std::to_string(i + 1) == wanted || (!name.empty() && lower_case(name) == lower_case(wanted)))
       return raw.channels[i];
-    names += fmt::format("{}{} {}", i ? ", " : "", i + 1, name);
+    names += fmt::format("{}{} {}", i ? ", " : "", i + 1, shown(name));
   }
   throw Error(fmt::format("{}: no channel \"{}\" (the channels are {}): name one of these", text.path().string(),
-                          wanted, names));
+                          shown(wanted), names));
 }
 
 const RawChannel& choose_channel(const RecordText& text, const RawRecord& raw, const ReadOptions& options) {
@@ -168,7 +169,7 @@ double acceleration_unit_mps2(const std::string& unit) {
   throw Error(
       fmt::format("no unit of acceleration \"{}\" (the units are g, m/s2, cm/s2 or gal, mm/s2, in/s2, ft/s2): name "
                   "one of these",
-                  unit));
+                  shown(unit)));
 }
 
 std::vector<std::filesystem::path> expand_glob(const std::string& pattern, const std::filesystem::path& base) {

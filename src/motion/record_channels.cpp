@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/shown_text.hpp"
+
 namespace freestand::motion {
 namespace {
 
@@ -34,7 +36,7 @@ void agree(const RecordText& text, std::size_t line, RawRecord& record, double d
   if (*record.dt_s != dt_s || record.unit != unit)
     text.fail(line,
               fmt::format("a channel with another step or unit ({} s, {}) than the first ({} s, {}): split the file",
-                          dt_s, unit, *record.dt_s, record.unit));
+                          dt_s, shown(unit), *record.dt_s, shown(record.unit)));
 }
 
 }  // namespace freestand::motion

@@ -12,6 +12,8 @@
 #include <freestand/error.hpp>
 #include <fstream>
 
+#include "base/shown_text.hpp"
+
 namespace freestand::motion {
 namespace {
 
@@ -73,6 +75,10 @@ Number leading_number(std::string_view text) {
 RecordText::RecordText(const std::filesystem::path& path, std::size_t most_bytes)
     : path_(path), content_(read_file(path, most_bytes)) {
   std::string_view text = content_;
+  if (text.substr(0, 2) == "\xFF\xFE" || text.substr(0, 2) == "\xFE\xFF")
+    fail("the file is in UTF-16 (a table program's \"Unicode text\"): write it out again as plain text or UTF-8");
+  if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos)
+    fail(fmt::format("no text but a binary file (byte {} is zero): write it out as text", zero + 1));
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   lines_ = split_lines(text);
   while (!lines_.empty() && trim(lines_.back()).empty()) lines_.pop_back();
@@ -97,7 +103,7 @@ std::size_t RecordText::find(std::string_view wanted, std::size_t from, std::siz
 double RecordText::number(std::size_t line, std::string_view token) const {
   const Number number = leading_number(token);
   const auto refuse = [&](const char* why) {
-    fail(line, fmt::format("cannot read the number \"{}\" ({}): correct the file or get it again", token, why));
+    fail(line, fmt::format("cannot read the number \"{}\" ({}): correct the file or get it again", shown(token), why));
   };
   if (number.error == std::errc::result_out_of_range) refuse("beyond the range of numbers");
   if (number.error != std::errc() || number.length != token.size()) refuse("it is not a number");
@@ -109,7 +115,8 @@ std::size_t RecordText::count(std::size_t line, std::string_view token) const {
   std::size_t value = 0;
   const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
   if (error != std::errc() || end != token.data() + token.size())
-    fail(line, fmt::format("cannot read the count \"{}\" (it is not a whole number): correct the header", token));
+    fail(line,
+         fmt::format("cannot read the count \"{}\" (it is not a whole number): correct the header", shown(token)));
   return value;
 }
 
@@ -205,6 +212,16 @@ std::vector<std::string_view> split(std::string_view text, std::string_view mark
     const std::size_t end = std::min(text.find_first_of(marks, begin), text.size());
     parts.push_back(text.substr(begin, end - begin));
     begin = text.find_first_not_of(marks, end);
+  }
+  return parts;
+}
+
+std::vector<std::string_view> cells(std::string_view line) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    parts.push_back(trim(line.substr(begin, end - begin)));
+    begin = end + 1;
   }
   return parts;
 }

@@ -63,6 +63,8 @@ std::size_t column_width(std::string_view fortran);
 // Text without blanks at both ends; parts of a text between separators; equality whatever the case.
 std::string_view trim(std::string_view text);
 std::vector<std::string_view> split(std::string_view text, std::string_view separators);
+// Cells of a line of csv, parted by commas, without blanks around them; empty ones are kept.
+std::vector<std::string_view> cells(std::string_view line);
 std::string lower_case(std::string_view text);
 
 }  // namespace freestand::motion

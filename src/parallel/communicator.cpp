@@ -11,6 +11,7 @@
 #include <exception>
 #include <thread>
 
+#include "base/shown_text.hpp"
 #include "parallel/requests.hpp"
 #include "parallel/stop.hpp"
 
@@ -181,7 +182,7 @@ int end_run(const Communicator& world, const Error& error) {
 
 int end_run(const Communicator& world, const std::string& text, int exit_code, bool shared) {
   const auto tell = [&] {
-    fmt::print(stderr, "{}\n", text);
+    fmt::print(stderr, "{}\n", printable(text, Lines::keep));
     std::fflush(stderr);
   };
   if (world.size() == 1 || shared) {

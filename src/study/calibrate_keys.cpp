@@ -120,9 +120,9 @@ void write_fitted(YAML::Node node, const std::string& name, const std::vector<Fi
         if (number.name != inner) continue;
         value["value"] = fmt::format("{}", number.value);
         value.remove("interval");
-        if (number.lower <= number.upper) {
-          value["interval"].push_back(fmt::format("{:.6g}", number.lower));
-          value["interval"].push_back(fmt::format("{:.6g}", number.upper));
+        if (number.lower < number.upper) {
+          value["interval"].push_back(fmt::format("{:.9g}", number.lower));
+          value["interval"].push_back(fmt::format("{:.9g}", number.upper));
         }
         value.SetStyle(YAML::EmitterStyle::Flow);
       }

@@ -23,7 +23,7 @@ void add_missing_parameters(YAML::Node model);
 // problems. Any other file is left as it is.
 void sweep_model(YAML::Node root, Problems&);
 
-// A number that was fitted, with its interval; lower > upper: none.
+// A number that was fitted, with its interval; lower >= upper: none.
 struct FittedNumber {
   std::string name;
   double value = 0, lower = 1, upper = 0;

@@ -142,16 +142,13 @@ Json parameters_json(const ModelFit& fit, bool calibrated) {
   Json list = Json::array();
   for (std::size_t i = 0; i < fit.x.size(); ++i) {
     const Free& free = fit.model.free[i];
-    Json interval = nullptr;
-    if (i < fit.intervals.size() && std::isfinite(fit.intervals[i].lower))
-      interval = {fit.intervals[i].lower, fit.intervals[i].upper};
     list.push_back({{"name", free.name},
                     {"unit", free.unit},
                     {"value", fit.x[i]},
                     {"lower", free.lower},
                     {"upper", free.upper},
-                    {"interval", interval},
                     {"calibrated", calibrated}});
+    add_interval(list.back(), fit, i);
   }
   return list;
 }

@@ -7,6 +7,7 @@
 #include "effects/effects.hpp"
 #include "measurement/decide.hpp"
 #include "measurement/diagnose_outcomes.hpp"
+#include "measurement/least_squares.hpp"
 #include "measurement/quality.hpp"
 #include "measurement/recover.hpp"
 #include "measurement/suggest.hpp"
@@ -34,9 +35,8 @@ Json candidate_json(const Bench& bench, const Candidate& c) {
   Json parameters = Json::object();
   for (std::size_t i = 0; i < c.fit.x.size() && c.visible; ++i) {
     const Free& free = c.fit.model.free[i];
-    Json interval = nullptr;
-    if (i < c.fit.intervals.size()) interval = {c.fit.intervals[i].lower, c.fit.intervals[i].upper};
-    parameters[free.name] = {{"value", c.fit.x[i]}, {"unit", free.unit}, {"interval", interval}};
+    parameters[free.name] = {{"value", c.fit.x[i]}, {"unit", free.unit}};
+    add_interval(parameters[free.name], c.fit, i);
   }
   return {{"effect", label(c)},
           {"effects", c.effects},
@@ -57,51 +57,32 @@ Json candidate_json(const Bench& bench, const Candidate& c) {
           {"evaluations", c.fit.evaluations}};
 }
 
-// Friction of the model at the centre of a bin of speed or direction, where its effects make it a function of that
-// alone.
-double law_mu(const ModelFit& fit, const std::string& variable, double at) {
-  double mu = fit.model.mu_k.of(fit.x);
-  for (const EffectTerm& term : fit.model.effects) {
-    std::vector<double> p;
-    for (const Number& number : term.parameters) p.push_back(number.of(fit.x));
-    const std::string& effect = term.effect->name;
-    const double settled = effect == "rate_weakening" ? -1 : effect == "rate_strengthening" ? 1 : 0;
-    if (variable == "speed_mps" && settled != 0) mu *= 1 + settled * p[0] * (1 - std::exp(-at / p[1]));
-    if (variable == "direction" && effect == "directional_friction") mu *= 1 + p[0] * at;
-    if (variable == "direction" && effect == "floor_tilt") mu += at * std::tan(p[0]);
-    if (variable == "path_m" && effect == "friction_wear") mu *= p[0] + (1 - p[0]) * std::exp(-at / p[1]);
-    if (variable == "normal_g" && effect == "pressure_friction") mu *= std::pow(std::max(at, 1e-6), p[0]);
-    if (variable == "speed_mps" && effect == "viscous_drag") mu += p[0] * at / standard_gravity_mps2;
-  }
-  return mu;
-}
-
-Json recovered_json(const Bench& bench, const Diagnosis& d, const Candidate& best) {
+// What was recovered, and beside it the law of the model that the verdict means; of none, of the base.
+Json recovered_json(const Bench& bench, const Diagnosis& d, const Candidate& shown) {
   const ModelFit& base = d.base.fit;
   const double mu = base.model.mu_k.of(base.x);
-  const Recovered r = recover(bench, mu, best.fit.model.has("vertical_shaking"));
+  const Recovered r = recover(bench, mu, shown.fit.model, shown.fit.x);
   Json json = {{"samples", r.samples},
                {"base_mu", mu},
                {"mean_mu", number_or_null(r.mean_mu)},
                {"sample_noise_mu", number_or_null(r.sample_noise_mu)},
                {"tables", Json::array()}};
   for (const RecoveredTable& t : r.tables) {
-    std::vector<double> law;
-    for (const double centre : t.centre) law.push_back(law_mu(best.fit, t.variable, centre));
-    json["tables"].push_back({{"variable", t.variable},
-                              {"unit", t.unit},
-                              {"edge", numbers(t.edge)},
-                              {"centre", numbers(t.centre)},
-                              {"count", numbers(t.count)},
-                              {"mu", numbers(t.mu)},
-                              {"mu_deviation", numbers(t.mu_deviation)},
-                              {"mu_lower", numbers(t.mu_lower)},
-                              {"mu_upper", numbers(t.mu_upper)},
-                              {"force_mps2", numbers(t.force_mps2)},
-                              {"force_lower_mps2", numbers(t.force_lower_mps2)},
-                              {"force_upper_mps2", numbers(t.force_upper_mps2)},
-                              {"share_explained", number_or_null(t.share_explained)},
-                              {"law", {{"effects", best.effects}, {"mu", numbers(law)}}}});
+    json["tables"].push_back(
+        {{"variable", t.variable},
+         {"unit", t.unit},
+         {"edge", numbers(t.edge)},
+         {"centre", numbers(t.centre)},
+         {"count", numbers(t.count)},
+         {"mu", numbers(t.mu)},
+         {"mu_deviation", numbers(t.mu_deviation)},
+         {"mu_lower", numbers(t.mu_lower)},
+         {"mu_upper", numbers(t.mu_upper)},
+         {"force_mps2", numbers(t.force_mps2)},
+         {"force_lower_mps2", numbers(t.force_lower_mps2)},
+         {"force_upper_mps2", numbers(t.force_upper_mps2)},
+         {"share_explained", number_or_null(t.share_explained)},
+         {"law", {{"effects", shown.effects}, {"mu", numbers(t.law)}, {"follows", t.law_follows}}}});
   }
   return json;
 }
@@ -150,6 +131,15 @@ double noise_floor(const Bench& bench, const Diagnosis& d) {
   return d.noise_floor.empty() ? std::nan("") : std::sqrt(square);
 }
 
+// By the scores, whatever the refits did; intervals of outcomes are not of this kind.
+void widen_intervals(const Bench& bench, Diagnosis& d, const Jobs& jobs) {
+  if (outcomes_only(bench.data())) return;
+  std::vector<ModelFit*> fits = {&d.base.fit};
+  for (Candidate& c : d.candidates)
+    if (c.visible) fits.push_back(&c.fit);
+  widen_by_score(bench, fits, jobs);
+}
+
 // A verdict is only as good as the data.
 void withdraw_if_spoilt(const Quality& quality, Diagnosis& d) {
   if (!quality.spoilt()) return;
@@ -187,6 +177,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
   Diagnosis d = measurement::diagnose(bench, p->model, catalogue, options, jobs);
   const Quality quality = examine(bench, d.base.fit, options.effort, jobs);
   withdraw_if_spoilt(quality, d);
+  widen_intervals(bench, d, jobs);
   Json json = {{"format", "freestand-diagnosis/1"},
                {"study", run.study},
                {"measurements", p->measurements},

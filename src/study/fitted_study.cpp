@@ -18,8 +18,8 @@ std::vector<FittedNumber> numbers_of(const ModelFit& fit) {
   std::vector<FittedNumber> numbers;
   for (std::size_t i = 0; i < fit.x.size(); ++i) {
     numbers.push_back({.name = fit.model.free[i].name, .value = fit.x[i]});
-    if (i < fit.intervals.size())
-      numbers.back().lower = fit.intervals[i].lower, numbers.back().upper = fit.intervals[i].upper;
+    if (const auto known = interval_of(fit, i))
+      numbers.back().lower = known->lower, numbers.back().upper = known->upper;
   }
   return numbers;
 }

@@ -3,34 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 
 namespace freestand::study {
-namespace {
-
-struct Suffix {
-  std::string_view suffix;
-  const char* unit;
-};
-
-// Longer suffixes before the shorter ones that they end with. Units that freestand does not use stand here so that a
-// key such as width_mm is recognised as a width.
-constexpr std::array<Suffix, 23> suffixes = {{
-    {"_per_s", "1/s"}, {"_radps", "rad/s"}, {"_mps2", "m/s2"}, {"_cmps2", "cm/s2"}, {"_mps", "m/s"}, {"_cmps", "cm/s"},
-    {"_inps", "in/s"}, {"_rad", "rad"},     {"_deg", "deg"},   {"_mm", "mm"},       {"_cm", "cm"},   {"_in", "in"},
-    {"_ft", "ft"},     {"_kg", "kg"},       {"_lb", "lb"},     {"_hz", "Hz"},       {"_ms", "ms"},   {"_min", "min"},
-    {"_gal", "gal"},   {"_m", "m"},         {"_s", "s"},       {"_g", "g"},         {"_n", "N"},
-}};
-
-const Suffix* suffix_of(std::string_view name) {
-  if (name == "mu_s" || name.ends_with(".mu_s")) return nullptr;  // s for static
-  for (const auto& s : suffixes)
-    if (name.size() > s.suffix.size() && name.ends_with(s.suffix)) return &s;
-  return nullptr;
-}
-
-}  // namespace
 
 void Problems::add(int line, std::string text) { entries_.push_back({line, std::move(text)}); }
 
@@ -49,53 +23,11 @@ void Problems::throw_if_any(Exit exit) const {
   if (!empty()) throw Error(text(), exit);
 }
 
-int edit_distance(std::string_view a, std::string_view b) {
-  std::vector<int> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = static_cast<int>(j);
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    row[0] = static_cast<int>(i);
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
-      const bool exchanged = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (exchanged) row[j] = std::min(row[j], before[j - 2] + 1);
-    }
-    before = last;
-    last = row;
-  }
-  return last[b.size()];
-}
-
-std::string nearest(std::string_view given, const std::vector<std::string>& candidates) {
-  std::string word(given);
-  for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  int least = std::max(1, static_cast<int>(word.size()) / 3) + 1;
-  std::string found;
-  for (const auto& candidate : candidates) {
-    if (without_unit(candidate) == word) return candidate;
-    const int distance = edit_distance(word, candidate);
-    if (distance < least) {
-      least = distance;
-      found = candidate;
-    }
-  }
-  return found;
-}
-
 std::string hint(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string near = nearest(word, candidates);
   return near.empty() ? "known: " + joined(candidates) : "did you mean " + near + "?";
 }
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
-
-std::string unit_of(std::string_view name) {
-  const Suffix* suffix = suffix_of(name);
-  return suffix ? suffix->unit : "1";
-}
-
-std::string_view without_unit(std::string_view name) {
-  const Suffix* suffix = suffix_of(name);
-  return suffix ? name.substr(0, name.size() - suffix->suffix.size()) : name;
-}
 
 }  // namespace freestand::study

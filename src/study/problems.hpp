@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/key_names.hpp"
+
 namespace freestand::study {
 
 class Problems {
@@ -34,22 +36,9 @@ class Problems {
   std::vector<Entry> entries_;
 };
 
-// Least number of insertions, deletions, replacements and exchanges of neighbours between two words.
-int edit_distance(std::string_view a, std::string_view b);
-
-// The candidate nearest to `word`, whatever its case: the same word with a unit, or the least edit distance. Empty when none is near (more
-// than a third of the word would have to change).
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
-
 // "did you mean delta?" or, when nothing is near, "known: delta, overturned".
 std::string hint(std::string_view word, const std::vector<std::string>& candidates);
 
 std::string joined(const std::vector<std::string>& words);
-
-// Unit of a dotted name from its suffix: block.width_m -> "m", friction.mu -> "1".
-std::string unit_of(std::string_view name);
-
-// Name without its unit suffix: width_m -> width, mu -> mu.
-std::string_view without_unit(std::string_view name);
 
 }  // namespace freestand::study

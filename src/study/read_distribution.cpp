@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/shown_text.hpp"
 #include "study/section.hpp"
 
 namespace freestand::study {
@@ -91,7 +92,7 @@ std::optional<Distribution> read_mapping(const YAML::Node& node, const std::stri
   if (found.empty()) {
     const std::string first = node.size() ? node.begin()->first.Scalar() : "";
     problems.add(line, fmt::format("{} has no known distribution ({}): use one of {}", where,
-                                   nearest(first, kinds).empty() ? "found " + (first.empty() ? "nothing" : first)
+                                   nearest(first, kinds).empty() ? "found " + (first.empty() ? "nothing" : shown(first))
                                                                  : hint(first, kinds),
                                    joined(kinds)));
     return {};
@@ -111,7 +112,7 @@ std::optional<Distribution> read_distribution(const YAML::Node& node, const std:
     const auto value = number_of(node.Scalar());
     if (!value) {
       problems.add(line, fmt::format("{} is \"{}\" (a number or a distribution is needed): write 0.6 or {}", where,
-                                     node.Scalar(), "{uniform: [0.5, 0.7]}"));
+                                     shown(node.Scalar()), "{uniform: [0.5, 0.7]}"));
       return {};
     }
     distribution = Fixed{*value};

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/shown_text.hpp"
 #include "study/accuracy.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/paths.hpp"
@@ -121,7 +122,7 @@ std::optional<YAML::Node> parse_yaml(const std::string& text, Problems& problems
     problems.add(
         error.mark.is_null() ? 0 : error.mark.line + 1,
         fmt::format("this is not YAML ({}): check indentation, colons and brackets here and on the line before",
-                    error.msg));
+                    shown(error.msg, 200)));
   }
   return {};
 }

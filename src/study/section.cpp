@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/shown_text.hpp"
+
 namespace freestand::study {
 namespace {
 
@@ -58,8 +60,8 @@ Section::Section(const YAML::Node& node, std::string path, int line, Problems& p
     if (key.empty())
       problems_.add(key_line, "a key is not a word (keys are plain names): correct it");
     else if (item(key))
-      problems_.add(key_line,
-                    fmt::format("key {} stands twice (first on line {}): remove one", name(key), item(key)->line));
+      problems_.add(key_line, fmt::format("key {} stands twice (first on line {}): remove one", shown(name(key)),
+                                          item(key)->line));
     else
       items_.push_back({key, key_line, pair.second});
   }
@@ -94,7 +96,7 @@ std::optional<double> Section::optional_number(const std::string& key, const Ran
   const auto value = node->IsScalar() ? number_of(node->Scalar()) : std::nullopt;
   if (!value) {
     problem(key, fmt::format("{} is {} (one number is needed): give a number", name(key),
-                             node->IsScalar() ? "\"" + node->Scalar() + "\"" : kind_of(*node)));
+                             node->IsScalar() ? "\"" + shown(node->Scalar()) + "\"" : kind_of(*node)));
     return {};
   }
   check_range(sampling::Fixed{*value}, range, name(key), line(key), problems_);
@@ -111,7 +113,7 @@ std::uint64_t Section::integer(const std::string& key, std::uint64_t fallback, s
   if (!node) return fallback;
   const auto value = integer_of(node->IsScalar() ? node->Scalar() : "");
   if (value && *value >= least && *value <= greatest) return *value;
-  const std::string given = node->IsScalar() ? node->Scalar() : kind_of(*node);
+  const std::string given = node->IsScalar() ? shown(node->Scalar()) : kind_of(*node);
   const bool too_many = value.value_or(0) > greatest;
   const std::string wanted = !too_many && greatest > 1000000
                                  ? fmt::format("a whole number of at least {}", least)
@@ -127,7 +129,13 @@ bool Section::flag(const std::string& key, bool fallback) {
 std::string Section::text(const std::string& key, const std::string& fallback) {
   const YAML::Node* node = find(key);
   if (!node) return fallback;
-  if (node->IsScalar() && !node->Scalar().empty()) return node->Scalar();
+  if (node->IsScalar() && !node->Scalar().empty()) {
+    // Names go to the terminal, into pictures and into files that are UTF-8.
+    if (printable(node->Scalar(), Lines::keep) == node->Scalar()) return node->Scalar();
+    problem(key, fmt::format("{} is \"{}\" (it holds characters that no terminal shows): write it in plain text",
+                             name(key), shown(node->Scalar())));
+    return fallback;
+  }
   problem(key, fmt::format("{} is {} (one word or text is needed): correct it", name(key),
                            node->IsScalar() ? "an empty text" : kind_of(*node)));
   return fallback;
@@ -147,7 +155,7 @@ std::vector<double> Section::numbers(const std::string& key) {
       values.push_back(*value);
     else
       problem(key, fmt::format("{} holds {} (numbers only): correct it", name(key),
-                               entry.IsScalar() ? "\"" + entry.Scalar() + "\"" : kind_of(entry)));
+                               entry.IsScalar() ? "\"" + shown(entry.Scalar()) + "\"" : kind_of(entry)));
   }
   return values;
 }
@@ -159,7 +167,7 @@ std::size_t Section::choice(const std::string& key, const std::vector<std::strin
   const auto found = std::find(choices.begin(), choices.end(), word);
   if (found != choices.end()) return static_cast<std::size_t>(found - choices.begin());
   problem(key,
-          fmt::format("{} is {} ({}): choose one of {}", name(key), word,
+          fmt::format("{} is {} ({}): choose one of {}", name(key), shown(word),
                       nearest(word, choices).empty() ? "not known" : "did you mean " + nearest(word, choices) + "?",
                       joined(choices)));
   return fallback;
@@ -183,7 +191,8 @@ void Section::finish() {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) problems_.add(line, unknown_key(key));
 }
 
-std::string Section::unknown_key(const std::string& key) const {
+std::string Section::unknown_key(const std::string& whole) const {
+  const std::string key = shown(whole);
   const std::string where = path_.empty() ? "" : " in " + path_;
   for (const auto& known : known_) {
     if (without_unit(known) == known) continue;

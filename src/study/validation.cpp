@@ -102,6 +102,25 @@ nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
+std::optional<Interval> interval_of(const ModelFit& fit, std::size_t i) {
+  if (i >= fit.intervals.size()) return {};
+  const auto [lower, upper] = fit.intervals[i];
+  return std::isfinite(lower) && std::isfinite(upper) && lower < upper ? std::optional(fit.intervals[i]) : std::nullopt;
+}
+
+const char* no_interval(const ModelFit& fit, std::size_t i) {
+  if (i >= fit.intervals.size())
+    return fit.left_out_refitted ? "no tests could be left out" : "the model was not fitted with tests left out";
+  return std::isfinite(fit.intervals[i].lower) ? "the error jumps on both sides of the value" : "none was given";
+}
+
+void add_interval(nlohmann::ordered_json& parameter, const ModelFit& fit, std::size_t i) {
+  const auto known = interval_of(fit, i);
+  parameter["interval"] = nullptr;
+  if (known) parameter["interval"] = {known->lower, known->upper};
+  if (!known) parameter["no_interval"] = no_interval(fit, i);
+}
+
 void add_provenance(nlohmann::ordered_json& document, const parallel::Communicator& world, const ValidationRun& run) {
   const io::Provenance p = io::provenance_here(run.command, world.size());
   document["created_utc"] = p.created_utc;

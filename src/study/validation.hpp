@@ -10,7 +10,8 @@
 //   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_explained, tests}; error in
 //     error_unit; error_expected of outcomes: the score that chance alone would make, were the model's probabilities
 //     right; null where there are no such tests
-//   parameters: [{name, unit, value, lower, upper, interval: [l, u] or null, calibrated (by this run)}]
+//   parameters: [{name, unit, value, lower, upper, interval: [l, u] or null, no_interval (why, where it is null),
+//     calibrated (by this run)}]
 //   peak_ratio: {count, bias_ln, scatter_ln, ratio}: predicted over measured peak slips
 //   findings: [sentence]
 //   histories: of the five worst: [{id, dt_s, time_s: [], floor_acceleration_mps2: [], CHANNEL: {measured: [], model: [],
@@ -26,7 +27,8 @@
 //   reason: of the verdict unknown: "data" (they look wrong in a sign, a clock or a unit), "none_helps" (no effect lowers
 //     the error by more than chance), "none_suffices" (one does, and more is left than noise makes); else null
 //   best: the candidate that the verdict and `law` speak of, as its `effect`; null where there is none
-//   base, candidates: [{effect (two joined by "+"), effects: [], visible, parameters: {NAME: {value, interval, unit}},
+//   base, candidates: [{effect (two joined by "+"), effects: [], visible, parameters: {NAME: {value, interval, no_interval,
+//     unit}},
 //     error_calibration, error_left_out, error_left_out_se, error_explained, misfit, delta_bic, difference (of the mean
 //     left-out score to that of `best`), difference_se, rival, practical, left_out_refitted, remark (why it was not fitted
 //     to the end, or null)}]: the best, its rivals, others that were fitted to the end by left-out error, the rest; of
@@ -34,8 +36,9 @@
 //   noise_floor: error that sensor and floor noise alone would make; of outcomes the score that chance alone would make,
 //     were the base's probabilities right
 //   recovered_force: {samples, mean_mu, sample_noise_mu, base_mu, tables: [{variable, unit, edge, centre, count, mu, mu_deviation,
-//     mu_lower, mu_upper, force_mps2, force_lower_mps2, force_upper_mps2, share_explained, law: {effects, mu}}]}; `law`:
-//     the friction of `best` through the same samples where it has one
+//     mu_lower, mu_upper, force_mps2, force_lower_mps2, force_upper_mps2, share_explained, law: {effects, mu,
+//     follows (whether it changes with this variable alone)}}]}; `law`: the friction of `best` through the same samples
+//     where it has one
 //   suggested_motion: where the verdict is ambiguous, else null: {between: [], motion: {pulse, period_s,
 //     peak_acceleration_g}, specimen (a sentence; null: the same), separation_noise_units, sentence}; of outcomes motion:
 //     {test, scale}, and probabilities of overturning with each rival, repeats

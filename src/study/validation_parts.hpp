@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "measurement/model_fit.hpp"
 #include "study/validation.hpp"
@@ -43,6 +44,12 @@ void add_provenance(nlohmann::ordered_json& document, const parallel::Communicat
 
 // null where it is not finite.
 nlohmann::ordered_json number_or_null(double value);
+
+// The interval of the i-th number: as wide as the tests leave it open, or none; and then why.
+std::optional<measurement::Interval> interval_of(const measurement::ModelFit&, std::size_t i);
+const char* no_interval(const measurement::ModelFit&, std::size_t i);
+// [lower, upper] or null into "interval", and the reason into "no_interval" where it is null.
+void add_interval(nlohmann::ordered_json& parameter, const measurement::ModelFit&, std::size_t i);
 
 const char* calibration_method(const measurement::Bench&);  // a sentence
 

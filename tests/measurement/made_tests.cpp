@@ -15,26 +15,26 @@ double normal(std::uint64_t seed, std::uint64_t i, std::uint64_t stream) {
 
 }  // namespace
 
-FloorMotion swings(double peak_mps2, double period_s) {
+FloorMotion swings(double peak_mps2, double period_s, double dt_s) {
   std::vector<double> a;
-  for (int i = 0; i < 801; ++i) {
-    const double t = 0.005 * i - 0.5;
+  for (int i = 0; i <= std::lround(4 / dt_s); ++i) {
+    const double t = dt_s * i - 0.5;
     a.push_back(t > 0 && t < 2 * period_s ? peak_mps2 * std::sin(2 * std::numbers::pi * t / period_s) : 0);
   }
-  return piecewise_linear("swings", 0.005, a, {});
+  return piecewise_linear("swings", dt_s, a, {});
 }
 
 measurement::Test made_test(const std::string& id, const Specimen& specimen, const FloorMotion& motion,
-                            std::uint64_t seed) {
+                            std::uint64_t seed, double dt_s) {
   measurement::Test test;
   test.id = id;
   test.motion = motion;
-  test.dt_s = 0.005;
+  test.dt_s = dt_s;
   test.specimen = {2 * specimen.block.left_m, 2 * specimen.block.height_m, 100.0};
   History history;
   history.step_s = test.dt_s;
   respond(specimen, test.shaking(), {.tolerance = 1e-9, .free_vibration_s = 0}, &history);
-  for (std::size_t i = 0; i < 801; ++i) {
+  for (std::size_t i = 0; i <= static_cast<std::size_t>(std::lround(4 / dt_s)); ++i) {
     const HistoryPoint& p = history.points[std::min(i, history.points.size() - 1)];
     test.slip_m.push_back(p.slip_m + slip_noise_m * normal(seed, i, 1));
     test.rotation_rad.push_back(p.rotation_rad + rotation_noise_rad * normal(seed, i, 2));

@@ -11,11 +11,12 @@ namespace freestand::test {
 
 inline constexpr double slip_noise_m = 3e-4, rotation_noise_rad = 3e-4;
 
-// Two swings of the floor to and fro of that peak [m/s2] and period [s], beginning at 0.5 s; 4 s at 0.005 s.
-FloorMotion swings(double peak_mps2, double period_s);
+// Two swings of the floor to and fro of that peak [m/s2] and period [s], beginning at 0.5 s; 4 s.
+FloorMotion swings(double peak_mps2, double period_s, double dt_s = 0.005);
 
 // One test: the response of that specimen, with the noise of the sensors.
-measurement::Test made_test(const std::string& id, const Specimen&, const FloorMotion&, std::uint64_t seed);
+measurement::Test made_test(const std::string& id, const Specimen&, const FloorMotion&, std::uint64_t seed,
+                            double dt_s = 0.005);
 
 // Four tests for calibration and one held out, of different strengths and periods.
 measurement::Dataset made_dataset(const Specimen&);

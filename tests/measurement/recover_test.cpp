@@ -26,9 +26,14 @@ const RecoveredTable& over(const Recovered& r, const std::string& variable) {
   throw std::runtime_error("no table over " + variable);
 }
 
+Recovered recovered(const Dataset& data) {
+  ModelSpec base;
+  base.mu_k.value = 0.15;
+  return recover(Bench(data, 0), 0.15, base, {});
+}
+
 TEST(Recover, ConstantFrictionIsConstant) {
-  const Dataset data = test::made_dataset(cabinet(0.15));
-  const Recovered r = recover(Bench(data, 0), 0.15, false);
+  const Recovered r = recovered(test::made_dataset(cabinet(0.15)));
   ASSERT_GT(r.samples, 100U);
   EXPECT_NEAR(r.mean_mu, 0.15, 0.003);
   const RecoveredTable& direction = over(r, "direction");
@@ -39,9 +44,56 @@ TEST(Recover, ConstantFrictionIsConstant) {
 TEST(Recover, DirectionalFrictionShowsOverTheDirection) {
   const auto* law = effects::find("directional_friction");
   const Dataset data = test::made_dataset(cabinet(0.15, {{law, {0.3}}}));
-  const RecoveredTable t = over(recover(Bench(data, 0), 0.15, false), "direction");
+  const RecoveredTable t = over(recovered(data), "direction");
   ASSERT_EQ(t.mu.size(), 2U);
   EXPECT_NEAR(t.mu[1] - t.mu[0], 2 * 0.15 * 0.3, 0.01);
+}
+
+// The same slips, sampled at that rate.
+Dataset sampled(const Specimen& specimen, double dt_s) {
+  Dataset data = test::made_dataset(specimen);
+  std::uint64_t seed = 0;
+  for (Test& t : data.tests) {
+    const Test fine = test::made_test(t.id, specimen, t.motion, ++seed, dt_s);
+    t.dt_s = dt_s, t.slip_m = fine.slip_m, t.rotation_rad = fine.rotation_rad;
+  }
+  return data;
+}
+
+// The bands are of 95 %; twice as far apart as two of them allow, none of twelve bins may be.
+TEST(Recover, DoesNotHangOnTheRateOfTheSamples) {
+  const auto* law = effects::find("rate_weakening");
+  const Specimen specimen = cabinet(0.2, {{law, {0.5, 0.2}}});
+  const Recovered usual = recovered(sampled(specimen, 0.005));
+  for (const double dt : {0.01, 0.001}) {
+    SCOPED_TRACE(dt);
+    const Recovered other = recovered(sampled(specimen, dt));
+    EXPECT_NEAR(other.mean_mu, usual.mean_mu, 0.002);
+    for (const char* variable : {"speed_mps", "path_m", "direction"}) {
+      SCOPED_TRACE(variable);
+      const RecoveredTable &a = over(usual, variable), &b = over(other, variable);
+      ASSERT_EQ(a.mu.size(), b.mu.size());
+      for (std::size_t k = 0; k < a.mu.size(); ++k) {
+        EXPECT_NEAR(a.centre[k], b.centre[k], 0.1 * std::abs(a.edge.back() - a.edge.front())) << k;
+        EXPECT_NEAR(a.mu[k], b.mu[k], std::hypot(a.mu_upper[k] - a.mu_lower[k], b.mu_upper[k] - b.mu_lower[k])) << k;
+      }
+    }
+  }
+}
+
+// One test of 100 Hz on a rough floor, one of 1000 Hz on a smooth one: each counts for as long as it slips.
+TEST(Recover, ATestOfManySamplesWeighsNoMoreThanOneOfFew) {
+  const auto both = [](double dt_rough, double dt_smooth) {
+    Dataset data = sampled(cabinet(0.2), dt_rough);
+    data.tests.resize(2);
+    data.tests[1] = sampled(cabinet(0.1), dt_smooth).tests[1];
+    return recovered(data).mean_mu;
+  };
+  const double alike = both(0.005, 0.005);
+  EXPECT_GT(alike, 0.12);
+  EXPECT_LT(alike, 0.18);
+  EXPECT_NEAR(both(0.01, 0.001), alike, 0.004);
+  EXPECT_NEAR(both(0.001, 0.01), alike, 0.004);
 }
 
 }  // namespace

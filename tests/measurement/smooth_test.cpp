@@ -13,7 +13,7 @@ namespace {
 TEST(Smooth, IsExactOnAQuadraticUpToBothEnds) {
   std::vector<double> samples;
   for (int i = 0; i < 60; ++i) samples.push_back(1 + 2 * (0.01 * i) - 3 * (0.01 * i) * (0.01 * i));
-  const Smooth s = smooth(samples, 0.01, 7);
+  const Smooth s = smooth(samples, 0.01, 0.07);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double t = 0.01 * static_cast<double>(i);
     EXPECT_NEAR(s.value[i], samples[i], 1e-12);
@@ -23,20 +23,21 @@ TEST(Smooth, IsExactOnAQuadraticUpToBothEnds) {
 }
 
 TEST(Smooth, NoiseOfRateAndSecondIsThatOfTheWeights) {
-  constexpr std::size_t n = 40000, half = 6;
+  constexpr std::size_t n = 40000;
+  constexpr double half_window_s = 0.03;
   std::vector<double> noise;
   for (std::size_t i = 0; i < n; ++i) {
     const auto [a, b] = random::bits(11, i, 3);
     noise.push_back(std::sqrt(12.0) * (random::unit_interval(a) - 0.5));  // of standard deviation 1
   }
-  const Smooth s = smooth(noise, 0.005, half);
+  const Smooth s = smooth(noise, 0.005, half_window_s);
   double rate = 0, second = 0;
   for (std::size_t i = 0; i < n; ++i) rate += s.rate[i] * s.rate[i] / n, second += s.second[i] * s.second[i] / n;
-  EXPECT_NEAR(std::sqrt(rate) / rate_noise(0.005, half), 1, 0.03);
-  EXPECT_NEAR(std::sqrt(second) / second_noise(0.005, half), 1, 0.03);
+  EXPECT_NEAR(std::sqrt(rate) / rate_noise(0.005, half_window_s), 1, 0.03);
+  EXPECT_NEAR(std::sqrt(second) / second_noise(0.005, half_window_s), 1, 0.03);
 }
 
-TEST(Smooth, TooFewSamplesGiveZeros) { EXPECT_EQ(smooth({1, 2, 3}, 0.01, 2).rate, std::vector<double>(3, 0.0)); }
+TEST(Smooth, TooFewSamplesGiveZeros) { EXPECT_EQ(smooth({1, 2, 3}, 0.01, 0.02).rate, std::vector<double>(3, 0.0)); }
 
 }  // namespace
 }  // namespace freestand::measurement

@@ -103,7 +103,8 @@ def outcomes(folder, intensity=False, number=40):
 def candidate(effect, left_out, rival=False):
     return {"effect": effect, "effects": [part for part in effect.split("+") if part], "visible": True,
             "parameters": {"friction.mu": {"value": 0.2816, "unit": "1", "interval": [0.2803, 0.283]},
-                           **({f"effects.{effect}.speed_mps": {"value": 0.1, "unit": "m/s", "interval": None}} if effect else {})},
+                           **({f"effects.{effect}.speed_mps": {"value": 0.1, "unit": "m/s", "interval": None,
+                                                                                  "no_interval": "it was not fitted to the end"}} if effect else {})},
             "error_calibration": 0.9 * left_out, "error_left_out": left_out, "error_left_out_se": 0.15 * left_out,
             "error_explained": 1.0, "misfit": 9.0, "delta_bic": -1000.0 / left_out, "difference": 0.0, "difference_se": 0.1,
             "rival": rival, "practical": True, "left_out_refitted": True}
@@ -119,7 +120,7 @@ def recovered():
                 "mu": mu.tolist(), "mu_deviation": (0.1 * mu).tolist(), "mu_lower": (mu - 0.02).tolist(),
                 "mu_upper": (mu + 0.02).tolist(), "force_mps2": [0.1] * len(mu), "force_lower_mps2": [0.0] * len(mu),
                 "force_upper_mps2": [0.2] * len(mu), "share_explained": share,
-                "law": {"effects": ["rate_weakening"], "mu": list(map(float, law))}}
+                "law": {"effects": ["rate_weakening"], "mu": list(map(float, law)), "follows": variable == "speed_mps"}}
     empty = table("normal_g", "g", [], [], 0.0, [])
     return {"samples": 200, "base_mu": 0.25, "mean_mu": 0.24, "sample_noise_mu": 0.02,
             "tables": [table("time_s", "s", [1, 2, 3], [0.24, 0.25, 0.24], 0.01, [0.3] * 3),

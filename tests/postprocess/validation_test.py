@@ -3,6 +3,7 @@
 import json
 import math
 import pathlib
+import re
 import tempfile
 import unittest
 
@@ -235,11 +236,33 @@ class Drawn(Temporary):
         self.assertEqual({name for name, lines in blue.items() if lines}, {"sliding speed (m/s)"})
         self.assertRegex(drawn.finding, r"sliding speed .* from 0\.2\d to 0\.20; the law of rate weakening from 0\.2\d to 0\.20")
 
+    def blue_lines(self, drawn):
+        return [line for axes in drawn["recovered"].figure.axes for line in axes.get_lines()
+                if line.get_color() == style.BLUE and np.isfinite(line.get_ydata()).any()]
+
     def test_no_law_is_drawn_where_no_effect_is_named(self):
         for verdict in ("none", "unknown"):
-            figure = self.draw(make.diagnosis(self.folder / verdict, verdict))["recovered"].figure
-            self.assertFalse([line for axes in figure.axes for line in axes.get_lines()
-                              if line.get_color() == style.BLUE and np.isfinite(line.get_ydata()).any()])
+            self.assertFalse(self.blue_lines(self.draw(make.diagnosis(self.folder / verdict, verdict))))
+
+    def test_no_law_is_drawn_but_that_of_the_effect_that_the_verdict_names(self):
+        found = [make.candidate("static_friction", 1.2, True), make.candidate("rate_weakening", 2.0)]
+        folder = make.diagnosis(self.folder, candidates=found, best="static_friction", effects=["static_friction"])
+        drawn = self.draw(folder)
+        self.assertFalse(self.blue_lines(drawn))
+        self.assertNotIn("law of", drawn["recovered"].finding)
+
+    def test_the_next_best_is_worse_than_the_best(self):
+        """An effect that leaves less than the one named is told with what is held against it, never as the next best."""
+        best = make.candidate("rate_weakening", 1.37, True) | {"error_explained": 1.02}
+        for other, told in (({"practical": False}, "static friction leaves 1.17, with numbers that are not met in practice"),
+                            ({"error_explained": 1.4}, "static friction leaves 1.17, but 1.40 against 1.02 where the floor's noise"),
+                            ({"error_explained": 0.9}, "static friction leaves 1.17, which chance does not part from it")):
+            rows = [best, make.candidate("static_friction", 1.17) | other, make.candidate("floor_tilt", 2.5)]
+            finding = self.draw(make.diagnosis(self.folder, candidates=rows))["ranking"].finding
+            self.assertIn("With rate weakening the left-out error falls from 17.7 to 1.37 noise units", finding)
+            self.assertIn(told, finding)
+            self.assertIn("the next best leaves 2.50", finding)
+            self.assertNotIn("best leaves 1.17", finding)
 
     def test_verdict_none_keeps_small_differences_small(self):
         base = make.candidate("", 1.02)
@@ -362,6 +385,38 @@ class ThePage(Temporary):
                 page, _ = self.page(make.diagnosis(self.folder / verdict, verdict))
                 self.assertIn(needle, page.text)
                 self.assertEqual("would part them by 41.9 noise units" in page.text, verdict == "ambiguous")
+
+    def test_why_a_verdict_is_unknown(self):
+        for reason, title, finding in (
+                ("data", "bench: no verdict, since the measurements look wrong in a sign, a time or a unit", "were the measurements right: none is named"),
+                ("none_helps", "bench: the model misses more than noise explains, and no effect", "the best, rate weakening, 6.00"),
+                ("none_suffices", "bench: no effect of the catalogue explains all", "The best candidate, rate weakening, still misses")):
+            with self.subTest(reason):
+                best = None if reason == "data" else "rate_weakening"
+                page, text = self.page(make.diagnosis(self.folder / reason, "unknown", reason=reason, best=best))
+                self.assertIn(title, page.text)
+                self.assertIn(finding, page.text)
+                self.assertNotIn("lacks something", page.text)
+                self.assertEqual("with rate weakening, on tests left out" in page.text, reason == "none_suffices")
+                self.assertEqual(text.index("<figure") > text.index("What was found"), reason == "data")
+
+    def test_an_interval_that_is_not_there_says_why(self):
+        page, _ = self.page(make.diagnosis(self.folder))
+        self.assertIn("none: it was not fitted to the end", page.text)
+
+    def test_narrow_screens_cut_nothing(self):
+        """Pictures fill the width; tables are written row under row, each cell with what it is."""
+        _, text = self.page(make.comparison(self.folder / "before"), make.diagnosis(self.folder / "diag"),
+                            make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01))
+        self.assertNotRegex(text, r"figure svg \{[^}]*min-width")
+        tables = re.findall(r"<table class=\"([^\"]*)\">(.*?)</table>", text, re.S)
+        self.assertEqual(len(tables), 3)
+        for kind, table in tables:
+            self.assertIn("stack", kind)
+            body = table[table.index("<tbody>"):]
+            for row in re.findall(r"<tr.*?</tr>", body, re.S):
+                self.assertRegex(row, r"<tr[^>]*><td class=\"text\">")
+                self.assertEqual(row.count("<td"), row.count("data-label=") + 1, row)
 
     def test_peaks_and_outcomes(self):
         page, _ = self.page(make.peaks(self.folder / "peaks"))

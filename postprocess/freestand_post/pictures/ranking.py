@@ -1,7 +1,7 @@
 """The candidates of a diagnosis by left-out error, with standard errors, between the base and the floor of the noise."""
 import numpy as np
 
-from .. import style, validation, words
+from .. import style, validation, verdict, words
 from ..validation import Validation
 from . import Picture
 
@@ -51,7 +51,7 @@ def _picture(diagnosis, k):
                 color=style.BLUE if row["rival"] else style.MUTED, weight="bold" if row["rival"] else "normal")
     style.grid(ax, "x")
     _name_lines(ax, base, floor)
-    finding = _finding(diagnosis, rows)
+    finding = verdict.finding(diagnosis)
     lines = [f"green dashed: noise floor {validation.error(floor)}" if np.isfinite(floor) else "",
              f"grey: base model {validation.error(base)}" if np.isfinite(base) else ""]
     tail = f" {words.plural(more, 'more candidate')} not shown." if more > 0 else ""
@@ -70,23 +70,3 @@ def _name_lines(ax, base, floor):
     for level, place, text, colour in ((floor, at[0], "noise floor", style.GREEN), (base, at[1], "base model", style.MUTED)):
         ax.text(level, 1.01, text, transform=ax.get_xaxis_transform(), color=colour, size=8.8, weight="bold", va="bottom",
                 ha="left" if place < 0.12 else "right" if place > 0.88 else "center")
-
-
-def _finding(diagnosis, rows):
-    best, base = rows[0]["error_left_out"], diagnosis.base.get("error_left_out", np.nan)
-    rivals = [row["effect"] for row in rows if row["rival"]]
-    if diagnosis.verdict == "none":
-        return "No candidate predicts the tests left out better than the base by more than chance"
-    if diagnosis.verdict == "ambiguous" and len(rivals) > 1:
-        return words.capitalised(f"{validation.effects(rivals)} predict equally well; every other candidate is worse")
-    if diagnosis.verdict == "unknown":
-        return (f"The best candidate, {validation.effect(rows[0]['effect'])}, still misses the tests left out by "
-                f"{validation.error(best)} {diagnosis.unit}")
-    others = [row for row in rows if row["effect"] != rows[0]["effect"] and row["left_out_refitted"]]
-    odd = [row["effect"] for row in others if not row["practical"] and row["error_left_out"] < 1.1 * best]
-    rest = [row["error_left_out"] for row in others if row["effect"] not in odd]
-    tail = f"; the next best leaves {validation.error(min(rest))}" if rest else ""
-    if odd:
-        tail = f"; {validation.effects(odd)} only with numbers that are not met in practice"
-    return (f"With {validation.effect(rows[0]['effect'])} the left-out error falls from {validation.error(base)} to "
-            f"{validation.error(best)} {diagnosis.unit}{tail}")

@@ -11,7 +11,7 @@ TELLS = 0.05  # share of the scatter that a variable must explain to be worth a 
 NAMED = ("missing", "ambiguous")  # verdicts that name an effect, so that there is a law to draw
 CAPTION = ("Recovered without any effect model: the friction coefficient that balances the measured acceleration while the block slips. "
            "Points: mean of a bin; band: 95 % interval of that mean; dashed: the constant of the base model; line: the law of the "
-           "best candidate. Percentages: share of the scatter that the variable explains. First the variable of the law, then the most telling.")
+           "effect that the verdict names, at the same instants. Percentages: share of the scatter that the variable explains. First the variable of the law, then the most telling.")
 
 
 def pictures(results):
@@ -24,25 +24,26 @@ def pictures(results):
 
 def _telling(diagnosis):
     known = [table for table in diagnosis.recovered if np.isfinite(table.columns["mu"]).sum() > 1]
-    named = diagnosis.verdict in NAMED
-    known.sort(key=lambda table: (not (named and _varies(table)), -np.nan_to_num(table.share_explained)))
-    telling = [table for table in known if table.share_explained >= TELLS or (named and _varies(table))]
+    known.sort(key=lambda table: (not _follows(diagnosis, table), -np.nan_to_num(table.share_explained)))
+    telling = [table for table in known if table.share_explained >= TELLS or _follows(diagnosis, table)]
     return (telling if len(telling) > 4 else telling[:3] if len(telling) > 2 else known[:3])[:SHOWN]
 
 
-def _varies(table):
-    """Whether the law of the best candidate is a function of this variable."""
-    law = table.columns.get("law", np.zeros(0))
-    law = law[np.isfinite(law)]
-    return law.size > 1 and np.ptp(law) > 1e-6 * np.abs(law).max()
+def _has_law(diagnosis, table):
+    """A law is drawn of the effect that the verdict names, and of no other."""
+    mine = set(table.law_effects) == set(diagnosis.best.get("effects", []))
+    return diagnosis.verdict in NAMED and mine and np.isfinite(table.columns.get("law", np.zeros(0))).any()
+
+
+def _follows(diagnosis, table):
+    return _has_law(diagnosis, table) and table.law_follows
 
 
 def _laws(diagnosis, tables):
     """Of each panel: its law where one is to be drawn. A law of one variable says nothing in the panels of the others."""
-    drawn = [table.columns.get("law", np.full(table.centre.size, np.nan)) for table in tables]
-    some = any(_varies(table) for table in diagnosis.recovered)
-    return [law if diagnosis.verdict in NAMED and (_varies(table) or not some) else np.full(law.size, np.nan)
-            for law, table in zip(drawn, tables)]
+    some = any(_follows(diagnosis, table) for table in diagnosis.recovered)
+    return [table.columns["law"] if _follows(diagnosis, table) or (_has_law(diagnosis, table) and not some)
+            else np.full(table.centre.size, np.nan) for table in tables]
 
 
 def _picture(diagnosis, tables, k):
@@ -103,7 +104,7 @@ def _range(diagnosis, tables, laws):
 def _finding(diagnosis, tables):
     top = tables[0]
     share = top.share_explained
-    follows = _varies(top) and diagnosis.verdict in NAMED
+    follows = _follows(diagnosis, top)
     if not share >= TELLS and not follows:
         return "While it slips, the recovered friction follows none of these: what is missing, if anything, acts elsewhere"
     mu, x = top.columns["mu"], top.centre

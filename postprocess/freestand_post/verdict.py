@@ -1,0 +1,72 @@
+"""A verdict in words: the title of the page and the finding over the candidates, both from the rows that stand under them."""
+import math
+
+from . import validation, words
+
+WITHDRAWN = "data"  # reason of a verdict that was withdrawn: the measurements look wrong
+
+
+def title(diagnosis, was=False):
+    """What the page is called. was: the model has the effect by now."""
+    several, named = len(diagnosis.effects) > 1, validation.effects(diagnosis.effects)
+    if diagnosis.verdict == "missing":
+        verb = ("were" if was else "are") if several else ("was" if was else "is")
+        return f"the missing effect{'s' * several} {verb} {named}"
+    if diagnosis.verdict == "ambiguous":
+        return f"the missing effect is {validation.effects(diagnosis.effects, ' or ')}, and these tests cannot tell which"
+    if diagnosis.verdict == "none":
+        return "these tests show no missing effect"
+    return {WITHDRAWN: "no verdict, since the measurements look wrong in a sign, a time or a unit",
+            "none_helps": "the model misses more than noise explains, and no effect of the catalogue lowers that by more than chance",
+            "none_suffices": "no effect of the catalogue explains all that the model misses"}.get(
+                diagnosis.reason, "the model lacks something that no effect of the catalogue explains")
+
+
+def finding(diagnosis):
+    """The same over the candidates, with the numbers of their rows."""
+    best, base = diagnosis.best, _error(diagnosis.base)
+    name = validation.effect(best.get("effect", ""))
+    if diagnosis.reason == WITHDRAWN:
+        return "What each effect would leave, were the measurements right: none is named"
+    if not best:
+        return f"No candidate was fitted to the end; the base leaves {base} {diagnosis.unit}"
+    if diagnosis.verdict == "none" or diagnosis.reason == "none_helps":
+        return (f"No candidate predicts the tests left out better than the base by more than chance: the base leaves {base} "
+                f"{diagnosis.unit}, the best, {name}, {_error(best)}")
+    if diagnosis.verdict == "unknown":
+        return (f"The best candidate, {name}, still misses the tests left out by {_error(best)} {diagnosis.unit}; the base leaves "
+                f"{base}{_others(diagnosis, [best])}")
+    rivals = [row for row in diagnosis.candidates if row["rival"]]
+    if diagnosis.verdict == "ambiguous" and len(rivals) > 1:
+        each = words.listing(f"{validation.effect(row['effect'])} ({_error(row)})" for row in rivals)
+        return f"Chance does not part {each}; the base leaves {base} {diagnosis.unit}{_others(diagnosis, rivals)}"
+    return f"With {name} the left-out error falls from {base} to {_error(best)} {diagnosis.unit}{_others(diagnosis, [best])}"
+
+
+def _error(row):
+    return validation.error(row.get("error_left_out", math.nan))
+
+
+def _others(diagnosis, named):
+    """What candidates leave that the verdict does not name: those at least as good with what is held against them, then the next."""
+    rest = [row for row in diagnosis.candidates if row["visible"] and row["left_out_refitted"] and math.isfinite(row["error_left_out"])
+            and all(row["effect"] != other["effect"] for other in named)]
+    bar = min(row["error_left_out"] for row in named)
+    low = [row for row in rest if row["error_left_out"] <= bar or (not row["practical"] and row["error_left_out"] < 1.1 * bar)]
+    parts = [f"{validation.effect(row['effect'])} leaves {_error(row)}{_against(row, named[0])}" for row in low]
+    worse = [row["error_left_out"] for row in rest if row not in low]
+    if worse:
+        parts.append(f"the next best leaves {validation.error(min(worse))}")
+    return "".join(f"; {part}" for part in parts)
+
+
+def _against(row, best):
+    """Why a row with the lesser error is not the best, as far as the row says."""
+    if not row["practical"]:
+        return ", with numbers that are not met in practice"
+    if len(row["effects"]) > len(best["effects"]):
+        return ", with more effects"
+    if row["error_explained"] > best["error_explained"]:
+        return (f", but {validation.error(row['error_explained'])} against {validation.error(best['error_explained'])} where the "
+                "floor's noise is allowed for")
+    return ", which chance does not part from it"
