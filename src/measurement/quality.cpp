@@ -16,7 +16,7 @@ constexpr double much_closer = 1.0;  // of the mean score: the error falls to 60
 constexpr double still_seconds = 0.15;
 
 // A data set like this one, but for its signs and times.
-Dataset changed(const Dataset& data, bool mirror_slip, bool mirror_rotation, int late) {
+Dataset changed(const Dataset& data, bool mirror_slip, bool mirror_rotation, double late_s) {
   Dataset other = data;
   for (Test& test : other.tests)
     for (std::vector<double>* samples : {&test.slip_m, &test.rotation_rad, &test.block_acceleration_mps2}) {
@@ -25,6 +25,7 @@ Dataset changed(const Dataset& data, bool mirror_slip, bool mirror_rotation, int
         for (double& s : *samples) s = -s;
       const std::vector<double> before = *samples;
       const auto n = static_cast<int>(before.size());
+      const int late = test.dt_s > 0 ? static_cast<int>(std::lround(late_s / test.dt_s)) : 0;
       for (int i = 0; i < n; ++i)
         (*samples)[static_cast<std::size_t>(i)] = before[static_cast<std::size_t>(std::clamp(i + late, 0, n - 1))];
     }
@@ -97,9 +98,9 @@ void look_at_channels(const Bench& bench, Quality& quality) {
       fmt::format(" {} from below, and {} nothing else", what, still.size() > 1 ? "say" : "says"));
 }
 
-std::string clock_sentence(const std::string& whose, int late_steps, double dt_s) {
+std::string clock_sentence(const std::string& whose, double late_s) {
   return fmt::format("{} runs {:.3f} s {} the floor's channel: check the clocks of the channels", whose,
-                     std::abs(late_steps) * dt_s, late_steps > 0 ? "behind" : "ahead of");
+                     std::abs(late_s), late_s > 0 ? "behind" : "ahead of");
 }
 
 constexpr const char* check_sign = "looks mirrored: check the sign of slip_m against that of the floor";
@@ -107,7 +108,7 @@ constexpr const char* check_sign = "looks mirrored: check the sign of slip_m aga
 // Signs and clocks of the slips by themselves. True: enough tests could be judged, so that no model is needed.
 bool look_at_slips(const Bench& bench, Quality& quality) {
   std::vector<std::size_t> wrong, mirrored;
-  std::vector<int> late;
+  std::vector<double> late;  // [s]
   std::size_t judged = 0;
   std::vector<Timing> timings;
   for (std::size_t i = 0; i < bench.size(); ++i) {
@@ -117,7 +118,7 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     if (!timings[i].wrong()) continue;
     wrong.push_back(i);
     if (timings[i].mirrored) mirrored.push_back(i);
-    late.push_back(timings[i].late_steps);
+    late.push_back(timings[i].late_steps * dt);
   }
   quality.doubtful = wrong.size();
   const auto most = [&](std::size_t count) { return count > 1 && 10 * count >= 7 * judged; };
@@ -126,14 +127,14 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     quality.findings.push_back(fmt::format("the slip {}", check_sign));
   } else if (most(wrong.size())) {
     std::nth_element(late.begin(), late.begin() + static_cast<long>(late.size() / 2), late.end());
-    quality.late_steps = late[late.size() / 2];
-    quality.findings.push_back(clock_sentence("the response", quality.late_steps, bench.test(wrong[0]).dt_s));
+    quality.late_s = late[late.size() / 2];
+    quality.findings.push_back(clock_sentence("the response", quality.late_s));
   } else {
     for (const std::size_t i : wrong) {
       const Test& test = bench.test(i);
       const std::string whose = "the slip of test " + test.id;
       quality.findings.push_back(timings[i].mirrored ? fmt::format("{} {}", whose, check_sign)
-                                                     : clock_sentence(whose, timings[i].late_steps, test.dt_s));
+                                                     : clock_sentence(whose, timings[i].late_steps * test.dt_s));
     }
   }
   return judged > 1 && 2 * judged >= bench.size();
@@ -161,8 +162,8 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   if (tests.empty() || !bench.test(tests.front()).has_history() || fit.score < 2 * std::log(2.0)) return quality;
   const double dt = bench.test(tests.front()).dt_s;
   const int most = std::max(1, static_cast<int>(still_seconds / dt));
-  std::vector<int> lags;
-  for (int late = -most; late <= most && !settled; late += std::max(1, most / 15)) lags.push_back(late);
+  std::vector<double> lags;  // [s]
+  for (int late = -most; late <= most && !settled; late += std::max(1, most / 15)) lags.push_back(late * dt);
   bool rotates = false;
   for (const std::size_t i : tests)
     rotates |= greatest(bench.test(i).rotation_rad) > 8 * bench.noise(Channel::rotation);
@@ -190,9 +191,9 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   for (std::size_t i = 0; i < lags.size(); ++i)
     if (scores[2 + i][0] < scores[2 + best][0]) best = i;
   if (lags[best] != 0 && scores[2 + best][0] < fit.score - much_closer && !quality.mirrored_slip) {
-    quality.late_steps = lags[best];
+    quality.late_s = lags[best];
     quality.findings.push_back(fmt::format("{}; shifted by that the model comes {:.1f} times closer",
-                                           clock_sentence("the response", lags[best], dt),
+                                           clock_sentence("the response", lags[best]),
                                            std::exp((fit.score - scores[2 + best][0]) / 2)));
   }
   return quality;

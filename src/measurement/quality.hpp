@@ -11,13 +11,13 @@ namespace freestand::measurement {
 struct Quality {
   std::vector<std::string> findings;
   bool mirrored_slip = false, mirrored_rotation = false;
-  int late_steps = 0;        // steps by which the response lags behind the floor's channel, beyond what the model gives
+  double late_s = 0;         // by which the response lags behind the floor's channel, beyond what the model gives
   std::size_t doubtful = 0;  // tests whose slip alone looks mirrored, or late
   std::size_t wrong_numbers = 0;  // tests whose floor or response looks as if in another unit, or dead
   std::size_t moving = 0;         // tests with a history in which anything moved
 
   // No verdict on an effect can be drawn from such data.
-  bool spoilt() const { return mirrored_slip || mirrored_rotation || late_steps != 0 || doubtful + wrong_numbers > 0; }
+  bool spoilt() const { return mirrored_slip || mirrored_rotation || late_s != 0 || doubtful + wrong_numbers > 0; }
 };
 
 // Units, dead channels and the stated noise are judged by plausible.hpp. Clipped sensors and tests without motion are

@@ -120,7 +120,9 @@ bool follows(const std::vector<Sample>& samples, const Variable& variable) {
 }
 
 RecoveredTable table(const std::vector<Sample>& samples, const Variable& variable) {
-  RecoveredTable t{.variable = variable.name, .unit = variable.unit};
+  RecoveredTable t;
+  t.variable = variable.name;
+  t.unit = variable.unit;
   t.edge = edges(samples, variable);
   t.law_follows = follows(samples, variable);
   Mean all;
@@ -178,7 +180,8 @@ Recovered recover(const Bench& bench, double mu_k, const ModelSpec& shown, std::
     const double of_sample = noise * second_noise(test.dt_s, window_s) / standard_gravity_mps2;
     noise_square.add(of_sample * of_sample, test.dt_s * static_cast<double>(samples.size() - before));
   }
-  Recovered out{.samples = samples.size()};
+  Recovered out;
+  out.samples = samples.size();
   Mean mu;
   for (const Sample& s : samples) mu.add(s.mu, s.step_s);
   if (mu.time < least_time_s) return out;

@@ -129,13 +129,18 @@ double constant_step(const RecordText& text, const Columns& columns) {
   std::vector<double> sorted = steps;
   std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
   const double middle = sorted[sorted.size() / 2];
-  for (std::size_t i = 0; i < steps.size(); ++i)
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (middle > 0 && steps[i] <= 0)
+      text.fail(columns.lines[i + 1],
+                fmt::format("time {} after {:.6g} s (a row too many, or out of order): correct the rows",
+                            steps[i] < 0 ? "goes back" : "stands still", t[i]));
     if (middle > 0 && steps[i] > 1.5 * middle)
       text.fail(
           columns.lines[i + 1],
           fmt::format("time jumps by {:.6g} s (the step is {:.6g} s, so samples are missing): cut the test there, "
                       "or fill the gap where the signal allows it",
                       steps[i], middle));
+  }
   return text.even_step(t, columns.lines);
 }
 
@@ -146,8 +151,10 @@ void read_test_file(const std::filesystem::path& path, double dt_s, Test& test) 
   const Columns columns = read_columns(text);
   const double step = constant_step(text, columns);
   if (dt_s > 0 && std::abs(step - dt_s) > 0.01 * dt_s)
-    text.fail(fmt::format("the step is {:.6g} s (the data set states sampling_dt_s: {:.6g}): correct one of them", step,
-                          dt_s));
+    text.fail(
+        fmt::format("the step is {:.6g} s (the data set states sampling_dt_s: {:.6g}): correct one of them, or leave "
+                    "sampling_dt_s out where tests differ",
+                    step, dt_s));
   const auto* vertical = columns.find("floor_vertical_acceleration_mps2");
   test.motion = piecewise_linear(path.string(), step, *columns.find("floor_acceleration_mps2"),
                                  vertical ? *vertical : std::vector<double>{});

@@ -144,12 +144,14 @@ void read_tests(Section& file, Dataset& set) {
     if (twice)
       file.problems().add(line, fmt::format("test {} stands twice (an id names one test): rename one", test.id));
     const auto same = std::find_if(set.tests.begin(), set.tests.end(), [&](const Test& t) {
-      return t.has_history() && test.has_history() && t.source == test.source;
+      return t.has_history() && test.has_history() && t.slip_m == test.slip_m &&
+             t.motion.horizontal_mps2 == test.motion.horizontal_mps2;
     });
     if (same != set.tests.end() && !twice)
-      file.problems().add(line, fmt::format("test {} has the file of test {} (a test counts once): correct the file of "
-                                            "one",
-                                            test.id, same->id));
+      file.problems().add(
+          line,
+          fmt::format("test {} has the file of test {}, or a copy of it (a test counts once): correct the file of one",
+                      test.id, same->id));
     set.tests.push_back(std::move(test));
   }
 }

@@ -59,7 +59,7 @@ ModelSpec model(const Case& c) {
 
 // Of no catalogue: the law must come from the declaration alone.
 const Effect ripples{.name = "ripples",
-                     .parameters = {{.name = "height"}, {.name = "length_m"}},
+                     .parameters = {{"height", "1", "", 0, 1}, {"length_m", "m", "", 0, 1}},
                      .friction = [](const At& at, const Parameters& p) { return 1.0 + p[0] * sin(at.u / p[1]); }};
 
 std::vector<Case> cases() {

@@ -114,6 +114,12 @@ TEST_F(TestFile, GapsNameColumnAndLine) {
   EXPECT_THAT(refused(file(needed) + "0,12,1,5,0,001\n"), HasSubstr("6 columns (the header has 3)"));
 }
 
+TEST_F(TestFile, TimesThatGoBackAreNoGap) {
+  EXPECT_THAT(refused(file(needed) + "0.05,1,1\n"), HasSubstr("t.csv:14: time goes back after 0.11 s"));
+  EXPECT_THAT(refused(file(needed) + "0.11,1,1\n"), HasSubstr("t.csv:14: time stands still after 0.11 s"));
+  EXPECT_THAT(refused(file(needed) + "0.14,1,1\n"), HasSubstr("t.csv:14: time jumps by 0.03 s"));
+}
+
 // A terminal obeys what stands in a binary file.
 TEST_F(TestFile, WhatIsNoTextReachesNoMessage) {
   std::vector<std::string> files = {std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x1b[2J", 24),

@@ -80,7 +80,7 @@ TEST(Quality, SaysOnceWhatIsWrongWithAll) {
   Dataset data = test::made_dataset(cabinet(0.2));
   for (auto& t : data.tests) delay(t, 12);
   const Quality q = examined(data);
-  EXPECT_NEAR(q.late_steps, 12, 1);
+  EXPECT_NEAR(q.late_s, 0.06, 0.005);
   ASSERT_EQ(q.findings.size(), 1U);
   EXPECT_THAT(q.findings[0], HasSubstr("behind the floor's channel"));
 }

@@ -192,7 +192,7 @@ class Drawn(Temporary):
         self.assertEqual([label.get_text() for label in axes.get_yticklabels()],
                          ["viscous drag", "rate strengthening", "floor tilt", "flexible legs"])
         self.assertEqual(sum(line.get_marker() == "x" for line in axes.get_lines()), 1)
-        self.assertIn("rate strengthening only with numbers that are not met in practice", drawn.finding)
+        self.assertIn("rate strengthening leaves 1.01, with numbers that are not met in practice", drawn.finding)
         self.assertIn("Crosses", drawn.caption)
 
     def test_worst_histories_in_order_with_the_errors_of_both_models(self):
