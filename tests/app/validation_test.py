@@ -7,7 +7,7 @@ import re
 import shutil
 import unittest
 
-from support import CONFIGS, InFolder
+from support import CONFIGS, InFolder, run
 
 WALK = CONFIGS / "walkthrough"
 ABOUT_THE_RUN = ("created_utc", "command", "ranks", "host", "study", "measurements")
@@ -45,7 +45,14 @@ class Validation(InFolder):
             found[ranks] = (read(out / "before" / "comparison.json"), read(out / "diagnosis" / "diagnosis.json"),
                             after.read_text(encoding="utf-8").split("\n")[1:])
         self.assertEqual(found[1], found[3])
-        self.assertEqual(len(found[1][1]["candidates"]), len({c["effect"] for c in found[1][1]["candidates"]}))
+        diagnosis = found[1][1]
+        self.assertEqual(len(diagnosis["candidates"]), len({c["effect"] for c in diagnosis["candidates"]}))
+        for candidate in [diagnosis["base"]] + diagnosis["candidates"]:
+            for name, number in candidate["parameters"].items():
+                if number["interval"] is None:
+                    self.assertTrue(number["no_interval"], (candidate["effect"], name))
+                else:
+                    self.assertLess(*number["interval"], (candidate["effect"], name))
 
     def test_ladder_and_sweep_of_what_was_fitted(self):
         second = self.study.with_name("second.yaml")
@@ -92,6 +99,20 @@ class Validation(InFolder):
         self.fail_with(3, self.change("nan", with_nan), "t03.csv:101", "nan")
         self.fail_with(3, self.change("gap", lambda lines: lines[:200] + lines[201:]), "t03.csv:201", "time jumps")
         self.fail_with(3, self.change("cut", lambda lines: lines[:1]), "t03.csv")
+        twin = self.copy("twin", None)
+        shutil.copy(twin.with_name("t01.csv"), twin.with_name("t02.csv"))
+        self.fail_with(3, ["compare", twin, "-o", self.folder / "twin_out", "--quiet"], "test t02 has the file of test t01, or a copy")
+
+    def test_bytes_of_a_binary_file_reach_no_terminal(self):
+        for name in ("t03.csv", "dataset.yaml"):
+            for text in (b"\x89PNG\r\n\x1a\n\0\0\x1b[2J" * 9, b"time_s,\x1b[31mslip_m\n" * 20, b"name: \x9b31m\n\x07: [\x1b[0m]\n"):
+                study = self.copy("binary", None)
+                study.with_name(name).write_bytes(text)
+                result = run(["compare", study, "-o", self.folder / "binary_out", "--quiet", "--overwrite"])
+                self.assertEqual(result.returncode, 3)
+                self.assertRegex(result.stderr.rstrip("\n"), r"^[\x20-\x7e\n]+$")
+                self.assertLess(len(result.stderr), 2000)
+                shutil.rmtree(self.folder / "binary")
 
     def test_mistakes_in_the_study(self):
         self.fail_with(2, ["add", self.study, "rate_weakning", "-o", self.study.with_name("x.yaml")], "is not known")

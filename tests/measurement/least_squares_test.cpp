@@ -77,8 +77,7 @@ TEST(Judge, StraysAreWhatAReplayMissesTheOthersBy) {
       const auto channel = static_cast<Channel>(c);
       if (history(test, channel).empty()) continue;
       Values r[2];
-      for (std::size_t k = 0; k < 2; ++k)
-        r[k] = predict(model, test, x, &bench.replays(tests[i])[k]).channel(channel);
+      for (std::size_t k = 0; k < 2; ++k) r[k] = predict(model, test, x, &bench.replays(tests[i])[k]).channel(channel);
       for (std::size_t n = 0; n < r[0].size(); ++n)
         for (int k = 0; k < 2; ++k)
           for (int l = 0; l < 2; ++l)
@@ -192,6 +191,26 @@ TEST(Settle, NorDoesAWrongModelKnowWhatNoTestShows) {
   const auto open = undetermined(fit);
   ASSERT_EQ(open.size(), 1U);
   EXPECT_NE(open[0].find("block.mass_kg"), std::string::npos);
+}
+
+// Where every refit with tests left out stays where it began, the jackknife has no width. 0.05: as for one test's error.
+TEST(Settle, AnIntervalIsNoPointWhateverTheRefitsDid) {
+  const Dataset data = test::made_dataset(cabinet(0.2));
+  const Bench bench(data, 0);
+  ModelFit fit{.model = test::free_friction(), .x = {0.2}};
+  fit.intervals = {{0.2, 0.2}};
+  widen_by_score(bench, {&fit}, run_here);
+  const auto tests = tests_of(data, Role::calibration);
+  const auto rise = [&](double mu) {
+    const double at[] = {mu}, here[] = {0.2};
+    return 4 * (mean_score(bench, tests, fit.model, at) - mean_score(bench, tests, fit.model, here));
+  };
+  ASSERT_EQ(tests.size(), 4U);
+  for (const double end : {fit.intervals[0].lower, fit.intervals[0].upper}) {
+    EXPECT_GT(std::abs(end - 0.2), 1e-6);
+    EXPECT_LE(rise(end), 0.05);
+    EXPECT_GT(rise(0.2 + 2 * (end - 0.2)), 0.05);
+  }
 }
 
 // A model that misses more than the floor's noise explains is fitted by what it misses.

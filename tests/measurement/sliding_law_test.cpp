@@ -58,9 +58,16 @@ ModelSpec model(const Case& c) {
 }
 
 // Of no catalogue: the law must come from the declaration alone.
-const Effect ripples{.name = "ripples",
-                     .parameters = {{"height", "1", "", 0, 1}, {"length_m", "m", "", 0, 1}},
-                     .friction = [](const At& at, const Parameters& p) { return 1.0 + p[0] * sin(at.u / p[1]); }};
+const Effect& ripples() {
+  static const Effect effect = [] {
+    Effect e;
+    e.name = "ripples";
+    e.parameters = {{"height", "1", "", 0, 1}, {"length_m", "m", "", 0, 1}};
+    e.friction = [](const At& at, const Parameters& p) { return 1.0 + p[0] * sin(at.u / p[1]); };
+    return e;
+  }();
+  return effect;
+}
 
 std::vector<Case> cases() {
   const auto find = [](const char* name) { return effects::find(name); };
@@ -74,7 +81,7 @@ std::vector<Case> cases() {
           {find("slack_tether"), {-0.02, 1.0, 0.2}, {"position_m"}},
           {find("vertical_shaking"), {1.0}, {}},
           {find("static_friction"), {1.4}, {}},
-          {&ripples, {0.4, 0.02}, {"position_m"}}};
+          {&ripples(), {0.4, 0.02}, {"position_m"}}};
 }
 
 // The mean of what is recovered in a bin has its band of 95 %; in none of so many bins may it be twice as far off, plus

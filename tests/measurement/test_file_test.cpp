@@ -28,8 +28,8 @@ class TestFile : public testing::Test {
     std::ofstream(folder_ / "t.csv", std::ios::binary) << text;
     return folder_ / "t.csv";
   }
-  Test read(const std::string& text) const {
-    Test test;
+  measurement::Test read(const std::string& text) const {
+    measurement::Test test;
     test.id = "t";
     read_test_file(write(text), 0, test);
     return test;
@@ -61,21 +61,21 @@ std::string file(const std::string& header, std::size_t more = 0, const std::str
 const std::string needed = "time_s,floor_acceleration_mps2,slip_m";
 
 TEST_F(TestFile, ReadsItsColumnsInAnyOrder) {
-  const Test test = read(file("time_s,floor_acceleration_mps2,slip_m,rotation_rad", 1));
+  const measurement::Test test = read(file("time_s,floor_acceleration_mps2,slip_m,rotation_rad", 1));
   EXPECT_EQ(test.slip_m.size(), 12U);
   EXPECT_EQ(test.rotation_rad[3], 0.5);
   EXPECT_EQ(test.unused_columns, std::vector<std::string>{});
 }
 
 TEST_F(TestFile, ColumnsThatAreNotUsedAreNamed) {
-  const Test test = read(file(needed + ",temperature_c,remark", 2, "warm"));
+  const measurement::Test test = read(file(needed + ",temperature_c,remark", 2, "warm"));
   EXPECT_THAT(test.unused_columns, ElementsAre("temperature_c", "remark"));
   Dataset data;
   data.noise.slip_m = 1e-3;
   data.tests = {test, test, read(file(needed))};
   data.tests[1].id = "u";
   const auto sentences = doubts(Bench(data, 0)).sentences;
-  EXPECT_THAT(sentences, testing::Contains(HasSubstr("column temperature_c of tests t and u is not used")));
+  EXPECT_THAT(sentences, testing::Contains(HasSubstr("column temperature_c of tests t, u is not used")));
   EXPECT_EQ(doubts(Bench(data, 0)).spoilt_tests, 0U);
 }
 
@@ -129,7 +129,7 @@ TEST_F(TestFile, WhatIsNoTextReachesNoMessage) {
   files.push_back(std::string(100000, 'x') + "\n");
   for (const std::string& text : files) {
     std::string said;
-    Test test;
+    measurement::Test test;
     try {
       read_test_file(write(text), 0, test);
       Dataset data;
