@@ -1,0 +1,123 @@
+#!/usr/bin/python3
+"""The page of comparisons and diagnoses: what it says, and that it says the same everywhere."""
+import json
+import re
+import unittest
+
+import support
+from report_test import Page
+from validation_test import Temporary
+
+import make_validation as make
+
+
+class ThePage(Temporary):
+    def page(self, *folders):
+        result = support.run("report", *folders, "-o", self.folder / "page.html")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        text = (self.folder / "page.html").read_text(encoding="utf-8")
+        page = Page(text)
+        self.assertEqual((page.unbalanced, page.open), ([], []))
+        self.assertEqual(len(page.ids), len(set(page.ids)))
+        self.assertEqual([address for address in page.addresses if not address.startswith("#")], [])
+        self.assertNotRegex(page.text, r"\bnan\b")
+        return page, text
+
+    def test_before_diagnosis_after(self):
+        diagnosis = make.diagnosis(self.folder / "diag", candidates=[make.candidate("static_friction", 1.2, True)],
+                                   effects=["static_friction"], sentences=["static_friction brings it down"])
+        page, text = self.page(make.comparison(self.folder / "before"), diagnosis,
+                               make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01))
+        for needle in ("bench: the missing effect was static friction", "17.7 base model", "1.20 with static friction",
+                       "1.01 on held-out tests", "1.08 noise floor", "4 tests (3 for calibration and 1 held out)",
+                       "Static friction brings it down.", "friction: μ 0.2991", "static friction: ratio 1.800", "All 1 candidate and", "t03",
+                       "simplex method"):
+            self.assertIn(needle, page.text)
+        self.assertEqual(text.count('<tr class="missed">'), 0)
+        self.assertLessEqual({"ladder", "ranking", "recovered", "worst_t02", "where"}, set(page.ids))
+
+    def test_one_comparison(self):
+        page, text = self.page(make.comparison(self.folder / "before"))
+        self.assertIn("bench: the model misses its tests by 17.4 times the sensor noise", page.text)
+        self.assertEqual(text.count('<tr class="missed">'), 4)
+        self.assertNotIn("ladder", page.ids)
+        self.assertIn("method of the fit", page.text)
+
+    def test_praise_only_where_the_tests_can_judge(self):
+        for error, expected, needle in ((1.02, 1.03, "bench: the model is as good as the noise can tell"),
+                                        (2900.0, 2484.0, "bench: the floor's noise alone drowns its tests"),
+                                        (0.05, 1.0, "bench: the model misses its tests by 0.0500 times the sensor noise")):
+            with self.subTest(error):
+                mine = {"error_noise_units": error, "error_relative": 0.2, "error": error, "error_expected": expected, "tests": 3}
+                page, _ = self.page(make.comparison(self.folder / str(error), calibration=mine))
+                self.assertIn(needle, page.text)
+
+    def test_a_comparison_at_given_numbers_fits_nothing(self):
+        page, _ = self.page(make.comparison(self.folder / "before", parameters=[]))
+        self.assertNotIn("method of the fit", page.text)
+
+    def test_verdicts_in_the_headline(self):
+        for verdict, needle in (("none", "these tests show no missing effect"), ("unknown", "no effect of the catalogue explains"),
+                                ("ambiguous", "the missing effect is rate weakening or static friction"),
+                                ("missing", "the missing effect is rate weakening")):
+            with self.subTest(verdict):
+                page, _ = self.page(make.diagnosis(self.folder / verdict, verdict))
+                self.assertIn(needle, page.text)
+                self.assertEqual("would part them by 41.9 noise units" in page.text, verdict == "ambiguous")
+
+    def test_why_a_verdict_is_unknown(self):
+        for reason, title, finding in (
+                ("data", "bench: no verdict, since the measurements look wrong in a sign, a time or a unit", "were the measurements right: none is named"),
+                ("none_helps", "bench: the model misses more than noise explains, and no effect", "the best, rate weakening, 6.00"),
+                ("none_suffices", "bench: no effect of the catalogue explains all", "The best candidate, rate weakening, still misses")):
+            with self.subTest(reason):
+                best = None if reason == "data" else "rate_weakening"
+                page, text = self.page(make.diagnosis(self.folder / reason, "unknown", reason=reason, best=best))
+                self.assertIn(title, page.text)
+                self.assertIn(finding, page.text)
+                self.assertNotIn("lacks something", page.text)
+                self.assertEqual("with rate weakening, on tests left out" in page.text, reason == "none_suffices")
+                self.assertEqual(text.index("<figure") > text.index("What was found"), reason == "data")
+
+    def test_an_interval_that_is_not_there_says_why(self):
+        page, _ = self.page(make.diagnosis(self.folder))
+        self.assertIn("none: it was not fitted to the end", page.text)
+
+    def test_narrow_screens_cut_nothing(self):
+        """Pictures fill the width; tables are written row under row, each cell with what it is."""
+        _, text = self.page(make.comparison(self.folder / "before"), make.diagnosis(self.folder / "diag"),
+                            make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01))
+        self.assertNotRegex(text, r"figure svg \{[^}]*min-width")
+        tables = re.findall(r"<table class=\"([^\"]*)\">(.*?)</table>", text, re.S)
+        self.assertEqual(len(tables), 3)
+        for kind, table in tables:
+            self.assertIn("stack", kind)
+            body = table[table.index("<tbody>"):]
+            for row in re.findall(r"<tr.*?</tr>", body, re.S):
+                self.assertRegex(row, r"<tr[^>]*><td class=\"text\">")
+                self.assertEqual(row.count("<td"), row.count("data-label=") + 1, row)
+
+    def test_peaks_and_outcomes(self):
+        page, _ = self.page(make.peaks(self.folder / "peaks"))
+        self.assertIn("the model predicts 0.20 times the measured peaks", page.text)
+        page, text = self.page(make.outcomes(self.folder / "outcomes"))
+        self.assertIn("the model gets 36 of 40 outcomes right", page.text)
+        self.assertIn("All 40 tests, 4 of them missed", page.text)
+        self.assertEqual(text.count('<tr class="missed">'), 4)
+
+    def test_text_from_files_is_escaped(self):
+        _, text = self.page(make.comparison(self.folder / "one", name="<b>bench</b>", findings=["<script>alert(1)</script>"]))
+        self.assertNotIn("<script>alert", text)
+        self.assertNotIn("<b>bench", text)
+
+    def test_figures_writes_them_as_files(self):
+        folder = make.comparison(self.folder / "one")
+        result = support.run("figures", folder)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        captions = json.loads((folder / "figures/captions.json").read_text())
+        self.assertEqual(set(captions), {"worst_t02", "worst_t04", "where"})
+        self.assertTrue(all((folder / f"figures/{name}.{kind}").exists() for name in captions for kind in ("svg", "png")))
+
+
+if __name__ == "__main__":
+    unittest.main()
