@@ -30,7 +30,7 @@ SlidingLaw::SlidingLaw(const Specimen& specimen) {
   mu_k_ = setup.specimen.friction.mu_k;
   floor_ = setup.floor;
   if (dynamics::has_laws(setup.specimen)) laws_.emplace(setup.specimen);
-  known_ = !laws_ || !laws_->evolve_at_rest();
+  known_ = !laws_ || (laws_->sound() && !laws_->evolve_at_rest());
 }
 
 double SlidingLaw::gravity_mps2(double vertical_mps2) const {
