@@ -187,16 +187,21 @@ class Run {
     FloorLine line{t, a[i], 0, (a[i + 1] - a[i]) / dt, 0};
     if (!v.empty()) line.v = v[i], line.v_rate = (v[i + 1] - v[i]) / dt;
     deeds_ = 0;
-    if (stepper_.rest(line, t, dt)) return true;
+    if (stepper_.rest(line, t, dt)) return feel();
     for (double k = 0; k < splits_; ++k) {
       if (!stepper_.step(line, t + k * dt / splits_, dt / splits_)) return over("painleve");
       deeds_ |= deed();
+      feel();
       history_.peak_slip_m = std::max(history_.peak_slip_m, std::abs(stepper_.slip()));
       history_.peak_rotation_rad = std::max(history_.peak_rotation_rad, std::abs(stepper_.rotation()));
       if (std::abs(stepper_.rotation()) > pi / 2) return over("overturned");
     }
     if (stepper_.slips() || stepper_.path() > 0 || stepper_.rotation() != 0 || stepper_.flies())
       history_.outcome = "moved";
+    return true;
+  }
+  bool feel() {
+    history_.peak_acceleration_mps2 = std::max(history_.peak_acceleration_mps2, stepper_.felt());
     return true;
   }
   bool over(const char* outcome) {

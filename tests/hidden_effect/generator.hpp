@@ -63,6 +63,7 @@ struct TruthHistory {
   std::vector<unsigned> deeds;  // up to each of the times, since the one before: TruthDeed
   std::vector<double> slip_m, rotation_rad, block_acceleration_mps2;  // as in a measurement, without noise
   std::string outcome;  // at_rest | moved | overturned | painleve; the last two hold the values of their last instant
+  double peak_acceleration_mps2 = 0;  // of the centre of mass, without gravity, blows left out
   double peak_slip_m = 0, residual_slip_m = 0, slid_path_m = 0, peak_rotation_rad = 0;
 };
 

@@ -36,7 +36,8 @@ Answer answer(const JudgedCase& c, const char* who, Integrator integrate, double
 // The stepper's history, and how far off it may be at each sample.
 struct Evidence {
   TruthHistory history;
-  std::vector<double> own;  // up to where it has fanned out
+  double own_path_m = 0, own_acceleration_mps2 = 0;  // of the path slid and of the largest acceleration
+  std::vector<double> own;                           // up to where it has fanned out
 };
 
 double distance(const TruthHistory& a, const TruthHistory& b, std::size_t i) {
@@ -44,6 +45,10 @@ double distance(const TruthHistory& a, const TruthHistory& b, std::size_t i) {
 }
 
 void doubt(Evidence& evidence, const TruthHistory& other) {
+  const TruthHistory& h = evidence.history;
+  evidence.own_path_m = std::max(evidence.own_path_m, std::abs(h.slid_path_m - other.slid_path_m));
+  evidence.own_acceleration_mps2 =
+      std::max(evidence.own_acceleration_mps2, std::abs(h.peak_acceleration_mps2 - other.peak_acceleration_mps2));
   double own = 0;
   for (std::size_t i = 0; i < evidence.own.size(); ++i) {
     own = std::max(own, distance(evidence.history, other, i));
@@ -53,7 +58,7 @@ void doubt(Evidence& evidence, const TruthHistory& other) {
 }
 
 Evidence evidence(const JudgedCase& c, double step) {
-  Evidence e{simulate(c.truth, c.floor, 0.5 * step), {}};
+  Evidence e{simulate(c.truth, c.floor, 0.5 * step), 0, 0, {}};
   e.own.assign(c.floor.horizontal_mps2.size(), 0);
   doubt(e, simulate(c.truth, c.floor, step));
   return e;
@@ -85,6 +90,25 @@ double landing_nearly_flat(const Evidence& e, const Answer& a) {
 
 bool broke_off(const Response& response) { return *failure(response.outcome) != '\0'; }
 
+// Of the path and of the largest acceleration, of a block that has come to rest. Accelerations are those in the middle of
+// steps: between two of them they change by no more than a floor and a rattling block do in a step.
+std::string difference_at_the_end(const Evidence& e, const Answer& a) {
+  constexpr std::size_t quiet = 20;
+  constexpr double unseen_mps2 = 0.02;
+  const TruthHistory& h = e.history;
+  const Response& r = a.response;
+  if (h.deeds.size() < quiet ||
+      std::any_of(h.deeds.end() - quiet, h.deeds.end(), [](unsigned deed) { return deed != 0; }))
+    return "";
+  if (std::abs(r.slid_path_m - h.slid_path_m) > 10 * accuracy + margin * e.own_path_m)
+    return fmt::format("{}: slid path {:.7f} against {:.7f} m, own {:.1e}", a.who, r.slid_path_m, h.slid_path_m,
+                       e.own_path_m);
+  if (std::abs(r.peak_acceleration_mps2 - h.peak_acceleration_mps2) > unseen_mps2 + margin * e.own_acceleration_mps2)
+    return fmt::format("{}: peak acceleration {:.4f} against {:.4f} m/s2, own {:.1e}", a.who, r.peak_acceleration_mps2,
+                       h.peak_acceleration_mps2, e.own_acceleration_mps2);
+  return "";
+}
+
 // Empty: within what is allowed.
 std::string difference(const Evidence& e, const Answer& a) {
   const TruthHistory& h = e.history;
@@ -105,10 +129,9 @@ std::string difference(const Evidence& e, const Answer& a) {
           "{} ({}) at {:.3f} s: slip {:.7f} against {:.7f} m, rotation {:.7f} against {:.7f} rad, own {:.1e}", a.who,
           name(p.mode), p.time_s, p.slip_m, h.slip_m[i], p.rotation_rad, h.rotation_rad[i], e.own[i]);
   }
-  if (e.own.size() == h.slip_m.size() && undecided_s > a.response.end_time_s && h.outcome == "moved" &&
-      broke_off(a.response))
-    return fmt::format("{}: outcome {} against moved", a.who, name(a.response.outcome));
-  return "";
+  if (e.own.size() < h.slip_m.size() || undecided_s < a.response.end_time_s || h.outcome != "moved") return "";
+  if (broke_off(a.response)) return fmt::format("{}: outcome {} against moved", a.who, name(a.response.outcome));
+  return difference_at_the_end(e, a);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ double crossing(double start, double rate, double end, double dt) {
 }  // namespace
 
 bool MoreauStepper::step(const FloorLine& floor, double t, double dt) {
-  closing_speed_ = 0;
+  closing_speed_ = felt_ = 0;
   landed_nearly_flat_ = false;
   strikes_ = {};
   const double end = t + dt;
@@ -34,12 +34,14 @@ bool MoreauStepper::step(const FloorLine& floor, double t, double dt) {
     const Event event = first_event(state_, after, t, end - t, refused);
     if (event.kind == Event::Kind::none) {
       state_ = after;
+      felt_ = std::max(felt_, state_.felt);
       return true;
     }
     if (event.after > instant) {
       std::optional<Grip> forced;
       if (event.kind == Event::Kind::slip_end || event.kind == Event::Kind::grip_break) forced = state_.grip;
       if (!advance(state_, floor, t, event.after, forced, refused)) return false;
+      felt_ = std::max(felt_, state_.felt);
     }
     t += event.after;
     meet(event, t, dt);

@@ -175,6 +175,10 @@ void MoreauStepper::move(const State& before, State& state, const Step& step, co
   state.base_rate = (middle_speed(state) - middle_speed(before)) / dt;
   state.normal = c.total() / dt;
   state.acceleration = (state.v.x - before.v.x) / dt + step.a;
+  constexpr double shortest = 1e-9;  // [s]: of pieces under it the speeds tell nothing
+  if (dt > shortest)
+    state.felt =
+        std::hypot(state.acceleration - laws_.push_mps2, (state.v.y - before.v.y) / dt + step.g - laws_.gravity_mps2);
   if (laws_.contents_ratio != 0) {
     state.contents_rate = -state.acceleration - step.contents_force;
     state.contents_v += dt * state.contents_rate;
@@ -209,6 +213,8 @@ bool MoreauStepper::rest(const FloorLine& floor, double t, double dt) {
     return false;
   state_.margin = nothing;
   state_.acceleration = floor.horizontal(t + dt) + laws_.push_mps2;
+  felt_ = std::max(std::hypot(floor.horizontal(t), g[0] - laws_.gravity_mps2),
+                   std::hypot(floor.horizontal(t + dt), g[1] - laws_.gravity_mps2));
   state_.normal = g[1];
   return true;
 }

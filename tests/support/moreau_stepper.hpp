@@ -76,7 +76,9 @@ class MoreauStepper {
   double path() const { return state_.path; }
   double acceleration() const {
     return state_.acceleration;
-  }                                                  // absolute, horizontal, of the centre of mass, blows left out
+  }  // absolute, horizontal, of the centre of mass, blows left out
+  // Largest total acceleration of the centre of mass in the last step, blows left out: without gravity, as the floor's is.
+  double felt() const { return felt_; }
   double contact_speed() const { return state_.w; }  // of the foot, with legs
   bool closed(Corner k) const { return state_.closed[k]; }
   bool slips() const { return state_.grip == Grip::to_left || state_.grip == Grip::to_right; }
@@ -110,7 +112,7 @@ class MoreauStepper {
     double foot = 0;                        // where the contact is stuck
     double stuck_since = 0, path = 0, legs = 0;
     double contents = 0, contents_v = 0, contents_rate = 0;
-    double acceleration = 0;
+    double acceleration = 0, felt = 0;
     double margin = std::numeric_limits<double>::quiet_NaN(), margin_time = 0;  // grip to spare, in the last step
     unsigned touching = 0;                                                      // edges at walls, as bits
     bool chain_broken = false;
@@ -201,7 +203,7 @@ class MoreauStepper {
   ContactBody body_;
   ContactLaws laws_;
   State state_;
-  double closing_speed_ = 0;
+  double closing_speed_ = 0, felt_ = 0;
   bool landed_nearly_flat_ = false;
   Strikes strikes_;
 };
