@@ -100,6 +100,7 @@ std::string difference_at_the_end(const Evidence& e, const Answer& a) {
   if (h.deeds.size() < quiet ||
       std::any_of(h.deeds.end() - quiet, h.deeds.end(), [](unsigned deed) { return deed != 0; }))
     return "";
+  if (std::abs(r.residual_slip_m - h.slip_m.back()) > accuracy) return "";  // it went on after the motion
   if (std::abs(r.slid_path_m - h.slid_path_m) > 10 * accuracy + margin * e.own_path_m)
     return fmt::format("{}: slid path {:.7f} against {:.7f} m, own {:.1e}", a.who, r.slid_path_m, h.slid_path_m,
                        e.own_path_m);

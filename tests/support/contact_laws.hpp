@@ -78,9 +78,9 @@ struct ContactLaws {
     double u_m = 0, path_m = 0, normal_g = 1, time_s = 0;
   };
   // Ratio of tangential to normal force: of a slip, and at most without one (stuck for age_s; sigma: the slip that would
-  // begin).
+  // begin; speed: of the slip that a blow stops).
   double sliding(const Place& at, double speed, int sigma) const { return mu_k * factor(at, speed, sigma); }
-  double holding(const Place& at, double age_s, int sigma) const;
+  double holding(const Place& at, double age_s, int sigma, double speed = 0) const;
 
   // X without the contents, from displacement and velocity of the middle of the base.
   double force(double u, double v) const;
@@ -100,9 +100,9 @@ inline double ContactLaws::factor(const Place& at, double speed, int sigma) cons
   return f;
 }
 
-inline double ContactLaws::holding(const Place& at, double age_s, int sigma) const {
+inline double ContactLaws::holding(const Place& at, double age_s, int sigma, double speed) const {
   const double older = ageing == 0 ? 1 : 1 + ageing * std::log1p(age_s / ageing_time_s);
-  return mu_s * older * factor(at, 0, sigma);
+  return mu_s * older * factor(at, speed, sigma);
 }
 
 inline double ContactLaws::force(double u, double v) const {

@@ -36,7 +36,7 @@ bool solve(double (&a)[4][5], int n) {
 double MoreauStepper::holding(const Step& step, const Case& c) const {
   ContactLaws::Place place = step.place;
   if (!step.blow) place.normal_g = c.total() / (step.dt * standard_gravity_mps2);
-  return laws_.holding(place, step.age, c.tangential < 0 ? 1 : -1);
+  return laws_.holding(place, step.age, c.tangential < 0 ? 1 : -1, step.blow ? step.speed : 0);
 }
 
 // Both closed: the base is flat, lift speeds zero means Y' = 0 and theta' = 0.
