@@ -18,6 +18,7 @@ class FloorCursor {
   double time() const { return start_ + offset_; }
   double left() const;  // to the end of the segment [s]; infinite after the motion
   bool motion_over() const { return segment_ == segments_; }
+  std::size_t segment() const { return segment_; }
   void advance(double tau) { offset_ += tau; }
   void next_segment();  // to the first instant of the next segment
   void next_run();      // to the first instant of the next run of segments

@@ -31,7 +31,7 @@ class HistoryRecorder {
   }
 
   template <int N>
-  void record(const Flight<double, N>& flight, const Floor<double, N>& floor, double start, double tau) {
+  void record(const State&, const Flight<double, N>& flight, const Floor<double, N>& floor, double start, double tau) {
     if (!wanted()) return;
     const double d = 0.5 * (rig_.right - rig_.left);
     each_point(start, tau, [&](double t) {

@@ -139,19 +139,20 @@ bool strike(const Rig& rig, State& state, double time) {
 }
 
 bool land(const Rig& rig, State& state, int pivot, double time) {
+  const Velocity before{state.vx, state.vy, state.omega};
+  const bool flat = state.theta == 0 && state.omega == 0;
+  const Arm r = flat ? Arm{} : arm(rig, pivot, state.theta);
+  state.pivot = flat ? 0 : pivot;
+  state.xi = flat ? state.x : state.x - r.rx - rig.offset(pivot);
+  state.w = slip(r, before);
   const Grip friction = grip(rig, state, time);
-  if (state.theta == 0 && state.omega == 0) {
-    state.xi = state.x;
-    state.pivot = 0;
-    stay_flat(friction, state, state.vx, state.vy);
+  if (flat) {
+    stay_flat(friction, state, before.vx, before.vy);
     return true;
   }
-  const Arm r = arm(rig, pivot, state.theta);
   Velocity after{};
-  if (!plastic(friction, r, {state.vx, state.vy, state.omega}, after, state.w)) return false;
+  if (!plastic(friction, r, before, after, state.w)) return false;
   state.omega = after.omega;
-  state.xi = state.x - r.rx - rig.offset(pivot);
-  state.pivot = pivot;
   return true;
 }
 

@@ -6,7 +6,8 @@ namespace freestand::dynamics {
 namespace {
 constexpr double beyond_all_bounds = 1e6;  // [m], [rad] and per second: a law feeds the motion
 constexpr int steps_watched = 10000;
-constexpr double least_progress = 0.1;            // of them, times p: a law stands before a place where it has no value
+constexpr double least_progress = 0.1;  // of them within one segment of the motion, times p: a law stands before
+                                        // a place where it has no value
 constexpr int wait_order = max_floor_degree + 1;  // witnesses at rest are the floor's own polynomials
 
 // Horizontal velocity of the centre of mass relative to the floor.
@@ -52,7 +53,9 @@ Rig::AtRest Integration::laws_at_rest() const {
   const LawValues right = law_values(rig, state, cursor.time(), 1);
   const bool constant =
       !rig.laws->uses(Input::t) && state.wall == 0 && (!rig.laws->uses(Input::normal) || shaking.vertical_scale == 0);
-  return {std::abs(left.force), std::abs(left.moment), std::fmin(left.factor, right.factor), constant};
+  return {std::max(std::abs(left.force), std::abs(right.force)),
+          std::max(std::abs(left.moment), std::abs(right.moment)), std::min(left.factor, right.factor),
+          constant && left.finite() && right.finite()};
 }
 
 void Integration::wait() {
@@ -156,6 +159,7 @@ void Integration::resolve(Witness witness) {
       return stop(Outcome::overturned);
     default:
       if (is_kink(witness)) turn_kink(static_cast<int>(witness) - static_cast<int>(Witness::kink));
+      if (state.mode == Mode::flight) return chose(from, false);  // a bent law leaves the block in the air
       break;
   }
   if (is_kink(witness) && state.sigma * slip_speed(rig, state) <= 0) stop_slip();
@@ -164,8 +168,14 @@ void Integration::resolve(Witness witness) {
     regular = strike(rig, state, cursor.time());
   }
   if (impact && rig.laws) keep_contents_velocity(speed_before);
-  if (!regular || !choose_mode(rig, cursor, state)) return stop(Outcome::painleve);
+  if (!regular || !choose_mode(rig, cursor, state))
+    return stop(laws_have_values() ? Outcome::painleve : Outcome::not_finite);
   chose(from, impact);
+}
+
+bool Integration::laws_have_values() const {
+  return !rig.laws ||
+         (law_values(rig, state, cursor.time(), -1).finite() && law_values(rig, state, cursor.time(), 1).finite());
 }
 
 void Integration::chose(const State& from, bool impact) {
@@ -189,8 +199,10 @@ void Integration::stop_when_done() {
     if (!(std::abs(value) < beyond_all_bounds)) return stop(Outcome::not_finite);
   if (!peaks.finite()) return stop(Outcome::not_finite);
   if (++steps_ % steps_watched == 0) {
-    if ((cursor.time() - watched_from_) * p_ < least_progress) return stop(Outcome::step_limit);
+    const bool stands = cursor.segment() == watched_segment_ && (cursor.time() - watched_from_) * p_ < least_progress;
+    if (stands) return stop(Outcome::step_limit);
     watched_from_ = cursor.time();
+    watched_segment_ = cursor.segment();
   }
   if (!cursor.motion_over()) return;
   const bool out_of_time = cursor.time() >= shaking.duration_s() + settings.free_vibration_s;

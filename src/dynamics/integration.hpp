@@ -91,6 +91,7 @@ class Integration {
   void keep_contents_velocity(double speed_before);
   void stop_slip();
   Rig::AtRest laws_at_rest() const;
+  bool laws_have_values() const;
   bool strikes_too() const;
   bool settles() const;  // at rest, for so long that nothing on it can move it any more
 
@@ -98,8 +99,9 @@ class Integration {
   bool moved_ = false;
   double rest_since_ = 0;  // [s]
   double p_, watched_from_ = 0;
+  std::size_t watched_segment_ = 0;
   int steps_ = 0;
-  int resolved_ = 0;       // events, those that changed nothing included
+  int resolved_ = 0;  // events, those that changed nothing included
   Outcome outcome_ = Outcome::moved;
 };
 

@@ -12,6 +12,8 @@
 //   then        w' = (f_x + X)/M - a - r_y theta'' + r_x omega^2
 #pragma once
 
+#include <limits>
+
 #include "dynamics/contact.hpp"
 #include "dynamics/rig.hpp"
 
@@ -60,10 +62,7 @@ class LawStep {
   const LawArc<N>& run() {
     for (int k = 0; k < N; ++k) {
       kinematics(k);
-      laws_.tape.advance(input_count, laws_.forces_end, k, state_.sides, values_);
-      force_[k] = laws_.force < 0 ? 0.0 : values_[laws_.force][k];
-      if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
-      state_.sigma == 0 ? stuck(k) : slipping(k);
+      forces(k);
       integrate(k);
     }
     finish();
@@ -95,6 +94,39 @@ class LawStep {
     for (int i = 0; i < laws_.states; ++i) y_.states[i][k] = value(Input::state, i)[k];
   }
 
+  // On a corner laws may depend on the normal force, which depends on them. Its leading coefficient solves an equation, by
+  // the secant method; the higher ones enter linearly.
+  void forces(int k) {
+    const double guess = y_.n[k] / standard_gravity_mps2;
+    double miss = act(k, guess);
+    if (!(turns_ && laws_see_the_normal_force())) return;
+    double normal = guess, next = guess + (miss != 0 ? miss : 0.0);
+    for (int i = 0; i < (k == 0 ? 30 : 1) && next != normal; ++i) {
+      const double miss_next = act(k, next);
+      const double slope = (miss_next - miss) / (next - normal);
+      normal = next, miss = miss_next;
+      if (slope != 0) next = normal - miss / slope;
+      if (std::abs(next - normal) <= 1e-16 * std::abs(next)) break;
+    }
+    if (!(std::abs(act(k, next)) <= normal_found * (1 + std::abs(next)))) y_.alpha[k] = y_.fy[k] = undefined;
+  }
+
+  bool laws_see_the_normal_force() const {
+    const auto looks = [&](int node) { return node >= 0 && laws_.tape.depends(node, Input::normal); };
+    return looks(laws_.force) || looks(laws_.moment) || (state_.sigma != 0 && looks(laws_.friction));
+  }
+
+  // Laws, contact forces and accelerations of order k for a normal force [m g]; by how much the one that comes out differs.
+  double act(int k, double normal) {
+    value(Input::normal)[k] = normal;
+    laws_.tape.advance(input_count, laws_.forces_end, k, state_.sides, values_);
+    force_[k] = laws_.force < 0 ? 0.0 : values_[laws_.force][k];
+    if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
+    if (state_.sigma != 0 && laws_.friction >= 0) factor_[k] = factor_from_tape(k);
+    state_.sigma == 0 ? stuck(k) : slipping(k);
+    return y_.fy[k] / standard_gravity_mps2 - normal;
+  }
+
   // theta'' D = numerator, D[0..k] known.
   double quotient(double numerator, const Series<double, N>& d, int k) const {
     for (int i = 1; i <= k; ++i) numerator -= d[i] * y_.alpha[k - i];
@@ -119,7 +151,6 @@ class LawStep {
     acceleration_ = legs_ ? y_.ax[k] - own_acceleration(k) : 0.0;
     y_.foot[k] = 0;
     deflection_rate_ = legs_ ? y_.w[k] : 0.0;
-    value(Input::normal)[k] = y_.fy[k] / standard_gravity_mps2;
   }
 
   // Acceleration of the centre of mass, the floor's included, that is not w'.
@@ -129,7 +160,6 @@ class LawStep {
   }
 
   void slipping(int k) {
-    if (laws_.friction >= 0) solve_factor(k);
     apply_factor(k);
     const double M = laws_.carried_mass;
     y_.ax[k] = (y_.fx[k] + force_[k]) / M;
@@ -152,37 +182,11 @@ class LawStep {
       y_.fy[k] = y_.n[k] - product(y_.rx, y_.alpha, k);
     }
     y_.fx[k] = -sigma_mu * product(factor_, y_.fy, k);
-    value(Input::normal)[k] = y_.fy[k] / standard_gravity_mps2;
   }
 
   double factor_from_tape(int k) {
     laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, state_.sides, values_);
     return values_[laws_.friction][k];
-  }
-
-  // F may depend on the normal force, which depends on F. Its leading coefficient solves an equation, by the secant
-  // method; the higher ones enter linearly.
-  void solve_factor(int k) {
-    const auto miss = [&](double factor) {
-      factor_[k] = factor;
-      apply_factor(k);
-      return factor_from_tape(k) - factor;
-    };
-    if (!laws_.tape.depends(laws_.friction, Input::normal)) {
-      factor_[k] = 0;
-      factor_[k] = factor_from_tape(k);
-      return;
-    }
-    double f0 = k == 0 ? 1.0 : 0.0, m0 = miss(f0), f1 = f0 + (k == 0 ? m0 : 1.0);
-    for (int i = 0; i < (k == 0 ? 30 : 1) && f1 != f0; ++i) {
-      const double m1 = miss(f1);
-      if (m1 == m0) break;
-      const double next = f1 - m1 * (f1 - f0) / (m1 - m0);
-      f0 = f1, m0 = m1, f1 = next;
-      if (std::abs(f1 - f0) <= 1e-16 * std::abs(f1)) break;
-    }
-    miss(f1);
-    factor_[k] = f1;
   }
 
   void integrate(int k) {
@@ -233,6 +237,9 @@ class LawStep {
   double z() const { return laws_.legs.damping; }
 
   static constexpr double foot_zero = 1e-10;  // [m/s]
+  // A normal force that the secant method leaves further off than this, over its own size, is none: laws have no value.
+  static constexpr double normal_found = 1e-10;
+  static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
   const Rig& rig_;
   const Laws& laws_;
@@ -248,9 +255,11 @@ class LawStep {
   double acceleration_ = 0, deflection_rate_ = 0;
 };
 
-// The laws at one instant, the weight on a still floor as normal force and |w| as slip speed: in a blow, and at rest.
+// The laws at one instant of contact, the weight on a still floor as normal force and |w| as slip speed: in a blow, and at
+// rest.
 struct LawValues {
   double force = 0, moment = 0, factor = 1;
+  bool finite() const { return std::isfinite(force) && std::isfinite(moment) && std::isfinite(factor); }
 };
 
 inline LawValues law_values(const Rig& rig, const State& state, double time, int sigma) {
@@ -258,8 +267,9 @@ inline LawValues law_values(const Rig& rig, const State& state, double time, int
   Series<double, 0> values[max_nodes];
   for (int i = 0; i < input_count; ++i) values[i][0] = 0;
   const auto set = [&](Input input, double x) { values[static_cast<int>(input)][0] = x; };
-  set(Input::u, state.xi);
-  set(Input::v, state.w);
+  const double B = state.pivot * rig.half_base(), half = std::sin(0.5 * state.theta);
+  set(Input::u, state.xi + B * 2 * half * half);
+  set(Input::v, state.w + B * std::sin(state.theta) * state.omega);
   set(Input::theta, state.theta);
   set(Input::omega, state.omega);
   set(Input::t, time);
@@ -268,6 +278,7 @@ inline LawValues law_values(const Rig& rig, const State& state, double time, int
   set(Input::side, state.pivot);
   set(Input::sigma, sigma);
   set(Input::speed, std::abs(state.w));
+  for (int i = 0; i < laws.states; ++i) values[static_cast<int>(Input::state) + i][0] = state.states[i];
   laws.tape.advance(input_count, laws.friction_end, 0, state.sides, values);
   const auto value = [&](int node, double without) { return node < 0 ? without : values[node][0]; };
   return {value(laws.force, 0), value(laws.moment, 0), value(laws.friction, 1)};

@@ -10,6 +10,7 @@ namespace freestand::dynamics {
 
 template <int N>
 struct LawFlight : Flight<double, N> {
+  Series<double, N> ax;  // absolute horizontal acceleration of the centre of mass [m/s2]
   Series<double, N> states[max_states];
   int state_count;
   Series<double, N> kink[max_kinks];
@@ -64,7 +65,7 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     value(Input::v)[k] = f.vx[k] - h * product(cosine, f.omega, k) - d * product(sine, f.omega, k);
     laws.tape.advance(input_count, laws.forces_end, k, state.sides, values);
     const double pull = laws.force < 0 ? 0.0 : values[laws.force][k] / laws.carried_mass;
-    value(Input::acceleration)[k] = pull;
+    f.ax[k] = value(Input::acceleration)[k] = pull;
     laws.tape.advance(laws.friction_end, laws.tape.size(), k, state.sides, values);
     for (int i = 0; i < laws.states; ++i)
       value(Input::state, i)[k + 1] = values[laws.rate[static_cast<std::size_t>(i)]][k] * over;
@@ -77,6 +78,7 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     sine[k + 1] = product(cosine, f.omega, k) * over;
     cosine[k + 1] = -product(sine, f.omega, k) * over;
   }
+  f.ax[N] = 0;
   f.gap_right = turning_gap(f, rig.right, h);
   f.gap_left = turning_gap(f, -rig.left, h);
   f.state_count = laws.states;

@@ -5,6 +5,7 @@
 
 #include "dynamics/contact.hpp"
 #include "dynamics/law_arc.hpp"
+#include "dynamics/law_flight.hpp"
 #include "dynamics/rig.hpp"
 #include "dynamics/roots.hpp"
 
@@ -39,9 +40,7 @@ class Peaks {
       if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
       if (state.sigma != 0) response_.slid_path_m += std::abs(arc.xi.at(tau) - arc.xi[0]);
     }
-    Series<double, N> along = arc.fx;
-    along[0] -= rig.push;
-    observe_acceleration(rig, along, arc.fy, tau);
+    observe_acceleration(rig, arc.fx, arc.fy, tau);
   }
 
   template <int N>
@@ -49,13 +48,33 @@ class Peaks {
     response_.peak_slip_m = max_abs(midpoint(rig, state, arc), tau, response_.peak_slip_m);
     if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
     response_.slid_path_m += arc.path.at(tau) - arc.path[0];
-    Series<double, N> floor_frame = arc.ax;
-    floor_frame[0] -= rig.push;
-    observe_acceleration(rig, floor_frame, arc.fy, tau);
+    observe_acceleration(rig, arc.ax, arc.fy, tau);
   }
 
   template <int N>
-  void observe(const Rig& rig, const Flight<double, N>& flight, double tau) {
+  void observe(const Rig& rig, const State&, const Flight<double, N>& flight, double tau) {
+    observe_flight(rig, flight, tau);
+    observe_acceleration(rig, Series<double, N>::zero(), Series<double, N>::zero(), tau);
+  }
+
+  template <int N>
+  void observe(const Rig& rig, const State&, const LawFlight<N>& flight, double tau) {
+    observe_flight(rig, flight, tau);
+    observe_acceleration(rig, flight.ax, Series<double, N>::zero(), tau);
+  }
+
+  // Would a total acceleration within these bounds be a new peak?
+  bool may_exceed(double a, double v) const {
+    const double peak = response_.peak_acceleration_mps2;
+    return !(a * a + v * v <= peak * peak);
+  }
+
+  Response& response() { return response_; }
+  bool finite() const { return finite_; }
+
+ private:
+  template <int N>
+  void observe_flight(const Rig& rig, const Flight<double, N>& flight, double tau) {
     response_.peak_rotation_rad = max_abs(flight.theta, tau, response_.peak_rotation_rad);
     Series<double, N> u = flight.x;
     const double d = 0.5 * (rig.right - rig.left);
@@ -69,24 +88,14 @@ class Peaks {
     }
     u[0] = midpoint_in_flight(rig, flight.x[0], flight.theta[0]);
     response_.peak_slip_m = max_abs(u, tau, response_.peak_slip_m);
-    response_.peak_acceleration_mps2 = std::fmax(response_.peak_acceleration_mps2, rig.g);  // free fall
   }
 
-  // Would a total acceleration within these bounds be a new peak?
-  bool may_exceed(double a, double v) const {
-    const double peak = response_.peak_acceleration_mps2;
-    return !(a * a + v * v <= peak * peak);
-  }
-
-  Response& response() { return response_; }
-  bool finite() const { return finite_; }
-
- private:
-  // Total acceleration of the centre of mass: (f_x, f_y - g).
+  // Total acceleration of the centre of mass, by the forces on it but gravity: (f_x - g sin(beta), f_y - g cos(beta)), beta
+  // the tilt of the floor.
   template <int N>
-  void observe_acceleration(const Rig& rig, const Series<double, N>& fx, const Series<double, N>& fy, double tau) {
+  void observe_acceleration(const Rig& rig, Series<double, N> fx, Series<double, N> lift, double tau) {
     double bound_x = 0, bound_y = 0;
-    Series<double, N> lift = fy;
+    fx[0] -= rig.push;
     lift[0] -= rig.g;
     for (int k = N; k >= 0; --k) {
       bound_x = bound_x * tau + std::abs(fx[k]);

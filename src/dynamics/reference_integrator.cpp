@@ -221,7 +221,7 @@ class ReferenceIntegrator {
     const double start = life_.cursor.time();
     if (life_.state.mode == Mode::flight)
       with_flight_arc<judge_order>(life_.rig, life_.state, start, floor_,
-                                   [&](const auto& arc) { life_.recorder.record(arc, floor_, start, h); });
+                                   [&](const auto& arc) { life_.recorder.record(life_.state, arc, floor_, start, h); });
     else
       with_contact_arc<judge_order>(life_.rig, life_.state, start, floor_, [&](const auto& arc) {
         life_.recorder.record(life_.state, arc, floor_, start, h);
@@ -244,7 +244,7 @@ class ReferenceIntegrator {
     const double time = life_.cursor.time() + tau;
     if (life_.state.mode == Mode::flight)
       with_flight_arc<2>(life_.rig, life_.state, time, floor,
-                         [&](const auto& arc) { life_.peaks.observe(life_.rig, arc, 0); });
+                         [&](const auto& arc) { life_.peaks.observe(life_.rig, life_.state, arc, 0); });
     else
       with_contact_arc<2>(life_.rig, life_.state, time, floor, [&](const auto& arc) {
         if (life_.state.sigma != 0) life_.state.foot = slip_speed(arc)[0];

@@ -131,11 +131,12 @@ constexpr std::array<Solve, sizeof...(N)> of_each_order(std::integer_sequence<in
 }
 constexpr auto solve = of_each_order(std::make_integer_sequence<int, max_root_order>{});
 
-// Index of the first coefficient that is not zero within the tolerance; order + 1 when there is none.
+// Index of the first coefficient that is not zero within the tolerance, one that is no number included; order + 1 when
+// there is none.
 int leading(const double* c, int order, ZeroTolerance zero) {
   double tolerance = zero.acceleration;
   for (int k = 0; k <= order; ++k) {
-    if (k < zero.level ? c[k] != 0 : std::abs(c[k]) > tolerance) return k;
+    if (k < zero.level ? c[k] != 0 : !(std::abs(c[k]) <= tolerance)) return k;
     if (k >= zero.level) tolerance *= 1000;  // rates of accelerations: over a millisecond
   }
   return order + 1;

@@ -37,20 +37,34 @@ class TaylorIntegrator {
  private:
   template <int M>
   void move_on(const Floor<double, M>& floor) {
-    const State before = life_.state;
-    with_contact_arc<M>(life_.rig, before, life_.cursor.time(), floor, [&](const auto& arc) {
-      double h = step(before.pivot == 0 && flat_exactly_ ? 0.0 : local_error(arc));
-      Found found = first_event(before, arc, h);
-      while (found.tau > shortest_step / p_ && defect(before, arc, floor, found.tau) > defect_allowed) {
-        h = 0.5 * found.tau;
-        found = first_event(before, arc, h);
-      }
-      const double tau = found.tau;
-      if (tau > 0) life_.peaks.observe(life_.rig, before, arc, tau);
-      life_.recorder.record(before, arc, floor, life_.cursor.time(), tau);
-      go_to(life_.state, arc, tau);
-      end_step(found, h);
+    const bool exact = life_.state.pivot == 0 && flat_exactly_;
+    with_contact_arc<M>(life_.rig, life_.state, life_.cursor.time(), floor,
+                        [&](const auto& arc) { step_along(arc, floor, step(exact ? 0.0 : local_error(arc))); });
+  }
+
+  // What turns is seen over a tenth of a radian at most, for the gaps under the corners.
+  void fly_on(const Floor<double, N>& floor) {
+    const double turn = std::abs(life_.state.omega);
+    const double quarter = turn > 0 ? 0.1 / turn : 0.1;
+    with_flight_arc<N>(life_.rig, life_.state, life_.cursor.time(), floor, [&](const auto& flight) {
+      step_along(flight, floor, std::min(step(local_error(flight)), quarter));
     });
+  }
+
+  // Along the series of the state's mode, over h at most, to the first event or as far as the laws follow it.
+  template <class Arc, int M>
+  void step_along(const Arc& arc, const Floor<double, M>& floor, double h) {
+    const State before = life_.state;
+    Found found = first_event(before, arc, h);
+    while (found.tau > shortest_step / p_ && defect(before, arc, floor, found.tau) > defect_allowed) {
+      h = 0.5 * found.tau;
+      found = first_event(before, arc, h);
+    }
+    const double tau = found.tau;
+    if (tau > 0) life_.peaks.observe(life_.rig, before, arc, tau);
+    life_.recorder.record(before, arc, floor, life_.cursor.time(), tau);
+    go_to(life_.state, arc, tau);
+    end_step(found, h);
   }
 
   template <class Arc>
@@ -73,23 +87,19 @@ class TaylorIntegrator {
     const double turn = std::abs(fresh.omega[1] - derivative(arc.omega).at(tau)) / (p_ * alpha_);
     return std::max(slip, turn) * tau / life_.settings.tolerance;
   }
-  template <int M>
-  double defect(const State&, const Arc<double, M>&, const Floor<double, M>&, double) const {
-    return 0;
+  double defect(const State& before, const LawFlight<N>& flight, const Floor<double, N>& floor, double tau) const {
+    State end = before;
+    go_to(end, flight, tau);
+    const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
+    const LawFlight<1> fresh = fly_with_laws<1>(life_.rig, end, life_.cursor.time() + tau, there);
+    const double slip = std::abs(fresh.vx[1] - derivative(flight.vx).at(tau)) / (p_ * size_);
+    const double turn = std::abs(fresh.omega[1] - derivative(flight.omega).at(tau)) / (p_ * alpha_);
+    return std::max(slip, turn) * tau / life_.settings.tolerance;
   }
-
-  void fly_on(const Floor<double, N>& floor) {
-    with_flight_arc<N>(life_.rig, life_.state, life_.cursor.time(), floor, [&](const auto& flight) {
-      const double turn = std::abs(life_.state.omega);
-      const double h = std::min(life_.left(), turn > 0 ? 0.1 / turn : 0.1);
-      FirstEvent first(h);
-      for_each_witness(life_.rig, life_.state, flight, first);
-      const double tau = first.found().tau;
-      life_.peaks.observe(life_.rig, flight, tau);
-      life_.recorder.record(flight, floor, life_.cursor.time(), tau);
-      go_to(life_.state, flight, tau);
-      end_step(first.found(), h);
-    });
+  // The plain block's series know their own error.
+  template <class Arc, int M>
+  double defect(const State&, const Arc&, const Floor<double, M>&, double) const {
+    return 0;
   }
 
   // A step that reached the knot goes to the next segment; an event is resolved where it fell.
@@ -111,11 +121,25 @@ class TaylorIntegrator {
   }
 
   double local_error(const LawArc<N>& arc) const {
-    double states = std::max(std::abs(arc.path[N]), std::abs(arc.deflection[N])) / size_;
+    const double lengths = std::max(std::abs(arc.path[N]), std::abs(arc.deflection[N])) / size_;
+    return std::max(local_error(static_cast<const Arc<double, N>&>(arc)),
+                    std::max(lengths, last_of_states(arc.states)) / power<N>(p_));
+  }
+
+  double local_error(const Flight<double, N>&) const { return 0; }  // polynomials
+
+  double local_error(const LawFlight<N>& flight) const {
+    return std::max({std::abs(flight.theta[N]) / alpha_, std::abs(flight.omega[N]) / (p_ * alpha_),
+                     std::abs(flight.x[N]) / size_, std::abs(flight.vx[N]) / (p_ * size_),
+                     last_of_states(flight.states)}) /
+           power<N>(p_);
+  }
+
+  double last_of_states(const Series<double, N>* states) const {
+    double most = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(life_.rig.laws->states); ++i)
-      states =
-          std::max(states, std::abs(arc.states[i][N]) / (life_.rig.laws->relative_velocity[i] ? p_ * size_ : size_));
-    return std::max(local_error(static_cast<const Arc<double, N>&>(arc)), states / power<N>(p_));
+      most = std::max(most, std::abs(states[i][N]) / (life_.rig.laws->relative_velocity[i] ? p_ * size_ : size_));
+    return most;
   }
 
   template <int M>

@@ -356,10 +356,15 @@ dynamics::Effect effect(const std::string& name, const std::string& friction, co
   if (!friction.empty() && !force.empty()) effect.law += ", force: " + force;
   for (const auto& parameter : parameters)
     effect.parameters.push_back({.name = parameter, .unit = "", .summary = "", .lower = -1e300, .upper = 1e300});
-  if (!friction.empty())
+  if (!friction.empty()) {
+    // The formula stands in the place of mu, but acts as a factor on it: a mu of 0 becomes one that no answer can tell from 0.
+    effect.specimen = [](Specimen& specimen, const dynamics::Parameters&) {
+      if (specimen.friction.mu_s == 0) specimen.friction = {1e-15, 1e-15};
+    };
     effect.friction = [law = Formula(friction, parameters)](const At& at, const dynamics::Parameters& p) {
       return law.record(at, p) / at.mu;
     };
+  }
   if (!force.empty())
     effect.force = [law = Formula(force, parameters)](const At& at, const dynamics::Parameters& p) {
       return law.record(at, p);

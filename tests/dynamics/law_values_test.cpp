@@ -1,0 +1,95 @@
+// Laws that look at the normal force, that have no value, or that differ by direction at rest.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/units.hpp"
+#include "dynamics/laws_by_hand.hpp"
+#include "support/floor_motions.hpp"
+#include "support/solvers.hpp"
+
+namespace freestand::test {
+namespace {
+
+using dynamics::At;
+constexpr double g = standard_gravity_mps2;
+FREESTAND_ON_BOTH_SOLVERS(LawValues);
+
+Specimen block(Model model, std::vector<EffectUse> effects) {
+  return {Block::rectangular(0.5, 1.6, 100), {0.2, 0.2}, {}, model, std::move(effects)};
+}
+
+// On a level floor the weight of a block that does not turn is m g: normal is 1.
+TEST_P(LawValues, AForceMayLookAtTheNormalForce) {
+  const FloorMotion motion = staircase({0.4, 0.5, 0.4}, {3.0, -4.0, 2.5});
+  const auto run = [&](Law force) { return GetParam()(block(Model::slide, {force_law(force)}), {&motion}); };
+  const Response by_weight = run([](const At& at) { return -0.5 * at.normal; });
+  const Response steady = run([](const At& at) { return at.u.tape->constant(-0.5); });
+  EXPECT_EQ(by_weight.peak_slip_m, steady.peak_slip_m);
+  EXPECT_EQ(by_weight.residual_slip_m, steady.residual_slip_m);
+}
+
+// Half of the friction of a slipping corner, written as a force that looks at the normal force and as its moment about the
+// centre of mass: on a corner the normal force depends on the force, and the force on it.
+TEST_P(LawValues, HalfOfTheFrictionMayBeWrittenAsAForce) {
+  const double mu = 0.28, b = 0.2, h = 0.8;
+  for (const double peak : {7.0, 9.0, 12.0}) {
+    const FloorMotion motion = rectangular_pulse(-peak, 0.15);
+    const auto slides_on_a_corner = [&](double share) {
+      const auto friction = [=](const At& at) { return (-share * mu * g) * (at.sigma * at.normal); };
+      const auto turn = [=](const At& at) { return -(h * cos(at.theta) + b * at.side * sin(at.theta)) * friction(at); };
+      Specimen s = block(Model::slide_rock, {law({}, friction, turn)});
+      s.block = Block::rectangular(2 * b, 2 * h, 100);
+      s.friction = {(1 - share) * mu, (1 - share) * mu};
+      Settings settings;
+      settings.free_vibration_s = 0;
+      settings.tolerance = 1e-11;
+      return GetParam()(s, {&motion}, settings);
+    };
+    const Response all = slides_on_a_corner(0), half = slides_on_a_corner(0.5);
+    ASSERT_GT(all.peak_rotation_rad, 0.01);
+    ASSERT_GT(all.slid_path_m, 0.005);
+    EXPECT_NEAR(half.peak_rotation_rad, all.peak_rotation_rad, 1e-9) << peak;
+    EXPECT_NEAR(half.slid_path_m, all.slid_path_m, 1e-9) << peak;
+  }
+}
+
+// Where friction has no value the sample says so: it does not rest for ever.
+TEST_P(LawValues, FrictionWithoutAValueIsAnOutcome) {
+  const FloorMotion motion = rectangular_pulse(3.0, 0.4);
+  const double none = std::nan("");
+  for (const Model model : {Model::slide, Model::slide_rock}) {
+    const auto nowhere = friction_law([none](const At& at) { return at.u.tape->constant(none); });
+    EXPECT_EQ(GetParam()(block(model, {nowhere}), {&motion}).outcome, Outcome::not_finite);
+    const auto no_force = force_law([none](const At& at) { return at.u.tape->constant(none); });
+    EXPECT_EQ(GetParam()(block(model, {no_force}), {&motion}).outcome, Outcome::not_finite);
+  }
+}
+
+// A force that pushes to the right only as the block is about to go there.
+TEST_P(LawValues, RestLooksAtBothDirections) {
+  const FloorMotion motion = rectangular_pulse(-1.5, 0.4);  // mu g = 1.96
+  const auto helped = force_law([](const At& at) { return 0.7 * (at.sigma + 1.0); });
+  const Response still = GetParam()(block(Model::slide, {}), {&motion});
+  ASSERT_EQ(still.outcome, Outcome::at_rest);
+  EXPECT_EQ(GetParam()(block(Model::slide, {helped}), {&motion}).outcome, Outcome::moved);
+}
+
+// Ten thousand knots within a tenth of 1/p are a fine record, not a standstill.
+TEST_P(LawValues, ManyKnotsAreNoStandstill) {
+  FloorMotion fine;
+  fine.degree = 1;
+  const int knots = 30000;
+  const double step = 1e-6;
+  for (int i = 0; i <= knots; ++i) fine.knot_s.push_back(step * i);
+  for (int i = 0; i < knots; ++i) fine.horizontal_mps2.insert(fine.horizontal_mps2.end(), {-6.0, 0.0});
+  Settings settings;
+  settings.free_vibration_s = 1;
+  const Specimen plain = block(Model::slide_rock, {});
+  const auto drag = force_law([](const At& at) { return -0.1 * at.v; });
+  EXPECT_EQ(respond(plain, {&fine}, settings).outcome, Outcome::moved);
+  EXPECT_EQ(respond(block(Model::slide_rock, {drag}), {&fine}, settings).outcome, Outcome::moved);
+}
+
+}  // namespace
+}  // namespace freestand::test
