@@ -25,17 +25,20 @@ const char* failure(Outcome outcome);  // why the computation broke off, in word
 
 struct Response {
   Outcome outcome = Outcome::at_rest;
-  double peak_slip_m = 0;        // max |u|, u = displacement of the base's midpoint relative to the floor
+  double peak_slip_m = 0;  // max |u|, u = displacement of the base's midpoint relative to the floor; of a block that
+                           // overturned without its fall (dynamics/overturned.hpp)
   double residual_slip_m = 0;    // u at the end (signed)
   double slid_path_m = 0;        // integral of |slip speed of the contact|
   double peak_rotation_rad = 0;  // max |theta|
   double residual_rotation_rad = 0;
   double peak_acceleration_mps2 =
-      0;                  // max of the vector sum of the centre of mass's total acceleration, impacts left out
+      0;                           // max of the vector sum of the centre of mass's total acceleration, impacts left out
   bool connection_failed = false;  // of a chain to the wall
-  int impacts = 0;        // rocking impacts and landings
-  int events = 0;         // all mode changes and impacts
-  double end_time_s = 0;  // when the integration could stop: at rest for good, or overturned
+  int impacts = 0;                 // rocking impacts and landings
+  int wall_hits = 0;               // blows of walls
+  double wall_speed_mps = 0;       // largest speed of an edge at such a blow
+  int events = 0;                  // all mode changes and impacts
+  double end_time_s = 0;           // when the integration could stop: at rest for good, or overturned
 };
 
 // One change of mode, for tests, histories and error reports.

@@ -11,6 +11,7 @@
 #include "base/units.hpp"
 #include "dynamics/bouc_wen.hpp"
 #include "dynamics/integration.hpp"
+#include "dynamics/overturned.hpp"
 
 namespace freestand::dynamics {
 
@@ -172,6 +173,12 @@ BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, con
   return fine ? kernels.slide_rock : kernels.slide_rock_coarse;
 }
 
+Response without_fall(Response response, const BatchCase& c) {
+  if (response.outcome == Outcome::overturned)
+    leave_out_fall(response, 0.5 * (c.left + c.right), response.residual_rotation_rad < 0 ? c.left : c.right, c.h, 0);
+  return response;
+}
+
 struct Queue {
   BatchKernel kernel = nullptr;
   std::vector<BatchCase> cases = {};
@@ -201,7 +208,7 @@ class Queues {
         if (declined_[i])
           single.push_back(queue.at[i]);
         else
-          responses[queue.at[i]] = answers_[i];
+          responses[queue.at[i]] = without_fall(answers_[i], queue.cases[i]);
       queue.cases.clear();
       queue.laws.clear();
       queue.at.clear();

@@ -5,7 +5,8 @@
 namespace freestand::dynamics {
 namespace {
 
-enum : std::size_t { stiffness, strength, slack, side, height, half_width };  // forces per mass
+// forces per mass; wall_gap: below 0 where no wall stands
+enum : std::size_t { stiffness, strength, slack, side, height, half_width, wall_gap };
 
 // Displacement of the chain's point towards the side that is held back, less the slack.
 Value stretch(const At& at, const Parameters& p) {
@@ -27,6 +28,10 @@ Value moment(const At& at, const Parameters& p) {
   return (above * cos(at.theta) - across * sin(at.theta)) * force(at, p);
 }
 
+void wall(Walls& walls, const Parameters& p) {
+  if (p[wall_gap] >= 0) walls.stand(p[side] > 0 ? -1 : 1, p[wall_gap], 0);
+}
+
 const Effect& law() {
   static const Effect effect{.name = "chain",
                              .summary = "A chain from the block's top to the wall behind it",
@@ -35,7 +40,8 @@ const Effect& law() {
                              .suspect = "",
                              .parameters = {},
                              .force = force,
-                             .moment = moment};
+                             .moment = moment,
+                             .wall = wall};
   return effect;
 }
 
@@ -44,7 +50,7 @@ const Effect& law() {
 EffectUse use(const Chain& chain, const Block& block) {
   return {&law(),
           {chain.stiffness_npm / block.mass_kg, std::min(chain.strength_n / block.mass_kg, 1e300), chain.slack_m,
-           static_cast<double>(chain.side), chain.height_m, block.half_base_m()}};
+           static_cast<double>(chain.side), chain.height_m, block.half_base_m(), chain.wall_gap_m.value_or(-1)}};
 }
 
 }  // namespace freestand::dynamics

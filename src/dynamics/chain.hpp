@@ -6,20 +6,23 @@
 //        |         |     |           nothing holds any more
 //        |         |_____|       force -s P at the chain's point: it pulls at the block, and turns it
 //
-// z: height of the chain's point over the base, at the block's face towards the wall. Nothing stops the block that moves
-// towards the wall: the effect wall_impact does.
+// z: height of the chain's point over the base, at the block's face towards the wall. A block that moves or tips towards the
+// wall meets it.
 #pragma once
+
+#include <optional>
 
 #include "dynamics/effect.hpp"
 
 namespace freestand::dynamics {
 
 struct Chain {
-  double slack_m = 0;        // >= 0
-  double stiffness_npm = 0;  // N/m
-  double strength_n = 0;     // of the connection; infinity: never fails
-  double height_m = 0;       // z
-  int side = 1;              // +1: holds the block back when it moves to the right
+  double slack_m = 0;                     // >= 0
+  double stiffness_npm = 0;               // N/m
+  double strength_n = 0;                  // of the connection; infinity: never fails
+  double height_m = 0;                    // z
+  int side = 1;                           // +1: holds the block back when it moves to the right
+  std::optional<double> wall_gap_m = {};  // to the wall behind, which gives nothing back; none: no wall is met
 };
 
 // The chain as a law of the equations of motion, at the face of the block as it is given: effects that crush corners or

@@ -50,10 +50,23 @@ struct FloorInput {
   double vertical_scale = 0;  // times the vertical channel
 };
 
-// A wall beside the block, reached when the contact's displacement is `gap_m` (signed: its sign is the side).
+// Upright walls beside the block, one on either side. They push at the edge of its side face that touches, and let it slide
+// along them.
 struct Wall {
-  double gap_m = 0;  // 0: no wall
-  double restitution = 0;
+  bool stands = false;
+  double gap_m = 0;        // from the side face of the upright block where it stands first, >= 0
+  double restitution = 0;  // e: share of the edge's speed that comes back
+};
+struct Walls {
+  Wall right, left;
+
+  const Wall& on(int side) const { return side > 0 ? right : left; }
+  bool any() const { return right.stands || left.stands; }
+  // Of two walls on one side the nearer one is met.
+  void stand(int side, double gap_m, double restitution) {
+    Wall& wall = side > 0 ? right : left;
+    if (!wall.stands || gap_m < wall.gap_m) wall = {true, gap_m, restitution};
+  }
 };
 
 // Legs that let the block sway sideways over its foot: force -(W^2 y + 2 z W y'), y the deflection.
@@ -83,7 +96,7 @@ struct Effect {
   std::function<Value(const At&, const Parameters&)> friction = {};  // F [1]
   std::function<Value(const At&, const Parameters&)> force = {};     // X [m/s2]
   std::function<Value(const At&, const Parameters&)> moment = {};    // T, about the centre of mass [m2/s2]
-  std::function<void(Wall&, const Parameters&)> wall = {};
+  std::function<void(Walls&, const Parameters&)> wall = {};
   std::function<void(Legs&, const Parameters&)> legs = {};
   std::function<double(const Parameters&)> carried_mass = {};  // M, share of the mass that the block carries sideways
   std::vector<OwnState> states = {};

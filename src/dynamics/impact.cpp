@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "dynamics/law_arc.hpp"
+#include "dynamics/wall.hpp"
 
 namespace freestand::dynamics {
 namespace {
@@ -85,6 +86,22 @@ void stay_flat(const Grip& grip, State& state, double vx, double vy) {
     state.w = sigma * std::fmax(speed - grip.mu_k(sigma) * push, 0.0);
 }
 
+// A block that comes down flat, fast across, lands on the corner ahead alone and turns over it, where the floor would have
+// to pull at the other one for it to stay flat.
+bool tips(const Grip& grip, State& state, const Velocity& before) {
+  const Rig& rig = grip.rig;
+  if (!rig.can_rock || before.vx == 0) return false;
+  const int ahead = before.vx > 0 ? 1 : -1;
+  const Arm r = arm(rig, ahead, 0.0);
+  Velocity after{};
+  double w = 0;
+  if (!plastic(grip, r, before, after, w) || !(after.omega * ahead > 0)) return false;
+  state.pivot = ahead;
+  state.omega = after.omega;
+  state.w = w;
+  return true;
+}
+
 // Housner's ratio of the rates after and before an impact in which `from` gives over to `to`.
 double kept_rate(const Rig& rig, int from, int to) {
   const double kept =
@@ -113,6 +130,7 @@ bool strike(const Rig& rig, State& state, double time) {
   const int old_pivot = state.pivot, new_pivot = -state.pivot;
   const double omega = state.omega;
   state.theta = 0;
+  state.wall = 0;
   if (state.w == 0 && rig.hop_rotation(new_pivot, omega) < rig.rest_rotation) {
     state.omega = 0;
   } else if (rig.impact.law == ImpactLaw::housner) {
@@ -142,10 +160,13 @@ bool land(const Rig& rig, State& state, int pivot, double time) {
   const Velocity before{state.vx, state.vy, state.omega};
   const bool flat = state.theta == 0 && state.omega == 0;
   const Arm r = flat ? Arm{} : arm(rig, pivot, state.theta);
+  state.mode = flat ? Mode::slide : Mode::slide_rock;
+  state.wall = 0;
   state.pivot = flat ? 0 : pivot;
   state.xi = flat ? state.x : state.x - r.rx - rig.offset(pivot);
   state.w = slip(r, before);
   const Grip friction = grip(rig, state, time);
+  if (flat && tips(friction, state, before)) return true;
   if (flat) {
     stay_flat(friction, state, before.vx, before.vy);
     return true;
@@ -153,6 +174,91 @@ bool land(const Rig& rig, State& state, int pivot, double time) {
   Velocity after{};
   if (!plastic(friction, r, before, after, state.w)) return false;
   state.omega = after.omega;
+  return true;
+}
+
+namespace {
+
+// A push at height l over the centre of mass that changes the speed there by dv, of a block on a corner that it lifts.
+bool lifts(const Rig& rig, State& state, const Arm& r, const Velocity& before, double l, double dv) {
+  const double M = rig.carried_mass(), push = dv / (1 / M + l * l / rig.k2), turn = l * push / rig.k2;
+  if (!rig.can_slip || !(r.rx * turn > 0)) return false;
+  state.x = rig.offset(state.pivot) + state.xi + r.rx;
+  state.y = r.ry;
+  state.vx = before.vx + push / M;
+  state.vy = before.vy;
+  state.omega = before.omega + turn;
+  state.mode = Mode::flight;
+  state.pivot = state.sigma = 0;
+  return true;
+}
+
+// The corner carries the push: it sticks, or slips with friction. `speed`: of the edge after it, along x.
+bool carries(const Grip& grip, State& state, const Arm& r, const Velocity& before, const EdgeNow& edge, double speed,
+             double dv) {
+  const double M = grip.rig.carried_mass(), k2 = grip.rig.k2, l = edge.height - r.ry;
+  int first = state.w < 0 ? -1 : 1;
+  if (edge.height > 0) {
+    const Velocity after = at_centre(r, 0.0, speed / edge.height);
+    const double along = M * (after.vx - before.vx), py = after.vy - before.vy;
+    const double push = (k2 * (after.omega - before.omega) - r.rx * py + r.ry * along) / edge.height;
+    const double px = along - push;
+    first = px < 0 ? 1 : -1;
+    if (!grip.rig.can_slip || std::abs(px) <= grip.mu_s(first) * py) {
+      state.omega = after.omega;
+      state.w = 0;
+      return true;
+    }
+  }
+  for (const int sigma : {first, -first}) {
+    const double sigma_mu = sigma * grip.mu_k(sigma);
+    const double d = k2 + r.rx * (r.rx + sigma_mu * r.ry) + l * (M * l + sigma_mu * r.rx);
+    if (!(d > 0)) continue;
+    const double turn = l * M * dv / d, w = speed - edge.height * (before.omega + turn);
+    if (-r.rx * turn >= 0 && sigma * w >= 0) {
+      state.omega = before.omega + turn;
+      state.w = w;
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+bool strike_wall(const Rig& rig, State& state, int side, Edge edge, double time, double& speed) {
+  const Wall& wall = rig.laws->walls.on(side);
+  const bool aloft = state.mode == Mode::flight;
+  const bool upright = state.theta == 0 && state.omega == 0;
+  const EdgeNow now = edge_now(rig, state, side, edge);
+  speed = std::fmax(now.speed, 0.0);
+  if (now.speed <= -rig.slow()) return true;
+  const bool stays = wall.restitution * speed < rig.slow();
+  const double after = stays ? 0.0 : -side * wall.restitution * speed, dv = after - side * now.speed;
+  (aloft ? state.x : state.xi) += side * now.gap;  // known to the accuracy of the step
+  state.wall = stays ? side : 0;
+  state.released = false;
+  state.edge = upright ? Edge::face : edge;
+  if (upright) {
+    (aloft ? state.x : state.xi) = side * wall.gap_m;
+    (aloft ? state.vx : state.w) = after;
+    state.foot = state.w;
+    if (!aloft) state.wall = 0;
+  } else if (!aloft && std::abs(dv) < rig.slow()) {
+    if (state.w == 0) state.omega = 0;
+    state.w = state.foot = -now.height * state.omega;
+  } else if (aloft) {
+    const double M = rig.carried_mass(), push = dv / (1 / M + now.height * now.height / rig.k2);
+    state.vx += push / M;
+    state.omega += now.height * push / rig.k2;
+  } else {
+    const Arm r = arm(rig, state.pivot, state.theta);
+    const Velocity before = at_centre(r, state.w, state.omega);
+    if (!lifts(rig, state, r, before, now.height - r.ry, dv) &&
+        !carries(grip(rig, state, time), state, r, before, now, after, dv))
+      return false;
+    if (state.mode != Mode::flight) state.foot = state.w;
+  }
   return true;
 }
 

@@ -24,4 +24,10 @@ bool strike(const Rig& rig, State& state, double time);
 // law: Housner's law says nothing of a landing. Sets pivot's xi, w, omega. False: Painleve's paradox.
 bool land(const Rig& rig, State& state, int pivot, double time);
 
+// An edge of the side face reaches a wall: by the wall's push at that edge it comes back with e times its speed. A slow one
+// stays at the wall. On the corner that carries acts a plastic impulse with Coulomb friction; it lifts where the floor would
+// have to pull, and then the block is in flight. An upright block is pushed along its whole face, and stays upright.
+// speed: at which the edge came [m/s]. False: Painleve's paradox.
+bool strike_wall(const Rig& rig, State& state, int side, Edge edge, double time, double& speed);
+
 }  // namespace freestand::dynamics

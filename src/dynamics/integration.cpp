@@ -1,6 +1,7 @@
 #include "dynamics/integration.hpp"
 
 #include "dynamics/impact.hpp"
+#include "dynamics/overturned.hpp"
 
 namespace freestand::dynamics {
 namespace {
@@ -51,8 +52,7 @@ Rig::AtRest Integration::laws_at_rest() const {
   if (!rig.laws) return {};
   const LawValues left = law_values(rig, state, cursor.time(), -1);
   const LawValues right = law_values(rig, state, cursor.time(), 1);
-  const bool constant =
-      !rig.laws->uses(Input::t) && state.wall == 0 && (!rig.laws->uses(Input::normal) || shaking.vertical_scale == 0);
+  const bool constant = !rig.laws->uses(Input::t) && (!rig.laws->uses(Input::normal) || shaking.vertical_scale == 0);
   return {std::max(std::abs(left.force), std::abs(right.force)),
           std::max(std::abs(left.moment), std::abs(right.moment)), std::min(left.factor, right.factor),
           constant && left.finite() && right.finite()};
@@ -91,6 +91,13 @@ void Integration::wait() {
 void Integration::left_instant() {
   state.doubt = 1;
   state.turned_kink = state.held_kink = -1;
+  if (state.released) state.wall = 0;
+  state.released = false;
+  if (!state.at_wall()) return;
+  // Steps keep the edge at the wall to their own accuracy: it is put back.
+  const bool aloft = state.mode == Mode::flight;
+  if (aloft && state.edge == Edge::face) return lie_against(state.wall);
+  (aloft ? state.x : state.xi) += state.wall * edge_now(rig, state, state.wall, state.edge).gap;
 }
 
 // A kink that turns twice at one instant is left as it is until the next step.
@@ -102,14 +109,49 @@ void Integration::turn_kink(int kink) {
   state.turned_kink = kink;
 }
 
-// The wall throws the block back; one that comes slowly stays at it, and the wall takes what presses it there.
-void Integration::reach_wall() {
-  const Wall& wall = rig.laws->wall;
-  const double speed = wall.restitution * state.w;
-  state.xi = wall.gap_m;
-  state.w = speed * speed / (2 * rig.g) < rig.rest_height ? 0.0 : -speed;
-  state.foot = state.w;
-  if (state.w == 0) state.wall = state.sigma;
+bool Integration::meet_wall(int side, Edge edge) {
+  double speed = 0;
+  if (!strike_wall(rig, state, side, edge, cursor.time(), speed)) return false;
+  if (speed < rig.told_speed) return true;
+  ++peaks.response().wall_hits;
+  peaks.response().wall_speed_mps = std::max(peaks.response().wall_speed_mps, speed);
+  return true;
+}
+
+// What a blow has turned towards a wall that it touches meets that wall at once. Of a side face that comes flat each edge
+// throws the other one at the wall, ever more slowly, until it lies against it.
+bool Integration::meet_walls_too() {
+  constexpr int blows_of_a_face = 20;
+  for (const int side : sides(state)) {
+    if (!rig.laws->walls.on(side).stands) continue;
+    bool met = true;
+    for (int pass = 0; met && pass < blows_of_a_face; ++pass) {
+      met = false;
+      for (const Edge edge : {Edge::upper, Edge::lower}) {
+        const EdgeNow now = edge_now(rig, state, side, edge);
+        const bool stays = state.at_wall() && state.wall == side && (state.edge == edge || state.edge == Edge::face);
+        if (!is_next_to(edge, side) || stays || now.gap > touching(rig) || now.speed <= -rig.slow()) continue;
+        if (!meet_wall(side, edge)) return false;
+        met = true;
+      }
+    }
+    if (met && state.mode == Mode::flight) lie_against(side);
+  }
+  return true;
+}
+
+// In flight either edge may meet the wall, on the floor the one next to it.
+bool Integration::is_next_to(Edge edge, int side) const {
+  if (state.mode == Mode::flight) return true;
+  return state.pivot == 0 ? edge == Edge::lower : edge == touching_edge(state.pivot, side);
+}
+
+void Integration::lie_against(int side) {
+  state.theta = state.omega = state.vx = 0;
+  state.x = side * rig.laws->walls.on(side).gap_m;
+  state.wall = side;
+  state.edge = Edge::face;
+  state.released = false;
 }
 
 // Contents on springs keep their own velocity when the block's changes at once.
@@ -122,6 +164,9 @@ void Integration::keep_contents_velocity(double speed_before) {
 // Another event may fall on the very instant of a stop, or of an impact.
 void Integration::stop_slip() {
   if (!rig.laws || rig.laws->legs.frequency_radps == 0) state.w = 0;
+  // An edge of a leaning block that is not at the floor itself stops with the slip.
+  const bool leans = state.pivot != 0 && state.at_wall();
+  if (leans && edge_now(rig, state, state.wall, state.edge).height > 1e-6 * rig.top) state.omega = 0;
   state.foot = 0;
 }
 
@@ -149,17 +194,16 @@ void Integration::resolve(Witness witness) {
     case Witness::slipping:
       stop_slip();
       break;
-    case Witness::clear:
-      reach_wall();
-      impact = true;
-      break;
     case Witness::upright:
       state.mode = Mode::overturned;
       chose(from, false);
       return stop(Outcome::overturned);
     default:
+      if (is_clearance(witness)) {
+        impact = true;
+        regular = meet_wall(at_wall(witness).side, at_wall(witness).edge);
+      }
       if (is_kink(witness)) turn_kink(static_cast<int>(witness) - static_cast<int>(Witness::kink));
-      if (state.mode == Mode::flight) return chose(from, false);  // a bent law leaves the block in the air
       break;
   }
   if (is_kink(witness) && state.sigma * slip_speed(rig, state) <= 0) stop_slip();
@@ -167,13 +211,16 @@ void Integration::resolve(Witness witness) {
     impact = true;
     regular = strike(rig, state, cursor.time());
   }
+  if (impact && regular && rig.laws && rig.laws->walls.any()) regular = meet_walls_too();
   if (impact && rig.laws) keep_contents_velocity(speed_before);
   if (!regular || !choose_mode(rig, cursor, state))
-    return stop(laws_have_values() ? Outcome::painleve : Outcome::not_finite);
+    return stop(forces_have_values() ? Outcome::painleve : Outcome::not_finite);
   chose(from, impact);
 }
 
-bool Integration::laws_have_values() const {
+bool Integration::forces_have_values() const {
+  const Floor<double, max_floor_degree> floor = cursor.local<max_floor_degree>();
+  if (!std::isfinite(floor.a[0]) || !std::isfinite(floor.g[0])) return false;
   return !rig.laws ||
          (law_values(rig, state, cursor.time(), -1).finite() && law_values(rig, state, cursor.time(), 1).finite());
 }
@@ -182,8 +229,9 @@ void Integration::chose(const State& from, bool impact) {
   const bool news = impact || from.mode != state.mode || from.pivot != state.pivot || from.sigma != state.sigma;
   if (news) recorder.event(cursor.time(), from.mode, state, impact);
   if (state.mode != Mode::rest) moved_ = true;
-  if (state.sigma * state.wall < 0 || state.mode == Mode::flight) state.wall = 0;
   if (news) rest_since_ = cursor.time();
+  if (from.mode != Mode::flight) took_off_from_ = state.x;
+  if (from.mode == Mode::flight && state.mode != Mode::flight) flown_ += std::abs(from.x - took_off_from_);
   peaks.response().events += news;
   if (++resolved_ >= settings.event_limit && !finished_) stop(Outcome::step_limit);
 }
@@ -206,12 +254,17 @@ void Integration::stop_when_done() {
   }
   if (!cursor.motion_over()) return;
   const bool out_of_time = cursor.time() >= shaking.duration_s() + settings.free_vibration_s;
-  if (settles() || out_of_time) stop(moved_ ? Outcome::moved : Outcome::at_rest);
+  if (settles() || leans_for_good() || out_of_time) stop(moved_ ? Outcome::moved : Outcome::at_rest);
 }
 
 bool Integration::settles() const {
   if (state.mode != Mode::rest) return false;
   return waits() || cursor.time() >= std::fmax(rest_since_, shaking.duration_s()) + rig.laws->settling_s;
+}
+
+// On a floor that does not move, and with laws that do not change.
+bool Integration::leans_for_good() const {
+  return state.at_wall() && state.mode == Mode::rock && !rig.laws->evolve_at_rest() && !rig.laws->uses(Input::t);
 }
 
 double Integration::slip() const {
@@ -230,6 +283,8 @@ Response Integration::result() {
   response.residual_rotation_rad = state.theta;
   response.end_time_s = cursor.time();
   response.connection_failed = rig.laws && rig.laws->broken(state.sides);
+  if (outcome_ == Outcome::overturned)
+    leave_out_fall(response, rig.half_base(), rig.offset(state.theta < 0 ? -1 : 1), rig.h, flown_);
   if (outcome_ == Outcome::at_rest || outcome_ == Outcome::moved || outcome_ == Outcome::overturned)
     recorder.hold(state, response.residual_slip_m, shaking.duration_s(), shaking);
   return response;

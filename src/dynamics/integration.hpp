@@ -48,6 +48,7 @@ void go_to(State& state, const Flight<double, N>& flight, double tau) {
 template <int N>
 void go_to(State& state, const LawFlight<N>& flight, double tau) {
   go_to(state, static_cast<const Flight<double, N>&>(flight), tau);
+  state.deflection = flight.deflection.at(tau);
   for (int i = 0; i < flight.state_count; ++i) state.states[i] = flight.states[i].at(tau);
 }
 
@@ -87,17 +88,22 @@ class Integration {
  private:
   double slip() const;
   void turn_kink(int kink);
-  void reach_wall();
+  bool meet_wall(int side, Edge edge);
+  bool meet_walls_too();
+  bool is_next_to(Edge edge, int side) const;
+  void lie_against(int side);
   void keep_contents_velocity(double speed_before);
   void stop_slip();
   Rig::AtRest laws_at_rest() const;
-  bool laws_have_values() const;
+  bool forces_have_values() const;
   bool strikes_too() const;
+  bool leans_for_good() const;
   bool settles() const;  // at rest, for so long that nothing on it can move it any more
 
   bool finished_ = false;
   bool moved_ = false;
-  double rest_since_ = 0;  // [s]
+  double rest_since_ = 0;                 // [s]
+  double took_off_from_ = 0, flown_ = 0;  // of the centre of mass, in the last flight and in all [m]
   double p_, watched_from_ = 0;
   std::size_t watched_segment_ = 0;
   int steps_ = 0;

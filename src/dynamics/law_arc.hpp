@@ -10,12 +10,17 @@
 //               stuck: y' = w and f_x = -(W^2 y + 2 z W w);  slipping: f_x = -sigma mu F f_y and y' follows from the legs.
 //               (k^2 + r_x^2) theta'' = r_x (g' - r_y omega^2) - r_y f_x + T when stuck
 //   then        w' = (f_x + X)/M - a - r_y theta'' + r_x omega^2
+//   leaning     an edge at height e stays at a wall, w + e omega = 0, whose push adds X_w to X and l X_w to T, l = e - r_y:
+//               stuck: nothing moves, e X_w = r_y (M a - X) - r_x g' - T;
+//               slipping: (k^2 + r_x q + l (M l + sigma mu F r_x)) theta'' = n q + T + l A,  X_w = A - (M l + sigma mu F r_x) theta'',
+//               A = M (a - r_x omega^2 - e' omega) - X + sigma mu F n
 #pragma once
 
 #include <limits>
 
 #include "dynamics/contact.hpp"
 #include "dynamics/rig.hpp"
+#include "dynamics/wall.hpp"
 
 namespace freestand::dynamics {
 
@@ -30,6 +35,9 @@ struct LawArc : Arc<double, N> {
   Series<double, N> states[max_states];       // of the effects' own: `state_count` of them
   int state_count;
   Series<double, N> kink[max_kinks];  // arguments, positive on the present side
+  // With walls only.
+  Series<double, N> right_gap, left_gap;  // between the wall there and the edge next to it [m]
+  Series<double, N> wall_push;            // of the wall that the block leans on [m/s2]
 };
 
 template <int N>
@@ -41,6 +49,7 @@ class LawStep {
         state_(state),
         floor_(floor),
         turns_(state.pivot != 0),
+        leans_(turns_ && state.at_wall()),
         pivot_(turns_ ? state.pivot : 1),
         body_(rig.corner(pivot_)),
         legs_(laws_.legs.frequency_radps > 0) {
@@ -82,6 +91,7 @@ class LawStep {
     if (turns_) {
       const double c = body_.c, h = body_.h, to_angle = 1 / (h * h + c * c), B = state_.pivot * rig_.half_base();
       sine_[k] = (h * y_.rx[k] + c * y_.ry[k]) * to_angle;
+      cosine_[k] = (h * y_.ry[k] - c * y_.rx[k]) * to_angle;
       const double half = std::sin(0.5 * state_.theta);
       u[k] += B * (k == 0 ? 2 * half * half : -(h * y_.ry[k] - c * y_.rx[k]) * to_angle);
       v[k] += B * product(sine_, y_.omega, k);
@@ -89,26 +99,32 @@ class LawStep {
     value(Input::theta)[k] = y_.theta[k];
     value(Input::omega)[k] = y_.omega[k];
     value(Input::path)[k] = y_.path[k];
-    // Stages of a step that reaches over the end of a slip may ask for a speed below zero, where laws mean nothing.
-    value(Input::speed)[k] = state_.sigma * state_.w < 0 ? 0.0 : state_.sigma * y_.w[k];
+    // Stages of a step that reaches over the end of a slip may ask for a speed below zero, where laws mean nothing. Under legs
+    // it is the foot that slips: act() finds its speed.
+    if (!legs_) value(Input::speed)[k] = state_.sigma * state_.w < 0 ? 0.0 : state_.sigma * y_.w[k];
     for (int i = 0; i < laws_.states; ++i) y_.states[i][k] = value(Input::state, i)[k];
   }
 
-  // On a corner laws may depend on the normal force, which depends on them. Its leading coefficient solves an equation, by
-  // the secant method; the higher ones enter linearly.
+  // x with miss(x) = 0, from a guess, by the secant method. Of order 0 an equation; higher orders enter linearly.
+  template <class Miss>
+  double solved(int k, double guess, Miss&& miss) {
+    double x = guess, missed = miss(x), next = x + missed;
+    for (int i = 0; i < (k == 0 ? 30 : 1) && next != x; ++i) {
+      const double missed_next = miss(next), slope = (missed_next - missed) / (next - x);
+      x = next, missed = missed_next;
+      if (slope != 0) next = x - missed / slope;
+      if (std::abs(next - x) <= 1e-16 * std::abs(next)) break;
+    }
+    return std::abs(miss(next)) <= found * (1 + std::abs(next)) ? next : undefined;
+  }
+
+  // On a corner laws may depend on the normal force, which depends on them.
   void forces(int k) {
     const double guess = y_.n[k] / standard_gravity_mps2;
-    double miss = act(k, guess);
-    if (!(turns_ && laws_see_the_normal_force())) return;
-    double normal = guess, next = guess + (miss != 0 ? miss : 0.0);
-    for (int i = 0; i < (k == 0 ? 30 : 1) && next != normal; ++i) {
-      const double miss_next = act(k, next);
-      const double slope = (miss_next - miss) / (next - normal);
-      normal = next, miss = miss_next;
-      if (slope != 0) next = normal - miss / slope;
-      if (std::abs(next - normal) <= 1e-16 * std::abs(next)) break;
-    }
-    if (!(std::abs(act(k, next)) <= normal_found * (1 + std::abs(next)))) y_.alpha[k] = y_.fy[k] = undefined;
+    if (turns_ && laws_see_the_normal_force())
+      act(k, solved(k, guess, [&](double normal) { return act(k, normal) - normal; }));
+    else
+      act(k, guess);
   }
 
   bool laws_see_the_normal_force() const {
@@ -116,15 +132,28 @@ class LawStep {
     return looks(laws_.force) || looks(laws_.moment) || (state_.sigma != 0 && looks(laws_.friction));
   }
 
-  // Laws, contact forces and accelerations of order k for a normal force [m g]; by how much the one that comes out differs.
+  // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
   double act(int k, double normal) {
     value(Input::normal)[k] = normal;
     laws_.tape.advance(input_count, laws_.forces_end, k, state_.sides, values_);
     force_[k] = laws_.force < 0 ? 0.0 : values_[laws_.force][k];
     if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
-    if (state_.sigma != 0 && laws_.friction >= 0) factor_[k] = factor_from_tape(k);
-    state_.sigma == 0 ? stuck(k) : slipping(k);
-    return y_.fy[k] / standard_gravity_mps2 - normal;
+    if (state_.sigma == 0)
+      stuck(k);
+    else if (legs_ && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::speed))
+      slip_of_foot(k, solved(k, k == 0 ? std::fmax(state_.sigma * state_.foot, 0.0) : 0.0,
+                             [&](double speed) { return slip_of_foot(k, speed) - speed; }));
+    else
+      slip_of_foot(k, value(Input::speed)[k]);
+    return y_.fy[k] / standard_gravity_mps2;
+  }
+
+  // The slip at a speed of order k that the laws see; the speed that comes out.
+  double slip_of_foot(int k, double speed) {
+    value(Input::speed)[k] = speed;
+    if (laws_.friction >= 0) factor_[k] = factor_from_tape(k);
+    slipping(k);
+    return state_.sigma * y_.foot[k];
   }
 
   // theta'' D = numerator, D[0..k] known.
@@ -134,6 +163,7 @@ class LawStep {
   }
 
   void stuck(int k) {
+    if (leans_) return lean_stuck(k);
     const double M = laws_.carried_mass;
     const double leg_force = legs_ ? -(square(W()) * y_.deflection[k] + 2 * z() * W() * y_.w[k]) : 0.0;
     if (!turns_) {
@@ -153,6 +183,41 @@ class LawStep {
     deflection_rate_ = legs_ ? y_.w[k] : 0.0;
   }
 
+  // Height of the edge at the wall, over the floor and over the centre of mass, and what the wall would push if the block
+  // did not turn and nothing rubbed.
+  void reach(int k) {
+    const EdgeLever lever = lever_over_corner(rig_, pivot_, state_.wall, state_.edge);
+    edge_[k] = lever.height(sine_, cosine_, k);
+    edge_rate_[k] = lever.height_rate(sine_, cosine_, y_.omega, k);
+    over_centre_[k] = edge_[k] - y_.ry[k];
+    pushed_[k] =
+        laws_.carried_mass * (floor_.a[k] - product(y_.rx, omega2_, k) - product(edge_rate_, y_.omega, k)) - force_[k];
+  }
+
+  void lean_stuck(int k) {
+    reach(k);
+    const double push = (y_.ry[0] * pushed_[k] - y_.rx[0] * floor_.g[k] - y_.moment[k]) / edge_[0];
+    y_.alpha[k] = 0;
+    y_.fy[k] = y_.n[k];
+    y_.fx[k] = pushed_[k] - push;
+    y_.ax[k] = floor_.a[k];
+    acceleration_ = y_.foot[k] = deflection_rate_ = 0;
+    y_.wall_push[k] = -state_.wall * push;
+  }
+
+  // After q and the friction factor are known to order k.
+  void lean_slipping(int k, double sigma_mu) {
+    friction_[k] = sigma_mu * factor_[k];
+    reach(k);
+    pushed_[k] += product(friction_, y_.n, k);
+    const double M = laws_.carried_mass;
+    inertia_[k] = M * over_centre_[k] + product(friction_, y_.rx, k);
+    y_.d[k] += product(over_centre_, inertia_, k);
+    y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k] + product(over_centre_, pushed_, k), y_.d, k);
+    wall_force_ = pushed_[k] - product(inertia_, y_.alpha, k);
+    y_.wall_push[k] = -state_.wall * wall_force_;
+  }
+
   // Acceleration of the centre of mass, the floor's included, that is not w'.
   double own_acceleration(int k) const {
     if (!turns_) return floor_.a[k];
@@ -162,7 +227,7 @@ class LawStep {
   void slipping(int k) {
     apply_factor(k);
     const double M = laws_.carried_mass;
-    y_.ax[k] = (y_.fx[k] + force_[k]) / M;
+    y_.ax[k] = (y_.fx[k] + force_[k] + wall_force_) / M;
     acceleration_ = y_.ax[k] - own_acceleration(k);
     deflection_rate_ = legs_ ? (-y_.fx[k] - square(W()) * y_.deflection[k]) / (2 * z() * W()) : 0.0;
     y_.foot[k] = y_.w[k] - deflection_rate_;
@@ -178,7 +243,10 @@ class LawStep {
     } else {
       q_[k] = y_.rx[k] + sigma_mu * product(factor_, y_.ry, k);
       y_.d[k] = product(y_.rx, q_, k) + (k == 0 ? body_.k2 : 0.0);
-      y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k], y_.d, k);
+      if (leans_)
+        lean_slipping(k, sigma_mu);
+      else
+        y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k], y_.d, k);
       y_.fy[k] = y_.n[k] - product(y_.rx, y_.alpha, k);
     }
     y_.fx[k] = -sigma_mu * product(factor_, y_.fy, k);
@@ -206,6 +274,7 @@ class LawStep {
   void finish() {
     finish_arc(y_);
     y_.ax[N] = y_.foot[N] = 0;
+    if (laws_.walls.any()) gaps();
     for (int i = 0; i < laws_.states; ++i) y_.states[i][N] = value(Input::state, i)[N];
     y_.limit_right = limit(-1);
     y_.limit_left = limit(+1);
@@ -217,6 +286,18 @@ class LawStep {
       if (state_.turned_kink == j) y_.kink[j][0] = 0;
       if (laws_.tape.latched(j, state_.sides)) y_.kink[j] = Series<double, N>::zero();
     }
+  }
+
+  void gaps() {
+    if (!turns_) sine_ = Series<double, N>::zero(), cosine_ = sine_, cosine_[0] = 1;
+    const double c = body_.c, h = body_.h, to_angle = 1 / (h * h + c * c);
+    if (turns_)
+      sine_[N] = (h * y_.rx[N] + c * y_.ry[N]) * to_angle, cosine_[N] = (h * y_.ry[N] - c * y_.rx[N]) * to_angle;
+    for (const int side : {1, -1}) {
+      const EdgeLever lever = lever_over_corner(rig_, pivot_, side, touching_edge(state_.pivot, side));
+      (side > 0 ? y_.right_gap : y_.left_gap) = clearance(laws_.walls.on(side), side, lever, y_.xi, sine_, cosine_);
+    }
+    y_.wall_push[N] = 0;
   }
 
   // Largest friction against a slip in direction sigma that is about to begin.
@@ -237,8 +318,8 @@ class LawStep {
   double z() const { return laws_.legs.damping; }
 
   static constexpr double foot_zero = 1e-10;  // [m/s]
-  // A normal force that the secant method leaves further off than this, over its own size, is none: laws have no value.
-  static constexpr double normal_found = 1e-10;
+  // What the secant method leaves further off than this, over its own size, is not found: laws have no value.
+  static constexpr double found = 1e-10;
   static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
   const Rig& rig_;
@@ -246,13 +327,15 @@ class LawStep {
   const State& state_;
   const Floor<double, N>& floor_;
   bool turns_;  // on one corner
+  bool leans_;  // and an edge at a wall
   int pivot_;
   Corner<double> body_;
   bool legs_;
   LawArc<N> y_;
   Series<double, N> values_[max_nodes];
-  Series<double, N> omega2_, sine_, force_, factor_, load_, inertia_, q_;
-  double acceleration_ = 0, deflection_rate_ = 0;
+  Series<double, N> omega2_, sine_, cosine_, force_, factor_, load_, inertia_, q_;
+  Series<double, N> edge_, edge_rate_, over_centre_, pushed_, friction_;  // leaning
+  double acceleration_ = 0, deflection_rate_ = 0, wall_force_ = 0;
 };
 
 // The laws at one instant of contact, the weight on a still floor as normal force and |w| as slip speed: in a blow, and at
@@ -279,7 +362,7 @@ inline LawValues law_values(const Rig& rig, const State& state, double time, int
   set(Input::sigma, sigma);
   set(Input::speed, std::abs(state.w));
   for (int i = 0; i < laws.states; ++i) values[static_cast<int>(Input::state) + i][0] = state.states[i];
-  laws.tape.advance(input_count, laws.friction_end, 0, state.sides, values);
+  laws.sides_at(values, state.sides);
   const auto value = [&](int node, double without) { return node < 0 ? without : values[node][0]; };
   return {value(laws.force, 0), value(laws.moment, 0), value(laws.friction, 1)};
 }

@@ -1,19 +1,26 @@
 // Flight with effects: the added force and moment act on, friction does not.
 //
 //   x'' = -a + X/M,   y'' = -g',   k^2 theta'' = T;   u = x + d (cos(theta) - 1) - h sin(theta), d = (b_r - b_l)/2
+//
+// An edge that stays at a wall, l over the centre of mass: x' + l omega = 0, and the push X_w of the wall adds to X, l X_w to T.
+//   (1/M + l^2/k^2) X_w = a - X/M - l T/k^2 - l' omega;  an upright block's whole face: X_w = M a - X, theta'' = 0
 #pragma once
 
 #include "dynamics/contact.hpp"
 #include "dynamics/rig.hpp"
+#include "dynamics/wall.hpp"
 
 namespace freestand::dynamics {
 
 template <int N>
 struct LawFlight : Flight<double, N> {
-  Series<double, N> ax;  // absolute horizontal acceleration of the centre of mass [m/s2]
+  Series<double, N> ax;          // absolute horizontal acceleration of the centre of mass [m/s2]
+  Series<double, N> deflection;  // of the legs, whose foot has no mass: no force, W^2 y + 2 z W y' = 0 [m]
   Series<double, N> states[max_states];
   int state_count;
   Series<double, N> kink[max_kinks];
+  Series<double, N> right_gap[2], left_gap[2];  // between the walls and the lower and upper edges next to them [m]
+  Series<double, N> wall_push;                  // of the wall at which an edge stays [m/s2]
 };
 
 // Height of a corner over the floor, in the very terms of its state in contact: at take-off it and its rate are zero.
@@ -33,12 +40,74 @@ Series<double, N> turning_gap(const LawFlight<N>& f, double c, double h) {
   return gap;
 }
 
+// Push of the wall at which an edge stays.
+template <int N>
+class PushInFlight {
+ public:
+  PushInFlight(const Rig& rig, const State& state)
+      : rig_(rig), side_(state.at_wall() ? state.wall : 0), face_(state.edge == Edge::face) {
+    if (side_ != 0) lever_ = lever_over_centre(rig, side_, state.edge);
+  }
+
+  // Adds its part of order k to the accelerations `pull` and `turn` of the block.
+  void add(LawFlight<N>& f, const Series<double, N>& sine, const Series<double, N>& cosine,
+           const Series<double, N>& floor, int k, double& pull, double& turn) {
+    if (side_ == 0) return;
+    const double M = rig_.carried_mass();
+    over_centre_[k] = lever_.height(sine, cosine, k);
+    rate_[k] = lever_.height_rate(sine, cosine, f.omega, k);
+    if (face_) {
+      push_[k] = M * (floor[k] - pull);
+      turn = 0;
+    } else {
+      turn_[k] = turn;
+      yield_[k] = product(over_centre_, over_centre_, k) / rig_.k2 + (k == 0 ? 1 / M : 0.0);
+      double numerator = floor[k] - pull - product(over_centre_, turn_, k) - product(rate_, f.omega, k);
+      for (int i = 1; i <= k; ++i) numerator -= yield_[i] * push_[k - i];
+      push_[k] = numerator / yield_[0];
+      turn += product(over_centre_, push_, k) / rig_.k2;
+    }
+    pull += push_[k] / M;
+    f.wall_push[k] = -side_ * push_[k];
+  }
+
+ private:
+  const Rig& rig_;
+  int side_;
+  bool face_;
+  EdgeLever lever_{};
+  Series<double, N> over_centre_, rate_, turn_, yield_, push_;  // yield: velocity of the edge by a unit push
+};
+
+// How far the edges are from the walls.
+template <int N>
+void measure_gaps(const Rig& rig, LawFlight<N>& f, const Series<double, N>& sine, const Series<double, N>& cosine) {
+  for (const int side : {1, -1})
+    for (const Edge edge : {Edge::lower, Edge::upper})
+      (side > 0 ? f.right_gap : f.left_gap)[edge == Edge::upper] =
+          clearance(rig.laws->walls.on(side), side, lever_over_centre(rig, side, edge), f.x, sine, cosine);
+}
+
+// Arguments of the kinks that force and moment have; friction has none in flight.
+template <int N>
+void kinks_in_flight(const Laws& laws, const State& state, const Series<double, N>* values, LawFlight<N>& f) {
+  for (int j = 0; j < laws.tape.kink_count(); ++j) {
+    const double side = state.sides >> j & 1U ? -1.0 : 1.0;
+    f.kink[j] = scaled(side, values[laws.tape.kink_argument(j)]);
+    f.kink[j][N] = 0;
+    if (state.turned_kink == j) f.kink[j][0] = 0;
+    if (laws.tape.latched(j, state.sides) || laws.tape.kink_node(j) >= laws.forces_end)
+      f.kink[j] = Series<double, N>::zero();
+  }
+}
+
 template <int N>
 LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, const Floor<double, N>& floor) {
   const Laws& laws = *rig.laws;
   const double d = 0.5 * (rig.right - rig.left), h = rig.h;
   LawFlight<N> f;
   Series<double, N> values[max_nodes], sine, cosine;
+  PushInFlight<N> wall(rig, state);
   const auto value = [&](Input input, int offset = 0) -> Series<double, N>& {
     return values[static_cast<int>(input) + offset];
   };
@@ -54,6 +123,9 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
   f.vx[0] = state.vx;
   f.vy[0] = state.vy;
   f.omega[0] = state.omega;
+  f.deflection[0] = state.deflection;
+  const Legs& legs = laws.legs;
+  const double unload = legs.frequency_radps > 0 ? -legs.frequency_radps / (2 * legs.damping) : 0.0;
   sine[0] = std::sin(state.theta);
   cosine[0] = std::cos(state.theta);
 
@@ -64,33 +136,30 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     value(Input::u)[k] = f.x[k] + d * (cosine[k] - one) - h * sine[k];
     value(Input::v)[k] = f.vx[k] - h * product(cosine, f.omega, k) - d * product(sine, f.omega, k);
     laws.tape.advance(input_count, laws.forces_end, k, state.sides, values);
-    const double pull = laws.force < 0 ? 0.0 : values[laws.force][k] / laws.carried_mass;
+    double pull = laws.force < 0 ? 0.0 : values[laws.force][k] / laws.carried_mass;
+    double turn = laws.moment < 0 ? 0.0 : values[laws.moment][k] / rig.k2;
+    wall.add(f, sine, cosine, floor.a, k, pull, turn);
     f.ax[k] = value(Input::acceleration)[k] = pull;
     laws.tape.advance(laws.friction_end, laws.tape.size(), k, state.sides, values);
     for (int i = 0; i < laws.states; ++i)
       value(Input::state, i)[k + 1] = values[laws.rate[static_cast<std::size_t>(i)]][k] * over;
+    f.deflection[k + 1] = unload * f.deflection[k] * over;
     f.x[k + 1] = f.vx[k] * over;
     f.vx[k + 1] = (pull - floor.a[k]) * over;
     f.y[k + 1] = f.vy[k] * over;
     f.vy[k + 1] = -floor.g[k] * over;
     f.theta[k + 1] = f.omega[k] * over;
-    f.omega[k + 1] = laws.moment < 0 ? 0.0 : values[laws.moment][k] / rig.k2 * over;
+    f.omega[k + 1] = turn * over;
     sine[k + 1] = product(cosine, f.omega, k) * over;
     cosine[k + 1] = -product(sine, f.omega, k) * over;
   }
-  f.ax[N] = 0;
+  f.ax[N] = f.wall_push[N] = 0;
   f.gap_right = turning_gap(f, rig.right, h);
   f.gap_left = turning_gap(f, -rig.left, h);
+  if (laws.walls.any()) measure_gaps(rig, f, sine, cosine);
   f.state_count = laws.states;
   for (int i = 0; i < laws.states; ++i) f.states[i] = value(Input::state, i);
-  for (int j = 0; j < laws.tape.kink_count(); ++j) {
-    const double side = state.sides >> j & 1U ? -1.0 : 1.0;
-    f.kink[j] = scaled(side, values[laws.tape.kink_argument(j)]);
-    f.kink[j][N] = 0;
-    if (state.turned_kink == j) f.kink[j][0] = 0;
-    if (laws.tape.latched(j, state.sides) || laws.tape.kink_node(j) >= laws.forces_end)
-      f.kink[j] = Series<double, N>::zero();  // no friction in flight
-  }
+  kinks_in_flight(laws, state, values, f);
   return f;
 }
 

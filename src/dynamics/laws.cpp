@@ -72,7 +72,7 @@ void Laws::record(const Specimen& specimen) {
       relative_velocity[static_cast<std::size_t>(state++)] = own.relative_velocity;
     }
     if (effect->carried_mass) carried_mass -= 1 - effect->carried_mass(parameters);
-    if (effect->wall) effect->wall(wall, parameters);
+    if (effect->wall) effect->wall(walls, parameters);
     if (effect->legs) effect->legs(legs, parameters);
     if (effect->settling_s) settling_s = std::max(settling_s, effect->settling_s(parameters));
   }
@@ -88,12 +88,16 @@ std::uint32_t Laws::initial_sides() const {
   Series<double, 0> values[max_nodes];
   for (int i = 0; i < input_count; ++i) values[i][0] = 0;
   values[static_cast<int>(Input::normal)][0] = 1;
+  return sides_at(values, 0);
+}
+
+std::uint32_t Laws::sides_at(Series<double, 0>* values, std::uint32_t before) const {
   std::uint32_t sides = 0;
   for (int j = 0, from = input_count; j <= tape.kink_count(); ++j) {
     const int to = j < tape.kink_count() ? tape.kink_node(j) : tape.size();
     tape.advance(from, to, 0, sides, values);
     from = to;
-    if (j < tape.kink_count() && values[tape.kink_argument(j)][0] < 0) sides |= 1U << j;
+    if (j < tape.kink_count() && (values[tape.kink_argument(j)][0] < 0 || tape.latched(j, before))) sides |= 1U << j;
   }
   return sides;
 }

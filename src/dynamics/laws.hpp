@@ -16,7 +16,9 @@ struct Laws {
   explicit Laws(const Specimen& specimen);
 
   Excess excess = Excess::none;  // other than none: no law is recorded
-  bool sound() const { return excess == Excess::none && carried_mass > 0; }
+  bool sound() const {
+    return excess == Excess::none && carried_mass > 0 && !(walls.any() && legs.frequency_radps > 0);
+  }
 
   Tape tape;
   // Nodes of the results; -1 where no effect has a say. Nodes [input_count, forces_end) serve force and moment,
@@ -27,7 +29,7 @@ struct Laws {
   std::array<int, max_states> rate{};
   std::array<bool, max_states> relative_velocity{};
   double carried_mass = 1;  // M
-  Wall wall;
+  Walls walls;
   Legs legs;
   double settling_s = 0;
 
@@ -36,6 +38,8 @@ struct Laws {
   bool uses(Input input) const;
   // On which side of their kinks the laws are when nothing has moved yet.
   std::uint32_t initial_sides() const;
+  // The same for the inputs in `values`, whose nodes are filled in; what has broken in `before` stays broken.
+  std::uint32_t sides_at(Series<double, 0>* values, std::uint32_t before) const;
   // Something has broken.
   bool broken(std::uint32_t sides) const;
 

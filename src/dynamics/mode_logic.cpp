@@ -5,12 +5,18 @@
 namespace freestand::dynamics {
 namespace {
 
+// Whether the wall at which an edge is goes on pushing it.
+enum class AtWall { released, pushed };
+
 // One step of the search: does the state hold in this mode?
-bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, int pivot, int sigma) {
+bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, int pivot, int sigma,
+            AtWall at_wall = AtWall::released) {
   State trial = state;
   trial.mode = mode;
   trial.pivot = pivot;
   trial.sigma = sigma;
+  if (pivot == 0) trial.wall = 0;
+  trial.released = trial.wall != 0 && at_wall == AtWall::released;
   if (sigma == 0) trial.foot = 0;
   const auto consistent = [&](const auto& arc) {
     AllHold all;
@@ -27,15 +33,28 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
   return true;
 }
 
-bool lifts_off(const Rig& rig, const FloorCursor& cursor, State& state) {
+bool flies(const Rig& rig, const FloorCursor& cursor, State& state) {
   State trial = state;
-  take_off(rig, trial);
   const auto consistent = [&](const auto& flight) {
     AllHold all;
     for_each_witness(rig, trial, flight, all);
     return all.hold();
   };
-  if (!with_flight_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) return false;
+  for (const bool released : {true, false}) {
+    if (!released && trial.wall == 0) return false;
+    trial.released = released && trial.wall != 0;
+    if (with_flight_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) {
+      state = trial;
+      return true;
+    }
+  }
+  return false;
+}
+
+bool lifts_off(const Rig& rig, const FloorCursor& cursor, State& state) {
+  State trial = state;
+  take_off(rig, trial);
+  if (!flies(rig, cursor, trial)) return false;
   state = trial;
   return true;
 }
@@ -70,23 +89,34 @@ bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
 bool choose_on_corner(const Rig& rig, const FloorCursor& cursor, State& state) {
   const int pivot = state.theta > 0 || (state.theta == 0 && state.omega > 0) ? 1 : -1;
   const double slip = slip_speed(rig, state);
+  const bool leans = state.wall != 0;
   if (slip != 0 && stands(rig, cursor, state, Mode::slide_rock, pivot, direction(slip))) return true;
+  if (slip != 0 && leans && stands(rig, cursor, state, Mode::slide_rock, pivot, direction(slip), AtWall::pushed))
+    return true;
   if (slip != 0 && keeps_slipping(rig)) return false;
   if (stands(rig, cursor, state, Mode::rock, pivot, 0)) return true;
+  if (leans && state.omega == 0 && stands(rig, cursor, state, Mode::rock, pivot, 0, AtWall::pushed)) return true;
   if (!rig.can_slip) return false;
-  for (const int sigma : {1, -1})
-    if (stands(rig, cursor, state, Mode::slide_rock, pivot, sigma)) return true;
+  for (const AtWall at_wall : {AtWall::released, AtWall::pushed})
+    for (const int sigma : {1, -1})
+      if ((at_wall == AtWall::released || leans) && stands(rig, cursor, state, Mode::slide_rock, pivot, sigma, at_wall))
+        return true;
   return false;
 }
 
 }  // namespace
 
 bool choose_mode(const Rig& rig, const FloorCursor& cursor, State& state) {
-  const bool both_down = state.theta == 0 && state.omega == 0;
+  const bool aloft = state.mode == Mode::flight;
+  const bool both_down = !aloft && state.theta == 0 && state.omega == 0;
   if (both_down) state.pivot = 0;
   // The instant of an event is known to the tolerance of the step only, and close to Painleve's paradox its error is
   // amplified: where no mode stands, what counts as zero is widened before the paradox is declared.
   for (state.doubt = 1; state.doubt <= 1e4; state.doubt *= 100) {
+    if (aloft) {
+      if (flies(rig, cursor, state)) return true;
+      continue;
+    }
     if (both_down ? choose_flat(rig, cursor, state) : choose_on_corner(rig, cursor, state)) return true;
     if (lifts_off(rig, cursor, state)) return true;
   }
@@ -101,6 +131,9 @@ void take_off(const Rig& rig, State& state) {
   state.y = arc.ry[0];
   state.vx = state.w + arc.ry[0] * state.omega;
   state.vy = -(arc.rx[0] * state.omega);
+  if (rig.laws && state.pivot == 0)
+    for (const int side : {1, -1})
+      if (touches_upright(rig, state, side)) state.wall = side, state.edge = Edge::face;
   state.mode = Mode::flight;
   state.pivot = state.sigma = 0;
 }

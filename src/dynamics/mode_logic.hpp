@@ -14,8 +14,9 @@ namespace freestand::dynamics {
 // Order of the series in which candidates are judged, and events watched for by the reference.
 inline constexpr int judge_order = max_floor_degree + 3;
 
-// Sets mode, pivot and sigma from theta, omega, w (and x, y on take-off). Flat and not turning (theta = omega = 0):
-// both corners are down. False: no mode is consistent, Painleve's paradox.
+// Sets mode, pivot and sigma from theta, omega, w (and x, y on take-off), and whether a wall at which an edge is pushes. Flat
+// and not turning (theta = omega = 0): both corners are down. What is in flight stays there. False: no mode is consistent,
+// Painleve's paradox.
 bool choose_mode(const Rig& rig, const FloorCursor& cursor, State& state);
 
 // Position and velocity of the centre of mass when the last corner leaves the floor.

@@ -26,7 +26,7 @@ namespace {
 // contact: theta, omega, xi, w, -, -;  flight: theta, omega, x, vx, y, vy;  then path, deflection, the effects' states
 constexpr int plain_size = 6;
 constexpr int state_size = plain_size + 2 + max_states;
-constexpr int witness_slots = 9 + max_kinks;
+constexpr int witness_slots = 12 + max_kinks;
 constexpr int stationary_u = witness_slots, stationary_theta = witness_slots + 1, stationary_w = witness_slots + 2;
 constexpr int root_count = witness_slots + 3;
 
@@ -126,6 +126,7 @@ class ReferenceIntegrator {
   // One leg of length h. An event, or a stationary point, ends it early.
   Leg go(double h, double step) {
     void* ark = stepper_.get();
+    off_wall_ = touches_wall() ? 0.5 * touching(rig()) : 0;
     start_at(ark, 0, h, step);
     write(life_.state);
     watch_ = {true, true, true};
@@ -316,7 +317,8 @@ class ReferenceIntegrator {
     for (int i = 0; i < max_states; ++i) d[2 + i] = i < arc.state_count ? arc.states[i][1] : 0.0;
   }
   static void law_rates(const LawFlight<2>& flight, double* d) {
-    d[0] = d[1] = 0;
+    d[0] = 0;
+    d[1] = flight.deflection[1];
     for (int i = 0; i < max_states; ++i) d[2 + i] = i < flight.state_count ? flight.states[i][1] : 0.0;
   }
 
@@ -329,7 +331,7 @@ class ReferenceIntegrator {
     const auto fill = [&](Witness witness, const Series<double, 2>& series, ZeroTolerance) {
       me.slots_[slot] = witness;
       me.rate_[slot] = series[1];
-      g[slot++] = series[0];
+      g[slot++] = series[0] + (is_clearance(witness) ? me.off_wall_ : 0);
     };
     const double time = me.life_.cursor.time() + tau;
     if (s.mode == Mode::flight) {
@@ -350,9 +352,19 @@ class ReferenceIntegrator {
 
   const Rig& rig() const { return life_.rig; }
 
+  bool touches_wall() const {
+    if (!rig().laws) return false;
+    for (const int side : {1, -1})
+      for (const Edge edge : {Edge::lower, Edge::upper})
+        if (rig().laws->walls.on(side).stands && edge_now(rig(), life_.state, side, edge).gap <= touching(rig()))
+          return true;
+    return false;
+  }
+
   Integration life_;
   double longest_step_;
   double output_step_ = 0;
+  double off_wall_ = 0;  // an edge at a wall starts its leg so far off it: ARKODE sees no root that a leg starts on [m]
   std::array<bool, 3> watch_{};
   Floor<double, judge_order> floor_{};
   Witness slots_[witness_slots]{};

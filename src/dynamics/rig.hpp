@@ -15,6 +15,7 @@ namespace freestand::dynamics {
 
 struct Rig {
   double right, left, h, k2;  // [m], [m2]
+  double top;                 // height of the upper edges over the base: that of a uniform block [m]
   double mu_s, mu_k;
   bool can_slip, can_rock;
   Impact impact;
@@ -27,12 +28,14 @@ struct Rig {
   double rest_rotation;  // a hop of less than this rotation ends the rocking [rad]
   double rest_height;    // a rebound from a wall slower than a fall from this height stays at the wall [m]
   double told_rotation;  // an impact after a rotation of less than this is not counted [rad]
+  double told_speed;     // nor a blow of a wall that comes slower than this [m/s]
 
   Rig(const Specimen& specimen, const Settings& settings, const FloorInput& floor = {})
       : right(specimen.block.right_m),
         left(specimen.block.left_m),
         h(specimen.block.height_m),
         k2(specimen.block.gyration2_m2),
+        top(2 * h),
         mu_s(specimen.friction.mu_s),
         mu_k(specimen.friction.mu_k),
         can_slip(specimen.model != Model::rock),
@@ -44,7 +47,8 @@ struct Rig {
         turn_zero(force_zero / specimen.block.size_m()),
         rest_rotation(settings.tolerance),
         rest_height(settings.tolerance * specimen.block.size_m()),
-        told_rotation(1e-3 * specimen.block.alpha_rad()) {
+        told_rotation(1e-3 * specimen.block.alpha_rad()),
+        told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()) {
     if (has_laws(specimen)) laws.emplace(specimen);
   }
 
@@ -62,6 +66,8 @@ struct Rig {
 
   double offset(int pivot) const { return pivot > 0 ? right : -left; }
   Corner<double> corner(int pivot) const { return {offset(pivot), h, k2}; }
+  // What moves away from a wall no faster than this stays at it [m/s].
+  double slow() const { return std::sqrt(2 * g * rest_height); }
   double half_base() const { return 0.5 * (right + left); }
   double carried_mass() const { return laws ? laws->carried_mass : 1; }
   // About the pivot, per mass.
@@ -73,6 +79,13 @@ struct Rig {
     return inertia(pivot) * omega * omega / (2 * g * (c < 0 ? -c : c));
   }
 };
+
+// What of the side face touches a wall: of an upright block all of it. A block on the corner beside the wall touches it with
+// the upper edge, one on the other corner with the lower one.
+enum class Edge { face, lower, upper };
+inline Edge touching_edge(int pivot, int side) {
+  return pivot == 0 ? Edge::face : pivot == side ? Edge::upper : Edge::lower;
+}
 
 // Where the block is. `pivot`: +1 right corner, -1 left corner, 0 both or none. `sigma`: direction of slip, 0 when
 // stuck.
@@ -94,7 +107,13 @@ struct State {
   std::uint32_t sides = 0;  // bit j: kink j is on its negative side
   int turned_kink = -1;     // the kink that was met at this instant
   int held_kink = -1;       // one that would turn back at once: it is left alone for a step
-  int wall = 0;             // +1, -1: pressed against the wall on that side
+  // An edge of the side face stays at the wall on that side (+1, -1; 0: none does), and which. One that is `released` leaves
+  // the wall at this very instant. An upright block on the floor touches a wall by its displacement alone.
+  int wall = 0;
+  Edge edge = Edge::face;
+  bool released = false;
+
+  bool at_wall() const { return wall != 0 && !released; }
 };
 
 }  // namespace freestand::dynamics

@@ -131,7 +131,7 @@ class TaylorIntegrator {
   double local_error(const LawFlight<N>& flight) const {
     return std::max({std::abs(flight.theta[N]) / alpha_, std::abs(flight.omega[N]) / (p_ * alpha_),
                      std::abs(flight.x[N]) / size_, std::abs(flight.vx[N]) / (p_ * size_),
-                     last_of_states(flight.states)}) /
+                     std::abs(flight.deflection[N]) / size_, last_of_states(flight.states)}) /
            power<N>(p_);
   }
 

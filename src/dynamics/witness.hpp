@@ -21,13 +21,39 @@ enum class Witness : int {
   flat_left,   // N_left
   regular,     // k^2 + r_x q: not Painleve's paradox
   above_right,
-  above_left,  // gaps in flight
-  clear,       // the contact has not reached the wall
-  kink         // first of the kinks of the laws: a law has not come to where it bends or jumps
+  above_left,            // gaps in flight
+  clear_of_right_lower,  // the edges of the side faces have not reached the walls
+  clear_of_right_upper,
+  clear_of_left_lower,
+  clear_of_left_upper,
+  leaning,  // the wall at which an edge stays pushes it
+  kink      // first of the kinks of the laws: a law has not come to where it bends or jumps
 };
 
 inline Witness kink_witness(int kink) { return static_cast<Witness>(static_cast<int>(Witness::kink) + kink); }
 inline bool is_kink(Witness witness) { return witness >= Witness::kink; }
+
+// The wall and the edge of a witness of clearance.
+struct AtWall {
+  int side;
+  Edge edge;
+};
+inline bool is_clearance(Witness witness) {
+  return witness >= Witness::clear_of_right_lower && witness <= Witness::clear_of_left_upper;
+}
+inline Witness clearance_witness(int side, bool upper) {
+  return static_cast<Witness>(static_cast<int>(Witness::clear_of_right_lower) + (side > 0 ? 0 : 2) + upper);
+}
+inline AtWall at_wall(Witness witness) {
+  const int place = static_cast<int>(witness) - static_cast<int>(Witness::clear_of_right_lower);
+  return {place < 2 ? 1 : -1, place % 2 ? Edge::upper : Edge::lower};
+}
+
+// Both sides, the one to which the block turns first: so the mirror image of a sample goes the same way, to the bit.
+inline std::array<int, 2> sides(const State& state) {
+  const int first = state.theta > 0 || (state.theta == 0 && state.omega > 0) ? 1 : -1;
+  return {first, -first};
+}
 
 // In the pure rocking model the pivot is a hinge, as in Housner's: it neither slips nor lifts.
 //
@@ -61,21 +87,36 @@ void for_each_witness(const Rig& rig, const State& state, const Arc<double, N>& 
   }
 }
 
-// Friction on the base. Of a block that is pressed against a wall friction takes what it can, and the wall, through the
-// centre of mass, the rest.
+// Friction on the base. Of an upright block that is pressed against a wall friction takes what it can, and the wall, through
+// the centre of mass, the rest.
 template <int N>
-Series<double, N> friction_at_wall(const State& state, const LawArc<N>& arc) {
-  if (state.wall > 0 && arc.fx[0] < -arc.limit_left[0]) return scaled(-1.0, arc.limit_left);
-  if (state.wall < 0 && arc.fx[0] > arc.limit_right[0]) return arc.limit_right;
+Series<double, N> friction_at_wall(bool right, bool left, const LawArc<N>& arc) {
+  if (right && arc.fx[0] < -arc.limit_left[0]) return scaled(-1.0, arc.limit_left);
+  if (left && arc.fx[0] > arc.limit_right[0]) return arc.limit_right;
   return arc.fx;
+}
+
+// What is at a wall comes no nearer; what leaves it at this instant has no speed either.
+template <int N, class Visit>
+void visit_clearance(const Rig& rig, const State& state, int side, bool upper, const Series<double, N>& gap,
+                     Visit&& visit) {
+  const bool leaves =
+      state.released && state.wall == side && (state.edge == Edge::face || upper == (state.edge == Edge::upper));
+  Series<double, N> left = gap;
+  if (leaves || std::abs(gap[0]) <= touching(rig)) left[0] = 0;
+  if (leaves) left[1] = 0;
+  visit(clearance_witness(side, upper), left, ZeroTolerance{2, rig.force_zero * state.doubt});
 }
 
 // The same with laws: friction's limits differ by direction, a wall takes what presses against it, and kinks are watched.
 template <int N, class Visit>
 void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, Visit&& visit) {
   const double zero = rig.force_zero * state.doubt, turn_zero = rig.turn_zero * state.doubt;
-  const ZeroTolerance force{0, zero}, velocity{1, zero}, displacement{2, zero}, rotation{2, turn_zero};
+  const ZeroTolerance force{0, zero}, velocity{1, zero}, rotation{2, turn_zero};
   const double s = state.pivot;
+  // A wall that an upright block touches holds it: it neither slips nor tips that way.
+  const bool right = state.pivot == 0 && touches_upright(rig, state, 1);
+  const bool left = state.pivot == 0 && touches_upright(rig, state, -1);
   if (state.pivot != 0) {
     visit(Witness::impact, scaled(s, arc.theta), rotation);
     Series<double, N> upright = scaled(-s, arc.theta);
@@ -86,25 +127,25 @@ void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, 
   }
   if (state.sigma != 0) {
     visit(Witness::slipping, scaled(double(state.sigma), arc.foot), velocity);
-    const double gap = rig.laws->wall.gap_m;
-    if (gap * state.sigma > 0) {
-      Series<double, N> clearance = scaled(-double(state.sigma), arc.xi);
-      clearance[0] = state.wall == state.sigma ? 0.0 : clearance[0] + std::abs(gap);
-      visit(Witness::clear, clearance, displacement);
-    }
   } else if (rig.can_slip) {
-    if (state.wall >= 0) visit(Witness::grip_right, combination(1.0, arc.limit_right, -1.0, arc.fx), force);
-    if (state.wall <= 0) visit(Witness::grip_left, combination(1.0, arc.limit_left, 1.0, arc.fx), force);
+    if (!left) visit(Witness::grip_right, combination(1.0, arc.limit_right, -1.0, arc.fx), force);
+    if (!right) visit(Witness::grip_left, combination(1.0, arc.limit_left, 1.0, arc.fx), force);
   }
   if (state.pivot == 0) {
     if (rig.can_rock) {  // N_right (b_l + b_r) = b_l f_y - h f_x + T
-      Series<double, N> lean = combination(-1.0, friction_at_wall(state, arc), 1 / rig.h, arc.moment);
-      visit(Witness::flat_right, combination(rig.left / rig.h, arc.fy, 1.0, lean), force);
-      visit(Witness::flat_left, combination(rig.right / rig.h, arc.fy, -1.0, lean), force);
+      Series<double, N> lean = combination(-1.0, friction_at_wall(right, left, arc), 1 / rig.h, arc.moment);
+      if (!left) visit(Witness::flat_right, combination(rig.left / rig.h, arc.fy, 1.0, lean), force);
+      if (!right) visit(Witness::flat_left, combination(rig.right / rig.h, arc.fy, -1.0, lean), force);
     } else {
       visit(Witness::pressed, arc.fy, force);
     }
   }
+  const bool leans = state.pivot != 0 && state.at_wall();
+  if (leans) visit(Witness::leaning, arc.wall_push, force);
+  for (const int side : sides(state))
+    if (rig.laws->walls.on(side).stands && !(leans && state.wall == side) && (state.pivot != 0 || state.sigma != 0))
+      visit_clearance(rig, state, side, touching_edge(state.pivot, side) == Edge::upper,
+                      side > 0 ? arc.right_gap : arc.left_gap, visit);
   for (int j = 0; j < rig.laws->tape.kink_count(); ++j)
     if (j != state.held_kink) visit(kink_witness(j), arc.kink[j], ZeroTolerance{0, 0.0});
 }
@@ -112,8 +153,9 @@ void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, 
 template <int N, class Visit>
 void for_each_witness(const Rig& rig, const State& state, const Flight<double, N>& flight, Visit&& visit) {
   const ZeroTolerance gap{2, rig.force_zero * state.doubt};
-  visit(Witness::above_right, flight.gap_right, gap);
-  visit(Witness::above_left, flight.gap_left, gap);
+  for (const int corner : sides(state))
+    visit(corner > 0 ? Witness::above_right : Witness::above_left, corner > 0 ? flight.gap_right : flight.gap_left,
+          gap);
   Series<double, N> upright = scaled(flight.theta[0] < 0 ? 1.0 : -1.0, flight.theta);
   upright[0] += pi / 2;
   visit(Witness::upright, upright, ZeroTolerance{2, rig.turn_zero * state.doubt});
@@ -122,6 +164,14 @@ void for_each_witness(const Rig& rig, const State& state, const Flight<double, N
 template <int N, class Visit>
 void for_each_witness(const Rig& rig, const State& state, const LawFlight<N>& flight, Visit&& visit) {
   for_each_witness(rig, state, static_cast<const Flight<double, N>&>(flight), visit);
+  if (state.at_wall()) visit(Witness::leaning, flight.wall_push, ZeroTolerance{0, rig.force_zero * state.doubt});
+  for (const int side : sides(state))
+    for (const bool upper : {false, true}) {
+      const bool stays =
+          state.at_wall() && state.wall == side && (state.edge == Edge::face || upper == (state.edge == Edge::upper));
+      if (rig.laws->walls.on(side).stands && !stays)
+        visit_clearance(rig, state, side, upper, (side > 0 ? flight.right_gap : flight.left_gap)[upper], visit);
+    }
   for (int j = 0; j < rig.laws->tape.kink_count(); ++j)
     if (j != state.held_kink) visit(kink_witness(j), flight.kink[j], ZeroTolerance{0, 0.0});
 }

@@ -24,7 +24,7 @@ using dynamics::FloorInput;
 using dynamics::Legs;
 using dynamics::Parameters;
 using dynamics::Value;
-using dynamics::Wall;
+using dynamics::Walls;
 using Register = Registered<Effect>;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();

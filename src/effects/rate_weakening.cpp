@@ -29,6 +29,8 @@ const Register rate_weakening{{
              .low = 0.02,
              .high = 0.5},
         },
+    // A foot without mass has no one speed where friction falls faster with the speed than the legs' damping rises.
+    .excludes = {"flexible_legs"},
     .twins = "static_friction, where c is small: r = 1/(1 - d). Parted by slow slips.",
     .friction = [](const At& at, const Parameters& p) { return 1.0 - p[0] * (1.0 - exp(-at.speed / p[1])); },
 }};

@@ -5,14 +5,17 @@ namespace freestand::effects {
 const Register wall_impact{{
     .name = "wall_impact",
     .summary = "A wall at a gap on one side",
-    .law = "reaching the gap: w+ = -e w-, the blow acting through the centre of mass",
-    .source = "Newton's law of restitution",
+    .law =
+        "the edge of the side face that reaches it comes back with e times its speed, by a push of the wall at that "
+        "edge "
+        "(an upright block's whole face touches: it stays upright); what then presses against the wall the wall takes",
+    .source = "Newton's law of restitution, impulses on a rigid body, Coulomb's law at the floor",
     .suspect = "slips to one side stop or turn back at once at a certain displacement",
     .parameters =
         {
             {.name = "gap_m",
              .unit = "m",
-             .summary = "free displacement; its sign is the side of the wall",
+             .summary = "free displacement; its sign is the side of the wall (0: on the right)",
              .lower = -10,
              .upper = 10,
              .low = -0.1,
@@ -30,11 +33,7 @@ const Register wall_impact{{
     .twins =
         "slack_tether, where it is stiff: without a dashpot it is a wall that gives back all. Parted by the length of "
         "the rebound, 1/(2 f).",
-    .wall =
-        [](Wall& wall, const Parameters& p) {
-          wall.gap_m = p[0];
-          wall.restitution = p[1];
-        },
+    .wall = [](Walls& walls, const Parameters& p) { walls.stand(p[0] < 0 ? -1 : 1, std::abs(p[0]), p[1]); },
 }};
 
 }  // namespace freestand::effects

@@ -46,7 +46,7 @@ TEST(WallImpact, APressedBlockDoesNotTip) {
     const Path r = run(solver, squat, {&push});
     EXPECT_EQ(r.points.at(900).mode, Mode::rest) << solver.name;
     EXPECT_EQ(r.response.peak_rotation_rad, 0) << solver.name;
-    EXPECT_NEAR(r.response.peak_slip_m, 0.05, 1e-12) << solver.name;
+    EXPECT_NEAR(r.response.peak_slip_m, 0.05, 1e-11 * 0.8) << solver.name;  // of the height: what counts as touching
   }
 }
 

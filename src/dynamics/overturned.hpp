@@ -1,0 +1,17 @@
+// What an overturned block slipped: the fall is none of it.
+#pragma once
+
+#include <cmath>
+#include <freestand/response.hpp>
+
+namespace freestand::dynamics {
+
+// The middle of the base goes with the fall, by half_base in the end. Up to where the block could still have stood, rotation
+// alpha = atan(c/h) over the corner at c, rocking displaces it by half_base (1 - cos(alpha)): that, and how
+// far the contact slid and the block flew, bound what counts as its slip [m].
+inline void leave_out_fall(Response& response, double half_base, double c, double h, double flown) {
+  const double rocked = half_base * (1 - h / std::sqrt(h * h + c * c)), most = response.slid_path_m + flown + rocked;
+  if (response.peak_slip_m > most) response.peak_slip_m = most;
+}
+
+}  // namespace freestand::dynamics
