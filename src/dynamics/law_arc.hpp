@@ -150,7 +150,7 @@ class LawStep {
 
   // The slip at a speed of order k that the laws see; the speed that comes out.
   double slip_of_foot(int k, double speed) {
-    value(Input::speed)[k] = speed;
+    value(Input::speed)[k] = legs_ && (k == 0 ? speed : value(Input::speed)[0]) <= 0 ? 0.0 : speed;
     if (laws_.friction >= 0) factor_[k] = factor_from_tape(k);
     slipping(k);
     return state_.sigma * y_.foot[k];

@@ -192,7 +192,9 @@ class ReferenceIntegrator {
     if (!(tau > before)) return;
     start_at(locator_.get(), before, tau, longest_step_);
     double reached = 0;
-    check(ERKStepEvolve(locator_.get(), tau, y_.get(), &reached, ARK_NORMAL), "ERKStepEvolve");
+    const int flag = ERKStepEvolve(locator_.get(), tau, y_.get(), &reached, ARK_NORMAL);
+    if (flag == ARK_RHSFUNC_FAIL) return life_.stop(Outcome::not_finite);
+    check(flag, "ERKStepEvolve");
   }
 
   // Newton's method on the witness.

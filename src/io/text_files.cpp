@@ -59,6 +59,8 @@ Json response_summary(const Response& response) {
           {"peak_acceleration_g", response.peak_acceleration_mps2 / standard_gravity_mps2},
           {"events", response.events},
           {"impacts", response.impacts},
+          {"wall_hits", response.wall_hits},
+          {"wall_speed_mps", response.wall_speed_mps},
           {"residual_rotation_rad", response.residual_rotation_rad},
           {"end_time_s", response.end_time_s}};
 }

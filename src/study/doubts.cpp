@@ -69,6 +69,10 @@ std::vector<std::string> doubts(const Study& study) {
                                   [](const EffectPart& effect) { return effect.name == "vertical_shaking"; });
   for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, doubter);
+  const auto& chain = study.model.chain;
+  if (chain && chain->wall_gap && chain->wall_gap->line == 0)
+    doubter.said.push_back(
+        "chain.wall_gap_m is not given: the wall behind is taken to touch the block (0): say how far away it is");
   return std::move(doubter.said);
 }
 

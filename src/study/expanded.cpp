@@ -100,6 +100,7 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
   Mapping m;
   for (const auto& quantity : {chain->slack, chain->stiffness, chain->strength}) m.add(quantity);
   m.add(chain->height);
+  m.add(chain->wall_gap);
   m.add("side", chain->side > 0 ? "right" : "left");
   return "chain: " + m.flow() + "\n";
 }

@@ -159,7 +159,15 @@ ImpactPart read_impact(Section& file) {
   return impact;
 }
 
-std::optional<ChainPart> read_chain(Section& file) {
+// What has no edges that a wall could stop, or a foot that slips under them.
+std::string knows_no_walls(const ModelPart& model) {
+  if (model.model == Model::bouc_wen) return "model bouc_wen";
+  for (const EffectPart& effect : model.effects)
+    if (effect.name == "flexible_legs") return "effect flexible_legs";
+  return "";
+}
+
+std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
   const YAML::Node* node = file.find("chain");
   if (!node) return {};
   Section section(*node, "chain", file.line("chain"), file.problems());
@@ -168,6 +176,11 @@ std::optional<ChainPart> read_chain(Section& file) {
   chain.stiffness = section.quantity("chain", "stiffness_npm", range::positive, 0);
   chain.strength = section.quantity("chain", "strength_n", range::positive, 0);
   chain.height = section.quantity("chain", "height_m", size_range);
+  if (const std::string without = knows_no_walls(model); without.empty())
+    chain.wall_gap = section.quantity("chain", "wall_gap_m", range::not_negative, 0);
+  else if (section.has("wall_gap_m"))
+    section.problem("wall_gap_m",
+                    "chain.wall_gap_m does not go with " + without + " (which meets no walls): remove it");
   chain.side = section.choice("side", {"right", "left"}, 0) == 0 ? 1 : -1;
   section.finish();
   if (!node->IsMap()) return {};
@@ -191,7 +204,7 @@ ModelPart read_model(Section& file) {
       file.problem("impact",
                    "effect impact_loss does not go with impact law coulomb (its impulse follows from friction alone): "
                    "remove the effect, or use housner");
-  model.chain = read_chain(file);
+  model.chain = read_chain(file, model);
   if (const std::string text = no_room_for(model.effects, model.chain);
       model.chain && !text.empty() && no_room_for(model.effects, {}).empty())
     file.problem("chain", text);

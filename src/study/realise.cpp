@@ -176,7 +176,8 @@ EffectUse Realiser::Parts::chain(const std::vector<double>& values, const Block&
                         .stiffness_npm = *value(values, "chain.stiffness_npm"),
                         .strength_n = *value(values, "chain.strength_n"),
                         .height_m = value(values, "chain.height_m").value_or(2 * block.height_m),
-                        .side = model.chain->side},
+                        .side = model.chain->side,
+                        .wall_gap_m = value(values, "chain.wall_gap_m")},
                        block);
 }
 

@@ -58,6 +58,7 @@ struct EffectPart {
 struct ChainPart {
   Quantity slack, stiffness, strength;  // chain.slack_m, chain.stiffness_npm, chain.strength_n
   std::optional<Quantity> height;       // chain.height_m, the block's height where it is not given
+  std::optional<Quantity> wall_gap;     // chain.wall_gap_m, 0 where it is not given; none where the model knows no walls
   int side = 1;                         // +1: holds back what moves to the right
 };
 

@@ -65,5 +65,14 @@ TEST(Edp, AnUnknownNameIsToldWithTheNamesThereAre) {
   }
 }
 
+TEST(Edp, BlowsOfWallsAreAskedForAsTheyAreTold) {
+  Response response;
+  EXPECT_EQ(value_of("wall_hit", response), 0);
+  response.wall_hits = 3;
+  response.wall_speed_mps = 0.45;
+  EXPECT_EQ(value_of("wall_hit", response), 1);
+  EXPECT_EQ(value_of("wall_speed_mps", response), 0.45);
+}
+
 }  // namespace
 }  // namespace freestand::edp

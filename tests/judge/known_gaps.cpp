@@ -20,25 +20,18 @@ bool has(const JudgedCase& c, std::initializer_list<const char*> names) {
 
 const std::vector<Gap>& gaps() {
   static const std::vector<Gap> all{
-      {"walls: the upper edge, flight, gap 0, both sides",
+      {"pressure_friction where the normal force jumps or vanishes: on a corner, at landings",
+       [](const JudgedCase& c, const Judgement&) { return has(c, {"pressure_friction"}); }},
+      {"friction that follows the speed, at landings",
+       [](const JudgedCase& c, const Judgement& j) {
+         return (j.deeds & flew) && has(c, {"rate_weakening", "rate_strengthening"});
+       }},
+      {"legs under a block that rocks: 1e-6 m",
+       [](const JudgedCase& c, const Judgement&) { return has(c, {"flexible_legs"}); }},
+      {"contents in the reference: 1e-6 m",
+       [](const JudgedCase& c, const Judgement&) { return has(c, {"moving_contents"}); }},
+      {"walls at gap 0, in the air and in the reference",
        [](const JudgedCase& c, const Judgement&) { return has(c, {"wall_impact"}); }},
-      {"legs under friction that follows the speed: the speed of the block instead of the foot's",
-       [](const JudgedCase& c, const Judgement&) {
-         return has(c, {"flexible_legs"}) && has(c, {"rate_weakening", "rate_strengthening"});
-       }},
-      {"laws in flight and at its landing",
-       [](const JudgedCase& c, const Judgement& j) {
-         return (j.deeds & flew) && has(c, {"moving_contents", "rate_weakening", "rate_strengthening", "flexible_legs",
-                                            "pressure_friction", "slack_tether", "chain"});
-       }},
-      {"pressure_friction where the normal force vanishes",
-       [](const JudgedCase& c, const Judgement&) {
-         return has(c, {"pressure_friction"}) && has(c, {"vertical_shaking"});
-       }},
-      {"landings that tip",
-       [](const JudgedCase& c, const Judgement& j) {
-         return (j.deeds & flew) && c.truth.mu_s * c.truth.height_m > 0.8 * std::min(c.truth.left_m, c.truth.right_m);
-       }},
   };
   return all;
 }

@@ -62,5 +62,17 @@ TEST(Doubts, RecordsInAnotherUnit) {
   EXPECT_THAT(doubts(study, set(5, 9)), testing::Contains(HasSubstr("the time step of some.csv is 5 s")));
 }
 
+// A wall stands behind every chain; where nobody says how far away it is, the block is told to touch it.
+TEST(Doubts, TheWallBehindAChain) {
+  const auto chained = [](const std::string& more) {
+    return block + friction + motions + rest + "chain: {stiffness_npm: 1e4, strength_n: 2736" + more + "}\n";
+  };
+  EXPECT_THAT(doubts(parse(chained(""))), ElementsAre(HasSubstr("chain.wall_gap_m is not given")));
+  EXPECT_THAT(doubts(parse(chained(", wall_gap_m: 0.1"))), IsEmpty());
+  const Study legs = parse(chained("") + "effects: [{name: flexible_legs, frequency_hz: 8}]\n");
+  EXPECT_FALSE(legs.model.chain->wall_gap);
+  EXPECT_THAT(doubts(legs), IsEmpty());
+}
+
 }  // namespace
 }  // namespace freestand::study
