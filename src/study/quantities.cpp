@@ -19,6 +19,7 @@ std::vector<Quantity> quantities(const ModelPart& model) {
   if (model.chain) {
     for (const auto& q : {model.chain->slack, model.chain->stiffness, model.chain->strength}) add(q);
     add(model.chain->height);
+    add(model.chain->wall_gap);
   }
   return all;
 }
