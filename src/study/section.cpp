@@ -90,13 +90,19 @@ int Section::line(const std::string& key) const {
   return found ? found->line : line_;
 }
 
+namespace {
+// A scalar in quotes, anything else by its kind.
+std::string as_written(const YAML::Node& node) {
+  return node.IsScalar() ? fmt::format("\"{}\"", shown(node.Scalar())) : kind_of(node);
+}
+}  // namespace
+
 std::optional<double> Section::optional_number(const std::string& key, const Range& range) {
   const YAML::Node* node = find(key);
   if (!node) return {};
   const auto value = node->IsScalar() ? number_of(node->Scalar()) : std::nullopt;
   if (!value) {
-    problem(key, fmt::format("{} is {} (one number is needed): give a number", name(key),
-                             node->IsScalar() ? "\"" + shown(node->Scalar()) + "\"" : kind_of(*node)));
+    problem(key, fmt::format("{} is {} (one number is needed): give a number", name(key), as_written(*node)));
     return {};
   }
   check_range(sampling::Fixed{*value}, range, name(key), line(key), problems_);
@@ -154,8 +160,7 @@ std::vector<double> Section::numbers(const std::string& key) {
     if (value)
       values.push_back(*value);
     else
-      problem(key, fmt::format("{} holds {} (numbers only): correct it", name(key),
-                               entry.IsScalar() ? "\"" + shown(entry.Scalar()) + "\"" : kind_of(entry)));
+      problem(key, fmt::format("{} holds {} (numbers only): correct it", name(key), as_written(entry)));
   }
   return values;
 }
