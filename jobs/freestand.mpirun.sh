@@ -1,12 +1,12 @@
 #!/bin/bash
-# A sweep of any size on one machine or a few, with plain mpirun. Can be stopped and started again at any time: finished
-# blocks are kept, and the results are the same to the bit.
+# A sweep of any size and its fit on one machine or a few, with plain mpirun. Can be stopped and started again at any time:
+# finished blocks are kept, and the results are the same to the bit.
 #
 #   jobs/freestand.mpirun.sh STUDY.yaml DIR [RANKS] [HOSTFILE]
 #
 # RANKS: default all cores. HOSTFILE: as mpirun takes it, when the ranks run on more than one machine; DIR and the
 # program must then be seen by all of them under the same path.
-# Exit: that of freestand; 75 = stopped early, start the same line again to go on.
+# Exit: that of freestand; 75 = stopped early, start the same line again to go on; 74 = the same, once what it names is cured.
 set -euo pipefail
 # shellcheck source-path=SCRIPTDIR source=lib.sh
 . "$(dirname "$0")/lib.sh"
@@ -25,18 +25,12 @@ else
 fi
 mpi_environment
 
-# mpirun passes SIGUSR1 on to the ranks, which finish their open blocks and end with 75. SIGTERM would kill them.
-mpirun "${options[@]}" "$freestand" sweep "$study" -o "$folder" "${resume[@]}" &
-sweep=$!
-trap 'kill -USR1 "$sweep" 2>/dev/null || true' TERM INT USR1
-code=0
-wait "$sweep" || code=$?
-while kill -0 "$sweep" 2>/dev/null; do  # a signal ended the wait, not the sweep
-  code=0
-  wait "$sweep" || code=$?
-done
+# mpirun passes SIGUSR1 on to the ranks, which end with 75 within ten seconds. SIGTERM would kill them.
+mpirun "${options[@]}" "$freestand" run "$study" -o "$folder" "${resume[@]}" &
+run=$!
+trap 'kill -USR1 "$run" 2>/dev/null || true' TERM INT USR1
+wait_for "$run"
 if [ "$code" = 75 ]; then
   say "stopped early; to go on: $0 $*"
 fi
-[ "$code" = 0 ] || exit "$code"
-"$freestand" fit "$folder"
+exit "$code"

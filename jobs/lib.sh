@@ -11,6 +11,14 @@ die() {  # die EXIT_CODE TEXT...
   exit "$code"
 }
 
+# Waits for a process of this shell and sets `code` to its exit code. A signal that the shell traps ends `wait`, not the
+# process.
+wait_for() {  # wait_for PROCESS
+  while ! wait "$1" && kill -0 "$1" 2>/dev/null; do :; done
+  code=0
+  wait "$1" || code=$?
+}
+
 # Cores this process may use.
 cores() { nproc 2>/dev/null || getconf _NPROCESSORS_ONLN; }
 

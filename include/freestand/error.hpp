@@ -11,7 +11,8 @@ enum class Exit : int {
   done = 0,
   usage = 2,      // wrong command line or study file
   data = 3,       // a record, data set or result file that cannot be used
-  resumable = 75  // stopped early; `sweep --resume` goes on
+  cure = 74,      // what is finished is kept, but starting again helps only once this is cured: a full disk, say
+  resumable = 75  // stopped early on request; --resume goes on
 };
 
 // A problem that the user can act on. The text reads "problem (why): what to do"; several problems stand on several

@@ -7,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "app/times.hpp"
+#include "io/samples_file.hpp"
 
 namespace freestand::app {
 
@@ -31,7 +32,9 @@ void add_fit(CLI::App& parser, Work& work) {
   verb->add_flag("--quiet", *quiet, "no progress");
   verb->callback([folder, quiet, &work] {
     work = [folder, quiet](const Context& context) {
-      const study::FitSummary summary = study::fit(context.world, *folder, context.command_line, *quiet);
+      context.world.on_root([&] { io::SampleReader{study::samples_path(*folder)}; });  // else no folder is made
+      study::RunFolder run_folder(context.world, *folder, io::Existing::resume, "start again");
+      const study::FitSummary summary = study::fit(context.world, run_folder, context.command_line, *quiet);
       if (context.world.is_root() && !*quiet) tell(summary, *folder);
       return Exit::done;
     };

@@ -4,6 +4,8 @@
 
 #include "app/command.hpp"
 #include "app/times.hpp"
+#include "io/output_folder.hpp"
+#include "parallel/progress.hpp"
 #include "study/fit.hpp"
 #include "study/known.hpp"
 #include "study/sweep.hpp"
@@ -29,15 +31,16 @@ Exit check(const Context& context, const Options& options) {
   return Exit::done;
 }
 
-// A full disk, or what else can be cured, costs no finished block.
-study::SweepSummary sweep(const Context& context, const study::Study& study, const study::SweepOptions& options) {
+// A full disk, or what else has to be cured, costs no finished block.
+study::SweepSummary sweep(const Context& context, const study::Study& study, const study::SweepOptions& options,
+                          study::RunFolder& folder) {
   try {
-    return study::sweep(context.world, study, options);
+    return study::sweep(context.world, study, options, folder);
   } catch (const parallel::SharedError&) {
     throw;
   } catch (const Error& error) {
-    if (error.exit() != Exit::resumable) throw;
-    throw Error(std::string(error.what()) + "; then go on with --resume", Exit::resumable);
+    if (error.exit() != Exit::cure) throw;
+    throw Error(std::string(error.what()) + "; go on with --resume", Exit::cure);
   }
 }
 
@@ -45,18 +48,17 @@ Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit
   if (options.check) return check(context, options);
   if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DIR");
   const study::Study study = read(context, options.study);
-  const study::SweepOptions sweep_options{options.folder, options.overwrite, options.resume, options.quiet,
-                                          context.command_line};
-  const study::SweepSummary summary = sweep(context, study, sweep_options);
-  if (!summary.complete) {
-    if (context.world.is_root())
-      fmt::print(stderr, "stopped early: finished blocks are kept in {}; go on with --resume\n", options.folder);
-    return Exit::resumable;
-  }
+  study::RunFolder folder(context.world, options.folder,
+                          options.resume      ? io::Existing::resume
+                          : options.overwrite ? io::Existing::overwrite
+                                              : io::Existing::refuse,
+                          "go on with --resume", {study::study_path("").string()});
+  const study::SweepSummary summary = sweep(context, study, {options.quiet, context.command_line}, folder);
   double fit_s = 0;
-  if (with_fit) fit_s = study::fit(context.world, options.folder, context.command_line, options.quiet, &summary).wall_s;
+  if (with_fit) fit_s = study::fit(context.world, folder, context.command_line, options.quiet, &summary).wall_s;
   if (context.world.is_root() && !options.quiet)
-    fmt::print("{}; results in {}\n", times_text(summary, fit_s, context.world.size()), options.folder);
+    parallel::tell(
+        fmt::format("{}; results in {}\n", times_text(summary, fit_s, context.world.size()), options.folder), stdout);
   return Exit::done;
 }
 

@@ -11,8 +11,8 @@
 namespace freestand {
 
 // What went wrong with `path`, from errno, as "cannot ACTION PATH (why): what to do". A full disk, a quota or a file
-// size limit, and a device that fails, are Exit::resumable: what was finished is kept. A missing right or folder is
-// Exit::usage.
+// size limit, a file system that is read-only and a device that fails are Exit::cure: what was finished is kept, but going
+// on before they are cured would fail again. A missing right or folder is Exit::usage.
 Error file_error(const std::string& action, const std::filesystem::path& path, int error_number);
 
 // PATH with ".HOST.PID.part" behind its name and a dot before it: no other process of the run writes there.

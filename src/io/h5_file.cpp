@@ -94,7 +94,7 @@ Error failure(const std::string& file, const std::string& what, Doing doing) {
                                                : "make the file again, or name one that freestand has written";
   return Error(fmt::format("cannot {} {} ({}{}{}): {}", verb, file, what, reasons.innermost.empty() ? "" : ": ",
                            reasons.innermost, advice),
-               doing == Doing::writing ? Exit::resumable : Exit::data);
+               doing == Doing::writing ? Exit::cure : Exit::data);
 }
 
 Handle& Handle::operator=(Handle&& other) noexcept {

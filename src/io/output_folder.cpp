@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <freestand/error.hpp>
+#include <algorithm>
 #include <system_error>
 #include <vector>
 
 #include "base/durable_file.hpp"
+#include "io/folder_lock.hpp"
 #include "io/own_files.hpp"
 
 namespace freestand::io {
@@ -15,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* results[] = {"samples.h5",  "fragility.h5",    "bins.csv",       "surface.csv", "summary.json",
-                                   "history.csv", "comparison.json", "diagnosis.json", "report.html"};
+                                   "history.csv", "comparison.json", "diagnosis.json", "report.html", begun_name};
 
 void check(const std::error_code& error, const char* action, const fs::path& path) {
   if (error) throw file_error(action, path, error.value());
@@ -40,10 +42,14 @@ bool is_block(const fs::path& path) {
   return name.starts_with("block-") && name.ends_with(".bin");
 }
 
+bool is_used(const fs::path& folder) {
+  const std::vector<fs::path> all = entries(folder);
+  return std::any_of(all.begin(), all.end(), [](const fs::path& path) { return path.filename() != lock_name; });
+}
+
 void remove_results(const fs::path& folder) {
   for (const char* name : results) remove_file(folder / name);
-  for (const fs::path& path : entries(folder))
-    if (is_aside_name(path)) remove_file(path);
+  remove_leftovers(folder);
   const fs::path blocks = folder / blocks_name;
   std::error_code error;
   if (!fs::is_directory(blocks, error)) return;
@@ -54,25 +60,32 @@ void remove_results(const fs::path& folder) {
 
 }  // namespace
 
-void prepare_output_folder(const fs::path& folder, Existing existing, const std::vector<std::string>& writes) {
+void make_output_folder(const fs::path& folder, Existing existing, const std::vector<std::string>& writes) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw Error(fmt::format("{} cannot take results (it is a file): name a folder", folder.string()));
   fs::create_directories(folder, error);
   check(error, "make folder", folder);
-  const bool empty = fs::is_empty(folder, error);
-  check(error, "read folder", folder);
-  if (!empty && existing == Existing::refuse)
+  if (existing == Existing::refuse && is_used(folder))
     throw Error(
         fmt::format("{} is not empty (results of another run would mix with this one's): name another folder, or "
                     "add --overwrite",
                     folder.string()));
   refuse_others(folder, writes);
   if (existing == Existing::overwrite) refuse_others(folder, {std::begin(results), std::end(results)});
+}
+
+void prepare_output_folder(const fs::path& folder, Existing existing, const std::vector<std::string>& writes) {
+  make_output_folder(folder, existing, writes);
   const fs::path probe = folder / "write-test";
   write_durably(aside_name(probe), "freestand\n");
   remove_file(aside_name(probe));
   if (existing == Existing::overwrite) remove_results(folder);
+}
+
+void remove_leftovers(const fs::path& folder) {
+  for (const fs::path& path : entries(folder))
+    if (is_aside_name(path)) remove_file(path);
 }
 
 void write_text(const fs::path& path, std::string_view text) { write_durably(path, text); }

@@ -11,17 +11,26 @@ namespace freestand::io {
 // Where a sweep keeps its finished blocks, inside the output folder.
 inline constexpr const char* blocks_name = "blocks";
 
+// Where a run notes how much was finished when it began.
+inline constexpr const char* begun_name = "freestand.begun";
+
 enum class Existing {
   refuse,     // a folder with something in it is an Error
   overwrite,  // results of freestand in it are removed first; other files are left
   resume      // everything stays
 };
 
-// Makes the folder and its parents, and checks that files can be written there, before long work starts. `writes`: names
-// that will be written beside the results. Throws Error (Exit::usage): not empty and `refuse`, not a folder, no write
-// permission, a file in it would be replaced that freestand did not write (own_files.hpp); a full disk is
-// Exit::resumable. One rank does it for all.
+// Makes the folder and its parents. `writes`: names that will be written beside the results. Throws Error (Exit::usage): not
+// empty (but for a lock) and `refuse`, not a folder, no write permission, a file in it would be replaced that freestand did
+// not write (own_files.hpp). One rank does it for all.
+void make_output_folder(const std::filesystem::path& folder, Existing, const std::vector<std::string>& writes = {});
+
+// The same, and checks that files can be written there, before long work starts: a full disk is Exit::cure. With
+// `overwrite` the results in it are removed.
 void prepare_output_folder(const std::filesystem::path& folder, Existing, const std::vector<std::string>& writes = {});
+
+// Removes what runs that were killed have left half written in a folder. Only while nobody writes there.
+void remove_leftovers(const std::filesystem::path& folder);
 
 // Text file, whole or not there (durable_file.hpp).
 void write_text(const std::filesystem::path& path, std::string_view text);

@@ -89,6 +89,7 @@ void write_provenance(h5::Group& root, const std::string& format, const Provenan
   root.attribute("doubts", from.doubts);
   root.attribute("seed", static_cast<std::int64_t>(from.seed));
   root.attribute("samples", from.samples);
+  root.attribute("kernel", from.kernel);
   root.attribute("version", from.version);
   root.attribute("git_commit", from.git_commit);
   root.attribute("compiler", from.compiler);
@@ -112,6 +113,7 @@ Provenance read_provenance(const h5::Group& root, const std::string& format) {
   if (root.has_attribute("effects")) from.effects = root.text_attribute("effects");
   if (root.has_attribute("accuracy")) from.accuracy = root.text_attribute("accuracy");
   if (root.has_attribute("doubts")) from.doubts = root.text_attribute("doubts");
+  if (root.has_attribute("kernel")) from.kernel = root.text_attribute("kernel");
   from.seed = static_cast<std::uint64_t>(root.integer_attribute("seed"));
   from.samples = root.integer_attribute("samples");
   from.version = root.text_attribute("version");

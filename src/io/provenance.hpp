@@ -22,6 +22,7 @@ struct Provenance {
   std::string effects = "[]";   // JSON text: the effects of the study with law, source and parameters
   std::string accuracy = "{}";  // JSON text: error estimates of the demands (study/accuracy.hpp)
   std::string doubts = "[]";    // JSON: sentences about what looks like a slip in the study or its records
+  std::string kernel;           // study/kernel_number.hpp; "" in older files
   std::string study_name;
   std::uint64_t seed = 0;
   std::int64_t samples = 0;

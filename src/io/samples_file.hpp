@@ -41,7 +41,7 @@ using ReadBlock = std::function<std::vector<double>(std::int64_t block)>;
 
 // Writes the file, all ranks together: each reads runs of blocks, in order, and writes them as slabs; it holds about
 // 16 MiB of rows, or one block, at a time. The file does not depend on the number of ranks but for the provenance.
-// Throws Error: a full disk is Exit::resumable, a block of another shape or a fraction in an integer column Exit::data.
+// Throws Error: a full disk is Exit::cure, a block of another shape or a fraction in an integer column Exit::data.
 // Collective.
 void write_samples(const std::filesystem::path& path, const SamplesHeader&, const BlockLayout&, const ReadBlock&);
 

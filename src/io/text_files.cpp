@@ -32,7 +32,7 @@ Json edp_summary(const fragility::EdpResult& edp) {
 }
 
 Json provenance_json(const Provenance& from) {
-  return {{"version", from.version},   {"git_commit", from.git_commit},
+  return {{"version", from.version},   {"kernel", from.kernel},         {"git_commit", from.git_commit},
           {"compiler", from.compiler}, {"libraries", Json::parse(from.libraries, nullptr, false)},
           {"host", from.host},         {"created_utc", from.created_utc},
           {"command", from.command},   {"ranks", from.ranks}};

@@ -19,8 +19,8 @@ static_assert(std::endian::native == std::endian::little, "block files are littl
 
 struct Header {
   std::array<char, 8> magic = {'F', 'S', 'B', 'L', 'O', 'C', 'K', 'S'};
-  std::uint32_t format = 1;
-  std::uint32_t zero = 0;
+  std::uint32_t format = 2;
+  std::uint32_t kernel = 0;
   std::int64_t block = 0, rows = 0, columns = 0;
   std::array<char, 64> fingerprint{};
   std::uint64_t checksum = 0;
@@ -43,6 +43,7 @@ std::string text_of(const std::array<char, 64>& fingerprint) {
 // A block file as it lies there; nothing if it is no whole block.
 struct Found {
   std::int64_t block;
+  std::uint32_t kernel;
   std::string fingerprint;
   BlockRows rows;
 };
@@ -58,10 +59,19 @@ std::optional<Found> parse(const std::string& bytes) {
   const auto count = static_cast<std::int64_t>(values.size() / sizeof(double));
   if (count / header.columns != header.rows || count % header.columns != 0) return {};
   if (checksum_of(header, values) != header.checksum) return {};
-  Found found{header.block, text_of(header.fingerprint), {header.columns, {}}};
+  Found found{header.block, header.kernel, text_of(header.fingerprint), {header.columns, {}}};
   found.rows.values.resize(static_cast<std::size_t>(count));
   if (count > 0) std::memcpy(found.rows.values.data(), values.data(), values.size());
   return found;
+}
+
+// The same for a file that may not be readable.
+std::optional<Found> found_at(const fs::path& path) {
+  try {
+    return parse(read_whole(path));
+  } catch (const Error&) {
+    return {};
+  }
 }
 
 bool is_block_name(const fs::path& path) {
@@ -86,8 +96,8 @@ void remove_file(const fs::path& path) {
 
 }  // namespace
 
-BlockStore::BlockStore(fs::path folder, std::string fingerprint)
-    : folder_(std::move(folder)), fingerprint_(std::move(fingerprint)) {
+BlockStore::BlockStore(fs::path folder, std::string fingerprint, std::uint32_t kernel)
+    : folder_(std::move(folder)), fingerprint_(std::move(fingerprint)), kernel_(kernel) {
   if (fingerprint_.empty() || fingerprint_.size() > sizeof(Header::fingerprint))
     throw Error(
         fmt::format("study fingerprint \"{}\" cannot be stored (1 to 64 characters): shorten it", fingerprint_));
@@ -100,6 +110,7 @@ fs::path BlockStore::file(std::int64_t block) const { return folder_ / fmt::form
 
 void BlockStore::write(std::int64_t block, const BlockRows& rows) const {
   Header header;
+  header.kernel = kernel_;
   header.block = block;
   header.rows = rows.rows();
   header.columns = rows.columns;
@@ -114,13 +125,18 @@ std::vector<std::int64_t> BlockStore::finished() const {
   std::vector<std::int64_t> blocks;
   for (const fs::path& path : entries(folder_)) {
     if (!is_block_name(path)) continue;
-    const auto found = parse(read_whole(path));
+    const auto found = found_at(path);
     if (!found || path != file(found->block)) continue;
     if (found->fingerprint != fingerprint_)
       throw Error(
           fmt::format("{} holds samples of another study (its fingerprint is {}, this study's is {}): resume with "
                       "the study and records it was started with, or choose another output folder",
                       folder_.string(), found->fingerprint, fingerprint_));
+    if (found->kernel != kernel_)
+      throw Error(fmt::format("{} holds samples of another version of freestand, which gives other numbers (kernel {:08x}, "
+                              "this one's is {:08x}): resume with the program it was started with, or start again with "
+                              "--overwrite",
+                              folder_.string(), found->kernel, kernel_));
     blocks.push_back(found->block);
   }
   std::sort(blocks.begin(), blocks.end());
@@ -131,11 +147,12 @@ BlockRows BlockStore::read(std::int64_t block) const {
   const auto found = parse(read_whole(file(block)));
   const auto reject = [&](const char* why) {
     throw Error(
-        fmt::format("{} cannot be used ({}): run again with --resume to compute it again", file(block).string(), why),
+        fmt::format("{} cannot be used ({}): --resume computes it again", file(block).string(), why),
         Exit::data);
   };
   if (!found || found->block != block) reject("torn or damaged");
   if (found->fingerprint != fingerprint_) reject("of another study");
+  if (found->kernel != kernel_) reject("of another version of freestand");
   return found->rows;
 }
 

@@ -1,7 +1,7 @@
 // Finished blocks of samples, one file each, that survive the end of the program at any moment.
 //
 // A block file is written aside and renamed, so under its name it is whole; one that the end of the machine has torn is
-// known by its checksum. Layout, little endian: 8 bytes magic, uint32 format, uint32 zero, int64 block, int64 rows, int64
+// known by its checksum. Layout, little endian: 8 bytes magic, uint32 format, uint32 kernel, int64 block, int64 rows, int64
 // columns, 64 bytes fingerprint (ASCII, zero padded), uint64 checksum (FNV-1a over the header before it and the values),
 // then rows x columns doubles, row by row.
 #pragma once
@@ -23,17 +23,17 @@ struct BlockRows {
 
 class BlockStore {
  public:
-  // folder: made if it is not there (parents too). fingerprint: of all that determines the numbers, at most 64
-  // characters. Throws Error if the folder cannot be made or the fingerprint is too long or empty.
-  BlockStore(std::filesystem::path folder, std::string fingerprint);
+  // folder: made if it is not there (parents too). fingerprint: of all in the study that determines the numbers, at most
+  // 64 characters. kernel: of what in the program does. Throws Error if the folder cannot be made or the fingerprint is too long or empty.
+  BlockStore(std::filesystem::path folder, std::string fingerprint, std::uint32_t kernel = 0);
 
   // Stores a finished block, replacing one of the same index. Throws Error: a full disk or a failing device is
-  // Exit::resumable, a missing right Exit::usage.
+  // Exit::cure, a missing right Exit::usage.
   void write(std::int64_t block, const BlockRows& rows) const;
 
-  // The blocks that are there and whole, ascending. Torn or damaged files do not count, they will be computed again. A
-  // block of another study is an Error (Exit::usage): resuming would mix two studies. One rank asks and tells the
-  // others.
+  // The blocks that are there and whole, ascending. Files that are torn, damaged or cannot be read do not count, they will
+  // be computed again. A block of another study or kernel is an Error (Exit::usage): resuming would mix the two. One rank
+  // asks and tells the others.
   std::vector<std::int64_t> finished() const;
 
   // One block. Throws Error (Exit::data) if it is not there, damaged, or of another study.
@@ -51,6 +51,7 @@ class BlockStore {
  private:
   std::filesystem::path folder_;
   std::string fingerprint_;
+  std::uint32_t kernel_;
 };
 
 }  // namespace freestand::parallel

@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "base/shown_text.hpp"
+#include "parallel/progress.hpp"
 #include "parallel/requests.hpp"
 #include "parallel/stop.hpp"
 
@@ -181,12 +182,9 @@ int end_run(const Communicator& world, const Error& error) {
 }
 
 int end_run(const Communicator& world, const std::string& text, int exit_code, bool shared) {
-  const auto tell = [&] {
-    fmt::print(stderr, "{}\n", printable(text, Lines::keep));
-    std::fflush(stderr);
-  };
+  const std::string shown = printable(text, Lines::keep) + "\n";
   if (world.size() == 1 || shared) {
-    if (world.is_root()) tell();
+    if (world.is_root()) tell(shown);
     return exit_code;
   }
   // The lowest rank that failed speaks; it ends the others while they wait for their turn.
@@ -197,7 +195,7 @@ int end_run(const Communicator& world, const std::string& text, int exit_code, b
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (!stopped_before && stop_requested()) _exit(exit_code);
   }
-  tell();
+  tell(shown);
   MPI_Abort(MPI_COMM_WORLD, exit_code);
   _exit(exit_code);
 }

@@ -56,6 +56,11 @@ std::string progress_line(const Counts& done, std::int64_t total, std::int64_t b
          fmt::format(", {:.1f} % overturned, {} failed", percent(done.overturned, done.samples), grouped(done.failed));
 }
 
+void tell(const std::string& text, std::FILE* stream) {
+  std::fputs(text.c_str(), stream);
+  std::fflush(stream);
+}
+
 bool on_terminal() {
   if (::isatty(STDERR_FILENO)) return true;
   if (!std::getenv("OMPI_COMM_WORLD_RANK")) return false;
@@ -85,18 +90,16 @@ void Progress::print(const Counts& done) {
   last_ = Clock::now();
   const std::string line = progress_line(done, total_, before_, elapsed_s());
   if (settings_.terminal)
-    fmt::print(settings_.stream, "\r{}\x1b[K", line);
+    tell("\r" + line + "\x1b[K", settings_.stream);
   else
-    fmt::print(settings_.stream, "{}\n", line);
+    tell(line + "\n", settings_.stream);
   line_open_ = settings_.terminal;
-  std::fflush(settings_.stream);
 }
 
 void Progress::finish(const Counts& done) {
   print(done);
-  if (line_open_) fmt::print(settings_.stream, "\n");
+  if (line_open_) tell("\n", settings_.stream);
   line_open_ = false;
-  std::fflush(settings_.stream);
 }
 
 Progress::~Progress() {

@@ -24,6 +24,9 @@ std::string progress_line(const Counts& done, std::int64_t total, std::int64_t b
 // "45 s", "2 min 3 s", "1 h 5 min", "3 d 2 h"; seconds >= 0.
 std::string duration_text(double seconds);
 
+// Writes to a log or a terminal. One that cannot be written (a full disk, a pipe that nobody reads) ends no run.
+void tell(const std::string& text, std::FILE* stream = stderr);
+
 // Is the standard error of this run, mpirun's where it was started by mpirun, a terminal?
 bool on_terminal();
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "parallel/progress.hpp"
 
 namespace freestand::parallel {
@@ -11,7 +9,7 @@ namespace freestand::parallel {
 StepDisplay::StepDisplay(bool quiet) : quiet_(quiet), terminal_(on_terminal()) {}
 
 StepDisplay::~StepDisplay() {
-  if (open_) std::fputs("\n", stderr);
+  if (open_) tell("\n");
 }
 
 void StepDisplay::show(const std::string& what, std::size_t done, std::size_t total) {
@@ -21,11 +19,7 @@ void StepDisplay::show(const std::string& what, std::size_t done, std::size_t to
   last_ = now;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const std::string line = fmt::format("{}: {}/{}, {} so far", what, done, total, duration_text(elapsed));
-  if (terminal_)
-    fmt::print(stderr, "\r\033[K{}", line);
-  else
-    fmt::print(stderr, "{}\n", line);
-  std::fflush(stderr);
+  tell(terminal_ ? "\r\033[K" + line : line + "\n");
   open_ = terminal_;
 }
 

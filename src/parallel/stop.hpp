@@ -1,16 +1,32 @@
 // Stopping on request: batch systems send SIGTERM before the time limit, people press Ctrl-C.
 #pragma once
 
+#include <atomic>
+#include <functional>
+#include <thread>
+
 namespace freestand::parallel {
 
-// While it lives, SIGTERM, SIGINT and SIGUSR1 (which mpirun passes on) ask the run to stop after the open blocks
+// While it lives, SIGTERM, SIGINT, SIGUSR1 and SIGUSR2 (which mpirun passes on) ask the run to stop after the open blocks
 // instead of ending the process; a second SIGINT ends it. One at a time.
 class StopOnSignal {
  public:
+  // What to do, from another thread, when the run still goes on `patience_s` after it was asked to stop: it is in the
+  // middle of something long. It should end the process.
+  struct Overdue {
+    double patience_s;
+    std::function<void()> act;
+  };
+
   StopOnSignal();
+  explicit StopOnSignal(Overdue);
   ~StopOnSignal();
   StopOnSignal(const StopOnSignal&) = delete;
   StopOnSignal& operator=(const StopOnSignal&) = delete;
+
+ private:
+  std::atomic<bool> over_ = false;
+  std::thread watch_;
 };
 
 // Has this process been asked to stop? Safe and cheap anywhere.

@@ -48,8 +48,9 @@ EditedStudy study_of(const parallel::Communicator& world, const std::string& swe
 
 }  // namespace
 
-FitSummary fit(const parallel::Communicator& world, const std::filesystem::path& folder, const std::string& command,
-               bool quiet, const SweepSummary* sweep) {
+FitSummary fit(const parallel::Communicator& world, RunFolder& run_folder, const std::string& command, bool quiet,
+               const SweepSummary* sweep) {
+  const std::filesystem::path& folder = run_folder.path();
   const auto start = std::chrono::steady_clock::now();
   const auto so_far = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const std::vector<std::string> written = {"fragility.h5", "bins.csv", "surface.csv", "summary.json"};
@@ -57,6 +58,8 @@ FitSummary fit(const parallel::Communicator& world, const std::filesystem::path&
   const io::SampleReader reader(samples_path(folder));
   const auto [study, changed] = study_of(world, reader.provenance().study, folder);
   const io::BlockLayout layout{reader.rows(), rows_at_once};
+  run_folder.begin();
+  run_folder.leave_if_asked();
   const std::vector<std::string> columns = analysed_columns(study.fragility);
   parallel::StepDisplay display(quiet || !world.is_root());
   const fragility::Result result = analyse(
@@ -69,6 +72,7 @@ FitSummary fit(const parallel::Communicator& world, const std::filesystem::path&
     provenance.accuracy = reader.provenance().accuracy;
     provenance.doubts = reader.provenance().doubts;
     provenance.study_name = study.name;
+    provenance.kernel = reader.provenance().kernel;
     provenance.seed = reader.provenance().seed;
     provenance.samples = reader.provenance().samples;
     io::write_fragility(folder / "fragility.h5", provenance, result);
@@ -86,6 +90,7 @@ FitSummary fit(const parallel::Communicator& world, const std::filesystem::path&
     summary["files"] = {"samples.h5", "fragility.h5", "bins.csv", "surface.csv", "study.yaml"};
     io::write_text(folder / "summary.json", io::json_text(summary));
   });
+  run_folder.end();
   return {reader.rows(), so_far(), changed};
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "parallel/communicator.hpp"
+#include "study/run_folder.hpp"
 #include "study/sweep.hpp"
 
 namespace freestand::study {
@@ -19,8 +20,8 @@ struct FitSummary {
 // Reads DIR/samples.h5 and writes the other files beside it. The study is the one stored in samples.h5, with the fragility
 // block of DIR/study.yaml where that is there (edited_study.hpp). quiet: no progress. sweep: what the run that made the
 // samples took, for the summary; null: not known. Collective. Throws Error: samples.h5 cannot be used (Exit::data),
-// study.yaml is not the study that was swept (Exit::usage).
-FitSummary fit(const parallel::Communicator&, const std::filesystem::path& folder, const std::string& command,
-               bool quiet = false, const SweepSummary* sweep = nullptr);
+// study.yaml is not the study that was swept (Exit::usage), stopped on request (as RunFolder::leave).
+FitSummary fit(const parallel::Communicator&, RunFolder& folder, const std::string& command, bool quiet = false,
+               const SweepSummary* sweep = nullptr);
 
 }  // namespace freestand::study

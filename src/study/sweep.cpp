@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/random.hpp"
 #include "fragility/fit.hpp"
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
@@ -15,12 +16,12 @@
 #include "parallel/checkpoint.hpp"
 #include "parallel/progress.hpp"
 #include "parallel/schedule.hpp"
-#include "parallel/stop.hpp"
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
 #include "study/doubts.hpp"
 #include "study/effects_page.hpp"
 #include "study/evaluator.hpp"
+#include "study/kernel_number.hpp"
 
 namespace freestand::study {
 namespace {
@@ -49,32 +50,40 @@ bool already_complete(const Study& study, const std::filesystem::path& folder) {
 MotionSet load_together(const Communicator& world, const Study& study) {
   world.on_root([&] {
     const MotionSet motions = load_motions(study);
-    for (const std::string& doubt : doubts(study, motions)) fmt::print(stderr, "doubtful: {}\n", doubt);
+    for (const std::string& doubt : doubts(study, motions)) parallel::tell("doubtful: " + doubt + "\n");
   });
   return load_motions(study);
 }
 
+// Of the numbers of a row and of what they mean.
+std::uint32_t kernel_of(const std::vector<Column>& columns) {
+  std::string names;
+  for (const Column& column : columns) names += column.name + "\n";
+  return kernel_number ^ static_cast<std::uint32_t>(random::stable_hash(names));
+}
+
 class Sweep {
  public:
-  Sweep(const Communicator& world, const Study& study, const SweepOptions& options)
+  Sweep(const Communicator& world, const Study& study, const SweepOptions& options, RunFolder& folder)
       : world_(world),
         study_(study),
         options_(options),
+        folder_(folder),
         evaluator_(study, load_together(world, study)),
-        store_(blocks_path(options.folder), fingerprint(study) + evaluator_.motions().fingerprint()) {}
+        store_(blocks_path(folder.path()), fingerprint(study) + evaluator_.motions().fingerprint(),
+               kernel_of(evaluator_.columns())) {}
 
   SweepSummary run() {
     take_stock();
+    folder_.begin();
     std::int64_t samples = first_round();
-    for (;;) {
-      if (!compute(samples)) break;
-      if (samples == total() || known_well_enough(samples)) {
-        write(samples);
-        summary_.complete = true;
-        break;
-      }
+    compute(samples);
+    while (samples < total() && !known_well_enough(samples)) {
       samples = std::min(total(), 2 * samples);
+      compute(samples);
     }
+    write(samples);
+    folder_.end();
     summary_.samples = samples;
     summary_.wall_s = seconds_since(start_);
     if (summary_.compute_s > 0) summary_.samples_per_s = static_cast<double>(summary_.computed) / summary_.compute_s;
@@ -95,14 +104,15 @@ class Sweep {
   void take_stock() {
     parallel::Words finished;
     world_.on_root([&] {
-      store_.remove_leftovers();
       finished = store_.finished();
+      store_.remove_leftovers();
+      io::write_text(study_path(folder_.path()), io::signed_text(expanded(study_, folder_.path())));
     });
     finished_ = world_.broadcast(finished);
   }
 
-  // All blocks of the first `samples` samples. False: stopped on request.
-  bool compute(std::int64_t samples) {
+  // All blocks of the first `samples` samples.
+  void compute(std::int64_t samples) {
     parallel::Words todo;
     std::int64_t there = 0;
     for (std::int64_t block = 0; block < layout(samples).blocks(); ++block) {
@@ -120,18 +130,23 @@ class Sweep {
         [&](std::int64_t block, const parallel::Beat& beat) { return compute_block(samples, block, beat); },
         progress ? &*progress : nullptr);
     summary_.compute_s += seconds_since(start);
-    if (!complete) return false;
+    if (!complete) folder_.leave();
     summary_.computed += samples - there;
     finished_.insert(finished_.end(), todo.begin(), todo.end());
     std::sort(finished_.begin(), finished_.end());
-    return true;
   }
 
   parallel::Counts compute_block(std::int64_t samples, std::int64_t block, const parallel::Beat& beat) {
+    parallel::Counts counts;
+    store_.write(block, rows_of(samples, block, counts, beat));
+    return counts;
+  }
+
+  parallel::BlockRows rows_of(std::int64_t samples, std::int64_t block, parallel::Counts& counts,
+                              const parallel::Beat& beat) const {
     const io::BlockLayout blocks = layout(samples);
     parallel::BlockRows rows{.columns = static_cast<std::int64_t>(evaluator_.columns().size()), .values = {}};
     rows.values.reserve(static_cast<std::size_t>(rows.columns * blocks.rows(block)));
-    parallel::Counts counts;
     const std::int64_t first = block * blocks.block_size, end = first + blocks.rows(block);
     for (std::int64_t sample = first; sample < end; sample += pack_samples) {
       const auto count = static_cast<std::size_t>(std::min(pack_samples, end - sample));
@@ -143,26 +158,38 @@ class Sweep {
       }
       beat();
     }
-    store_.write(block, rows);
-    return counts;
+    return rows;
+  }
+
+  // A finished block; one whose file has become unreadable since is computed again.
+  std::vector<double> finished_rows(std::int64_t samples, std::int64_t block) const {
+    try {
+      return store_.read(block).values;
+    } catch (const Error& error) {
+      parallel::tell(fmt::format("{}: it is computed again now\n", error.what()));
+      parallel::Counts ignored;
+      return rows_of(samples, block, ignored, [] {}).values;
+    }
   }
 
   // Is every wanted point of the surface within the half width asked for?
   bool known_well_enough(std::int64_t samples) {
+    folder_.leave_if_asked();
     const fragility::Result result = analyse(world_, study_, evaluator_.motions().is_record(), layout(samples).blocks(),
                                              layout(samples).block_size, [&](std::int64_t block) {
-                                               return Table{evaluator_.columns(), store_.read(block).values};
+                                               return Table{evaluator_.columns(), finished_rows(samples, block)};
                                              });
     double half_width = 0;
     if (world_.is_root()) half_width = fragility::half_width(result).largest;
     half_width = world_.broadcast(std::vector<double>{half_width}).front();
     if (world_.is_root() && !options_.quiet)
-      fmt::print(stderr, "{} samples: the surface is known to +-{:.3f} (wanted +-{:.3f})\n", samples, half_width,
-                 study_.until->half_width);
+      parallel::tell(fmt::format("{} samples: the surface is known to +-{:.3f} (wanted +-{:.3f})\n", samples,
+                                 half_width, study_.until->half_width));
     return half_width <= study_.until->half_width;
   }
 
   void write(std::int64_t samples) {
+    folder_.leave_if_asked();
     const auto check = Clock::now();
     const Accuracy accuracy = check_accuracy(world_, study_, evaluator_, samples);
     summary_.accuracy_s = seconds_since(check);
@@ -176,8 +203,10 @@ class Sweep {
     header.provenance.study_name = study_.name;
     header.provenance.seed = study_.seed;
     header.provenance.samples = samples;
-    io::write_samples(samples_path(options_.folder), header, layout(samples),
-                      [&](std::int64_t block) { return store_.read(block).values; });
+    header.provenance.kernel = fmt::format("{:08x}", kernel_number);
+    folder_.confirm();
+    io::write_samples(samples_path(folder_.path()), header, layout(samples),
+                      [&](std::int64_t block) { return finished_rows(samples, block); });
     world_.on_root([&] { store_.clear(); });
     summary_.write_s = seconds_since(writing);
   }
@@ -186,6 +215,7 @@ class Sweep {
   const Communicator& world_;
   const Study& study_;
   const SweepOptions& options_;
+  RunFolder& folder_;
   Evaluator evaluator_;
   parallel::BlockStore store_;
   parallel::Words finished_;
@@ -198,21 +228,17 @@ std::filesystem::path samples_path(const std::filesystem::path& folder) { return
 std::filesystem::path blocks_path(const std::filesystem::path& folder) { return folder / "blocks"; }
 std::filesystem::path study_path(const std::filesystem::path& folder) { return folder / "study.yaml"; }
 
-SweepSummary sweep(const Communicator& world, const Study& study, const SweepOptions& options) {
-  const parallel::StopOnSignal stop_on_signal;
+SweepSummary sweep(const Communicator& world, const Study& study, const SweepOptions& options, RunFolder& folder) {
   parallel::Words complete{0};
   world.on_root([&] {
-    io::prepare_output_folder(options.folder,
-                              options.resume      ? io::Existing::resume
-                              : options.overwrite ? io::Existing::overwrite
-                                                  : io::Existing::refuse,
-                              {study_path(options.folder).filename().string()});
-    if (options.resume) complete[0] = already_complete(study, options.folder);
-    io::write_text(study_path(options.folder), io::signed_text(expanded(study, options.folder)));
+    complete[0] = already_complete(study, folder.path());
+    if (!complete[0]) return;
+    if (std::filesystem::exists(blocks_path(folder.path())))  // its end was interrupted
+      parallel::BlockStore(blocks_path(folder.path()), fingerprint(study)).clear();
+    io::write_text(study_path(folder.path()), io::signed_text(expanded(study, folder.path())));
   });
-  if (world.broadcast(complete)[0])
-    return {.complete = true, .samples = static_cast<std::int64_t>(study.samples), .computed = 0};
-  return Sweep(world, study, options).run();
+  if (world.broadcast(complete)[0]) return {.samples = static_cast<std::int64_t>(study.samples), .computed = 0};
+  return Sweep(world, study, options, folder).run();
 }
 
 }  // namespace freestand::study

@@ -5,14 +5,12 @@
 #include <string>
 
 #include "parallel/communicator.hpp"
+#include "study/run_folder.hpp"
 #include "study/study.hpp"
 
 namespace freestand::study {
 
 struct SweepOptions {
-  std::filesystem::path folder;
-  bool overwrite = false;
-  bool resume = false;
   bool quiet = false;
   std::string command;  // for the provenance
 };
@@ -23,7 +21,6 @@ std::filesystem::path blocks_path(const std::filesystem::path& folder);
 std::filesystem::path study_path(const std::filesystem::path& folder);  // the expanded study
 
 struct SweepSummary {
-  bool complete = false;  // false: stopped on request, `resume` goes on (exit 75)
   std::int64_t samples = 0;
   std::int64_t computed = 0;  // by this run; the others were there
   // From the start to the end, and what of it went into integrating samples, into checking their accuracy and into
@@ -32,10 +29,10 @@ struct SweepSummary {
   double samples_per_s = 0;  // while integrating, all ranks together
 };
 
-// Computes the blocks that are not there yet and writes samples.h5. With `until`, goes on in rounds, each twice as long
+// Computes the blocks that are not there yet and writes samples.h5; nothing, if that is there. With `until`, goes on in rounds, each twice as long
 // as all before, until every wanted point of the surface is known well enough. The same numbers, to the bit, on any
-// number of ranks and after any restart. Collective. Throws Error: folder in use, another study's blocks (Exit::usage),
-// full disk (Exit::resumable).
-SweepSummary sweep(const parallel::Communicator&, const Study&, const SweepOptions&);
+// number of ranks and after any restart. Collective. Throws Error: another study's results (Exit::usage; the
+// folder is then as it was), full disk (Exit::cure), stopped on request (as RunFolder::leave).
+SweepSummary sweep(const parallel::Communicator&, const Study&, const SweepOptions&, RunFolder&);
 
 }  // namespace freestand::study

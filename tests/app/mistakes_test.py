@@ -4,9 +4,10 @@ import json
 import os
 import re
 import resource
+import subprocess
 import unittest
 
-from support import CONFIGS, InFolder, run, study_text
+from support import CONFIGS, InFolder, result, run, study_text
 
 
 def with_records(glob):
@@ -76,15 +77,34 @@ class Mistakes(InFolder):
         self.succeed(["run", study, "-o", out, "--overwrite", "--quiet"])
         self.assertEqual((out / "notes.txt").read_text(), "mine")
 
-    def test_full_disk_is_resumable(self):
+    def test_a_file_size_limit_has_to_be_cured(self):
         study = self.write("study.yaml", study_text(samples=4000, block_size=512))
         out = self.folder / "out"
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (40000, 40000))
         done = run(["sweep", study, "-o", out, "--quiet"], preexec_fn=limit)
-        self.assertEqual(done.returncode, 75, done.stderr)
+        self.assertEqual(done.returncode, 74, done.stderr)
         self.assertIn("--resume", done.stderr)
         self.succeed(["sweep", study, "-o", out, "--resume", "--quiet"])
         self.assertTrue((out / "samples.h5").exists())
+
+    def test_a_full_disk_has_to_be_cured(self):
+        study = self.write("study.yaml", study_text(samples=6000, block_size=256))
+        whole, disk = self.folder / "whole", self.folder / "disk"
+        self.succeed(["run", study, "-o", whole, "--quiet"])
+        disk.mkdir()
+        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=600k", "tmpfs", disk], capture_output=True).returncode:
+            self.skipTest("no right to mount a small file system here")
+        self.addCleanup(subprocess.run, ["umount", disk])
+        for ranks, options in ((1, []), (2, ["--resume"])):  # while blocks are written, and again from the start
+            done = run(["run", study, "-o", disk / "out", "--quiet", *options], ranks)
+            self.assertEqual(done.returncode, 74, done.stderr)
+            self.assertIn("No space left", done.stderr)
+        subprocess.run(["mount", "-o", "remount,size=900k", disk], check=True)  # enough for the blocks, not for samples.h5
+        self.assertEqual(run(["run", study, "-o", disk / "out", "--quiet", "--resume"]).returncode, 74)
+        subprocess.run(["mount", "-o", "remount,size=20m", disk], check=True)
+        self.succeed(["run", study, "-o", disk / "out", "--quiet", "--resume"])
+        self.assertEqual(result(disk / "out"), result(whole))
+        self.assertFalse(list((disk / "out").glob(".*")))
 
     @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
     def test_no_write_permission(self):

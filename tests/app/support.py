@@ -35,6 +35,11 @@ def study_text(samples=3000, design="sobol", block_size=64):
     return STUDY.format(samples=samples, design=design, block_size=block_size)
 
 
+def slow_fit(text):
+    """The study with a fit of half a minute and more."""
+    return text.replace("edp: [delta, overturned]", "edp: [delta, overturned, peak_slip_m, slid_path_m]").replace("resamples: 50", "resamples: 60000")
+
+
 def command(arguments, ranks=1):
     launcher = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
     return launcher + [FREESTAND] + [str(a) for a in arguments]

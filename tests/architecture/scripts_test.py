@@ -130,22 +130,27 @@ class Mpirun(Stage):
         self.script = ROOT / "jobs/freestand.mpirun.sh"
         self.stand_in("mpirun", 'while [ "$1" != "$FREESTAND" ]; do shift; done\n"$@"')
 
-    def test_sweep_then_fit(self):
+    def test_sweep_and_fit_on_all_ranks(self):
         self.assertEqual(self.run_script(self.script, "s.yaml", self.folder / "new", "3").returncode, 0)
         self.assertIn(" -n 3 ", self.called("mpirun")[0])
-        self.assertEqual([call.split()[1] for call in self.called("freestand")], ["sweep", "fit"])
+        self.assertEqual([call.split()[1] for call in self.called("freestand")], ["run"])
         self.assertNotIn("--resume", self.called("freestand")[0])
 
     def test_goes_on_where_the_folder_is_there(self):
         self.run_script(self.script, "s.yaml", self.folder)
         self.assertIn("--resume", self.called("freestand")[0])
 
-    def test_stopped_early_is_75_without_fit(self):
+    def test_stopped_early_is_75(self):
         self.environment["CODE"] = "75"
         result = self.run_script(self.script, "s.yaml", self.folder / "new")
         self.assertEqual(result.returncode, 75)
         self.assertIn("to go on", result.stdout)
-        self.assertEqual(len(self.called("freestand")), 1)
+
+    def test_what_has_to_be_cured_first_is_not_to_be_started_again(self):
+        self.environment["CODE"] = "74"
+        result = self.run_script(self.script, "s.yaml", self.folder / "new")
+        self.assertEqual(result.returncode, 74)
+        self.assertNotIn("to go on", result.stdout)
 
     def test_mistakes_keep_their_code(self):
         self.environment["CODE"] = "3"
@@ -170,33 +175,56 @@ class Mpirun(Stage):
 class Slurm(Stage):
     def setUp(self):
         super().setUp()
-        self.stand_in("scontrol", "exit 0")
+        self.stand_in("scontrol", 'echo "JobId=77 JobState=${STATE:-RUNNING} Reason=None"')
         self.stand_in("srun", "exit ${CODE:-0}")
         self.environment.update(FREESTAND=str(self.stand_in("freestand", "exit 0")), SLURM_JOB_ID="77", SLURM_SUBMIT_DIR=str(self.folder))
 
     def submit(self, *arguments):
         return self.run_script("bash", ROOT / "jobs/freestand.slurm", *arguments)
 
-    def test_sweep_then_fit(self):
+    def requeued(self):
+        return "scontrol requeue 77" in self.called("scontrol")
+
+    def test_sweep_and_fit_in_one_step_of_all_ranks(self):
         self.assertEqual(self.submit("s.yaml", "results").returncode, 0)
-        sweep, fit = self.called("srun")
-        self.assertIn(" sweep s.yaml -o results", sweep)
-        self.assertTrue(fit.endswith(" fit results"))
+        (step,) = self.called("srun")
+        self.assertTrue(step.endswith(" run s.yaml -o results"))
+        self.assertIn(" --kill-on-bad-exit=1 ", step)
         self.assertEqual(self.called("scontrol"), [])
 
     def test_stopped_early_goes_back_into_the_queue(self):
         self.environment["CODE"] = "75"
         (self.folder / "results").mkdir()
         self.assertEqual(self.submit("s.yaml", "results").returncode, 0)
-        self.assertEqual(self.called("scontrol"), ["scontrol requeue 77"])
+        self.assertTrue(self.requeued())
         self.assertEqual(len(self.called("srun")), 1)
         self.assertIn("--resume", self.called("srun")[0])
 
-    def test_mistakes_do_not(self):
-        self.environment["CODE"] = "2"
-        self.assertEqual(self.submit("s.yaml", "results").returncode, 2)
+    def test_mistakes_and_what_has_to_be_cured_do_not(self):
+        for code in (2, 3, 74, 137):
+            self.environment["CODE"] = str(code)
+            self.assertEqual(self.submit("s.yaml", "results").returncode, code)
         self.assertEqual(self.called("scontrol"), [])
         self.assertEqual(self.submit().returncode, 2)
+
+    def test_a_cancelled_job_does_not_come_back(self):
+        self.environment.update(CODE="75", STATE="COMPLETING")
+        self.assertEqual(self.submit("s.yaml", "results").returncode, 75)
+        self.assertFalse(self.requeued())
+
+    def test_a_signal_to_the_script_reaches_the_step(self):
+        self.stand_in("srun", "trap 'exit 75' USR1\ntrap 'exit 99' TERM\nfor i in $(seq 200); do sleep 0.05; done")
+        script = ["bash", ROOT / "jobs/freestand.slurm", "s.yaml", "results"]
+        process = subprocess.Popen(script, stdout=subprocess.PIPE, env=self.environment)
+        for _ in range(200):
+            if self.called("srun"):
+                break
+            time.sleep(0.02)
+        time.sleep(0.2)
+        process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 0)
+        self.assertTrue(self.requeued())
 
     def test_asks_for_time_to_stop_and_may_be_requeued(self):
         text = (ROOT / "jobs/freestand.slurm").read_text()

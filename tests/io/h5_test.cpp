@@ -169,7 +169,7 @@ void write_much(const fs::path& path) {
 TEST(H5, AFileSizeLimitIsResumableAndLeavesNothing) {
   const test::Scratch scratch("h5");
   const auto told = test::with_file_size_limit(100000, [&] { write_much(scratch / "x.h5"); });
-  EXPECT_EQ(told.exit, 75);
+  EXPECT_EQ(told.exit, 74);
   EXPECT_THAT(told.text, AllOf(HasSubstr("x.h5"), HasSubstr("ulimit")));
   EXPECT_TRUE(empty(scratch.folder()));
 }
@@ -178,7 +178,7 @@ TEST(H5, AFullDiskIsResumableAndLeavesNothing) {
   const test::Scratch scratch("h5");
   const test::SmallDisk disk(scratch / "disk", "256k");
   if (!disk.mounted()) GTEST_SKIP() << "no right to mount a small file system here";
-  EXPECT_THAT(error_text(Exit::resumable, [&] { write_much(disk.folder() / "x.h5"); }),
+  EXPECT_THAT(error_text(Exit::cure, [&] { write_much(disk.folder() / "x.h5"); }),
               AllOf(HasSubstr("x.h5"), HasSubstr("No space left"), HasSubstr("free some space")));
   EXPECT_TRUE(empty(disk.folder()));
 }

@@ -142,13 +142,13 @@ TEST(SamplesFile, WholeNumberColumnsTakeOnlyWholeNumbers) {
   EXPECT_TRUE(std::filesystem::is_empty(scratch.folder()));
 }
 
-TEST(SamplesFile, AFullDiskIsResumableAndLeavesNothing) {
+TEST(SamplesFile, AFullDiskHasToBeCuredAndLeavesNothing) {
   const test::Scratch scratch("samples");
   const test::SmallDisk disk(scratch / "disk", "512k");
   if (!disk.mounted()) GTEST_SKIP() << "no right to mount a small file system here";
   const BlockLayout layout{100000, 1000};
   EXPECT_THAT(
-      error_text(Exit::resumable,
+      error_text(Exit::cure,
                  [&] { write_samples(disk.folder() / "samples.h5", small_header(), layout, small_blocks(layout)); }),
       AllOf(HasSubstr("samples.h5"), HasSubstr("No space left")));
   EXPECT_TRUE(std::filesystem::is_empty(disk.folder()));

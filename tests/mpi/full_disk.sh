@@ -11,7 +11,7 @@ fi
 "$mpiexec" -n "$ranks" "$program" "$folder" >"$folder.txt" 2>&1
 code=$?
 cat "$folder.txt"
-if [ $code != 75 ]; then echo "FAILED: exit code $code, expected 75"; exit 1; fi
+if [ $code != 74 ]; then echo "FAILED: exit code $code, expected 74"; exit 1; fi
 if [ "$(grep -c 'No space left' "$folder.txt")" != 1 ]; then echo "FAILED: not told once"; exit 1; fi
 if [ -e "$folder/samples.h5" ]; then echo "FAILED: a half file under the final name"; exit 1; fi
 mount -o remount,size=20m "$folder" || exit 1

@@ -110,6 +110,28 @@ TEST(BlockStore, AnotherStudysBlocksAreRefused) {
   EXPECT_THAT(error_text(Exit::data, [&] { second.read(0); }), HasSubstr("another study"));
 }
 
+TEST(BlockStore, AnotherKernelsBlocksAreRefused) {
+  const test::Scratch scratch("store");
+  BlockStore(scratch.folder(), "abc", 7).write(0, rows_of(1, {1}));
+  const BlockStore second(scratch.folder(), "abc", 8);
+  EXPECT_THAT(error_text(Exit::usage, [&] { second.finished(); }),
+              testing::AllOf(HasSubstr("another version of freestand"), HasSubstr("00000007"), HasSubstr("00000008")));
+  EXPECT_THAT(error_text(Exit::data, [&] { second.read(0); }), HasSubstr("another version"));
+  EXPECT_EQ(BlockStore(scratch.folder(), "abc", 7).finished(), Blocks{0});
+}
+
+// A link to itself cannot be read, not even by root.
+TEST(BlockStore, AFileThatCannotBeReadDoesNotCountAndIsReplaced) {
+  const test::Scratch scratch("store");
+  const BlockStore store(scratch.folder(), "abc");
+  store.write(0, rows_of(1, {1}));
+  fs::create_symlink(store.file(1).filename(), store.file(1));
+  EXPECT_EQ(store.finished(), Blocks{0});
+  EXPECT_THAT(error_text(Exit::data, [&] { store.read(1); }), HasSubstr("block-00000001.bin"));
+  store.write(1, rows_of(1, {2}));
+  EXPECT_EQ(store.finished(), (Blocks{0, 1}));
+}
+
 TEST(BlockStore, AMissingBlockNamesItsFile) {
   const test::Scratch scratch("store");
   const BlockStore store(scratch.folder(), "abc");
@@ -143,21 +165,21 @@ TEST(BlockStore, AWriteThatStopsInTheMiddleLeavesNothing) {
   store.write(0, rows_of(1, {1}));
   const auto told =
       test::with_file_size_limit(10000, [&] { store.write(0, rows_of(1, std::vector<double>(5000, 2.0))); });
-  EXPECT_EQ(told.exit, 75);
+  EXPECT_EQ(told.exit, 74);
   EXPECT_THAT(told.text,
               testing::AllOf(HasSubstr("cannot write"), HasSubstr("block-00000000.bin"), HasSubstr("ulimit")));
   EXPECT_EQ(store.read(0).values, std::vector<double>{1});
   EXPECT_EQ(file_names(scratch.folder()).size(), 1u);
 }
 
-TEST(BlockStore, AFullDiskIsResumable) {
+TEST(BlockStore, AFullDiskHasToBeCured) {
   const test::Scratch scratch("store");
   const test::SmallDisk disk(scratch / "disk", "64k");
   if (!disk.mounted()) GTEST_SKIP() << "no right to mount a small file system here";
   const BlockStore store(disk.folder(), "abc");
   store.write(0, rows_of(1, std::vector<double>(1000, 1.0)));
   const std::string text =
-      error_text(Exit::resumable, [&] { store.write(1, rows_of(1, std::vector<double>(20000, 1.0))); });
+      error_text(Exit::cure, [&] { store.write(1, rows_of(1, std::vector<double>(20000, 1.0))); });
   EXPECT_THAT(text, testing::AllOf(HasSubstr("No space left"), HasSubstr("free some space")));
   EXPECT_EQ(store.finished(), Blocks{0});
   EXPECT_EQ(file_names(disk.folder()).size(), 1u);

@@ -31,6 +31,17 @@ TEST(Progress, WhatWasThereBeforeCountsNeitherForTheSpeedNorForTheShares) {
             "600/1,000 samples (60.0 %), 10/s, 40 s left, 5.0 % overturned, 0 failed");
 }
 
+TEST(Progress, ALogOnAFullDiskEndsNoRun) {
+  std::FILE* full = std::fopen("/dev/full", "w");
+  ASSERT_TRUE(full);
+  std::setvbuf(full, nullptr, _IONBF, 0);
+  {
+    Progress progress(100, 0, settings_for(full, false));
+    EXPECT_NO_THROW(progress.finish({100, 0, 0}));
+  }
+  std::fclose(full);
+}
+
 TEST(Progress, NothingDoneYetHasNoSpeed) {
   EXPECT_EQ(progress_line({}, 1000, 0, 0.0), "0/1,000 samples (0.0 %), 0.0 % overturned, 0 failed");
   EXPECT_EQ(progress_line({}, 0, 0, 1.0), "0/0 samples (0.0 %), 0.0 % overturned, 0 failed");

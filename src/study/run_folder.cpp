@@ -1,0 +1,106 @@
+#include "study/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "io/own_files.hpp"
+#include "study/sweep.hpp"
+
+namespace freestand::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Batch systems give 30 s and more between the request and the end, and mpirun ends all ranks when the first one has gone:
+// the root, which speaks for all, goes first.
+constexpr double patience_of_root_s = 7, patience_of_others_s = 8;
+
+// The number of blocks, or more than any once samples.h5 is there.
+std::int64_t finished_in(const fs::path& folder) {
+  std::error_code error;
+  if (fs::exists(samples_path(folder), error)) return std::numeric_limits<std::int64_t>::max();
+  std::int64_t blocks = 0;
+  for (fs::directory_iterator i(blocks_path(folder), error), end; !error && i != end; i.increment(error))
+    blocks += i->path().filename().string().starts_with("block-");
+  return blocks;
+}
+
+fs::path note_path(const fs::path& folder) { return folder / io::begun_name; }
+
+}  // namespace
+
+RunFolder::RunFolder(const parallel::Communicator& world, const fs::path& folder, io::Existing existing,
+                     std::string go_on, const std::vector<std::string>& writes)
+    : world_(world),
+      folder_(folder),
+      go_on_(std::move(go_on)),
+      stop_on_signal_({world.is_root() ? patience_of_root_s : patience_of_others_s, [this] { overdue(); }}) {
+  std::signal(SIGPIPE, SIG_IGN);  // who read the progress may leave; the run goes on
+  world_.on_root([&] {
+    io::make_output_folder(folder_, existing, writes);
+    lock_.emplace(folder_, io::FolderLock::Settings{.lost = parallel::request_stop});
+    io::prepare_output_folder(folder_, existing, writes);
+  });
+}
+
+void RunFolder::begin() {
+  world_.on_root([&] {
+    io::remove_leftovers(folder_);
+    finished_ = finished_in(folder_);
+    std::ifstream note(note_path(folder_));
+    std::string signature;
+    std::int64_t before = -1;
+    std::getline(note, signature) >> before;
+    fruitless_before_ = before == finished_;
+    io::write_text(note_path(folder_), io::signed_text(fmt::format("{}\n", finished_)));
+  });
+  working_ = true;
+}
+
+void RunFolder::confirm() const {
+  world_.on_root([&] { lock_->confirm(); });
+}
+
+Error RunFolder::stopped() const {
+  if (working_ && fruitless_before_ && finished_in(folder_) == finished_)
+    return Error(fmt::format("stopped in {} before anything more was finished, as was the run before (its time is too "
+                             "short): give it more time, or a smaller block_size, and {}",
+                             folder_.string(), go_on_),
+                 Exit::cure);
+  return Error(fmt::format("stopped early (on request): what is finished is kept in {}; {}", folder_.string(), go_on_),
+               Exit::resumable);
+}
+
+void RunFolder::leave() const {
+  world_.on_root([&] {
+    lock_->confirm();
+    throw stopped();
+  });
+  std::abort();  // on_root has thrown
+}
+
+void RunFolder::leave_if_asked() const {
+  if (world_.any(parallel::stop_requested())) leave();
+}
+
+void RunFolder::end() const {
+  world_.on_root([&] {
+    std::error_code ignored;
+    fs::remove(note_path(folder_), ignored);
+  });
+}
+
+void RunFolder::overdue() {
+  const Error error = stopped();
+  if (working_ && lock_) lock_->release();
+  parallel::end_run(world_, error);
+  std::_Exit(static_cast<int>(error.exit()));
+}
+
+}  // namespace freestand::study

@@ -1,0 +1,58 @@
+// A sweep or a fit at work in its folder: others are kept out, and a request to stop is answered, whatever it is doing.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <freestand/error.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/folder_lock.hpp"
+#include "io/output_folder.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/stop.hpp"
+
+namespace freestand::study {
+
+class RunFolder {
+ public:
+  // Makes the folder, takes its lock, and then does with what is in it as `existing` says. `go_on`: what the user is told
+  // to do after a stop ("go on with --resume"). `writes`: names that will be written beside the
+  // results. A run that has not ended 7 s after it was asked to stop is ended where it
+  // stands. Collective, as all below. Throws Error as io::FolderLock and io::prepare_output_folder do.
+  RunFolder(const parallel::Communicator&, const std::filesystem::path& folder, io::Existing existing,
+            std::string go_on, const std::vector<std::string>& writes = {});
+
+  const std::filesystem::path& path() const { return folder_; }
+
+  // The work begins: what is finished by now is noted in the folder.
+  void begin();
+
+  // Throws Error if the lock was lost.
+  void confirm() const;
+
+  // Throws the Error of a run that was asked to stop, if any rank was: Exit::resumable, or Exit::cure where neither this
+  // run nor the one before it finished anything, so that another would not either.
+  void leave_if_asked() const;
+  [[noreturn]] void leave() const;
+
+  // All is done: there is nothing to go on with.
+  void end() const;
+
+ private:
+  Error stopped() const;
+  void overdue();
+
+  const parallel::Communicator world_;
+  const std::filesystem::path folder_;
+  const std::string go_on_;
+  std::optional<io::FolderLock> lock_;  // on the root
+  std::int64_t finished_ = -1;          // when the work began; on the root
+  bool fruitless_before_ = false;       // the run before began with as much
+  std::atomic<bool> working_ = false;
+  parallel::StopOnSignal stop_on_signal_;
+};
+
+}  // namespace freestand::study

@@ -1,0 +1,152 @@
+"""Signals in every phase, two jobs in one folder, and what a refusal leaves behind: nothing is lost, and nothing is swallowed."""
+
+import signal
+import subprocess
+import time
+import unittest
+
+from support import InFolder, command, datasets, result, slow_fit, study_text
+
+
+def contents(folder):
+    """Every file below a folder: its bytes and when it was written."""
+    return {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.rglob("*") if path.is_file()}
+
+
+class Stopping(InFolder):
+    def start(self, arguments, ranks=1):
+        process = subprocess.Popen(command(arguments, ranks), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(process.kill)
+        return process
+
+    def wait_for(self, true, process):
+        deadline = time.monotonic() + 100
+        while not true():
+            self.assertTrue(time.monotonic() < deadline and process.poll() is None, "what was to be interrupted never came")
+            time.sleep(0.002)
+
+    def stop(self, process, number):
+        """Asks it to stop; its exit code, and the seconds it took."""
+        start = time.monotonic()
+        process.send_signal(number)
+        _, self.error = process.communicate(timeout=100)
+        return process.returncode, time.monotonic() - start
+
+    def blocks(self, folder):
+        return list((folder / "blocks").glob("block-*"))
+
+    def whole(self, study):
+        folder = self.folder / "whole"
+        self.succeed(["run", study, "-o", folder, "--quiet"], 2)
+        return result(folder)
+
+
+class Signals(Stopping):
+    def test_while_blocks_are_computed(self):
+        study = self.write("study.yaml", study_text(samples=12000))
+        whole, folder = self.whole(study), self.folder / "out"
+        for ranks, number in ((1, signal.SIGTERM), (2, signal.SIGUSR1)):
+            process = self.start(["run", study, "-o", folder, "--quiet", *(["--resume"] if folder.exists() else [])], ranks)
+            before = len(self.blocks(folder))
+            self.wait_for(lambda: len(self.blocks(folder)) > before, process)
+            code, seconds = self.stop(process, number)
+            self.assertEqual(code, 75, self.error)
+            self.assertLess(seconds, 15)  # 10 s, and what a busy machine adds
+            self.assertIn("go on with --resume", self.error)
+            self.assertFalse((folder / "freestand.lock").exists())
+        self.succeed(["run", study, "-o", folder, "--resume", "--quiet"], 3)
+        self.assertEqual(result(folder), whole)
+        self.assertEqual(sorted(path.name for path in folder.iterdir()),
+                         ["bins.csv", "fragility.h5", "samples.h5", "study.yaml", "summary.json", "surface.csv"])
+
+    def test_while_samples_are_written(self):
+        """It is soon done: a sweep may end whole, with 0, or stopped, with 75. A run never goes on to fit."""
+        study = self.write("study.yaml", study_text(samples=20000, block_size=1024))
+        for verb, codes in (("sweep", (0, 75)), ("run", (75,))):
+            folder = self.folder / verb
+            process = self.start([verb, study, "-o", folder, "--quiet"])
+            self.wait_for(lambda: (folder / ".samples.h5.part").exists(), process)
+            code, seconds = self.stop(process, signal.SIGTERM)
+            self.assertIn(code, codes, self.error)
+            self.assertEqual((folder / "samples.h5").exists(), code == 0 or verb == "run")
+            self.assertLess(seconds, 15)  # 10 s, and what a busy machine adds
+            self.succeed(["run", study, "-o", folder, "--resume", "--quiet"], 2)
+        self.assertEqual(result(self.folder / "run"), result(self.folder / "sweep"))
+
+    def test_while_it_fits(self):
+        """A fit of many seconds, by itself and at the end of a run, on one rank and on two."""
+        study = self.write("study.yaml", slow_fit(study_text(samples=16000)))
+        folder = self.folder / "out"
+        self.succeed(["sweep", study, "-o", folder, "--quiet"], 2)
+        for arguments, ranks, number, expected in ((["fit", folder], 1, signal.SIGTERM, 75),
+                                                   (["run", study, "-o", folder, "--resume", "--quiet"], 2, signal.SIGUSR1, 74)):
+            process = self.start(arguments, ranks)
+            self.wait_for(lambda: (folder / "freestand.begun").exists() and (folder / "freestand.lock").exists(), process)
+            time.sleep(0.5)
+            code, seconds = self.stop(process, number)
+            self.assertEqual(code, expected, self.error)  # the second time in a row nothing was finished: more time is asked for
+            self.assertLess(seconds, 15)
+            self.assertFalse((folder / "fragility.h5").exists())
+            self.assertFalse((folder / "freestand.lock").exists())
+
+
+class Logs(Stopping):
+    def test_a_log_that_cannot_be_written_ends_no_run(self):
+        """A full disk, and a pipe whose reader has left."""
+        study = self.write("study.yaml", study_text(samples=600))
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run(command(["run", study, "-o", self.folder / "full"]), stdout=full, stderr=full, timeout=100)
+        self.assertEqual(done.returncode, 0)
+        process = subprocess.Popen(command(["run", study, "-o", self.folder / "left"]), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        process.stdout.close()
+        process.stderr.close()
+        self.assertEqual(process.wait(100), 0)
+        self.assertEqual(result(self.folder / "left"), result(self.folder / "full"))
+
+
+class OneFolder(Stopping):
+    def test_a_second_job_is_refused_and_the_first_is_not_disturbed(self):
+        study = self.write("study.yaml", study_text(samples=12000))
+        whole, folder = self.whole(study), self.folder / "out"
+        first = self.start(["run", study, "-o", folder, "--quiet"], 2)
+        self.wait_for(lambda: self.blocks(folder), first)
+        for option in ("--resume", "--overwrite"):
+            self.fail_with(2, ["run", study, "-o", folder, "--quiet", option], "in use", "process", ranks=2)
+        _, error = first.communicate(timeout=100)
+        self.assertEqual(first.returncode, 0, error)
+        self.assertEqual(result(folder), whole)
+
+    def test_a_resume_that_refuses_changes_nothing(self):
+        text = study_text(samples=12000)
+        study = self.write("study.yaml", "name: first\n" + text)
+        other = self.write("other.yaml", "name: second\n" + text.replace("seed: 7", "seed: 8"))
+        folder = self.folder / "out"
+        process = self.start(["sweep", study, "-o", folder, "--quiet"])
+        self.wait_for(lambda: len(self.blocks(folder)) > 2, process)
+        self.assertEqual(self.stop(process, signal.SIGTERM)[0], 75)
+        (folder / "blocks" / ".block-00000099.bin.host.1.part").write_text("half")
+        before = contents(folder)
+        self.fail_with(2, ["sweep", other, "-o", folder, "--resume", "--quiet"], "another study")
+        self.assertEqual(contents(folder), before)
+        self.succeed(["sweep", study, "-o", folder, "--resume", "--quiet"], 2)
+        before = contents(folder)
+        self.fail_with(2, ["sweep", other, "-o", folder, "--resume", "--quiet"], "another study")
+        self.assertEqual(contents(folder), before)
+
+    def test_a_block_that_cannot_be_read_is_computed_again(self):
+        study = self.write("study.yaml", study_text(samples=12000))
+        self.succeed(["sweep", study, "-o", self.folder / "whole", "--quiet"], 2)
+        folder = self.folder / "out"
+        process = self.start(["sweep", study, "-o", folder, "--quiet"])
+        self.wait_for(lambda: len(self.blocks(folder)) > 3, process)
+        self.assertEqual(self.stop(process, signal.SIGTERM)[0], 75)
+        unreadable, torn = sorted(self.blocks(folder))[1:3]
+        unreadable.unlink()
+        unreadable.symlink_to(unreadable.name)  # to itself: not even root reads it
+        torn.write_bytes(torn.read_bytes()[:-1])
+        self.succeed(["sweep", study, "-o", folder, "--resume", "--quiet"], 2)
+        self.assertEqual(datasets(folder / "samples.h5"), datasets(self.folder / "whole" / "samples.h5"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,90 @@
+#include "study/run_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "study/sweep.hpp"
+#include "support/error_text.hpp"
+#include "support/scratch.hpp"
+
+namespace freestand::study {
+namespace {
+
+namespace fs = std::filesystem;
+using test::error_text;
+using testing::AllOf;
+using testing::HasSubstr;
+
+// Asked to stop while `work` is done; forgotten at the end.
+class RunFolderTest : public testing::Test {
+ protected:
+  void TearDown() override { parallel::clear_stop(); }
+
+  // A run that is asked to stop after it has finished these blocks. What it says.
+  std::string stopped_run(Exit expected, const std::vector<std::string>& blocks) {
+    parallel::clear_stop();
+    RunFolder folder({}, scratch_.folder(), io::Existing::resume, "go on with --resume");
+    folder.begin();
+    fs::create_directories(blocks_path(scratch_.folder()));
+    for (const std::string& block : blocks) std::ofstream(blocks_path(scratch_.folder()) / block) << "x";
+    folder.leave_if_asked();
+    parallel::request_stop();
+    return error_text(expected, [&] { folder.leave_if_asked(); });
+  }
+
+  test::Scratch scratch_{"run"};
+};
+
+TEST_F(RunFolderTest, AStopIsResumable) {
+  EXPECT_THAT(stopped_run(Exit::resumable, {"block-00000001.bin"}),
+              AllOf(HasSubstr("stopped early"), HasSubstr("go on with --resume")));
+  EXPECT_FALSE(fs::exists(scratch_ / io::lock_name));
+}
+
+TEST_F(RunFolderTest, TwoStopsInARowWithoutProgressAskForACure) {
+  stopped_run(Exit::resumable, {"block-00000001.bin"});
+  stopped_run(Exit::resumable, {});
+  EXPECT_THAT(stopped_run(Exit::cure, {}), AllOf(HasSubstr("more time"), HasSubstr("go on with --resume")));
+  stopped_run(Exit::cure, {});
+  stopped_run(Exit::resumable, {"block-00000002.bin"});
+  stopped_run(Exit::resumable, {});
+  stopped_run(Exit::cure, {});
+}
+
+TEST_F(RunFolderTest, SamplesThatAreCompleteAreProgress) {
+  stopped_run(Exit::resumable, {});
+  std::ofstream(samples_path(scratch_.folder())) << "x";
+  stopped_run(Exit::resumable, {});
+  stopped_run(Exit::cure, {});
+}
+
+TEST_F(RunFolderTest, WhatEndedDoesNotCountAsStopped) {
+  stopped_run(Exit::resumable, {});
+  parallel::clear_stop();
+  {
+    RunFolder folder({}, scratch_.folder(), io::Existing::resume, "start again");
+    folder.begin();
+    folder.end();
+  }
+  EXPECT_FALSE(fs::exists(scratch_ / io::begun_name));
+  stopped_run(Exit::resumable, {});
+}
+
+TEST_F(RunFolderTest, KeepsOthersOut) {
+  const RunFolder first({}, scratch_ / "new", io::Existing::refuse, "");
+  for (const auto existing : {io::Existing::refuse, io::Existing::overwrite, io::Existing::resume})
+    EXPECT_THAT(error_text(Exit::usage, [&] { RunFolder({}, scratch_ / "new", existing, ""); }), HasSubstr("in use"));
+}
+
+TEST_F(RunFolderTest, ARefusalLeavesTheFolderAsItWas) {
+  std::ofstream(scratch_ / "thesis.txt") << "mine";
+  const auto before = fs::last_write_time(scratch_.folder());
+  EXPECT_THAT(error_text(Exit::usage, [&] { RunFolder({}, scratch_.folder(), io::Existing::refuse, ""); }),
+              HasSubstr("not empty"));
+  EXPECT_EQ(fs::last_write_time(scratch_.folder()), before);
+}
+
+}  // namespace
+}  // namespace freestand::study
