@@ -1,0 +1,104 @@
+"""jobs/freestand.slurm under a real Slurm: signalled while it sweeps and while it fits, queued again, and in the end the bits of mpirun."""
+
+import pathlib
+import re
+import sys
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
+
+from cluster import Cluster, why_not
+from support import FREESTAND, InFolder, result, slow_fit, study_text
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "jobs/freestand.slurm"
+
+
+class Slurm(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        cls.cluster = cls.enterClassContext(Cluster())
+
+    def setUp(self):
+        super().setUp()
+        self.folder.chmod(0o755)
+        self.out, self.log = self.folder / "out", self.folder / "log"
+
+    def submit(self, study, *options):
+        sent = self.cluster.run("sbatch", "--parsable", "--nodes=2", "--ntasks-per-node=2", "--time=10", f"--output={self.log}", *options, SCRIPT,
+                                study, self.out, cwd=self.folder, env={**self.cluster.environment, "FREESTAND": FREESTAND})
+        self.assertEqual(sent.returncode, 0, sent.stderr)
+        self.job = sent.stdout.strip()
+
+    def facts(self):
+        text = self.cluster.run("scontrol", "show", "job", self.job).stdout
+        return {key: re.search(rf"\b{key}=(\S+)", text).group(1) for key in ("JobState", "Restarts", "ExitCode")}
+
+    def wait_until(self, true, what, seconds=60):
+        deadline = time.monotonic() + seconds
+        while not true():
+            log = self.log.read_text() if self.log.exists() else ""
+            self.assertLess(time.monotonic(), deadline, f"never: {what}\n{self.facts()}\n{log}")
+            time.sleep(0.02)
+
+    def ends(self, state, code):
+        self.wait_until(lambda: self.facts()["JobState"] not in ("PENDING", "RUNNING", "COMPLETING"), "the end of the job")
+        facts = self.facts()
+        self.assertEqual((facts["JobState"], facts["ExitCode"]), (state, f"{code}:0"), self.log.read_text())
+
+    def is_queued_again(self, times):
+        self.wait_until(lambda: self.facts()["Restarts"] == str(times) and self.facts()["JobState"] == "PENDING", f"back in the queue, {times}")
+        self.assertFalse((self.out / "freestand.lock").exists())
+
+    def starts_again(self):
+        self.cluster.run("scontrol", "update", f"JobId={self.job}", "StartTime=now")  # Slurm waits two minutes before it does
+
+    def signal(self, *options):
+        self.assertEqual(self.cluster.run("scancel", *options, self.job).returncode, 0)
+
+    def blocks(self):
+        return len(list(self.out.glob("blocks/block-*")))
+
+    def test_signalled_in_every_phase_it_ends_with_the_bits_of_mpirun(self):
+        """The limit's SIGTERM goes to the step, as by --signal=TERM@..., or to the script, as by --signal=B:..."""
+        study = self.folder / "study.yaml"
+        study.write_text(slow_fit(study_text(samples=16000)))
+        self.submit(study)
+        for times, options in ((1, ["--signal=TERM"]), (2, ["--batch", "--signal=USR1"])):
+            before = self.blocks()
+            self.wait_until(lambda: self.blocks() > before + 2, "blocks")
+            self.signal(*options)
+            self.is_queued_again(times)
+            self.assertFalse((self.out / "samples.h5").exists())
+            self.starts_again()
+        self.wait_until(lambda: (self.out / "samples.h5").exists() and (self.out / "freestand.begun").exists(), "a fit")
+        self.signal("--signal=TERM")
+        self.is_queued_again(3)
+        self.assertFalse((self.out / "fragility.h5").exists())
+        self.starts_again()
+        self.ends("COMPLETED", 0)
+        whole = self.folder / "whole"
+        self.succeed(["run", study, "-o", whole, "--quiet"], 3)
+        self.assertEqual(result(self.out), result(whole))
+
+    def test_what_is_cancelled_or_has_to_be_cured_does_not_come_back(self):
+        study = self.folder / "study.yaml"
+        study.write_text(study_text(samples=400000))
+        self.submit(study)
+        self.wait_until(lambda: self.blocks() > 2, "blocks")
+        self.cluster.run("scancel", self.job)
+        self.wait_until(lambda: self.facts()["JobState"] == "CANCELLED", "the end of the job")
+        time.sleep(2)
+        self.assertEqual((self.facts()["JobState"], self.facts()["Restarts"]), ("CANCELLED", "0"), self.log.read_text())
+
+        study.write_text(study_text(samples=400000).replace("seed: 7", "seed: 8"))
+        self.submit(study)  # another study
+        self.ends("FAILED", 2)
+
+
+if __name__ == "__main__":
+    reason = why_not()
+    if reason:
+        print(f"skipped: {reason}")
+        sys.exit(77)
+    unittest.main()
