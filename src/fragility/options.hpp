@@ -11,11 +11,11 @@ namespace freestand::fragility {
 struct EdpOptions {
   std::string name;  // as in the column edp_<name>
   std::string unit = "1";
-  std::string symbol;              // for axis labels
-  bool binary = false;             // 0 or 1, such as "overturned": its mean is itself the probability
-  double still_threshold = 0;      // the sample stood still, as far as this EDP is concerned, at or below this value
-  std::vector<double> capacities;  // increasing, > 0; a binary EDP has the one capacity 0.5, whatever stands here
-  bool censored = true;            // overturned samples are above every capacity; else they count by their own value
+  std::string symbol = {};     // for axis labels
+  bool binary = false;         // 0 or 1, such as "overturned": its mean is itself the probability
+  double still_threshold = 0;  // the sample stood still, as far as this EDP is concerned, at or below this value
+  std::vector<double> capacities = {};  // increasing, > 0; a binary EDP has the one capacity 0.5, whatever stands here
+  bool censored = true;  // overturned samples are above every capacity; else they count by their own value
 };
 
 // A second axis of the surfaces: a column of the samples and its bin edges.

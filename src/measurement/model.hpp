@@ -15,7 +15,7 @@ namespace freestand::measurement {
 // A number that a fit may choose. A start lies within [low, high]; the answer within [lower, upper].
 struct Free {
   std::string name;  // dotted, as in the study: friction.mu, effects.floor_tilt.angle_rad
-  std::string unit;
+  std::string unit = {};
   double lower = 0, upper = 0;
   double low = 0, high = 0;
   bool logarithmic = false;            // spread starts and steps over the logarithm

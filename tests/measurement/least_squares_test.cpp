@@ -159,8 +159,8 @@ TEST(Settle, ANumberThatNoTestDeterminesHasAWideInterval) {
   slender.friction = {0.7, 0.7};
   Dataset data = test::made_dataset(slender);
   for (std::size_t i = 0; i < data.tests.size(); ++i)
-    data.tests[i] =
-        test::made_test("t" + std::to_string(i), slender, test::swings(2.6 + 0.1 * static_cast<double>(i), 0.5), i);
+    data.tests[i] = test::made_test(std::string("t").append(std::to_string(i)), slender,
+                                    test::swings(2.6 + 0.1 * static_cast<double>(i), 0.5), i);
   const Bench bench(data, 8);
   ModelFit fit{.model = test::free_friction(), .x = {0.6}};
   settle(bench, fit, Effort{}, run_here);

@@ -51,7 +51,8 @@ measurement::Dataset made_dataset(const Specimen& specimen) {
   std::uint64_t seed = 0;
   for (const auto& m : motions) {
     ++seed;
-    data.tests.push_back(made_test("t" + std::to_string(seed), specimen, swings(m.peak, m.period), seed));
+    data.tests.push_back(
+        made_test(std::string("t").append(std::to_string(seed)), specimen, swings(m.peak, m.period), seed));
   }
   data.tests.back().role = measurement::Role::holdout;
   return data;

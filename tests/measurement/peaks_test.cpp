@@ -24,7 +24,7 @@ Dataset made_peaks() {
   Dataset data;
   for (const double peak : {6.0, 4.0, 3.0, 1.9, 1.5}) {
     Test test;
-    test.id = "t" + std::to_string(data.tests.size() + 1);
+    test.id = std::string("t").append(std::to_string(data.tests.size() + 1));
     test.motion = test::swings(peak, 0.6);
     test.specimen = {0.8, 0.6, 100.0};
     test.peaks.peak_slip_m = respond(sliding(), test.shaking()).peak_slip_m;
