@@ -2,9 +2,12 @@
 #include "io/own_files.hpp"
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "base/durable_file.hpp"
+#include "io/fragility_file.hpp"
 #include "io/h5.hpp"
+#include "io/text_files.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
@@ -51,7 +54,10 @@ TEST_F(OwnFiles, ResultsByTheirFormat) {
   EXPECT_FALSE(own("text.h5", "no HDF5"));
   EXPECT_TRUE(own("summary.json", "{\n  \"format\": \"freestand-summary/1\"\n}\n"));
   EXPECT_FALSE(own("summary.json", "{\"mine\": 1}\n"));
-  EXPECT_TRUE(own("surface.csv", "im,edp,capacity,probability,lower\n"));
+  EXPECT_TRUE(own("bins.csv", bins_csv({})));
+  EXPECT_TRUE(own("surface.csv", surface_csv({})));
+  EXPECT_TRUE(own("history.csv", history_csv({})));
+  EXPECT_TRUE(own("summary.json", json_text(response_summary({}))));
   EXPECT_FALSE(own("history.csv", "time_s,floor_acceleration_mps2\n"));
   EXPECT_TRUE(own("report.html", "<!DOCTYPE html>\n<meta name=\"generator\" content=\"freestand\">\n"));
   EXPECT_FALSE(own("report.html", "<!DOCTYPE html>\n"));
