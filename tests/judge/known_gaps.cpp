@@ -22,10 +22,6 @@ const std::vector<Gap>& gaps() {
   static const std::vector<Gap> all{
       {"pressure_friction where the normal force jumps or vanishes: on a corner, at landings",
        [](const JudgedCase& c, const Judgement&) { return has(c, {"pressure_friction"}); }},
-      {"friction that follows the speed, at landings",
-       [](const JudgedCase& c, const Judgement& j) {
-         return (j.deeds & flew) && has(c, {"rate_weakening", "rate_strengthening"});
-       }},
       {"legs under a block that rocks: 1e-6 m",
        [](const JudgedCase& c, const Judgement&) { return has(c, {"flexible_legs"}); }},
       {"contents in the reference: 1e-6 m",
