@@ -70,7 +70,9 @@ TEST_P(Histories, PeaksAreTheLargestValues) {
       rate = std::max(rate, std::abs(p.rotation_rate_radps));
     }
     // Between two points the peak may stand out by what the largest rate covers in half a step.
-    ASSERT_GE(r.peak_slip_m, slip * (1 - 1e-12));
+    if (r.outcome != Outcome::overturned) {  // the fall is no slip, but stands in the history
+      ASSERT_GE(r.peak_slip_m, slip * (1 - 1e-12));
+    }
     ASSERT_LE(r.peak_slip_m, slip + 2 * speed * history.step_s + 1e-9);
     ASSERT_GE(r.peak_rotation_rad, rotation * (1 - 1e-12));
     ASSERT_LE(r.peak_rotation_rad, rotation + 2 * rate * history.step_s + 1e-9);

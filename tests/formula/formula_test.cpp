@@ -173,7 +173,7 @@ TEST(Formula, TooLongForATapeIsFoundOut) {
   const dynamics::Effect law = effect("long", "", text, {});
   Specimen specimen{Block::rectangular(1, 1, 1), {0.25, 0.25}, {}};
   specimen.effects.push_back({&law, {}});
-  EXPECT_TRUE(dynamics::Laws(specimen).tape.overflow());
+  EXPECT_FALSE(dynamics::Laws(specimen).sound());
 }
 
 }  // namespace
