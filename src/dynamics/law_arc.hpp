@@ -145,6 +145,7 @@ class LawStep {
                              [&](double speed) { return slip_of_foot(k, speed) - speed; }));
     else
       slip_of_foot(k, value(Input::speed)[k]);
+    if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero * state_.doubt) y_.foot[0] = 0;
     return y_.fy[k] / standard_gravity_mps2;
   }
 
@@ -231,7 +232,6 @@ class LawStep {
     acceleration_ = y_.ax[k] - own_acceleration(k);
     deflection_rate_ = legs_ ? (-y_.fx[k] - square(W()) * y_.deflection[k]) / (2 * z() * W()) : 0.0;
     y_.foot[k] = y_.w[k] - deflection_rate_;
-    if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero * state_.doubt) y_.foot[0] = 0;
   }
 
   // Contact forces and theta'' for the factor F whose coefficient k is in factor_.

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <freestand/error.hpp>
+#include <limits>
 #include <memory>
 
 #include "dynamics/bouc_wen.hpp"
@@ -138,7 +139,7 @@ class ReferenceIntegrator {
       const double before = tau;
       const State from = life_.state;
       const int flag = ERKStepEvolve(ark, h, y_.get(), &tau, ARK_ONE_STEP);
-      if (flag == ARK_RHSFUNC_FAIL) {
+      if (flag == ARK_RHSFUNC_FAIL || flag == ARK_RTFUNC_FAIL) {
         life_.stop(Outcome::not_finite);
         return Leg::event;
       }
@@ -349,7 +350,10 @@ class ReferenceIntegrator {
         if (me.watch_[2] && s.sigma != 0) g[stationary_w] = slip_speed(arc)[1];
       });
     }
-    return 0;
+    // A search between values that are none, or infinite, would not end.
+    constexpr double largest = std::numeric_limits<double>::max();
+    for (double* each = g; each < g + root_count; ++each) *each = std::clamp(*each, -largest, largest);
+    return std::none_of(g, g + root_count, [](double x) { return std::isnan(x); }) ? 0 : -1;
   }
 
   const Rig& rig() const { return life_.rig; }

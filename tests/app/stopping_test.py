@@ -108,10 +108,12 @@ class OneFolder(Stopping):
     def test_a_second_job_is_refused_and_the_first_is_not_disturbed(self):
         study = self.write("study.yaml", study_text(samples=12000))
         whole, folder = self.whole(study), self.folder / "out"
-        first = self.start(["run", study, "-o", folder, "--quiet"], 2)
+        first = self.start(["run", study, "-o", folder, "--quiet"])
         self.wait_for(lambda: self.blocks(folder), first)
+        first.send_signal(signal.SIGSTOP)  # it must not be done before it is disturbed
         for option in ("--resume", "--overwrite"):
             self.fail_with(2, ["run", study, "-o", folder, "--quiet", option], "in use", "process", ranks=2)
+        first.send_signal(signal.SIGCONT)
         _, error = first.communicate(timeout=100)
         self.assertEqual(first.returncode, 0, error)
         self.assertEqual(result(folder), whole)

@@ -43,7 +43,7 @@ class Validation(InFolder):
             after = study.with_name(f"with_{ranks}.yaml")
             self.succeed(["add", study, "rate_weakening", "-o", after, "--quiet"], ranks)
             found[ranks] = (read(out / "before" / "comparison.json"), read(out / "diagnosis" / "diagnosis.json"),
-                            after.read_text(encoding="utf-8").split("\n")[1:])
+                            [line for line in after.read_text(encoding="utf-8").split("\n") if not line.startswith("# ")])
         self.assertEqual(found[1], found[3])
         diagnosis = found[1][1]
         self.assertEqual(len(diagnosis["candidates"]), len({c["effect"] for c in diagnosis["candidates"]}))
@@ -65,7 +65,7 @@ class Validation(InFolder):
         self.assertEqual((base["step"], added["step"]), ("base", "rate_weakening"))
         self.assertGreater(base["error_holdout"], 20 * added["error_holdout"])
         sweep = (out / "fitted.yaml").read_text(encoding="utf-8").replace("samples: 20000", "samples: 300")
-        self.succeed(["run", self.write("sweep.yaml", sweep), "-o", self.folder / "sweep", "--quiet"])
+        self.succeed(["run", self.write("after/sweep.yaml", sweep), "-o", self.folder / "sweep", "--quiet"])
         effects = (self.folder / "sweep" / "study.yaml").read_text(encoding="utf-8")
         self.assertIn("rate_weakening", effects)
 

@@ -206,7 +206,7 @@ TEST_F(Record, UnreadableFilesAreDataErrors) {
   expect_data_error(write("binary", std::string("\x7f"
                                                 "ELF\0\0\1\2",
                                                 8)),
-                    1, "no known record format");
+                    0, "no text but a binary file (byte 5 is zero)");
 }
 
 TEST_F(Record, FormatCanBeNamed) {

@@ -138,7 +138,7 @@ def diagnosis(folder, verdict="missing", **changes):
                   "sentence": "a pulse C2 of 1.2 s and 1 g would part them by 41.9 noise units"}
     value = {"format": "freestand-diagnosis/1", "study": "study.yaml", "measurements": "/data/bench/dataset.yaml", "name": "bench",
              "error_unit": "noise units", "verdict": verdict, "effects": names[:rivals],
-             "best": changes.get("candidates", found)[0]["effect"],
+             "best": next((each["effect"] for each in changes.get("candidates", found)), None),
              "reason": "none_suffices" if verdict == "unknown" else None,
              "sentences": ["rate_weakening brings the left-out error from 17.7 to 1.2"], "findings": [],
              "noise_floor": 1.08, "base": candidate("", 17.7), "candidates": found, "recovered_force": recovered(),

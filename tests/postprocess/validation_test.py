@@ -8,6 +8,7 @@ import unittest
 
 import support
 from pictures_test import overlaps
+from report_test import Page
 
 import h5py
 import make_validation as make

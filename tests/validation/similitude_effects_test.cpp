@@ -32,7 +32,7 @@ Pair pair_with(const dynamics::Effect& effect, const std::vector<double>& parame
   c.specimen.model = model;
   c.specimen.effects = {{&effect, parameters}};
   std::string text = effect.name;
-  for (const double p : parameters) text += " " + testing::PrintToString(p);
+  for (const double p : parameters) (text += ' ') += testing::PrintToString(p);
   return pair_of(text + ' ' + c.text(), c.specimen, c.motion, c.shaking, report_scale);
 }
 
