@@ -52,7 +52,8 @@ class LawStep {
         leans_(turns_ && state.at_wall()),
         pivot_(turns_ ? state.pivot : 1),
         body_(rig.corner(pivot_)),
-        legs_(laws_.legs.frequency_radps > 0) {
+        legs_(laws_.legs.frequency_radps > 0),
+        sides_(state.sides) {
     start_arc(y_, body_, state.theta, state.omega, state.xi, state.w);
     y_.path[0] = state.path;
     y_.deflection[0] = state.deflection;
@@ -124,7 +125,7 @@ class LawStep {
     if (turns_ && laws_see_the_normal_force())
       act(k, solved(k, guess, [&](double normal) { return act(k, normal) - normal; }));
     else
-      act(k, guess);
+      value(Input::normal)[k] = act(k, guess);
   }
 
   bool laws_see_the_normal_force() const {
@@ -135,7 +136,7 @@ class LawStep {
   // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
   double act(int k, double normal) {
     value(Input::normal)[k] = normal;
-    laws_.tape.advance(input_count, laws_.forces_end, k, state_.sides, values_);
+    laws_.tape.advance(input_count, laws_.forces_end, k, sides_, values_);
     force_[k] = laws_.force < 0 ? 0.0 : values_[laws_.force][k];
     if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
     if (state_.sigma == 0)
@@ -253,13 +254,13 @@ class LawStep {
   }
 
   double factor_from_tape(int k) {
-    laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, state_.sides, values_);
+    laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, sides_, values_);
     return values_[laws_.friction][k];
   }
 
   void integrate(int k) {
     value(Input::acceleration)[k] = y_.ax[k];
-    laws_.tape.advance(laws_.friction_end, laws_.tape.size(), k, state_.sides, values_);
+    laws_.tape.advance(laws_.friction_end, laws_.tape.size(), k, sides_, values_);
     const double over = 1.0 / (k + 1);
     for (int i = 0; i < laws_.states; ++i)
       value(Input::state, i)[k + 1] = values_[laws_.rate[static_cast<std::size_t>(i)]][k] * over;
@@ -280,11 +281,11 @@ class LawStep {
     y_.limit_left = limit(+1);
     for (int j = 0; j < laws_.tape.kink_count(); ++j) {
       const auto& argument = values_[laws_.tape.kink_argument(j)];
-      const double side = state_.sides >> j & 1U ? -1.0 : 1.0;
+      const double side = sides_ >> j & 1U ? -1.0 : 1.0;
       for (int k = 0; k < N; ++k) y_.kink[j][k] = side * argument[k];
       y_.kink[j][N] = 0;
       if (state_.turned_kink == j) y_.kink[j][0] = 0;
-      if (laws_.tape.latched(j, state_.sides)) y_.kink[j] = Series<double, N>::zero();
+      if (laws_.tape.latched(j, sides_)) y_.kink[j] = Series<double, N>::zero();
     }
   }
 
@@ -306,11 +307,27 @@ class LawStep {
     if (state_.sigma != 0) return result;
     value(Input::sigma)[0] = sigma;
     value(Input::speed) = Series<double, N>::zero();
+    sides_ = sides_of_friction();
     for (int k = 0; k < N; ++k) {
       if (laws_.friction >= 0) factor_[k] = factor_from_tape(k);
       result[k] = rig_.mu_s * product(factor_, y_.fy, k);
     }
     return result;
+  }
+
+  // On which side of its kinks the friction of that slip is: other kinks than those of forces, and other than the opposite
+  // slip's.
+  std::uint32_t sides_of_friction() {
+    std::uint32_t sides = sides_;
+    const Tape& tape = laws_.tape;
+    for (int j = 0; j < tape.kink_count(); ++j) {
+      const int node = tape.kink_node(j), argument = tape.kink_argument(j);
+      if (node < laws_.forces_end || node >= laws_.friction_end || j == state_.turned_kink) continue;
+      if (!tape.depends(argument, Input::sigma) && !tape.depends(argument, Input::speed)) continue;
+      tape.advance(laws_.forces_end, node, 0, sides, values_);
+      sides = (sides & ~(1U << j)) | (values_[argument][0] < 0 ? 1U << j : 0U);
+    }
+    return sides;
   }
 
   static double square(double x) { return x * x; }
@@ -331,6 +348,7 @@ class LawStep {
   int pivot_;
   Corner<double> body_;
   bool legs_;
+  std::uint32_t sides_;  // of the kinks
   LawArc<N> y_;
   Series<double, N> values_[max_nodes];
   Series<double, N> omega2_, sine_, cosine_, force_, factor_, load_, inertia_, q_;

@@ -8,6 +8,24 @@ namespace {
 // Whether the wall at which an edge is goes on pushing it.
 enum class AtWall { released, pushed };
 
+// Forces, slip speed and their directions may jump when the mode changes, and may end on the other side of a kink: a trial is
+// judged by the laws that hold where it is itself. What a kink looks at depends on the kinks before it alone, so that one
+// turn of each is enough; where the normal force lets them turn in a circle the laws stay as they were.
+template <class KinksOf>
+void settle_kinks(const Rig& rig, State& trial, KinksOf&& kinks_of) {
+  if (!rig.laws) return;
+  const int count = rig.laws->tape.kink_count();
+  const std::uint32_t before = trial.sides;
+  for (int turns = 0; turns <= count; ++turns) {
+    const auto& kinks = kinks_of();
+    int j = 0;
+    while (j < count && !(kinks.kink[j][0] < 0)) ++j;
+    if (j == count) return;
+    trial.sides ^= 1U << j;
+  }
+  trial.sides = before;
+}
+
 // One step of the search: does the state hold in this mode?
 bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, int pivot, int sigma,
             AtWall at_wall = AtWall::released) {
@@ -18,6 +36,7 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
   if (pivot == 0) trial.wall = 0;
   trial.released = trial.wall != 0 && at_wall == AtWall::released;
   if (sigma == 0) trial.foot = 0;
+  settle_kinks(rig, trial, [&] { return LawStep<1>(rig, trial, cursor.time(), cursor.local<1>()).run(); });
   const auto consistent = [&](const auto& arc) {
     AllHold all;
     for_each_witness(rig, trial, arc, all);
@@ -43,6 +62,7 @@ bool flies(const Rig& rig, const FloorCursor& cursor, State& state) {
   for (const bool released : {true, false}) {
     if (!released && trial.wall == 0) return false;
     trial.released = released && trial.wall != 0;
+    settle_kinks(rig, trial, [&] { return fly_with_laws<1>(rig, trial, cursor.time(), cursor.local<1>()); });
     if (with_flight_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) {
       state = trial;
       return true;

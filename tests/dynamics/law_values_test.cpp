@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "dynamics/law_arc.hpp"
 #include "dynamics/laws_by_hand.hpp"
 #include "support/floor_motions.hpp"
 #include "support/solvers.hpp"
@@ -73,6 +74,59 @@ TEST_P(LawValues, RestLooksAtBothDirections) {
   const Response still = GetParam()(block(Model::slide, {}), {&motion});
   ASSERT_EQ(still.outcome, Outcome::at_rest);
   EXPECT_EQ(GetParam()(block(Model::slide, {helped}), {&motion}).outcome, Outcome::moved);
+}
+
+// Stuck on a corner that turns, the friction that could be had is that of the force on the corner, which is not the weight:
+// with mu (N/(m g))^k it is mu_s (f_y/g)^k f_y.
+TEST(LawAtRest, GripOnACornerLooksAtItsOwnNormalForce) {
+  const double k = 0.4;
+  Specimen s = block(Model::slide_rock, {friction_law([k](const At& at) { return pow(at.normal, k); })});
+  const dynamics::Rig rig(s, {});
+  dynamics::State state;
+  state.mode = Mode::rock;
+  state.pivot = 1;
+  state.theta = 0.05;
+  state.omega = -0.3;
+  const dynamics::Floor<double, 3> floor{{2.0, 1.0, 0, 0}, {g, 0.5, 0, 0}};
+  const dynamics::LawArc<3> arc = dynamics::LawStep<3>(rig, state, 0, floor).run();
+  ASSERT_LT(arc.fy[0], 0.95 * g);
+  const double grip = 0.2 * std::pow(arc.fy[0] / g, k) * arc.fy[0];
+  EXPECT_NEAR(arc.limit_right[0], grip, 1e-14);
+  EXPECT_NEAR(arc.limit_left[0], grip, 1e-14);
+  EXPECT_NEAR(arc.limit_right[1], grip * (1 + k) * arc.fy[1] / arc.fy[0], 1e-12);  // its rate
+}
+
+// if(sigma > 0, ...) is directional_friction, whichever way the block is about to go.
+TEST_P(LawValues, ACaseForEachDirectionHoldsAtRest) {
+  const FloorMotion motion = staircase({0.4, 0.5, 0.4, 0.5}, {-1.75, 0.0, 1.75, 0.0});  // mu g = 1.96
+  for (const double asymmetry : {-0.2, 0.2}) {
+    const auto smooth = friction_law([=](const At& at) { return 1.0 + asymmetry * at.sigma; });
+    const auto by_case = friction_law(
+        [=](const At& at) { return (1 - asymmetry) + step(at.sigma) * (2 * asymmetry); });
+    for (const Model model : {Model::slide, Model::slide_rock}) {
+      const Response expected = GetParam()(block(model, {smooth}), {&motion});
+      const Response found = GetParam()(block(model, {by_case}), {&motion});
+      ASSERT_GT(expected.peak_slip_m, 0.001);
+      EXPECT_NEAR(found.peak_slip_m, expected.peak_slip_m, 1e-9) << asymmetry;
+      EXPECT_NEAR(found.residual_slip_m, expected.residual_slip_m, 1e-9) << asymmetry;
+    }
+  }
+}
+
+// max(normal, 1e-6) bends where the block takes off, and is normal again when it has landed.
+TEST_P(LawValues, AKinkOfTheNormalForceIsOverAfterALanding) {
+  const FloorMotion throws = staircase({0.3, 0.2, 0.5, 0.6}, {-3.0, 2.0, -4.0, 0.0}, {4.0, -14.0, 6.0, 0.0});
+  for (const Model model : {Model::slide, Model::slide_rock}) {
+    const auto plain = friction_law([](const At& at) { return at.normal; });
+    const auto bent = friction_law([](const At& at) { return max(at.normal, at.normal * 0.0 + 1e-6); });
+    const Shaking shaking{&throws, 1, 1, 1};
+    const Response expected = GetParam()(block(model, {plain}), shaking);
+    const Response found = GetParam()(block(model, {bent}), shaking);
+    ASSERT_EQ(expected.outcome, Outcome::moved);
+    EXPECT_EQ(found.outcome, Outcome::moved);
+    EXPECT_NEAR(found.slid_path_m, expected.slid_path_m, 1e-8);
+    EXPECT_NEAR(found.residual_slip_m, expected.residual_slip_m, 1e-8);
+  }
 }
 
 // Ten thousand knots within a tenth of 1/p are a fine record, not a standstill.
