@@ -125,7 +125,16 @@ class LawStep {
     if (turns_ && laws_see_the_normal_force())
       act(k, solved(k, guess, [&](double normal) { return act(k, normal) - normal; }));
     else
-      value(Input::normal)[k] = act(k, guess);
+      see_normal(k, act(k, guess));
+  }
+
+  // Stages of a step that reaches over a lift-off may ask for a floor that pulls, where laws mean nothing.
+  void see_normal(int k, double normal) {
+    Series<double, N>& seen = value(Input::normal);
+    if (k == 0)
+      seen[0] = normal < least_normal ? least_normal : normal;
+    else
+      seen[k] = seen[0] == least_normal ? 0.0 : normal;
   }
 
   bool laws_see_the_normal_force() const {
@@ -135,7 +144,7 @@ class LawStep {
 
   // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
   double act(int k, double normal) {
-    value(Input::normal)[k] = normal;
+    see_normal(k, normal);
     laws_.tape.advance(input_count, laws_.forces_end, k, sides_, values_);
     force_[k] = laws_.force < 0 ? 0.0 : values_[laws_.force][k];
     if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
@@ -335,6 +344,8 @@ class LawStep {
   double z() const { return laws_.legs.damping; }
 
   static constexpr double foot_zero = 1e-10;  // [m/s]
+  // [m g]; less than the round-off of a sum of forces, and more than what makes a power of it overflow.
+  static constexpr double least_normal = 1e-18;
   // What the secant method leaves further off than this, over its own size, is not found: laws have no value.
   static constexpr double found = 1e-10;
   static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
