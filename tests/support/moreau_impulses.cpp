@@ -160,8 +160,8 @@ bool MoreauStepper::with_edges(const Step& step, Contacts contacts, Grip grip, C
   return true;
 }
 
-// Deflection of the legs of a slipping foot under the force of this step, and the speed of the foot at its end: y tends
-// to -f_x/W^2 at the rate W/(2 z).
+// Deflection of the legs of a slipping foot under the force of this step, and the speed of the foot in its middle and at its
+// end: y tends to -f_x/W^2 at the rate W/(2 z).
 void MoreauStepper::sway(const Step& step, const State& state, Grip grip, Case& c) const {
   const double W = laws_.legs_radps, z = laws_.legs_damping;
   if (W == 0 || step.blow) return;
@@ -169,12 +169,17 @@ void MoreauStepper::sway(const Step& step, const State& state, Grip grip, Case& 
     c.slip = 0;
     return;
   }
-  const double rest = -c.tangential / (step.dt * W * W), left_over = z > 0 ? std::exp(-0.5 * W / z * step.dt) : 0.0;
-  c.legs = rest + (state.legs - rest) * left_over;
-  c.slip -= z > 0 ? -0.5 * W / z * (c.legs - rest) : (c.legs - state.legs) / step.dt;
+  const double rest = -c.tangential / (step.dt * W * W), left_over = z > 0 ? std::exp(-0.25 * W / z * step.dt) : 0.0;
+  const auto slip_of_legs = [&](double legs) {
+    return z > 0 ? -0.5 * W / z * (legs - rest) : (legs - state.legs) / step.dt;
+  };
+  const double legs_in_the_middle = rest + (state.legs - rest) * left_over;
+  c.legs = rest + (legs_in_the_middle - rest) * left_over;
+  c.middle_slip = 0.5 * (step.corner + c.slip) - slip_of_legs(legs_in_the_middle);
+  c.slip -= slip_of_legs(c.legs);
 }
 
-bool MoreauStepper::impulses(const Step& step, const State& state, Contacts contacts, Grip grip, Case& c) const {
+bool MoreauStepper::impulses_at(const Step& step, const State& state, Contacts contacts, Grip grip, Case& c) const {
   c = {};
   if (contacts.flat() && contacts.edges != 0) return against_face(step, contacts.edges == face(1) ? 1 : -1, c);
   if (contacts.edges != 0) return with_edges(step, contacts, grip, c);
@@ -188,6 +193,27 @@ bool MoreauStepper::impulses(const Step& step, const State& state, Contacts cont
     return false;
   sway(step, state, grip, c);
   return true;
+}
+
+// A foot under legs has no mass: its friction sets its speed, which its friction follows. Told from the last steps, the speed
+// would swing from step to step however short they are.
+bool MoreauStepper::impulses(const Step& step, const State& state, Contacts contacts, Grip grip, Case& c) const {
+  const int sigma = direction(grip);
+  if (laws_.legs_radps == 0 || laws_.rates.empty() || sigma == 0 || step.blow)
+    return impulses_at(step, state, contacts, grip, c);
+  Step at = step;
+  const auto missed = [&](double speed) {
+    at.speed = speed;
+    return impulses_at(at, state, contacts, grip, c) ? std::max(0.0, sigma * c.middle_slip) - speed : 0.0;
+  };
+  double slow = 0, fast = std::max(missed(0), 1e-12);
+  for (int wider = 0; wider < 60 && missed(fast) > 0; ++wider) fast *= 2;
+  for (int half = 0; half < 60; ++half) {
+    const double middle = 0.5 * (slow + fast);
+    (missed(middle) > 0 ? slow : fast) = middle;
+  }
+  at.speed = 0.5 * (slow + fast);
+  return impulses_at(at, state, contacts, grip, c);
 }
 
 // Without slip a block that stands on one corner turns about a hinge, which may pull.

@@ -106,9 +106,10 @@ MoreauStepper::Step MoreauStepper::prepare(const State& state, const FloorLine& 
     force += laws_.contents_ratio * step.contents_force;
   }
   if (laws_.legs_radps > 0) {
-    const double W = laws_.legs_radps, corner = state.v.x + state.v.q * arm(carrier(state), state.c, state.s).y;
-    step.leg_force =
-        -W * (W * (state.legs + half * corner) + 2 * laws_.legs_damping * (corner + half * state.corner_rate));
+    const double W = laws_.legs_radps;
+    step.corner = state.v.x + state.v.q * arm(carrier(state), state.c, state.s).y;
+    step.leg_force = -W * (W * (state.legs + half * step.corner) +
+                           2 * laws_.legs_damping * (step.corner + half * state.corner_rate));
   }
   double moment = 0;
   if (laws_.chain && !state.chain_broken) {

@@ -129,6 +129,7 @@ class MoreauStepper {
     Velocity free;        // what the velocity becomes without contact
     double a = 0, g = 0;  // at the middle
     double leg_force = 0, contents_force = 0;
+    double corner = 0;  // speed of the corner over the legs as the step begins
     ContactLaws::Place place;
     double speed = 0, age = 0;
     bool blow = false;
@@ -140,6 +141,7 @@ class MoreauStepper {
     std::array<double, edge_count> wall{};
     std::array<double, 2> normal{0, 0};
     double slip = 0, legs = 0;  // speed of the foot and deflection of the legs after it
+    double middle_slip = 0;     // of a foot under legs, in the middle of the step
     double total() const { return normal[left] + normal[right]; }
   };
   struct Event {
@@ -173,6 +175,7 @@ class MoreauStepper {
   double chain_pull(const State& state) const;
   Step prepare(const State& state, const FloorLine& floor, double t, double dt) const;
   bool impulses(const Step& step, const State& state, Contacts contacts, Grip grip, Case& c) const;
+  bool impulses_at(const Step& step, const State& state, Contacts contacts, Grip grip, Case& c) const;
   bool one_corner(const Step& step, Corner k, Grip grip, Case& c) const;
   void both_corners(const Step& step, Grip grip, Case& c) const;
   bool against_face(const Step& step, int side, Case& c) const;
