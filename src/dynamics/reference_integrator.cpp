@@ -93,14 +93,20 @@ class ReferenceIntegrator {
 
   // A jump of the floor's acceleration may end the mode at once.
   bool resolve_if_violated() {
-    FirstEvent now(0);
-    const auto floor = life_.cursor.local<judge_order>();
-    with_arc(floor, [&](const auto& arc) { for_each_witness(life_.rig, life_.state, arc, now); });
-    if (now.found().any) life_.resolve(now.found().witness);
-    return now.found().any;
+    const Found now = violated(life_.cursor.local<judge_order>(), 0);
+    if (now.any) life_.resolve(now.witness);
+    return now.any;
   }
 
-  // To the next knot, output time or event; in shorter steps when a slip that stopped was passed over.
+  // What ends the mode at this very instant.
+  template <int N>
+  Found violated(const Floor<double, N>& floor, double tau) const {
+    FirstEvent now(0);
+    with_arc(floor, [&](const auto& arc) { for_each_witness(life_.rig, life_.state, arc, now); }, tau);
+    return now.found();
+  }
+
+  // To the next knot, output time or event; in shorter steps when an event was passed over.
   void integrate_leg() {
     floor_ = life_.cursor.local<judge_order>();
     const double h = leg_length();
@@ -109,11 +115,12 @@ class ReferenceIntegrator {
       record(h);
       const State start = life_.state;
       const double path = life_.peaks.response().slid_path_m;
+      constexpr int attempts = 4;
       double step = std::min(h, longest_step_);
-      for (int attempt = 0; attempt < 4; ++attempt, step /= 8) {
+      for (int attempt = 1; attempt <= attempts; ++attempt, step /= 8) {
         life_.state = start;
         life_.peaks.response().slid_path_m = path;
-        const Leg end = go(h, step);
+        const Leg end = go(h, step, attempt < attempts);
         if (end == Leg::event) return;
         if (end == Leg::whole) break;
       }
@@ -124,8 +131,9 @@ class ReferenceIntegrator {
 
   enum class Leg { whole, event, passed_over };
 
-  // One leg of length h. An event, or a stationary point, ends it early.
-  Leg go(double h, double step) {
+  // One leg of length h. An event, or a stationary point, ends it early; so does, where there are shorter steps to come, an
+  // event that was passed over.
+  Leg go(double h, double step, bool again) {
     void* ark = stepper_.get();
     off_wall_ = touches_wall() ? 0.5 * touching(rig()) : 0;
     start_at(ark, 0, h, step);
@@ -157,8 +165,7 @@ class ReferenceIntegrator {
         life_.resolve(slots_[slot]);
         return Leg::event;
       }
-      if (life_.state.mode != Mode::flight && life_.state.sigma * slip_speed(life_.rig, life_.state) < -1e-12)
-        return Leg::passed_over;
+      if (again && violated(floor_at(tau), tau).any) return Leg::passed_over;
       if (flag == ARK_ROOT_RETURN) {  // a stationary point: the next leg starts there
         life_.cursor.advance(tau);
         return Leg::event;

@@ -76,8 +76,12 @@ MoreauStepper::Event MoreauStepper::first_event(const State& before, const State
     const double start = chain_pull(before), rise = chain_pull(after) - start;
     earlier(Event::Kind::chain_break, std::clamp(dt * (laws_.chain->strength_mps2 - start) / rise, 0.0, dt));
   }
-  if (direction(before.grip) != 0 && carried && after.grip != before.grip && std::isfinite(refused.slip))
-    earlier(Event::Kind::slip_end, std::clamp(dt * before.w / (before.w - refused.slip), 0.0, dt));
+  if (direction(before.grip) != 0 && carried && after.grip != before.grip && std::isfinite(refused.slip)) {
+    // The speed of a foot without mass jumps with the forces, at a blow for one.
+    const double start = laws_.legs_radps > 0 ? refused.first_slip : before.w;
+    const bool at_once = start * direction(before.grip) <= 0;
+    earlier(Event::Kind::slip_end, at_once ? 0 : std::clamp(dt * start / (start - refused.slip), 0.0, dt));
+  }
   if (before.grip == Grip::stuck && carried && std::isfinite(before.margin)) {
     const double time = grip_breaks_after(before, after.grip == Grip::stuck ? after.margin : refused.margin, t, dt);
     if (time > instant && time < dt) earlier(Event::Kind::grip_break, time);

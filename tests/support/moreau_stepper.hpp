@@ -160,6 +160,7 @@ class MoreauStepper {
   // Of the case that would go on as before, where it was not allowed.
   struct Refused {
     double slip = std::numeric_limits<double>::quiet_NaN(), margin = std::numeric_limits<double>::quiet_NaN();
+    double first_slip = 0;  // of a foot under legs, as the step begins
   };
 
   Arm arm(Corner k, double c, double s) const;
