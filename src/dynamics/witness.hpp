@@ -136,9 +136,8 @@ void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, 
       Series<double, N> lean = combination(-1.0, friction_at_wall(right, left, arc), 1 / rig.h, arc.moment);
       if (!left) visit(Witness::flat_right, combination(rig.left / rig.h, arc.fy, 1.0, lean), force);
       if (!right) visit(Witness::flat_left, combination(rig.right / rig.h, arc.fy, -1.0, lean), force);
-    } else {
-      visit(Witness::pressed, arc.fy, force);
     }
+    if (!rig.can_rock || right || left) visit(Witness::pressed, arc.fy, force);  // two corners that push say so already
   }
   const bool leans = state.pivot != 0 && state.at_wall();
   if (leans) visit(Witness::leaning, arc.wall_push, force);
