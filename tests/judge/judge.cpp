@@ -149,6 +149,7 @@ Judgement judge(const JudgedCase& c) {
   Judgement result;
   if (!first_difference(e).empty()) {
     e = evidence(c, 0.25 * step_s);
+    doubt(e, simulate(c.truth, c.floor, 0.7 * 0.25 * step_s));
     result.what = first_difference(e);
     if (!result.what.empty()) {
       doubt_edges(e, c, 0.25 * step_s);

@@ -76,6 +76,14 @@ MoreauStepper::Event MoreauStepper::first_event(const State& before, const State
     const double start = chain_pull(before), rise = chain_pull(after) - start;
     earlier(Event::Kind::chain_break, std::clamp(dt * (laws_.chain->strength_mps2 - start) / rise, 0.0, dt));
   }
+  for (const ContactLaws::Tether& tether : laws_.tethers) {
+    // Its dashpot pulls from the first instant: a jump.
+    const double side = tether.slack_m < 0 ? -1 : 1, slack = std::abs(tether.slack_m);
+    const double start = slack - side * slip_of(before), end = slack - side * slip_of(after);
+    if (!(start > 0 && end < 0)) continue;
+    const double time = crossing(start, -side * middle_speed(before), end, dt);
+    if (time > instant) earlier(Event::Kind::tether, time);
+  }
   if (direction(before.grip) != 0 && carried && after.grip != before.grip && std::isfinite(refused.slip)) {
     // The speed of a foot without mass jumps with the forces, at a blow for one.
     const double start = laws_.legs_radps > 0 ? refused.first_slip : before.w;

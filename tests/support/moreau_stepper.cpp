@@ -41,9 +41,9 @@ double MoreauStepper::chain_pull(const State& state) const {
   return laws_.chain->pull(chain_displacement(state.x, state.c, state.s));
 }
 
-double MoreauStepper::slip() const {
+double MoreauStepper::slip_of(const State& state) const {
   const double middle = 0.5 * (body_.right_m - body_.left_m);
-  return state_.x - middle * (1 - state_.c) - body_.height_m * state_.s;
+  return state.x - middle * (1 - state.c) - body_.height_m * state.s;
 }
 
 double MoreauStepper::contact_position(const State& state) const {
@@ -91,8 +91,8 @@ MoreauStepper::Step MoreauStepper::prepare(const State& state, const FloorLine& 
   const double half = 0.5 * dt, middle = t + half;
   step.a = floor.horizontal(middle) + laws_.push_mps2;
   step.g = laws_.gravity_mps2 + laws_.vertical_scale * floor.vertical(middle);
-  const double speed = middle_speed(state), centre = 0.5 * (body_.right_m - body_.left_m);
-  step.place.u_m = state.x - centre * (1 - state.c) - body_.height_m * state.s + half * speed;
+  const double speed = middle_speed(state);
+  step.place.u_m = slip_of(state) + half * speed;
   step.place.path_m = state.path + half * std::abs(state.w);
   step.place.time_s = middle;
   step.place.normal_g = (state.closed[left] && state.closed[right] ? step.g : state.normal) / standard_gravity_mps2;

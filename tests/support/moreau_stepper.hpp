@@ -70,7 +70,7 @@ class MoreauStepper {
   // Passes over dt, if the block is stuck on both corners and stays so however the floor moves between its ends.
   bool rest(const FloorLine& floor, double t, double dt);
 
-  double slip() const;  // displacement of the middle of the base
+  double slip() const { return slip_of(state_); }  // displacement of the middle of the base
   double rotation() const { return state_.theta; }
   double rotation_rate() const { return state_.v.q; }
   double path() const { return state_.path; }
@@ -145,7 +145,7 @@ class MoreauStepper {
     double total() const { return normal[left] + normal[right]; }
   };
   struct Event {
-    enum class Kind { none, closing, wall, slip_end, grip_break, chain_break } kind = Kind::none;
+    enum class Kind { none, closing, wall, slip_end, grip_break, chain_break, tether } kind = Kind::none;
     double after = 0;
     int edge = -1;
   };
@@ -167,6 +167,7 @@ class MoreauStepper {
   double gap(const State& state, Corner k) const { return state.y + arm(k, state.c, state.s).y; }
   Corner carrier(const State& state) const { return state.closed[left] ? left : right; }
   double contact_position(const State& state) const;  // displacement of the carrying corner
+  double slip_of(const State& state) const;
   double middle_speed(const State& state) const;
   void turn(State& state, double theta) const;
   Arm edge_arm(int edge, double c, double s) const;
