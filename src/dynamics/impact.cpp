@@ -165,6 +165,8 @@ bool land(const Rig& rig, State& state, int pivot, double time) {
   state.pivot = flat ? 0 : pivot;
   state.xi = flat ? state.x : state.x - r.rx - rig.offset(pivot);
   state.w = slip(r, before);
+  // In the air there was no friction, and none of its kinks was followed.
+  if (rig.laws) state.sides = law_values(rig, state, time, state.w < 0 ? -1 : 1).sides;
   const Grip friction = grip(rig, state, time);
   if (flat && tips(friction, state, before)) return true;
   if (flat) {

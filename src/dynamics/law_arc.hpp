@@ -376,6 +376,7 @@ class LawStep {
 // rest.
 struct LawValues {
   double force = 0, moment = 0, factor = 1;
+  std::uint32_t sides = 0;  // of the kinks
   bool finite() const { return std::isfinite(force) && std::isfinite(moment) && std::isfinite(factor); }
 };
 
@@ -396,9 +397,9 @@ inline LawValues law_values(const Rig& rig, const State& state, double time, int
   set(Input::sigma, sigma);
   set(Input::speed, std::abs(state.w));
   for (int i = 0; i < laws.states; ++i) values[static_cast<int>(Input::state) + i][0] = state.states[i];
-  laws.sides_at(values, state.sides);
+  const std::uint32_t sides = laws.sides_at(values, state.sides);
   const auto value = [&](int node, double without) { return node < 0 ? without : values[node][0]; };
-  return {value(laws.force, 0), value(laws.moment, 0), value(laws.friction, 1)};
+  return {value(laws.force, 0), value(laws.moment, 0), value(laws.friction, 1), sides};
 }
 
 }  // namespace freestand::dynamics

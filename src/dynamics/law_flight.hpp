@@ -1,4 +1,4 @@
-// Flight with effects: the added force and moment act on, friction does not.
+// Flight with effects: the added force and moment act on (the moment where the block may turn), friction does not.
 //
 //   x'' = -a + X/M,   y'' = -g',   k^2 theta'' = T;   u = x + d (cos(theta) - 1) - h sin(theta), d = (b_r - b_l)/2
 //
@@ -137,7 +137,7 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     value(Input::v)[k] = f.vx[k] - h * product(cosine, f.omega, k) - d * product(sine, f.omega, k);
     laws.tape.advance(input_count, laws.forces_end, k, state.sides, values);
     double pull = laws.force < 0 ? 0.0 : values[laws.force][k] / laws.carried_mass;
-    double turn = laws.moment < 0 ? 0.0 : values[laws.moment][k] / rig.k2;
+    double turn = laws.moment < 0 || !rig.can_rock ? 0.0 : values[laws.moment][k] / rig.k2;
     wall.add(f, sine, cosine, floor.a, k, pull, turn);
     f.ax[k] = value(Input::acceleration)[k] = pull;
     laws.tape.advance(laws.friction_end, laws.tape.size(), k, state.sides, values);
