@@ -14,6 +14,8 @@
 //               stuck: nothing moves, e X_w = r_y (M a - X) - r_x g' - T;
 //               slipping: (k^2 + r_x q + l (M l + sigma mu F r_x)) theta'' = n q + T + l A,  X_w = A - (M l + sigma mu F r_x) theta'',
 //               A = M (a - r_x omega^2 - e' omega) - X + sigma mu F n
+//   F of f_y    slide-rock is an equation for f_y: f_y = n - r_x theta'', k^2 theta'' = r_x f_y + sigma mu F(f_y) r_y f_y + T.
+//               The corner is let go where the block without it would leave the floor: n = r_x T/k^2. There f_y need not vanish.
 #pragma once
 
 #include <limits>
@@ -35,10 +37,23 @@ struct LawArc : Arc<double, N> {
   Series<double, N> states[max_states];       // of the effects' own: `state_count` of them
   int state_count;
   Series<double, N> kink[max_kinks];  // arguments, positive on the present side
+  Series<double, N> pressed;          // f_y, or what of it decides whether the corner is let go [m/s2]
   // With walls only.
   Series<double, N> right_gap, left_gap;  // between the wall there and the edge next to it [m]
   Series<double, N> wall_push;            // of the wall that the block leans on [m/s2]
 };
+
+// Whether an equation that has the laws in it has a solution: friction that looks at its own normal force may have none.
+template <int N>
+bool has_forces(const LawArc<N>& arc) {
+  double sum = 0;
+  for (int k = 0; k < N; ++k) sum += arc.fx[k] + arc.fy[k] + arc.alpha[k] + arc.foot[k];
+  return std::isfinite(sum);
+}
+template <int N>
+bool has_forces(const Arc<double, N>&) {
+  return true;
+}
 
 template <int N>
 class LawStep {
@@ -53,7 +68,9 @@ class LawStep {
         pivot_(turns_ ? state.pivot : 1),
         body_(rig.corner(pivot_)),
         legs_(laws_.legs.frequency_radps > 0),
-        sides_(state.sides) {
+        sides_(state.sides),
+        friction_sees_force_(turns_ && !leans_ && state.sigma != 0 && laws_.friction >= 0 &&
+                             laws_.tape.depends(laws_.friction, Input::normal)) {
     start_arc(y_, body_, state.theta, state.omega, state.xi, state.w);
     y_.path[0] = state.path;
     y_.deflection[0] = state.deflection;
@@ -127,13 +144,20 @@ class LawStep {
   // On a corner laws may depend on the normal force, which depends on them.
   void forces(int k) {
     const double guess = y_.n[k] / standard_gravity_mps2;
-    if (turns_ && laws_see_the_normal_force())
+    if (k == 0 && friction_sees_force_) {
+      act(0, 0.0);
+      let_go_ = y_.n[0] < y_.rx[0] * y_.moment[0] / body_.k2;
+    }
+    if (let_go_)
+      act(k, 0.0);
+    else if (turns_ && laws_see_the_normal_force())
       act(k, solved(k, guess, [&](double normal) { return act(k, normal) - normal; }));
     else
       see_normal(k, act(k, guess));
   }
 
-  // Stages of a step that reaches over a lift-off may ask for a floor that pulls, where laws mean nothing.
+  // Stages of a step that reaches over a lift-off may ask for a floor that pulls, where laws mean nothing: they see no force
+  // then, and a corner whose friction follows its force has none.
   void see_normal(int k, double normal) {
     Series<double, N>& seen = value(Input::normal);
     if (k == 0)
@@ -150,6 +174,7 @@ class LawStep {
   // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
   double act(int k, double normal) {
     see_normal(k, normal);
+    y_.fy[k] = standard_gravity_mps2 * normal;
     laws_.tape.advance(input_count, laws_.forces_end, k, sides_, values_);
     force_[k] = laws_.force < 0 ? 0.0 : values_[laws_.force][k];
     if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
@@ -161,7 +186,7 @@ class LawStep {
     else
       slip_of_foot(k, value(Input::speed)[k]);
     if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero * state_.doubt) y_.foot[0] = 0;
-    return y_.fy[k] / standard_gravity_mps2;
+    return (friction_sees_force_ ? y_.n[k] - product(y_.rx, y_.alpha, k) : y_.fy[k]) / standard_gravity_mps2;
   }
 
   // The slip at a speed of order k that the laws see; the speed that comes out.
@@ -255,6 +280,10 @@ class LawStep {
     if (!turns_) {
       y_.alpha[k] = 0;
       y_.fy[k] = y_.n[k];
+    } else if (friction_sees_force_) {
+      y_.d[k] = k == 0 ? body_.k2 : 0.0;
+      friction_[k] = sigma_mu * product(factor_, y_.fy, k);
+      y_.alpha[k] = (product(y_.rx, y_.fy, k) + product(y_.ry, friction_, k) + y_.moment[k]) / body_.k2;
     } else {
       q_[k] = y_.rx[k] + sigma_mu * product(factor_, y_.ry, k);
       y_.d[k] = product(y_.rx, q_, k) + (k == 0 ? body_.k2 : 0.0);
@@ -289,6 +318,9 @@ class LawStep {
   void finish() {
     finish_arc(y_);
     y_.ax[N] = y_.foot[N] = 0;
+    y_.pressed = y_.fy;
+    for (int k = 0; k < N && friction_sees_force_; ++k)
+      y_.pressed[k] = y_.n[k] - product(y_.rx, y_.moment, k) / body_.k2;
     if (laws_.walls.any()) gaps();
     for (int i = 0; i < laws_.states; ++i) y_.states[i][N] = value(Input::state, i)[N];
     y_.limit_right = limit(-1);
@@ -364,7 +396,9 @@ class LawStep {
   int pivot_;
   Corner<double> body_;
   bool legs_;
-  std::uint32_t sides_;  // of the kinks
+  std::uint32_t sides_;       // of the kinks
+  bool friction_sees_force_;  // on the corner that it slips on
+  bool let_go_ = false;       // that corner, by the floor
   LawArc<N> y_;
   Series<double, N> values_[max_nodes];
   Series<double, N> omega2_, sine_, cosine_, force_, factor_, load_, inertia_, q_;

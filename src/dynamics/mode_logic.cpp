@@ -45,7 +45,7 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
         sigma == 0 || sign_after(scaled(double(sigma), slip_speed(arc)), {1, rig.force_zero * state.doubt}) > 0;
     const bool starts_turn =
         pivot == 0 || sign_after(scaled(double(pivot), arc.theta), {2, rig.turn_zero * state.doubt}) > 0;
-    return all.hold() && starts_slip && starts_turn;
+    return has_forces(arc) && all.hold() && starts_slip && starts_turn;
   };
   if (!with_contact_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) return false;
   state = trial;

@@ -147,8 +147,10 @@ class ReferenceIntegrator {
       const double before = tau;
       const State from = life_.state;
       const int flag = ERKStepEvolve(ark, h, y_.get(), &tau, ARK_ONE_STEP);
-      if (flag == ARK_RHSFUNC_FAIL || flag == ARK_RTFUNC_FAIL) {
-        life_.stop(Outcome::not_finite);
+      if (flag == ARK_RHSFUNC_FAIL || flag == ARK_RTFUNC_FAIL) {  // the laws lead no further than this
+        if (again) return Leg::passed_over;
+        life_.cursor.advance(before);
+        life_.resolve(Witness::regular);
         return Leg::event;
       }
       check(flag, "ERKStepEvolve");

@@ -38,8 +38,12 @@ class TaylorIntegrator {
   template <int M>
   void move_on(const Floor<double, M>& floor) {
     const bool exact = life_.state.pivot == 0 && flat_exactly_;
-    with_contact_arc<M>(life_.rig, life_.state, life_.cursor.time(), floor,
-                        [&](const auto& arc) { step_along(arc, floor, step(exact ? 0.0 : local_error(arc))); });
+    with_contact_arc<M>(life_.rig, life_.state, life_.cursor.time(), floor, [&](const auto& arc) {
+      if (has_forces(arc))
+        step_along(arc, floor, step(exact ? 0.0 : local_error(arc)));
+      else
+        life_.resolve(Witness::regular);
+    });
   }
 
   // What turns is seen over a tenth of a radian at most, for the gaps under the corners.
@@ -56,7 +60,7 @@ class TaylorIntegrator {
   void step_along(const Arc& arc, const Floor<double, M>& floor, double h) {
     const State before = life_.state;
     Found found = first_event(before, arc, h);
-    while (found.tau > shortest_step / p_ && defect(before, arc, floor, found.tau) > defect_allowed) {
+    while (found.tau > shortest_step / p_ && !(defect(before, arc, floor, found.tau) <= defect_allowed)) {
       h = 0.5 * found.tau;
       found = first_event(before, arc, h);
     }

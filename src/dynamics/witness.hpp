@@ -123,7 +123,7 @@ void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, 
     upright[0] += pi / 2;
     visit(Witness::upright, upright, rotation);
     if (state.sigma != 0) visit(Witness::regular, arc.d, ZeroTolerance{0, 0.0});
-    if (rig.can_slip) visit(Witness::pressed, arc.fy, force);
+    if (rig.can_slip) visit(Witness::pressed, arc.pressed, force);
   }
   if (state.sigma != 0) {
     visit(Witness::slipping, scaled(double(state.sigma), arc.foot), velocity);
