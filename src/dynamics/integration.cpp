@@ -9,6 +9,7 @@ constexpr double beyond_all_bounds = 1e6;  // [m], [rad] and per second: a law f
 constexpr int steps_watched = 10000;
 constexpr double least_progress = 0.1;  // of them within one segment of the motion, times p: a law stands before
                                         // a place where it has no value
+constexpr double shortest_wait = 1e-6;  // times p
 constexpr int wait_order = max_floor_degree + 1;  // witnesses at rest are the floor's own polynomials
 
 // Horizontal velocity of the centre of mass relative to the floor.
@@ -74,17 +75,30 @@ void Integration::wait() {
       continue;
     }
     const auto floor = cursor.local<wait_order>();
-    FirstEvent first(cursor.left());
+    Found found;
+    bool to_knot = true;
     with_contact_arc<wait_order>(rig, state, cursor.time(), floor, [&](const auto& arc) {
-      for_each_witness(rig, state, arc, first);
-      if (first.found().tau > 0) peaks.observe(rig, state, arc, first.found().tau);
-      recorder.record(state, arc, floor, cursor.time(), first.found().tau);
+      const auto first_event = [&](double h) {
+        FirstEvent first(h);
+        for_each_witness(rig, state, arc, first);
+        return first.found();
+      };
+      const auto missed = [&](double tau) {
+        const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
+        return grip_missed(rig, state, cursor.time() + tau, there, arc, tau);
+      };
+      found = first_event(cursor.left());
+      while (found.tau * p_ > shortest_wait && !(missed(found.tau) <= settings.tolerance * rig.g)) {
+        found = first_event(0.5 * found.tau);
+        to_knot = false;
+      }
+      if (found.tau > 0) peaks.observe(rig, state, arc, found.tau);
+      recorder.record(state, arc, floor, cursor.time(), found.tau);
     });
-    const Found found = first.found();
     cursor.advance(found.tau);
     if (found.tau > 0) left_instant();
     if (found.any) return resolve(found.witness);
-    cursor.next_segment();
+    if (to_knot) cursor.next_segment();
   }
 }
 

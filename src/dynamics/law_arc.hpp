@@ -186,6 +186,7 @@ class LawStep {
     else
       slip_of_foot(k, value(Input::speed)[k]);
     if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero * state_.doubt) y_.foot[0] = 0;
+    if (let_go_) y_.foot[k] = k == 0 ? (legs_ ? state_.foot : state_.w) : 0.0;  // it stands on nothing that would tell
     return (friction_sees_force_ ? y_.n[k] - product(y_.rx, y_.alpha, k) : y_.fy[k]) / standard_gravity_mps2;
   }
 
@@ -405,6 +406,22 @@ class LawStep {
   Series<double, N> edge_, edge_rate_, over_centre_, pushed_, friction_;  // leaning
   double acceleration_ = 0, deflection_rate_ = 0, wall_force_ = 0;
 };
+
+// By how much the friction that a stuck contact could have at tau of its series misses the one that the laws give there: a
+// power of the normal force, say, is no polynomial of the time [m/s2].
+template <int N>
+double grip_missed(const Rig& rig, const State& end, double time, const Floor<double, 1>& floor, const LawArc<N>& arc,
+                   double tau) {
+  if (end.sigma != 0 || rig.laws->friction < 0) return 0;
+  LawStep<1> there(rig, end, time, floor);
+  const LawArc<1>& fresh = there.run();
+  return std::fmax(std::abs(fresh.limit_right[0] - arc.limit_right.at(tau)),
+                   std::abs(fresh.limit_left[0] - arc.limit_left.at(tau)));
+}
+template <int N>
+double grip_missed(const Rig&, const State&, double, const Floor<double, 1>&, const Arc<double, N>&, double) {
+  return 0;
+}
 
 // The laws at one instant of contact, the weight on a still floor as normal force and |w| as slip speed: in a blow, and at
 // rest.

@@ -114,6 +114,8 @@ bool choose_on_corner(const Rig& rig, const FloorCursor& cursor, State& state) {
   if (slip != 0 && leans && stands(rig, cursor, state, Mode::slide_rock, pivot, direction(slip), AtWall::pushed))
     return true;
   if (slip != 0 && keeps_slipping(rig)) return false;
+  // A foot under legs could jam where the floor lets go of it.
+  if (slip != 0 && lifts_off(rig, cursor, state)) return true;
   if (stands(rig, cursor, state, Mode::rock, pivot, 0)) return true;
   if (leans && state.omega == 0 && stands(rig, cursor, state, Mode::rock, pivot, 0, AtWall::pushed)) return true;
   if (!rig.can_slip) return false;

@@ -2,7 +2,7 @@
 // knot of the floor motion and at every event. ARKODE finds a root on an interpolant of its step, and sees only roots
 // at which a witness changes sign between two steps. So an event is located again by Newton's method on the integrated
 // state itself, and the stationary points of the slip speed are roots too: a slip that stops and goes on within one
-// step shows as a negative speed there, and the leg is gone through again in shorter steps.
+// step shows as a negative speed there. A step at whose end the mode does not hold is gone through again in shorter ones.
 //
 // It shares the equations of motion, the mode logic and the impact laws with the integrator of the sweep, and nothing
 // of how that one moves through time or finds its events.
@@ -30,6 +30,7 @@ constexpr int state_size = plain_size + 2 + max_states;
 constexpr int witness_slots = 12 + max_kinks;
 constexpr int stationary_u = witness_slots, stationary_theta = witness_slots + 1, stationary_w = witness_slots + 2;
 constexpr int root_count = witness_slots + 3;
+constexpr double shortest_s = 1e-10;  // of a step that is gone through again for an event that it passed over [s]
 
 struct Delete {
   void operator()(_SUNContext* context) const { SUNContext_Free(&context); }
@@ -106,35 +107,25 @@ class ReferenceIntegrator {
     return now.found();
   }
 
-  // To the next knot, output time or event; in shorter steps when an event was passed over.
+  // To the next knot, output time or event.
   void integrate_leg() {
     floor_ = life_.cursor.local<judge_order>();
     const double h = leg_length();
     const bool to_knot = h == life_.cursor.left();
     if (h > 0) {
       record(h);
-      const State start = life_.state;
-      const double path = life_.peaks.response().slid_path_m;
-      constexpr int attempts = 4;
-      double step = std::min(h, longest_step_);
-      for (int attempt = 1; attempt <= attempts; ++attempt, step /= 8) {
-        life_.state = start;
-        life_.peaks.response().slid_path_m = path;
-        const Leg end = go(h, step, attempt < attempts);
-        if (end == Leg::event) return;
-        if (end == Leg::whole) break;
-      }
+      if (!go(h)) return;
     }
     life_.cursor.advance(h);
     if (to_knot) life_.cursor.next_segment();
   }
 
-  enum class Leg { whole, event, passed_over };
-
-  // One leg of length h. An event, or a stationary point, ends it early; so does, where there are shorter steps to come, an
-  // event that was passed over.
-  Leg go(double h, double step, bool again) {
+  // One leg of length h. False: an event, or a stationary point, ended it early; or an event was passed over, and the leg ends
+  // before the step in which it was: the next leg is that step, in shorter ones.
+  bool go(double h) {
     void* ark = stepper_.get();
+    const double step = std::min(h, passed_over_s_ > 0 ? passed_over_s_ / 8 : longest_step_);
+    passed_over_s_ = 0;
     off_wall_ = touches_wall() ? 0.5 * touching(rig()) : 0;
     start_at(ark, 0, h, step);
     write(life_.state);
@@ -144,14 +135,13 @@ class ReferenceIntegrator {
     for (int i = 0; i < 3; ++i) watch_[i] = std::abs(g[witness_slots + i]) > 1e-9;  // not where the leg starts at one
     observe(0);
     for (double tau = 0; tau < h;) {
-      const double before = tau;
+      const double before = tau, path = life_.peaks.response().slid_path_m;
       const State from = life_.state;
       const int flag = ERKStepEvolve(ark, h, y_.get(), &tau, ARK_ONE_STEP);
       if (flag == ARK_RHSFUNC_FAIL || flag == ARK_RTFUNC_FAIL) {  // the laws lead no further than this
-        if (again) return Leg::passed_over;
-        life_.cursor.advance(before);
-        life_.resolve(Witness::regular);
-        return Leg::event;
+        end_before(from, before, path, std::min(step, h - before));
+        if (passed_over_s_ <= shortest_s) life_.resolve(Witness::regular);
+        return false;
       }
       check(flag, "ERKStepEvolve");
       int found[root_count] = {};
@@ -165,15 +155,31 @@ class ReferenceIntegrator {
       if (slot < witness_slots) {
         life_.cursor.advance(tau);
         life_.resolve(slots_[slot]);
-        return Leg::event;
+        return false;
       }
-      if (again && violated(floor_at(tau), tau).any) return Leg::passed_over;
+      if (const Found passed = violated(floor_at(tau), tau); passed.any) {
+        if (tau - before > shortest_s) {
+          end_before(from, before, path, tau - before);
+        } else {
+          life_.cursor.advance(tau);
+          life_.resolve(passed.witness);
+        }
+        return false;
+      }
       if (flag == ARK_ROOT_RETURN) {  // a stationary point: the next leg starts there
         life_.cursor.advance(tau);
-        return Leg::event;
+        return false;
       }
     }
-    return Leg::whole;
+    return true;
+  }
+
+  // The leg ends where a step began that passed over an event.
+  void end_before(const State& from, double tau, double path, double step) {
+    life_.state = from;
+    life_.peaks.response().slid_path_m = path;
+    life_.cursor.advance(tau);
+    passed_over_s_ = step;
   }
 
   void start_at(void* ark, double tau, double end, double step) {
@@ -222,7 +228,7 @@ class ReferenceIntegrator {
   }
 
   double leg_length() const {
-    double h = std::min(life_.left(), 300 * longest_step_);
+    double h = std::min(life_.left(), passed_over_s_ > 0 ? passed_over_s_ : 300 * longest_step_);
     if (output_step_ > 0) {
       const double next = (std::floor(life_.cursor.time() / output_step_ + 1e-6) + 1) * output_step_;
       h = std::min(h, next - life_.cursor.time());
@@ -379,6 +385,7 @@ class ReferenceIntegrator {
   Integration life_;
   double longest_step_;
   double output_step_ = 0;
+  double passed_over_s_ = 0;  // length of the step in which the last leg passed over an event
   double off_wall_ = 0;  // an edge at a wall starts its leg so far off it: ARKODE sees no root that a leg starts on [m]
   std::array<bool, 3> watch_{};
   Floor<double, judge_order> floor_{};

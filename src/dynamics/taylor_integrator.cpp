@@ -78,7 +78,7 @@ class TaylorIntegrator {
     return first.found();
   }
 
-  // By how much the accelerations at tau miss those of the series, times tau, dimensionless and in tolerances. A law may
+  // By how much the accelerations and the friction at tau miss those of the series, times tau, dimensionless and in tolerances. A law may
   // have series whose last terms vanish (even in time, say) while later ones do not: the last term alone is no judge.
   template <int M>
   double defect(const State& before, const LawArc<M>& arc, const Floor<double, M>& floor, double tau) const {
@@ -89,7 +89,8 @@ class TaylorIntegrator {
     const LawArc<1>& fresh = there_on.run();
     const double slip = std::abs(fresh.w[1] - derivative(arc.w).at(tau)) / (p_ * size_);
     const double turn = std::abs(fresh.omega[1] - derivative(arc.omega).at(tau)) / (p_ * alpha_);
-    return std::max(slip, turn) * tau / life_.settings.tolerance;
+    const double grip = grip_missed(life_.rig, end, life_.cursor.time() + tau, there, arc, tau) / (p_ * size_);
+    return std::max({slip, turn, grip}) * tau / life_.settings.tolerance;
   }
   double defect(const State& before, const LawFlight<N>& flight, const Floor<double, N>& floor, double tau) const {
     State end = before;

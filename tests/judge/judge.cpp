@@ -125,7 +125,7 @@ std::string difference(const Evidence& e, const Answer& a) {
   for (std::size_t i = 0; i < e.own.size(); ++i) {
     if (static_cast<double>(i) * h.dt_s > undecided_s) return "";
     if (i >= a.history.points.size()) {
-      if (!broke_off(a.response) || h.outcome == "painleve") return "";
+      if (!broke_off(a.response) || h.outcome == "painleve" || e.own[i] > accuracy) return "";
       return fmt::format("{} broke off ({}) at {:.4f} s, the stepper goes on", a.who, name(a.response.outcome),
                          a.response.end_time_s);
     }
