@@ -30,6 +30,7 @@ constexpr int state_size = plain_size + 2 + max_states;
 constexpr int witness_slots = 12 + max_kinks;
 constexpr int stationary_u = witness_slots, stationary_theta = witness_slots + 1, stationary_w = witness_slots + 2;
 constexpr int root_count = witness_slots + 3;
+constexpr double instant_s = 1e-15;   // shorter than ARKODE can tell from nothing [s]
 constexpr double shortest_s = 1e-10;  // of a step that is gone through again for an event that it passed over [s]
 
 struct Delete {
@@ -114,7 +115,7 @@ class ReferenceIntegrator {
     const bool to_knot = h == life_.cursor.left();
     if (h > 0) {
       record(h);
-      if (!go(h)) return;
+      if (h > instant_s && !go(h)) return;
     }
     life_.cursor.advance(h);
     if (to_knot) life_.cursor.next_segment();
@@ -138,9 +139,13 @@ class ReferenceIntegrator {
       const double before = tau, path = life_.peaks.response().slid_path_m;
       const State from = life_.state;
       const int flag = ERKStepEvolve(ark, h, y_.get(), &tau, ARK_ONE_STEP);
-      if (flag == ARK_RHSFUNC_FAIL || flag == ARK_RTFUNC_FAIL) {  // the laws lead no further than this
+      // The laws lead no further than this, or jump.
+      if (flag == ARK_RHSFUNC_FAIL || flag == ARK_RTFUNC_FAIL || flag == ARK_ERR_FAILURE) {
         end_before(from, before, path, std::min(step, h - before));
-        if (passed_over_s_ <= shortest_s) life_.resolve(Witness::regular);
+        if (!rig().laws)
+          life_.stop(Outcome::not_finite);
+        else if (passed_over_s_ <= shortest_s)
+          life_.resolve(Witness::regular);
         return false;
       }
       check(flag, "ERKStepEvolve");
@@ -149,8 +154,8 @@ class ReferenceIntegrator {
       const auto slot = std::find(found, found + witness_slots, -1) - found;
       if (slot < witness_slots)
         tau = locate(static_cast<int>(slot), from, before, tau, h);
-      else if (flag == ARK_ROOT_RETURN)
-        integrate_again(from, before, tau);
+      else if (flag == ARK_ROOT_RETURN && !integrate_again(from, before, tau))
+        integrate_again(from, before, tau = before);
       arrive(from, tau);
       if (slot < witness_slots) {
         life_.cursor.advance(tau);
@@ -201,30 +206,35 @@ class ReferenceIntegrator {
     observe(tau);
   }
 
-  // Leaves in y the state at tau, integrated anew from the start of the step.
-  void integrate_again(const State& from, double before, double tau) {
+  // Leaves in y the state at tau, integrated anew from the start of the step. False: the laws do not lead so far.
+  bool integrate_again(const State& from, double before, double tau) {
     life_.state = from;
     write(from);
-    if (!(tau > before)) return;
+    if (!(tau > before + instant_s)) return true;
     start_at(locator_.get(), before, tau, longest_step_);
     double reached = 0;
     const int flag = ERKStepEvolve(locator_.get(), tau, y_.get(), &reached, ARK_NORMAL);
-    if (flag == ARK_RHSFUNC_FAIL) return life_.stop(Outcome::not_finite);
+    if (flag == ARK_RHSFUNC_FAIL || flag == ARK_ERR_FAILURE) return false;
     check(flag, "ERKStepEvolve");
+    return true;
   }
 
-  // Newton's method on the witness.
+  // Newton's method on the witness, and halfway back from where the laws do not lead.
   double locate(int slot, const State& from, double before, double tau, double h) {
+    constexpr int rounds = 8, halvings = 50;
     double g[root_count];
-    for (int i = 0; i < 8; ++i) {
-      integrate_again(from, before, tau);
-      roots(tau, y_.get(), g, this);
-      const double newton = tau - g[slot] / rate_[slot];
-      const double next = newton > before && newton <= h ? newton : 0.5 * (before + tau);
-      if (!(std::abs(next - tau) > 1e-15)) break;
+    for (int i = 0; i < halvings; ++i) {
+      double next = 0.5 * (before + tau);
+      if (integrate_again(from, before, tau)) {
+        roots(tau, y_.get(), g, this);
+        const double newton = tau - g[slot] / rate_[slot];
+        if (newton > before && newton <= h) next = newton;
+        if (i >= rounds || !(std::abs(next - tau) > 1e-15)) return tau;
+      }
       tau = next;
     }
-    return tau;
+    integrate_again(from, before, before);
+    return before;
   }
 
   double leg_length() const {
