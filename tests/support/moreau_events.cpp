@@ -84,11 +84,13 @@ MoreauStepper::Event MoreauStepper::first_event(const State& before, const State
     const double time = crossing(start, -side * middle_speed(before), end, dt);
     if (time > instant) earlier(Event::Kind::tether, time);
   }
-  if (direction(before.grip) != 0 && carried && after.grip != before.grip && std::isfinite(refused.slip)) {
-    // The speed of a foot without mass jumps with the forces, at a blow for one.
+  // The speed of a foot without mass jumps with the forces, at a blow for one, and may turn there for an instant.
+  const int way = direction(before.grip);
+  if (way != 0 && carried && after.grip != before.grip && std::isfinite(refused.slip)) {
     const double start = laws_.legs_radps > 0 ? refused.first_slip : before.w;
-    const bool at_once = start * direction(before.grip) <= 0;
-    earlier(Event::Kind::slip_end, at_once ? 0 : std::clamp(dt * start / (start - refused.slip), 0.0, dt));
+    earlier(Event::Kind::slip_end, start * way <= 0 ? 0 : std::clamp(dt * start / (start - refused.slip), 0.0, dt));
+  } else if (laws_.legs_radps > 0 && way != 0 && carried && before.struck && after.first_w * way < 0) {
+    earlier(Event::Kind::slip_end, 0);
   }
   if (before.grip == Grip::stuck && carried && std::isfinite(before.margin)) {
     const double time = grip_breaks_after(before, after.grip == Grip::stuck ? after.margin : refused.margin, t, dt);
@@ -197,6 +199,7 @@ void MoreauStepper::collide(double t, double dt) {
   }
   if (state_.closed[left] != state_.closed[right] && state_.theta == 0 && short_hop(dt)) lie_down();
   state_.margin = std::numeric_limits<double>::quiet_NaN();
+  state_.struck = true;
   state_.w_rate = state_.corner_rate = state_.base_rate = 0;
   state_.contents_v -= state_.v.x - before.v.x;
 }
@@ -266,6 +269,7 @@ void MoreauStepper::meet_wall(int edge, double t, double dt) {
     if (state_.grip == Grip::stuck && before.grip != Grip::stuck) hold(t);
   }
   state_.margin = std::numeric_limits<double>::quiet_NaN();
+  state_.struck = true;
   state_.w_rate = state_.corner_rate = state_.base_rate = 0;
   state_.contents_v -= state_.v.x - before.v.x;
 }

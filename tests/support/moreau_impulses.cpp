@@ -279,7 +279,7 @@ bool MoreauStepper::choose(const Step& step, State& state, Case& chosen, bool cl
         }
         if (grip == state.grip && state.closed == std::array<bool, 2>{with_left, with_right} && edges == 0) {
           refused.slip = chosen.slip;
-          refused.first_slip = 2 * chosen.middle_slip - chosen.slip;
+          refused.first_slip = chosen.first_slip();
           if (grip == Grip::stuck) refused.margin = margin(step, chosen);
         }
       }

@@ -147,6 +147,8 @@ void MoreauStepper::move(const State& before, State& state, const Step& step, co
   const bool slipping = direction(state.grip) != 0;
   state.w = slipping ? c.slip : 0;
   state.w_rate = slipping ? (state.w - before.w) / dt : 0;
+  state.first_w = on_legs && slipping ? c.first_slip() : state.w;
+  state.struck = false;
   if (state.closed[left] && state.closed[right]) {
     state.theta = state.s = 0;
     state.c = 1;

@@ -107,6 +107,8 @@ class MoreauStepper {
     std::array<bool, 2> closed{true, true};
     Grip grip = Grip::stuck;
     double w = 0, w_rate = 0;               // speed of the foot
+    double first_w = 0;                     // of a foot under legs, as the last step began
+    bool struck = false;                    // a blow, and no step since
     double base_rate = 0, corner_rate = 0;  // accelerations of the middle of the base and of the corner, last step
     double normal = 0;                      // normal force per mass, last step
     double foot = 0;                        // where the contact is stuck
@@ -142,6 +144,7 @@ class MoreauStepper {
     std::array<double, 2> normal{0, 0};
     double slip = 0, legs = 0;  // speed of the foot and deflection of the legs after it
     double middle_slip = 0;     // of a foot under legs, in the middle of the step
+    double first_slip() const { return 2 * middle_slip - slip; }
     double total() const { return normal[left] + normal[right]; }
   };
   struct Event {
