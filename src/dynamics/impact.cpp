@@ -247,7 +247,8 @@ bool strike_wall(const Rig& rig, State& state, int side, Edge edge, double time,
     state.foot = state.w;
     if (!aloft) state.wall = 0;
   } else if (!aloft && std::abs(dv) < rig.slow()) {
-    if (state.w == 0) state.omega = 0;
+    // An edge that is low over the floor hardly moves however fast the block turns.
+    if (state.w == 0 && std::abs(state.omega) * rig.top < rig.slow()) state.omega = 0;
     state.w = state.foot = -now.height * state.omega;
   } else if (aloft) {
     const double M = rig.carried_mass(), push = dv / (1 / M + now.height * now.height / rig.k2);

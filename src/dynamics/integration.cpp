@@ -191,16 +191,16 @@ bool Integration::strikes_too() const {
 void Integration::resolve(Witness witness) {
   const State from = state;
   const double speed_before = rig.laws ? centre_speed(rig, state) : 0;
-  bool impact = false, regular = true;
+  bool impact = false, at_floor = false, regular = true;
   switch (witness) {
     case Witness::impact:
-      impact = true;
+      impact = at_floor = true;
       if (rig.hop_rotation(state.pivot, state.omega) >= rig.told_rotation) ++peaks.response().impacts;
       regular = strike(rig, state, cursor.time());
       break;
     case Witness::above_right:
     case Witness::above_left:
-      impact = true;
+      impact = at_floor = true;
       ++peaks.response().impacts;
       regular = land(rig, state, witness == Witness::above_right ? 1 : -1, cursor.time());
       if (regular && state.theta == 0 && state.omega * state.pivot < 0) regular = strike(rig, state, cursor.time());
@@ -221,7 +221,7 @@ void Integration::resolve(Witness witness) {
       break;
   }
   if (is_kink(witness) && state.sigma * slip_speed(rig, state) <= 0) stop_slip();
-  if (regular && !impact && strikes_too()) {
+  if (regular && !at_floor && strikes_too()) {
     impact = true;
     regular = strike(rig, state, cursor.time());
   }

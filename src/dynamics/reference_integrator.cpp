@@ -30,6 +30,8 @@ constexpr int state_size = plain_size + 2 + max_states;
 constexpr int witness_slots = 12 + max_kinks;
 constexpr int stationary_u = witness_slots, stationary_theta = witness_slots + 1, stationary_w = witness_slots + 2;
 constexpr int root_count = witness_slots + 3;
+// A corner that takes off starts its leg so far off the floor: ARKODE sees no root that a leg starts on.
+constexpr double off_floor_m = 1e-13;
 constexpr double instant_s = 1e-15;   // shorter than ARKODE can tell from nothing [s]
 constexpr double shortest_s = 1e-10;  // of a step that is gone through again for an event that it passed over [s]
 
@@ -95,17 +97,22 @@ class ReferenceIntegrator {
 
   // A jump of the floor's acceleration may end the mode at once.
   bool resolve_if_violated() {
-    const Found now = violated(life_.cursor.local<judge_order>(), 0);
-    if (now.any) life_.resolve(now.witness);
-    return now.any;
+    FirstEvent now(0);
+    const auto floor = life_.cursor.local<judge_order>();
+    with_arc(floor, [&](const auto& arc) { for_each_witness(life_.rig, life_.state, arc, now); });
+    if (now.found().any) life_.resolve(now.found().witness);
+    return now.found().any;
   }
 
-  // What ends the mode at this very instant.
-  template <int N>
-  Found violated(const Floor<double, N>& floor, double tau) const {
-    FirstEvent now(0);
-    with_arc(floor, [&](const auto& arc) { for_each_witness(life_.rig, life_.state, arc, now); }, tau);
-    return now.found();
+  // What no longer holds at tau, by more than round-off of metres, seconds and radians.
+  Found violated(double tau) const {
+    constexpr double round_off = 1e-12;
+    Found found;
+    const auto look = [&](Witness witness, const Series<double, 2>& series, ZeroTolerance) {
+      if (!found.any && series[0] < -round_off) found = {true, witness, tau};
+    };
+    with_arc(floor_at(tau), [&](const auto& arc) { for_each_witness(life_.rig, life_.state, arc, look); }, tau);
+    return found;
   }
 
   // To the next knot, output time or event.
@@ -162,7 +169,7 @@ class ReferenceIntegrator {
         life_.resolve(slots_[slot]);
         return false;
       }
-      if (const Found passed = violated(floor_at(tau), tau); passed.any) {
+      if (const Found passed = violated(tau); passed.any) {
         if (tau - before > shortest_s) {
           end_before(from, before, path, tau - before);
         } else {
@@ -357,9 +364,10 @@ class ReferenceIntegrator {
     std::fill(g, g + root_count, 1.0);
     int slot = 0;
     const auto fill = [&](Witness witness, const Series<double, 2>& series, ZeroTolerance) {
+      const bool over_floor = witness == Witness::above_right || witness == Witness::above_left;
       me.slots_[slot] = witness;
       me.rate_[slot] = series[1];
-      g[slot++] = series[0] + (is_clearance(witness) ? me.off_wall_ : 0);
+      g[slot++] = series[0] + (is_clearance(witness) ? me.off_wall_ : over_floor ? off_floor_m : 0);
     };
     const double time = me.life_.cursor.time() + tau;
     if (s.mode == Mode::flight) {

@@ -36,13 +36,17 @@ inline EdgeLever lever_over_centre(const Rig& rig, int side, Edge edge) {
   return {-rig.offset(side), (edge == Edge::upper ? rig.top : 0.0) - rig.h};
 }
 
+// cos(theta) - 1, to all digits: of a block that comes down it is all that keeps the edge at the floor off a wall.
+inline double less_than_one(double sine, double cosine) { return -sine * sine / (1 + cosine); }
+
 // Distance left between an edge and the wall on its side; x: displacement of the point that the lever is about.
 template <int N>
 Series<double, N> clearance(const Wall& wall, int side, const EdgeLever& lever, const Series<double, N>& x,
                             const Series<double, N>& sine, const Series<double, N>& cosine) {
   Series<double, N> gap;
   for (int k = 0; k <= N; ++k)
-    gap[k] = -side * (x[k] - lever.across * (k == 0 ? cosine[0] - 1 : cosine[k]) + lever.up * sine[k]);
+    gap[k] =
+        -side * (x[k] - lever.across * (k == 0 ? less_than_one(sine[0], cosine[0]) : cosine[k]) + lever.up * sine[k]);
   gap[0] += wall.gap_m;
   return gap;
 }
@@ -59,7 +63,8 @@ inline EdgeNow edge_now(const Rig& rig, const State& state, int side, Edge edge)
   const EdgeLever lever = flies ? lever_over_centre(rig, side, edge) : lever_over_corner(rig, pivot, side, edge);
   const double sine = std::sin(state.theta), cosine = std::cos(state.theta);
   const double height = lever.across * sine + lever.up * cosine;
-  const double x = (flies ? state.x : state.xi) - lever.across * (cosine - 1) + lever.up * sine;
+  const double x =
+      (flies ? state.x : state.xi) - lever.across * less_than_one(sine, cosine) + lever.up * sine;
   const double v = (flies ? state.vx : state.w) + height * state.omega;
   return {rig.laws->walls.on(side).gap_m - side * x, height, side * v};
 }

@@ -104,7 +104,7 @@ void visit_clearance(const Rig& rig, const State& state, int side, bool upper, c
       state.released && state.wall == side && (state.edge == Edge::face || upper == (state.edge == Edge::upper));
   Series<double, N> left = gap;
   if (leaves || (gap[0] < 0 && gap[0] >= -touching(rig))) left[0] = 0;
-  if (leaves) left[1] = 0;
+  if (leaves || (left[0] == 0 && std::abs(left[1]) < rig.force_zero)) left[1] = 0;  // round-off of a speed
   visit(clearance_witness(side, upper), left, ZeroTolerance{2, rig.force_zero * state.doubt});
 }
 
