@@ -92,5 +92,20 @@ TEST_P(FlightWithLaws, PeakAccelerationIsGravityAndTheAddedForce) {
   EXPECT_NEAR(shaken(GetParam(), tilted, motion).peak_acceleration_mps2, g, 1e-9);
 }
 
+// A moment turns nothing that the model does not let turn, in the air neither.
+TEST_P(FlightWithLaws, ABlockThatOnlySlidesFliesWithoutTurning) {
+  const FloorMotion throws = staircase({0.2, 0.3, 0.5}, {-4.0, -1.0, 0.0}, {0.0, -14.0, 5.0});
+  Specimen block{Block::rectangular(0.5, 1.6, 100), {0.2, 0.2}, {}, Model::slide, {}};
+  const auto pull = [](const At& at) { return -1.0 * at.u; };
+  block.effects = {law({}, pull)};
+  const Response plain = GetParam()(block, Shaking{&throws, 1, 1, 1});
+  block.effects = {law({}, pull, [](const At& at) { return -2.0 * at.u; })};
+  const Response turned = GetParam()(block, Shaking{&throws, 1, 1, 1});
+  EXPECT_EQ(plain.outcome, Outcome::moved);
+  EXPECT_EQ(turned.outcome, Outcome::moved);
+  EXPECT_EQ(turned.peak_rotation_rad, 0);
+  EXPECT_EQ(turned.residual_slip_m, plain.residual_slip_m);
+}
+
 }  // namespace
 }  // namespace freestand::test
