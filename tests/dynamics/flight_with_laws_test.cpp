@@ -96,10 +96,10 @@ TEST_P(FlightWithLaws, PeakAccelerationIsGravityAndTheAddedForce) {
 TEST_P(FlightWithLaws, ABlockThatOnlySlidesFliesWithoutTurning) {
   const FloorMotion throws = staircase({0.2, 0.3, 0.5}, {-4.0, -1.0, 0.0}, {0.0, -14.0, 5.0});
   Specimen block{Block::rectangular(0.5, 1.6, 100), {0.2, 0.2}, {}, Model::slide, {}};
-  const auto pull = [](const At& at) { return -1.0 * at.u; };
+  const auto pull = [](const dynamics::At& at) { return -1.0 * at.u; };
   block.effects = {law({}, pull)};
   const Response plain = GetParam()(block, Shaking{&throws, 1, 1, 1});
-  block.effects = {law({}, pull, [](const At& at) { return -2.0 * at.u; })};
+  block.effects = {law({}, pull, [](const dynamics::At& at) { return -2.0 * at.u; })};
   const Response turned = GetParam()(block, Shaking{&throws, 1, 1, 1});
   EXPECT_EQ(plain.outcome, Outcome::moved);
   EXPECT_EQ(turned.outcome, Outcome::moved);
