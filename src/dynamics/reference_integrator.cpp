@@ -104,15 +104,13 @@ class ReferenceIntegrator {
     return now.found().any;
   }
 
-  // What no longer holds at tau, by more than round-off of metres, seconds and radians.
-  Found violated(double tau) const {
+  // What no longer holds at the end of a step, by more than round-off of metres, seconds and radians; null: nothing.
+  const Witness* violated(double tau) {
     constexpr double round_off = 1e-12;
-    Found found;
-    const auto look = [&](Witness witness, const Series<double, 2>& series, ZeroTolerance) {
-      if (!found.any && series[0] < -round_off) found = {true, witness, tau};
-    };
-    with_arc(floor_at(tau), [&](const auto& arc) { for_each_witness(life_.rig, life_.state, arc, look); }, tau);
-    return found;
+    double g[root_count];
+    if (tau != seen_at_) roots(tau, y_.get(), g, this);
+    const auto found = std::find_if(seen_.begin(), seen_.end(), [](double x) { return x < -round_off; });
+    return found == seen_.end() ? nullptr : &slots_[found - seen_.begin()];
   }
 
   // To the next knot, output time or event.
@@ -169,12 +167,12 @@ class ReferenceIntegrator {
         life_.resolve(slots_[slot]);
         return false;
       }
-      if (const Found passed = violated(tau); passed.any) {
+      if (const Witness* passed = violated(tau)) {
         if (tau - before > shortest_s) {
           end_before(from, before, path, tau - before);
         } else {
           life_.cursor.advance(tau);
-          life_.resolve(passed.witness);
+          life_.resolve(*passed);
         }
         return false;
       }
@@ -386,6 +384,8 @@ class ReferenceIntegrator {
     // A search between values that are none, or infinite, would not end.
     constexpr double largest = std::numeric_limits<double>::max();
     for (double* each = g; each < g + root_count; ++each) *each = std::clamp(*each, -largest, largest);
+    std::copy(g, g + witness_slots, me.seen_.begin());
+    me.seen_at_ = tau;
     return std::none_of(g, g + root_count, [](double x) { return std::isnan(x); }) ? 0 : -1;
   }
 
@@ -409,6 +409,8 @@ class ReferenceIntegrator {
   Floor<double, judge_order> floor_{};
   Witness slots_[witness_slots]{};
   double rate_[witness_slots]{};
+  std::array<double, witness_slots> seen_{};  // witnesses at the point where they were last asked for
+  double seen_at_ = -1;                       // its time within the leg [s]
   std::unique_ptr<_SUNContext, Delete> context_;
   std::unique_ptr<_generic_N_Vector, Delete> y_;
   Arkode stepper_, locator_;
