@@ -80,7 +80,7 @@ class Report(unittest.TestCase):
         with h5py.File(cls.sweep / "fragility.h5", "a") as root:
             del root["edp/peak_rotation_over_alpha/axis"]
         history = make_results.make_history(folder / "case")
-        cls.result = support.run("report", cls.sweep, "--history", history)
+        cls.result = support.start("report", cls.sweep, "--history", history)
         cls.text = (cls.sweep / "report.html").read_text(encoding="utf-8")
         cls.page = Page(cls.text)
 
@@ -159,7 +159,7 @@ class Report(unittest.TestCase):
 class Figures(Temporary):
     def test_svg_and_png_of_every_picture_and_their_captions(self):
         folder = small(self.folder / "sweep")
-        result = support.run("figures", folder)
+        result = support.start("figures", folder)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         target = folder / "figures"
         captions = json.loads((target / "captions.json").read_text(encoding="utf-8"))

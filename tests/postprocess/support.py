@@ -1,4 +1,6 @@
 """What the tests of postprocess share: the packages (or a skip that says so), invented results, and the two programs."""
+import contextlib
+import io
 import pathlib
 import shutil
 import subprocess
@@ -20,6 +22,7 @@ except ModuleNotFoundError as missing:
     sys.exit(77)
 
 import make_results  # noqa: E402
+from freestand_post import command  # noqa: E402
 
 _kept = tempfile.TemporaryDirectory()
 _made = {}
@@ -37,6 +40,17 @@ def sweep_copy(target):
     return pathlib.Path(target)
 
 
-def run(program, *arguments):
+def start(program, *arguments):
     """postprocess/PROGRAM as a user starts it."""
     return subprocess.run([POSTPROCESS / program, *map(str, arguments)], capture_output=True, text=True, timeout=250)
+
+
+def run(program, *arguments):
+    """The same within this process, which has loaded its packages."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            code = command.main(program, list(map(str, arguments)))
+        except SystemExit as end:
+            code = end.code
+    return subprocess.CompletedProcess([program, *arguments], code, out.getvalue(), err.getvalue())
