@@ -62,8 +62,9 @@ void Tally::add(const Sample& sample) {
 
 void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t group, const Sample& sample) {
   const EdpOptions& edp = options_.edps[e];
-  const bool over = sample.outcome == Outcome::overturned;
-  const bool fallen = over && edp.censored;  // above every capacity
+  const bool overturned = sample.outcome == Outcome::overturned;
+  const bool fallen = overturned && edp.censored;           // above every capacity
+  const bool over = fallen || (overturned && edp.binary);  // told apart from those that stand; else it goes by its value
   const double value = sample.edp[e];
   if (!fallen && !std::isfinite(value)) {
     ++count_[layout_.missing + e];

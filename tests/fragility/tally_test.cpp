@@ -13,6 +13,7 @@
 #include "fragility/fit.hpp"
 #include "fragility/histogram.hpp"
 #include "fragility/validate.hpp"
+#include "support/keyed_random.hpp"
 
 namespace freestand::fragility {
 namespace {
@@ -155,6 +156,31 @@ TEST(Tally, OverturnedSamplesCountByTheirOwnValueWhereTheyHaveOne) {
   EXPECT_EQ(total(tally, 0, 0).over, 40);
   const Result result = fit(tally);
   EXPECT_DOUBLE_EQ(result.edps[0].surface.probability[0], 0.15);
+}
+
+// The speed at a wall that was struck before the block fell, and 0 where none was: three ways of asking agree.
+TEST(Tally, OverturnedSamplesWithASpeedOfTheirOwnAreFittedByIt) {
+  Options o = options();
+  o.edps = {{.name = "wall_hit", .binary = true, .capacities = {}, .censored = false},
+            {.name = "wall_speed_mps", .capacities = {1e-6, 0.5}, .censored = false}};
+  o.axes[0].edge = {0, 1};
+  Tally tally(o);
+  test::KeyedRandom random(3, 1);
+  constexpr int samples = 4000;
+  int struck = 0;
+  for (std::uint64_t i = 0; i < samples; ++i) {
+    const bool over = i % 5 < 2, hit = random.chance(over ? 0.1 : 0.4);
+    struck += hit;
+    const double speed = hit ? std::exp(-1 + 0.5 * random.normal()) : 0.0;
+    const double edp[] = {hit ? 1.0 : 0.0, speed}, axis[] = {0.5};
+    tally.add({i, 0.5, 3, over ? Outcome::overturned : Outcome::moved, edp, axis});
+  }
+  const Result result = fit(tally);
+  const double share = static_cast<double>(struck) / samples;
+  EXPECT_DOUBLE_EQ(result.edps[0].surface.probability[0], share);
+  EXPECT_NEAR(result.edps[1].surface.probability[0], share, 1e-3);
+  EXPECT_EQ(total(tally, 1, 0).over, 0);
+  EXPECT_EQ(total(tally, 1, 0).moved, struck);
 }
 
 TEST(Tally, AnySplitInAnyOrderGivesTheSameBits) {
