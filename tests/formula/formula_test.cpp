@@ -135,6 +135,31 @@ TEST(Formula, IsTheCataloguesLawWhereItSaysTheSame) {
   }
 }
 
+// A formula of friction is the friction, whatever mu the study gives: of 0 too, where a factor on mu would say nothing.
+TEST(Formula, OfFrictionActsWhereMuIsZero) {
+  test::CaseFamily family;
+  family.seed = 11;
+  const dynamics::Effect law = effect("constant", "0.2", "", {});
+  int moved = 0;
+  for (std::uint64_t number = 0; number < 6; ++number) {
+    test::RandomCase c = test::random_case(family, number);
+    c.specimen.friction = {0.2, 0.2};
+    const Response plain = respond(c.specimen, c.shaking);
+    moved += plain.slid_path_m > 0.01;
+    for (const double mu : {0.0, 0.2, 0.7}) {
+      c.specimen.friction = {mu, mu};
+      c.specimen.effects = {{&law, {}}};
+      const Response by_formula = respond(c.specimen, c.shaking);
+      c.specimen.effects.clear();
+      EXPECT_EQ(by_formula.outcome, plain.outcome) << mu << c.text();
+      if (plain.outcome != Outcome::overturned) {
+        EXPECT_NEAR(by_formula.slid_path_m, plain.slid_path_m, 1e-7) << mu << c.text();
+      }
+    }
+  }
+  EXPECT_GT(moved, 2);
+}
+
 // What cannot be computed ends the sample, soon, and its numbers are no demands.
 TEST(Formula, NotANumberIsAnOutcome) {
   test::CaseFamily family;
