@@ -412,7 +412,7 @@ class LawStep {
 template <int N>
 double grip_missed(const Rig& rig, const State& end, double time, const Floor<double, 1>& floor, const LawArc<N>& arc,
                    double tau) {
-  if (end.sigma != 0 || rig.laws->friction < 0) return 0;
+  if (end.sigma != 0 || !rig.laws->grip_changes()) return 0;
   LawStep<1> there(rig, end, time, floor);
   const LawArc<1>& fresh = there.run();
   return std::fmax(std::abs(fresh.limit_right[0] - arc.limit_right.at(tau)),

@@ -84,6 +84,13 @@ bool Laws::uses(Input input) const {
   return false;
 }
 
+bool Laws::grip_changes() const {
+  std::uint32_t constant = 0;
+  for (const Input input : {Input::path, Input::side, Input::sigma, Input::speed})
+    constant |= 1U << static_cast<int>(input);
+  return friction >= 0 && (tape.dependence(friction) & ~constant) != 0;
+}
+
 std::uint32_t Laws::initial_sides() const {
   Series<double, 0> values[max_nodes];
   for (int i = 0; i < input_count; ++i) values[i][0] = 0;

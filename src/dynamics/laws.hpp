@@ -36,6 +36,8 @@ struct Laws {
   // States go on moving while the block rests.
   bool evolve_at_rest() const { return states > 0 || legs.frequency_radps > 0; }
   bool uses(Input input) const;
+  // The share of the normal force that friction may take changes while a contact is stuck.
+  bool grip_changes() const;
   // On which side of their kinks the laws are when nothing has moved yet.
   std::uint32_t initial_sides() const;
   // The same for the inputs in `values`, whose nodes are filled in; what has broken in `before` stays broken.

@@ -13,8 +13,8 @@ enum class AtWall { released, pushed };
 // turn of each is enough; where the normal force lets them turn in a circle the laws stay as they were.
 template <class KinksOf>
 void settle_kinks(const Rig& rig, State& trial, KinksOf&& kinks_of) {
-  if (!rig.laws) return;
-  const int count = rig.laws->tape.kink_count();
+  const int count = rig.laws ? rig.laws->tape.kink_count() : 0;
+  if (count == 0) return;
   const std::uint32_t before = trial.sides;
   for (int turns = 0; turns <= count; ++turns) {
     const auto& kinks = kinks_of();
