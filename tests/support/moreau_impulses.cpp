@@ -91,14 +91,29 @@ bool MoreauStepper::one_corner(const Step& step, Corner k, Grip grip, Case& c) c
   } else {
     const int sigma = direction(grip);
     ContactLaws::Place place = step.place;
-    // Friction that depends on the normal force, which depends on friction.
-    for (int round = laws_.pressure_exponent != 0 && !step.blow ? 8 : 1; round > 0; --round) {
-      const double mu = laws_.sliding(place, step.speed, sigma), w = nn - sigma * mu * nt;
-      if (w == 0) return false;
-      N = -lift / w;
-      c.tangential = -sigma * mu * N;
-      if (!step.blow) place.normal_g = N / (step.dt * standard_gravity_mps2);
+    double mu = laws_.sliding(place, step.speed, sigma);
+    // Too much (> 0) or too little lift for a normal impulse whose friction mu is.
+    const auto missed = [&](double normal) { return lift + (nn - sigma * mu * nt) * normal; };
+    if (laws_.pressure_exponent == 0 || step.blow) {
+      if (nn - sigma * mu * nt == 0) return false;
+      N = -lift / (nn - sigma * mu * nt);
+    } else {
+      // Friction depends on the normal force, which depends on friction.
+      const auto missed_with_its_own = [&](double normal) {
+        place.normal_g = normal / (step.dt * standard_gravity_mps2);
+        mu = laws_.sliding(place, step.speed, sigma);
+        return missed(normal);
+      };
+      double low = 0, high = -lift / nn;
+      for (int wider = 0; wider < 20 && lift < 0 && missed_with_its_own(high) < 0; ++wider) high *= 2;
+      for (int half = 0; half < 60 && lift < 0; ++half) {
+        const double middle = 0.5 * (low + high);
+        (missed_with_its_own(middle) < 0 ? low : high) = middle;
+      }
+      N = high;
+      missed_with_its_own(std::max(N, 0.0));
     }
+    c.tangential = -sigma * mu * N;
   }
   c.next.x = step.free.x + c.tangential / M;
   c.next.y = step.free.y + N;
