@@ -123,22 +123,39 @@ class LawStep {
     for (int i = 0; i < laws_.states; ++i) y_.states[i][k] = value(Input::state, i)[k];
   }
 
-  // x with miss(x) = 0, from a guess: by the secant method, and once it is held between two ends by regula falsi in
-  // Illinois' form, which does not leave them. Of order 0 an equation; higher orders enter linearly.
+  // x with miss(x) = 0, from a guess, by the secant method. Of order 0 an equation; higher orders enter linearly.
   template <class Miss>
   double solved(int k, double guess, Miss&& miss) {
+    double x = guess, missed = miss(x), next = x + missed;
+    for (int i = 0; i < (k == 0 ? 30 : 1) && next != x; ++i) {
+      const double missed_next = miss(next), slope = (missed_next - missed) / (next - x);
+      x = next, missed = missed_next;
+      if (slope != 0) next = x - missed / slope;
+      if (std::abs(next - x) <= 1e-16 * std::abs(next)) break;
+    }
+    const double left = miss(next);
+    return k > 0 || std::abs(left) <= found * (1 + std::abs(next)) ? next : between(guess, miss);
+  }
+
+  // The same between two ends, by regula falsi in Illinois' form. Where x is asked for that grows with itself, the answer may lie
+  // far above the guess.
+  template <class Miss>
+  double between(double guess, Miss&& miss) {
     double a = guess, at_a = miss(a), b = a + at_a, at_b = miss(b);
-    for (int i = 0; i < (k == 0 ? 60 : 1) && at_b != at_a; ++i) {
+    for (int wider = 0; wider < 60 && b > 0 && at_a > 0 && at_b > 0; ++wider) {
+      a = b, at_a = at_b;
+      at_b = miss(b *= 2);
+    }
+    if (!(at_a * at_b < 0)) return undefined;
+    for (int i = 0; i < 100 && std::abs(b - a) > 1e-16 * std::abs(b) && at_b != 0; ++i) {
       const double c = b - at_b * (b - a) / (at_b - at_a), at_c = miss(c);
-      const bool held = at_a * at_b < 0, settled = !(std::abs(c - b) > 1e-16 * std::abs(c));
-      if (!held || at_b * at_c < 0)
+      if (at_b * at_c < 0)
         a = b, at_a = at_b;
       else
         at_a *= 0.5;
       b = c, at_b = at_c;
-      if (settled || at_c == 0) break;
     }
-    return k > 0 || std::abs(at_b) <= found * (1 + std::abs(b)) ? b : undefined;
+    return std::abs(at_b) <= found * (1 + std::abs(b)) ? b : undefined;
   }
 
   // On a corner laws may depend on the normal force, which depends on them.
