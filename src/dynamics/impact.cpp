@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "dynamics/law_arc.hpp"
+#include "dynamics/law_values.hpp"
 #include "dynamics/wall.hpp"
 
 namespace freestand::dynamics {

@@ -1,6 +1,7 @@
 #include "dynamics/integration.hpp"
 
 #include "dynamics/impact.hpp"
+#include "dynamics/law_values.hpp"
 #include "dynamics/overturned.hpp"
 
 namespace freestand::dynamics {

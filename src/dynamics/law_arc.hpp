@@ -18,9 +18,8 @@
 //               The corner is let go where the block without it would leave the floor: n = r_x T/k^2. There f_y need not vanish.
 #pragma once
 
-#include <limits>
-
 #include "dynamics/contact.hpp"
+#include "dynamics/equation.hpp"
 #include "dynamics/rig.hpp"
 #include "dynamics/wall.hpp"
 
@@ -123,41 +122,6 @@ class LawStep {
     for (int i = 0; i < laws_.states; ++i) y_.states[i][k] = value(Input::state, i)[k];
   }
 
-  // x with miss(x) = 0, from a guess, by the secant method. Of order 0 an equation; higher orders enter linearly.
-  template <class Miss>
-  double solved(int k, double guess, Miss&& miss) {
-    double x = guess, missed = miss(x), next = x + missed;
-    for (int i = 0; i < (k == 0 ? 30 : 1) && next != x; ++i) {
-      const double missed_next = miss(next), slope = (missed_next - missed) / (next - x);
-      x = next, missed = missed_next;
-      if (slope != 0) next = x - missed / slope;
-      if (std::abs(next - x) <= 1e-16 * std::abs(next)) break;
-    }
-    const double left = miss(next);
-    return k > 0 || std::abs(left) <= found * (1 + std::abs(next)) ? next : between(guess, miss);
-  }
-
-  // The same between two ends, by regula falsi in Illinois' form. Where x is asked for that grows with itself, the answer may lie
-  // far above the guess.
-  template <class Miss>
-  double between(double guess, Miss&& miss) {
-    double a = guess, at_a = miss(a), b = a + at_a, at_b = miss(b);
-    for (int wider = 0; wider < 60 && b > 0 && at_a > 0 && at_b > 0; ++wider) {
-      a = b, at_a = at_b;
-      at_b = miss(b *= 2);
-    }
-    if (!(at_a * at_b < 0)) return undefined;
-    for (int i = 0; i < 100 && std::abs(b - a) > 1e-16 * std::abs(b) && at_b != 0; ++i) {
-      const double c = b - at_b * (b - a) / (at_b - at_a), at_c = miss(c);
-      if (at_b * at_c < 0)
-        a = b, at_a = at_b;
-      else
-        at_a *= 0.5;
-      b = c, at_b = at_c;
-    }
-    return std::abs(at_b) <= found * (1 + std::abs(b)) ? b : undefined;
-  }
-
   // On a corner laws may depend on the normal force, which depends on them.
   void forces(int k) {
     const double guess = y_.n[k] / standard_gravity_mps2;
@@ -168,7 +132,7 @@ class LawStep {
     if (let_go_)
       act(k, 0.0);
     else if (turns_ && laws_see_the_normal_force())
-      act(k, solved(k, guess, [&](double normal) { return act(k, normal) - normal; }));
+      act(k, solved(k == 0, guess, [&](double normal) { return act(k, normal) - normal; }));
     else
       see_normal(k, act(k, guess));
   }
@@ -198,7 +162,7 @@ class LawStep {
     if (state_.sigma == 0)
       stuck(k);
     else if (legs_ && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::speed))
-      slip_of_foot(k, solved(k, k == 0 ? std::fmax(state_.sigma * state_.foot, 0.0) : 0.0,
+      slip_of_foot(k, solved(k == 0, k == 0 ? std::fmax(state_.sigma * state_.foot, 0.0) : 0.0,
                              [&](double speed) { return slip_of_foot(k, speed) - speed; }));
     else
       slip_of_foot(k, value(Input::speed)[k]);
@@ -401,9 +365,6 @@ class LawStep {
   static constexpr double foot_zero = 1e-10;  // [m/s]
   // [m g]; less than the round-off of a sum of forces, and more than what makes a power of it overflow.
   static constexpr double least_normal = 1e-18;
-  // What the secant method leaves further off than this, over its own size, is not found: laws have no value.
-  static constexpr double found = 1e-10;
-  static constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
   const Rig& rig_;
   const Laws& laws_;
@@ -423,51 +384,5 @@ class LawStep {
   Series<double, N> edge_, edge_rate_, over_centre_, pushed_, friction_;  // leaning
   double acceleration_ = 0, deflection_rate_ = 0, wall_force_ = 0;
 };
-
-// By how much the friction that a stuck contact could have at tau of its series misses the one that the laws give there: a
-// power of the normal force, say, is no polynomial of the time [m/s2].
-template <int N>
-double grip_missed(const Rig& rig, const State& end, double time, const Floor<double, 1>& floor, const LawArc<N>& arc,
-                   double tau) {
-  if (end.sigma != 0 || !rig.laws->grip_changes()) return 0;
-  LawStep<1> there(rig, end, time, floor);
-  const LawArc<1>& fresh = there.run();
-  return std::fmax(std::abs(fresh.limit_right[0] - arc.limit_right.at(tau)),
-                   std::abs(fresh.limit_left[0] - arc.limit_left.at(tau)));
-}
-template <int N>
-double grip_missed(const Rig&, const State&, double, const Floor<double, 1>&, const Arc<double, N>&, double) {
-  return 0;
-}
-
-// The laws at one instant of contact, the weight on a still floor as normal force and |w| as slip speed: in a blow, and at
-// rest.
-struct LawValues {
-  double force = 0, moment = 0, factor = 1;
-  std::uint32_t sides = 0;  // of the kinks
-  bool finite() const { return std::isfinite(force) && std::isfinite(moment) && std::isfinite(factor); }
-};
-
-inline LawValues law_values(const Rig& rig, const State& state, double time, int sigma) {
-  const Laws& laws = *rig.laws;
-  Series<double, 0> values[max_nodes];
-  for (int i = 0; i < input_count; ++i) values[i][0] = 0;
-  const auto set = [&](Input input, double x) { values[static_cast<int>(input)][0] = x; };
-  const double B = state.pivot * rig.half_base(), half = std::sin(0.5 * state.theta);
-  set(Input::u, state.xi + B * 2 * half * half);
-  set(Input::v, state.w + B * std::sin(state.theta) * state.omega);
-  set(Input::theta, state.theta);
-  set(Input::omega, state.omega);
-  set(Input::t, time);
-  set(Input::path, state.path);
-  set(Input::normal, rig.g / standard_gravity_mps2);
-  set(Input::side, state.pivot);
-  set(Input::sigma, sigma);
-  set(Input::speed, std::abs(state.w));
-  for (int i = 0; i < laws.states; ++i) values[static_cast<int>(Input::state) + i][0] = state.states[i];
-  const std::uint32_t sides = laws.sides_at(values, state.sides);
-  const auto value = [&](int node, double without) { return node < 0 ? without : values[node][0]; };
-  return {value(laws.force, 0), value(laws.moment, 0), value(laws.friction, 1), sides};
-}
 
 }  // namespace freestand::dynamics

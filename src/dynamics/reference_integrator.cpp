@@ -6,17 +6,12 @@
 //
 // It shares the equations of motion, the mode logic and the impact laws with the integrator of the sweep, and nothing
 // of how that one moves through time or finds its events.
-#include <arkode/arkode_erkstep.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <freestand/error.hpp>
 #include <limits>
-#include <memory>
 
+#include "dynamics/arkode.hpp"
 #include "dynamics/bouc_wen.hpp"
 #include "dynamics/integration.hpp"
 
@@ -30,40 +25,25 @@ constexpr int state_size = plain_size + 2 + max_states;
 constexpr int witness_slots = 12 + max_kinks;
 constexpr int stationary_u = witness_slots, stationary_theta = witness_slots + 1, stationary_w = witness_slots + 2;
 constexpr int root_count = witness_slots + 3;
-// A corner that takes off starts its leg so far off the floor: ARKODE sees no root that a leg starts on.
-constexpr double off_floor_m = 1e-13;
-constexpr double instant_s = 1e-15;   // shorter than ARKODE can tell from nothing [s]
-constexpr double shortest_s = 1e-10;  // of a step that is gone through again for an event that it passed over [s]
-
-struct Delete {
-  void operator()(_SUNContext* context) const { SUNContext_Free(&context); }
-  void operator()(_generic_N_Vector* vector) const { N_VDestroy(vector); }
-  void operator()(void* memory) const { ERKStepFree(&memory); }
-};
-
-void check(int flag, const char* what) {
-  if (flag < 0)
-    throw Error(std::string("the reference integrator failed (SUNDIALS ") + what + " returned " + std::to_string(flag) +
-                    "): loosen the tolerance",
-                Exit::data);
-}
 
 class ReferenceIntegrator {
  public:
   ReferenceIntegrator(const Setup& setup, const Settings& settings, History* history)
-      : life_(setup, settings, history), longest_step_(0.006 / setup.specimen.block.p_radps()) {
+      : life_(setup, settings, history),
+        longest_step_(0.006 / setup.specimen.block.p_radps()),
+        round_off_(1e-12 * setup.specimen.block.size_m()) {
     SUNContext context = nullptr;
     check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
     context_.reset(context);
     y_.reset(N_VNew_Serial(state_size, context));
     N_VConst(0, y_.get());
-    stepper_ = make_arkode(settings);
+    stepper_ = make_arkode(settings.tolerance, &derivative, y_.get(), context, this);
     check(ERKStepRootInit(stepper_.get(), root_count, &roots), "ERKStepRootInit");
     int direction[root_count] = {};
     std::fill(direction, direction + witness_slots, -1);
     check(ERKStepSetRootDirection(stepper_.get(), direction), "ERKStepSetRootDirection");
     check(ERKStepSetNoInactiveRootWarn(stepper_.get()), "ERKStepSetNoInactiveRootWarn");
-    locator_ = make_arkode(settings);
+    locator_ = make_arkode(settings.tolerance, &derivative, y_.get(), context, this);
     output_step_ = history && history->step_s > 0 ? history->step_s : 0;
   }
 
@@ -78,23 +58,6 @@ class ReferenceIntegrator {
   }
 
  private:
-  using Arkode = std::unique_ptr<void, Delete>;
-
-  Arkode make_arkode(const Settings& settings) {
-    Arkode arkode(ERKStepCreate(&derivative, 0, y_.get(), context_.get()));
-    if (!arkode)
-      throw Error("the reference integrator cannot start (SUNDIALS has no memory): free some memory", Exit::data);
-    void* ark = arkode.get();
-    const auto quiet = [](int, const char*, const char*, char*, void*) {};  // failures are outcomes
-    check(ERKStepSetErrHandlerFn(ark, quiet, nullptr), "ERKStepSetErrHandlerFn");
-    check(ERKStepSetTableNum(ark, ARKODE_DORMAND_PRINCE_7_4_5), "ERKStepSetTableNum");
-    const double tolerance = std::max(settings.tolerance, 1e-11);  // below, round-off fails its error test
-    check(ERKStepSStolerances(ark, tolerance, 0.1 * tolerance), "ERKStepSStolerances");
-    check(ERKStepSetUserData(ark, this), "ERKStepSetUserData");
-    check(ERKStepSetMaxNumSteps(ark, 100000), "ERKStepSetMaxNumSteps");
-    return arkode;
-  }
-
   // A jump of the floor's acceleration may end the mode at once.
   bool resolve_if_violated() {
     FirstEvent now(0);
@@ -106,10 +69,9 @@ class ReferenceIntegrator {
 
   // What no longer holds at the end of a step, by more than round-off of metres, seconds and radians; null: nothing.
   const Witness* violated(double tau) {
-    constexpr double round_off = 1e-12;
     double g[root_count];
     if (tau != seen_at_) roots(tau, y_.get(), g, this);
-    const auto found = std::find_if(seen_.begin(), seen_.end(), [](double x) { return x < -round_off; });
+    const auto found = std::find_if(seen_.begin(), seen_.end(), [&](double x) { return x < -round_off_; });
     return found == seen_.end() ? nullptr : &slots_[found - seen_.begin()];
   }
 
@@ -120,7 +82,7 @@ class ReferenceIntegrator {
     const bool to_knot = h == life_.cursor.left();
     if (h > 0) {
       record(h);
-      if (h > instant_s && !go(h)) return;
+      if (h > instant_ && !go(h)) return;
     }
     life_.cursor.advance(h);
     if (to_knot) life_.cursor.next_segment();
@@ -149,7 +111,7 @@ class ReferenceIntegrator {
         end_before(from, before, path, std::min(step, h - before));
         if (!rig().laws)
           life_.stop(Outcome::not_finite);
-        else if (passed_over_s_ <= shortest_s)
+        else if (passed_over_s_ <= shortest_)
           life_.resolve(Witness::regular);
         return false;
       }
@@ -168,7 +130,7 @@ class ReferenceIntegrator {
         return false;
       }
       if (const Witness* passed = violated(tau)) {
-        if (tau - before > shortest_s) {
+        if (tau - before > shortest_) {
           end_before(from, before, path, tau - before);
         } else {
           life_.cursor.advance(tau);
@@ -215,7 +177,7 @@ class ReferenceIntegrator {
   bool integrate_again(const State& from, double before, double tau) {
     life_.state = from;
     write(from);
-    if (!(tau > before + instant_s)) return true;
+    if (!(tau > before + instant_)) return true;
     start_at(locator_.get(), before, tau, longest_step_);
     double reached = 0;
     const int flag = ERKStepEvolve(locator_.get(), tau, y_.get(), &reached, ARK_NORMAL);
@@ -365,7 +327,7 @@ class ReferenceIntegrator {
       const bool over_floor = witness == Witness::above_right || witness == Witness::above_left;
       me.slots_[slot] = witness;
       me.rate_[slot] = series[1];
-      g[slot++] = series[0] + (is_clearance(witness) ? me.off_wall_ : over_floor ? off_floor_m : 0);
+      g[slot++] = series[0] + (is_clearance(witness) ? me.off_wall_ : over_floor ? me.off_floor_ : 0);
     };
     const double time = me.life_.cursor.time() + tau;
     if (s.mode == Mode::flight) {
@@ -402,6 +364,10 @@ class ReferenceIntegrator {
 
   Integration life_;
   double longest_step_;
+  double round_off_;                         // of lengths [m]
+  double off_floor_ = 0.1 * round_off_;      // where a corner that takes off starts, as `off_wall_`
+  double instant_ = 1e-12 * longest_step_;   // shorter than ARKODE can tell from nothing [s]
+  double shortest_ = 1e-7 * longest_step_;   // of a step that is gone through again for an event that it passed over [s]
   double output_step_ = 0;
   double passed_over_s_ = 0;  // length of the step in which the last leg passed over an event
   double off_wall_ = 0;  // an edge at a wall starts its leg so far off it: ARKODE sees no root that a leg starts on [m]

@@ -4,6 +4,7 @@
 
 #include "dynamics/bouc_wen.hpp"
 #include "dynamics/integration.hpp"
+#include "dynamics/law_values.hpp"
 
 namespace freestand {
 namespace dynamics {

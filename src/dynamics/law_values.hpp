@@ -1,0 +1,54 @@
+// The laws at one instant, apart from any step: in a blow, at rest, and as a check of a series.
+#pragma once
+
+#include "dynamics/law_arc.hpp"
+
+namespace freestand::dynamics {
+
+// By how much the friction that a stuck contact could have at tau of its series misses the one that the laws give there: a
+// power of the normal force, say, is no polynomial of the time [m/s2].
+template <int N>
+double grip_missed(const Rig& rig, const State& end, double time, const Floor<double, 1>& floor, const LawArc<N>& arc,
+                   double tau) {
+  if (end.sigma != 0 || !rig.laws->grip_changes()) return 0;
+  LawStep<1> there(rig, end, time, floor);
+  const LawArc<1>& fresh = there.run();
+  return std::fmax(std::abs(fresh.limit_right[0] - arc.limit_right.at(tau)),
+                   std::abs(fresh.limit_left[0] - arc.limit_left.at(tau)));
+}
+template <int N>
+double grip_missed(const Rig&, const State&, double, const Floor<double, 1>&, const Arc<double, N>&, double) {
+  return 0;
+}
+
+// The laws at one instant of contact, the weight on a still floor as normal force and |w| as slip speed: in a blow, and at
+// rest.
+struct LawValues {
+  double force = 0, moment = 0, factor = 1;
+  std::uint32_t sides = 0;  // of the kinks
+  bool finite() const { return std::isfinite(force) && std::isfinite(moment) && std::isfinite(factor); }
+};
+
+inline LawValues law_values(const Rig& rig, const State& state, double time, int sigma) {
+  const Laws& laws = *rig.laws;
+  Series<double, 0> values[max_nodes];
+  for (int i = 0; i < input_count; ++i) values[i][0] = 0;
+  const auto set = [&](Input input, double x) { values[static_cast<int>(input)][0] = x; };
+  const double B = state.pivot * rig.half_base(), half = std::sin(0.5 * state.theta);
+  set(Input::u, state.xi + B * 2 * half * half);
+  set(Input::v, state.w + B * std::sin(state.theta) * state.omega);
+  set(Input::theta, state.theta);
+  set(Input::omega, state.omega);
+  set(Input::t, time);
+  set(Input::path, state.path);
+  set(Input::normal, rig.g / standard_gravity_mps2);
+  set(Input::side, state.pivot);
+  set(Input::sigma, sigma);
+  set(Input::speed, std::abs(state.w));
+  for (int i = 0; i < laws.states; ++i) values[static_cast<int>(Input::state) + i][0] = state.states[i];
+  const std::uint32_t sides = laws.sides_at(values, state.sides);
+  const auto value = [&](int node, double without) { return node < 0 ? without : values[node][0]; };
+  return {value(laws.force, 0), value(laws.moment, 0), value(laws.friction, 1), sides};
+}
+
+}  // namespace freestand::dynamics
