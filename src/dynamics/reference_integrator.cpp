@@ -119,6 +119,8 @@ class ReferenceIntegrator {
       int found[root_count] = {};
       if (flag == ARK_ROOT_RETURN) check(ERKStepGetRootInfo(ark, found), "ERKStepGetRootInfo");
       const auto slot = std::find(found, found + witness_slots, -1) - found;
+      const bool starts = slot < witness_slots && slots_[slot] == Witness::slipping && slip_speed(rig(), from) == 0;
+      if (starts && tau <= shortest_) continue;  // round-off of a slip that starts
       if (slot < witness_slots)
         tau = locate(static_cast<int>(slot), from, before, tau, h);
       else if (flag == ARK_ROOT_RETURN && !integrate_again(from, before, tau))
