@@ -105,7 +105,8 @@ bool MoreauStepper::one_corner(const Step& step, Corner k, Grip grip, Case& c) c
         return missed(normal);
       };
       double low = 0, high = -lift / nn;
-      for (int wider = 0; wider < 20 && lift < 0 && missed_with_its_own(high) < 0; ++wider) high *= 2;
+      for (int wider = 0; wider < 40 && lift < 0 && missed_with_its_own(high) < 0; ++wider) high *= 1.25;
+      if (lift < 0 && missed_with_its_own(high) < 0) return false;  // Painleve's paradox
       for (int half = 0; half < 60 && lift < 0; ++half) {
         const double middle = 0.5 * (low + high);
         (missed_with_its_own(middle) < 0 ? low : high) = middle;
