@@ -144,7 +144,7 @@ bool Integration::meet_walls_too() {
       met = false;
       for (const Edge edge : {Edge::upper, Edge::lower}) {
         const EdgeNow now = edge_now(rig, state, side, edge);
-        const bool stays = state.at_wall() && state.wall == side && (state.edge == edge || state.edge == Edge::face);
+        const bool stays = state.at_wall() && state.is_by(side, edge);
         if (!is_next_to(edge, side) || stays || now.gap > touching(rig) || now.speed <= -rig.slow()) continue;
         if (!meet_wall(side, edge)) return false;
         met = true;

@@ -114,6 +114,8 @@ struct State {
   bool released = false;
 
   bool at_wall() const { return wall != 0 && !released; }
+  // It is this edge of that side, alone or with its whole face, that is at the wall.
+  bool is_by(int side, Edge which) const { return wall == side && (edge == Edge::face || edge == which); }
 };
 
 }  // namespace freestand::dynamics

@@ -100,8 +100,7 @@ Series<double, N> friction_at_wall(bool right, bool left, const LawArc<N>& arc) 
 template <int N, class Visit>
 void visit_clearance(const Rig& rig, const State& state, int side, bool upper, const Series<double, N>& gap,
                      Visit&& visit) {
-  const bool leaves =
-      state.released && state.wall == side && (state.edge == Edge::face || upper == (state.edge == Edge::upper));
+  const bool leaves = state.released && state.is_by(side, upper ? Edge::upper : Edge::lower);
   Series<double, N> left = gap;
   if (leaves || (gap[0] < 0 && gap[0] >= -touching(rig))) left[0] = 0;
   if (leaves || (left[0] == 0 && std::abs(left[1]) < rig.force_zero)) left[1] = 0;  // round-off of a speed
@@ -166,8 +165,7 @@ void for_each_witness(const Rig& rig, const State& state, const LawFlight<N>& fl
   if (state.at_wall()) visit(Witness::leaning, flight.wall_push, ZeroTolerance{0, rig.force_zero * state.doubt});
   for (const int side : sides(state))
     for (const bool upper : {false, true}) {
-      const bool stays =
-          state.at_wall() && state.wall == side && (state.edge == Edge::face || upper == (state.edge == Edge::upper));
+      const bool stays = state.at_wall() && state.is_by(side, upper ? Edge::upper : Edge::lower);
       if (rig.laws->walls.on(side).stands && !stays)
         visit_clearance(rig, state, side, upper, (side > 0 ? flight.right_gap : flight.left_gap)[upper], visit);
     }
