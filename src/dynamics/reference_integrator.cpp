@@ -96,7 +96,6 @@ class ReferenceIntegrator {
     passed_over_s_ = 0;
     off_wall_ = touches_wall() ? 0.5 * touching(rig()) : 0;
     start_at(ark, 0, h, step);
-    write(life_.state);
     watch_ = {true, true, true};
     double g[root_count];
     roots(0, y_.get(), g, this);
@@ -119,8 +118,11 @@ class ReferenceIntegrator {
       int found[root_count] = {};
       if (flag == ARK_ROOT_RETURN) check(ERKStepGetRootInfo(ark, found), "ERKStepGetRootInfo");
       const auto slot = std::find(found, found + witness_slots, -1) - found;
-      const bool starts = slot < witness_slots && slots_[slot] == Witness::slipping && slip_speed(rig(), from) == 0;
-      if (starts && tau <= shortest_) continue;  // round-off of a slip that starts
+      const bool slips = slot < witness_slots && slots_[slot] == Witness::slipping;
+      if (slips && slip_speed(rig(), from) == 0 && tau <= shortest_) {  // round-off of a slip that starts
+        check(ERKStepReset(ark, tau, y_.get()), "ERKStepReset");
+        continue;
+      }
       if (slot < witness_slots)
         tau = locate(static_cast<int>(slot), from, before, tau, h);
       else if (flag == ARK_ROOT_RETURN && !integrate_again(from, before, tau))

@@ -149,7 +149,7 @@ std::string difference(const Evidence& e, const Answer& a) {
 
 }  // namespace
 
-Judgement judge(const JudgedCase& c) {
+Judgement judge(const JudgedCase& c) try {
   const Answer answers[] = {answer(c, "respond", respond), answer(c, "respond_reference", respond_reference)};
   const auto first_difference = [&](const Evidence& e) {
     for (const Answer& a : answers)
@@ -170,6 +170,11 @@ Judgement judge(const JudgedCase& c) {
   result.compared = e.own.size();
   result.samples = e.history.slip_m.size();
   for (std::size_t i = 0; i < e.own.size(); ++i) result.deeds |= e.history.deeds[i];
+  return result;
+} catch (const Error& error) {  // no answer at all
+  Judgement result;
+  result.finding = Finding::disagrees;
+  result.what = error.what();
   return result;
 }
 

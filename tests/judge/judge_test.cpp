@@ -40,6 +40,12 @@ TEST(Judge, AgreesWithTheKernelOnEveryEffectInEveryMode) {
   EXPECT_GT(tally.total().compared, tally.total().samples * 9 / 10);
 }
 
+// Legs and a throw: SUNDIALS looks for the root on which it stands, finds none of its own on either side, and gives up.
+TEST(Judge, TheReferenceGoesOnFromTheRoundOffOfASlipThatStarts) {
+  const Judgement judgement = judge(judged_case(2, 208));
+  EXPECT_EQ(judgement.finding, Finding::agrees) << judgement.what;
+}
+
 TEST(Judge, MakesTheSameCaseAgain) {
   EXPECT_EQ(judged_case(3, 77).text(), judged_case(3, 77).text());
   EXPECT_EQ(judged_case(3, 77).floor.horizontal_mps2, judged_case(3, 77).floor.horizontal_mps2);

@@ -50,6 +50,7 @@ const std::vector<Gap>& gaps() {
 }  // namespace
 
 std::string known_gap(const JudgedCase& c, const Judgement& judgement) {
+  if (judgement.samples == 0) return "";  // one of the integrators had no answer
   for (const Gap& gap : gaps())
     if (gap.holds(c, judgement)) return gap.name;
   return "";
