@@ -223,7 +223,8 @@ def _samples(path):
                 draws[name] = _numbers(group, name)
         outcome = _numbers(group, "outcome").astype(int)
         motions = [_text(item) for item in root["motions/name"][()]] if "motions/name" in root else []
-        is_record = _numbers(root["motions"], "is_record").astype(int) if "motions/is_record" in root else np.zeros(0, int)
+        group = _numbers(root["motions"], "group") if "motions/group" in root else np.zeros(0)  # -1: pulses
+        is_record = (group >= 0).astype(int)
     return {name: values for name, values in draws.items() if values.shape == outcome.shape}, outcome, motions, is_record
 
 

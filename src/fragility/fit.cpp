@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "fragility/bin_fit.hpp"
+#include "fragility/fragility_function.hpp"
 #include "fragility/histogram.hpp"
-#include "fragility/overturning.hpp"
 #include "fragility/regression.hpp"
 #include "fragility/surface.hpp"
 #include "fragility/warnings.hpp"
@@ -65,6 +65,8 @@ EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resamplin
   result.capacity = capacities(options);
   result.bins = fit_bins(tally, e, null);
   result.surface = surface(tally, e, resampling, result.bins);
+  for (std::size_t c = 0; c < result.capacity.size(); ++c)
+    result.functions.push_back(fragility_function(tally, e, c, resampling));
   told.step();
   for (std::size_t a = 0; a < tally.options().axes.size(); ++a) {
     result.axes.push_back(axis_surface(tally, e, a, resampling));
@@ -90,6 +92,7 @@ Result fit(const Tally& tally, EstimatedNull& null, const Steps& steps) {
   result.im_unit = options.im_unit;
   result.im_edge = options.im_edge;
   result.confidence = options.confidence;
+  result.resamples = options.resamples;
   for (std::size_t b = 0; b + 1 < options.im_edge.size(); ++b) {
     const double mean = tally.mean_im(b);
     result.im.push_back(std::isnan(mean) ? (options.im_edge[b] + options.im_edge[b + 1]) / 2 : mean);
@@ -105,7 +108,7 @@ Result fit(const Tally& tally, EstimatedNull& null, const Steps& steps) {
   Told told(options, steps);
   for (std::size_t e = 0; e < options.edps.size(); ++e)
     result.edps.push_back(fit_edp(tally, e, resampling, null, told));
-  result.overturning = overturning_curve(tally, resampling);
+  result.overturning = overturning_function(tally, resampling);
   told.step();
   result.warnings = warnings(tally, result);
   return result;

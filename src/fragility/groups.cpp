@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <freestand/error.hpp>
+#include <map>
 
 #include "base/random.hpp"
 
@@ -16,14 +17,17 @@ constexpr int hashed_group_count = 128;
 }  // namespace
 
 MotionGroups::MotionGroups(const Options& options) {
-  const auto& is_record = options.motion_is_record;
-  records_ = static_cast<int>(std::count_if(is_record.begin(), is_record.end(), [](auto flag) { return flag != 0; }));
-  const bool lone_record = records_ == 1;
-  record_groups_ = lone_record ? 0 : std::min(records_, most_record_groups);
-  int next = 0;
-  for (const auto flag : is_record) record_group_.push_back(flag && !lone_record ? next++ % most_record_groups : -1);
-  if (lone_record || records_ < static_cast<int>(is_record.size()) || is_record.empty())
-    hashed_groups_ = hashed_group_count;
+  const std::vector<int>& given = options.motion_group;
+  std::map<int, int> number;  // of each group, in the order of first mention
+  for (const int group : given)
+    if (group >= 0) number.try_emplace(group, static_cast<int>(number.size()));
+  records_ = static_cast<int>(number.size());
+  const bool lone = records_ == 1;
+  record_groups_ = lone ? 0 : std::min(records_, most_record_groups);
+  for (const int group : given)
+    record_group_.push_back(group >= 0 && !lone ? number.at(group) % most_record_groups : -1);
+  const bool pulses = std::any_of(given.begin(), given.end(), [](int group) { return group < 0; });
+  if (lone || pulses || given.empty()) hashed_groups_ = hashed_group_count;
 }
 
 int MotionGroups::group(int motion, std::uint64_t sample) const {

@@ -10,19 +10,19 @@
 
 namespace freestand::fragility {
 
-// A record is one group (records beyond 256 share groups, whole records to a group). A pulse sample is a motion of its
-// own: a hash of its index puts it in one of 128 groups, which resample like the samples themselves and keep memory
-// bounded. A record that is the only one of the study is treated in the same way: its bands then say how well the
-// answer for this record is known, and nothing about other records.
+// The samples of a group of records are one group (beyond 256 of them they are joined, whole ones to a group). A pulse
+// sample is a motion of its own: a hash of its index puts it in one of 128 groups, which resample like the samples
+// themselves and keep memory bounded. Where all records are one group they are treated in the same way: the bands then
+// say how well the answer for these records is known, and nothing about others.
 class MotionGroups {
  public:
   explicit MotionGroups(const Options& options);
 
   int count() const { return record_groups_ + hashed_groups_; }
   int record_groups() const { return record_groups_; }  // groups 0 ... record_groups() - 1 are records, the rest hashed
-  int records() const { return records_; }
+  int records() const { return records_; }              // groups of records that the study has
 
-  // motion: index of the motion in the study (ignored where Options::motion_is_record is empty); sample: its number.
+  // motion: index of the motion in the study (ignored where Options::motion_group is empty); sample: its number.
   // Throws Error for a motion that the options do not know.
   int group(int motion, std::uint64_t sample) const;
 

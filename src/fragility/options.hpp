@@ -37,15 +37,17 @@ struct Options {
   std::vector<EdpOptions> edps;
   std::vector<AxisOptions> axes;
 
-  // For each motion of the study (index = column `motion`): 1 a record, whose samples are one group; 0 a family of
+  // For each motion of the study (index = column `motion`): of a record the number of its group (records of one
+  // earthquake, two components of one station; else each by itself), whose samples are not independent; -1 a family of
   // pulses, where every sample is a motion of its own. Empty: every sample is a motion of its own.
-  std::vector<std::uint8_t> motion_is_record;
+  std::vector<int> motion_group;
 
   int minimum_samples =
       30;  // a bin (or cell of a surface) with fewer is left empty; as many must have moved and stood for a fit
   int resamples = 500;            // of the motions, for the bands
   double confidence = 0.95;       // of all intervals and bands
   double false_discovery = 0.05;  // Benjamini-Hochberg level of the goodness-of-fit tests over the bins
+  double adequate = 0.05;         // a fit that fails its test is used all the same where it is off by no more
   bool empirical_fallback =
       true;                // a bin that fails goodness of fit takes its surface row from the counts, not from the fit
   std::uint64_t seed = 1;  // of resampling and of the bootstrap of the test statistics

@@ -86,21 +86,10 @@ struct Regressions {
          cloud_r2 = unknown;  // ln EDP = a + b ln IM +- sd
 };
 
-struct EdpResult {
-  std::string name, unit, symbol;
-  bool binary = false;
-  std::vector<BinFit> bins;      // one per IM bin
-  std::vector<double> capacity;  // unit of the EDP
-  Surface surface;
-  Distribution distribution;  // empty for a binary EDP
-  std::vector<AxisSurface> axes;
-  Regressions regressions;  // NaN for a binary EDP
-};
-
-// One overturning curve over all bins: P = Phi(ln(IM/median)/dispersion), maximum likelihood, penalised
-// (Firth/Jeffreys) where the outcomes separate. NaN where no sample or every sample overturned, or where overturning
-// does not grow with IM.
-struct OverturningCurve {
+// One curve over all intensities, of overturning or of P(EDP > C): Phi(ln(IM/median)/dispersion), maximum likelihood,
+// penalised (Firth/Jeffreys) where the outcomes separate. NaN where no sample or every sample lies above, or where the
+// share above does not grow with IM.
+struct FragilityFunction {
   double median = unknown, dispersion = unknown;        // unit of IM, 1
   double median_se = unknown, dispersion_se = unknown;  // from resampled motions
   bool penalised = false;
@@ -111,8 +100,26 @@ struct OverturningCurve {
   // Largest |curve - counted share| over the bins with enough samples, in which of them (its mean IM), and the chance of
   // a larger one if the curve were true, from resampled motions.
   double misfit = unknown, misfit_im = unknown, misfit_p = unknown;
+  // The true shares of the bins are off the curve by no more, with Options::confidence: the misfit, and as much as
+  // resampled misfits scatter about it.
+  double off_by = unknown;
+  bool adequate = false;  // it may stand for the counts: its misfit is chance, or off_by is at most Options::adequate
   std::vector<double> grid;                       // IM, from the first positive edge to the last
   std::vector<double> probability, lower, upper;  // [grid], band from resampled motions
+  std::vector<double> resampled_median,
+      resampled_dispersion;  // [resample], of the same resampled motions for each curve
+};
+
+struct EdpResult {
+  std::string name, unit, symbol;
+  bool binary = false;
+  std::vector<BinFit> bins;      // one per IM bin
+  std::vector<double> capacity;  // unit of the EDP
+  Surface surface;
+  std::vector<FragilityFunction> functions;  // [capacity], over IM
+  Distribution distribution;                 // empty for a binary EDP
+  std::vector<AxisSurface> axes;
+  Regressions regressions;  // NaN for a binary EDP
 };
 
 struct Result {
@@ -120,12 +127,13 @@ struct Result {
   std::vector<double> im_edge;  // n + 1
   std::vector<double> im;       // n: where a bin stands, the mean IM of its samples (its middle where it has none)
   double confidence = 0.95;
+  int resamples = 0;                                         // of the motions
   std::array<std::int64_t, outcome_count> outcome_counts{};  // in the order of Outcome
   std::int64_t samples = 0;                                  // all, = sum of outcome_counts
   std::int64_t outside_im = 0;                               // sound samples whose IM is in no bin (or not a number)
   int motions = 0;                                           // groups of motions that have samples
   std::vector<EdpResult> edps;
-  OverturningCurve overturning;
+  FragilityFunction overturning;
   std::vector<std::string> warnings;  // plain sentences
 };
 

@@ -57,14 +57,15 @@ void Tally::add(const Sample& sample) {
   ++count_[layout_.at_im_cell(cell, group)];
   if (sample.outcome == Outcome::overturned) ++count_[layout_.at_im_cell(cell, group) + 1];
   sum_[layout_.im_sums + cell].add(sample.im);
-  for (std::size_t e = 0; e < layout_.edps; ++e) add_edp(e, bin, group, sample);
+  for (std::size_t e = 0; e < layout_.edps; ++e) add_edp(e, bin, cell, group, sample);
 }
 
-void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t group, const Sample& sample) {
+void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t cell, std::size_t group, const Sample& sample) {
   const EdpOptions& edp = options_.edps[e];
   const bool overturned = sample.outcome == Outcome::overturned;
-  const bool fallen = overturned && edp.censored;           // above every capacity
-  const bool over = fallen || (overturned && edp.binary);  // told apart from those that stand; else it goes by its value
+  const bool fallen = overturned && edp.censored;  // above every capacity
+  const bool over =
+      fallen || (overturned && edp.binary);  // told apart from those that stand; else it goes by its value
   const double value = sample.edp[e];
   if (!fallen && !std::isfinite(value)) {
     ++count_[layout_.missing + e];
@@ -79,13 +80,15 @@ void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t group, const Sam
   const auto above = [&](std::size_t c) { return fallen || (!still && value > capacity[c]); };
   for (std::size_t c = 0; c < capacity.size(); ++c)
     if (above(c)) ++count_[layout_.at_exceeding(e, bin, group) + c];
-  for (std::size_t a = 0; a < options_.axes.size(); ++a) {
-    const int cell = bin_index(options_.axes[a].edge, sample.axis[a]);
-    if (cell < 0) continue;
-    std::int64_t* counted = &count_[layout_.at_axis(e, a, bin, static_cast<std::size_t>(cell), group)];
-    ++counted[0];
+  const auto count_at = [&](std::size_t place) {  // samples, then those above each capacity
+    ++count_[place];
     for (std::size_t c = 0; c < capacity.size(); ++c)
-      if (above(c)) ++counted[1 + c];
+      if (above(c)) ++count_[place + 1 + c];
+  };
+  count_at(layout_.at_im_cell_of(e, cell, group));
+  for (std::size_t a = 0; a < options_.axes.size(); ++a) {
+    const int on_axis = bin_index(options_.axes[a].edge, sample.axis[a]);
+    if (on_axis >= 0) count_at(layout_.at_axis(e, a, bin, static_cast<std::size_t>(on_axis), group));
   }
   if (still || over || edp.binary) return;
   const double ln_value = std::log(value);

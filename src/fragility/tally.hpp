@@ -31,7 +31,7 @@ struct Counts {
   double sum_ln = 0, sum_ln2 = 0;  // of the moved ones
 };
 
-// Fine IM cell of the overturning curve and of the mean IM of a bin.
+// Fine IM cell of the curves over IM and of the mean IM of a bin.
 struct ImCell {
   std::int64_t n = 0;
   double im_sum = 0;
@@ -54,7 +54,7 @@ class Tally {
   void add(const Sample& sample);
 
   // Every row of a table with the columns im_<name>, edp_<name>, outcome, those of the axes, and motion where
-  // Options::motion_is_record is not empty. Row i is sample first_sample + i. Throws Error if a column is missing.
+  // Options::motion_group is not empty. Row i is sample first_sample + i. Throws Error if a column is missing.
   void add(const Table& table, std::uint64_t first_sample);
 
   // Throws Error if the other tally has another shape.
@@ -86,12 +86,14 @@ class Tally {
   double mean_im(std::size_t bin) const;  // of all sound samples in it; NaN where there is none
   std::int64_t im_cell_n(std::size_t cell, std::size_t group) const;
   std::int64_t im_cell_over(std::size_t cell, std::size_t group) const;
+  // Of one EDP: samples, then those above each capacity.
+  std::span<const std::int64_t> im_cell_of(std::size_t edp, std::size_t cell, std::size_t group) const;
   RegressionSums regression(std::size_t edp) const;
 
   bool operator==(const Tally& other) const { return count_ == other.count_ && sum_ == other.sum_; }
 
  private:
-  void add_edp(std::size_t edp, std::size_t bin, std::size_t group, const Sample& sample);
+  void add_edp(std::size_t edp, std::size_t bin, std::size_t cell, std::size_t group, const Sample& sample);
   void add_regression(std::size_t edp, double im, double value);
 
   Options options_;

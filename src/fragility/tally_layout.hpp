@@ -17,7 +17,7 @@ std::vector<double> capacities(const EdpOptions& edp);
 
 // Offsets into the flat array of counts and into the flat array of exact sums.
 struct TallyLayout {
-  static constexpr std::size_t cells_per_bin = 20;  // fine IM cells, for the overturning curve
+  static constexpr std::size_t cells_per_bin = 8;  // fine IM cells, for curves over IM
   static constexpr std::size_t sums_per_regression = 11;
 
   TallyLayout(const Options& options, std::size_t group_count);
@@ -26,10 +26,10 @@ struct TallyLayout {
   std::vector<std::size_t> capacity_count;  // [edp]
   std::vector<std::size_t> axis_cells;      // [axis]
 
-  std::size_t outside, missing, bin_counts, im_cells;  // offsets of counts
-  std::vector<std::size_t> exceeding, histogram;       // [edp]
-  std::vector<std::vector<std::size_t>> axis;          // [edp][axis]
-  std::size_t bin_sums, im_sums, regression_sums;      // offsets of sums
+  std::size_t outside, missing, bin_counts, im_cells;          // offsets of counts
+  std::vector<std::size_t> exceeding, histogram, im_cells_of;  // [edp]
+  std::vector<std::vector<std::size_t>> axis;                  // [edp][axis]
+  std::size_t bin_sums, im_sums, regression_sums;              // offsets of sums
   std::size_t count_size, sum_size;
 
   std::size_t im_cell_count() const { return bins * cells_per_bin; }
@@ -49,6 +49,10 @@ struct TallyLayout {
   }
   // n, over
   std::size_t at_im_cell(std::size_t cell, std::size_t group) const { return im_cells + 2 * (cell * groups + group); }
+  // n, then one an EDP capacity
+  std::size_t at_im_cell_of(std::size_t edp, std::size_t cell, std::size_t group) const {
+    return im_cells_of[edp] + (cell * groups + group) * (1 + capacity_count[edp]);
+  }
 };
 
 }  // namespace freestand::fragility

@@ -75,6 +75,10 @@ std::int64_t Tally::im_cell_over(std::size_t cell, std::size_t group) const {
   return count_[layout_.at_im_cell(cell, group) + 1];
 }
 
+std::span<const std::int64_t> Tally::im_cell_of(std::size_t edp, std::size_t cell, std::size_t group) const {
+  return {&count_[layout_.at_im_cell_of(edp, cell, group)], 1 + layout_.capacity_count[edp]};
+}
+
 RegressionSums Tally::regression(std::size_t edp) const {
   const ExactSum* s = &sum_[layout_.regression_sums + TallyLayout::sums_per_regression * edp];
   const double unit = capacity_[edp].front();

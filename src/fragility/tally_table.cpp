@@ -21,7 +21,7 @@ int whole(double value, int below, const char* column, std::uint64_t sample) {
 void Tally::add(const Table& table, std::uint64_t first_sample) {
   const std::size_t im = column_index(table.columns, "im_" + options_.im_name);
   const std::size_t outcome = column_index(table.columns, "outcome");
-  const bool by_motion = !options_.motion_is_record.empty();
+  const bool by_motion = !options_.motion_group.empty();
   const std::size_t motion = by_motion ? column_index(table.columns, "motion") : 0;
   std::vector<std::size_t> edp_column, axis_column;
   for (const auto& edp : options_.edps) edp_column.push_back(column_index(table.columns, "edp_" + edp.name));

@@ -9,8 +9,6 @@ namespace freestand::fragility {
 namespace {
 
 constexpr int few_motions = 10;
-// A misfit is told where chance seldom makes it, and where it is large enough to matter to a user of the curve.
-constexpr double misfit_level = 0.05, misfit_to_warn_of = 0.05;
 
 void about_outcomes(const Tally& tally, const Result& result, std::vector<std::string>& out) {
   for (const Outcome outcome : {Outcome::painleve, Outcome::step_limit, Outcome::not_finite}) {
@@ -64,17 +62,17 @@ void about_bins(const EdpResult& edp, const Options& options, std::vector<std::s
 void about_overturning(const Tally& tally, const Result& result, std::vector<std::string>& out) {
   const std::int64_t over = tally.count_of(Outcome::overturned);
   if (over == 0) return;
-  const OverturningCurve& curve = result.overturning;
+  const FragilityFunction& curve = result.overturning;
   if (curve.extrapolated)
     out.push_back(fmt::format(
         "The median of the overturning curve ({:.3g}) lies outside the intensities swept, {:.3g} to {:.3g}: "
         "it is an extrapolation.",
         curve.median, curve.im_least, curve.im_most));
-  if (curve.misfit_p < misfit_level && curve.misfit > misfit_to_warn_of)
+  if (!std::isnan(curve.misfit_p) && !curve.adequate)
     out.push_back(fmt::format(
         "The overturning curve misses the counted shares by up to {:.2f}, at an IM of {:.3g} (p = {:.2g}): one "
-        "lognormal curve is too simple.",
-        curve.misfit, curve.misfit_im, curve.misfit_p));
+        "lognormal curve is too simple, and may be off by {:.2f}.",
+        curve.misfit, curve.misfit_im, curve.misfit_p, curve.off_by));
   if (curve.penalised && !std::isnan(curve.median))
     out.push_back(
         "One intensity parts all samples that overturned from all that stood: the overturning curve is a penalised "

@@ -1,53 +1,94 @@
 #include "io/bin_fields.hpp"
 
+#include <type_traits>
+
 namespace freestand::io {
 namespace {
 
 using fragility::BinFit;
 
-template <auto member>
-double get(const BinFit& bin) {
-  return static_cast<double>(bin.*member);
+// The two ways of one member.
+template <class Values, auto member>
+double get(const Values& values) {
+  return static_cast<double>(values.*member);
+}
+
+template <class Values, auto member>
+void set(Values& values, double value) {
+  using Member = std::remove_reference_t<decltype(values.*member)>;
+  values.*member = static_cast<Member>(value);
 }
 
 constexpr auto one = FieldUnit::one, edp = FieldUnit::edp;
 
 // clang-format off
 constexpr BinField fields[] = {
-  {"n", true, one, "samples in the bin, failed ones left out", get<&BinFit::n>},
-  {"n_still", true, one, "samples that stood still", get<&BinFit::n_still>},
-  {"n_over", true, one, "samples that overturned", get<&BinFit::n_over>},
-  {"n_moved", true, one, "samples that moved and stood", get<&BinFit::n_moved>},
-  {"motions", true, one, "groups of floor motions in the bin", get<&BinFit::motions>},
-  {"p_still", false, one, "probability of standing still, given no overturning", get<&BinFit::p_still>},
-  {"p_still_lower", false, one, "lower end of its exact binomial interval", get<&BinFit::p_still_lower>},
-  {"p_still_upper", false, one, "upper end of its exact binomial interval", get<&BinFit::p_still_upper>},
-  {"p_over", false, one, "probability of overturning", get<&BinFit::p_over>},
-  {"p_over_lower", false, one, "lower end of its exact binomial interval", get<&BinFit::p_over_lower>},
-  {"p_over_upper", false, one, "upper end of its exact binomial interval", get<&BinFit::p_over_upper>},
-  {"lambda", false, one, "mean of ln EDP of the samples that moved and stood", get<&BinFit::lambda>},
-  {"lambda_se", false, one, "its standard error, samples taken as independent", get<&BinFit::lambda_se>},
-  {"lambda_se_motions", false, one, "its standard error from resampled motions", get<&BinFit::lambda_se_motions>},
-  {"omega", false, one, "standard deviation of ln EDP of the samples that moved and stood", get<&BinFit::omega>},
-  {"omega_se", false, one, "its standard error, samples taken as independent", get<&BinFit::omega_se>},
-  {"omega_se_motions", false, one, "its standard error from resampled motions", get<&BinFit::omega_se_motions>},
-  {"mean", false, edp, "mean of the fitted lognormal", get<&BinFit::mean>},
-  {"standard_deviation", false, edp, "standard deviation of the fitted lognormal", get<&BinFit::standard_deviation>},
-  {"ks_statistic", false, one, "Kolmogorov-Smirnov statistic", get<&BinFit::ks_statistic>},
-  {"ks_resolution", false, one, "bound on its error from the histogram", get<&BinFit::ks_resolution>},
-  {"ks_p_textbook", false, one, "p value as if the parameters were known beforehand", get<&BinFit::ks_p_textbook>},
-  {"ks_critical_textbook", false, one, "critical value of the same at 5 %", get<&BinFit::ks_critical_textbook>},
-  {"ks_p_estimated", false, one, "p value for parameters estimated from the same samples", get<&BinFit::ks_p_estimated>},
-  {"ks_critical_estimated", false, one, "critical value of the same at 5 %", get<&BinFit::ks_critical_estimated>},
-  {"ad_statistic", false, one, "Anderson-Darling statistic", get<&BinFit::ad_statistic>},
-  {"ad_p_estimated", false, one, "its p value for estimated parameters", get<&BinFit::ad_p_estimated>},
-  {"fdr_rejected", true, one, "1: rejected with false discovery controlled over the bins", get<&BinFit::fdr_rejected>},
-  {"status", true, one, "0 fitted, 1 too few samples, 2 fails goodness of fit, 3 counts only", get<&BinFit::status>},
+  {"n", true, one, "samples in the bin, failed ones left out", get<BinFit, &BinFit::n>, set<BinFit, &BinFit::n>},
+  {"n_still", true, one, "samples that stood still", get<BinFit, &BinFit::n_still>, set<BinFit, &BinFit::n_still>},
+  {"n_over", true, one, "samples that overturned", get<BinFit, &BinFit::n_over>, set<BinFit, &BinFit::n_over>},
+  {"n_moved", true, one, "samples that moved and stood", get<BinFit, &BinFit::n_moved>, set<BinFit, &BinFit::n_moved>},
+  {"motions", true, one, "groups of floor motions in the bin", get<BinFit, &BinFit::motions>, set<BinFit, &BinFit::motions>},
+  {"p_still", false, one, "probability of standing still, given no overturning", get<BinFit, &BinFit::p_still>, set<BinFit, &BinFit::p_still>},
+  {"p_still_lower", false, one, "lower end of its exact binomial interval", get<BinFit, &BinFit::p_still_lower>, set<BinFit, &BinFit::p_still_lower>},
+  {"p_still_upper", false, one, "upper end of its exact binomial interval", get<BinFit, &BinFit::p_still_upper>, set<BinFit, &BinFit::p_still_upper>},
+  {"p_over", false, one, "probability of overturning", get<BinFit, &BinFit::p_over>, set<BinFit, &BinFit::p_over>},
+  {"p_over_lower", false, one, "lower end of its exact binomial interval", get<BinFit, &BinFit::p_over_lower>, set<BinFit, &BinFit::p_over_lower>},
+  {"p_over_upper", false, one, "upper end of its exact binomial interval", get<BinFit, &BinFit::p_over_upper>, set<BinFit, &BinFit::p_over_upper>},
+  {"lambda", false, one, "mean of ln EDP of the samples that moved and stood", get<BinFit, &BinFit::lambda>, set<BinFit, &BinFit::lambda>},
+  {"lambda_se", false, one, "its standard error, samples taken as independent", get<BinFit, &BinFit::lambda_se>, set<BinFit, &BinFit::lambda_se>},
+  {"lambda_se_motions", false, one, "its standard error from resampled motions", get<BinFit, &BinFit::lambda_se_motions>, set<BinFit, &BinFit::lambda_se_motions>},
+  {"omega", false, one, "standard deviation of ln EDP of the samples that moved and stood", get<BinFit, &BinFit::omega>, set<BinFit, &BinFit::omega>},
+  {"omega_se", false, one, "its standard error, samples taken as independent", get<BinFit, &BinFit::omega_se>, set<BinFit, &BinFit::omega_se>},
+  {"omega_se_motions", false, one, "its standard error from resampled motions", get<BinFit, &BinFit::omega_se_motions>, set<BinFit, &BinFit::omega_se_motions>},
+  {"mean", false, edp, "mean of the fitted lognormal", get<BinFit, &BinFit::mean>, set<BinFit, &BinFit::mean>},
+  {"standard_deviation", false, edp, "standard deviation of the fitted lognormal", get<BinFit, &BinFit::standard_deviation>, set<BinFit, &BinFit::standard_deviation>},
+  {"ks_statistic", false, one, "Kolmogorov-Smirnov statistic", get<BinFit, &BinFit::ks_statistic>, set<BinFit, &BinFit::ks_statistic>},
+  {"ks_resolution", false, one, "bound on its error from the histogram", get<BinFit, &BinFit::ks_resolution>, set<BinFit, &BinFit::ks_resolution>},
+  {"ks_p_textbook", false, one, "p value as if the parameters were known beforehand", get<BinFit, &BinFit::ks_p_textbook>, set<BinFit, &BinFit::ks_p_textbook>},
+  {"ks_critical_textbook", false, one, "critical value of the same at 5 %", get<BinFit, &BinFit::ks_critical_textbook>, set<BinFit, &BinFit::ks_critical_textbook>},
+  {"ks_p_estimated", false, one, "p value for parameters estimated from the same samples", get<BinFit, &BinFit::ks_p_estimated>, set<BinFit, &BinFit::ks_p_estimated>},
+  {"ks_critical_estimated", false, one, "critical value of the same at 5 %", get<BinFit, &BinFit::ks_critical_estimated>, set<BinFit, &BinFit::ks_critical_estimated>},
+  {"ad_statistic", false, one, "Anderson-Darling statistic", get<BinFit, &BinFit::ad_statistic>, set<BinFit, &BinFit::ad_statistic>},
+  {"ad_p_estimated", false, one, "its p value for estimated parameters", get<BinFit, &BinFit::ad_p_estimated>, set<BinFit, &BinFit::ad_p_estimated>},
+  {"fdr_rejected", true, one, "1: rejected with false discovery controlled over the bins", get<BinFit, &BinFit::fdr_rejected>, set<BinFit, &BinFit::fdr_rejected>},
+  {"status", true, one, "0 fitted, 1 too few samples, 2 fails goodness of fit, 3 counts only", get<BinFit, &BinFit::status>, set<BinFit, &BinFit::status>},
+};
+
+using Curve = fragility::FragilityFunction;
+constexpr FunctionField of_function[] = {
+  {"median", true, "IM at which half lie above", get<Curve, &Curve::median>, set<Curve, &Curve::median>},
+  {"dispersion", false, "of ln IM", get<Curve, &Curve::dispersion>, set<Curve, &Curve::dispersion>},
+  {"median_se", true, "standard error of the median, from resampled motions", get<Curve, &Curve::median_se>, set<Curve, &Curve::median_se>},
+  {"dispersion_se", false, "standard error of the dispersion, from resampled motions", get<Curve, &Curve::dispersion_se>, set<Curve, &Curve::dispersion_se>},
+  {"penalised", false, "1: the outcomes separate, the estimate is a penalised one", get<Curve, &Curve::penalised>, set<Curve, &Curve::penalised>},
+  {"im_least", true, "lowest IM swept", get<Curve, &Curve::im_least>, set<Curve, &Curve::im_least>},
+  {"im_most", true, "highest IM swept", get<Curve, &Curve::im_most>, set<Curve, &Curve::im_most>},
+  {"extrapolated", false, "1: the median lies outside of what was swept", get<Curve, &Curve::extrapolated>, set<Curve, &Curve::extrapolated>},
+  {"misfit", false, "largest difference to the counted share of a bin", get<Curve, &Curve::misfit>, set<Curve, &Curve::misfit>},
+  {"misfit_im", true, "mean IM of that bin", get<Curve, &Curve::misfit_im>, set<Curve, &Curve::misfit_im>},
+  {"misfit_p", false, "chance of a larger misfit if the curve were true, from resampled motions", get<Curve, &Curve::misfit_p>, set<Curve, &Curve::misfit_p>},
+  {"off_by", false, "upper bound of the difference to the true shares", get<Curve, &Curve::off_by>, set<Curve, &Curve::off_by>},
+  {"adequate", false, "1: the misfit is chance, or too small to matter", get<Curve, &Curve::adequate>, set<Curve, &Curve::adequate>},
 };
 // clang-format on
+
+using fragility::Regressions;
+constexpr RegressionField of_regressions[] = {
+    {"slope", &Regressions::slope},
+    {"slope_r2", &Regressions::slope_r2},
+    {"sd_slope", &Regressions::sd_slope},
+    {"bin_mean_slope", &Regressions::bin_mean_slope},
+    {"bin_sd_slope", &Regressions::bin_sd_slope},
+    {"cloud_intercept", &Regressions::cloud_intercept},
+    {"cloud_slope", &Regressions::cloud_slope},
+    {"cloud_sd", &Regressions::cloud_sd},
+    {"cloud_r2", &Regressions::cloud_r2},
+};
 
 }  // namespace
 
 std::span<const BinField> bin_fields() { return fields; }
+std::span<const FunctionField> function_fields() { return of_function; }
+std::span<const RegressionField> regression_fields() { return of_regressions; }
 
 }  // namespace freestand::io

@@ -1,4 +1,4 @@
-// The numbers of one IM bin of one EDP, in one list: what fragility.h5 and bins.csv write.
+// The numbers of one IM bin of one EDP, and those of one curve over IM, each in one list: what the files hold.
 #pragma once
 
 #include <span>
@@ -15,8 +15,27 @@ struct BinField {
   FieldUnit unit;
   const char* description;
   double (*value)(const fragility::BinFit&);
+  void (*set)(fragility::BinFit&, double);
 };
 
 std::span<const BinField> bin_fields();
+
+struct FunctionField {
+  const char* name;
+  bool of_im;  // in the unit of IM; else a plain number
+  const char* description;
+  double (*value)(const fragility::FragilityFunction&);
+  void (*set)(fragility::FragilityFunction&, double);
+};
+
+std::span<const FunctionField> function_fields();
+
+// The regressions of one EDP; attributes of its group.
+struct RegressionField {
+  const char* name;
+  double fragility::Regressions::*value;
+};
+
+std::span<const RegressionField> regression_fields();
 
 }  // namespace freestand::io

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "io/bin_fields.hpp"
 
@@ -84,15 +85,57 @@ void write_axis(Group& parent, const Dataset& im, const Dataset& capacity, const
   group.put("n", axis.n, cells).attach(0, im).attach(1, centre).describe("1", "samples in the cell");
 }
 
+// Coordinate of what was found for each resampled set of motions.
+Dataset resample_numbers(Group& group, const Result& result) {
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(result.resamples));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  Dataset resample = group.put("resample", numbers);
+  resample.scale("resample").describe("", "number of the resampled set of motions, the same for every curve");
+  return resample;
+}
+
+// As many as there are resamples; NaN where a curve has none.
+std::vector<double> per_resample(std::vector<double> values, const Result& result) {
+  values.resize(static_cast<std::size_t>(result.resamples), fragility::unknown);
+  return values;
+}
+
+// Curves over IM, [capacity] and [capacity, grid].
+void write_functions(Group& parent, const Result& result, const EdpResult& edp, const Dataset& capacity) {
+  using fragility::FragilityFunction;
+  Group group = parent.make_group("functions");
+  for (const FunctionField& field : function_fields()) {
+    std::vector<double> values;
+    for (const FragilityFunction& curve : edp.functions) values.push_back(field.value(curve));
+    group.put(field.name, values).attach(0, capacity).describe(field.of_im ? result.im_unit : "1", field.description);
+  }
+  const Dataset grid = coordinate(group, "grid", edp.functions.front().grid, result.im_unit, result.im_name);
+  const Dataset resample = resample_numbers(group, result);
+  const auto put = [&](const char* name, const Dataset& columns, const std::string& unit, const char* description,
+                       const auto& row_of) {
+    std::vector<double> all;
+    for (const FragilityFunction& curve : edp.functions) {
+      const std::vector<double> row = row_of(curve);
+      all.insert(all.end(), row.begin(), row.end());
+    }
+    group.put(name, all, {edp.functions.size(), columns.dimensions().at(0)})
+        .attach(0, capacity)
+        .attach(1, columns)
+        .describe(unit, description);
+  };
+  using Curve = const FragilityFunction&;
+  put("probability", grid, "1", "P(EDP > capacity), the fitted curve", [](Curve c) { return c.probability; });
+  put("lower", grid, "1", "lower end of the band, from resampled motions", [](Curve c) { return c.lower; });
+  put("upper", grid, "1", "upper end of the band, from resampled motions", [](Curve c) { return c.upper; });
+  put("resampled_median", resample, result.im_unit, "median of each resampled set of motions",
+      [&](Curve c) { return per_resample(c.resampled_median, result); });
+  put("resampled_dispersion", resample, "1", "dispersion of each resampled set of motions",
+      [&](Curve c) { return per_resample(c.resampled_dispersion, result); });
+}
+
 void write_regressions(Group& group, const fragility::Regressions& found) {
   group.attribute("regression_n", found.n);
-  group.attribute("slope", found.slope);
-  group.attribute("slope_r2", found.slope_r2);
-  group.attribute("sd_slope", found.sd_slope);
-  group.attribute("cloud_intercept", found.cloud_intercept);
-  group.attribute("cloud_slope", found.cloud_slope);
-  group.attribute("cloud_sd", found.cloud_sd);
-  group.attribute("cloud_r2", found.cloud_r2);
+  for (const RegressionField& field : regression_fields()) group.attribute(field.name, found.*field.value);
 }
 
 void write_edp(Group& parent, const Result& result, const EdpResult& edp) {
@@ -105,32 +148,31 @@ void write_edp(Group& parent, const Result& result, const EdpResult& edp) {
   const Dataset capacity = coordinate(group, "capacity", edp.capacity, edp.unit, "capacity");
   write_bins(group, im, edp);
   write_surface(group, im, capacity, edp);
+  if (!edp.functions.empty()) write_functions(group, result, edp, capacity);
   write_distribution(group, im, edp);
   if (edp.axes.empty()) return;
   Group axes = group.make_group("axis");
   for (const AxisSurface& axis : edp.axes) write_axis(axes, im, capacity, edp, axis);
 }
 
+// One curve: its numbers are attributes.
 void write_overturning(Group& root, const Result& result) {
-  const fragility::OverturningCurve& curve = result.overturning;
+  const fragility::FragilityFunction& curve = result.overturning;
   Group group = root.make_group("overturning");
   group.attribute("im", result.im_name);
   group.attribute("im_unit", result.im_unit);
-  group.attribute("median", curve.median);
-  group.attribute("dispersion", curve.dispersion);
-  group.attribute("median_se", curve.median_se);
-  group.attribute("dispersion_se", curve.dispersion_se);
-  group.attribute("penalised", curve.penalised ? 1 : 0);
-  group.attribute("im_least", curve.im_least);
-  group.attribute("im_most", curve.im_most);
-  group.attribute("extrapolated", curve.extrapolated ? 1 : 0);
-  group.attribute("misfit", curve.misfit);
-  group.attribute("misfit_im", curve.misfit_im);
-  group.attribute("misfit_p", curve.misfit_p);
+  for (const FunctionField& field : function_fields()) group.attribute(field.name, field.value(curve));
   const Dataset grid = coordinate(group, "grid", curve.grid, result.im_unit, result.im_name);
   group.put("probability", curve.probability).attach(0, grid).describe("1", "P(overturning)");
   group.put("lower", curve.lower).attach(0, grid).describe("1", "lower end of the band, from resampled motions");
   group.put("upper", curve.upper).attach(0, grid).describe("1", "upper end of the band, from resampled motions");
+  const Dataset resample = resample_numbers(group, result);
+  group.put("resampled_median", per_resample(curve.resampled_median, result))
+      .attach(0, resample)
+      .describe(result.im_unit, "median of each resampled set of motions");
+  group.put("resampled_dispersion", per_resample(curve.resampled_dispersion, result))
+      .attach(0, resample)
+      .describe("1", "dispersion of each resampled set of motions");
 }
 
 void write_root(Group& root, const Provenance& provenance, const Result& result) {
@@ -138,6 +180,7 @@ void write_root(Group& root, const Provenance& provenance, const Result& result)
   root.attribute("im", result.im_name);
   root.attribute("im_unit", result.im_unit);
   root.attribute("confidence", result.confidence);
+  root.attribute("resamples", result.resamples);
   std::vector<std::string> names;
   for (int i = 0; i < outcome_count; ++i) names.emplace_back(name(static_cast<Outcome>(i)));
   root.attribute("outcome_names", names);

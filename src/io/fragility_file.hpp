@@ -12,9 +12,16 @@ namespace freestand::io {
 inline constexpr const char* fragility_format = "freestand-fragility/1";
 
 // By one process. Groups: /im {edge, centre}; /edp/NAME with the fields of BinFit [im] under their names, `im` and
-// `capacity` (dimension scales), surface/, distribution/, axis/AXIS/, and attributes unit, symbol, kind and the
-// regressions; /overturning. A bin stands at the mean IM of its samples (Result::im). Missing values are NaN.
+// `capacity` (dimension scales), surface/, functions/, distribution/, axis/AXIS/, and attributes unit, symbol, kind and
+// the regressions; /overturning. A bin stands at the mean IM of its samples (Result::im). Missing values are NaN.
 void write_fragility(const std::filesystem::path& path, const Provenance&, const fragility::Result&);
+
+// The same values again, with where they come from. Throws Error (Exit::data) where the file is none of these.
+struct FragilityFile {
+  Provenance provenance;
+  fragility::Result result;
+};
+FragilityFile read_fragility(const std::filesystem::path& path);
 
 // The text of bins.csv: one row per EDP and bin, the columns of /edp/NAME beside edp, unit, im, im_lower, im_upper.
 // Missing values are empty, numbers read back to the same bits.

@@ -57,6 +57,7 @@ class Object {
   std::int64_t integer_attribute(const std::string& name) const;
   double real_attribute(const std::string& name) const;
   std::vector<std::int64_t> integers_attribute(const std::string& name) const;
+  std::vector<std::string> texts_attribute(const std::string& name) const;
 
   const std::string& file_path() const { return *file_; }
 

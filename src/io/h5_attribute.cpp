@@ -98,6 +98,19 @@ std::string Object::text_attribute(const std::string& name) const {
   return value.substr(0, value.find('\0'));
 }
 
+std::vector<std::string> Object::texts_attribute(const std::string& name) const {
+  const OpenAttribute open = open_attribute(id(), *file_, name, H5T_STRING);
+  const Handle type = text_type(*file_);
+  std::vector<char*> texts(open.count, nullptr);
+  if (texts.empty()) return {};
+  if (H5Aread(open.attribute.id(), type.id(), texts.data()) < 0)
+    throw failure(*file_, "attribute " + name, Doing::reading);
+  std::vector<std::string> values;
+  for (const char* text : texts) values.emplace_back(text ? text : "");
+  H5Dvlen_reclaim(type.id(), open.space.id(), H5P_DEFAULT, texts.data());
+  return values;
+}
+
 std::vector<std::int64_t> Object::integers_attribute(const std::string& name) const {
   return read_numbers<std::int64_t>(id(), *file_, name, H5T_INTEGER);
 }

@@ -65,9 +65,9 @@ void lay_out(h5::File& file, const SamplesHeader& header, std::int64_t rows) {
   h5::Dataset motion = motions.put("motion", counted(header.motion_names.size()));
   motion.scale("motion").describe("", "number of the floor motion, the samples' column motion");
   motions.put("name", header.motion_names).attach(0, motion).describe("", "name of the floor motion");
-  motions.put("is_record", header.motion_is_record)
+  motions.put("group", header.motion_group)
       .attach(0, motion)
-      .describe("1", "1: a record, 0: a family of pulses");
+      .describe("1", "records whose samples are not independent have one number; -1: a family of pulses");
 }
 
 // Rows of consecutive blocks, row-major.
@@ -155,8 +155,8 @@ SampleReader::SampleReader(const std::filesystem::path& path)
     columns_.push_back({name, text("unit"), text("description"), kind_of(dataset.type())});
   }
   motion_names_ = root.open_group("motions").open_dataset("name").read_texts();
-  for (const double flag : root.open_group("motions").open_dataset("is_record").read())
-    motion_is_record_.push_back(flag != 0);
+  for (const double group : root.open_group("motions").open_dataset("group").read())
+    motion_group_.push_back(static_cast<int>(group));
 }
 
 Table SampleReader::read(std::int64_t first, std::int64_t count) const {

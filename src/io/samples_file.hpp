@@ -24,7 +24,7 @@ struct SamplesHeader {
   Provenance provenance;
   std::vector<Column> columns;
   std::vector<std::string> motion_names;
-  std::vector<std::uint8_t> motion_is_record;  // one entry a motion: 1 a record, 0 a family of pulses
+  std::vector<int> motion_group;  // one entry a motion: the group of a record, -1 a family of pulses
 };
 
 // How samples lie in blocks: block i holds samples i * block_size up to the next block or the end.
@@ -53,7 +53,7 @@ class SampleReader {
   std::int64_t rows() const { return rows_; }
   const std::vector<Column>& columns() const { return columns_; }  // `sample` itself is not among them
   const std::vector<std::string>& motion_names() const { return motion_names_; }
-  const std::vector<std::uint8_t>& motion_is_record() const { return motion_is_record_; }
+  const std::vector<int>& motion_group() const { return motion_group_; }
   const Provenance& provenance() const { return provenance_; }
 
   // Rows first .. first + count - 1, all columns or the named ones, in that order.
@@ -65,7 +65,7 @@ class SampleReader {
   Provenance provenance_;
   std::vector<Column> columns_;
   std::vector<std::string> motion_names_;
-  std::vector<std::uint8_t> motion_is_record_;
+  std::vector<int> motion_group_;
   std::int64_t rows_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.hpp"
+#include "io/bin_fields.hpp"
 #include "io/fragility_file.hpp"
 
 namespace freestand::io {
@@ -13,29 +14,40 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json function_summary(const fragility::FragilityFunction& curve) {
+  Json json = Json::object();
+  for (const FunctionField& field : function_fields()) json[field.name] = field.value(curve);
+  for (const char* flag : {"penalised", "extrapolated", "adequate"}) json[flag] = json[flag] != 0;
+  return json;
+}
+
 Json edp_summary(const fragility::EdpResult& edp) {
   std::array<int, 4> bins{};
   for (const fragility::BinFit& bin : edp.bins) ++bins[static_cast<std::size_t>(bin.status)];
   Json json{{"unit", edp.unit}, {"kind", edp.binary ? "binary" : "continuous"}, {"bins", edp.bins.size()}};
   for (std::size_t i = 0; i < bins.size(); ++i) json[name(static_cast<fragility::BinStatus>(i))] = bins[i];
+  json["functions"] = Json::array();
+  for (std::size_t c = 0; c < edp.functions.size(); ++c) {
+    json["functions"].push_back({{"capacity", edp.capacity[c]}});
+    json["functions"].back().update(function_summary(edp.functions[c]));
+  }
   if (edp.binary) return json;
   const fragility::Regressions& found = edp.regressions;
-  json["regression"] = {{"n", found.n},
-                        {"slope", found.slope},
-                        {"slope_r2", found.slope_r2},
-                        {"sd_slope", found.sd_slope},
-                        {"cloud_intercept", found.cloud_intercept},
-                        {"cloud_slope", found.cloud_slope},
-                        {"cloud_sd", found.cloud_sd},
-                        {"cloud_r2", found.cloud_r2}};
+  json["regression"] = {{"n", found.n}};
+  for (const RegressionField& field : regression_fields()) json["regression"][field.name] = found.*field.value;
   return json;
 }
 
 Json provenance_json(const Provenance& from) {
-  return {{"version", from.version},   {"kernel", from.kernel},         {"git_commit", from.git_commit},
-          {"compiler", from.compiler}, {"libraries", Json::parse(from.libraries, nullptr, false)},
-          {"host", from.host},         {"created_utc", from.created_utc},
-          {"command", from.command},   {"ranks", from.ranks}};
+  return {{"version", from.version},
+          {"kernel", from.kernel},
+          {"git_commit", from.git_commit},
+          {"compiler", from.compiler},
+          {"libraries", Json::parse(from.libraries, nullptr, false)},
+          {"host", from.host},
+          {"created_utc", from.created_utc},
+          {"command", from.command},
+          {"ranks", from.ranks}};
 }
 
 }  // namespace
@@ -78,13 +90,7 @@ Json fragility_summary(const Provenance& provenance, const fragility::Result& re
   json["motions"] = result.motions;
   json["edps"] = Json::object();
   for (const fragility::EdpResult& edp : result.edps) json["edps"][edp.name] = edp_summary(edp);
-  const fragility::OverturningCurve& curve = result.overturning;
-  json["overturning"] = {{"median", curve.median},       {"dispersion", curve.dispersion},
-                         {"median_se", curve.median_se}, {"dispersion_se", curve.dispersion_se},
-                         {"penalised", curve.penalised}, {"im_least", curve.im_least},
-                         {"im_most", curve.im_most},     {"extrapolated", curve.extrapolated},
-                         {"misfit", curve.misfit},       {"misfit_im", curve.misfit_im},
-                         {"misfit_p", curve.misfit_p}};
+  json["overturning"] = function_summary(result.overturning);
   json["warnings"] = result.warnings;
   json["provenance"] = provenance_json(provenance);
   return json;

@@ -46,7 +46,7 @@ Table first_rows(std::int64_t blocks, const ReadTable& read) {
 }  // namespace
 
 fragility::Options fragility_options(const Study& study, const Table& first,
-                                     const std::vector<std::uint8_t>& motion_is_record) {
+                                     const std::vector<int>& motion_group) {
   const FragilityPart& part = study.fragility;
   const intensity::Measure& measure = intensity::find(part.im.name);
   fragility::Options options;
@@ -59,7 +59,7 @@ fragility::Options fragility_options(const Study& study, const Table& first,
     const std::string unit = first.columns[column_index(first.columns, name)].unit;
     options.axes.push_back({name, unit, bin_edges(axis.bins, column(first, name))});
   }
-  options.motion_is_record = motion_is_record;
+  options.motion_group = motion_group;
   options.resamples = part.resamples;
   options.confidence = part.confidence;
   options.minimum_samples = part.minimum_samples;
@@ -70,9 +70,9 @@ fragility::Options fragility_options(const Study& study, const Table& first,
 }
 
 fragility::Result analyse(const parallel::Communicator& world, const Study& study,
-                          const std::vector<std::uint8_t>& motion_is_record, std::int64_t blocks,
+                          const std::vector<int>& motion_group, std::int64_t blocks,
                           std::int64_t block_size, const ReadTable& read, parallel::StepDisplay* display) {
-  const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_is_record);
+  const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_group);
   fragility::Tally tally(options);
   const auto show = [&](const char* what, std::size_t done, std::size_t total) {
     if (display) display->show(what, done, total);

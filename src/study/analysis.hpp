@@ -20,9 +20,9 @@ namespace freestand::study {
 inline constexpr std::int64_t bin_layout_samples = 4096;
 
 // What the study asks of the statistics. first: the first samples' rows, at least bin_layout_samples or all there are.
-// motion_is_record: one entry a motion. Throws Error when no intensity lies above zero.
+// motion_group: one entry a motion (fragility::Options). Throws Error when no intensity lies above zero.
 fragility::Options fragility_options(const Study&, const Table& first,
-                                     const std::vector<std::uint8_t>& motion_is_record);
+                                     const std::vector<int>& motion_group);
 
 // Rows of one block.
 using ReadTable = std::function<Table(std::int64_t block)>;
@@ -31,7 +31,7 @@ using ReadTable = std::function<Table(std::int64_t block)>;
 // on the root, the others get an empty one. The same to the bit on any number of ranks. display: of the root, told how
 // far it is; null: none. Collective.
 fragility::Result analyse(const parallel::Communicator&, const Study&,
-                          const std::vector<std::uint8_t>& motion_is_record, std::int64_t blocks,
+                          const std::vector<int>& motion_group, std::int64_t blocks,
                           std::int64_t block_size, const ReadTable&, parallel::StepDisplay* display = nullptr);
 
 // Names of the columns that it reads.

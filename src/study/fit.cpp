@@ -63,7 +63,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& run_folder, const
   const std::vector<std::string> columns = analysed_columns(study.fragility);
   parallel::StepDisplay display(quiet || !world.is_root());
   const fragility::Result result = analyse(
-      world, study, reader.motion_is_record(), layout.blocks(), rows_at_once,
+      world, study, reader.motion_group(), layout.blocks(), rows_at_once,
       [&](std::int64_t block) { return reader.read(block * rows_at_once, layout.rows(block), columns); }, &display);
   world.on_root([&] {
     io::Provenance provenance = io::provenance_here(command, world.size());

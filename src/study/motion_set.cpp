@@ -128,10 +128,10 @@ std::vector<std::string> MotionSet::names() const {
   return names;
 }
 
-std::vector<std::uint8_t> MotionSet::is_record() const {
-  std::vector<std::uint8_t> flags;
-  for (const Entry& entry : *entries) flags.push_back(!entry.pulse);
-  return flags;
+std::vector<int> MotionSet::groups() const {
+  std::vector<int> groups;
+  for (const Entry& entry : *entries) groups.push_back(entry.pulse ? -1 : static_cast<int>(groups.size()));
+  return groups;
 }
 
 std::string MotionSet::fingerprint() const {

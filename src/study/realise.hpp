@@ -30,7 +30,7 @@ struct MotionSet {
   const FloorMotion& motion(std::size_t i) const { return (*entries)[i].motion; }
   bool is_pulse(std::size_t i) const { return (*entries)[i].pulse; }
   std::vector<std::string> names() const;
-  std::vector<std::uint8_t> is_record() const;  // 1 a record, 0 a family of pulses
+  std::vector<int> groups() const;  // fragility::Options::motion_group: each record its own, -1 pulses
   // Hash (16 hexadecimal digits) of names and contents.
   std::string fingerprint() const;
 };

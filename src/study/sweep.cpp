@@ -175,7 +175,7 @@ class Sweep {
   // Is every wanted point of the surface within the half width asked for?
   bool known_well_enough(std::int64_t samples) {
     folder_.leave_if_asked();
-    const fragility::Result result = analyse(world_, study_, evaluator_.motions().is_record(), layout(samples).blocks(),
+    const fragility::Result result = analyse(world_, study_, evaluator_.motions().groups(), layout(samples).blocks(),
                                              layout(samples).block_size, [&](std::int64_t block) {
                                                return Table{evaluator_.columns(), finished_rows(samples, block)};
                                              });
@@ -195,7 +195,7 @@ class Sweep {
     summary_.accuracy_s = seconds_since(check);
     const auto writing = Clock::now();
     io::SamplesHeader header{io::provenance_here(options_.command, world_.size()), evaluator_.columns(),
-                             evaluator_.motions().names(), evaluator_.motions().is_record()};
+                             evaluator_.motions().names(), evaluator_.motions().groups()};
     header.provenance.study = expanded(study_);
     header.provenance.effects = effects_json(study_).dump();
     header.provenance.accuracy = world_.broadcast(accuracy_json(accuracy).dump());

@@ -25,7 +25,7 @@ Options options(int records, bool group_by_record = true) {
   o.im_edge = {0, 1};
   o.edps = {{"delta", "1", "Delta", false, 0, {0.5, 1, 2}}};
   o.resamples = 200;
-  if (group_by_record) o.motion_is_record.assign(static_cast<std::size_t>(records), 1);
+  for (int i = 0; group_by_record && i < records; ++i) o.motion_group.push_back(i);
   return o;
 }
 

@@ -26,7 +26,7 @@ Options options() {
   o.im_edge = {0, 1, 2, 4};
   o.edps = {{"delta", "1", "Delta", false, 0, {0.5, 1, 2}}, {"overturned", "1", "", true, 0, {}}};
   o.axes = {{"friction_mu_k", "1", {0.1, 0.3, 0.5}}};
-  o.motion_is_record = {1, 1, 1, 0};
+  o.motion_group = {0, 1, 2, -1};
   o.minimum_samples = 20;
   o.resamples = 50;
   return o;

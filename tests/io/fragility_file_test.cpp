@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "io/bin_fields.hpp"
 #include "io/python.hpp"
 #include "io/text_files.hpp"
 #include "support/error_text.hpp"
@@ -38,6 +39,18 @@ fragility::EdpResult continuous_edp() {
   for (int i = 0; i < 12; ++i) edp.axes[0].probability.push_back(i);
   edp.axes[0].n = {0, 1, 2, 3, 4, 5};
   edp.regressions.slope = 3.5;
+  for (const double median : {1.5, 2.5}) {
+    fragility::FragilityFunction curve;
+    curve.median = median;
+    curve.adequate = true;
+    curve.grid = {1, 2, 3};
+    curve.probability = {0.25, 0.5, median};
+    curve.lower = {0, 0, 0};
+    curve.upper = {1, 1, 1};
+    curve.resampled_median = {1, 2};
+    curve.resampled_dispersion = {0.5, median};
+    edp.functions.push_back(curve);
+  }
   return edp;
 }
 
@@ -49,6 +62,7 @@ fragility::Result example() {
   result.im = {0.5, 1.25, 3};  // not their middles
   result.outcome_counts = {1, 2, 3, 4, 5, 6};
   result.samples = 21;
+  result.resamples = 2;
   fragility::EdpResult binary;
   binary.name = "overturned";
   binary.unit = "1";
@@ -70,6 +84,8 @@ fragility::Result example() {
   result.overturning.probability = {0.25, 0.75};
   result.overturning.lower = {0, 0};
   result.overturning.upper = {1, 1};
+  result.overturning.resampled_median = {1, 1.5};
+  result.overturning.resampled_dispersion = {0.5, 0.75};
   result.warnings = {"one thing.", "another thing."};
   return result;
 }
@@ -97,6 +113,45 @@ TEST(FragilityFile, IsReadByPostprocess) {
   const test::Scratch scratch("fragility");
   write_example(scratch);
   FREESTAND_CHECK_WITH_PYTHON("postprocess", scratch.folder());
+}
+
+void expect_same(const std::vector<fragility::FragilityFunction>& a,
+                 const std::vector<fragility::FragilityFunction>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (const FunctionField& field : function_fields()) {
+      const double left = field.value(a[i]), right = field.value(b[i]);
+      EXPECT_TRUE(left == right || (std::isnan(left) && std::isnan(right))) << field.name;
+    }
+    EXPECT_EQ(a[i].grid, b[i].grid);
+    EXPECT_EQ(a[i].probability, b[i].probability);
+    EXPECT_EQ(a[i].lower, b[i].lower);
+    EXPECT_EQ(a[i].upper, b[i].upper);
+    EXPECT_EQ(a[i].resampled_median, b[i].resampled_median);
+    EXPECT_EQ(a[i].resampled_dispersion, b[i].resampled_dispersion);
+  }
+}
+
+TEST(FragilityFile, ReadsBackAsItWasWritten) {
+  const test::Scratch scratch("fragility");
+  const fragility::Result written = example();
+  const auto [from, result] = read_fragility(write_example(scratch));
+  EXPECT_EQ(from.study_name, provenance().study_name);
+  EXPECT_EQ(bins_csv(result), bins_csv(written));
+  EXPECT_EQ(surface_csv(result), surface_csv(written));
+  EXPECT_EQ(fragility_summary(from, result).dump(), fragility_summary(provenance(), written).dump());
+  EXPECT_EQ(result.im_edge, written.im_edge);
+  EXPECT_EQ(result.edps[0].distribution.count, written.edps[0].distribution.count);
+  EXPECT_EQ(result.edps[0].axes[0].probability, written.edps[0].axes[0].probability);
+  EXPECT_EQ(result.edps[0].axes[0].n, written.edps[0].axes[0].n);
+  expect_same(result.edps[0].functions, written.edps[0].functions);
+  expect_same({result.overturning}, {written.overturning});
+}
+
+TEST(FragilityFile, AnotherFileIsRefused) {
+  const test::Scratch scratch("fragility");
+  h5::File::create(scratch / "x.h5").finish();
+  EXPECT_THROW(read_fragility(scratch / "x.h5"), Error);
 }
 
 TEST(FragilityFile, AnEmptyResultIsAFileToo) {

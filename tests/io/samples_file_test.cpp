@@ -63,7 +63,7 @@ TEST(SamplesFile, ColumnsAndProvenanceComeBack) {
     EXPECT_EQ(reader.columns()[i].kind, header.columns[i].kind);
   }
   EXPECT_EQ(reader.motion_names(), header.motion_names);
-  EXPECT_EQ(reader.motion_is_record(), header.motion_is_record);
+  EXPECT_EQ(reader.motion_group(), header.motion_group);
   EXPECT_EQ(reader.provenance().study, header.provenance.study);
   EXPECT_EQ(reader.provenance().seed, 7u);
   EXPECT_EQ(reader.provenance().samples, 10);

@@ -193,7 +193,7 @@ def make_sweep(folder, samples=6000, seed=1):
             root[f"samples/{name}"].dims[0].attach_scale(root["samples/sample"])
         root["samples/outcome"].attrs["flag_meanings"] = " ".join(OUTCOMES)
         root["motions/name"] = np.array(["A", "B", "C1"], dtype=h5py.string_dtype())
-        root["motions/is_record"] = np.zeros(3, np.uint8)
+        root["motions/group"] = np.full(3, -1, np.int32)
     usable = (outcome <= 2) & (im >= EDGES[0]) & (im < EDGES[-1])
     which = np.where(usable, np.searchsorted(EDGES, im, side="right") - 1, -1)
     still, over = outcome == 0, outcome == 2

@@ -26,8 +26,7 @@ inline io::SamplesHeader small_header() {
                     {"outcome", "1", "how it ended", ColumnKind::integer},
                     {"overturned", "1", "", ColumnKind::flag}};
   header.motion_names = {"A", "records/x y.AT2", "é"};
-  header.motion_is_record = {0, 1, 0};
-  header.motion_is_record = {0, 1, 1};
+  header.motion_group = {-1, 1, 2};
   return header;
 }
 

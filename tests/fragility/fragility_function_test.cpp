@@ -1,4 +1,4 @@
-#include "fragility/overturning.hpp"
+#include "fragility/fragility_function.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,19 +6,20 @@
 #include <ctime>
 
 #include "fragility/draws.hpp"
+#include "fragility/probit.hpp"
 
 namespace freestand::fragility {
 namespace {
 
 // `n` trials at each of 40 intensities between 0.05 and 2; the block overturns with probability
 // Phi(ln(im/median)/beta).
-std::vector<OverturningPoint> trials(int n, double median, double beta, std::uint64_t stream) {
-  std::vector<OverturningPoint> points;
+std::vector<ProbitPoint> trials(int n, double median, double beta, std::uint64_t stream) {
+  std::vector<ProbitPoint> points;
   std::uint64_t i = 0;
   for (int k = 1; k <= 40; ++k) {
-    OverturningPoint point{0.05 * k, static_cast<double>(n), 0};
+    ProbitPoint point{0.05 * k, static_cast<double>(n), 0};
     const double p = 0.5 * std::erfc(-std::log(point.im / median) / beta / std::sqrt(2.0));
-    for (int j = 0; j < n; ++j) point.over += test::uniform(i++, stream) < p ? 1 : 0;
+    for (int j = 0; j < n; ++j) point.hits += test::uniform(i++, stream) < p ? 1 : 0;
     points.push_back(point);
   }
   return points;
@@ -28,7 +29,7 @@ TEST(Overturning, RecoversAKnownCurve) {
   constexpr int repeats = 300;
   double median = 0, dispersion = 0;
   for (std::uint64_t r = 0; r < repeats; ++r) {
-    const OverturningFit fit = fit_overturning(trials(20, 0.9, 0.45, r));
+    const ProbitFit fit = fit_probit(trials(20, 0.9, 0.45, r));
     EXPECT_FALSE(fit.penalised);
     median += fit.median / repeats;
     dispersion += fit.dispersion / repeats;
@@ -40,31 +41,31 @@ TEST(Overturning, RecoversAKnownCurve) {
 // Counts so great that the likelihood is rounded to more than one step gains, and a curve that does not describe them: the
 // fit must end there and not search the rounding. 200 such fits take 0.03 s; searching took 10 s.
 TEST(Overturning, EndsWhereRoundingHidesTheRest) {
-  std::vector<OverturningPoint> points;
+  std::vector<ProbitPoint> points;
   for (int k = 1; k <= 240; ++k) {
     const double n = 1000 + 37 * (k % 11);
     points.push_back({k / 120.0, n, std::floor(n * (0.1 + 0.3 * std::pow(k / 240.0, 2)))});
   }
-  const OverturningFit fit = fit_overturning(points);
-  OverturningFit start = fit;
+  const ProbitFit fit = fit_probit(points);
+  ProbitFit start = fit;
   start.a *= 1.1;
-  const double over = points[200].over;
+  const double over = points[200].hits;
   const std::clock_t began = std::clock();
   for (int i = 0; i < 200; ++i) {
-    points[200].over = over - i % 2;
-    EXPECT_NEAR(fit_overturning(points, start).median, fit.median, 0.01 * fit.median);
+    points[200].hits = over - i % 2;
+    EXPECT_NEAR(fit_probit(points, start).median, fit.median, 0.01 * fit.median);
   }
   EXPECT_LT(static_cast<double>(std::clock() - began) / CLOCKS_PER_SEC, 2);
 }
 
 TEST(Overturning, LikelihoodIsLargestAtTheFit) {
   const auto points = trials(15, 1.1, 0.3, 77);
-  const OverturningFit fit = fit_overturning(points);
+  const ProbitFit fit = fit_probit(points);
   const auto log_likelihood = [&](double median, double beta) {
     double sum = 0;
     for (const auto& p : points) {
       const double eta = std::log(p.im / median) / beta / std::sqrt(2.0);
-      sum += p.over * std::log(0.5 * std::erfc(-eta)) + (p.n - p.over) * std::log(0.5 * std::erfc(eta));
+      sum += p.hits * std::log(0.5 * std::erfc(-eta)) + (p.n - p.hits) * std::log(0.5 * std::erfc(eta));
     }
     return sum;
   };
@@ -77,8 +78,7 @@ TEST(Overturning, LikelihoodIsLargestAtTheFit) {
 
 TEST(Overturning, SeparatedOutcomesStayFinite) {
   for (const double n : {1.0, 5.0, 1000.0}) {
-    const OverturningFit fit =
-        fit_overturning({{0.5, n, 0}, {0.8, n, 0}, {1.0, n, 0}, {1.3, n, n}, {1.6, n, n}, {2.0, n, n}});
+    const ProbitFit fit = fit_probit({{0.5, n, 0}, {0.8, n, 0}, {1.0, n, 0}, {1.3, n, n}, {1.6, n, n}, {2.0, n, n}});
     EXPECT_TRUE(fit.penalised);
     EXPECT_GT(fit.median, 1.0) << n;
     EXPECT_LT(fit.median, 1.3) << n;
@@ -86,25 +86,25 @@ TEST(Overturning, SeparatedOutcomesStayFinite) {
     EXPECT_LT(fit.dispersion, 1) << n;
   }
   // One intensity at which both happen, nothing to overlap with: the likelihood has no maximum either.
-  const OverturningFit touching = fit_overturning({{0.5, 10, 0}, {1.0, 10, 4}, {2.0, 10, 10}});
+  const ProbitFit touching = fit_probit({{0.5, 10, 0}, {1.0, 10, 4}, {2.0, 10, 10}});
   EXPECT_TRUE(touching.penalised);
   EXPECT_TRUE(std::isfinite(touching.median) && touching.dispersion > 0);
 }
 
 // The penalised objective, maximised on a fine grid by other means.
 TEST(Overturning, PenaltyIsJeffreysPrior) {
-  const std::vector<OverturningPoint> points{{0.5, 3, 0}, {1.0, 3, 0}, {1.4, 3, 3}, {2.0, 3, 3}};
+  const std::vector<ProbitPoint> points{{0.5, 3, 0}, {1.0, 3, 0}, {1.4, 3, 3}, {2.0, 3, 3}};
   const auto objective = [&](double a, double b) {
     double value = 0, i00 = 0, i01 = 0, i11 = 0;
     for (const auto& p : points) {
       const double x = std::log(p.im), eta = a + b * x, cdf = 0.5 * std::erfc(-eta / std::sqrt(2.0));
       const double pdf = std::exp(-eta * eta / 2) / std::sqrt(2 * pi), w = p.n * pdf * pdf / (cdf * (1 - cdf));
-      value += p.over * std::log(cdf) + (p.n - p.over) * std::log(1 - cdf);
+      value += p.hits * std::log(cdf) + (p.n - p.hits) * std::log(1 - cdf);
       i00 += w, i01 += w * x, i11 += w * x * x;
     }
     return value + 0.5 * std::log(i00 * i11 - i01 * i01);
   };
-  const OverturningFit fit = fit_overturning(points);
+  const ProbitFit fit = fit_probit(points);
   const double best = objective(fit.a, fit.b);
   for (const double da : {-1e-3, 0.0, 1e-3})
     for (const double db : {-1e-3, 0.0, 1e-3})
@@ -112,14 +112,14 @@ TEST(Overturning, PenaltyIsJeffreysPrior) {
 }
 
 TEST(Overturning, NoCurveWhereThereIsNone) {
-  EXPECT_TRUE(std::isnan(fit_overturning({{0.5, 10, 0}, {1, 10, 0}}).median));
-  EXPECT_TRUE(std::isnan(fit_overturning({{0.5, 10, 10}, {1, 10, 10}}).median));
-  EXPECT_TRUE(std::isnan(fit_overturning({{1, 10, 4}}).median));
-  EXPECT_TRUE(std::isnan(fit_overturning({}).median));
-  const OverturningFit falling = fit_overturning({{0.5, 10, 8}, {1, 10, 5}, {2, 10, 1}});
+  EXPECT_TRUE(std::isnan(fit_probit({{0.5, 10, 0}, {1, 10, 0}}).median));
+  EXPECT_TRUE(std::isnan(fit_probit({{0.5, 10, 10}, {1, 10, 10}}).median));
+  EXPECT_TRUE(std::isnan(fit_probit({{1, 10, 4}}).median));
+  EXPECT_TRUE(std::isnan(fit_probit({}).median));
+  const ProbitFit falling = fit_probit({{0.5, 10, 8}, {1, 10, 5}, {2, 10, 1}});
   EXPECT_TRUE(std::isnan(falling.median));
   EXPECT_LT(falling.b, 0);
-  EXPECT_EQ(overturning_probability(falling, 0), 0);
+  EXPECT_EQ(probit_probability(falling, 0), 0);
 }
 
 TEST(Overturning, CurveOfATallyHasABandThatHoldsTheTruth) {
@@ -137,7 +137,7 @@ TEST(Overturning, CurveOfATallyHasABandThatHoldsTheTruth) {
     tally.add({i, im, 0, over ? Outcome::overturned : Outcome::moved, {&value, 1}, {}});
   }
   const Resampling resampling(tally.groups(), tally.groups_with_samples(), options.resamples, 1);
-  const OverturningCurve curve = overturning_curve(tally, resampling);
+  const FragilityFunction curve = overturning_function(tally, resampling);
   EXPECT_NEAR(curve.median, 0.9, 4 * curve.median_se);
   EXPECT_NEAR(curve.dispersion, 0.45, 4 * curve.dispersion_se);
   EXPECT_LT(curve.median_se, 0.02);
@@ -161,13 +161,13 @@ Options many_motions(bool group_by_motion) {
   options.im_edge = {0, 0.5, 1, 1.5, 2};
   options.edps = {{"overturned", "1", "", true, 0, {}}};
   options.resamples = 80;
-  if (group_by_motion) options.motion_is_record.assign(motions, 1);
+  for (int i = 0; group_by_motion && i < motions; ++i) options.motion_group.push_back(i);
   return options;
 }
 
 // capacity(motion, sample) in logarithms
 template <class Capacity>
-OverturningCurve curve_of(const Options& options, std::uint64_t stream, const Capacity& ln_capacity) {
+FragilityFunction curve_of(const Options& options, std::uint64_t stream, const Capacity& ln_capacity) {
   Tally tally(options);
   std::uint64_t i = 0;
   for (std::uint64_t m = 0; m < motions; ++m)
@@ -177,10 +177,11 @@ OverturningCurve curve_of(const Options& options, std::uint64_t stream, const Ca
       const double value = over;
       tally.add({i, im, static_cast<int>(m), over ? Outcome::overturned : Outcome::moved, {&value, 1}, {}});
     }
-  return overturning_curve(tally, Resampling(tally.groups(), tally.groups_with_samples(), options.resamples, stream));
+  return overturning_function(tally,
+                              Resampling(tally.groups(), tally.groups_with_samples(), options.resamples, stream));
 }
 
-OverturningCurve true_curve(bool group_by_motion, std::uint64_t repeat) {
+FragilityFunction true_curve(bool group_by_motion, std::uint64_t repeat) {
   const std::uint64_t stream = 9000 + 10 * repeat;
   return curve_of(many_motions(group_by_motion), stream, [&](std::uint64_t m, std::uint64_t i) {
     return std::log(truth_median) + between * test::normal(m, stream + 2) + within * test::normal(i, stream + 3);
@@ -189,15 +190,15 @@ OverturningCurve true_curve(bool group_by_motion, std::uint64_t repeat) {
 
 // Nominal 95 %, of which 1.96 standard errors from 40 motions fall short by one or two; of 200 repeats the standard deviation
 // of a share is 0.02. Samples counted as independent cover about 0.6.
-TEST(OverturningCurve, StandardErrorsTakeMotionsAsTheUnit) {
+TEST(FragilityFunction, StandardErrorsTakeMotionsAsTheUnit) {
   constexpr int repeats = 200, naive_repeats = 50;
   double median = 0, dispersion = 0, naive = 0;
   for (std::uint64_t r = 0; r < repeats; ++r) {
-    const OverturningCurve curve = true_curve(true, r);
+    const FragilityFunction curve = true_curve(true, r);
     median += std::fabs(curve.median - truth_median) < 1.96 * curve.median_se;
     dispersion += std::fabs(curve.dispersion - std::hypot(between, within)) < 1.96 * curve.dispersion_se;
     if (r >= naive_repeats) continue;
-    const OverturningCurve samples = true_curve(false, r);
+    const FragilityFunction samples = true_curve(false, r);
     naive += std::fabs(samples.median - truth_median) < 1.96 * samples.median_se;
   }
   RecordProperty("median", std::to_string(median / repeats));
@@ -209,10 +210,10 @@ TEST(OverturningCurve, StandardErrorsTakeMotionsAsTheUnit) {
 }
 
 // Of 200 true curves a 5 % test rejects 10 +- 3; resampling 40 motions lets pass a little more.
-TEST(OverturningCurve, MisfitOfATrueCurveIsRarelyCalledOne) {
+TEST(FragilityFunction, MisfitOfATrueCurveIsRarelyCalledOne) {
   int rejected = 0;
   for (std::uint64_t r = 0; r < 200; ++r) {
-    const OverturningCurve curve = true_curve(true, r);
+    const FragilityFunction curve = true_curve(true, r);
     EXPECT_GT(curve.misfit, 0);
     rejected += curve.misfit_p < 0.05;
   }
@@ -221,10 +222,10 @@ TEST(OverturningCurve, MisfitOfATrueCurveIsRarelyCalledOne) {
 }
 
 // Half of the samples fall at 0.4 and half never: no lognormal rises to one half and stays there.
-TEST(OverturningCurve, MisfitIsFoundWhereOneCurveIsTooSimple) {
+TEST(FragilityFunction, MisfitIsFoundWhereOneCurveIsTooSimple) {
   int rejected = 0;
   for (std::uint64_t r = 0; r < 20; ++r) {
-    const OverturningCurve curve = curve_of(many_motions(true), 40000 + 10 * r, [](std::uint64_t, std::uint64_t i) {
+    const FragilityFunction curve = curve_of(many_motions(true), 40000 + 10 * r, [](std::uint64_t, std::uint64_t i) {
       return i % 2 ? std::log(0.4) + 0.1 * test::normal(i, 77) : 10.0;
     });
     rejected += curve.misfit_p < 0.05;
@@ -234,12 +235,65 @@ TEST(OverturningCurve, MisfitIsFoundWhereOneCurveIsTooSimple) {
   EXPECT_GE(rejected, 18);
 }
 
-TEST(OverturningCurve, MedianBeyondWhatWasSweptIsAnExtrapolation) {
+// ln EDP = ln 0.1 + 1.5 ln IM + 0.6 z: half lie above C at IM = (C/0.1)^(1/1.5), with the dispersion 0.6/1.5.
+TEST(FragilityFunction, OfADemandAboveACapacityFollowsFromItsLaw) {
+  Options options;
+  options.im_name = "pga";
+  options.im_edge = {0.1, 0.5, 1, 2};
+  options.edps = {{"slip", "m", "", false, 0, {0.05, 0.1}}};
+  options.resamples = 100;
+  Tally tally(options);
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const double im = 0.1 * std::exp(std::log(20.0) * test::uniform(i, 600));
+    const double slip = 0.1 * std::pow(im, 1.5) * std::exp(0.6 * test::normal(i, 601));
+    tally.add({i, im, 0, Outcome::moved, {&slip, 1}, {}});
+  }
+  const Resampling resampling(tally.groups(), tally.groups_with_samples(), options.resamples, 1);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const FragilityFunction curve = fragility_function(tally, 0, c, resampling);
+    EXPECT_NEAR(curve.median, std::pow(options.edps[0].capacities[c] / 0.1, 1 / 1.5), 4 * curve.median_se);
+    EXPECT_NEAR(curve.dispersion, 0.4, 4 * curve.dispersion_se);
+    EXPECT_LT(curve.dispersion_se, 0.02);
+    EXPECT_TRUE(curve.adequate);
+    EXPECT_LT(curve.off_by, 0.05);
+    EXPECT_EQ(curve.resampled_median.size(), 100u);
+  }
+}
+
+// Of samples of which one in twenty never moves the curve is wrong by 0.05 at the top: with few samples that is chance.
+TEST(FragilityFunction, OffByLittleIsAdequateHoweverManySamplesTellIt) {
+  const auto curve_to = [](double ceiling, double adequate) {
+    Options options;
+    options.im_name = "pga";
+    options.im_edge = {0.1, 0.5, 1, 1.5, 2, 3};
+    options.edps = {{"overturned", "1", "", true, 0, {}}};
+    options.resamples = 100;
+    options.adequate = adequate;
+    Tally tally(options);
+    for (std::uint64_t i = 0; i < 100000; ++i) {
+      const double im = 0.1 + 2.9 * test::uniform(i, 610);
+      const double p = ceiling * 0.5 * std::erfc(-std::log(im / 0.9) / 0.45 / std::sqrt(2.0));
+      const double over = test::uniform(i, 611) < p;
+      tally.add({i, im, 0, over > 0 ? Outcome::overturned : Outcome::moved, {&over, 1}, {}});
+    }
+    return overturning_function(tally, Resampling(tally.groups(), tally.groups_with_samples(), options.resamples, 1));
+  };
+  const FragilityFunction slightly = curve_to(0.96, 0.05), badly = curve_to(0.6, 0.05);
+  EXPECT_LT(slightly.misfit_p, 0.05);
+  EXPECT_TRUE(slightly.adequate);
+  EXPECT_LT(slightly.off_by, 0.05);
+  EXPECT_GT(slightly.off_by, slightly.misfit);
+  EXPECT_FALSE(curve_to(0.96, 0.005).adequate);
+  EXPECT_FALSE(badly.adequate);
+  EXPECT_GT(badly.off_by, 0.05);
+}
+
+TEST(FragilityFunction, MedianBeyondWhatWasSweptIsAnExtrapolation) {
   const auto at = [](double median) {
     return curve_of(many_motions(true), 50000,
                     [median](std::uint64_t, std::uint64_t i) { return std::log(median) + 0.6 * test::normal(i, 78); });
   };
-  const OverturningCurve inside = at(1.2), beyond = at(3.5);
+  const FragilityFunction inside = at(1.2), beyond = at(3.5);
   EXPECT_FALSE(inside.extrapolated);
   EXPECT_TRUE(beyond.extrapolated);
   EXPECT_GT(beyond.median, 2);

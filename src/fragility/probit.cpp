@@ -1,4 +1,4 @@
-#include "fragility/overturning.hpp"
+#include "fragility/probit.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
@@ -31,7 +31,7 @@ Tails tails(double eta) {
 
 // A point as the likelihood sees it.
 struct Trial {
-  double log_im, n, over;
+  double log_im, n, hits;
 };
 
 struct Probit {
@@ -47,11 +47,11 @@ struct Probit {
 
   Value at(const Eigen::Vector2d& line) const {
     Value value;
-    for (const auto& [log_im, n, over] : trials) {
+    for (const auto& [log_im, n, hits] : trials) {
       const Eigen::Vector2d x(1, log_im);
       const Tails t = tails(line.dot(x));
-      value.objective += over * t.log_lower + (n - over) * t.log_upper;
-      value.gradient += (over * t.rise - (n - over) * t.fall) * x;
+      value.objective += hits * t.log_lower + (n - hits) * t.log_upper;
+      value.gradient += (hits * t.rise - (n - hits) * t.fall) * x;
       value.information += n * t.rise * t.fall * x * x.transpose();
     }
     if (penalised) add_penalty(line, value);
@@ -61,7 +61,7 @@ struct Probit {
   void add_penalty(const Eigen::Vector2d& line, Value& value) const {
     value.objective += 0.5 * std::log(value.information.determinant());
     const Eigen::Matrix2d inverse = value.information.inverse();
-    for (const auto& [log_im, n, over] : trials) {
+    for (const auto& [log_im, n, hits] : trials) {
       const Eigen::Vector2d x(1, log_im);
       const double eta = line.dot(x);
       const Tails t = tails(eta);
@@ -104,20 +104,20 @@ struct Range {
 
 }  // namespace
 
-OverturningFit fit_overturning(const std::vector<OverturningPoint>& points, const OverturningFit& start) {
-  OverturningFit fit;
-  Range stood, over, all;
+ProbitFit fit_probit(const std::vector<ProbitPoint>& points, const ProbitFit& start) {
+  ProbitFit fit;
+  Range missed, hit, all;
   for (const auto& point : points) {
     if (!(point.n > 0)) continue;
     all.include(point.im);
-    if (point.over > 0) over.include(point.im);
-    if (point.over < point.n) stood.include(point.im);
+    if (point.hits > 0) hit.include(point.im);
+    if (point.hits < point.n) missed.include(point.im);
   }
-  if (!(over.least <= over.most) || !(stood.least <= stood.most) || all.least == all.most) return fit;
-  fit.penalised = over.least >= stood.most || stood.least >= over.most;
+  if (!(hit.least <= hit.most) || !(missed.least <= missed.most) || all.least == all.most) return fit;
+  fit.penalised = hit.least >= missed.most || missed.least >= hit.most;
   Probit probit{{}, fit.penalised};
   for (const auto& point : points)
-    if (point.n > 0) probit.trials.push_back({std::log(point.im), point.n, point.over});
+    if (point.n > 0) probit.trials.push_back({std::log(point.im), point.n, point.hits});
   const bool started = std::isfinite(start.a) && std::isfinite(start.b) && !fit.penalised;
   const Eigen::Vector2d line = maximise(probit, started ? Eigen::Vector2d(start.a, start.b) : Eigen::Vector2d::Zero());
   fit.a = line(0);
@@ -128,7 +128,7 @@ OverturningFit fit_overturning(const std::vector<OverturningPoint>& points, cons
   return fit;
 }
 
-double overturning_probability(const OverturningFit& fit, double im) {
+double probit_probability(const ProbitFit& fit, double im) {
   if (!(im > 0)) return std::isnan(fit.a) ? unknown : 0;
   return upper_tail(-(fit.a + fit.b * std::log(im)));
 }

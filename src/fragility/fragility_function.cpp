@@ -1,22 +1,31 @@
+#include "fragility/fragility_function.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "fragility/intervals.hpp"
-#include "fragility/overturning.hpp"
+#include "fragility/probit.hpp"
 
 namespace freestand::fragility {
 namespace {
 
 constexpr int grid_points = 81;
+constexpr double misfit_level = 0.05;  // of the test whether the curve misses the counted shares by more than chance
 
 // Counts by fine cell of IM and by group of motions. Cells without samples are left out.
 struct Cells {
   std::vector<double> im;        // mean of its samples
   std::vector<std::size_t> bin;  // in which it lies
-  Eigen::MatrixXd n, over;       // [group, cell]
+  Eigen::MatrixXd n, above;      // [group, cell]
 };
 
-Cells cells_of(const Tally& tally) {
+// Samples and those above, of one cell and one group.
+struct Share {
+  std::int64_t n, above;
+};
+
+template <class ShareOf>
+Cells cells_of(const Tally& tally, const ShareOf& share_of) {
   const auto groups = static_cast<Eigen::Index>(tally.layout().groups);
   const auto all = static_cast<Eigen::Index>(tally.layout().im_cell_count());
   Cells cells{{}, {}, Eigen::MatrixXd(groups, all), Eigen::MatrixXd(groups, all)};
@@ -27,52 +36,50 @@ Cells cells_of(const Tally& tally) {
     cells.im.push_back(total.im_sum / static_cast<double>(total.n));
     cells.bin.push_back(i / TallyLayout::cells_per_bin);
     for (Eigen::Index g = 0; g < groups; ++g) {
-      cells.n(g, used) = static_cast<double>(tally.im_cell_n(i, static_cast<std::size_t>(g)));
-      cells.over(g, used) = static_cast<double>(tally.im_cell_over(i, static_cast<std::size_t>(g)));
+      const Share share = share_of(i, static_cast<std::size_t>(g));
+      cells.n(g, used) = static_cast<double>(share.n);
+      cells.above(g, used) = static_cast<double>(share.above);
     }
     ++used;
   }
   cells.n.conservativeResize(groups, used);
-  cells.over.conservativeResize(groups, used);
+  cells.above.conservativeResize(groups, used);
   return cells;
 }
 
-std::vector<OverturningPoint> points_of(const std::vector<double>& im, const Eigen::RowVectorXd& n,
-                                        const Eigen::RowVectorXd& over) {
-  std::vector<OverturningPoint> points;
+std::vector<ProbitPoint> points_of(const std::vector<double>& im, const Eigen::RowVectorXd& n,
+                                   const Eigen::RowVectorXd& above) {
+  std::vector<ProbitPoint> points;
   for (Eigen::Index i = 0; i < n.size(); ++i)
     if (n(i) > 0 && im[static_cast<std::size_t>(i)] > 0)
-      points.push_back({im[static_cast<std::size_t>(i)], n(i), over(i)});
+      points.push_back({im[static_cast<std::size_t>(i)], n(i), above(i)});
   return points;
 }
 
-// A fitted curve, or 0 or 1 throughout where no sample, or every sample, overturned.
+// A fitted curve, or 0 or 1 throughout where no sample, or every sample, lies above.
 struct Shape {
-  OverturningFit fit;
+  ProbitFit fit;
   double share = unknown;
 
-  Shape(const std::vector<OverturningPoint>& points, const OverturningFit& start)
-      : fit(fit_overturning(points, start)) {
-    double n = 0, over = 0;
+  Shape(const std::vector<ProbitPoint>& points, const ProbitFit& start) : fit(fit_probit(points, start)) {
+    double n = 0, above = 0;
     for (const auto& point : points) {
       n += point.n;
-      over += point.over;
+      above += point.hits;
     }
-    if (over == 0 || over == n) share = over / n;
+    if (above == 0 || above == n) share = above / n;
   }
-  double operator()(double im) const {
-    return std::isnan(share) ? overturning_probability(fit, im) : im > 0 ? share : 0;
-  }
+  double operator()(double im) const { return std::isnan(share) ? probit_probability(fit, im) : im > 0 ? share : 0; }
 };
 
 // Counted share less the curve, by bin; NaN where a bin holds fewer samples than `least`.
 std::vector<double> misfits(const Cells& cells, std::size_t bins, const Eigen::RowVectorXd& n,
-                            const Eigen::RowVectorXd& over, const Shape& shape, double least) {
+                            const Eigen::RowVectorXd& above, const Shape& shape, double least) {
   std::vector<double> there(bins, 0), difference(bins, 0);
   for (Eigen::Index i = 0; i < n.size(); ++i) {
     const std::size_t cell = static_cast<std::size_t>(i), bin = cells.bin[cell];
     there[bin] += n(i);
-    difference[bin] += over(i) - n(i) * shape(cells.im[cell]);
+    difference[bin] += above(i) - n(i) * shape(cells.im[cell]);
   }
   for (std::size_t b = 0; b < bins; ++b) difference[b] = there[b] >= least ? difference[b] / there[b] : unknown;
   return difference;
@@ -119,14 +126,14 @@ class Resampled {
         cells_(cells),
         shape_(shape),
         n_(resampling.totals(cells.n)),
-        over_(resampling.totals(cells.over)) {
+        above_(resampling.totals(cells.above)) {
     const std::vector<bool> there = tally.groups_with_samples();
     motions_ = static_cast<int>(std::count(there.begin(), there.end(), true));
     for (Eigen::Index r = 0; r < n_.rows(); ++r)
-      shapes_.emplace_back(points_of(cells.im, n_.row(r), over_.row(r)), shape.fit);
+      shapes_.emplace_back(points_of(cells.im, n_.row(r), above_.row(r)), shape.fit);
   }
 
-  void errors(OverturningCurve& curve) const {
+  void errors(FragilityFunction& curve) const {
     std::vector<double> median, dispersion;
     for (const Shape& shape : shapes_) {
       median.push_back(shape.fit.median);
@@ -134,9 +141,11 @@ class Resampled {
     }
     curve.median_se = standard_error(median, motions_);
     curve.dispersion_se = standard_error(dispersion, motions_);
+    curve.resampled_median = std::move(median);
+    curve.resampled_dispersion = std::move(dispersion);
   }
 
-  void band(OverturningCurve& curve) const {
+  void band(FragilityFunction& curve) const {
     for (std::size_t i = 0; i < curve.grid.size(); ++i) {
       std::vector<double> values;
       for (const Shape& shape : shapes_) values.push_back(shape(curve.grid[i]));
@@ -148,10 +157,10 @@ class Resampled {
   }
 
   // The resampled misfits scatter about those of the samples as those do about the true ones.
-  void misfit(OverturningCurve& curve) const {
+  void misfit(FragilityFunction& curve) const {
     const std::size_t bins = tally_.layout().bins;
     const std::vector<double> none(bins, 0),
-        found = misfits(cells_, bins, cells_.n.colwise().sum(), cells_.over.colwise().sum(), shape_,
+        found = misfits(cells_, bins, cells_.n.colwise().sum(), cells_.above.colwise().sum(), shape_,
                         tally_.options().minimum_samples);
     const auto [size, bin] = largest_difference(found, none);
     if (bin == bins) return;
@@ -159,29 +168,30 @@ class Resampled {
     curve.misfit_im = tally_.mean_im(bin);
     if (motions_ < 2) return;
     const double expand = std::sqrt(motions_ / (motions_ - 1.0));
-    int larger = 0;
+    std::vector<double> scatter;
     for (Eigen::Index r = 0; r < n_.rows(); ++r) {
-      const auto again = misfits(cells_, bins, n_.row(r), over_.row(r), shapes_[static_cast<std::size_t>(r)], 1);
-      if (expand * largest_difference(again, found).value >= size) ++larger;
+      const auto again = misfits(cells_, bins, n_.row(r), above_.row(r), shapes_[static_cast<std::size_t>(r)], 1);
+      scatter.push_back(expand * largest_difference(again, found).value);
     }
-    curve.misfit_p = (1.0 + larger) / (1.0 + static_cast<double>(n_.rows()));
+    std::sort(scatter.begin(), scatter.end());
+    const auto larger = scatter.end() - std::lower_bound(scatter.begin(), scatter.end(), size);
+    curve.misfit_p = (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(scatter.size()));
+    curve.off_by = size + sorted_quantile(scatter, tally_.options().confidence);
+    curve.adequate = curve.misfit_p > misfit_level || curve.off_by <= tally_.options().adequate;
   }
 
  private:
   const Tally& tally_;
   const Cells& cells_;
   const Shape& shape_;
-  Eigen::MatrixXd n_, over_;  // [resample, cell]
+  Eigen::MatrixXd n_, above_;  // [resample, cell]
   int motions_ = 0;
   std::vector<Shape> shapes_;  // [resample]
 };
 
-}  // namespace
-
-OverturningCurve overturning_curve(const Tally& tally, const Resampling& resampling) {
-  const Cells cells = cells_of(tally);
-  const Shape shape(points_of(cells.im, cells.n.colwise().sum(), cells.over.colwise().sum()), {});
-  OverturningCurve curve;
+FragilityFunction function_of(const Tally& tally, const Cells& cells, const Resampling& resampling) {
+  const Shape shape(points_of(cells.im, cells.n.colwise().sum(), cells.above.colwise().sum()), {});
+  FragilityFunction curve;
   curve.median = shape.fit.median;
   curve.dispersion = shape.fit.dispersion;
   curve.penalised = shape.fit.penalised;
@@ -199,6 +209,28 @@ OverturningCurve overturning_curve(const Tally& tally, const Resampling& resampl
   resampled.band(curve);
   resampled.misfit(curve);
   return curve;
+}
+
+}  // namespace
+
+FragilityFunction overturning_function(const Tally& tally, const Resampling& resampling) {
+  return function_of(tally,
+                     cells_of(tally,
+                              [&](std::size_t cell, std::size_t group) {
+                                return Share{tally.im_cell_n(cell, group), tally.im_cell_over(cell, group)};
+                              }),
+                     resampling);
+}
+
+FragilityFunction fragility_function(const Tally& tally, std::size_t edp, std::size_t capacity,
+                                     const Resampling& resampling) {
+  return function_of(tally,
+                     cells_of(tally,
+                              [&](std::size_t cell, std::size_t group) {
+                                const auto counts = tally.im_cell_of(edp, cell, group);
+                                return Share{counts[0], counts[1 + capacity]};
+                              }),
+                     resampling);
 }
 
 }  // namespace freestand::fragility

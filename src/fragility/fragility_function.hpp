@@ -1,0 +1,16 @@
+// Curves over all intensities: of overturning, and of a demand above a capacity.
+#pragma once
+
+#include "fragility/groups.hpp"
+#include "fragility/result.hpp"
+#include "fragility/tally.hpp"
+
+namespace freestand::fragility {
+
+// Probit regression on ln IM of the counts in fine cells of IM (probit.hpp), with everything that says how good it is
+// from resampled motions. Cells with IM <= 0 do not enter the fit.
+FragilityFunction overturning_function(const Tally& tally, const Resampling& resampling);
+FragilityFunction fragility_function(const Tally& tally, std::size_t edp, std::size_t capacity,
+                                     const Resampling& resampling);
+
+}  // namespace freestand::fragility
