@@ -8,6 +8,7 @@ const Register delta{{
     .symbol = "Δ",
     .summary = "peak slip over the size of the pulse, U w_p^2/PTA",
     .source = "[KM05 5.7]",
+    .still = 1e-3,
     .default_capacities = {0.5, 1, 2, 3},
     .value =
         [](const Input& in) {

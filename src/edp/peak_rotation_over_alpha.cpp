@@ -8,6 +8,7 @@ const Register peak_rotation_over_alpha{{
     .symbol = "θ/α",
     .summary = "largest rotation over the slenderness; 1: the centre of mass is over the corner",
     .source = "[KM05 ch. 6]",
+    .still = 1e-3,
     .default_capacities = {0.1, 0.25, 0.5, 0.75},
     .value = [](const Input& in) { return in.response.peak_rotation_rad / in.specimen.block.alpha_rad(); },
 }};

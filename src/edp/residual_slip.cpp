@@ -10,6 +10,7 @@ const Register residual_slip{{
     .symbol = "|u_res|",
     .summary = "displacement of the middle of the base that remains, without its sign",
     .source = "[KM05 ch. 4]",
+    .still = 1e-4,
     .default_capacities = {0.05, 0.1, 0.2, 0.4},
     .value = [](const Input& in) { return std::abs(in.response.residual_slip_m); },
 }};

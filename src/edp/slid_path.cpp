@@ -8,6 +8,7 @@ const Register slid_path{{
     .symbol = "S",
     .summary = "length of the path that the contact has slid",
     .source = "integral of |slip speed|",
+    .still = 1e-4,
     .default_capacities = {0.1, 0.2, 0.5, 1},
     .value = [](const Input& in) { return in.response.slid_path_m; },
 }};

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fragility/intervals.hpp"
+#include "fragility/clusters.hpp"
 #include "fragility/surface.hpp"
 
 namespace freestand::fragility {
@@ -16,7 +16,6 @@ class Cell {
     for (std::size_t g = 0; g < groups; ++g) {
       const auto row = static_cast<Eigen::Index>(g);
       table_(row, 0) = static_cast<double>(tally.axis_n(edp, axis, bin, cell, g));
-      if (table_(row, 0) > 0) ++motions_;
       for (std::size_t c = 0; c < capacities; ++c)
         table_(row, 1 + static_cast<Eigen::Index>(c)) =
             static_cast<double>(tally.axis_exceeding(edp, axis, bin, cell, g, c));
@@ -26,31 +25,24 @@ class Cell {
   std::int64_t n() const { return static_cast<std::int64_t>(table_.col(0).sum()); }
   std::int64_t hits(Eigen::Index c) const { return static_cast<std::int64_t>(table_.col(1 + c).sum()); }
 
-  // Never narrower than the exact binomial interval.
-  Interval band(const Eigen::MatrixXd& totals, Eigen::Index c, double confidence) const {
-    std::vector<double> values;
-    for (Eigen::Index r = 0; r < totals.rows(); ++r) values.push_back(totals(r, 1 + c) / totals(r, 0));
-    const Interval resampled =
-        percentile_interval(values, static_cast<double>(hits(c)) / static_cast<double>(n()), confidence, motions_);
-    if (std::isnan(resampled.lower)) return resampled;
-    const Interval exact = clopper_pearson(hits(c), n(), confidence);
-    return {std::min(resampled.lower, exact.lower), std::max(resampled.upper, exact.upper)};
+  Interval band(Eigen::Index c, std::size_t records, double confidence) const {
+    std::vector<GroupShare> shares;
+    for (Eigen::Index g = 0; g < table_.rows(); ++g) shares.push_back({table_(g, 0), table_(g, 1 + c)});
+    return clustered_interval(shares, records, confidence);
   }
-
-  const Eigen::MatrixXd& table() const { return table_; }
 
  private:
   Eigen::MatrixXd table_;  // [group, n and exceeding]
-  int motions_ = 0;
 };
 
 }  // namespace
 
-AxisSurface axis_surface(const Tally& tally, std::size_t edp, std::size_t axis, const Resampling& resampling) {
+AxisSurface axis_surface(const Tally& tally, std::size_t edp, std::size_t axis) {
   const Options& options = tally.options();
   const AxisOptions& ax = options.axes[axis];
   const std::size_t bins = tally.layout().bins, cells = ax.edge.size() - 1,
                     capacity = tally.layout().capacity_count[edp];
+  const auto records = static_cast<std::size_t>(tally.groups().record_groups());
   AxisSurface result;
   result.name = ax.name;
   result.unit = ax.unit;
@@ -63,10 +55,9 @@ AxisSurface axis_surface(const Tally& tally, std::size_t edp, std::size_t axis, 
     const Cell cell(tally, edp, axis, at / cells, at % cells);
     result.n[at] = cell.n();
     if (cell.n() < options.minimum_samples) continue;
-    const Eigen::MatrixXd totals = resampling.totals(cell.table());
     for (std::size_t c = 0; c < capacity; ++c) {
       const auto column = static_cast<Eigen::Index>(c);
-      const Interval band = cell.band(totals, column, options.confidence);
+      const Interval band = cell.band(column, records, options.confidence);
       result.probability[at * capacity + c] = static_cast<double>(cell.hits(column)) / static_cast<double>(cell.n());
       result.lower[at * capacity + c] = band.lower;
       result.upper[at * capacity + c] = band.upper;

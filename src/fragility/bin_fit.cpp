@@ -1,7 +1,9 @@
 #include "fragility/bin_fit.hpp"
 
+#include <cmath>
+
+#include "fragility/bin_sums.hpp"
 #include "fragility/histogram.hpp"
-#include "fragility/intervals.hpp"
 #include "fragility/lognormal.hpp"
 
 namespace freestand::fragility {
@@ -9,81 +11,115 @@ namespace {
 
 constexpr double test_level = 0.05;
 constexpr double least_omega = 1e-6;  // below it all samples are one value
+// Simulated bins of one null distribution: p values to a 500th, the critical value to a level of 0.05 +- 0.01.
+constexpr int null_repeats = 500;
 
-struct Total {
-  Counts counts;
-  int motions = 0;
-};
-
-Total total_of(const Tally& tally, std::size_t edp, std::size_t bin) {
-  Total total;
-  for (std::size_t g = 0; g < tally.layout().groups; ++g) {
-    const Counts here = tally.counts(edp, bin, g);
-    total.counts.n += here.n;
-    total.counts.still += here.still;
-    total.counts.over += here.over;
-    total.counts.moved += here.moved;
-    total.counts.sum_ln += here.sum_ln;
-    total.counts.sum_ln2 += here.sum_ln2;
-    if (here.n > 0) ++total.motions;
+// One bin of one EDP, with its samples by group.
+class Bin {
+ public:
+  Bin(const Tally& tally, std::size_t edp, std::size_t bin)
+      : options_(tally.options()),
+        edp_(options_.edps[edp]),
+        histogram_(tally.histogram(edp, bin)),
+        records_(static_cast<std::size_t>(tally.groups().record_groups())),
+        by_group_(sums_by_group(tally, edp, bin)),
+        total_(by_group_.colwise().sum()) {
+    if (!options_.pilot_slope.empty()) pilot_ = {options_.pilot_slope[edp][bin], std::log(options_.pilot_im[bin])};
+    if (total_.without_ln_im > 0) pilot_.slope = 0;
+    fit_.im_mean = tally.mean_im(bin);
+    fit_.n_failed = tally.failed(bin);
   }
-  return total;
-}
 
-void set_probability(std::int64_t hits, std::int64_t trials, double confidence, double& p, double& lower,
-                     double& upper) {
-  if (trials == 0) return;
-  p = static_cast<double>(hits) / static_cast<double>(trials);
-  const Interval interval = clopper_pearson(hits, trials, confidence);
-  lower = interval.lower;
-  upper = interval.upper;
-}
+  BinFit fitted(EstimatedNull& null) {
+    count();
+    if (fit_.n < options_.minimum_samples) return fit_;
+    fit_.status = BinStatus::counts_only;
+    if (edp_.binary || fit_.n_moved < options_.minimum_samples) return fit_;
+    const BinLine line = line_of(total_, fit_.im_mean);
+    const ThresholdFit found = fit_on(total_, line, edp_.still_threshold);
+    if (!(found.omega > least_omega)) return fit_;
+    fit_.status = BinStatus::fitted;
+    fit_.slope = line.slope;
+    fit_.lambda = found.lambda;
+    fit_.omega = found.omega;
+    fit_.p_never = found.never;
+    fit_.mean = std::exp(found.lambda + found.omega * found.omega / 2);
+    fit_.standard_deviation = fit_.mean * std::sqrt(std::expm1(found.omega * found.omega));
+    judge(null);
+    return fit_;
+  }
 
-void set_lognormal(const LognormalFit& fit, BinFit& bin) {
-  bin.lambda = fit.lambda;
-  bin.lambda_se = fit.lambda_se;
-  bin.omega = fit.omega;
-  bin.omega_se = fit.omega_se;
-  bin.mean = fit.mean;
-  bin.standard_deviation = fit.standard_deviation;
-}
+ private:
+  void count() {
+    fit_.n = static_cast<std::int64_t>(total_.n);
+    fit_.n_still = static_cast<std::int64_t>(total_.still);
+    fit_.n_over = static_cast<std::int64_t>(total_.over);
+    fit_.n_moved = static_cast<std::int64_t>(total_.moved);
+    std::vector<GroupShare> still, over;
+    for (const auto& row : by_group_.rowwise()) {
+      const BinSums group(row);
+      still.push_back({group.n - group.over, group.still});
+      over.push_back({group.n, group.over});
+      if (group.n > 0) ++fit_.motions;
+    }
+    set(still, fit_.p_still, fit_.p_still_lower, fit_.p_still_upper);
+    set(over, fit_.p_over, fit_.p_over_lower, fit_.p_over_upper);
+  }
 
-void set_goodness(std::span<const std::int64_t> histogram, EstimatedNull& null, BinFit& bin) {
-  const double n = static_cast<double>(bin.n_moved);
-  const HistogramGoodness goodness = histogram_goodness(histogram, bin.lambda, bin.omega);
-  bin.ks_statistic = goodness.ks;
-  bin.ks_resolution = goodness.resolution;
-  bin.ks_p_textbook = kolmogorov_p(goodness.ks, n);
-  bin.ks_critical_textbook = kolmogorov_critical(test_level, n);
-  bin.ks_p_estimated = null.ks_p(goodness.ks, n);
-  bin.ks_critical_estimated = null.ks_critical(test_level, n);
-  bin.ad_statistic = goodness.ad;
-  bin.ad_p_estimated = null.ad_p(goodness.ad, n);
-}
+  void set(const std::vector<GroupShare>& groups, double& p, double& lower, double& upper) const {
+    double n = 0, hits = 0;
+    for (const GroupShare& g : groups) {
+      n += g.n;
+      hits += g.hits;
+    }
+    if (!(n > 0)) return;
+    p = hits / n;
+    const Interval interval = clustered_interval(groups, records_, options_.confidence);
+    lower = interval.lower;
+    upper = interval.upper;
+  }
 
-BinFit fit_bin(const Tally& tally, std::size_t edp, std::size_t index, EstimatedNull& null) {
-  const Options& options = tally.options();
-  const auto [counts, motions] = total_of(tally, edp, index);
-  BinFit bin;
-  bin.n = counts.n;
-  bin.n_still = counts.still;
-  bin.n_over = counts.over;
-  bin.n_moved = counts.moved;
-  bin.motions = motions;
-  bin.im_mean = tally.mean_im(index);
-  set_probability(counts.still, counts.n - counts.over, options.confidence, bin.p_still, bin.p_still_lower,
-                  bin.p_still_upper);
-  set_probability(counts.over, counts.n, options.confidence, bin.p_over, bin.p_over_lower, bin.p_over_upper);
-  if (counts.n < options.minimum_samples) return bin;
-  bin.status = BinStatus::counts_only;
-  if (options.edps[edp].binary || counts.moved < options.minimum_samples) return bin;
-  const LognormalFit fit = fit_lognormal(static_cast<double>(counts.moved), counts.sum_ln, counts.sum_ln2);
-  if (!(fit.omega > least_omega)) return bin;
-  bin.status = BinStatus::fitted;
-  set_lognormal(fit, bin);
-  set_goodness(tally.histogram(edp, index), null, bin);
-  return bin;
-}
+  // S of what the histogram holds, demands less the pilot's line, against their own lognormal.
+  void judge(EstimatedNull& null) {
+    const ThresholdFit found = fit_on(total_, pilot_, edp_.still_threshold);
+    if (!(found.omega > least_omega)) return;
+    const double n = total_.moved;
+    const double ln_threshold = edp_.still_threshold > 0 ? std::log(edp_.still_threshold) : -INFINITY;
+    const HistogramGoodness goodness = histogram_goodness(histogram_, found.lambda, found.omega, ln_threshold);
+    fit_.ks_statistic = goodness.ks;
+    fit_.ks_resolution = goodness.resolution;
+    fit_.ks_p_textbook = kolmogorov_p(goodness.ks, n);
+    fit_.ks_critical_textbook = kolmogorov_critical(test_level, n);
+    fit_.ad_statistic = goodness.ad;
+    std::vector<GroupMoments> groups;
+    for (const auto& row : by_group_.rowwise()) groups.push_back(moments(BinSums(row), pilot_));
+    const Clustering clusters = clustering(groups, records_);
+    fit_.correlation = clusters.correlation;
+    // What a misfit of the tally's making may add to S is granted.
+    const double certain = std::max(0.0, goodness.ks - goodness.resolution);
+    // Without correlation, and cut off by less than a hundredth of what S scatters, the null depends on n alone.
+    if (clusters.correlation > 0 || found.below * std::sqrt(n) > 0.01) {
+      const std::vector<double> simulated = clustered_null(clusters, found.below, options_.seed, null_repeats);
+      fit_.ks_p_estimated = null_p(simulated, certain);
+      fit_.ks_critical_estimated = sorted_quantile(simulated, 1 - test_level);
+    } else {
+      fit_.ks_p_estimated = null.ks_p(certain, n);
+      fit_.ks_critical_estimated = null.ks_critical(test_level, n);
+      fit_.ad_p_estimated = null.ad_p(goodness.ad, n);
+    }
+    // The truth is no further from the fit than the samples are, and they from the truth (as S scatters under the null).
+    fit_.off_by = goodness.ks + goodness.resolution + fit_.ks_critical_estimated;
+  }
+
+  const Options& options_;
+  const EdpOptions& edp_;
+  std::span<const std::int64_t> histogram_;
+  std::size_t records_;
+  Eigen::MatrixXd by_group_;
+  BinSums total_;
+  BinLine pilot_;
+  BinFit fit_;
+};
 
 }  // namespace
 
@@ -91,14 +127,17 @@ std::vector<BinFit> fit_bins(const Tally& tally, std::size_t edp, EstimatedNull&
   std::vector<BinFit> bins;
   std::vector<double> p;
   for (std::size_t b = 0; b < tally.layout().bins; ++b) {
-    bins.push_back(fit_bin(tally, edp, b, null));
+    bins.push_back(Bin(tally, edp, b).fitted(null));
     p.push_back(bins.back().ks_p_estimated);
   }
   const std::vector<bool> rejected = benjamini_hochberg(p, tally.options().false_discovery);
+  const double adequate = tally.options().adequate;
   for (std::size_t b = 0; b < bins.size(); ++b) {
-    if (!rejected[b]) continue;
-    bins[b].fdr_rejected = 1;
-    bins[b].status = BinStatus::rejected;
+    BinFit& bin = bins[b];
+    bin.fdr_rejected = rejected[b];
+    // Where the histogram itself is too coarse to tell so small a misfit, nothing speaks for the fit.
+    if (bin.status == BinStatus::fitted && ((rejected[b] && bin.off_by > adequate) || bin.ks_resolution > adequate))
+      bin.status = BinStatus::rejected;
   }
   return bins;
 }

@@ -69,12 +69,12 @@ EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resamplin
     result.functions.push_back(fragility_function(tally, e, c, resampling));
   told.step();
   for (std::size_t a = 0; a < tally.options().axes.size(); ++a) {
-    result.axes.push_back(axis_surface(tally, e, a, resampling));
+    result.axes.push_back(axis_surface(tally, e, a));
     told.step();
   }
   if (options.binary) return result;
   result.distribution = coarsened(tally, e);
-  result.regressions = regressions(tally.regression(e), result.bins);
+  result.regressions = regressions(tally, e, resampling, result.bins);
   return result;
 }
 

@@ -10,7 +10,7 @@
 namespace freestand::fragility {
 namespace {
 
-constexpr std::int64_t many = 100000;
+constexpr double many = 100000;
 
 // By bisection: the distribution function of GSL converges wherever it is asked here, its inverse does not.
 double beta_quantile(double p, double a, double b) {
@@ -31,14 +31,28 @@ double score_limit(double k, double n, double side, double tail) {
 
 }  // namespace
 
-Interval clopper_pearson(std::int64_t hits, std::int64_t trials, double confidence) {
-  if (trials <= 0) return {0, 1};
+Interval exact_interval(double k, double n, double confidence) {
+  if (!(n > 0)) return {0, 1};
   const double tail = (1 - confidence) / 2;
-  const double k = static_cast<double>(hits), n = static_cast<double>(trials);
-  if (std::min(hits, trials - hits) > many)
-    return {score_limit(k - 0.5, n, -1, tail), score_limit(k + 0.5, n, +1, tail)};
-  return {hits == 0 ? 0 : beta_quantile(tail, k, n - k + 1),
-          hits == trials ? 1 : beta_quantile(1 - tail, k + 1, n - k)};
+  if (std::min(k, n - k) > many) return {score_limit(k - 0.5, n, -1, tail), score_limit(k + 0.5, n, +1, tail)};
+  return {k <= 0 ? 0 : beta_quantile(tail, k, n - k + 1), k >= n ? 1 : beta_quantile(1 - tail, k + 1, n - k)};
+}
+
+Interval clopper_pearson(std::int64_t hits, std::int64_t trials, double confidence) {
+  return exact_interval(static_cast<double>(hits), static_cast<double>(trials), confidence);
+}
+
+double standard_deviation(const std::vector<double>& values) {
+  double count = 0, sum = 0, squares = 0;
+  for (const double v : values)
+    if (std::isfinite(v)) {
+      ++count;
+      sum += v;
+    }
+  if (count < 2) return std::numeric_limits<double>::quiet_NaN();
+  for (const double v : values)
+    if (std::isfinite(v)) squares += (v - sum / count) * (v - sum / count);
+  return std::sqrt(squares / (count - 1));
 }
 
 double sorted_quantile(const std::vector<double>& sorted, double p) {

@@ -34,6 +34,8 @@ struct Options {
   std::string im_unit = "1";
   std::vector<double> im_edge;  // increasing, at least two: bin i holds im_edge[i] <= IM < im_edge[i + 1]; the last
                                 // edge belongs to the last bin
+  bool open_ends =
+      false;  // the first bin reaches down, and the last one up, without end: edges laid over a few samples
   std::vector<EdpOptions> edps;
   std::vector<AxisOptions> axes;
 
@@ -41,6 +43,11 @@ struct Options {
   // earthquake, two components of one station; else each by itself), whose samples are not independent; -1 a family of
   // pulses, where every sample is a motion of its own. Empty: every sample is a motion of its own.
   std::vector<int> motion_group;
+
+  // ln EDP of a bin is told against a straight line over ln IM, fitted to the first samples: slope of each [edp][bin], and
+  // the IM at which it is 0 [bin]. Empty: no slopes. pilot.hpp fills them.
+  std::vector<std::vector<double>> pilot_slope;
+  std::vector<double> pilot_im;
 
   int minimum_samples =
       30;  // a bin (or cell of a surface) with fewer is left empty; as many must have moved and stood for a fit

@@ -9,6 +9,7 @@
 
 #include "base/random.hpp"
 #include "fragility/goodness.hpp"
+#include "fragility/intervals.hpp"
 #include "fragility/lognormal.hpp"
 
 namespace freestand::fragility {
@@ -124,6 +125,36 @@ Regressions regressions(const RegressionSums& s, std::span<const BinFit> bins) {
   result.cloud_slope = line(1);
   result.cloud_sd = std::sqrt(std::max(0.0, residual) / (n - 2));
   result.cloud_r2 = squared_correlation(n, s.lx, s.ly, s.lxlx, s.lxly, s.lyly);
+  return result;
+}
+
+Regressions regressions(const Tally& tally, std::size_t edp, const Resampling& resampling,
+                        std::span<const BinFit> bins) {
+  constexpr Eigen::Index sums = TallyLayout::sums_per_regression;
+  const std::size_t groups = tally.layout().groups;
+  Eigen::MatrixXd by_group(static_cast<Eigen::Index>(groups), sums);
+  for (std::size_t g = 0; g < groups; ++g) {
+    const RegressionSums s = tally.regression(edp, g);
+    by_group.row(static_cast<Eigen::Index>(g)) << static_cast<double>(s.n), s.x, s.y, s.xx, s.xy, s.yy, s.lx, s.ly,
+        s.lxlx, s.lxly, s.lyly;
+  }
+  const double unit = tally.regression(edp).unit;
+  std::vector<Regressions> resampled;
+  const Eigen::MatrixXd totals = resampling.totals(by_group);
+  for (const auto& t : totals.rowwise())
+    resampled.push_back(
+        regressions({std::llround(t(0)), t(1), t(2), t(3), t(4), t(5), t(6), t(7), t(8), t(9), t(10), unit}, {}));
+  Regressions result = regressions(tally.regression(edp), bins);
+  const auto error = [&](double Regressions::*value) {
+    std::vector<double> values;
+    for (const Regressions& r : resampled) values.push_back(r.*value);
+    return standard_deviation(values);
+  };
+  result.slope_se = error(&Regressions::slope);
+  result.sd_slope_se = error(&Regressions::sd_slope);
+  result.cloud_intercept_se = error(&Regressions::cloud_intercept);
+  result.cloud_slope_se = error(&Regressions::cloud_slope);
+  result.cloud_sd_se = error(&Regressions::cloud_sd);
   return result;
 }
 

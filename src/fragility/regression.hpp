@@ -48,4 +48,8 @@ Cloud fit_cloud(std::span<const double> im, std::span<const double> edp);
 // standard deviation of a bin against its mean IM, bins of equal weight).
 Regressions regressions(const RegressionSums& sums, std::span<const BinFit> bins);
 
+// The same of a tally, with standard errors from resampled motions.
+Regressions regressions(const Tally& tally, std::size_t edp, const Resampling& resampling,
+                        std::span<const BinFit> bins);
+
 }  // namespace freestand::fragility

@@ -14,42 +14,50 @@ namespace freestand::fragility {
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 enum class BinStatus : int {
-  fitted = 0,    // lognormal fit that passes goodness of fit
+  fitted = 0,    // lognormal fit that passes goodness of fit, or is off by at most Options::adequate
   too_few = 1,   // fewer samples than the minimum: the row of the surface is empty
   rejected = 2,  // fitted, but fails goodness of fit: the row of the surface is the empirical one
   counts_only =
       3  // enough samples but too few that moved and stood (or a binary EDP): no fit, the row is the empirical one
 };
 
-// One IM bin of one EDP. Samples that failed numerically (painleve, step_limit, not_finite) are in none of the counts.
+// One IM bin of one EDP. Samples that failed numerically (painleve, step_limit, not_finite) are in none of the counts but
+// n_failed.
 struct BinFit {
   std::int64_t n = 0;        // samples in the bin = n_still + n_over + n_moved
   std::int64_t n_still = 0;  // EDP at or below its threshold (binary EDP: 0)
   std::int64_t n_over = 0;   // overturned: EDP censored
   std::int64_t n_moved = 0;  // moved and stood (binary EDP: 1 without overturning)
+  std::int64_t n_failed = 0;
   int motions = 0;           // groups of motions that have samples here
   double im_mean = unknown;  // of the n samples
 
-  // Exact binomial (Clopper-Pearson) intervals, which take the samples as independent.
+  // Intervals with motions as the unit (clusters.hpp).
   double p_still = unknown, p_still_lower = unknown,
          p_still_upper = unknown;                                           // n_still/(n - n_over), given that it stood
   double p_over = unknown, p_over_lower = unknown, p_over_upper = unknown;  // n_over/n
 
-  // Lognormal by maximum likelihood on the n_moved samples [KM05 5.21-5.25]; standard errors s/sqrt(n) and
-  // s/sqrt(2(n-1)), s^2 = omega^2 n/(n-1), for independent samples; *_se_motions from resampled motions.
-  double lambda = unknown, lambda_se = unknown, lambda_se_motions = unknown;
-  double omega = unknown, omega_se = unknown, omega_se_motions = unknown;
+  // Lognormal by maximum likelihood on the n_moved samples [KM05 5.21-5.25], the still ones known to lie at or below the
+  // threshold (threshold_fit.hpp), at im_mean, about a line of that slope in ln EDP over ln IM; errors from resampled
+  // motions.
+  double lambda = unknown, lambda_se = unknown;
+  double omega = unknown, omega_se = unknown;
+  double slope = unknown;
+  double p_never =
+      unknown;  // of those that stood: share without any demand, beyond the lognormal's below the threshold
   double mean = unknown, standard_deviation = unknown;  // [KM05 5.24], unit of the EDP
 
   double ks_statistic = unknown;          // S [KM05 5.28-5.30]
-  double ks_resolution = unknown;         // bound on the error of S, because it is taken from a histogram
+  double ks_resolution = unknown;         // what the histogram may have made of S; granted to the fit, added to off_by
+  double correlation = unknown;           // of ln EDP of two samples of one record
   double ks_p_textbook = unknown;         // as if lambda and omega were known beforehand: far too lax
   double ks_critical_textbook = unknown;  // at 5 %
-  double ks_p_estimated = unknown;        // lambda and omega estimated from the same samples: the one to believe
+  double ks_p_estimated = unknown;  // lambda and omega estimated from the same, correlated samples: the one to believe
   double ks_critical_estimated = unknown;
-  double ad_statistic = unknown;  // Anderson-Darling A^2
-  double ad_p_estimated = unknown;
-  int fdr_rejected = 0;  // 1: rejected by ks_p_estimated with false discovery controlled over the bins
+  double ad_statistic = unknown;    // Anderson-Darling A^2
+  double ad_p_estimated = unknown;  // NaN where samples are correlated or cut off: then S alone is judged
+  double off_by = unknown;          // upper 95 % bound of the largest error of the fitted probability
+  int fdr_rejected = 0;             // 1: rejected by ks_p_estimated with false discovery controlled over the bins
   BinStatus status = BinStatus::too_few;
 };
 
@@ -57,6 +65,7 @@ struct BinFit {
 // from resampled motions, `empirical` the plain fraction of samples above C, overturned ones included.
 struct Surface {
   std::vector<double> probability, lower, upper, empirical;
+  std::vector<double> least, most;  // of `empirical`, had every sample that failed stayed below, or lain above
 };
 
 // P(EDP > C) over IM x a second axis, from counts, with band from resampled motions. All [im, axis, capacity] but n
@@ -70,20 +79,23 @@ struct AxisSurface {
 
 // Histogram of ln(EDP) of the samples that moved and stood, coarsened for pictures: count [im, cell], cell i between
 // ln_edge[i] and ln_edge[i + 1].
+// Demands are those at the mean IM of the bin.
 struct Distribution {
   std::vector<double> ln_edge;
   std::vector<std::int64_t> count;
 };
 
-// Regressions of one EDP on IM over the samples that moved and stood and have IM > 0.
+// Regressions of one EDP on IM over the samples that moved and stood and have IM > 0; errors from resampled motions.
 struct Regressions {
   std::int64_t n = 0;
-  double slope = unknown, slope_r2 = unknown;  // EDP = slope IM, least squares through the origin [KM05 5.17-5.20]
-  double sd_slope = unknown;                   // standard deviation = sd_slope IM [KM05 5.20, 8.2]
+  double slope = unknown, slope_se = unknown,
+         slope_r2 = unknown;  // EDP = slope IM, least squares through the origin [KM05 5.17-5.20]
+  double sd_slope = unknown, sd_slope_se = unknown;  // standard deviation = sd_slope IM [KM05 5.20, 8.2]
   double bin_mean_slope = unknown,
          bin_sd_slope = unknown;  // the same two through the mean and standard deviation of the fitted bins
   double cloud_intercept = unknown, cloud_slope = unknown, cloud_sd = unknown,
          cloud_r2 = unknown;  // ln EDP = a + b ln IM +- sd
+  double cloud_intercept_se = unknown, cloud_slope_se = unknown, cloud_sd_se = unknown;
 };
 
 // One curve over all intensities, of overturning or of P(EDP > C): Phi(ln(IM/median)/dispersion), maximum likelihood,

@@ -25,7 +25,7 @@ Options checked(Options options) {
 // Fine cell inside a bin; the bin's edges share out by equal width.
 std::size_t cell_in_bin(const std::vector<double>& edge, std::size_t bin, double im) {
   constexpr std::size_t cells = TallyLayout::cells_per_bin;
-  const double place = (im - edge[bin]) / (edge[bin + 1] - edge[bin]);
+  const double place = std::clamp((im - edge[bin]) / (edge[bin + 1] - edge[bin]), 0.0, 1.0);
   return std::min(static_cast<std::size_t>(place * static_cast<double>(cells)), cells - 1);
 }
 
@@ -46,13 +46,16 @@ void Tally::add(const Sample& sample) {
                 Exit::data);
   const auto group = static_cast<std::size_t>(groups_.group(sample.motion, sample.index));
   ++count_[static_cast<std::size_t>(sample.outcome)];
-  if (!sound(sample.outcome)) return;
-  const int found = bin_index(options_.im_edge, sample.im);
+  const int found = bin_index(options_.im_edge, sample.im, options_.open_ends);
+  const auto bin = static_cast<std::size_t>(found);
+  if (!sound(sample.outcome)) {
+    if (found >= 0) ++count_[layout_.failed + bin];
+    return;
+  }
   if (found < 0) {
     ++count_[layout_.outside];
     return;
   }
-  const auto bin = static_cast<std::size_t>(found);
   const std::size_t cell = bin * TallyLayout::cells_per_bin + cell_in_bin(options_.im_edge, bin, sample.im);
   ++count_[layout_.at_im_cell(cell, group)];
   if (sample.outcome == Outcome::overturned) ++count_[layout_.at_im_cell(cell, group) + 1];
@@ -92,20 +95,34 @@ void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t cell, std::size_
   }
   if (still || over || edp.binary) return;
   const double ln_value = std::log(value);
-  sum_[layout_.at_bin_sum(e, bin, group)].add(ln_value);
-  sum_[layout_.at_bin_sum(e, bin, group) + 1].add(ln_value * ln_value);
-  ++count_[layout_.histogram[e] + bin * ln_cell_count + static_cast<std::size_t>(ln_cell(ln_value))];
-  add_regression(e, sample.im, value);
+  ExactSum* sums = &sum_[layout_.at_bin_sum(e, bin, group)];
+  sums[0].add(ln_value);
+  sums[1].add(ln_value * ln_value);
+  const auto cell_of_residual = static_cast<std::size_t>(ln_cell(residual(e, bin, sample.im, ln_value)));
+  ++count_[layout_.histogram[e] + bin * ln_cell_count + cell_of_residual];
+  if (!(sample.im > 0)) {
+    ++counts[4];
+    return;
+  }
+  const double ln_im = std::log(sample.im);
+  sums[2].add(ln_im);
+  sums[3].add(ln_im * ln_im);
+  sums[4].add(ln_value * ln_im);
+  add_regression(e, group, sample.im, value);
+}
+
+double Tally::residual(std::size_t e, std::size_t bin, double im, double ln_value) const {
+  if (options_.pilot_slope.empty() || !(im > 0)) return ln_value;
+  return ln_value - options_.pilot_slope[e][bin] * std::log(im / options_.pilot_im[bin]);
 }
 
 // In units of the EDP's first capacity, so that the fixed resolution of ExactSum suits any unit.
-void Tally::add_regression(std::size_t e, double im, double value) {
-  if (!(im > 0)) return;
+void Tally::add_regression(std::size_t e, std::size_t group, double im, double value) {
   const double x = im, y = value / capacity_[e].front();
   const double lx = std::log(x), ly = std::log(y);
   const double terms[] = {1, x, y, x * x, x * y, y * y, lx, ly, lx * lx, lx * ly, ly * ly};
   static_assert(std::size(terms) == TallyLayout::sums_per_regression);
-  ExactSum* sums = &sum_[layout_.regression_sums + TallyLayout::sums_per_regression * e];
+  ExactSum* sums = &sum_[layout_.at_regression(e, group)];
   for (std::size_t i = 0; i < std::size(terms); ++i) sums[i].add(terms[i]);
 }
 

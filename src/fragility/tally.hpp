@@ -28,7 +28,9 @@ struct Sample {
 // Samples of one EDP, one bin and one group of motions.
 struct Counts {
   std::int64_t n = 0, still = 0, over = 0, moved = 0;
-  double sum_ln = 0, sum_ln2 = 0;  // of the moved ones
+  std::int64_t without_ln_im = 0;                                // moved ones at an IM that is not above 0
+  double sum_ln = 0, sum_ln2 = 0;                                // of the moved ones
+  double sum_ln_im = 0, sum_ln_im2 = 0, sum_ln_times_ln_im = 0;  // of those of them whose IM is above 0
 };
 
 // Fine IM cell of the curves over IM and of the mean IM of a bin.
@@ -49,7 +51,7 @@ class Tally {
   // Throws Error listing everything that is wrong with the options.
   explicit Tally(Options options);
 
-  // Samples that failed numerically are counted by outcome and enter nothing else. Overturned ones have no EDP, where it
+  // Samples that failed numerically are counted by outcome and by bin, and enter nothing else. Overturned ones have no EDP, where it
   // is censored, and count as above every capacity; others (did the connection break?) they have.
   void add(const Sample& sample);
 
@@ -71,14 +73,16 @@ class Tally {
 
   std::int64_t count_of(Outcome outcome) const;
   std::int64_t outside_im() const;              // sound samples whose IM is in no bin
+  std::int64_t failed(std::size_t bin) const;   // samples that failed, by their IM
   std::int64_t missing(std::size_t edp) const;  // sound samples, in a bin, that have no value of this EDP
   std::int64_t samples() const;                 // all
   std::vector<bool> groups_with_samples() const;
 
   Counts counts(std::size_t edp, std::size_t bin, std::size_t group) const;
   std::int64_t exceeding(std::size_t edp, std::size_t bin, std::size_t group, std::size_t capacity) const;
-  std::span<const std::int64_t> histogram(std::size_t edp,
-                                          std::size_t bin) const;  // of ln(EDP), moved ones; histogram.hpp
+  std::span<const std::int64_t> histogram(
+      std::size_t edp,
+      std::size_t bin) const;  // of ln(EDP) less the pilot's line, moved ones; histogram.hpp
   std::int64_t axis_n(std::size_t edp, std::size_t axis, std::size_t bin, std::size_t cell, std::size_t group) const;
   std::int64_t axis_exceeding(std::size_t edp, std::size_t axis, std::size_t bin, std::size_t cell, std::size_t group,
                               std::size_t capacity) const;
@@ -89,12 +93,14 @@ class Tally {
   // Of one EDP: samples, then those above each capacity.
   std::span<const std::int64_t> im_cell_of(std::size_t edp, std::size_t cell, std::size_t group) const;
   RegressionSums regression(std::size_t edp) const;
+  RegressionSums regression(std::size_t edp, std::size_t group) const;
 
   bool operator==(const Tally& other) const { return count_ == other.count_ && sum_ == other.sum_; }
 
  private:
   void add_edp(std::size_t edp, std::size_t bin, std::size_t cell, std::size_t group, const Sample& sample);
-  void add_regression(std::size_t edp, double im, double value);
+  void add_regression(std::size_t edp, std::size_t group, double im, double value);
+  double residual(std::size_t edp, std::size_t bin, double im, double ln_value) const;
 
   Options options_;
   MotionGroups groups_;

@@ -1,13 +1,15 @@
 #include "fragility/tally_layout.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <freestand/response.hpp>
 
 #include "fragility/histogram.hpp"
 
 namespace freestand::fragility {
 
-int bin_index(const std::vector<double>& edge, double value) {
+int bin_index(const std::vector<double>& edge, double value, bool open_ends) {
+  if (open_ends && !std::isnan(value)) value = std::clamp(value, edge.front(), edge.back());
   if (!(value >= edge.front()) || !(value <= edge.back())) return -1;
   const auto above = std::upper_bound(edge.begin(), edge.end(), value) - edge.begin();
   return static_cast<int>(std::min<std::ptrdiff_t>(above, static_cast<std::ptrdiff_t>(edge.size()) - 1)) - 1;
@@ -25,8 +27,9 @@ TallyLayout::TallyLayout(const Options& options, std::size_t group_count)
   };
   for (const auto& ax : options.axes) axis_cells.push_back(ax.edge.size() - 1);
   outside = take(1);
+  failed = take(bins);
   missing = take(edps);
-  bin_counts = take(4 * edps * bins * groups);
+  bin_counts = take(counts_per_bin * edps * bins * groups);
   im_cells = take(2 * im_cell_count() * groups);
   for (const auto& edp : options.edps) {
     const std::size_t capacity = capacities(edp).size();
@@ -39,9 +42,9 @@ TallyLayout::TallyLayout(const Options& options, std::size_t group_count)
   }
   count_size = next;
   next = 0;
-  bin_sums = take(2 * edps * bins * groups);
+  bin_sums = take(sums_per_bin * edps * bins * groups);
   im_sums = take(im_cell_count());
-  regression_sums = take(sums_per_regression * edps);
+  regression_sums = take(sums_per_regression * edps * groups);
   sum_size = next;
 }
 

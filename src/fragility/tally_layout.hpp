@@ -9,8 +9,8 @@
 namespace freestand::fragility {
 
 // Position of a value among increasing edges: edge[i] <= value < edge[i + 1], the last edge included; -1 outside or
-// NaN.
-int bin_index(const std::vector<double>& edge, double value);
+// NaN. With open ends every number has a bin.
+int bin_index(const std::vector<double>& edge, double value, bool open_ends = false);
 
 // Capacities of an EDP: those of the options, or {0.5} for a binary one.
 std::vector<double> capacities(const EdpOptions& edp);
@@ -19,6 +19,7 @@ std::vector<double> capacities(const EdpOptions& edp);
 struct TallyLayout {
   static constexpr std::size_t cells_per_bin = 8;  // fine IM cells, for curves over IM
   static constexpr std::size_t sums_per_regression = 11;
+  static constexpr std::size_t counts_per_bin = 5, sums_per_bin = 5;
 
   TallyLayout(const Options& options, std::size_t group_count);
 
@@ -26,19 +27,23 @@ struct TallyLayout {
   std::vector<std::size_t> capacity_count;  // [edp]
   std::vector<std::size_t> axis_cells;      // [axis]
 
-  std::size_t outside, missing, bin_counts, im_cells;          // offsets of counts
+  std::size_t outside, failed, missing, bin_counts, im_cells;  // offsets of counts
   std::vector<std::size_t> exceeding, histogram, im_cells_of;  // [edp]
   std::vector<std::vector<std::size_t>> axis;                  // [edp][axis]
   std::size_t bin_sums, im_sums, regression_sums;              // offsets of sums
   std::size_t count_size, sum_size;
 
   std::size_t im_cell_count() const { return bins * cells_per_bin; }
-  // n, still, over, moved
+  // n, still, over, moved, moved at an IM that is not above 0
   std::size_t at_bin(std::size_t edp, std::size_t bin, std::size_t group) const {
-    return bin_counts + 4 * ((edp * bins + bin) * groups + group);
+    return bin_counts + counts_per_bin * ((edp * bins + bin) * groups + group);
   }
+  // of the moved ones, l = ln EDP and m = ln IM: l, l^2, m, m^2, l m
   std::size_t at_bin_sum(std::size_t edp, std::size_t bin, std::size_t group) const {
-    return bin_sums + 2 * ((edp * bins + bin) * groups + group);
+    return bin_sums + sums_per_bin * ((edp * bins + bin) * groups + group);
+  }
+  std::size_t at_regression(std::size_t edp, std::size_t group) const {
+    return regression_sums + sums_per_regression * (edp * groups + group);
   }
   std::size_t at_exceeding(std::size_t edp, std::size_t bin, std::size_t group) const {
     return exceeding[edp] + (bin * groups + group) * capacity_count[edp];

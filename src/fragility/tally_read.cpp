@@ -5,10 +5,31 @@
 #include "fragility/tally.hpp"
 
 namespace freestand::fragility {
+namespace {
+
+RegressionSums regression_sums(const ExactSum* s, double unit) {
+  const auto value = [&](int i) { return s[i].value(); };
+  return {static_cast<std::int64_t>(value(0)),
+          value(1),
+          value(2),
+          value(3),
+          value(4),
+          value(5),
+          value(6),
+          value(7),
+          value(8),
+          value(9),
+          value(10),
+          unit};
+}
+
+}  // namespace
 
 std::int64_t Tally::count_of(Outcome outcome) const { return count_[static_cast<std::size_t>(outcome)]; }
 
 std::int64_t Tally::outside_im() const { return count_[layout_.outside]; }
+
+std::int64_t Tally::failed(std::size_t bin) const { return count_[layout_.failed + bin]; }
 
 std::int64_t Tally::missing(std::size_t edp) const { return count_[layout_.missing + edp]; }
 
@@ -27,7 +48,8 @@ std::vector<bool> Tally::groups_with_samples() const {
 Counts Tally::counts(std::size_t edp, std::size_t bin, std::size_t group) const {
   const std::int64_t* n = &count_[layout_.at_bin(edp, bin, group)];
   const ExactSum* sums = &sum_[layout_.at_bin_sum(edp, bin, group)];
-  return {n[0], n[1], n[2], n[3], sums[0].value(), sums[1].value()};
+  return {n[0],           n[1], n[2], n[3], n[4], sums[0].value(), sums[1].value(), sums[2].value(), sums[3].value(),
+          sums[4].value()};
 }
 
 std::int64_t Tally::exceeding(std::size_t edp, std::size_t bin, std::size_t group, std::size_t capacity) const {
@@ -79,22 +101,15 @@ std::span<const std::int64_t> Tally::im_cell_of(std::size_t edp, std::size_t cel
   return {&count_[layout_.at_im_cell_of(edp, cell, group)], 1 + layout_.capacity_count[edp]};
 }
 
+RegressionSums Tally::regression(std::size_t edp, std::size_t group) const {
+  return regression_sums(&sum_[layout_.at_regression(edp, group)], capacity_[edp].front());
+}
+
 RegressionSums Tally::regression(std::size_t edp) const {
-  const ExactSum* s = &sum_[layout_.regression_sums + TallyLayout::sums_per_regression * edp];
-  const double unit = capacity_[edp].front();
-  const auto value = [&](int i) { return s[i].value(); };
-  return {static_cast<std::int64_t>(value(0)),
-          value(1),
-          value(2),
-          value(3),
-          value(4),
-          value(5),
-          value(6),
-          value(7),
-          value(8),
-          value(9),
-          value(10),
-          unit};
+  ExactSum total[TallyLayout::sums_per_regression];
+  for (std::size_t g = 0; g < layout_.groups; ++g)
+    for (std::size_t i = 0; i < std::size(total); ++i) total[i].add(sum_[layout_.at_regression(edp, g) + i]);
+  return regression_sums(total, capacity_[edp].front());
 }
 
 }  // namespace freestand::fragility

@@ -40,10 +40,19 @@ void about_motions(const Tally& tally, const Result& result, std::vector<std::st
 }
 
 void about_bins(const EdpResult& edp, const Options& options, std::vector<std::string>& out) {
-  int too_few = 0, rejected = 0;
-  double worst = 0;
+  int too_few = 0, rejected = 0, adequate = 0, failed = 0;
+  double worst = 0, most_off = 0, most_failed = 0;
   for (const BinFit& bin : edp.bins) {
     if (bin.status == BinStatus::too_few) ++too_few;
+    if (bin.n_failed > 0) {
+      ++failed;
+      most_failed =
+          std::max(most_failed, static_cast<double>(bin.n_failed) / static_cast<double>(bin.n + bin.n_failed));
+    }
+    if (bin.status == BinStatus::fitted && bin.fdr_rejected) {
+      ++adequate;
+      most_off = std::max(most_off, bin.off_by);
+    }
     if (bin.status != BinStatus::rejected) continue;
     ++rejected;
     worst = std::max(worst, bin.ks_statistic);
@@ -51,6 +60,16 @@ void about_bins(const EdpResult& edp, const Options& options, std::vector<std::s
   if (too_few > 0)
     out.push_back(fmt::format("{}: {} of {} bins hold fewer than {} samples and are left empty.", edp.name, too_few,
                               edp.bins.size(), options.minimum_samples));
+  if (failed > 0)
+    out.push_back(
+        fmt::format("{}: samples failed in {} of {} bins, up to {:.2g} of a bin; the columns least and most of "
+                    "the surface tell what they could change.",
+                    edp.name, failed, edp.bins.size(), most_failed));
+  if (adequate > 0)
+    out.push_back(
+        fmt::format("{}: the lognormal is not exact in {} of {} bins, but off by at most {:.3f} there, and is "
+                    "used.",
+                    edp.name, adequate, edp.bins.size(), most_off));
   if (rejected > 0)
     out.push_back(
         fmt::format("{}: the lognormal fails goodness of fit in {} of {} bins (its probabilities are off by up to "

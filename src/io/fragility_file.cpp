@@ -50,7 +50,9 @@ void write_surface(Group& parent, const Dataset& im, const Dataset& capacity, co
        {Curve{"probability", &edp.surface.probability, "P(EDP > capacity), fit or counts by status"},
         Curve{"lower", &edp.surface.lower, "lower end of the band, from resampled motions"},
         Curve{"upper", &edp.surface.upper, "upper end of the band, from resampled motions"},
-        Curve{"empirical", &edp.surface.empirical, "fraction of samples above, overturned included"}})
+        Curve{"empirical", &edp.surface.empirical, "fraction of samples above, overturned included"},
+        Curve{"least", &edp.surface.least, "the same, had every sample that failed stayed below"},
+        Curve{"most", &edp.surface.most, "the same, had every sample that failed lain above"}})
     group.put(curve.name, *curve.values, shape).attach(0, im).attach(1, capacity).describe("1", curve.description);
 }
 
@@ -65,7 +67,7 @@ void write_distribution(Group& parent, const Dataset& im, const EdpResult& edp) 
   group.put("count", edp.distribution.count, {edp.bins.size(), middle.size()})
       .attach(0, im)
       .attach(1, cell)
-      .describe("1", "samples that moved and stood");
+      .describe("1", "samples that moved and stood, demands moved to im along the slope");
 }
 
 void write_axis(Group& parent, const Dataset& im, const Dataset& capacity, const EdpResult& edp,

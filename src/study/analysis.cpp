@@ -4,6 +4,7 @@
 
 #include "edp/edp.hpp"
 #include "fragility/fit.hpp"
+#include "fragility/pilot.hpp"
 #include "fragility/tally.hpp"
 #include "intensity/intensity.hpp"
 #include "study/bins.hpp"
@@ -19,16 +20,21 @@ std::vector<double> column(const Table& table, const std::string& name) {
   return values;
 }
 
-fragility::EdpOptions edp_options(const std::string& name, const std::vector<double>& capacities) {
-  const edp::Edp& edp = edp::find(name);
-  return {edp.name,    edp.unit, edp.symbol, edp.binary, edp.still, edp.binary ? std::vector<double>{} : capacities,
-          edp.censored};
-}
-
 std::vector<double> capacities_of(const FragilityPart& part, const std::string& edp) {
   for (const CapacitiesPart& capacities : part.capacities)
     if (capacities.edp == edp) return capacities.values;
   return edp::find(edp).default_capacities;
+}
+
+fragility::EdpOptions edp_options(const FragilityPart& part, const std::string& name) {
+  const edp::Edp& edp = edp::find(name);
+  return {edp.name,
+          edp.unit,
+          edp.symbol,
+          edp.binary,
+          edp.binary ? 0 : part.still.at(name),
+          edp.binary ? std::vector<double>{} : capacities_of(part, name),
+          edp.censored};
 }
 
 // The first samples, from whole blocks.
@@ -45,15 +51,14 @@ Table first_rows(std::int64_t blocks, const ReadTable& read) {
 
 }  // namespace
 
-fragility::Options fragility_options(const Study& study, const Table& first,
-                                     const std::vector<int>& motion_group) {
+fragility::Options fragility_options(const Study& study, const Table& first, const std::vector<int>& motion_group) {
   const FragilityPart& part = study.fragility;
   const intensity::Measure& measure = intensity::find(part.im.name);
   fragility::Options options;
   options.im_name = measure.name;
   options.im_unit = measure.unit;
   options.im_edge = bin_edges(part.bins, column(first, "im_" + measure.name));
-  for (const std::string& name : part.edp) options.edps.push_back(edp_options(name, capacities_of(part, name)));
+  for (const std::string& name : part.edp) options.edps.push_back(edp_options(part, name));
   for (const AxisPart& axis : part.axes) {
     const std::string name = Realiser::column_of(axis.name);
     const std::string unit = first.columns[column_index(first.columns, name)].unit;
@@ -65,13 +70,17 @@ fragility::Options fragility_options(const Study& study, const Table& first,
   options.minimum_samples = part.minimum_samples;
   options.false_discovery = part.false_discovery;
   options.empirical_fallback = part.empirical_fallback;
+  options.adequate = part.adequate;
+  options.open_ends = part.bins.edges.empty();
   options.seed = study.seed;
-  return options;
+  fragility::Tally pilot(options);
+  pilot.add(first, 0);
+  return fragility::with_pilot(pilot);
 }
 
-fragility::Result analyse(const parallel::Communicator& world, const Study& study,
-                          const std::vector<int>& motion_group, std::int64_t blocks,
-                          std::int64_t block_size, const ReadTable& read, parallel::StepDisplay* display) {
+fragility::Result analyse(const parallel::Communicator& world, const Study& study, const std::vector<int>& motion_group,
+                          std::int64_t blocks, std::int64_t block_size, const ReadTable& read,
+                          parallel::StepDisplay* display) {
   const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_group);
   fragility::Tally tally(options);
   const auto show = [&](const char* what, std::size_t done, std::size_t total) {

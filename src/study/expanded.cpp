@@ -164,15 +164,18 @@ std::string fragility_text(const FragilityPart& f) {
   text += fmt::format("\n  bins: {}\n  edp: [{}]\n  capacities:", bins_text(f.bins), fmt::join(f.edp, ", "));
   if (f.capacities.empty()) text += " {}";
   for (const auto& part : f.capacities) text += fmt::format("\n    {}: {}", part.edp, list(part.values));
+  text += "\n  still:";
+  if (f.still.empty()) text += " {}";
+  for (const auto& [edp, threshold] : f.still) text += fmt::format("\n    {}: {}", edp, number_text(threshold));
   text += "\n  axes:";
   if (f.axes.empty()) text += " []";
   for (const auto& axis : f.axes)
     text += fmt::format("\n    - {{name: {}, bins: {}}}", axis.name, bins_text(axis.bins));
   return text + fmt::format(
                     "\n  resamples: {}\n  confidence: {}\n  minimum_samples: {}\n  false_discovery: {}\n"
-                    "  empirical_fallback: {}\n",
+                    "  adequate: {}\n  empirical_fallback: {}\n",
                     f.resamples, number_text(f.confidence), f.minimum_samples, number_text(f.false_discovery),
-                    f.empirical_fallback);
+                    number_text(f.adequate), f.empirical_fallback);
 }
 
 std::string all_but_name(const Study& study) {

@@ -161,6 +161,35 @@ std::vector<CapacitiesPart> read_capacities(Section& section, const Known& known
   return capacities;
 }
 
+// still: {peak_slip_m: 1e-4}, below the EDP's lowest capacity.
+std::map<std::string, double> read_still(Section& section, const Known& known, const FragilityPart& part) {
+  std::map<std::string, double> still;
+  for (const CapacitiesPart& edp : part.capacities) {
+    const double usual = find_edp(known, edp.edp)->still;
+    // A capacity of the user's own may be smaller than what is usually told apart from nothing.
+    still[edp.edp] = edp.values.empty() ? usual : std::min(usual, 0.1 * edp.values.front());
+  }
+  const YAML::Node* node = section.find("still");
+  if (!node) return still;
+  Section given(*node, section.name("still"), section.line("still"), section.problems());
+  for (const CapacitiesPart& edp : part.capacities) {
+    if (!given.find(edp.edp)) continue;
+    const double threshold = given.number(
+        edp.edp, 0, {.lower = 0, .lower_open = false, .why = "it is a demand at or below which nothing moved"});
+    if (!edp.values.empty() && threshold >= edp.values.front())
+      given.problem(edp.edp, fmt::format("{} is not below the lowest capacity, {} (what is still exceeds nothing): "
+                                         "lower it, or raise the capacity",
+                                         given.name(edp.edp), edp.values.front()));
+    still[edp.edp] = threshold;
+  }
+  for (const auto& edp : known.edps)
+    if (given.find(edp.name) && !still.count(edp.name))
+      given.problem(edp.name, fmt::format("{} has no threshold (it is not asked for, or happens or not): remove it",
+                                          given.name(edp.name)));
+  given.finish();
+  return still;
+}
+
 void check_axis(Section& section, const std::string& key, const std::string& name,
                 const std::vector<AxisChoice>& choices) {
   if (choices.empty()) return;
@@ -220,6 +249,8 @@ FragilityPart read_fragility(Section& file, const Known& known, const std::vecto
       static_cast<int>(section.integer("minimum_samples", 30, fragility::least_minimum_samples, 1000000));
   part.false_discovery =
       section.number("false_discovery", 0.05, {.lower = 0, .upper = 1, .why = "it must lie between 0 and 1"});
+  part.adequate = section.number("adequate", 0.05, {.lower = 0, .upper = 1, .why = "it is an error of probabilities"});
+  part.still = read_still(section, known, part);
   part.empirical_fallback = section.flag("empirical_fallback", true);
   section.finish();
   return part;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <freestand/specimen.hpp>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -138,6 +139,8 @@ struct FragilityPart {
   int resamples = 500;  // bootstrap repeats of the intervals
   double confidence = 0.95;
   int minimum_samples = 30;        // a bin with fewer stays empty
+  double adequate = 0.05;          // a fit that fails its test is used where it is off by no more
+  std::map<std::string, double> still = {};  // by EDP: at or below it the block stood still; every one of `capacities`
   double false_discovery = 0.05;   // level of the goodness-of-fit tests over the bins
   bool empirical_fallback = true;  // a bin that fails goodness of fit takes its curve from the counts
 };
@@ -177,6 +180,7 @@ struct KnownEdp {
   bool binary = false;  // overturned: takes no capacities
   std::vector<double> default_capacities;
   bool by_default = true;
+  double still = 0;  // threshold where the study gives none
 };
 struct KnownIntensity {
   std::string name;

@@ -33,6 +33,7 @@ fragility::EdpResult continuous_edp() {
   edp.surface.lower = std::vector<double>(6, 8);
   edp.surface.upper = std::vector<double>(6, 9);
   edp.surface.empirical = {0, 0, 0, 0, fragility::unknown, 0.5};
+  edp.surface.least = edp.surface.most = edp.surface.empirical;
   edp.distribution = {{-1, 0, 1}, {1, 2, 3, 4, 5, 6}};
   edp.axes = {
       {"friction_mu_k", "1", {0, 1, 2}, {0.5, 1.5}, {}, std::vector<double>(12, 1), std::vector<double>(12, 2), {}}};
@@ -71,6 +72,7 @@ fragility::Result example() {
   binary.bins.resize(3);
   binary.capacity = {0.5};
   binary.surface.probability = binary.surface.lower = binary.surface.upper = binary.surface.empirical = {0, 0.5, 1};
+  binary.surface.least = binary.surface.most = {0, 0.5, 1};
   result.edps = {continuous_edp(), binary};
   result.overturning.median = 1.5;
   result.overturning.dispersion = 0.5;

@@ -1,0 +1,54 @@
+#include "fragility/bin_sums.hpp"
+
+#include <cmath>
+
+namespace freestand::fragility {
+
+BinSums::BinSums(const Eigen::RowVectorXd& row)
+    : n(row(0)),
+      still(row(1)),
+      over(row(2)),
+      moved(row(3)),
+      without_ln_im(row(4)),
+      ln(row(5)),
+      ln2(row(6)),
+      ln_im(row(7)),
+      ln_im2(row(8)),
+      ln_times_ln_im(row(9)) {}
+
+Eigen::MatrixXd sums_by_group(const Tally& tally, std::size_t edp, std::size_t bin) {
+  const std::size_t groups = tally.layout().groups, capacities = tally.layout().capacity_count[edp];
+  Eigen::MatrixXd table(static_cast<Eigen::Index>(groups), BinSums::size + static_cast<Eigen::Index>(capacities));
+  for (std::size_t g = 0; g < groups; ++g) {
+    const Counts c = tally.counts(edp, bin, g);
+    const auto row = static_cast<Eigen::Index>(g);
+    table.row(row).head<BinSums::size>() << static_cast<double>(c.n), static_cast<double>(c.still),
+        static_cast<double>(c.over), static_cast<double>(c.moved), static_cast<double>(c.without_ln_im), c.sum_ln,
+        c.sum_ln2, c.sum_ln_im, c.sum_ln_im2, c.sum_ln_times_ln_im;
+    for (std::size_t k = 0; k < capacities; ++k)
+      table(row, BinSums::size + static_cast<Eigen::Index>(k)) = static_cast<double>(tally.exceeding(edp, bin, g, k));
+  }
+  return table;
+}
+
+BinLine line_of(const BinSums& s, double im) {
+  if (s.without_ln_im > 0 || s.moved < 3 || !(im > 0)) return {};
+  const double spread = s.ln_im2 - s.ln_im * s.ln_im / s.moved;
+  // The sums are exact to 1e-12 a sample: of intensities that differ by less than 1e-5 they say nothing.
+  if (!(spread > 1e-10 * s.moved)) return {};
+  return {(s.ln_times_ln_im - s.ln * s.ln_im / s.moved) / spread, std::log(im)};
+}
+
+GroupMoments moments(const BinSums& s, const BinLine& line) {
+  if (line.slope == 0) return {s.moved, s.ln, s.ln2};
+  const double b = line.slope, x = line.ln_im;
+  return {s.moved, s.ln - b * (s.ln_im - x * s.moved),
+          s.ln2 - 2 * b * (s.ln_times_ln_im - x * s.ln) + b * b * (s.ln_im2 - 2 * x * s.ln_im + x * x * s.moved)};
+}
+
+ThresholdFit fit_on(const BinSums& s, const BinLine& line, double still_threshold) {
+  const GroupMoments m = moments(s, line);
+  return fit_above(m.n, m.sum, m.sum2, s.still, still_threshold);
+}
+
+}  // namespace freestand::fragility

@@ -1,0 +1,38 @@
+// What the fit of one bin of one EDP is made of: sums over its samples, by group or over resampled groups.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fragility/clusters.hpp"
+#include "fragility/tally.hpp"
+#include "fragility/threshold_fit.hpp"
+
+namespace freestand::fragility {
+
+// The fields of Counts as real numbers, then the samples above each capacity.
+struct BinSums {
+  double n, still, over, moved, without_ln_im, ln, ln2, ln_im, ln_im2, ln_times_ln_im;
+  static constexpr Eigen::Index size = 10;
+
+  explicit BinSums(const Eigen::RowVectorXd& row);
+};
+
+// [group, field of BinSums or capacity]
+Eigen::MatrixXd sums_by_group(const Tally& tally, std::size_t edp, std::size_t bin);
+
+// Within a bin ln EDP is taken to follow a line over ln IM, so that omega does not grow with the bin's width: demands at
+// another IM are moved along it to the IM at which the bin stands.
+struct BinLine {
+  double slope = 0;
+  double ln_im = 0;
+};
+
+// The least-squares line of the moved samples, about an IM. Slope 0 where IM does not vary, where fewer than three moved,
+// or where some did at an IM that is not above 0.
+BinLine line_of(const BinSums& sums, double im);
+
+// Of ln EDP less the line, over the moved samples.
+GroupMoments moments(const BinSums& sums, const BinLine& line);
+ThresholdFit fit_on(const BinSums& sums, const BinLine& line, double still_threshold);
+
+}  // namespace freestand::fragility

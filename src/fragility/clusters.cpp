@@ -1,0 +1,297 @@
+#include "fragility/clusters.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/random.hpp"
+#include "base/units.hpp"
+#include "fragility/threshold_fit.hpp"
+
+namespace freestand::fragility {
+namespace {
+
+constexpr int most_drawn = 256;
+constexpr double far = 8;  // standard deviations, beyond which a normal number is not met
+
+double cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
+double density(double x) { return std::exp(-x * x / 2) / std::sqrt(2 * pi); }
+
+// Sum over a stratum of (e - mean e)^2 G/(G - 1), e = hits - p n.
+double between(std::span<const GroupShare> groups, double p, int& there) {
+  double count = 0, sum = 0, squares = 0;
+  for (const GroupShare& g : groups) {
+    if (!(g.n > 0)) continue;
+    const double e = g.hits - p * g.n;
+    ++count;
+    sum += e;
+    squares += e * e;
+  }
+  there += static_cast<int>(count);
+  return count > 1 ? (squares - sum * sum / count) * count / (count - 1) : 0;
+}
+
+// One stream of uniforms and normals.
+class Draws {
+ public:
+  Draws(std::uint64_t seed, std::uint64_t repeat)
+      : seed_(seed), counter_(repeat << 24), stream_(random::stable_hash("fragility/clustered_null")) {}
+  double uniform() {
+    if (!spare_) {
+      const auto [first, second] = random::bits(seed_, counter_++, stream_);
+      next_ = random::unit_interval(second);
+      spare_ = true;
+      return random::unit_interval(first);
+    }
+    spare_ = false;
+    return next_;
+  }
+  double normal() {
+    const double radius = std::sqrt(-2 * std::log(uniform()));
+    return radius * std::cos(2 * pi * uniform());
+  }
+
+ private:
+  std::uint64_t seed_, counter_, stream_;
+  double next_ = 0;
+  bool spare_ = false;
+};
+
+// Phi and its inverse by linear interpolation, to 1e-6; far out exactly.
+class NormalTable {
+ public:
+  static const NormalTable& get() {
+    static const NormalTable table;
+    return table;
+  }
+  double cdf(double x) const {
+    const double place = (x + far) / step;
+    if (!(place > 0)) return 0;
+    const auto i = static_cast<std::size_t>(place);
+    if (i + 1 >= cdf_.size()) return 1;
+    return cdf_[i] + (place - static_cast<double>(i)) * (cdf_[i + 1] - cdf_[i]);
+  }
+  double inverse(double u) const {
+    const double place = u * parts;
+    const auto i = static_cast<std::size_t>(place);
+    constexpr std::size_t edge = 64;
+    if (i < edge || i + edge >= inverse_.size()) return gsl_cdf_ugaussian_Pinv(u);
+    return inverse_[i] + (place - static_cast<double>(i)) * (inverse_[i + 1] - inverse_[i]);
+  }
+
+ private:
+  static constexpr double step = 0.005;
+  static constexpr int parts = 8192;
+  NormalTable() {
+    for (double x = -far; x <= far; x += step) cdf_.push_back(fragility::cdf(x));
+    for (int i = 0; i <= parts; ++i)
+      inverse_.push_back(gsl_cdf_ugaussian_Pinv(std::clamp(i / static_cast<double>(parts), 1e-9, 1 - 1e-9)));
+  }
+  std::vector<double> cdf_, inverse_;
+};
+
+// The distribution of z > cut: moments of order 0 to 2 over z > cut, and the empirical one at points.
+struct Simulated {
+  double mass = 0, first = 0, second = 0;
+  std::vector<double> x, lower, upper;  // P(z <= x) just below each point and at it, increasing
+};
+
+double statistic(const Simulated& s, double cut) {
+  const double c = std::max(cut, -far);
+  const double mean = s.first / s.mass, square = s.second / s.mass;
+  const bool whole = cut <= -far;
+  const TruncatedNormal fit = whole ? TruncatedNormal{mean, std::sqrt(square - mean * mean)}
+                                    : fit_truncated(c, mean - c, square - 2 * c * mean + c * c);
+  const double at_cut = whole ? 0 : cdf((c - fit.mean) / fit.deviation), offset = 1 - s.mass;
+  double largest = 0;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (s.x[i] <= cut) continue;
+    const double fitted = (NormalTable::get().cdf((s.x[i] - fit.mean) / fit.deviation) - at_cut) / (1 - at_cut);
+    largest = std::max({largest, (s.upper[i] - offset) / s.mass - fitted, fitted - (s.lower[i] - offset) / s.mass});
+  }
+  return largest;
+}
+
+// One by one; those below the cut are drawn again.
+Simulated drawn(const Clustering& c, double cut, Draws& draws) {
+  Simulated s;
+  const double root = std::sqrt(c.correlation), rest = std::sqrt(1 - c.correlation);
+  const auto draw = [&](double size, bool shared) {
+    const double effect = shared ? root * draws.normal() : 0, scale = shared ? rest : 1;
+    for (int i = 0; i < static_cast<int>(size); ++i) {
+      double z = effect + scale * draws.normal();
+      for (int again = 0; z <= cut && again < 100; ++again) z = effect + scale * draws.normal();
+      s.x.push_back(std::max(z, cut + 1e-12));
+    }
+  };
+  for (const double size : c.sizes) draw(size, true);
+  draw(c.single, false);
+  std::sort(s.x.begin(), s.x.end());
+  const double n = static_cast<double>(s.x.size());
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    s.lower.push_back(static_cast<double>(i) / n);
+    s.upper.push_back(static_cast<double>(i + 1) / n);
+    s.first += s.x[i] / n;
+    s.second += s.x[i] * s.x[i] / n;
+  }
+  s.mass = 1;
+  return s;
+}
+
+// The mixture of the groups about the normal distribution.
+class Mixture {
+ public:
+  Mixture(const Clustering& c, Draws& draws) : root_(std::sqrt(c.correlation)), rest_(std::sqrt(1 - c.correlation)) {
+    double squares = c.single;
+    const double n = c.n();
+    for (const double size : c.sizes) {
+      squares += size * size;
+      weight_.push_back(size / n);
+      effect_.push_back(root_ * draws.normal());
+    }
+    // What samples scatter within their groups is drawn with the independent ones: it may not count twice.
+    shrink_ = std::sqrt(std::max(0.0, 1 - n / squares));
+    single_ = c.single / n;
+    for (std::size_t i = 0; i < points; ++i) difference_.push_back(shrink_ * (at(x_of(i)) - cdf(x_of(i))));
+  }
+  double difference(double x) const {
+    const double place = std::clamp((x + width) / step, 0.0, points - 1.001);
+    const auto i = static_cast<std::size_t>(place);
+    return difference_[i] + (place - static_cast<double>(i)) * (difference_[i + 1] - difference_[i]);
+  }
+  // Added to the normal distribution's moments of order 1 and 2 over z > c.
+  double first(double c) const { return shrink_ * (sum(&Mixture::first_of, c) - density(c)); }
+  double second(double c) const { return shrink_ * (sum(&Mixture::second_of, c) - (cdf(-c) + c * density(c))); }
+
+ private:
+  static constexpr double width = 5, step = 0.1;
+  static constexpr std::size_t points = 101;
+  static double x_of(std::size_t i) { return -width + step * static_cast<double>(i); }
+
+  double at(double x) const {
+    const NormalTable& table = NormalTable::get();
+    double sum = single_ * table.cdf(x);
+    for (std::size_t g = 0; g < weight_.size(); ++g) sum += weight_[g] * table.cdf((x - effect_[g]) / rest_);
+    return sum;
+  }
+  double sum(double (*moment)(double, double, double), double c) const {
+    double total = single_ * moment(0, 1, c);
+    for (std::size_t g = 0; g < weight_.size(); ++g) total += weight_[g] * moment(effect_[g], rest_, c);
+    return total;
+  }
+  // Of N(mean, deviation^2) over z > c.
+  static double first_of(double mean, double deviation, double c) {
+    const double t = (c - mean) / deviation;
+    return mean * cdf(-t) + deviation * density(t);
+  }
+  static double second_of(double mean, double deviation, double c) {
+    const double t = (c - mean) / deviation;
+    return (mean * mean + deviation * deviation) * cdf(-t) + deviation * (mean + c) * density(t);
+  }
+
+  double root_, rest_, shrink_ = 0, single_ = 0;
+  std::vector<double> weight_, effect_, difference_;
+};
+
+Simulated of_many(const Clustering& c, double cut, Draws& draws) {
+  const Mixture mixture(c, draws);
+  const double low = std::max(cut, -far), n = c.n(), shrink = std::sqrt(most_drawn / n);
+  Simulated s;
+  // Sorted uniforms as the sums of exponential gaps.
+  std::vector<double> u(most_drawn + 1);
+  double total = 0;
+  for (double& x : u) x = total -= std::log(draws.uniform());
+  double mass = 0, first = 0, second = 0;
+  for (int i = 0; i < most_drawn; ++i) {
+    const double p = u[static_cast<std::size_t>(i)] / total, x = NormalTable::get().inverse(p);
+    const double centre = p + mixture.difference(x);
+    s.x.push_back(x);
+    s.lower.push_back(centre + shrink * (i / static_cast<double>(most_drawn) - p));
+    s.upper.push_back(centre + shrink * ((i + 1) / static_cast<double>(most_drawn) - p));
+    if (x <= low) continue;
+    mass += 1.0 / most_drawn;
+    first += x / most_drawn;
+    second += x * x / most_drawn;
+  }
+  s.mass = cdf(-low) - mixture.difference(low) * (cut > -far) + shrink * (mass - cdf(-low));
+  s.first = density(low) + mixture.first(low) + shrink * (first - density(low));
+  const double square = cdf(-low) + low * density(low);
+  s.second = square + mixture.second(low) + shrink * (second - square);
+  return s;
+}
+
+}  // namespace
+
+Interval clustered_interval(std::span<const GroupShare> groups, std::size_t record_groups, double confidence) {
+  double n = 0, hits = 0, single = 0;
+  int records = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    n += groups[g].n;
+    hits += groups[g].hits;
+    if (g >= record_groups)
+      single += groups[g].n;
+    else if (groups[g].n > 0)
+      ++records;
+  }
+  if (!(n > 0)) return {0, 1};
+  const double p = hits / n;
+  if (hits <= 0 || hits >= n) {
+    const double trials = single + records;
+    return exact_interval(p * trials, trials, confidence);
+  }
+  int there = 0;
+  const double variance =
+      (between(groups.first(record_groups), p, there) + between(groups.subspan(record_groups), p, there)) / (n * n);
+  if (there < 2) return {0, 1};
+  const double tail = (1 - confidence) / 2;
+  const double ratio = gsl_cdf_tdist_Qinv(tail, n - 1) / gsl_cdf_tdist_Qinv(tail, there - 1);
+  const double effective = std::min(n, p * (1 - p) / variance * ratio * ratio);
+  return exact_interval(p * effective, effective, confidence);
+}
+
+double Clustering::n() const { return std::accumulate(sizes.begin(), sizes.end(), single); }
+
+Clustering clustering(std::span<const GroupMoments> groups, std::size_t record_groups) {
+  Clustering c;
+  double n = 0, sum = 0, squares = 0, within = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const GroupMoments& m = groups[g];
+    if (g >= record_groups) c.single += m.n;
+    if (g >= record_groups || !(m.n > 0)) continue;
+    c.sizes.push_back(m.n);
+    n += m.n;
+    sum += m.sum;
+    squares += m.n * m.n;
+    within += m.sum2 - m.sum * m.sum / m.n;
+  }
+  const double count = static_cast<double>(c.sizes.size());
+  if (count < 2 || n <= count) return c;
+  double between_groups = 0;
+  for (std::size_t g = 0; g < std::min(record_groups, groups.size()); ++g)
+    if (groups[g].n > 0) between_groups += groups[g].n * std::pow(groups[g].sum / groups[g].n - sum / n, 2);
+  const double usual = (n - squares / n) / (count - 1);
+  const double b = between_groups / (count - 1), w = std::max(within, 0.0) / (n - count);
+  c.correlation = std::clamp((b - w) / (b + (usual - 1) * w), 0.0, 0.999);
+  return c;
+}
+
+std::vector<double> clustered_null(const Clustering& c, double below, std::uint64_t seed, int repeats) {
+  const double cut = below > 0 ? std::max(gsl_cdf_ugaussian_Pinv(below), -far) : -far;
+  std::vector<double> null;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    Draws draws(seed, static_cast<std::uint64_t>(repeat));
+    const double s = statistic(c.n() <= most_drawn ? drawn(c, cut, draws) : of_many(c, cut, draws), cut);
+    if (std::isfinite(s)) null.push_back(s);
+  }
+  std::sort(null.begin(), null.end());
+  return null;
+}
+
+double null_p(const std::vector<double>& null, double s) {
+  const auto above = null.end() - std::lower_bound(null.begin(), null.end(), s);
+  return (1 + static_cast<double>(above)) / (1 + static_cast<double>(null.size()));
+}
+
+}  // namespace freestand::fragility
