@@ -25,7 +25,6 @@ class Bin {
         by_group_(sums_by_group(tally, edp, bin)),
         total_(by_group_.colwise().sum()) {
     if (!options_.pilot_slope.empty()) pilot_ = {options_.pilot_slope[edp][bin], std::log(options_.pilot_im[bin])};
-    if (total_.without_ln_im > 0) pilot_.slope = 0;
     fit_.im_mean = tally.mean_im(bin);
     fit_.n_failed = tally.failed(bin);
   }

@@ -23,7 +23,8 @@ Options with_pilot(const Tally& first) {
       const BinSums sums(sums_by_group(first, e, b).colwise().sum());
       const bool enough = sums.moved >= options.minimum_samples;
       const double slope = enough ? line_of(sums, options.pilot_im[b]).slope : everywhere;
-      if (std::isfinite(slope) && sums.without_ln_im == 0) options.pilot_slope[e][b] = slope;
+      // A bin that reaches to 0 or below has no ln IM.
+      if (std::isfinite(slope) && options.im_edge[b] > 0) options.pilot_slope[e][b] = slope;
     }
   }
   return options;

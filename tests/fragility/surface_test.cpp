@@ -245,6 +245,9 @@ TEST(Surface, OmegaDoesNotGrowWithTheWidthOfABin) {
   EXPECT_GT(bin.ks_p_estimated, 0.01);
   EXPECT_EQ(bin.status, BinStatus::fitted);
   EXPECT_LT(fitted(tally_of(o, 5000)).edps[0].bins[0].ks_p_estimated, 0.01);  // without the pilot's line it is skew
+  Options from_zero = o;
+  from_zero.im_edge = {0, 1};
+  EXPECT_EQ(with_pilot(tally_of(from_zero, 500)).pilot_slope[0][0], 0);
 }
 
 // One sample in 37 has a tenth of the spread: the best lognormal is off by 0.01, which 10^6 samples see and nobody minds.
