@@ -42,5 +42,7 @@ void add_effects(CLI::App& parser, Work& work);
 void add_compare(CLI::App& parser, Work& work);
 void add_diagnose(CLI::App& parser, Work& work);
 void add_add(CLI::App& parser, Work& work);
+void add_catalogue(CLI::App& parser, Work& work);
+void add_query(CLI::App& parser, Work& work);
 
 }  // namespace freestand::app

@@ -1,33 +1,32 @@
 #include "parallel/stop.hpp"
 
 #include <chrono>
-#include <csignal>
-#include <initializer_list>
 #include <utility>
 
 namespace freestand::parallel {
 namespace {
 
 volatile std::sig_atomic_t stop_flag = 0;
-constexpr std::initializer_list<int> stop_signals = {SIGTERM, SIGINT, SIGUSR1, SIGUSR2};
+constexpr std::array stop_signals = {SIGTERM, SIGINT, SIGUSR1, SIGUSR2};
 
 void on_signal(int signal_number) {
   if (signal_number == SIGINT && stop_flag) std::signal(SIGINT, SIG_DFL), std::raise(SIGINT);
   stop_flag = 1;
 }
 
-void handle(int signal_number, void (*handler)(int)) {
+struct sigaction action_of(void (*handler)(int)) {
   struct sigaction action = {};
   action.sa_handler = handler;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);
-  sigaction(signal_number, &action, nullptr);
+  return action;
 }
 
 }  // namespace
 
 StopOnSignal::StopOnSignal() {
-  for (const int signal_number : stop_signals) handle(signal_number, on_signal);
+  const struct sigaction action = action_of(on_signal);
+  for (std::size_t i = 0; i < stop_signals.size(); ++i) sigaction(stop_signals[i], &action, &before_[i]);
 }
 
 StopOnSignal::StopOnSignal(Overdue overdue) : StopOnSignal() {
@@ -46,7 +45,7 @@ StopOnSignal::StopOnSignal(Overdue overdue) : StopOnSignal() {
 StopOnSignal::~StopOnSignal() {
   over_ = true;
   if (watch_.joinable()) watch_.join();
-  for (const int signal_number : stop_signals) handle(signal_number, SIG_DFL);
+  for (std::size_t i = 0; i < stop_signals.size(); ++i) sigaction(stop_signals[i], &before_[i], nullptr);
 }
 
 bool stop_requested() { return stop_flag != 0; }

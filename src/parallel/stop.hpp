@@ -1,14 +1,16 @@
 // Stopping on request: batch systems send SIGTERM before the time limit, people press Ctrl-C.
 #pragma once
 
+#include <array>
 #include <atomic>
+#include <csignal>
 #include <functional>
 #include <thread>
 
 namespace freestand::parallel {
 
 // While it lives, SIGTERM, SIGINT, SIGUSR1 and SIGUSR2 (which mpirun passes on) ask the run to stop after the open blocks
-// instead of ending the process; a second SIGINT ends it. One at a time.
+// instead of ending the process; a second SIGINT ends it. One may live within another: what was before is put back.
 class StopOnSignal {
  public:
   // What to do, from another thread, when the run still goes on `patience_s` after it was asked to stop: it is in the
@@ -25,6 +27,7 @@ class StopOnSignal {
   StopOnSignal& operator=(const StopOnSignal&) = delete;
 
  private:
+  std::array<struct sigaction, 4> before_;
   std::atomic<bool> over_ = false;
   std::thread watch_;
 };

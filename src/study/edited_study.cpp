@@ -32,24 +32,6 @@ Scalars scalars_of(const Study& study) {
   return all;
 }
 
-struct Difference {
-  std::string key, now, swept;  // "nothing" where the key is absent
-};
-
-// In the order of the edited study; what it lacks comes last.
-std::vector<Difference> differences(const Scalars& now, const Scalars& swept) {
-  const std::map<std::string, std::string> before(swept.begin(), swept.end()), after(now.begin(), now.end());
-  std::vector<Difference> found;
-  for (const auto& [key, value] : now) {
-    const auto other = before.find(key);
-    if (other == before.end() || other->second != value)
-      found.push_back({key, value, other == before.end() ? "nothing" : other->second});
-  }
-  for (const auto& [key, value] : swept)
-    if (!after.contains(key)) found.push_back({key, "nothing", value});
-  return found;
-}
-
 // "fragility.bins.count" -> "fragility.bins"
 std::string second_level(const std::string& key) {
   const std::size_t end = key.find_first_of(".[", key.find('.') + 1);
@@ -75,13 +57,26 @@ int line_of_key(const YAML::Node& root, const std::string& dotted) {
 
 }  // namespace
 
+std::vector<Difference> differences(const Study& now, const Study& before) {
+  const Scalars mine = scalars_of(now), theirs = scalars_of(before);
+  const std::map<std::string, std::string> old(theirs.begin(), theirs.end()), fresh(mine.begin(), mine.end());
+  std::vector<Difference> found;
+  for (const auto& [key, value] : mine) {
+    const auto other = old.find(key);
+    if (key != "name" && (other == old.end() || other->second != value))
+      found.push_back({key, value, other == old.end() ? "nothing" : other->second});
+  }
+  for (const auto& [key, value] : theirs)
+    if (!fresh.contains(key)) found.push_back({key, "nothing", value});
+  return found;
+}
+
 EditedStudy edited_study(const std::string& swept, const std::string& text, const std::filesystem::path& file) {
   const Study before = parse_stored(swept, file);
   EditedStudy edited{parse_stored(text, file), {}};
   Problems problems(file.string());
-  for (const auto& [key, now, then] : differences(scalars_of(edited.study), scalars_of(before))) {
+  for (const auto& [key, now, then] : differences(edited.study, before)) {
     const bool of_fragility = key.starts_with("fragility."), of_intensity = key.starts_with("fragility.im");
-    if (key == "name") continue;
     if (of_fragility && !of_intensity) {
       edited.changed.push_back(second_level(key));
       continue;

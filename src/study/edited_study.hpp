@@ -9,6 +9,15 @@
 
 namespace freestand::study {
 
+// A number or word that two studies do not share: its dotted key, "friction.mu_k"; "nothing" where one has no such key.
+struct Difference {
+  std::string key, now, before;
+};
+
+// What determines the numbers of two studies and differs, in the order of `now`; what that lacks comes last. The name is
+// none of it.
+std::vector<Difference> differences(const Study& now, const Study& before);
+
 struct EditedStudy {
   Study study;
   std::vector<std::string> changed;  // keys of the fragility block that the file gives otherwise than the sweep did

@@ -6,6 +6,7 @@
 
 #include "base/random.hpp"
 #include "study/paths.hpp"
+#include "study/read_parts.hpp"
 #include "study/study.hpp"
 
 namespace freestand::study {
@@ -187,12 +188,17 @@ std::string all_but_name(const Study& study) {
     text += fmt::format("samples: {}\n", study.samples);
   text += fmt::format("design: {}\nblock_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", name(study.design),
                       study.block_size, number_text(study.tolerance), number_text(study.free_vibration_s));
-  text += model_text(study.model) + chain_text(study.model.chain) + "motions:\n";
-  for (const auto& source : study.motions) text += source_text(source);
-  return text + fragility_text(study.fragility);
+  return text + model_text(study.model) + chain_text(study.model.chain) + motions_text(study.motions) +
+         fragility_text(study.fragility);
 }
 
 }  // namespace
+
+std::string motions_text(const std::vector<MotionSource>& motions) {
+  std::string text = "motions:\n";
+  for (const auto& source : motions) text += source_text(source);
+  return text;
+}
 
 std::string expanded(const Study& study) { return "name: " + text_value(study.name) + "\n" + all_but_name(study); }
 

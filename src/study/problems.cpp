@@ -6,7 +6,15 @@
 
 namespace freestand::study {
 
-void Problems::add(int line, std::string text) { entries_.push_back({line, std::move(text)}); }
+void Problems::add(int line, std::string text) {
+  const bool told = std::any_of(entries_.begin(), entries_.end(),
+                                [&](const Entry& entry) { return entry.line == line && entry.text == text; });
+  if (!told) entries_.push_back({line, std::move(text)});
+}
+
+void Problems::add(const Problems& more) {
+  for (const auto& [line, text] : more.entries_) add(line, text);
+}
 
 std::string Problems::text() const {
   std::vector<Entry> sorted = entries_;

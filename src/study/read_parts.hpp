@@ -30,6 +30,13 @@ std::vector<AxisChoice> axis_choices(const ModelPart&, const std::vector<MotionS
 // `fragility`, defaults where it is absent. No choices: axes are not checked.
 FragilityPart read_fragility(Section& file, const Known&, const std::vector<AxisChoice>&);
 
+// The study that a mapping says. Throws Error (Exit::usage) with all problems. `path`: names it in messages, and its folder
+// is where relative paths start.
+Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known&, Files, Problems&);
+
+// Text of `motions`, as expanded() writes it.
+std::string motions_text(const std::vector<MotionSource>&);
+
 // Everything in a file; throws Error where it cannot be read.
 std::string read_text(const std::filesystem::path& file);
 

@@ -127,26 +127,30 @@ std::optional<YAML::Node> parse_yaml(const std::string& text, Problems& problems
   return {};
 }
 
-Study parse_study(const std::string& text, const std::filesystem::path& path, const Known& known, Files look) {
-  Problems problems(path.string());
+Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known& known, Files look,
+                 Problems& problems) {
   Study study;
-  if (const auto root = parse_yaml(text, problems)) {
-    sweep_model(*root, problems);
-    Section file(*root, "", 1, problems);
-    problems.throw_if_any();
-    refuse_other_kind(file, "motions", "motion",
-                      "this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it",
-                      problems);
-    read_common(file, path, study, look);
-    read_design(file, study);
-    study.motions = read_motions(file, study.folder, look);
-    // What the study draws is known only when its parts are sound.
-    const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
-    study.fragility = read_fragility(file, known, choices);
-    file.finish();
-  }
+  sweep_model(root, problems);
+  Section file(root, "", 1, problems);
+  problems.throw_if_any();
+  refuse_other_kind(file, "motions", "motion",
+                    "this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it", problems);
+  read_common(file, path, study, look);
+  read_design(file, study);
+  study.motions = read_motions(file, study.folder, look);
+  // What the study draws is known only when its parts are sound.
+  const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
+  study.fragility = read_fragility(file, known, choices);
+  file.finish();
   problems.throw_if_any();
   return study;
+}
+
+Study parse_study(const std::string& text, const std::filesystem::path& path, const Known& known, Files look) {
+  Problems problems(path.string());
+  const auto root = parse_yaml(text, problems);
+  problems.throw_if_any();
+  return read_sweep(*root, path, known, look, problems);
 }
 
 Case parse_case(const std::string& text, const std::filesystem::path& path) {

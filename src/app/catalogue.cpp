@@ -1,0 +1,68 @@
+#include "study/catalogue.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+#include "app/times.hpp"
+#include "io/database_file.hpp"
+#include "parallel/progress.hpp"
+#include "study/build_catalogue.hpp"
+#include "study/known.hpp"
+
+namespace freestand::app {
+namespace {
+
+struct Options {
+  std::string catalogue, folder;
+  bool check = false, redo = false, resume = false, quiet = false;
+};
+
+std::string counted(std::int64_t n, const char* what) { return n ? fmt::format(", {} {}", n, what) : ""; }
+
+// What a catalogue is, without computing any of it.
+void show(const study::Catalogue& catalogue) {
+  fmt::print("{}, revision {}: {} entries\n", catalogue.name, catalogue.revision, catalogue.entries.size());
+  for (const auto& [words, study, place] : catalogue.entries)
+    fmt::print("{:<32} {:<28} mu {:<6.4g} {:.4g} x {:.4g} m  {} samples  ({})\n", words.id, words.equipment, words.mu_k,
+               words.width_m, words.height_m, study.samples, place);
+}
+
+Exit build(const Context& context, const Options& options) {
+  const study::Known known = study::registries();
+  context.world.on_root([&] { study::read_catalogue(options.catalogue, known); });
+  const study::Catalogue catalogue = study::read_catalogue(options.catalogue, known);
+  if (options.check) {
+    if (context.world.is_root()) show(catalogue);
+    return Exit::done;
+  }
+  if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DB");
+  const auto summary = study::build_catalogue(context.world, catalogue, options.folder,
+                                              {options.redo, options.quiet, context.command_line});
+  if (context.world.is_root() && !options.quiet)
+    parallel::tell(fmt::format("{} entries: {} computed{}{}{} in {} on {} {}; ask with `freestand query {}`\n",
+                               catalogue.entries.size(), summary.computed, counted(summary.refitted, "fitted again"),
+                               counted(summary.kept, "kept"), counted(summary.others, "more in the database"),
+                               short_duration(summary.wall_s), context.world.size(),
+                               context.world.size() == 1 ? "rank" : "ranks", options.folder),
+                   stdout);
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_catalogue(CLI::App& parser, Work& work) {
+  auto options = std::make_shared<Options>();
+  CLI::App* verb =
+      parser.add_subcommand("catalogue", "many entries of equipment into one database, which is gone on with");
+  verb->add_option("catalogue", options->catalogue, "catalogue file")->required();
+  verb->add_option("-o,--output", options->folder, "folder of the database, new or to be extended");
+  verb->add_flag("--check", options->check, "check the catalogue, list its entries, and stop");
+  verb->add_flag("--redo", options->redo, "compute entries anew whose study is another now");
+  verb->add_flag("--resume", options->resume, "go on where a run was stopped; this is done without it too");
+  verb->add_flag("--quiet", options->quiet, "no progress");
+  verb->callback([options, &work] { work = [options](const Context& context) { return build(context, *options); }; });
+}
+
+}  // namespace freestand::app

@@ -1,0 +1,29 @@
+// Probabilities between those that are known.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "database/database.hpp"
+
+namespace freestand::database {
+
+// A probability with its band. resolution: a share smaller than this (or nearer to 1) is not told from none (or all).
+struct Probability {
+  double value = unknown, lower = unknown, upper = unknown;
+  double resolution = 1e-3;
+};
+
+// Between known ones with these weights, which sum to 1 and may be negative outside of them. The mean is taken of
+// Phi^-1(P), each P first drawn in to the resolution: lognormal curves of one dispersion come out exactly, and the ends of a
+// band stay in order. Where all are within the resolution of 0, or of 1, the mean is of P itself.
+Probability blend(std::span<const Probability> known, std::span<const double> weights);
+
+// The curve at an intensity > 0: straight in Phi^-1(P) over ln IM between its points; outside of them on with the slope of
+// its lognormal, or of the last two points where it has none. NaN where it has no point that is known.
+Probability at(const Curve&, double im);
+
+// Is the intensity outside of what was swept?
+bool outside(const Curve&, double im);
+
+}  // namespace freestand::database

@@ -1,0 +1,204 @@
+#include "database/query.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+#include <map>
+#include <set>
+
+#include "base/key_names.hpp"
+#include "base/shown_text.hpp"
+#include "database/grid.hpp"
+
+namespace freestand::database {
+namespace {
+
+std::string names_of(const std::vector<Word>& words) {
+  std::vector<std::string> names;
+  for (const Word& word : words) names.push_back(word.name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+// "mu 0.2 (did you mean ...)": an unknown word, with the choices.
+Error not_there(const std::string& what, const std::string& word, const std::vector<std::string>& choices) {
+  const std::string near = nearest(word, choices);
+  constexpr std::size_t most = 24;
+  const std::vector<std::string> some(choices.begin(),
+                                      choices.begin() + static_cast<std::ptrdiff_t>(std::min(most, choices.size())));
+  return Error(fmt::format("{} \"{}\" is not in the database ({}): choose one of {}{}", what, shown(word),
+                           near.empty() ? "nothing like it is there" : "did you mean " + near + "?",
+                           fmt::join(some, ", "), choices.size() > most ? " ..." : ""));
+}
+
+const Word& find_word(const std::vector<Word>& words, const std::string& what, const std::string& name) {
+  for (const Word& word : words)
+    if (word.name == name) return word;
+  std::vector<std::string> names;
+  for (const Word& word : words) names.push_back(word.name);
+  if (name.empty()) throw Error(fmt::format("no {} is given (which one?): choose one of {}", what, names_of(words)));
+  throw not_there(what, name, names);
+}
+
+using TextOf = std::string Entry::*;
+
+void keep(std::vector<std::size_t>& positions, const Database& db, const std::string& what,
+          const std::optional<std::string>& wanted, TextOf text) {
+  if (!wanted) return;
+  std::vector<std::string> choices;
+  std::vector<std::size_t> kept;
+  for (const std::size_t i : positions) {
+    const std::string& word = db.entries[i].*text;
+    if (std::find(choices.begin(), choices.end(), word) == choices.end()) choices.push_back(word);
+    if (word == *wanted) kept.push_back(i);
+  }
+  if (kept.empty()) throw not_there(what, *wanted, choices);
+  positions = std::move(kept);
+}
+
+// Capacities that an entry has of a demand at an intensity measure: position in Database::curves by capacity.
+std::map<double, std::size_t> curves_of(const Database& db, std::size_t entry, const Question& question) {
+  std::map<double, std::size_t> found;
+  for (std::size_t i = 0; i < db.curves.size(); ++i) {
+    const Curve& curve = db.curves[i];
+    if (curve.entry == entry && curve.im == question.im && curve.demand == question.demand) found[curve.capacity] = i;
+  }
+  if (found.empty())
+    throw Error(
+        fmt::format("entry {} has no {} over {} (it was built without it): choose another, or add it to the "
+                    "catalogue and build again",
+                    db.entries[entry].id, question.demand, question.im));
+  return found;
+}
+
+// One entry at the capacity asked for: the curve itself, or its two neighbours in capacity.
+struct Between {
+  std::vector<const Curve*> curves;
+  std::vector<double> weights;
+};
+
+Between capacity_of(const Database& db, std::size_t entry, const Question& question, bool binary) {
+  const auto found = curves_of(db, entry, question);
+  const auto curve = [&](auto position) { return &db.curves[position->second]; };
+  if (binary) return {{curve(found.begin())}, {1}};
+  const double wanted = question.capacity;
+  const auto same = std::find_if(found.begin(), found.end(),
+                                 [&](const auto& c) { return std::abs(c.first / wanted - 1) < same_number; });
+  if (same != found.end()) return {{curve(same)}, {1}};
+  const auto next = found.upper_bound(wanted);
+  if (next == found.begin() || next == found.end())
+    throw Error(
+        fmt::format("capacity {} of {} is outside of what {} has ({} to {}): ask within, or add it to the "
+                    "catalogue and build again",
+                    wanted, question.demand, db.entries[entry].id, found.begin()->first, found.rbegin()->first));
+  const auto before = std::prev(next);
+  const double t = std::log(wanted / before->first) / std::log(next->first / before->first);
+  return {{curve(before), curve(next)}, {1 - t, t}};
+}
+
+Probability at(const Between& between, double im) {
+  std::vector<Probability> known;
+  for (const Curve* curve : between.curves) known.push_back(at(*curve, im));
+  if (known.size() == 1) return known.front();
+  return blend(known, between.weights);
+}
+
+// Intensities of the answer: the one asked for, or those of all its curves that lie within what each of them was swept over.
+std::vector<double> intensities(const Question& question, const std::vector<Between>& parts) {
+  if (std::isfinite(question.im_value)) return {question.im_value};
+  double least = 0, most = std::numeric_limits<double>::infinity();
+  std::set<double> all;
+  for (const Between& part : parts)
+    for (const Curve* curve : part.curves) {
+      least = std::max(least, curve->im_least);
+      most = std::min(most, curve->im_most);
+      for (const Point& point : curve->points)
+        if (std::isfinite(point.probability) && point.im > 0) all.insert(point.im);
+    }
+  std::vector<double> inside;
+  for (const double im : all)
+    if (im >= least && im <= most) inside.push_back(im);
+  return inside;
+}
+
+// Refuses an intensity that is far outside, and says so of one that is outside.
+void check_intensity(const Database& db, const Question& question, const std::vector<Between>& parts,
+                     std::vector<std::string>& notes) {
+  const double im = question.im_value;
+  if (!std::isfinite(im)) return;
+  const std::string unit = find_word(db.intensities, "intensity", question.im).unit;
+  for (const Between& part : parts)
+    for (const Curve* curve : part.curves) {
+      if (!outside(*curve, im)) continue;
+      const std::string swept =
+          fmt::format("{} was swept over {} from {:.3g} to {:.3g}{}", db.entries[curve->entry].id, question.im,
+                      curve->im_least, curve->im_most, unit == "1" ? "" : " " + unit);
+      if (im * intensity_reach < curve->im_least || im > intensity_reach * curve->im_most)
+        throw Error(
+            fmt::format("{} = {} is too far outside ({}): ask up to a factor of {} beyond that, or sweep further",
+                        question.im, im, swept, intensity_reach));
+      const std::string note = fmt::format("extrapolated: {} = {} is outside ({})", question.im, im, swept);
+      if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+    }
+}
+
+Answer answer(const Database& db, const Question& question, bool binary, GridPoint point) {
+  Answer answer{.parts = {}, .im = {}, .probability = {}, .notes = std::move(point.notes)};
+  std::vector<Between> parts;
+  std::vector<double> weights;
+  for (const Part& part : point.parts) {
+    parts.push_back(capacity_of(db, part.entry, question, binary));
+    weights.push_back(part.weight);
+  }
+  check_intensity(db, question, parts, answer.notes);
+  answer.im = intensities(question, parts);
+  for (const double im : answer.im) {
+    std::vector<Probability> known;
+    for (const Between& part : parts) known.push_back(at(part, im));
+    answer.probability.push_back(known.size() == 1 ? known.front() : blend(known, weights));
+    Probability& p = answer.probability.back();
+    p.lower = std::min(p.lower, p.value);
+    p.upper = std::max(p.upper, p.value);
+  }
+  answer.parts = std::move(point.parts);
+  if (parts.size() == 1 && parts[0].curves.size() == 1 && parts[0].curves[0]->family == lognormal_family) {
+    answer.median = parts[0].curves[0]->median;
+    answer.dispersion = parts[0].curves[0]->dispersion;
+  }
+  return answer;
+}
+
+}  // namespace
+
+std::vector<std::size_t> picked(const Database& db, const Question& question) {
+  std::vector<std::size_t> positions(db.entries.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = i;
+  keep(positions, db, "class", question.equipment, &Entry::equipment);
+  keep(positions, db, "id", question.id, &Entry::id);
+  keep(positions, db, "floor", question.floor, &Entry::floor);
+  keep(positions, db, "friction", question.friction, &Entry::friction);
+  return positions;
+}
+
+std::vector<Answer> ask(const Database& db, const Question& question) {
+  find_word(db.intensities, "intensity", question.im);
+  const Word& demand = find_word(db.demands, "demand", question.demand);
+  if (!std::isnan(question.im_value) && !(question.im_value > 0 && std::isfinite(question.im_value)))
+    throw Error(
+        fmt::format("{} = {} is no intensity (it must be above zero): correct it", question.im, question.im_value));
+  if (demand.binary && !std::isnan(question.capacity))
+    throw Error(fmt::format("{} takes no capacity (it happens or not): leave --capacity out", demand.name));
+  if (!demand.binary && !(question.capacity > 0))
+    throw Error(
+        fmt::format("no capacity of {} is given (its probability is that of going beyond one): add --capacity, "
+                    "above zero",
+                    demand.name));
+  std::vector<Answer> answers;
+  for (GridPoint& point : grid_points(db, picked(db, question), question.wanted))
+    answers.push_back(answer(db, question, demand.binary, std::move(point)));
+  return answers;
+}
+
+}  // namespace freestand::database

@@ -1,0 +1,67 @@
+#include "study/catalogue_rows.hpp"
+
+#include <cmath>
+
+#include "edp/edp.hpp"
+#include "intensity/intensity.hpp"
+
+namespace freestand::study {
+namespace {
+
+using database::Curve;
+using database::Word;
+using fragility::EdpResult;
+using fragility::Result;
+
+std::vector<database::Point> points_of(const Result& result, const EdpResult& edp, std::size_t capacity) {
+  std::vector<database::Point> points;
+  for (std::size_t i = 0; i < edp.bins.size(); ++i) {
+    const std::size_t at = i * edp.capacity.size() + capacity;
+    if (!std::isfinite(edp.surface.probability[at])) continue;  // too few samples
+    points.push_back(
+        {result.im[i], edp.surface.probability[at], edp.surface.lower[at], edp.surface.upper[at], edp.bins[i].n});
+  }
+  return points;
+}
+
+template <class Find>
+std::vector<Word> words_of(const std::vector<Curve>& curves, std::string Curve::*member, Find find) {
+  std::vector<Word> words;
+  for (const Curve& curve : curves) {
+    const bool there = std::any_of(words.begin(), words.end(), [&](const Word& w) { return w.name == curve.*member; });
+    if (!there) words.push_back(find(curve.*member));
+  }
+  return words;
+}
+
+}  // namespace
+
+std::vector<Curve> curves_of(const Result& result, std::size_t entry) {
+  std::vector<Curve> curves;
+  for (const EdpResult& edp : result.edps)
+    for (std::size_t k = 0; k < edp.capacity.size(); ++k) {
+      Curve curve{.entry = entry, .im = result.im_name, .demand = edp.name, .capacity = edp.capacity[k]};
+      curve.im_least = result.im_edge.front();
+      curve.im_most = result.im_edge.back();
+      for (const fragility::BinFit& bin : edp.bins) curve.n += bin.n;
+      curve.points = points_of(result, edp, k);
+      curves.push_back(std::move(curve));
+    }
+  return curves;
+}
+
+std::vector<Word> demand_words(const std::vector<Curve>& curves) {
+  return words_of(curves, &Curve::demand, [](const std::string& name) {
+    const edp::Edp& edp = edp::find(name);
+    return Word{edp.name, edp.unit, edp.symbol, edp.summary, edp.binary};
+  });
+}
+
+std::vector<Word> intensity_words(const std::vector<Curve>& curves) {
+  return words_of(curves, &Curve::im, [](const std::string& name) {
+    const intensity::Measure& measure = intensity::find(name);
+    return Word{measure.name, measure.unit, measure.symbol, measure.summary, false};
+  });
+}
+
+}  // namespace freestand::study

@@ -1,0 +1,18 @@
+// From what was found for one entry to the rows of a database.
+#pragma once
+
+#include <vector>
+
+#include "database/database.hpp"
+#include "fragility/result.hpp"
+
+namespace freestand::study {
+
+// Every demand at every capacity. entry: position in the database.
+std::vector<database::Curve> curves_of(const fragility::Result&, std::size_t entry);
+
+// The words of these demands and intensities, each once, out of the registries.
+std::vector<database::Word> demand_words(const std::vector<database::Curve>&);
+std::vector<database::Word> intensity_words(const std::vector<database::Curve>&);
+
+}  // namespace freestand::study
