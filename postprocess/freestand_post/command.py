@@ -23,9 +23,14 @@ def _arguments(what, argv):
 def read(folders, history=None):
     """What there is to draw: one Validation where a folder holds a comparison or a diagnosis, else Sweep and History values."""
     from . import reading
+    from .database import is_database, read_database
     from .reading_validation import COMPARISON, DIAGNOSIS, read_comparison, read_diagnosis
     from .validation import Validation
     folders = [reading.existing_folder(folder) for folder in folders]
+    if any(is_database(folder) for folder in folders):
+        if len(folders) > 1 or history is not None:
+            raise Problem("a database stands on a page of its own (it holds many sweeps already): give its folder alone", USAGE)
+        return [read_database(folders[0])]
     held, found = Validation(), []
     for folder in folders:
         compared, diagnosed = (folder / COMPARISON).exists(), (folder / DIAGNOSIS).exists()
@@ -57,6 +62,9 @@ def _one_data_set(held):
 
 def _figures(arguments):
     from . import pictures, style
+    from .database import is_database
+    if any(is_database(folder) for folder in arguments.folders):
+        raise Problem("a database has no pictures as files (its page draws what is chosen): use postprocess/report", USAGE)
     results = read(arguments.folders, arguments.history)
     target = arguments.output or arguments.folders[-1] / "figures"
     target.mkdir(parents=True, exist_ok=True)
@@ -72,10 +80,11 @@ def _figures(arguments):
 
 
 def _report(arguments):
-    from . import report
+    from . import database, report
     results = read(arguments.folders, arguments.history)
     target = arguments.output or arguments.folders[-1] / "report.html"
-    target.write_text(report.page(results), encoding="utf-8")
+    made = database.page(results[0]) if isinstance(results[0], database.Database) else report.page(results)
+    target.write_text(made, encoding="utf-8")
     print(target.resolve())
 
 

@@ -55,25 +55,27 @@ struct Point {
 // P(demand > capacity | intensity) of one entry: counted or fitted bin by bin, and one lognormal over all of them.
 struct Curve {
   std::size_t entry = 0;  // position in Database::entries
-  std::string im, demand;
+  std::string im = {}, demand = {};
   double capacity = unknown;                     // of a binary demand 0.5
   std::int64_t n = 0;                            // samples
   double im_least = unknown, im_most = unknown;  // what was swept
   std::string family = points_family;
   double median = unknown, dispersion = unknown, median_se = unknown, dispersion_se = unknown;
+  std::int64_t extrapolated = 0;  // 1: its median lies outside of what was swept
   double misfit = unknown, misfit_im = unknown,
-         misfit_p = unknown;  // largest |lognormal - counted|, where, its p value
-  std::vector<Point> points;  // in the order of im
+         misfit_p = unknown;       // largest |lognormal - counted|, where, its p value
+  double off_by = unknown;         // the true shares are off the lognormal by no more
+  std::vector<Point> points = {};  // in the order of im
 };
 
 struct Database {
-  std::string name;
-  std::string revision;  // as its file says
+  std::string name = {};
+  std::string revision = {};  // as its file says
   double confidence = 0.95;
-  std::vector<Word> intensities, demands;  // the words of the tables: no other stands there
-  std::vector<std::string> classes;
-  std::vector<Entry> entries;
-  std::vector<Curve> curves;
+  std::vector<Word> intensities = {}, demands = {};  // the words of the tables: no other stands there
+  std::vector<std::string> classes = {};
+  std::vector<Entry> entries = {};
+  std::vector<Curve> curves = {};
 };
 
 }  // namespace freestand::database

@@ -56,9 +56,11 @@ constexpr DatabaseColumn<Curve> curves[] = {
   {"dispersion", "1", "standard deviation of ln IM", &Curve::dispersion},
   {"median_se", "1", "standard error of the median, from resampled motions", &Curve::median_se},
   {"dispersion_se", "1", "standard error of the dispersion, from resampled motions", &Curve::dispersion_se},
+  {"extrapolated", "1", "1: the median lies outside of what was swept", &Curve::extrapolated},
   {"misfit", "1", "largest difference between the lognormal and the counted shares", &Curve::misfit},
   {"misfit_im", "1", "intensity where it is", &Curve::misfit_im},
   {"misfit_p", "1", "chance of a larger one if the lognormal were true", &Curve::misfit_p},
+  {"off_by", "1", "the true shares are off the lognormal by no more", &Curve::off_by},
 };
 
 constexpr DatabaseColumn<Point> points[] = {

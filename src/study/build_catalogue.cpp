@@ -176,13 +176,7 @@ database::Entry renewed(const database::Entry& before, const database::Entry& wo
 
 // Entries of the catalogue in its order, behind those that it does not name.
 Database assemble(const Catalogue& catalogue, const Plan& plan, const Database& before, const fs::path& folder) {
-  Database db{.name = catalogue.name,
-              .revision = catalogue.revision,
-              .intensities = {},
-              .demands = {},
-              .classes = {},
-              .entries = {},
-              .curves = {}};
+  Database db{.name = catalogue.name, .revision = catalogue.revision};
   db.confidence = before.confidence;
   std::map<std::string, std::size_t> old;
   for (std::size_t i = 0; i < before.entries.size(); ++i) old[before.entries[i].id] = i;

@@ -1,5 +1,6 @@
 #include "study/catalogue_rows.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "edp/edp.hpp"
@@ -24,6 +25,21 @@ std::vector<database::Point> points_of(const Result& result, const EdpResult& ed
   return points;
 }
 
+void take_function(const fragility::FragilityFunction& function, Curve& curve) {
+  curve.im_least = function.im_least;
+  curve.im_most = function.im_most;
+  curve.median = function.median;
+  curve.dispersion = function.dispersion;
+  curve.median_se = function.median_se;
+  curve.dispersion_se = function.dispersion_se;
+  curve.extrapolated = function.extrapolated;
+  curve.misfit = function.misfit;
+  curve.misfit_im = function.misfit_im;
+  curve.misfit_p = function.misfit_p;
+  curve.off_by = function.off_by;
+  if (function.adequate && std::isfinite(function.median)) curve.family = database::lognormal_family;
+}
+
 template <class Find>
 std::vector<Word> words_of(const std::vector<Curve>& curves, std::string Curve::*member, Find find) {
   std::vector<Word> words;
@@ -41,8 +57,7 @@ std::vector<Curve> curves_of(const Result& result, std::size_t entry) {
   for (const EdpResult& edp : result.edps)
     for (std::size_t k = 0; k < edp.capacity.size(); ++k) {
       Curve curve{.entry = entry, .im = result.im_name, .demand = edp.name, .capacity = edp.capacity[k]};
-      curve.im_least = result.im_edge.front();
-      curve.im_most = result.im_edge.back();
+      take_function(edp.functions.at(k), curve);
       for (const fragility::BinFit& bin : edp.bins) curve.n += bin.n;
       curve.points = points_of(result, edp, k);
       curves.push_back(std::move(curve));

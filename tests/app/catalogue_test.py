@@ -1,0 +1,201 @@
+"""Catalogue and query: two entries from a file to an answer, and what becomes of them when the file grows or changes."""
+
+import csv
+import json
+import signal
+import subprocess
+import time
+import unittest
+
+from support import CONFIGS, InFolder, command, datasets, h5py
+
+HEAD = """\
+format: freestand-catalogue/1
+name: two boxes
+samples: 600
+block_size: 64
+motions: [{pulse: [A, B], period_s: {uniform: [0.3, 1.5]}, peak_acceleration_g: {log_uniform: [0.1, 2]}}]
+fragility: {im: pga_g, bins: {count: 4}, edp: [peak_slip_m, overturned], capacities: {peak_slip_m: [0.05, 0.2]}, resamples: 20}
+entries:
+"""
+FRIDGE = "  - {id: fridge, class: refrigerator, block: {width_m: 0.7, height_m: 1.8}, friction: {mu: 0.2}, source: assumed}\n"
+GRIPPY = "  - {id: grippy, class: refrigerator, block: {width_m: 0.7, height_m: 1.8}, friction: {mu: 0.4}, source: 'a book, a shelf'}\n"
+RACK = "  - {id: rack, class: server rack, block: {width_m: 0.6, height_m: 2}, friction: {mu: 0.3}}\n"
+FIXED = {"created_utc", "git_commit", "program"}  # of the run, not of its numbers
+
+
+class Catalogue(InFolder):
+    def build(self, entries, name="db", ranks=1, *more):
+        return self.succeed(["catalogue", self.write("some.yaml", HEAD + entries), "-o", self.folder / name, *more], ranks)
+
+    def tables(self, name="db"):
+        """Everything in the database but when and by whom."""
+        return {key: value for key, value in datasets(self.folder / name / "database.h5").items() if key.split("/")[-1] not in FIXED}
+
+    def rows(self, file, name="db"):
+        with open(self.folder / name / file, newline="", encoding="utf-8") as stream:
+            return list(csv.DictReader(stream))
+
+    def ask(self, *arguments):
+        done = self.succeed(["query", self.folder / "db", *arguments, "--json"])
+        return json.loads(done.stdout)
+
+    def test_it_grows_entry_by_entry_to_the_same_bits(self):
+        said = self.build(FRIDGE).stdout
+        self.assertIn("1 entries: 1 computed in", said)
+        samples = self.folder / "db" / "entries" / "fridge" / "samples.h5"
+        before = (samples.stat().st_mtime_ns, (self.folder / "db" / "entries.csv").read_text().splitlines()[1])
+        said = self.build(FRIDGE + GRIPPY + RACK, "db", 2).stdout
+        self.assertIn("3 entries: 2 computed, 1 kept", said)
+        self.assertEqual((samples.stat().st_mtime_ns, (self.folder / "db" / "entries.csv").read_text().splitlines()[1]), before)
+        self.build(FRIDGE + GRIPPY + RACK, "at_once")
+        self.assertEqual(self.tables(), self.tables("at_once"))
+        # Entries that another file names are kept.
+        self.assertIn("1 entries: 0 computed, 1 kept, 2 more in the database", self.build(RACK).stdout)
+        self.assertEqual(sorted(row["id"] for row in self.rows("entries.csv")), ["fridge", "grippy", "rack"])
+
+    def test_an_entry_is_what_run_makes_of_its_study(self):
+        self.build(FRIDGE)
+        alone = self.folder / "alone"
+        study = HEAD.replace("format: freestand-catalogue/1\n", "").replace("entries:\n", "") + "block: {width_m: 0.7, height_m: 1.8}\nfriction: {mu: 0.2}\n"
+        self.succeed(["run", self.write("alone.yaml", study), "-o", alone])
+        with h5py.File(alone / "fragility.h5") as file, h5py.File(self.folder / "db" / "database.h5") as db:
+            surface, centre = file["edp/peak_slip_m/surface"], file["im/centre"][()]
+            mine = [i for i, demand in enumerate(db["curves/demand"].asstr()[()]) if demand == "peak_slip_m"]
+            for k, curve in enumerate(mine):
+                points = db["points/curve"][()] == curve
+                self.assertEqual(list(db["points/im"][points]), list(centre))
+                for name in ("probability", "lower", "upper"):
+                    self.assertEqual(list(db[f"points/{name}"][points]), list(surface[name][:, k]))
+            functions = file["edp/peak_slip_m/functions"]
+            self.assertEqual(list(db["curves/median"][mine]), list(functions["median"][()]))
+            self.assertEqual(list(db["curves/dispersion_se"][mine]), list(functions["dispersion_se"][()]))
+
+    def test_numbers_and_words_say_cell_by_cell_what_the_database_says(self):
+        self.build(FRIDGE + GRIPPY)
+        words = json.loads((self.folder / "db" / "words.json").read_text())
+        with h5py.File(self.folder / "db" / "database.h5") as db:
+            ids = list(db["entries/id"].asstr()[()])
+            self.assertEqual(sorted(words["entries"]), sorted(ids))
+            self.assertEqual(words["classes"], list(db["classes"].asstr()[()]))
+            columns = set()
+            for table, file, key in (("entries", "entries.csv", lambda i: ids[i]), ("curves", "fragility.csv", lambda i: ids[db["curves/entry"][i]]),
+                                     ("points", "points.csv", lambda i: ids[db["curves/entry"][db["points/curve"][i]]])):
+                rows = self.rows(file)
+                self.assertEqual(len(rows), len(db[table][next(iter(db[table]))]))
+                for i, row in enumerate(rows):
+                    self.assertEqual(row.pop("id"), key(i))
+                    for name, cell in row.items():
+                        if name not in db[table]:
+                            self.assertIn(name, ("intensity", "demand", "capacity"))  # of the curve of a point
+                            continue
+                        columns.add(f"{table}/{name}")
+                        value = db[table][name][i]
+                        if isinstance(value, bytes):
+                            self.assertEqual(cell, value.decode())
+                        elif value != value:
+                            self.assertEqual(cell, "")
+                        else:
+                            self.assertEqual(float(cell), value)
+            for i, name in enumerate(ids):
+                for column, text in words["entries"][name].items():
+                    columns.add(f"entries/{column}")
+                    self.assertEqual(text, db["entries"][column].asstr()[i])
+            everything = {f"{table}/{name}" for table in ("entries", "curves", "points") for name in db[table]}
+            self.assertEqual(everything - columns, {"entries/id", "curves/entry", "points/curve"})
+            # Words are a closed list.
+            self.assertLessEqual(set(db["curves/demand"].asstr()[()]), set(words["demands"]))
+            self.assertLessEqual(set(db["curves/intensity"].asstr()[()]), set(words["intensities"]))
+            self.assertLessEqual(set(db["curves/family"].asstr()[()]), set(words["families"]))
+            self.assertLessEqual({name.split("/")[1] for name in everything} - {"entry", "curve"}, set(words["columns"]))
+
+    def test_a_changed_entry_is_refused_or_computed_anew(self):
+        self.build(FRIDGE + RACK)
+        kept = self.tables()
+        changed = FRIDGE.replace("mu: 0.2", "mu: 0.25")
+        arguments = ["catalogue", self.write("some.yaml", HEAD + changed + RACK), "-o", self.folder / "db"]
+        self.fail_with(2, arguments, "some.yaml:8: entry fridge", "friction.mu was 0.2, is 0.25", "--redo")
+        self.assertEqual(self.tables(), kept)
+        self.assertIn("2 entries: 1 computed, 1 kept", self.succeed(arguments + ["--redo"]).stdout)
+        versions = {row["id"]: row["version"] for row in self.rows("entries.csv")}
+        self.assertEqual(versions, {"fridge": "2", "rack": "1"})
+        self.build(changed + RACK, "fresh")
+        self.assertEqual({k: v for k, v in self.tables().items() if k != "entries/version"}, {k: v for k, v in self.tables("fresh").items() if k != "entries/version"})
+
+    def test_other_capacities_need_no_new_samples(self):
+        self.build(FRIDGE)
+        samples = self.folder / "db" / "entries" / "fridge" / "samples.h5"
+        before = samples.stat().st_mtime_ns
+        text = (HEAD + FRIDGE).replace("[0.05, 0.2]", "[0.05, 0.1, 0.2]")
+        self.assertIn("0 computed, 1 fitted again", self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"]).stdout)
+        self.assertEqual(samples.stat().st_mtime_ns, before)
+        self.assertEqual(sorted({row["capacity"] for row in self.rows("fragility.csv") if row["demand"] == "peak_slip_m"}), ["0.05", "0.1", "0.2"])
+
+    def test_a_run_that_was_killed_goes_on_to_the_same_bits(self):
+        self.build(FRIDGE + GRIPPY + RACK, "whole")
+        path = self.write("some.yaml", HEAD + FRIDGE + GRIPPY + RACK)
+        going = subprocess.Popen(command(["catalogue", path, "-o", self.folder / "db"]), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        until = time.monotonic() + 60
+        while going.poll() is None and time.monotonic() < until and not (self.folder / "db" / "entries" / "grippy").exists():
+            time.sleep(0.002)
+        going.send_signal(signal.SIGKILL)
+        going.wait()
+        self.assertFalse((self.folder / "db" / "database.h5").exists() and going.returncode != 0)
+        self.build(FRIDGE + GRIPPY + RACK)
+        self.assertEqual(self.tables(), self.tables("whole"))
+
+    def test_questions(self):
+        self.build(FRIDGE + GRIPPY + RACK)
+        database = self.folder / "db"
+        said = self.succeed(["query", database]).stdout
+        for words in ("two boxes, revision 1: 3 entries", "refrigerator", "server rack", "0.2 to 0.4", "pga_g (0.1", "peak_slip_m > 0.05, 0.2 m; overturned", "freestand query"):
+            self.assertIn(words, said)
+        example = said[said.index("freestand query"):].strip().replace("'", "")
+        self.assertIn("--class refrigerator --im pga_g=", example)
+        asked = ["--class", "refrigerator", "--im", "pga_g=0.6", "--demand", "peak_slip_m", "--capacity", "0.05"]
+        said = self.succeed(["query", database, *asked]).stdout
+        self.assertRegex(said, r"P\(peak_slip_m > 0.05 m \| pga_g = 0.6 g\), with its 95 % band\n0\.\d{4}  \[0\.\d{4}, [01]\.\d{4}\]  fridge\n")
+        ends = [answer["probability"][0] for answer in self.ask(*asked)["answers"]]
+        between = self.ask(*asked, "--mu", "0.3")["answers"]
+        self.assertEqual(len(between), 1)
+        self.assertEqual([part["id"] for part in between[0]["entries"]], ["fridge", "grippy"])
+        self.assertTrue(min(ends) < between[0]["probability"][0] < max(ends))
+        self.assertTrue(between[0]["lower"][0] <= between[0]["probability"][0] <= between[0]["upper"][0])
+        curve = self.ask("--id", "rack", "--im", "pga_g", "--demand", "overturned", "--curve")["answers"][0]
+        self.assertEqual(len(curve["im"]), 4)
+        self.assertTrue(self.ask(*asked, "--mu", "0.45")["answers"][0]["extrapolated"])
+        self.assertEqual(len(self.ask("--class", "refrigerator")["entries"]), 2)
+
+    def test_mistakes_of_questions_are_told_with_the_choices(self):
+        self.build(FRIDGE)
+        ask = ["query", self.folder / "db", "--im", "pga_g=0.5", "--demand", "peak_slip_m", "--capacity", "0.05"]
+        self.fail_with(2, ask + ["--class", "fridge"], "class \"fridge\" is not in the database", "refrigerator")
+        self.fail_with(2, ask[:2] + ["--im", "pgv=0.5", "--demand", "overturned"], "intensity \"pgv\"", "pga_g")
+        self.fail_with(2, ask[:2] + ["--im", "pga_g=fast", "--demand", "overturned"], "--im pga_g=fast")
+        self.fail_with(2, ask + ["--mu", "0.9"], "mu = 0.9 lies in no grid", "mu 0.2")
+        self.fail_with(2, ask[:2] + ["--im", "pga_g=50", "--demand", "overturned"], "too far outside")
+        self.fail_with(2, ask[:2] + ["--mu", "0.2"], "--im and --demand are missing", "freestand query")
+        self.fail_with(2, ["query", self.folder / "nowhere"], "nowhere", "holds no database")
+        self.fail_with(3, ["query", self.folder / "db" / "entries" / "fridge" / "fragility.h5"], "is no database", "freestand-fragility")
+
+    def test_a_folder_of_somebody_else_is_left_alone(self):
+        (self.folder / "db").mkdir()
+        (self.folder / "db" / "letter.txt").write_text("mine")
+        path = self.write("some.yaml", HEAD + FRIDGE)
+        self.fail_with(2, ["catalogue", path, "-o", self.folder / "db"], "is not empty and holds no database", "letter.txt")
+        self.fail_with(2, ["catalogue", path], "-o is missing")
+
+    def test_a_table_row_without_a_unit_is_refused_with_its_row(self):
+        self.write("t.csv", "id,class,width_m,height_m,mu\nfridge,refrigerator,0.7 m,1.8,0.2\n")
+        path = self.write("some.yaml", HEAD.replace("entries:\n", "table: t.csv\n"))
+        self.fail_with(2, ["catalogue", path, "-o", self.folder / "db"], "t.csv:2: block.width_m is \"0.7 m\"")
+        self.assertFalse((self.folder / "db").exists())
+
+    def test_the_catalogues_of_the_program_are_accepted(self):
+        for name in ("equipment", "p58"):
+            done = self.succeed(["catalogue", CONFIGS / "catalogue" / f"{name}.yaml", "--check"])
+            self.assertIn("entries", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()

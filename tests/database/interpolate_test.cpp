@@ -1,0 +1,70 @@
+#include "database/interpolate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "database/made_database.hpp"
+
+namespace freestand::database {
+namespace {
+
+// Whatever is known, a mean of it lies within it, and its band about it in order.
+TEST(Interpolate, BlendsStayWithinWhatIsKnownAndBandsInOrder) {
+  std::mt19937 draw(1);
+  std::uniform_real_distribution<double> uniform;
+  for (int repeat = 0; repeat < 20000; ++repeat) {
+    std::array<Probability, 4> known;
+    std::array<double, 4> weights{};
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      // None, all, and everything between, as counts of 50 samples give it.
+      const double p = std::floor(50 * uniform(draw) * (repeat % 3 ? 1 : 0.1)) / 50;
+      known[i] = {p, p * uniform(draw), p + (1 - p) * uniform(draw), 0.5 / 51};
+      sum += weights[i] = uniform(draw);
+    }
+    for (double& weight : weights) weight /= sum;
+    const Probability p = blend(known, weights);
+    EXPECT_LE(p.lower, p.value);
+    EXPECT_LE(p.value, p.upper);
+    double least = 1, most = 0;
+    for (const Probability& one : known) {
+      least = std::min(least, one.value);
+      most = std::max(most, one.value);
+    }
+    // Up to the resolution, which a share of none or of all is drawn in to.
+    EXPECT_GE(p.value, least - 1e-12);
+    EXPECT_LE(p.value, std::max(most, 0.5 / 51) + 1e-12);
+  }
+}
+
+TEST(Interpolate, NoneStaysNone) {
+  const std::array known{Probability{0, 0, 0.004, 0.005}, Probability{0, 0, 0.002, 0.005}};
+  const Probability p = blend(known, std::array{0.25, 0.75});
+  EXPECT_EQ(p.value, 0);
+  EXPECT_EQ(p.lower, 0);
+  EXPECT_DOUBLE_EQ(p.upper, 0.0025);
+}
+
+TEST(Interpolate, BeyondThePointsACurveGoesOnAsItsLognormal) {
+  Curve curve = test::curve(0, 0.05, 0.4, 0.5);
+  EXPECT_NEAR(at(curve, 2.1).value, test::lognormal(2.1, 0.4, 0.5), 1e-9);
+  EXPECT_NEAR(at(curve, 0.08).value, test::lognormal(0.08, 0.4, 0.5), 1e-9);
+  curve.dispersion = unknown;  // then the last two points say how it goes on, here the same
+  EXPECT_NEAR(at(curve, 2.1).value, test::lognormal(2.1, 0.4, 0.5), 1e-6);
+  EXPECT_TRUE(outside(curve, 2.1));
+  EXPECT_TRUE(outside(curve, 0.08));
+  EXPECT_FALSE(outside(curve, 0.3));
+}
+
+TEST(Interpolate, APointThatIsNotKnownIsPassedOver) {
+  Curve curve = test::curve(0, 0.05, 0.4, 0.5);
+  curve.points[2].probability = unknown;
+  EXPECT_NEAR(at(curve, 0.4).value, 0.5, 1e-6);
+  curve.points.clear();
+  EXPECT_TRUE(std::isnan(at(curve, 0.4).value));
+}
+
+}  // namespace
+}  // namespace freestand::database

@@ -1,0 +1,116 @@
+#!/usr/bin/python3
+"""The page of a database: its numbers are those of the file, it fetches nothing, and in a browser it draws what is chosen."""
+import csv
+import io
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+import urllib.parse
+
+import support
+import make_database
+from report_test import Page
+
+CHROMIUM = shutil.which("chromium")
+
+
+def table(page, name):
+    """The csv that a figure offers, as rows."""
+    address = re.search(rf'<figure id="{name}".*?href="data:text/csv;charset=utf-8,([^"]*)"', page, re.S).group(1)
+    return list(csv.DictReader(io.StringIO(urllib.parse.unquote(address))))
+
+
+class Database(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        kept = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(kept.cleanup)
+        cls.folder = make_database.make_database(pathlib.Path(kept.name) / "db")
+        cls.done = support.run("report", cls.folder)
+        cls.text = (cls.folder / "report.html").read_text(encoding="utf-8") if cls.done.returncode == 0 else ""
+        cls.entries, cls.curves = make_database.rows()
+
+    def test_the_command_prints_the_path(self):
+        self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
+        self.assertEqual(self.done.stdout, f"{(self.folder / 'report.html').resolve()}\n")
+        self.assertIn('<meta name="generator" content="freestand">', self.text)
+
+    def test_the_page_fetches_nothing_and_is_balanced(self):
+        page = Page(self.text)
+        self.assertEqual((page.unbalanced, page.open), ([], []))
+        self.assertEqual(len(page.ids), len(set(page.ids)))
+        self.assertEqual([address for address in page.addresses if not address.startswith(("#", "data:"))], [])
+        self.assertFalse({"link", "iframe", "object", "img"} & set(page.tags))
+        self.assertNotRegex(self.text, r"@import|fetch\(|XMLHttpRequest|https?://")
+
+    def test_its_numbers_are_those_of_the_file(self):
+        data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', self.text, re.S).group(1))
+        self.assertEqual([entry["id"] for entry in data["entries"]], [entry["id"] for entry in self.entries])
+        self.assertEqual(data["entries"][4]["reference_source"], "a <book>")
+        self.assertEqual(len(data["curves"]), len(self.curves))
+        for shown, made in zip(data["curves"], self.curves):
+            self.assertEqual((shown["entry"], shown["demand"], shown["capacity"]), (made["entry"], made["demand"], made["capacity"]))
+            for mine, theirs in zip(shown["points"], made["points"]):
+                for a, b in zip(mine, theirs):
+                    self.assertAlmostEqual(a, b, delta=1e-5 * abs(b))  # six digits are shown
+
+    def test_a_database_stands_alone_and_has_no_picture_files(self):
+        done = support.run("report", self.folder, self.folder)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("give its folder alone", done.stderr)
+        self.assertEqual(support.run("figures", self.folder).returncode, 2)
+
+    def test_another_file_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "database.h5").write_text("no database")
+            done = support.run("report", folder)
+            self.assertEqual(done.returncode, 3)
+            self.assertIn("database.h5 cannot be used", done.stderr)
+
+    # One browser for all that is seen in it: it takes a second to start.
+    @unittest.skipUnless(CHROMIUM, "no chromium (apt-get install chromium)")
+    def test_in_a_browser_it_draws_what_is_chosen(self):
+        move = """<script>const svg = document.querySelector("#curves svg"), box = svg.getBoundingClientRect();
+svg.dispatchEvent(new MouseEvent("mousemove", {clientX: box.left + box.width / 2, clientY: box.top + 20}));</script></body>"""
+        copy = self.folder / "copy.html"
+        copy.write_text(self.text.replace("</body>", move), encoding="utf-8")
+        chosen = urllib.parse.urlencode({"class": "bookcase", "mu": 0.6, "floor": "upper", "demand": "overturned", "im": "pgv_mps", "at": 50})
+        with tempfile.TemporaryDirectory() as profile:
+            done = subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}", "--host-resolver-rules=MAP * 127.0.0.1:9",
+                                   "--dump-dom", f"file://{copy}#{chosen}"], capture_output=True, text=True, timeout=120, env={**os.environ, "HOME": profile})
+        page = re.sub(r"<script.*?</script>", "", done.stdout, flags=re.S)
+        self.assertEqual(len(re.findall(r"<svg", page)), 3)
+        self.assertNotRegex(page, "NaN|undefined|Infinity")
+        # The curves: those of the class on the floor, cell by cell, and the reference of the chosen one.
+        rows = table(page, "curves")
+        mine = [curve for curve in self.curves if curve["demand"] == "overturned" and self.entries[curve["entry"]]["class"] == "bookcase" and self.entries[curve["entry"]]["floor"] == "upper"]
+        points = [(self.entries[curve["entry"]]["id"], *point) for curve in mine for point in curve["points"]]
+        self.assertEqual(len([row for row in rows if row["n"]]), len(points))
+        for row, point in zip(rows, points):
+            self.assertEqual(row["id"], point[0])
+            for name, value in zip(("pgv_mps", "probability", "lower", "upper", "n"), point[1:]):
+                self.assertAlmostEqual(float(row[name]), value, delta=1e-5 * abs(value))
+        theirs = [row for row in rows if row["id"] == "E.1"]
+        self.assertGreater(len(theirs), 30)
+        for row in theirs:
+            self.assertAlmostEqual(float(row["probability"]), make_database.share(float(row["pgv_mps"]), 0.29, 0.5), delta=2e-5)
+        # The finding: the probability at the middle of the range, by the page's interpolation.
+        at = (0.1 * 3) ** 0.5
+        found = re.search(r"shelf_mu60_upper: overturned with a probability of ([\d.]+) \(([\d.]+) to ([\d.]+)\) at PGV = 0.548", page)
+        self.assertAlmostEqual(float(found.group(1)), make_database.share(at, make_database.median(0.32, 1.8, 0.6, "overturned", 0.5, "upper"), 0.4), delta=0.005)
+        # Every entry with the friction on the floor; medians beside the reference; the readout under the pointer.
+        self.assertEqual([row["id"] for row in table(page, "classes")], ["case_mu60_upper", "shelf_mu60_upper"])
+        beside = table(page, "references")
+        self.assertEqual([(row["reference"], row["id"]) for row in beside], [("E.1", "shelf_mu30_upper"), ("E.1", "shelf_mu60_upper")])
+        self.assertAlmostEqual(float(beside[1]["median"]), make_database.median(0.32, 1.8, 0.6, "overturned", 0.5, "upper"), delta=1e-5)
+        self.assertRegex(page, r'class="readout"[^>]*>PGV = [\d.]+ m/s: shelf_mu30_upper [\d.]+ \[[\d.]+, [\d.]+\]; shelf_mu60_upper')
+        self.assertEqual(len(re.findall(r'<tr data-at="\d+"', page)), 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
