@@ -145,7 +145,7 @@
     }
     const here = intensity(), p = chosen ? at(curveOf(chosen.at), here) : null;
     drawing += `<line class="rule" style="stroke:#1d2430;stroke-dasharray:2 3" x1="${x(here)}" x2="${x(here)}" y1="${TOP}" y2="${height - BOTTOM}"/>` + labels(names);
-    const finding = p ? `${chosen.id}: ${event()} with a probability of ${share(p[0])} (${share(p[1])} to ${share(p[2])}) at ${word.symbol} = ${text(here)}${unit(word)}` : `${choice("class")}: probability of ${event()}`;
+    const finding = p ? `${chosen.id}: P(${event()}) = ${share(p[0])} (${share(p[1])} to ${share(p[2])}) at ${word.symbol} = ${text(here)}${unit(word)}` : `${choice("class")}: P(${event()})`;
     const figure = show("curves", height, drawing, finding, "Probability over the floor's intensity, the entry that is chosen in bold with its band; a dashed line is somebody else's fragility of it. Move over it for values.", table);
     const svg = figure.querySelector("svg");
     svg.addEventListener("mousemove", (move) => {
@@ -182,9 +182,9 @@
       words: `${entry.id} (${entry.class}): P = ${share(p[0])} [${share(p[1])}, ${share(p[2])}]`}]]);
     let drawing = dots(marks, x, height);
     for (const p of [0, 0.2, 0.4, 0.6, 0.8, 1]) drawing += `<text class="tick" x="${x(p)}" y="${height - BOTTOM + 19}" text-anchor="middle">${p}</text>`;
-    drawing += `<text x="${x(0.5)}" y="${height - 8}" text-anchor="middle">${escape(`probability of ${event()} at ${word.symbol} = ${text(im)}${unit(word)}`)}</text>`;
+    drawing += `<text x="${x(0.5)}" y="${height - 8}" text-anchor="middle">${escape(`P(${event()}) at ${word.symbol} = ${text(im)}${unit(word)}`)}</text>`;
     const [first, final] = [rows[0], rows[rows.length - 1]];
-    const finding = rows.length > 1 ? `At ${word.symbol} = ${text(im)}${unit(word)} and μ = ${text(mu)}, ${event()} has probabilities from ${share(final[1][0])} (${final[0]}) to ${share(first[1][0])} (${first[0]})` :
+    const finding = rows.length > 1 ? `At ${word.symbol} = ${text(im)}${unit(word)} and μ = ${text(mu)}, P(${event()}) goes from ${share(final[1][0])} (${final[0]}) to ${share(first[1][0])} (${first[0]})` :
       rows.length ? `Only ${rows[0][0]} has this friction on this floor` : "No entry was swept there: choose another intensity";
     show("classes", height, drawing, finding, "All entries with the chosen friction on the chosen floor, at the chosen intensity, with their bands; those of the chosen class in orange.", table);
   }

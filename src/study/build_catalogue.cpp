@@ -41,6 +41,9 @@ enum Work : std::int64_t { keep, refit, sweep_anew };
 
 std::string kernel_text() { return fmt::format("{:08x}", kernel_number); }
 
+// Of a fingerprint, the first ones are of the study, the others of the contents of its records.
+constexpr std::size_t study_digits = 16;
+
 // Of study and motions; the contents of records are read once for entries on the same floor.
 class Fingerprints {
  public:
@@ -54,7 +57,10 @@ class Fingerprints {
   std::map<std::string, std::string> motions_;
 };
 
-bool is_of_fragility(const Difference& difference) { return difference.key.starts_with("fragility."); }
+// What may change without new samples: they hold one intensity measure.
+bool is_of_fragility(const Difference& difference) {
+  return difference.key.starts_with("fragility.") && !difference.key.starts_with("fragility.im");
+}
 
 // The study of the samples that lie in an entry's folder; nothing where there are none, or of another kernel.
 std::optional<Study> swept_study(const fs::path& folder) {
@@ -86,7 +92,9 @@ Plan plan_of(const Catalogue& catalogue, const Database& before, const fs::path&
     }
     const auto swept = swept_study(entry_folder(folder, entry.words.id));
     const std::vector<Difference> differ = swept ? differences(entry.study, *swept) : std::vector<Difference>{};
-    if (swept && std::all_of(differ.begin(), differ.end(), is_of_fragility)) {
+    const bool same_motions =
+        !row || row->fingerprint.substr(study_digits) == plan.fingerprints.back().substr(study_digits);
+    if (swept && same_motions && std::all_of(differ.begin(), differ.end(), is_of_fragility)) {
       plan.work.push_back(refit);
       continue;
     }
@@ -117,7 +125,9 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
   std::vector<std::int64_t> resume{1};
   world.on_root([&] {
     // Blocks and results of another study that never came into the database.
-    if (work == sweep_anew && fs::exists(study_path(folder)))
+    if (work == sweep_anew && (options.redo || fs::exists(samples_path(folder))))
+      resume[0] = 0;
+    else if (work == sweep_anew && fs::exists(study_path(folder)))
       resume[0] = differences(entry.study, parse_stored(read_whole(study_path(folder)), folder)).empty();
   });
   resume = world.broadcast(resume);

@@ -101,7 +101,7 @@ svg.dispatchEvent(new MouseEvent("mousemove", {clientX: box.left + box.width / 2
             self.assertAlmostEqual(float(row["probability"]), make_database.share(float(row["pgv_mps"]), 0.29, 0.5), delta=2e-5)
         # The finding: the probability at the middle of the range, by the page's interpolation.
         at = (0.1 * 3) ** 0.5
-        found = re.search(r"shelf_mu60_upper: overturned with a probability of ([\d.]+) \(([\d.]+) to ([\d.]+)\) at PGV = 0.548", page)
+        found = re.search(r"shelf_mu60_upper: P\(overturned\) = ([\d.]+) \(([\d.]+) to ([\d.]+)\) at PGV = 0.548", page)
         self.assertAlmostEqual(float(found.group(1)), make_database.share(at, make_database.median(0.32, 1.8, 0.6, "overturned", 0.5, "upper"), 0.4), delta=0.005)
         # Every entry with the friction on the floor; medians beside the reference; the readout under the pointer.
         self.assertEqual([row["id"] for row in table(page, "classes")], ["case_mu60_upper", "shelf_mu60_upper"])
