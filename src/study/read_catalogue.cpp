@@ -137,7 +137,7 @@ class Reader {
           "{uniform: [1, 2]}}, friction: {mu: {uniform: [0.1, 0.2]}}}");
       take(root, rest, std::initializer_list<std::string>{});
       Problems found(path_.string());
-      read_study_of(root, found);
+      read_study_of(root, found, 1);
       problems_.add(found);
     }
     for (const auto& [name, friction] : frictions_) {
@@ -151,9 +151,9 @@ class Reader {
   }
 
   // Relative paths start where those of the catalogue do, wherever an entry stands.
-  Study read_study_of(const YAML::Node& root, Problems& problems) {
+  Study read_study_of(const YAML::Node& root, Problems& problems, int line) {
     try {
-      return read_sweep(root, path_, known_, Files::look, problems);
+      return read_sweep(root, path_, known_, Files::look, problems, line);
     } catch (const Error& error) {
       if (problems.empty()) throw;
       return {};
@@ -295,7 +295,7 @@ class Reader {
     take(root, node, entry_keys);
     take(root, root_, file_keys);
     Problems found(path.string());
-    Study study = read_study_of(root, found);
+    Study study = read_study_of(root, found, section.line());
     words.id += variant.suffix;
     words.floor = variant.floor;
     words.friction = variant.friction;

@@ -31,8 +31,9 @@ std::vector<AxisChoice> axis_choices(const ModelPart&, const std::vector<MotionS
 FragilityPart read_fragility(Section& file, const Known&, const std::vector<AxisChoice>&);
 
 // The study that a mapping says. Throws Error (Exit::usage) with all problems. `path`: names it in messages, and its folder
-// is where relative paths start.
-Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known&, Files, Problems&);
+// is where relative paths start. line: of the mapping, for what it lacks.
+Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known&, Files, Problems&,
+                 int line = 1);
 
 // Text of `motions`, as expanded() writes it.
 std::string motions_text(const std::vector<MotionSource>&);

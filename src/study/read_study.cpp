@@ -128,10 +128,10 @@ std::optional<YAML::Node> parse_yaml(const std::string& text, Problems& problems
 }
 
 Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known& known, Files look,
-                 Problems& problems) {
+                 Problems& problems, int line) {
   Study study;
   sweep_model(root, problems);
-  Section file(root, "", 1, problems);
+  Section file(root, "", line, problems);
   problems.throw_if_any();
   refuse_other_kind(file, "motions", "motion",
                     "this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it", problems);
