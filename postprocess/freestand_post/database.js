@@ -118,12 +118,14 @@
 
   function drawCurves(chosen, shown) {
     const height = 420, word = of(data.intensities, choice("im")), x = logScale(...range()), y = (p) => TOP + (height - TOP - BOTTOM) * (1 - p);
-    const several = unique(shown.map((e) => e.mu_k)).length > 1;
+    const like = (e) => chosen && e.width_m === chosen.width_m && e.height_m === chosen.height_m;  // but for its friction
+    const several = unique(shown.filter(like).map((e) => e.mu_k)).length > 1;
     let drawing = frame(height, x, y, word.symbol + (word.unit === "1" ? "" : ` (${word.unit})`));
     const names = [], table = [["id", "friction_mu", choice("im"), "probability", "lower", "upper", "n"]];
     const last = ({points}) => points[points.length - 1];
-    shown.forEach((entry, i) => {
-      const curve = curveOf(entry.at), colour = colours[i % colours.length], isChosen = chosen && entry.at === chosen.at;
+    const order = shown.slice().sort((a, b) => like(a) - like(b));  // those in colour lie on top
+    order.forEach((entry) => {
+      const curve = curveOf(entry.at), colour = like(entry) ? colours[shown.filter(like).indexOf(entry) % colours.length] : "#c3c8cf", isChosen = chosen && entry.at === chosen.at;
       if (!curve || !curve.points.length) return;
       if (isChosen) drawing += `<path class="band" fill="${colour}" d="${path(curve.points.map((p) => [x(p[IM]), y(p[HIGH])]).concat(curve.points.slice().reverse().map((p) => [x(p[IM]), y(p[LOW])])))}Z"/>`;
       drawing += `<path class="curve${isChosen ? " chosen" : ""}" stroke="${colour}" d="${path(curve.points.map((p) => [x(p[IM]), y(p[P])]))}"/>`;
@@ -131,7 +133,7 @@
         drawing += `<circle class="dot" cx="${x(p[IM]).toFixed(1)}" cy="${y(p[P]).toFixed(1)}" r="${isChosen ? 4.5 : 2.5}" fill="${colour}"><title>${escape(entry.id)}: ${word.symbol} ${text(p[IM])}${unit(word)}, P = ${share(p[P])} [${share(p[LOW])}, ${share(p[HIGH])}], ${p[N]} samples</title></circle>`;
         table.push([entry.id, entry.mu_k, p[IM], p[P], p[LOW], p[HIGH], p[N]]);
       }
-      names.push({y: y(last(curve)[P]), colour, words: several && unique(shown.map((e) => e.width_m + "/" + e.height_m)).length === 1 ? "μ = " + text(entry.mu_k) : entry.id, bold: isChosen});
+      if (like(entry)) names.push({y: y(last(curve)[P]), colour, words: several ? "μ = " + text(entry.mu_k) : entry.id, bold: isChosen});
     });
     if (chosen && chosen.reference_source && chosen.reference_intensity === choice("im") && chosen.reference_demand === choice("demand")) {
       const line = [];
@@ -146,11 +148,11 @@
     const here = intensity(), p = chosen ? at(curveOf(chosen.at), here) : null;
     drawing += `<line class="rule" style="stroke:#1d2430;stroke-dasharray:2 3" x1="${x(here)}" x2="${x(here)}" y1="${TOP}" y2="${height - BOTTOM}"/>` + labels(names);
     const finding = p ? `${chosen.id}: P(${event()}) = ${share(p[0])} (${share(p[1])} to ${share(p[2])}) at ${word.symbol} = ${text(here)}${unit(word)}` : `${choice("class")}: P(${event()})`;
-    const figure = show("curves", height, drawing, finding, "Probability over the floor's intensity, the entry that is chosen in bold with its band; a dashed line is somebody else's fragility of it. Move over it for values.", table);
+    const figure = show("curves", height, drawing, finding, "Probability over the floor's intensity: in bold the entry that is chosen, with its band; in colour the same equipment on other frictions; in grey the rest of its class; dashed somebody else's fragility of it. Move over it for values.", table);
     const svg = figure.querySelector("svg");
     svg.addEventListener("mousemove", (move) => {
       const box = svg.getBoundingClientRect(), im = x.back((move.clientX - box.left) * WIDTH / box.width);
-      const values = shown.map((entry) => [entry.id, at(curveOf(entry.at), im)]).filter(([, p]) => p);
+      const values = shown.filter(like).map((entry) => [entry.id, at(curveOf(entry.at), im)]).filter(([, p]) => p);
       figure.querySelector(".readout").textContent = values.length ? `${word.symbol} = ${text(im)}${unit(word)}: ` + values.map(([id, p]) => `${id} ${share(p[0])} [${share(p[1])}, ${share(p[2])}]`).join("; ") : "";
     });
   }

@@ -53,10 +53,10 @@ Probability beyond(const Curve& curve, const std::vector<const Point*>& points, 
 Probability blend(std::span<const Probability> known, std::span<const double> weights) {
   double resolution = least_resolution;
   for (const Probability& p : known) resolution = std::max(resolution, p.resolution);
-  const auto all = [&](auto&& is) { return std::all_of(known.begin(), known.end(), is); };
-  const bool plain = all([&](const Probability& p) { return p.upper <= resolution; }) ||
-                     all([&](const Probability& p) { return p.lower >= 1 - resolution; });
   const auto mean = [&](double Probability::*member) {
+    const auto all = [&](auto&& is) { return std::all_of(known.begin(), known.end(), is); };
+    const bool plain = all([&](const Probability& p) { return p.*member <= resolution; }) ||
+                       all([&](const Probability& p) { return p.*member >= 1 - resolution; });
     double sum = 0;
     for (std::size_t i = 0; i < known.size(); ++i) {
       const double p = known[i].*member;

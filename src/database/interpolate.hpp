@@ -16,7 +16,8 @@ struct Probability {
 
 // Between known ones with these weights, which sum to 1 and may be negative outside of them. The mean is taken of
 // Phi^-1(P), each P first drawn in to the resolution: lognormal curves of one dispersion come out exactly, and the ends of a
-// band stay in order. Where all are within the resolution of 0, or of 1, the mean is of P itself.
+// band stay in order. Where all are within the resolution of 0, or of 1, the mean is of P itself; each end of the band for
+// itself.
 Probability blend(std::span<const Probability> known, std::span<const double> weights);
 
 // The curve at an intensity > 0: straight in Phi^-1(P) over ln IM between its points; outside of them on with the slope of

@@ -45,6 +45,9 @@ TEST(Interpolate, NoneStaysNone) {
   EXPECT_EQ(p.value, 0);
   EXPECT_EQ(p.lower, 0);
   EXPECT_DOUBLE_EQ(p.upper, 0.0025);
+  const std::array wide{Probability{0, 0, 0.1, 0.005}, Probability{0, 0, 0.1, 0.005}};
+  EXPECT_EQ(blend(wide, std::array{0.25, 0.75}).value, 0);
+  EXPECT_NEAR(blend(wide, std::array{0.25, 0.75}).upper, 0.1, 1e-12);
 }
 
 TEST(Interpolate, BeyondThePointsACurveGoesOnAsItsLognormal) {

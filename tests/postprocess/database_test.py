@@ -87,11 +87,12 @@ svg.dispatchEvent(new MouseEvent("mousemove", {clientX: box.left + box.width / 2
         self.assertEqual(len(re.findall(r"<svg", page)), 3)
         self.assertNotRegex(page, "NaN|undefined|Infinity")
         # The curves: those of the class on the floor, cell by cell, and the reference of the chosen one.
-        rows = table(page, "curves")
+        rows = sorted(table(page, "curves"), key=lambda row: row["id"])
         mine = [curve for curve in self.curves if curve["demand"] == "overturned" and self.entries[curve["entry"]]["class"] == "bookcase" and self.entries[curve["entry"]]["floor"] == "upper"]
         points = [(self.entries[curve["entry"]]["id"], *point) for curve in mine for point in curve["points"]]
-        self.assertEqual(len([row for row in rows if row["n"]]), len(points))
-        for row, point in zip(rows, points):
+        counted = [row for row in rows if row["n"]]
+        self.assertEqual(len(counted), len(points))
+        for row, point in zip(counted, points):
             self.assertEqual(row["id"], point[0])
             for name, value in zip(("pgv_mps", "probability", "lower", "upper", "n"), point[1:]):
                 self.assertAlmostEqual(float(row[name]), value, delta=1e-5 * abs(value))
