@@ -191,22 +191,32 @@
     show("classes", height, drawing, finding, "All entries with the chosen friction on the chosen floor, at the chosen intensity, with their bands; those of the chosen class in orange.", table);
   }
 
+  // Where half go beyond the capacity: by the lognormal where it may be used, else where the points first reach 1/2.
+  function medianOf(curve) {
+    if (!curve) return null;
+    if (curve.family === "lognormal") return curve.median >= curve.im_least && curve.median <= curve.im_most ? curve.median : null;
+    const next = curve.points.findIndex((p) => p[P] >= 0.5);
+    if (next < 1) return null;
+    const [a, b] = [curve.points[next - 1], curve.points[next]];
+    return Number((a[IM] * (b[IM] / a[IM]) ** ((0.5 - a[P]) / (b[P] - a[P]))).toPrecision(6));
+  }
+
   // Ours beside somebody else's: medians of each reference's own demand and intensity.
   function drawReferences() {
     if (!document.getElementById("references")) return;
     const floor = choice("floor"), entries = data.entries.map((e, i) => ({...e, at: i})).filter((e) => e.reference_source && e.floor === floor);
     const frictions = unique(entries.map((e) => e.mu_k)).sort((a, b) => a - b);
-    const table = [["reference", "id", "floor", "friction_mu", "median", "lower", "upper", "dispersion", "reference_median", "reference_dispersion"]];
+    const table = [["reference", "id", "floor", "friction_mu", "median", "median_by", "median_se", "dispersion", "reference_median", "reference_dispersion"]];
     const rows = unique(entries.map((e) => e.reference_id)).map((id) => {
       const mine = entries.filter((e) => e.reference_id === id), first = mine[0];
       const marks = [{value: first.reference_median, low: first.reference_median * Math.exp(-first.reference_dispersion), high: first.reference_median * Math.exp(first.reference_dispersion),
         colour: "#1d2430", words: `${id}: median ${text(first.reference_median)}, dispersion ${text(first.reference_dispersion)}`, shape: "diamond"}];
       for (const e of mine) {
         const c = data.curves.find((one) => one.entry === e.at && one.im === e.reference_intensity && one.demand === e.reference_demand && (e.reference_capacity === null || one.capacity === e.reference_capacity));
-        const swept = c && c.median !== null && c.median <= c.im_most && c.median >= c.im_least;
-        table.push([id, e.id, e.floor, e.mu_k, c ? c.median : null, c && c.median_se !== null ? c.median - 1.96 * c.median_se : null, c && c.median_se !== null ? c.median + 1.96 * c.median_se : null, c ? c.dispersion : null, e.reference_median, e.reference_dispersion]);
-        if (swept) marks.push({value: c.median, low: null, high: null, colour: colours[frictions.indexOf(e.mu_k) % colours.length],
-          words: `${e.id}: median ${text(c.median)} ± ${text(c.median_se, 2)}, dispersion ${text(c.dispersion)}`});
+        const median = medianOf(c), fitted = median !== null && c.family === "lognormal";
+        table.push([id, e.id, e.floor, e.mu_k, median, median === null ? "" : c.family, fitted ? c.median_se : null, fitted ? c.dispersion : null, e.reference_median, e.reference_dispersion]);
+        if (median !== null) marks.push({value: median, low: null, high: null, colour: colours[frictions.indexOf(e.mu_k) % colours.length],
+          words: fitted ? `${e.id}: median ${text(median)} ± ${text(c.median_se, 2)}, dispersion ${text(c.dispersion)}` : `${e.id}: half at ${text(median)}, no lognormal`});
       }
       return [(first.description.split(":")[0] || id).slice(0, 34), marks];
     });
