@@ -26,11 +26,14 @@ bool contains(const Keys& keys, const std::string& key) {
   return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
 }
 
+// Is there such a key? A look-up in a node that may change would leave the key behind.
+bool has(const YAML::Node& map, const std::string& key) { return static_cast<bool>(map[key]); }
+
 // The keys of a mapping with the lines they stand on, without some of them and without those that `root` has.
 template <class Keys>
 void take(YAML::Node& root, const YAML::Node& from, const Keys& without) {
   for (const auto& pair : from)
-    if (!contains(without, pair.first.Scalar()) && !root[pair.first.Scalar()])
+    if (!contains(without, pair.first.Scalar()) && !has(root, pair.first.Scalar()))
       root.force_insert(pair.first, pair.second);
 }
 
@@ -128,9 +131,9 @@ class Reader {
     for (const auto& [name, motions] : floors) {
       YAML::Node root(YAML::NodeType::Map);
       if (!name.empty()) root["motions"] = motions;
-      if (name.empty() && !root_["motions"])
+      if (name.empty() && !has(root_, "motions"))
         root["motions"] = YAML::Load("[{pulse: B, period_s: 1, peak_acceleration_g: 1}]");
-      if (!root_["samples"] && !root_["until"]) root["samples"] = 1;
+      if (!has(root_, "samples") && !has(root_, "until")) root["samples"] = 1;
       take(root, root_, file_keys);
       YAML::Node rest = YAML::Load(
           "{block: {width_m: {uniform: [0.5, 0.6]}, height_m: {uniform: [1, 2]}, mass_kg: "

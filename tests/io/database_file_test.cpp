@@ -8,6 +8,7 @@
 
 #include "database/made_database.hpp"
 #include "io/database_columns.hpp"
+#include "io/h5.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
