@@ -15,7 +15,8 @@ PACKAGES = (
     (r"mpi\.h", "mpi"), (r"(hdf5|hdf5_hl|H5\w*)\.h", "hdf5"), (r"yaml-cpp/.*", "yaml"), (r"CLI/.*", "cli11"), (r"fmt/.*", "fmt"),
     (r"gsl/.*", "gsl"), (r"fftw3.*\.h", "fftw"), (r"(Eigen|unsupported/Eigen)/.*", "eigen"), (r"nlohmann/.*", "json"),
     (r"Random123/.*", "Random123"), (r"(sundials|cvode|arkode|ida|kinsol|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*", "sundials"),
-    (r"xsimd/.*", "xsimd"), (r"muParser\W.*", "muparser"))
+    (r"xsimd/.*", "xsimd"), (r"muParser\W.*", "muparser"),
+    (r"pugixml\.hpp", "pugixml"), (r"csv\.h", "csv"))
 # Packages that one folder keeps to itself, whatever others link.
 ONLY_IN = {"mpi": {"parallel"}, "hdf5": {"io"}, "yaml": {"study"}, "cli11": {"app"}, "sundials": {"dynamics"}}
 # Who may never see effects: the physics.

@@ -1,0 +1,77 @@
+#include "study/export.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <memory>
+
+#include "app/command.hpp"
+
+namespace freestand::app {
+namespace {
+
+struct Options {
+  study::ExportRequest request;
+  std::string form = "auto";
+};
+
+std::string formats_text() {
+  std::string text;
+  for (const auto& format : exports::all()) text += fmt::format("\n  {}: {}", format.name, format.summary);
+  return text;
+}
+
+void tell(const study::ExportSummary& summary, const std::string& format) {
+  const exports::Model& model = summary.model;
+  fmt::print("{} over {}:\n", model.id, model.im.name);
+  for (const exports::LimitState& state : model.states)
+    fmt::print("  {}: {}, {}\n", state.name, exports::name(state.curve.form), state.why);
+  std::vector<std::string> files;
+  for (const auto& file : summary.files) files.push_back(file.string());
+  fmt::print("{} read back as {} reads it: probabilities within {:.1e} of freestand's{}\n", files.front(), format,
+             summary.difference, summary.rounding == "none" ? "" : " (" + summary.rounding + ")");
+  for (const std::string& note : model.notes) fmt::print("* {}\n", note);
+  fmt::print("written: {}\n", fmt::join(files, ", "));
+}
+
+Exit export_now(Options options, const Context& context) {
+  exports::Request& what = options.request.what;
+  what.counted = options.form == "counted";
+  if (options.form == "lognormal") what.form = exports::Form::lognormal;
+  if (options.form == "discrete" || what.counted) what.form = exports::Form::discrete;
+  if (options.form == "parts") what.form = exports::Form::parts;
+  context.world.on_root([&] { tell(study::export_fragility(options.request), options.request.format); });
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_export(CLI::App& parser, Work& work) {
+  auto options = std::make_shared<Options>();
+  study::ExportRequest& request = options->request;
+  CLI::App* verb = parser.add_subcommand("export", "fragility in a format that others load, with certificate.json");
+  verb->add_option("folder", request.folder, "folder of results (with fragility.h5)")->required();
+  verb->add_option("--format", request.format, "one of:" + formats_text())->required();
+  verb->add_option("-o,--output", request.output, "file, or folder")->required();
+  verb->add_option(
+      "--limit-state", request.what.states,
+      "DEMAND:CAPACITY, or DEMAND for all its capacities, each with =NAME behind it if wanted; least severe "
+      "first; repeat it (usual: the first demand with capacities, then overturned)");
+  verb->add_option(
+          "--form", options->form,
+          "auto | lognormal (the fitted function) | discrete (the surface, bin by bin) | counted (shares of samples) "
+          "| parts (the three parts, where a target takes formulas)")
+      ->check(CLI::IsMember({"auto", "lognormal", "discrete", "counted", "parts"}));
+  verb->add_option("--id", request.what.id, "identifier in the file (usual: the name of the study)");
+  verb->add_option("--description", request.what.description, "what it is, in words");
+  verb->add_option("--asset-category", request.what.asset_category,
+                   "OpenQuake's assetCategory, IN-CORE's inventory type");
+  verb->add_option("--loss-category", request.what.loss_category, "OpenQuake's lossCategory (usual: contents)");
+  verb->add_option("--mu", request.mu, "turns the intensity of the report into PTA, where all samples have this mu");
+  verb->add_flag("--skip-empty", request.what.skip_empty, "leave out bins with too few samples");
+  verb->add_flag("--overwrite", request.overwrite, "replace files that freestand exported before");
+  verb->callback(
+      [options, &work] { work = [options](const Context& context) { return export_now(*options, context); }; });
+}
+
+}  // namespace freestand::app

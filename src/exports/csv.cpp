@@ -1,0 +1,43 @@
+// One plain table: a row for each limit state and bin, the fragility function behind it on every row.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "exports/exporter.hpp"
+
+namespace freestand::exports {
+namespace {
+
+std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+std::string rows(const Model& model, const LimitState& state) {
+  const Fitted& f = state.fitted;
+  const std::string head = fmt::format("{},{},{},{},{},{}", state.name, state.demand, cell(state.capacity), state.unit,
+                                       model.im.name, model.im.unit);
+  const std::string tail = fmt::format("{},{},{},{},{},{}", cell(f.median), cell(f.median_se), cell(f.dispersion),
+                                       cell(f.dispersion_se), cell(f.off_by), f.adequate ? "yes" : "no");
+  std::string text;
+  for (const Bin& bin : state.bins)
+    text += fmt::format("{},{},{},{},{},{},{},{}\n", head, cell(bin.im), cell(bin.probability), cell(bin.lower),
+                        cell(bin.upper), cell(bin.counted), bin.n, tail);
+  return text;
+}
+
+std::vector<File> write(const Model& model, const std::string& name) {
+  std::string text =
+      "limit_state,demand,capacity,capacity_unit,im,im_unit,im_value,probability,lower,upper,counted,n,median,median_"
+      "se,"
+      "dispersion,dispersion_se,off_by,adequate\n";
+  for (const LimitState& state : model.states) text += rows(model, state);
+  return {{name, text}};
+}
+
+const Register here{{.name = "csv",
+                     .summary = "one plain table: bins with their bands, and the fitted functions with their errors",
+                     .file = "fragility.csv",
+                     .forms = {Form::discrete},
+                     .table = true,
+                     .write = write}};
+
+}  // namespace
+}  // namespace freestand::exports

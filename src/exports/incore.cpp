@@ -1,0 +1,134 @@
+// A fragility set for IN-CORE: one JSON document. Its curves are rules of Python text, gone through in order: the first
+// one whose conditions hold gives the result, and one without a condition is the last word. So a curve is
+// "PGA > 0" -> formula, else 0. What numpy and scipy can say goes in: the lognormal as norm.cdf, levels as numpy.interp,
+// and the three parts of each bin with each part interpolated.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+#include <nlohmann/json.hpp>
+
+#include "exports/exporter.hpp"
+
+namespace freestand::exports {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// IN-CORE's name of an intensity, the variable in formulas, its unit, and how much one of freestand's unit is in that.
+struct Demand {
+  std::string type, variable, unit;
+  double factor;
+};
+
+Demand demand_of(const Intensity& im) {
+  if (im.name == "pga_g" || im.name == "pta_g") return {"PGA", "PGA", "g", 1};
+  if (im.name == "pgv_mps") return {"PGV", "PGV", "cm/s", 100};
+  if (im.name == "pgd_m") return {"PGD", "PGD", "m", 1};
+  if (im.name == "sa_g") return {fmt::format("{:#} SA", im.period_s), "SA", "g", 1};
+  throw Error(
+      fmt::format("IN-CORE has no demand for the intensity {} (it knows PGA, PGV, PGD and SA): fit the sweep over "
+                  "pga_g, pgv_mps, pgd_m or sa_g, and export that",
+                  im.name));
+}
+
+// How many limit states IN-CORE turns into damage states, by the kind of thing in its inventory.
+struct Inventory {
+  const char* name;
+  std::size_t states;
+};
+constexpr Inventory inventories[] = {{"building", 3},     {"bridge", 4}, {"electric_facility", 4},
+                                     {"gas_facility", 4}, {"road", 4},   {"water_facility", 4},
+                                     {"pipeline", 4}};
+
+std::string usual_category(std::size_t states) { return states == 4 ? "electric_facility" : "building"; }
+
+void refuse(const Model& model) {
+  demand_of(model.im);
+  std::vector<std::string> known;
+  for (const Inventory& inventory : inventories) {
+    known.push_back(fmt::format("{} {}", inventory.name, inventory.states));
+    if (model.asset_category != inventory.name) continue;
+    if (model.states.size() == inventory.states) return;
+    throw Error(fmt::format(
+        "IN-CORE takes exactly {} limit states for a {}, and these are {} (it has no way from {} to damage states): "
+        "choose "
+        "them with --limit-state, where the last may stand again under another name, as overturned=again, or name "
+        "another --asset-category",
+        inventory.states, inventory.name, model.states.size(), model.states.size()));
+  }
+  throw Error(
+      fmt::format("IN-CORE has no inventory {} (it knows, with their numbers of limit states: {}): name one with "
+                  "--asset-category",
+                  model.asset_category, fmt::join(known, ", ")));
+}
+
+template <class Points, class Get>
+std::string interpolated(const Points& points, const Demand& demand, Get get) {
+  std::vector<double> x, y;
+  for (const auto& point : points) {
+    x.push_back(point.im * demand.factor);
+    y.push_back(get(point));
+  }
+  return fmt::format("numpy.interp({}, [{}], [{}])", demand.variable, fmt::join(x, ", "), fmt::join(y, ", "));
+}
+
+std::string formula(const Curve& curve, const Demand& demand) {
+  if (curve.form == Form::lognormal)
+    return fmt::format("scipy.stats.norm.cdf((math.log({}) - ({})) / ({}))", demand.variable,
+                       std::log(curve.median * demand.factor), curve.dispersion);
+  if (curve.form == Form::discrete)
+    return interpolated(curve.points, demand, [](const Point& p) { return p.probability; });
+  const auto part = [&](double PartsPoint::*member) {
+    return interpolated(curve.parts, demand, [member](const PartsPoint& p) { return p.*member; });
+  };
+  const std::string over = part(&PartsPoint::p_over);
+  return fmt::format("{} + (1 - {}) * (1 - {}) * scipy.stats.norm.cdf(({} - ({})) / {})", over, over,
+                     part(&PartsPoint::p_still), part(&PartsPoint::lambda), curve.ln_capacity,
+                     part(&PartsPoint::omega));
+}
+
+Json curve_json(const LimitState& state, const Demand& demand, std::size_t index) {
+  const Json guarded{{"condition", {fmt::format("{} > 0", demand.variable)}},
+                     {"expression", formula(state.curve, demand)}};
+  const Json otherwise{{"condition", nullptr}, {"expression", "0"}};
+  return {{"description", state.name},
+          {"returnType", {{"type", "Limit State"}, {"unit", ""}, {"description", fmt::format("LS_{}", index)}}},
+          {"rules", {guarded, otherwise}}};
+}
+
+std::vector<File> write(const Model& model, const std::string& name) {
+  const Demand demand = demand_of(model.im);
+  Json curves = Json::array();
+  for (std::size_t s = 0; s < model.states.size(); ++s) curves.push_back(curve_json(model.states[s], demand, s));
+  const Json parameter{{"name", demand.variable},
+                       {"unit", demand.unit},
+                       {"description", demand.type},
+                       {"fullName", demand.type},
+                       {"expression", nullptr}};
+  const Json set{{"description", model.description},
+                 {"authors", Json::array({"freestand"})},
+                 {"paperReference", nullptr},
+                 {"resultType", "Limit State"},
+                 {"resultUnit", nullptr},
+                 {"hazardType", "earthquake"},
+                 {"inventoryType", model.asset_category},
+                 {"demandTypes", {demand.type}},
+                 {"demandUnits", {demand.unit}},
+                 {"curveParameters", Json::array({parameter})},
+                 {"fragilityCurves", curves}};
+  return {{name, set.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"}};
+}
+
+const Register here{{.name = "incore",
+                     .summary = "a fragility set for IN-CORE: lognormals, levels, or the three parts as they are",
+                     .file = "fragility.json",
+                     .forms = {Form::lognormal, Form::parts, Form::discrete},
+                     .usual_category = usual_category,
+                     .refuse = refuse,
+                     .write = write}};
+
+}  // namespace
+}  // namespace freestand::exports

@@ -1,0 +1,149 @@
+// A component for pelicun and its damage and loss library: fragility.csv and fragility.json, as that library holds them.
+//
+// Offset 0 and directional 1: the demand is that of the floor on which the component stands, in its direction. A lognormal
+// goes out as one; anything else as multilinear_CDF, "x,x,x|y,y,y", which must rise strictly from exactly 0 to exactly 1.
+// pelicun turns the x into its own units and writes all numbers again with six digits (%g); the numbers are written so that
+// they are still apart behind that.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/shown_text.hpp"
+#include "exports/exporter.hpp"
+
+namespace freestand::exports {
+namespace {
+
+// pelicun wants 1 at the end, which a sweep need not have reached: a line so long to there that at twice the highest
+// intensity swept the probability has grown by 1e-6 of what is missing.
+constexpr double far_away = 1e6;
+
+struct Demand {
+  std::string type, unit;
+};
+
+Demand demand_of(const Intensity& im) {
+  if (im.name == "pga_g" || im.name == "pta_g") return {"Peak Floor Acceleration", "g"};
+  if (im.name == "pgv_mps") return {"Peak Floor Velocity", "mps"};
+  if (im.name == "pgd_m") return {"Peak Floor Displacement", "m"};
+  if (im.name == "sa_g") return {fmt::format("Spectral Acceleration|{}", im.period_s), "g"};
+  throw Error(
+      fmt::format("pelicun has no demand for the intensity {} (it knows peak floor acceleration, velocity and "
+                  "displacement, and spectral acceleration): fit the sweep over pga_g, pgv_mps, pgd_m or sa_g, "
+                  "and export that",
+                  im.name));
+}
+
+void refuse(const Model& model) {
+  demand_of(model.im);
+  const auto allowed = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+  };
+  if (model.id.empty() || !std::all_of(model.id.begin(), model.id.end(), allowed))
+    throw Error(
+        fmt::format("pelicun refuses the id {} (letters, digits, _ and . only: it splits names at every -): give "
+                    "another one with --id",
+                    shown(model.id)));
+  for (const LimitState& state : model.states)
+    if (state.curve.form != Form::lognormal && !(state.curve.points.back().probability > 0))
+      throw Error(
+          fmt::format("{} never happened (pelicun's capacities must end at probability 1, and none is known): leave "
+                      "it out with --limit-state, or sweep stronger shaking",
+                      state.name));
+}
+
+double six_digits(double value) { return std::stod(fmt::format("{:.6g}", value)); }
+
+// The next number of six digits above a positive one of six digits.
+double next_of_six(double value) {
+  const double step = std::pow(10.0, std::floor(std::log10(value * (1 + 1e-12))) - 5);
+  return six_digits(value + step);
+}
+
+// Points that rise strictly from 0 to 1 in six digits, through those of the curve.
+std::vector<Point> strictly_rising(const std::vector<Point>& points) {
+  std::vector<Point> result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double p = six_digits(points[i].probability);
+    const bool ends_plateau = i + 1 == points.size() || six_digits(points[i + 1].probability) > p;
+    const bool begins_plateau = result.empty() || p > result.back().probability;
+    if (p >= 1) {
+      result.push_back({points[i].im, 1});
+      return result;
+    }
+    if (!(p > 0)) {
+      if (ends_plateau) result.push_back({points[i].im, 0});
+    } else if (begins_plateau) {
+      result.push_back({points[i].im, p});
+    } else if (ends_plateau) {
+      result.push_back({points[i].im, next_of_six(result.back().probability)});
+    }
+  }
+  // A probability that was pushed past the next one goes on pushing.
+  for (std::size_t i = 1; i < result.size(); ++i)
+    if (result[i].probability <= result[i - 1].probability && result[i - 1].probability > 0)
+      result[i].probability = next_of_six(result[i - 1].probability);
+  if (result.size() == 1 || result.back().probability < 1) result.push_back({far_away * points.back().im, 1});
+  return result;
+}
+
+std::string multilinear(const Curve& curve) {
+  std::vector<double> x, y;
+  for (const Point& point : strictly_rising(curve.points)) {
+    x.push_back(point.im);
+    y.push_back(point.probability);
+  }
+  return fmt::format("\"{}|{}\"", fmt::join(x, ","), fmt::join(y, ","));
+}
+
+std::string table(const Model& model) {
+  const Demand demand = demand_of(model.im);
+  std::string head = "ID,Incomplete,Demand-Type,Demand-Unit,Demand-Offset,Demand-Directional";
+  std::string row = fmt::format("{},0,{},{},0,1", model.id, demand.type, demand.unit);
+  for (std::size_t s = 0; s < model.states.size(); ++s) {
+    head += fmt::format(",LS{0}-Family,LS{0}-Theta_0,LS{0}-Theta_1,LS{0}-DamageStateWeights", s + 1);
+    const Curve& curve = model.states[s].curve;
+    row += curve.form == Form::lognormal ? fmt::format(",lognormal,{},{},", curve.median, curve.dispersion)
+                                         : fmt::format(",multilinear_CDF,{},,", multilinear(curve));
+  }
+  return head + "\n" + row + "\n";
+}
+
+std::string words(const Model& model) {
+  nlohmann::ordered_json states;
+  for (std::size_t s = 0; s < model.states.size(); ++s) {
+    const LimitState& state = model.states[s];
+    const std::string what = std::isnan(state.capacity) ? state.demand
+                                                        : fmt::format("{} above {}{}", state.demand, state.capacity,
+                                                                      state.unit == "1" ? "" : " " + state.unit);
+    states[fmt::format("LS{}", s + 1)][fmt::format("DS{}", s + 1)] = {{"Description", state.name + ": " + what},
+                                                                      {"RepairAction", "n/a"}};
+  }
+  nlohmann::ordered_json all;
+  all[model.id] = {{"Description", model.description},
+                   {"Comments", fmt::format("{}", fmt::join(model.notes, "\n"))},
+                   {"SuggestedComponentBlockSize", "1 EA"},
+                   {"RoundUpToIntegerQuantity", "True"},
+                   {"LimitStates", states}};
+  return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::vector<File> write(const Model& model, const std::string& name) {
+  return {{name, table(model)}, {"fragility.json", words(model)}};
+}
+
+const Register here{
+    {.name = "pelicun",
+     .summary = "a component for pelicun and its damage and loss library: fragility.csv and fragility.json",
+     .file = "fragility.csv",
+     .folder = true,
+     .forms = {Form::lognormal, Form::discrete},
+     .refuse = refuse,
+     .write = write}};
+
+}  // namespace
+}  // namespace freestand::exports

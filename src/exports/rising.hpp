@@ -1,0 +1,12 @@
+// A curve that never falls, nearest to one that does.
+#pragma once
+
+#include <vector>
+
+namespace freestand::exports {
+
+// The non-falling values with the smallest weighted squares of changes (neighbours that fall are pooled to their weighted
+// mean, until none does).
+std::vector<double> risen(const std::vector<double>& values, const std::vector<double>& weights);
+
+}  // namespace freestand::exports

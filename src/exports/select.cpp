@@ -1,0 +1,191 @@
+#include "exports/select.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+
+#include "exports/forms.hpp"
+
+namespace freestand::exports {
+namespace {
+
+using fragility::EdpResult;
+using fragility::Result;
+
+Fitted fitted_of(const Wanted& wanted) {
+  if (wanted.capacity >= wanted.edp->functions.size()) return {};
+  const fragility::FragilityFunction& f = wanted.edp->functions[wanted.capacity];
+  return {f.median, f.median_se, f.dispersion, f.dispersion_se, f.off_by, f.adequate, f.extrapolated};
+}
+
+// The rows of the surface. Empty ones are left out or refused.
+std::vector<Bin> bins_of(const Result& result, const Intensity& im, const Wanted& wanted, const Request& request,
+                         bool table) {
+  const EdpResult& edp = *wanted.edp;
+  const fragility::Surface& surface = edp.surface;
+  std::vector<Bin> bins;
+  for (std::size_t b = 0; b < edp.bins.size(); ++b) {
+    const std::size_t at = b * edp.capacity.size() + wanted.capacity;
+    const double p = request.counted ? surface.empirical[at] : surface.probability[at];
+    if (p < 0 || p > 1)
+      throw Error(fmt::format("the probability of {} at {} {:.4g} is {} (it must lie within 0 and 1): fit again",
+                              label(wanted), im.name, result.im[b], p),
+                  Exit::data);
+    if (std::isnan(p) && !request.skip_empty && !table)
+      throw Error(
+          fmt::format("the surface of {} has an empty row at {} {:.4g} ({} samples there are too few): make the bins "
+                      "wider and fit again, or add --skip-empty, which leaves the row out",
+                      label(wanted), im.name, result.im[b], edp.bins[b].n));
+    if (!std::isnan(p) && (table || result.im[b] > 0))
+      bins.push_back({b, result.im[b], p, surface.lower[at], surface.upper[at], surface.empirical[at], edp.bins[b].n});
+  }
+  if (bins.empty())
+    throw Error(fmt::format(
+        "{} has no bin with enough samples above {} 0 (nothing is known of it): sweep more samples, or choose "
+        "another intensity",
+        label(wanted), im.name));
+  return bins;
+}
+
+LimitState state_of(const Result& result, const Intensity& im, const Wanted& wanted, const Request& request,
+                    bool table) {
+  LimitState state;
+  state.name = wanted.name;
+  state.demand = wanted.edp->name;
+  state.unit = wanted.edp->unit;
+  if (!wanted.edp->binary) state.capacity = wanted.edp->capacity[wanted.capacity];
+  state.fitted = fitted_of(wanted);
+  state.bins = bins_of(result, im, wanted, request, table);
+  return state;
+}
+
+// From the lowest to the highest intensity that samples had.
+void take_range(Model& model, const std::vector<Wanted>& wanted) {
+  model.im_least = model.states.front().bins.front().im;
+  model.im_most = model.states.front().bins.back().im;
+  const auto include = [&](double least, double most) {
+    if (least > 0) model.im_least = std::min(model.im_least, least);
+    if (most > 0) model.im_most = std::max(model.im_most, most);
+  };
+  for (const LimitState& state : model.states) include(state.bins.front().im, state.bins.back().im);
+  for (const Wanted& one : wanted)
+    if (one.capacity < one.edp->functions.size())
+      include(one.edp->functions[one.capacity].im_least, one.edp->functions[one.capacity].im_most);
+}
+
+// Where limit states cross within what was swept: a more severe one must not be likelier.
+Refusal crossing(const Model& model) {
+  std::vector<double> places;
+  for (int i = 0; i <= 200; ++i) places.push_back(model.im_least * std::pow(model.im_most / model.im_least, i / 200.0));
+  for (const LimitState& state : model.states)
+    for (const Bin& bin : state.bins) places.push_back(bin.im);
+  for (std::size_t s = 1; s < model.states.size(); ++s)
+    for (const double im : places) {
+      const LimitState &milder = model.states[s - 1], &graver = model.states[s];
+      const double a = probability(milder.curve, im), b = probability(graver.curve, im);
+      if (b > a + tolerance)
+        return fmt::format(
+            "limit states cross at {} {:.4g} ({} has {:.3g} there and {}, which stands behind it, {:.3g}; targets set "
+            "such a state to 0 without a word): give them least severe first{}, or export them one by one",
+            model.im.name, im, milder.name, a, graver.name, b,
+            milder.curve.form == Form::lognormal ? ", use --form discrete" : "");
+    }
+  return {};
+}
+
+void measure_surface(LimitState& state) {
+  for (const Bin& bin : state.bins) {
+    const double off = std::fabs(probability(state.curve, bin.im) - bin.probability);
+    if (std::isnan(state.off_surface_at) || off > state.off_surface) {
+      state.off_surface = off;
+      state.off_surface_at = bin.im;
+    }
+  }
+}
+
+void take_notes(Model& model, const Result& result, Form form) {
+  const std::string unit = model.im.unit == "1" ? "" : " " + model.im.unit;
+  const std::vector<Bin>& bins = model.states.front().bins;
+  model.notes.push_back(
+      form == Form::lognormal
+          ? fmt::format("swept from {:.4g} to {:.4g}{}: outside of that a lognormal is an extrapolation",
+                        model.im_least, model.im_most, unit)
+          : fmt::format("below the lowest bin, at {:.4g}{}, probabilities go straight to 0 at 0; above the highest, at "
+                        "{:.4g}{}, they stay",
+                        bins.front().im, unit, bins.back().im, unit));
+  for (const LimitState& state : model.states) {
+    if (state.pooled > tolerance)
+      model.notes.push_back(fmt::format("{}: bins that fell within their bands were pooled, by {:.2g} at most",
+                                        state.name, state.pooled));
+    if (form == Form::lognormal && state.fitted.extrapolated)
+      model.notes.push_back(fmt::format("{}: the median, {:.4g}{}, lies outside of what was swept", state.name,
+                                        state.fitted.median, unit));
+    if (form == Form::lognormal)
+      model.notes.push_back(fmt::format("{}: the lognormal and the surface differ by up to {:.2g}, at {:.4g}{}",
+                                        state.name, state.off_surface, state.off_surface_at, unit));
+  }
+  for (const std::string& warning : result.warnings) model.notes.push_back(warning);
+}
+
+// Gives all limit states that form, or says why not.
+Refusal take_form(Model& model, const Result& result, const std::vector<Wanted>& wanted, Form form, bool table) {
+  for (std::size_t s = 0; s < wanted.size(); ++s) {
+    LimitState& state = model.states[s];
+    const Refusal refusal = table                     ? make_table(state)
+                            : form == Form::lognormal ? make_lognormal(state, wanted[s])
+                            : form == Form::discrete  ? make_discrete(state, wanted[s], model.im)
+                                                      : make_parts(state, wanted[s], result, model.im);
+    if (!refusal.empty()) return refusal;
+    measure_surface(state);
+  }
+  return table ? Refusal{} : crossing(model);
+}
+
+// "problem (why)" of "problem (why): what to do".
+std::string without_advice(const Refusal& refusal) { return refusal.substr(0, refusal.rfind("): ") + 1); }
+
+}  // namespace
+
+const char* name(Form form) {
+  constexpr const char* names[] = {"lognormal", "discrete", "parts"};
+  return names[static_cast<int>(form)];
+}
+
+Model select(const Result& result, const Intensity& im, const Request& request, const Format& format) {
+  std::vector<Wanted> wanted = wanted_states(result, request.states);
+  if (format.last_only) wanted = {wanted.back()};
+  Model fresh{request.id, request.description, request.asset_category, request.loss_category, im, unknown, unknown, {},
+              {}};
+  for (const Wanted& one : wanted) fresh.states.push_back(state_of(result, im, one, request, format.table));
+  if (fresh.asset_category.empty() && format.usual_category)
+    fresh.asset_category = format.usual_category(fresh.states.size());
+  take_range(fresh, wanted);
+  std::string passed_over;
+  Refusal refusal;
+  for (const Form form : request.form ? std::vector<Form>{*request.form} : format.forms) {
+    Model model = fresh;
+    refusal = take_form(model, result, wanted, form, format.table);
+    if (refusal.empty()) {
+      take_notes(model, result, form);
+      if (!passed_over.empty()) model.notes.push_back(passed_over);
+      return model;
+    }
+    passed_over +=
+        fmt::format("{}no {} form: {}", passed_over.empty() ? "" : "; ", name(form), without_advice(refusal));
+  }
+  throw Error(refusal);
+}
+
+Result as_pta(Result result, double mu) {
+  const auto convert = [&](double& im) { im = mu * (im + 1); };
+  std::for_each(result.im_edge.begin(), result.im_edge.end(), convert);
+  std::for_each(result.im.begin(), result.im.end(), convert);
+  result.im_name = "pta_g";
+  result.im_unit = "g";
+  for (EdpResult& edp : result.edps) edp.functions.clear();
+  return result;
+}
+
+}  // namespace freestand::exports

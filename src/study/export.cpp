@@ -1,0 +1,177 @@
+#include "study/export.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <freestand/error.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/durable_file.hpp"
+#include "base/random.hpp"
+#include "exports/certificate.hpp"
+#include "exports/exporter.hpp"
+#include "io/fragility_file.hpp"
+#include "io/own_files.hpp"
+#include "io/text_files.hpp"
+#include "study/study.hpp"
+
+namespace freestand::study {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* certificate_name = "certificate.json";
+
+// mu_k of the study where all samples have the same.
+std::optional<double> one_mu(const Study& study) {
+  const FrictionPart& friction = study.model.friction;
+  const std::optional<Quantity>& mu = friction.mu ? friction.mu : friction.mu_k;
+  if (!mu || !sampling::is_fixed(mu->value)) return {};
+  return sampling::quantile(mu->value, 0.5);
+}
+
+// The report's intensity fits no target. At one mu it is PTA in other words.
+fragility::Result convertible(fragility::Result result, const Study& study, const ExportRequest& request,
+                              const exports::Format& format) {
+  if (result.im_name != "report") {
+    if (request.mu)
+      throw Error(fmt::format(
+          "--mu converts the intensity of the report only (these results are over {}): leave it out", result.im_name));
+    return result;
+  }
+  const std::optional<double> mu = one_mu(study);
+  if (!request.mu && format.table) return result;
+  const std::string again =
+      fmt::format("fit {} over another intensity, as pga_g, and export that", request.folder.string());
+  if (!request.mu)
+    throw Error(fmt::format(
+        "the intensity of the report, PTA/(mu g) - 1, is known to no target (it takes the friction of the "
+        "block, and can be negative): {}{}",
+        mu ? fmt::format("add --mu {}, the one of all samples, which turns it into PTA; or ", *mu) : "", again));
+  if (!mu)
+    throw Error(
+        fmt::format("--mu {} cannot turn the intensity of the report into PTA (the samples have many mu, and each "
+                    "has its own PTA): {}",
+                    *request.mu, again));
+  if (std::fabs(*mu - *request.mu) > 1e-12)
+    throw Error(fmt::format("--mu {} is not the mu of the samples (it is {}): add --mu {}", *request.mu, *mu, *mu));
+  return exports::as_pta(std::move(result), *mu);
+}
+
+// Letters and digits in place of all else, so that any target takes it.
+std::string usual_id(const std::string& study_name) {
+  std::string id;
+  for (const char c : study_name.empty() ? "freestand" : study_name)
+    id += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return id.substr(0, 60);
+}
+
+std::string usual_description(const io::Provenance& from, const fragility::Result& result) {
+  return fmt::format("{}: {} samples, {} motions, over {}; freestand {}", from.study_name, result.samples,
+                     result.motions, result.im_name, from.version);
+}
+
+struct Places {
+  fs::path folder;
+  std::string name;
+};
+Places places(const ExportRequest& request, const exports::Format& format) {
+  const bool is_folder = fs::is_directory(request.output) || request.output.extension().empty();
+  if (is_folder) return {request.output, format.file};
+  if (format.folder)
+    throw Error(fmt::format("{} cannot hold what {} wants (several files that belong together): name a folder, as {}",
+                            request.output.string(), format.name, request.output.stem().string()));
+  if (request.output.extension() != fs::path(format.file).extension())
+    throw Error(fmt::format("{} has another ending than a file for {} ({}): name {}, or a folder",
+                            request.output.string(), format.name, fs::path(format.file).extension().string(),
+                            fs::path(request.output).replace_extension(fs::path(format.file).extension()).string()));
+  return {request.output.parent_path().empty() ? "." : request.output.parent_path(),
+          request.output.filename().string()};
+}
+
+std::string hash_of(const std::string& text) { return fmt::format("{:016x}", random::stable_hash(text)); }
+
+// What stands in the folder's certificate by now.
+Json certificate_in(const fs::path& folder) {
+  const fs::path file = folder / certificate_name;
+  if (!fs::exists(file)) return {{"format", exports::certificate_format}, {"files", Json::object()}};
+  const Json found = io::is_own(file) ? Json::parse(read_whole(file), nullptr, false) : Json();
+  if (!found.is_object() || found.value("format", "") != exports::certificate_format || !found["files"].is_object())
+    throw Error(fmt::format("{} would be replaced (freestand did not write it): name another folder", file.string()));
+  return found;
+}
+
+// A file that is there is replaced only if that was asked for, and only if it is as the certificate has it.
+void refuse_to_replace(const fs::path& file, const Json& certificate, bool overwrite) {
+  if (!fs::exists(file)) return;
+  if (!overwrite)
+    throw Error(
+        fmt::format("{} is there already (it would be replaced): name another one, or add --overwrite", file.string()));
+  const Json& known = certificate["files"];
+  const std::string name = file.filename().string();
+  if (!known.contains(name) || known[name].value("hash", "") != hash_of(read_whole(file)))
+    throw Error(fmt::format("{} would be replaced (freestand did not write it, or it was changed since): move it away",
+                            file.string()));
+}
+
+Json origin(const ExportRequest& request, const io::Provenance& from) {
+  return {{"results", request.folder.filename().string()},
+          {"study", from.study_name},
+          {"seed", from.seed},
+          {"samples", from.samples},
+          {"version", from.version},
+          {"git_commit", from.git_commit},
+          {"created_utc", from.created_utc}};
+}
+
+}  // namespace
+
+ExportSummary export_fragility(const ExportRequest& request) {
+  const exports::Format& format = exports::find(request.format);
+  const fs::path source = request.folder / "fragility.h5";
+  const auto [from, found] = io::read_fragility(source);
+  const Study study = parse_stored(from.study, source);
+  const fragility::Result result = convertible(found, study, request, format);
+  exports::Request what = request.what;
+  if (what.id.empty()) what.id = usual_id(from.study_name);
+  if (what.description.empty()) what.description = usual_description(from, result);
+  const exports::Intensity im{result.im_name, result.im_unit, study.fragility.im.period_s.value_or(exports::unknown)};
+  ExportSummary summary;
+  summary.model = exports::select(result, im, what, format);
+  exports::Model& model = summary.model;
+  if (request.mu) model.notes.push_back(fmt::format("PTA = {} g (1 + IM) of the report", *request.mu));
+  if (format.refuse) format.refuse(model);
+
+  const Places to = places(request, format);
+  const std::vector<exports::File> files = format.write(model, to.name);
+  Json certificate = certificate_in(to.folder);
+  for (const exports::File& file : files) refuse_to_replace(to.folder / file.name, certificate, request.overwrite);
+  fs::create_directories(to.folder);
+  for (const exports::File& file : files) {
+    write_durably(to.folder / file.name, file.text);
+    summary.files.push_back(to.folder / file.name);
+  }
+  const exports::Certified certified = exports::certify(model, format, summary.files.front());
+  if (certified.difference > certified.allowed) {
+    for (const fs::path& file : summary.files) fs::remove(file);
+    throw Error(
+        fmt::format("{} would be read with probabilities that are off by {:.3g} (more than {:.3g}, which is a fault of "
+                    "freestand): tell its makers; nothing was exported",
+                    summary.files.front().string(), certified.difference, certified.allowed),
+        Exit::data);
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    Json entry = i == 0 ? certified.json : Json{{"target", format.name}, {"belongs_to", files.front().name}};
+    entry["from"] = origin(request, from);
+    entry["hash"] = hash_of(files[i].text);
+    certificate["files"][files[i].name] = entry;
+  }
+  write_durably(to.folder / certificate_name, io::json_text(certificate));
+  summary.files.push_back(to.folder / certificate_name);
+  summary.difference = certified.difference;
+  summary.rounding = certified.json["rounding"];
+  return summary;
+}
+
+}  // namespace freestand::study
