@@ -110,7 +110,7 @@ std::string table(const Model& model) {
     row += curve.form == Form::lognormal ? fmt::format(",lognormal,{},{},", curve.median, curve.dispersion)
                                          : fmt::format(",multilinear_CDF,{},,", multilinear(curve));
   }
-  return head + "\n" + row + "\n";
+  return fmt::format("{}\n{}\n", head, row);
 }
 
 std::string words(const Model& model) {
@@ -120,7 +120,7 @@ std::string words(const Model& model) {
     const std::string what = std::isnan(state.capacity) ? state.demand
                                                         : fmt::format("{} above {}{}", state.demand, state.capacity,
                                                                       state.unit == "1" ? "" : " " + state.unit);
-    states[fmt::format("LS{}", s + 1)][fmt::format("DS{}", s + 1)] = {{"Description", state.name + ": " + what},
+    states[fmt::format("LS{}", s + 1)][fmt::format("DS{}", s + 1)] = {{"Description", fmt::format("{}: {}", state.name, what)},
                                                                       {"RepairAction", "n/a"}};
   }
   nlohmann::ordered_json all;
