@@ -99,7 +99,10 @@ Capacity multilinear(const std::string& cell, double unit, const std::filesystem
 // The keys of the library, and no others.
 void require_words(const std::filesystem::path& file, const std::string& id, std::size_t states) {
   const auto all = nlohmann::json::parse(read_whole(file), nullptr, false);
-  require(all.is_object() && all.size() == 1 && all.contains(id), file, "it holds the words of this component");
+  require(all.is_object() && all.size() == 2 && all.contains(id) && all.contains("_GeneralInformation"), file,
+          "it holds _GeneralInformation and the words of this component");
+  for (const char* key : {"ShortName", "Description", "Version", "ComponentGroups"})
+    require(all["_GeneralInformation"].contains(key), file, std::string("_GeneralInformation has ") + key);
   const auto& words = all[id];
   const std::vector<std::string> known = {"Comments", "Description", "LimitStates", "RoundUpToIntegerQuantity",
                                           "SuggestedComponentBlockSize"};

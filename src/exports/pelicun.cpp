@@ -120,10 +120,14 @@ std::string words(const Model& model) {
     const std::string what = std::isnan(state.capacity) ? state.demand
                                                         : fmt::format("{} above {}{}", state.demand, state.capacity,
                                                                       state.unit == "1" ? "" : " " + state.unit);
-    states[fmt::format("LS{}", s + 1)][fmt::format("DS{}", s + 1)] = {{"Description", fmt::format("{}: {}", state.name, what)},
-                                                                      {"RepairAction", "n/a"}};
+    states[fmt::format("LS{}", s + 1)][fmt::format("DS{}", s + 1)] = {
+        {"Description", fmt::format("{}: {}", state.name, what)}, {"RepairAction", "n/a"}};
   }
   nlohmann::ordered_json all;
+  all["_GeneralInformation"] = {{"ShortName", model.id},
+                                {"Description", model.description},
+                                {"Version", "1"},
+                                {"ComponentGroups", nlohmann::ordered_json::array({model.id})}};
   all[model.id] = {{"Description", model.description},
                    {"Comments", fmt::format("{}", fmt::join(model.notes, "\n"))},
                    {"SuggestedComponentBlockSize", "1 EA"},

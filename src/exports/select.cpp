@@ -154,6 +154,9 @@ const char* name(Form form) {
 }
 
 Model select(const Result& result, const Intensity& im, const Request& request, const Format& format) {
+  if (request.form && std::find(format.forms.begin(), format.forms.end(), *request.form) == format.forms.end())
+    throw Error(fmt::format("{} has no {} (it cannot hold that form): leave --form out, or use --form discrete",
+                            format.name, *request.form == Form::parts ? "formulas for the three parts" : "lognormals"));
   std::vector<Wanted> wanted = wanted_states(result, request.states);
   if (format.last_only) wanted = {wanted.back()};
   Model fresh{request.id, request.description, request.asset_category, request.loss_category, im, unknown, unknown, {},
@@ -182,8 +185,8 @@ Result as_pta(Result result, double mu) {
   const auto convert = [&](double& im) { im = mu * (im + 1); };
   std::for_each(result.im_edge.begin(), result.im_edge.end(), convert);
   std::for_each(result.im.begin(), result.im.end(), convert);
-  result.im_name = "pta_g";
-  result.im_unit = "g";
+  result.im_name = std::string("pta_g");
+  result.im_unit = std::string("g");
   for (EdpResult& edp : result.edps) edp.functions.clear();
   return result;
 }

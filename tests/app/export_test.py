@@ -1,0 +1,169 @@
+"""`export` as its users meet it: a real sweep goes out, and reads back, in Python, as surface.csv has it; mistakes are told."""
+
+import csv
+import json
+import math
+import unittest
+import xml.etree.ElementTree as xml
+
+import numpy
+import scipy.stats
+
+from support import InFolder
+
+STUDY = """\
+name: lab fridge no. 7
+seed: 3
+samples: 4000
+block: {width_m: 0.62, height_m: 1.8, mass_kg: 300}
+friction: {mu_k: 0.25, static_ratio: 1.2}
+motions:
+  - {pulse: [A, B, C1], period_s: {uniform: [0.3, 1.5]}, peak_acceleration_g: {log_uniform: [0.1, 2]}}
+fragility:
+  im: IM
+  bins: {count: 6}
+  edp: [peak_slip_m, overturned]
+  capacities: {peak_slip_m: [0.05, 0.2]}
+  resamples: 50
+"""
+STATES = ["peak_slip_m_over_0p05", "peak_slip_m_over_0p2", "overturned"]
+NRML = "{http://openquake.org/xmlns/nrml/0.5}"
+
+
+class Export(InFolder):
+    def sweep(self, im="pga_g", study=STUDY):
+        self.out = self.folder / "run"
+        self.succeed(["run", self.write("study.yaml", study.replace("IM", im)), "-o", self.out, "--quiet"])
+        with open(self.out / "surface.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.surface = {}
+        for row in rows:
+            name = row["edp"] if row["edp"] == "overturned" else f"{row['edp']}_over_{row['capacity'].replace('.', 'p')}"
+            self.surface.setdefault(name, []).append((float(row["im"]), float(row["probability"])))
+
+    def export(self, form, to, *more, format=None):
+        format = format or ("openquake" if str(to).endswith(".xml") else "incore" if str(to).endswith(".json") else "csv")
+        return self.succeed(["export", self.out, "--format", format, "--form", form, "-o", to, *more])
+
+    def certificate(self, folder=None):
+        return json.loads(((folder or self.folder) / "certificate.json").read_text())["files"]
+
+    def against_surface(self, probability, places=9):
+        for state, points in self.surface.items():
+            for im, p in points:
+                self.assertAlmostEqual(probability(state, im), p, places, msg=f"{state} at {im}")
+
+    def test_levels_of_openquake_are_the_surface(self):
+        self.sweep("pgv_mps")
+        self.export("discrete", self.folder / "fridge.xml")
+        model = xml.parse(self.folder / "fridge.xml").getroot()[0]
+        self.assertEqual(model.find(NRML + "limitStates").text.split(), STATES)
+        function = model.find(NRML + "fragilityFunction")
+        self.assertEqual(function[0].get("imt"), "PGV")
+        levels = [float(x) for x in function[0].text.split()]
+        values = {node.get("ls"): [float(x) for x in node.text.split()] for node in function[1:]}
+        # freestand has m/s, OpenQuake cm/s
+        self.against_surface(lambda state, im: numpy.interp(100 * im, levels, values[state]), 6)
+        self.assertLess(self.certificate()["fridge.xml"]["largest_difference"], 1e-6)
+
+    def test_a_lognormal_is_what_the_function_says(self):
+        self.sweep()
+        done = self.succeed(["export", self.out, "--format", "csv", "-o", self.folder / "fridge.csv"])
+        with open(self.folder / "fridge.csv", newline="") as file:
+            rows = {row["limit_state"]: row for row in csv.DictReader(file)}
+        adequate = [state for state in STATES if rows[state]["adequate"] == "yes"]
+        for state in STATES:
+            word = "overturned" if state == "overturned" else "peak_slip_m:" + state.split("_over_")[1].replace("p", ".")
+            command = ["export", self.out, "--format", "openquake", "--form", "lognormal", "--limit-state", word, "-o",
+                       self.folder / f"{state}.xml"]
+            if state not in adequate:
+                self.fail_with(2, command, "is not adequate", "use --form discrete")
+                continue
+            self.succeed(command)
+            params = xml.parse(self.folder / f"{state}.xml").getroot()[0].find(NRML + "fragilityFunction")[1]
+            mean, deviation = float(params.get("mean")), float(params.get("stddev"))
+            sigma = math.sqrt(math.log(1 + (deviation / mean) ** 2))
+            self.assertAlmostEqual(sigma, float(rows[state]["dispersion"]), 9)
+            self.assertAlmostEqual(mean * math.exp(-sigma**2 / 2), float(rows[state]["median"]), 9)
+        self.assertIn("read back as csv reads it", done.stdout)
+
+    def test_incore_text_is_python_that_gives_the_surface(self):
+        self.sweep()
+        for form in ("discrete", "parts"):
+            try:
+                self.export(form, self.folder / "fridge.json", "--overwrite")
+            except AssertionError:
+                self.assertEqual(form, "parts")  # a bin that fails its test has none
+                continue
+            curves = json.loads((self.folder / "fridge.json").read_text())["fragilityCurves"]
+            text = {curve["description"]: curve["rules"][0]["expression"] for curve in curves}
+            self.against_surface(lambda state, im: eval(text[state], {"numpy": numpy, "scipy": scipy, "math": math, "PGA": im}), 6)
+
+    def test_pelicun_capacities_are_the_surface(self):
+        self.sweep()
+        folder = self.folder / "fridge"
+        self.export("discrete", folder, format="pelicun")
+        with open(folder / "fragility.csv", newline="") as file:
+            row = next(csv.DictReader(file))
+        self.assertEqual((row["ID"], row["Demand-Type"], row["Demand-Unit"]), ("lab_fridge_no__7", "Peak Floor Acceleration", "g"))
+
+        def probability(state, im):
+            x, y = row[f"LS{STATES.index(state) + 1}-Theta_0"].split("|")
+            x, y = [float(f"{float(v) * 9.80665:g}") for v in x.split(",")], [float(f"{float(v):g}") for v in y.split(",")]
+            return numpy.interp(im * 9.80665, x, y)
+
+        self.against_surface(probability, 4)
+        self.assertEqual(set(json.loads((folder / "fragility.json").read_text())), {row["ID"], "_GeneralInformation"})
+        entry = self.certificate(folder)["fragility.csv"]
+        self.assertLess(entry["largest_difference"], 1e-6 + entry["rounding_at_most"])
+
+    def test_the_intensity_of_the_report_needs_one_mu(self):
+        self.sweep("report")
+        to = self.folder / "a.xml"
+        base = ["export", self.out, "--format", "openquake", "-o", to]
+        self.fail_with(2, base, "known to no target", "--mu 0.25", "fit")
+        self.fail_with(2, base + ["--mu", "0.3"], "is not the mu of the samples", "--mu 0.25")
+        self.succeed(base + ["--mu", "0.25", "--skip-empty"])
+        levels = [float(x) for x in xml.parse(to).getroot()[0].find(NRML + "fragilityFunction")[0].text.split()]
+        for level, (im, _) in zip(levels, self.surface["overturned"]):
+            self.assertAlmostEqual(level, 0.25 * (1 + im), 12)
+        self.succeed(["export", self.out, "--format", "csv", "-o", self.folder / "a.csv"])
+
+    def test_many_mu_have_no_pta(self):
+        self.sweep("report", STUDY.replace("mu_k: 0.25", "mu_k: {uniform: [0.2, 0.3]}"))
+        base = ["export", self.out, "--format", "openquake", "-o", self.folder / "a.xml"]
+        self.fail_with(2, base, "known to no target", "pga_g")
+        self.fail_with(2, base + ["--mu", "0.25"], "many mu")
+
+    def test_mistakes(self):
+        self.sweep()
+        base = ["export", self.out, "--format"]
+        to = ["-o", self.folder / "a.xml"]
+        self.fail_with(2, base + ["xls"] + to, "unknown format xls", "incore")
+        self.fail_with(2, base + ["openquake", "-o", self.folder / "a.json"], "another ending", "a.xml")
+        self.fail_with(2, base + ["pelicun", "-o", self.folder / "a.csv"], "name a folder")
+        self.fail_with(2, base + ["openquake"] + to + ["--id", "a.b"], "refuses the id a.b")
+        self.fail_with(2, base + ["openquake"] + to + ["--limit-state", "slip"], "peak_slip_m, overturned")
+        self.fail_with(2, base + ["openquake"] + to + ["--mu", "0.25"], "leave it out")
+        self.fail_with(2, base + ["openquake"] + to + ["--form", "parts"], "openquake has no formulas")
+        self.fail_with(3, ["export", self.folder / "none", "--format", "csv"] + to, "fragility.h5")
+        self.assertFalse((self.folder / "a.xml").exists())
+        self.assertFalse((self.folder / "certificate.json").exists())
+
+    def test_files_are_replaced_only_when_asked_and_only_ours(self):
+        self.sweep()
+        to = self.folder / "a.xml"
+        base = ["export", self.out, "--format", "openquake", "--form", "discrete", "-o", to]
+        self.succeed(base)
+        self.succeed(["export", self.out, "--format", "csv", "-o", self.folder / "a.csv"])
+        self.assertEqual(set(self.certificate()), {"a.xml", "a.csv"})
+        self.fail_with(2, base, "is there already", "--overwrite")
+        self.succeed(base + ["--overwrite"])
+        to.write_text(to.read_text().replace("</nrml>", "<!-- mine --></nrml>"))
+        self.fail_with(2, base + ["--overwrite"], "changed since")
+        (self.folder / "certificate.json").write_text("{}")
+        self.fail_with(2, base[:-1] + [self.folder / "b.xml"], "certificate.json would be replaced")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,145 @@
+// Limit states, forms, and what is refused, on results made by hand.
+#include "exports/rising.hpp"
+#include "made_results.hpp"
+
+namespace freestand::exports::test {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Risen, PoolsNeighboursThatFallToTheirWeightedMean) {
+  EXPECT_THAT(risen({0.1, 0.4, 0.2, 0.6}, {1, 1, 3, 1}), ElementsAre(0.1, 0.25, 0.25, 0.6));
+  // What a pool does to the one before it: 0.5 stands above (0.6 + 0.2)/2.
+  EXPECT_THAT(risen({0.5, 0.6, 0.2}, {2, 1, 1}), ElementsAre(0.45, 0.45, 0.45));
+  EXPECT_THAT(risen({0.1, 0.1, 0.2}, {1, 1, 1}), ElementsAre(0.1, 0.1, 0.2));
+}
+
+TEST(LimitStates, UsuallyAreTheFirstDemandAndOverturned) {
+  const Model found = model("openquake");
+  ASSERT_EQ(found.states.size(), 3u);
+  EXPECT_EQ(found.states[0].name, "peak_slip_m_over_0p05");
+  EXPECT_EQ(found.states[1].name, "peak_slip_m_over_0p2");
+  EXPECT_EQ(found.states[2].name, "overturned");
+  EXPECT_TRUE(std::isnan(found.states[2].capacity));
+}
+
+TEST(LimitStates, AreChosenAndNamed) {
+  const Model found = model("openquake", request({"peak_slip_m:0.2=hits", "overturned=falls"}));
+  ASSERT_EQ(found.states.size(), 2u);
+  EXPECT_EQ(found.states[0].name, "hits");
+  EXPECT_EQ(found.states[0].capacity, 0.2);
+  EXPECT_EQ(found.states[1].name, "falls");
+}
+
+TEST(LimitStates, ThatAreNotThereAreToldWithThoseThatAre) {
+  const auto why = [](const std::string& word) { return error_of([&] { model("openquake", request({word})); }); };
+  EXPECT_THAT(why("slip:0.2"), AllOf(HasSubstr("slip"), HasSubstr("peak_slip_m, overturned")));
+  EXPECT_THAT(why("peak_slip_m:0.3"), HasSubstr("it has 0.05, 0.2"));
+  EXPECT_THAT(why("peak_slip_m:much"), HasSubstr("is no number"));
+  EXPECT_THAT(why("overturned:0.5"), HasSubstr("takes no capacity"));
+  EXPECT_THAT(why("overturned=it falls"), HasSubstr("letters, digits and _ only"));
+  EXPECT_THAT(why("peak_slip_m=both"), HasSubstr("one name to 2 limit states"));
+  EXPECT_THAT(error_of([] { model("openquake", request({"overturned", "overturned"})); }), HasSubstr("twice"));
+}
+
+TEST(Forms, AdequateLognormalsGoOutAndOthersNever) {
+  EXPECT_EQ(model("openquake").states[0].curve.form, Form::lognormal);
+  EXPECT_EQ(model("openquake").states[0].curve.median, 0.5);
+  const Model counted = model("openquake", request(), made_results(false));
+  for (const LimitState& state : counted.states) EXPECT_EQ(state.curve.form, Form::discrete);
+  EXPECT_THAT(counted.notes,
+              testing::Contains(HasSubstr("no lognormal form: the lognormal of peak_slip_m > 0.05 m is not "
+                                          "adequate (it may be off by 0.12)")));
+  Request wanted = request();
+  wanted.form = Form::lognormal;
+  EXPECT_THAT(error_of([&] { model("openquake", wanted, made_results(false)); }), HasSubstr("use --form discrete"));
+}
+
+TEST(Forms, DiscretePassesThroughTheSurface) {
+  const fragility::Result result = made_results(false);
+  const Model found = model("openquake", request(), result);
+  for (std::size_t b = 0; b < std::size(bins); ++b)
+    EXPECT_EQ(probability(found.states[0].curve, bins[b]), result.edps[0].surface.probability[2 * b]);
+  const double last = result.edps[0].surface.probability[8];
+  EXPECT_EQ(probability(found.states[0].curve, 5), last);
+  EXPECT_EQ(probability(found.states[0].curve, 0), 0);
+  EXPECT_EQ(found.states[0].off_surface, 0);
+}
+
+TEST(Forms, PartsAreTheThreePartsAtTheBinsAndBetweenThem) {
+  const Model found = model("incore", request(), made_results(false));
+  ASSERT_EQ(found.states[0].curve.form, Form::parts);
+  EXPECT_NEAR(probability(found.states[0].curve, 0.6), three_parts(0.1, 0.1, std::log(0.06), 0.5, 0.05), 1e-15);
+  // Half way between the bins at 0.6 and 1.0 every part is half way.
+  EXPECT_NEAR(probability(found.states[1].curve, 0.8),
+              three_parts(0.2, 0.05, (std::log(0.06) + std::log(0.1)) / 2, 0.5, 0.2), 1e-15);
+  EXPECT_EQ(probability(found.states[0].curve, 0.05), 0);  // nothing moved in the lowest bin
+  EXPECT_NEAR(probability(found.states[2].curve, 1.3), 0.45, 1e-15);
+}
+
+TEST(Forms, ABinThatFailedItsTestHasNoParts) {
+  fragility::Result result = made_results(false);
+  result.edps[0].bins[2].status = fragility::BinStatus::rejected;
+  EXPECT_EQ(model("incore", request(), result).states[0].curve.form, Form::discrete);
+  Request wanted = request();
+  wanted.form = Form::parts;
+  EXPECT_THAT(error_of([&] { model("incore", wanted, result); }), HasSubstr("no three parts at pga_g 0.6"));
+}
+
+TEST(Falling, WithinItsBandIsPooledAndToldBeyondItRefused) {
+  fragility::Result result = made_results(false);
+  set_surface(result.edps[1], 3, 0.63);
+  const Model found = model("openquake", request({"overturned"}), result);
+  EXPECT_NEAR(probability(found.states[0].curve, 1.0), 0.615, 1e-15);
+  EXPECT_NEAR(probability(found.states[0].curve, 1.6), 0.615, 1e-15);
+  EXPECT_NEAR(found.states[0].pooled, 0.015, 1e-15);
+  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("pooled, by 0.015")));
+  set_surface(result.edps[1], 3, 0.7);
+  EXPECT_THAT(error_of([&] { model("openquake", request({"overturned"}), result); }),
+              HasSubstr("the probability of overturned falls near pga_g 1"));
+}
+
+TEST(Crossing, IsRefusedWithWhereItHappens) {
+  EXPECT_THAT(error_of([] {
+                model("openquake", request({"overturned", "peak_slip_m:0.05"}));
+              }),
+              AllOf(HasSubstr("limit states cross at pga_g"), HasSubstr("least severe first")));
+  // Lognormals of other dispersions cross in the tail; their surfaces do not.
+  fragility::Result result = made_results();
+  result.edps[0].functions[1] = function(0.9, 0.9, true);
+  EXPECT_EQ(model("openquake", request(), result).states[0].curve.form, Form::discrete);
+}
+
+TEST(EmptyRows, AreRefusedOrLeftOut) {
+  fragility::Result result = made_results(false);
+  result.edps[1].surface.probability[2] = std::nan("");
+  result.edps[1].bins[2].n = 12;
+  EXPECT_THAT(error_of([&] { model("openquake", request(), result); }),
+              AllOf(HasSubstr("empty row at pga_g 0.6 (12 samples"), HasSubstr("--skip-empty")));
+  Request wanted = request({"overturned"});
+  wanted.skip_empty = true;
+  EXPECT_NEAR(probability(model("openquake", wanted, result).states[0].curve, 0.65), 0.15, 1e-15);
+}
+
+TEST(Probabilities, AboveOneAreRefused) {
+  fragility::Result result = made_results(false);
+  result.edps[1].surface.probability[4] = 1.2;
+  EXPECT_THAT(error_of([&] { model("openquake", request(), result); }), HasSubstr("must lie within 0 and 1"));
+}
+
+TEST(ReportsIntensity, IsPtaAtOneMu) {
+  fragility::Result result = made_results();
+  result.im_name = "report";
+  result.im_unit = "1";
+  const fragility::Result pta = as_pta(result, 0.2);
+  EXPECT_EQ(pta.im_name, "pta_g");
+  EXPECT_NEAR(pta.im[1], 0.2 * 1.3, 1e-15);
+  EXPECT_NEAR(pta.im_edge[5], 0.2 * 3, 1e-15);
+  EXPECT_THAT(pta.edps[0].functions, IsEmpty());
+}
+
+}  // namespace
+}  // namespace freestand::exports::test
