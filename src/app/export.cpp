@@ -54,9 +54,10 @@ void add_export(CLI::App& parser, Work& work) {
   verb->add_option("--format", request.format, "one of:" + formats_text())->required();
   verb->add_option("-o,--output", request.output, "file, or folder")->required();
   verb->add_option(
-      "--limit-state", request.what.states,
-      "DEMAND:CAPACITY, or DEMAND for all its capacities, each with =NAME behind it if wanted; least severe "
-      "first; repeat it (usual: the first demand with capacities, then overturned)");
+          "--limit-state", request.what.states,
+          "DEMAND:CAPACITY, or DEMAND for all its capacities, each with =NAME behind it if wanted; least severe "
+          "first; repeat it (usual: the first demand with capacities, then overturned)")
+      ->allow_extra_args(false);
   verb->add_option(
           "--form", options->form,
           "auto | lognormal (the fitted function) | discrete (the surface, bin by bin) | counted (shares of samples) "

@@ -27,7 +27,8 @@ ReadBack open(const std::filesystem::path& file, const Intensity& im) {
   ReadBack back;
   std::vector<Lines> states;
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (table.text(row, "im") != im.name || table.text(row, "im_unit") != im.unit)
+    const std::string name = im.period_s > 0 ? fmt::format("{} at {} s", im.name, im.period_s) : im.name;
+    if (table.text(row, "im") != name || table.text(row, "im_unit") != im.unit)
       throw Error(
           fmt::format("{} names another intensity than {} (its row {}): export again", file.string(), im.name, row + 2),
           Exit::data);

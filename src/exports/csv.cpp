@@ -8,12 +8,25 @@
 namespace freestand::exports {
 namespace {
 
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
+  quoted += '"';
+  return quoted;
+}
+
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
+// "sa_g at 1 s"
+std::string name_of(const Intensity& im) {
+  return im.period_s > 0 ? fmt::format("{} at {} s", im.name, im.period_s) : im.name;
+}
 
 std::string rows(const Model& model, const LimitState& state) {
   const Fitted& f = state.fitted;
-  const std::string head = fmt::format("{},{},{},{},{},{}", state.name, state.demand, cell(state.capacity), state.unit,
-                                       model.im.name, model.im.unit);
+  const std::string head = fmt::format("{},{},{},{},{},{}", state.name, cell(state.demand), cell(state.capacity),
+                                       state.unit, name_of(model.im), model.im.unit);
   const std::string tail = fmt::format("{},{},{},{},{},{}", cell(f.median), cell(f.median_se), cell(f.dispersion),
                                        cell(f.dispersion_se), cell(f.off_by), f.adequate ? "yes" : "no");
   std::string text;

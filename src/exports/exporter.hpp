@@ -31,6 +31,7 @@ struct Format {
   std::vector<Form> forms;  // that the target can hold, best first
   bool table = false;  // holds results as they are: nothing is pooled, limit states may cross, any intensity will do
   bool last_only = false;  // holds the most severe limit state alone
+  std::string note = {};   // a plain sentence that goes with every file of it
   // What stands for --asset-category where nothing was said; none: "".
   std::string (*usual_category)(std::size_t states) = nullptr;
   // Refuses, with an Error, what the target cannot express.

@@ -122,13 +122,17 @@ std::vector<File> write(const Model& model, const std::string& name) {
   return {{name, set.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"}};
 }
 
-const Register here{{.name = "incore",
-                     .summary = "a fragility set for IN-CORE: lognormals, levels, or the three parts as they are",
-                     .file = "fragility.json",
-                     .forms = {Form::lognormal, Form::parts, Form::discrete},
-                     .usual_category = usual_category,
-                     .refuse = refuse,
-                     .write = write}};
+const Register here{
+    {.name = "incore",
+     .summary = "a fragility set for IN-CORE: lognormals, levels, or the three parts as they are",
+     .file = "fragility.json",
+     .forms = {Form::lognormal, Form::parts, Form::discrete},
+     .note = "the intensity is that of the motion under the equipment, IN-CORE's that of the ground: they are the "
+             "same where the equipment stands on the ground, or where the sweep was fitted over an intensity of the "
+             "ground",
+     .usual_category = usual_category,
+     .refuse = refuse,
+     .write = write}};
 
 }  // namespace
 }  // namespace freestand::exports

@@ -74,6 +74,7 @@ const Register here{{.name = "openquake",
                      .summary = "fragility for OpenQuake, NRML 0.5: lognormal or by levels",
                      .file = "fragility.xml",
                      .forms = {Form::lognormal, Form::discrete},
+                     .note = openquake::of_the_ground,
                      .usual_category = [](std::size_t) -> std::string { return "buildings"; },
                      .refuse = openquake::refuse,
                      .write = write}};

@@ -8,6 +8,11 @@
 
 namespace freestand::exports::openquake {
 
+inline constexpr const char* of_the_ground =
+    "the intensity is that of the motion under the equipment, OpenQuake's that of the ground: they are the same where "
+    "the "
+    "equipment stands on the ground, or where the sweep was fitted over an intensity of the ground";
+
 // OpenQuake's name of an intensity, and how much one of freestand's unit is in OpenQuake's (g, cm/s, cm).
 struct Imt {
   std::string name;

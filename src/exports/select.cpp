@@ -173,6 +173,7 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
     if (refusal.empty()) {
       take_notes(model, result, form);
       if (!passed_over.empty()) model.notes.push_back(passed_over);
+      if (!format.note.empty()) model.notes.push_back(format.note);
       return model;
     }
     passed_over +=
