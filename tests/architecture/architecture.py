@@ -171,7 +171,7 @@ def registry_problems(root):
             continue
         declared = {file.stem for file in folder.glob("*.hpp")}
         for file in sorted(folder.glob("*.cpp")):
-            registers = re.search(r"\bRegister(?:ed\w*)?(?:<[^;{]*>)?\s+\w+\s*[{(]", file.read_text(encoding="utf-8"))
+            registers = re.search(r"\bRegister(?:ed\w*|Check)?(?:<[^;{]*>)?\s+\w+\s*[{(]", file.read_text(encoding="utf-8"))
             if not registers and file.stem not in declared and not _helper(folder, file):
                 found.append(f"src/{module.name}/{file.name}: registers nothing: each file of this folder adds one thing by name")
     return found
