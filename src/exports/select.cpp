@@ -75,10 +75,15 @@ void take_range(Model& model, const std::vector<Wanted>& wanted) {
       include(one.edp->functions[one.capacity].im_least, one.edp->functions[one.capacity].im_most);
 }
 
-// Where limit states cross within what was swept: a more severe one must not be likelier.
+// Where limit states cross below the highest intensity swept: a more severe one must not be likelier. Lognormals are
+// followed down to where each is below 1e-9.
 Refusal crossing(const Model& model) {
+  double low = model.im_least;
+  for (const LimitState& state : model.states)
+    if (state.curve.form == Form::lognormal)
+      low = std::min(low, state.curve.median * std::exp(-6 * state.curve.dispersion));
   std::vector<double> places;
-  for (int i = 0; i <= 200; ++i) places.push_back(model.im_least * std::pow(model.im_most / model.im_least, i / 200.0));
+  for (int i = 0; i <= 400; ++i) places.push_back(low * std::pow(model.im_most / low, i / 400.0));
   for (const LimitState& state : model.states)
     for (const Bin& bin : state.bins) places.push_back(bin.im);
   for (std::size_t s = 1; s < model.states.size(); ++s)
