@@ -58,36 +58,39 @@ void refuse(const Model& model) {
 
 double six_digits(double value) { return std::stod(fmt::format("{:.6g}", value)); }
 
-// The next number of six digits above a positive one of six digits.
-double next_of_six(double value) {
-  const double step = std::pow(10.0, std::floor(std::log10(value * (1 + 1e-12))) - 5);
-  return six_digits(value + step);
+// pelicun takes probabilities that differ by 1e-8 for the same (numpy.isclose); these are further apart.
+constexpr double apart = 1e-7;
+
+// The least probability that is told from this one, in six digits.
+double above(double p) {
+  const double digit = p > 0 ? std::pow(10.0, std::floor(std::log10(p * (1 + 1e-12))) - 5) : 0;
+  return six_digits(p + std::max(digit, apart));
 }
 
-// Points that rise strictly from 0 to 1 in six digits, through those of the curve.
+// Points that rise strictly from 0 to 1 in six digits, through those of the curve. Of a plateau the ends are kept, its
+// last one above the first.
 std::vector<Point> strictly_rising(const std::vector<Point>& points) {
+  const auto value = [&](std::size_t i) {
+    const double p = six_digits(points[i].probability);
+    return p < apart ? 0 : p;
+  };
   std::vector<Point> result;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double p = six_digits(points[i].probability);
-    const bool ends_plateau = i + 1 == points.size() || six_digits(points[i + 1].probability) > p;
-    const bool begins_plateau = result.empty() || p > result.back().probability;
-    if (p >= 1) {
+    const bool last = i + 1 == points.size();
+    const double p = value(i), least = result.empty() ? 0 : above(result.back().probability);
+    if (p >= 1 || least >= 1) {
       result.push_back({points[i].im, 1});
       return result;
     }
     if (!(p > 0)) {
-      if (ends_plateau) result.push_back({points[i].im, 0});
-    } else if (begins_plateau) {
+      if (last || value(i + 1) > 0) result.push_back({points[i].im, 0});
+    } else if (p >= least) {
       result.push_back({points[i].im, p});
-    } else if (ends_plateau) {
-      result.push_back({points[i].im, next_of_six(result.back().probability)});
+    } else if (last || value(i + 1) >= above(least)) {
+      result.push_back({points[i].im, least});
     }
   }
-  // A probability that was pushed past the next one goes on pushing.
-  for (std::size_t i = 1; i < result.size(); ++i)
-    if (result[i].probability <= result[i - 1].probability && result[i - 1].probability > 0)
-      result[i].probability = next_of_six(result[i - 1].probability);
-  if (result.size() == 1 || result.back().probability < 1) result.push_back({far_away * points.back().im, 1});
+  result.push_back({far_away * points.back().im, 1});
   return result;
 }
 

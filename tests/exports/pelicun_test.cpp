@@ -38,6 +38,12 @@ TEST(Pelicun, AMultilinearCapacityRisesStrictlyFromZeroToOne) {
   EXPECT_THAT(files(discrete({0, 0.25, 1, 1, 1}))[0].text, HasSubstr(",\"0.1,0.3,0.6|0,0.25,1\","));
   EXPECT_THAT(files(discrete({0.2, 0.25, 0.3, 0.4, 0.4}))[0].text,
               HasSubstr(",\"0,0.1,0.3,0.6,1,1.6,1600000|0,0.2,0.25,0.3,0.4,0.400001,1\","));
+  // What is below 1e-7 is 0, what is next to 1 is 1; pelicun cannot tell 1e-9 from 0.
+  EXPECT_THAT(files(discrete({1e-12, 1e-9, 0.5, 0.9999999, 1}))[0].text, HasSubstr(",\"0.3,0.6,1|0,0.5,1\","));
+  EXPECT_THAT(files(discrete({0, 0.5, 0.999999, 0.999999, 1}))[0].text,
+              HasSubstr(",\"0.1,0.3,0.6,1|0,0.5,0.999999,1\","));
+  EXPECT_THAT(files(discrete({2e-7, 2.2e-7, 2.4e-7, 0.1, 0.2}))[0].text,
+              HasSubstr(",\"0,0.1,0.6,1,1.6,1600000|0,2e-07,3e-07,0.1,0.2,1\","));
   // 0.1000001 is 0.1 in six digits.
   EXPECT_THAT(files(discrete({0, 0.1, 0.1000001, 0.3, 0.6}))[0].text,
               HasSubstr(",\"0.1,0.3,0.6,1,1.6,1600000|0,0.1,0.100001,0.3,0.6,1\","));
