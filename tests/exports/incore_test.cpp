@@ -57,40 +57,40 @@ TEST(InCore, WantsAsManyLimitStatesAsItsInventoryHas) {
 // Rules of a user's file.
 std::string set_of(const std::string& rules) {
   const std::string curve =
-      R"({"description": "a", "returnType": {"type": "Limit State", "unit": "", "description": "LS_0"}, "rules": [)" +
+      R"j({"description": "a", "returnType": {"type": "Limit State", "unit": "", "description": "LS_0"}, "rules": [)j" +
       rules + "]}";
-  return R"({"demandTypes": ["PGA"], "demandUnits": ["g"], "resultType": "Limit State", "hazardType": "earthquake",
+  return R"j({"demandTypes": ["PGA"], "demandUnits": ["g"], "resultType": "Limit State", "hazardType": "earthquake",
     "inventoryType": "building", "curveParameters": [{"name": "PGA", "unit": "g", "fullName": "PGA", "expression": null}],
-    "fragilityCurves": [)" +
+    "fragilityCurves": [)j" +
          curve + "," + curve + "," + curve + "]}";
 }
 
 TEST(InCoreCheck, GoesThroughRulesInOrderAndRounds) {
   const std::string guarded =
-      R"({"condition": ["PGA > 0"], "expression": "scipy.stats.norm.cdf((math.log(PGA) - (0)) / (0.5))"})";
-  const std::string otherwise = R"({"condition": null, "expression": "0"})";
-const ReadBack back = read(set_of(guarded + "," + otherwise));
-EXPECT_EQ(back.probability(0, 1), 0.5);
-EXPECT_EQ(back.probability(0, 0), 0);
-EXPECT_EQ(back.probability(0, std::exp(0.5)), 0.8413447461);  // ten digits
-// The rule without condition does not end the search: in front it gives way to what comes behind it.
-EXPECT_EQ(read(set_of(R"({"condition": null, "expression": "0.25"},)" + guarded)).probability(0, 1), 0.5);
-EXPECT_EQ(read(set_of(R"({"expression": "2^2/16"})")).probability(0, 1), 0.25);
-  EXPECT_NEAR(read(set_of(R"({"expression": "numpy.interp(PGA, [0, 1, 3], [0, 0.5, 0.6])"
-  })")).probability(0, 2), 0.55, 1e-12);
-  }
+      R"j({"condition": ["PGA > 0"], "expression": "scipy.stats.norm.cdf((math.log(PGA) - (0)) / (0.5))"})j";
+  const std::string otherwise = R"j({"condition": null, "expression": "0"})j";
+  const ReadBack back = read(set_of(guarded + "," + otherwise));
+  EXPECT_EQ(back.probability(0, 1), 0.5);
+  EXPECT_EQ(back.probability(0, 0), 0);
+  EXPECT_EQ(back.probability(0, std::exp(0.5)), 0.8413447461);  // ten digits
+  // The rule without condition does not end the search: in front it gives way to what comes behind it.
+  EXPECT_EQ(read(set_of(R"j({"condition": null, "expression": "0.25"},)j" + guarded)).probability(0, 1), 0.5);
+  EXPECT_EQ(read(set_of(R"j({"expression": "2^2/16"})j")).probability(0, 1), 0.25);
+  EXPECT_NEAR(read(set_of(R"j({"expression": "numpy.interp(PGA, [0, 1, 3], [0, 0.5, 0.6])"})j")).probability(0, 2), 0.55,
+              1e-12);
+}
 
-  TEST(InCoreCheck, HoldsFilesToTheRules) {
-    const std::string good = set_of(R"({"expression": "0"})");
-    const auto why = [&](const std::string& old, const std::string& next) {
-      return error_of([&] { read(edited(good, old, next)); });
-    };
-    EXPECT_THAT(why("[\"g\"]", "[\"mps2\"]"), HasSubstr("PGA in mps2"));
-    EXPECT_THAT(why("building", "bridge"), HasSubstr("this inventory has 4 curves"));
-    EXPECT_THAT(why("\"hazardType\": \"earthquake\",", ""), HasSubstr("it has hazardType"));
-    EXPECT_THAT(why("\"0\"", "\"math.sinus(PGA)\""), HasSubstr("is not what IN-CORE reads"));
-    EXPECT_THAT(why("{\"demandTypes\"", "[\"demandTypes\""), HasSubstr("is not what IN-CORE reads"));
-  }
+TEST(InCoreCheck, HoldsFilesToTheRules) {
+  const std::string good = set_of(R"j({"expression": "0"})j");
+  const auto why = [&](const std::string& old, const std::string& next) {
+    return error_of([&] { read(edited(good, old, next)); });
+  };
+  EXPECT_THAT(why("[\"g\"]", "[\"mps2\"]"), HasSubstr("PGA in mps2"));
+  EXPECT_THAT(why("building", "bridge"), HasSubstr("this inventory has 4 curves"));
+  EXPECT_THAT(why("\"hazardType\": \"earthquake\",", ""), HasSubstr("it has hazardType"));
+  EXPECT_THAT(why("\"0\"", "\"math.sinus(PGA)\""), HasSubstr("is not what IN-CORE reads"));
+  EXPECT_THAT(why("{\"demandTypes\"", "[\"demandTypes\""), HasSubstr("is not what IN-CORE reads"));
+}
 
-  }  // namespace
-  }  // namespace freestand::exports::test
+}  // namespace
+}  // namespace freestand::exports::test
