@@ -79,8 +79,8 @@ Certified certify(const Model& model, const Format& format, const std::filesyste
                     {"im", model.im.name},
                     {"im_unit", model.im.unit},
                     {"unit_in_file", back.unit},
-                    {"from", intensities(model).front()},
-                    {"to", intensities(model).back()},
+                    {"im_from", intensities(model).front()},
+                    {"im_to", intensities(model).back()},
                     {"limit_states", states},
                     {"notes", model.notes}};
   return certified;

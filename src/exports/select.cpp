@@ -110,16 +110,17 @@ void measure_surface(LimitState& state) {
   }
 }
 
-void take_notes(Model& model, const Result& result, Form form) {
+void take_notes(Model& model, const Result& result, Form form, bool table) {
   const std::string unit = model.im.unit == "1" ? "" : " " + model.im.unit;
   const std::vector<Bin>& bins = model.states.front().bins;
-  model.notes.push_back(
-      form == Form::lognormal
-          ? fmt::format("swept from {:.4g} to {:.4g}{}: outside of that a lognormal is an extrapolation",
-                        model.im_least, model.im_most, unit)
-          : fmt::format("below the lowest bin, at {:.4g}{}, probabilities go straight to 0 at 0; above the highest, at "
-                        "{:.4g}{}, they stay",
-                        bins.front().im, unit, bins.back().im, unit));
+  if (form == Form::lognormal)
+    model.notes.push_back(fmt::format("swept from {:.4g} to {:.4g}{}: outside of that a lognormal is an extrapolation",
+                                      model.im_least, model.im_most, unit));
+  else if (!table)
+    model.notes.push_back(
+        fmt::format("straight lines between {} bins; below the lowest, at {:.4g}{}, to 0 at 0; above the highest, at "
+                    "{:.4g}{}, probabilities stay",
+                    bins.size(), bins.front().im, unit, bins.back().im, unit));
   for (const LimitState& state : model.states) {
     if (state.pooled > tolerance)
       model.notes.push_back(fmt::format("{}: bins that fell within their bands were pooled, by {:.2g} at most",
@@ -176,7 +177,7 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
     Model model = fresh;
     refusal = take_form(model, result, wanted, form, format.table);
     if (refusal.empty()) {
-      take_notes(model, result, form);
+      take_notes(model, result, form, format.table);
       if (!passed_over.empty()) model.notes.push_back(passed_over);
       if (!format.note.empty()) model.notes.push_back(format.note);
       return model;

@@ -86,8 +86,7 @@ Places places(const ExportRequest& request, const exports::Format& format) {
     throw Error(fmt::format("{} has another ending than a file for {} ({}): name {}, or a folder",
                             request.output.string(), format.name, fs::path(format.file).extension().string(),
                             fs::path(request.output).replace_extension(fs::path(format.file).extension()).string()));
-  return {request.output.parent_path().empty() ? "." : request.output.parent_path(),
-          request.output.filename().string()};
+  return {request.output.parent_path(), request.output.filename().string()};
 }
 
 std::string hash_of(const std::string& text) { return fmt::format("{:016x}", random::stable_hash(text)); }
@@ -147,7 +146,7 @@ ExportSummary export_fragility(const ExportRequest& request) {
   const std::vector<exports::File> files = format.write(model, to.name);
   Json certificate = certificate_in(to.folder);
   for (const exports::File& file : files) refuse_to_replace(to.folder / file.name, certificate, request.overwrite);
-  fs::create_directories(to.folder);
+  if (!to.folder.empty()) fs::create_directories(to.folder);
   for (const exports::File& file : files) {
     write_durably(to.folder / file.name, file.text);
     summary.files.push_back(to.folder / file.name);

@@ -15,10 +15,10 @@ STUDY = """\
 name: lab fridge no. 7
 seed: 3
 samples: 4000
-block: {width_m: 0.62, height_m: 1.8, mass_kg: 300}
-friction: {mu_k: 0.25, static_ratio: 1.2}
+block: {width_m: 0.55, height_m: {uniform: [1.6, 2.4]}, mass_kg: 300}
+friction: {mu_k: 0.28, static_ratio: 1.2}
 motions:
-  - {pulse: [A, B, C1], period_s: {uniform: [0.3, 1.5]}, peak_acceleration_g: {log_uniform: [0.1, 2]}}
+  - {pulse: [A, B, C1], period_s: {uniform: [0.4, 2]}, peak_acceleration_g: {log_uniform: [0.1, 2]}}
 fragility:
   im: IM
   bins: {count: 6}
@@ -121,19 +121,19 @@ class Export(InFolder):
         self.sweep("report")
         to = self.folder / "a.xml"
         base = ["export", self.out, "--format", "openquake", "-o", to]
-        self.fail_with(2, base, "known to no target", "--mu 0.25", "fit")
-        self.fail_with(2, base + ["--mu", "0.3"], "is not the mu of the samples", "--mu 0.25")
-        self.succeed(base + ["--mu", "0.25", "--skip-empty"])
+        self.fail_with(2, base, "known to no target", "--mu 0.28", "fit")
+        self.fail_with(2, base + ["--mu", "0.3"], "is not the mu of the samples", "--mu 0.28")
+        self.succeed(base + ["--mu", "0.28", "--skip-empty"])
         levels = [float(x) for x in xml.parse(to).getroot()[0].find(NRML + "fragilityFunction")[0].text.split()]
         for level, (im, _) in zip(levels, self.surface["overturned"]):
-            self.assertAlmostEqual(level, 0.25 * (1 + im), 12)
+            self.assertAlmostEqual(level, 0.28 * (1 + im), 12)
         self.succeed(["export", self.out, "--format", "csv", "-o", self.folder / "a.csv"])
 
     def test_many_mu_have_no_pta(self):
-        self.sweep("report", STUDY.replace("mu_k: 0.25", "mu_k: {uniform: [0.2, 0.3]}"))
+        self.sweep("report", STUDY.replace("mu_k: 0.28", "mu_k: {uniform: [0.2, 0.3]}"))
         base = ["export", self.out, "--format", "openquake", "-o", self.folder / "a.xml"]
         self.fail_with(2, base, "known to no target", "pga_g")
-        self.fail_with(2, base + ["--mu", "0.25"], "many mu")
+        self.fail_with(2, base + ["--mu", "0.28"], "many mu")
 
     def test_mistakes(self):
         self.sweep()
@@ -144,7 +144,7 @@ class Export(InFolder):
         self.fail_with(2, base + ["pelicun", "-o", self.folder / "a.csv"], "name a folder")
         self.fail_with(2, base + ["openquake"] + to + ["--id", "a.b"], "refuses the id a.b")
         self.fail_with(2, base + ["openquake"] + to + ["--limit-state", "slip"], "peak_slip_m, overturned")
-        self.fail_with(2, base + ["openquake"] + to + ["--mu", "0.25"], "leave it out")
+        self.fail_with(2, base + ["openquake"] + to + ["--mu", "0.28"], "leave it out")
         self.fail_with(2, base + ["openquake"] + to + ["--form", "parts"], "openquake has no formulas")
         self.fail_with(3, ["export", self.folder / "none", "--format", "csv"] + to, "fragility.h5")
         self.assertFalse((self.folder / "a.xml").exists())

@@ -30,7 +30,7 @@ TEST(Certificate, EveryFormatInEveryFormIsReadAsItIsHeld) {
       if (format.name != "pelicun" || form != Form::discrete)  // which rounds
         EXPECT_LT(certified.difference, 1e-6) << format.name << " " << name(form);
       EXPECT_EQ(certified.json["limit_states"].size(), held.states.size());
-      EXPECT_EQ(certified.json["to"], 1.9);
+      EXPECT_EQ(certified.json["im_to"], 1.9);
     }
 }
 

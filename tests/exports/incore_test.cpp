@@ -76,8 +76,8 @@ TEST(InCoreCheck, GoesThroughRulesInOrderAndRounds) {
   // The rule without condition does not end the search: in front it gives way to what comes behind it.
   EXPECT_EQ(read(set_of(R"j({"condition": null, "expression": "0.25"},)j" + guarded)).probability(0, 1), 0.5);
   EXPECT_EQ(read(set_of(R"j({"expression": "2^2/16"})j")).probability(0, 1), 0.25);
-  EXPECT_NEAR(read(set_of(R"j({"expression": "numpy.interp(PGA, [0, 1, 3], [0, 0.5, 0.6])"})j")).probability(0, 2), 0.55,
-              1e-12);
+  EXPECT_NEAR(read(set_of(R"j({"expression": "numpy.interp(PGA, [0, 1, 3], [0, 0.5, 0.6])"})j")).probability(0, 2),
+              0.55, 1e-12);
 }
 
 TEST(InCoreCheck, HoldsFilesToTheRules) {
