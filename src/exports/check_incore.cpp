@@ -51,6 +51,7 @@ class Formula {
     parser_->DefineFun("numpy.interp", interp);
     parser_->DefineVar(variable, level_.get());
     parser_->SetExpr(text);
+    (*this)(1);  // tells at once what cannot be evaluated
   }
   double operator()(double level) const {
     *level_ = level;
