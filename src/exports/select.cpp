@@ -110,6 +110,16 @@ void measure_surface(LimitState& state) {
   }
 }
 
+// Warnings begin with the demand that they are of, where they are of one.
+bool of_another_demand(const std::string& warning, const Model& model, const Result& result) {
+  const auto goes_out = [&](const EdpResult& edp) {
+    return std::any_of(model.states.begin(), model.states.end(),
+                       [&](const LimitState& s) { return s.demand == edp.name; });
+  };
+  return std::any_of(result.edps.begin(), result.edps.end(),
+                     [&](const EdpResult& edp) { return warning.starts_with(edp.name + ": ") && !goes_out(edp); });
+}
+
 void take_notes(Model& model, const Result& result, Form form, bool table) {
   const std::string unit = model.im.unit == "1" ? "" : " " + model.im.unit;
   const std::vector<Bin>& bins = model.states.front().bins;
@@ -132,7 +142,8 @@ void take_notes(Model& model, const Result& result, Form form, bool table) {
       model.notes.push_back(fmt::format("{}: the lognormal and the surface differ by up to {:.2g}, at {:.4g}{}",
                                         state.name, state.off_surface, state.off_surface_at, unit));
   }
-  for (const std::string& warning : result.warnings) model.notes.push_back(warning);
+  for (const std::string& warning : result.warnings)
+    if (!of_another_demand(warning, model, result)) model.notes.push_back(warning);
 }
 
 // Gives all limit states that form, or says why not.

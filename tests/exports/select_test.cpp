@@ -89,6 +89,14 @@ TEST(Forms, ABinThatFailedItsTestHasNoParts) {
   EXPECT_THAT(error_of([&] { model("incore", wanted, result); }), HasSubstr("no three parts at pga_g 0.6"));
 }
 
+TEST(Notes, AreOfTheDemandsThatGoOut) {
+  fragility::Result result = made_results();
+  result.warnings = {"peak_slip_m: fails", "overturned: rare", "samples are few"};
+  const Model found = model("openquake", request({"overturned"}), result);
+  EXPECT_THAT(found.notes, testing::IsSupersetOf({"overturned: rare", "samples are few"}));
+  EXPECT_THAT(found.notes, testing::Not(testing::Contains(HasSubstr("fails"))));
+}
+
 TEST(Falling, WithinItsBandIsPooledAndToldBeyondItRefused) {
   fragility::Result result = made_results(false);
   set_surface(result.edps[1], 3, 0.63);
