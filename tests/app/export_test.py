@@ -71,6 +71,13 @@ class Export(InFolder):
         self.against_surface(lambda state, im: numpy.interp(100 * im, levels, values[state]), entry)
         self.assertLess(entry["largest_difference"], 1e-6)
 
+    def test_a_spectral_acceleration_goes_out_at_its_period(self):
+        self.sweep("{name: sa_g, period_s: 0.5}")
+        self.export("discrete", self.folder / "fridge.xml")
+        self.assertIn('imt="SA(0.5)"', (self.folder / "fridge.xml").read_text())
+        self.export("discrete", self.folder / "fridge.csv", format="csv")
+        self.assertIn(",sa_g at 0.5 s,g,", (self.folder / "fridge.csv").read_text())
+
     def test_a_lognormal_is_what_the_function_says(self):
         self.sweep()
         done = self.succeed(["export", self.out, "--format", "csv", "-o", self.folder / "fridge.csv"])
