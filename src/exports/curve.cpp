@@ -33,9 +33,9 @@ double of_parts(const Curve& curve, double im) {
   const auto [below, share] = place(curve.parts, im);
   const PartsPoint& a = curve.parts[below];
   const PartsPoint& b = share > 0 ? curve.parts[below + 1] : a;
-  const double p_over = between(a.p_over, b.p_over, share), p_still = between(a.p_still, b.p_still, share),
+  const double p_over = between(a.p_over, b.p_over, share), p_never = between(a.p_never, b.p_never, share),
                lambda = between(a.lambda, b.lambda, share), omega = between(a.omega, b.omega, share);
-  return p_over + (1 - p_over) * (1 - p_still) * normal_cdf((lambda - curve.ln_capacity) / omega);
+  return p_over + (1 - p_over) * (1 - p_never) * normal_cdf((lambda - curve.ln_capacity) / omega);
 }
 
 }  // namespace

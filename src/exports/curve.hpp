@@ -17,9 +17,10 @@ struct Point {
   double im, probability;
 };
 
-// The three parts at one intensity: P = p_over + (1 - p_over) (1 - p_still) (1 - Phi((ln C - lambda)/omega)).
+// The three parts at one intensity, as the surface has them: p_never is the share that shows no demand at all, of those that
+// stood. P = p_over + (1 - p_over) (1 - p_never) (1 - Phi((ln C - lambda)/omega)).
 struct PartsPoint {
-  double im, p_over, p_still, lambda, omega;
+  double im, p_over, p_never, lambda, omega;
 };
 
 struct Curve {

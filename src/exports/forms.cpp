@@ -39,7 +39,7 @@ Refusal rise(const LimitState& state, const Intensity& im, const Wanted& wanted,
 PartsPoint parts_of(const EdpResult& edp, std::size_t bin, double im) {
   const BinFit& fit = edp.bins[bin];
   if (edp.binary) return {im, edp.surface.probability[bin], 1, 0, 1};
-  if (fit.n_moved > 0) return {im, fit.p_over, fit.p_still, fit.lambda, fit.omega};
+  if (fit.n_moved > 0) return {im, fit.p_over, fit.p_never, fit.lambda, fit.omega};
   return {im, fit.p_over, 1, unknown, unknown};
 }
 

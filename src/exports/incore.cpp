@@ -86,7 +86,7 @@ std::string formula(const Curve& curve, const Demand& demand) {
   };
   const std::string over = part(&PartsPoint::p_over);
   return fmt::format("{} + (1 - {}) * (1 - {}) * scipy.stats.norm.cdf(({} - ({})) / {})", over, over,
-                     part(&PartsPoint::p_still), part(&PartsPoint::lambda), curve.ln_capacity,
+                     part(&PartsPoint::p_never), part(&PartsPoint::lambda), curve.ln_capacity,
                      part(&PartsPoint::omega));
 }
 

@@ -71,7 +71,7 @@ inline fragility::Result made_results(bool adequate = true) {
     fit = {};
     fit.n = 1000;
     fit.p_over = over[b];
-    fit.p_still = still[b];
+    fit.p_never = still[b];
     fit.n_moved = b == 0 ? 0 : 500;
     fit.status = b == 0 ? fragility::BinStatus::counts_only : fragility::BinStatus::fitted;
     if (b > 0) {
