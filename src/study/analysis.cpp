@@ -1,6 +1,9 @@
 #include "study/analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <freestand/error.hpp>
 
 #include "edp/edp.hpp"
 #include "fragility/fit.hpp"
@@ -37,6 +40,15 @@ fragility::EdpOptions edp_options(const FragilityPart& part, const std::string& 
           edp.censored};
 }
 
+// `key` of the study: the bins that it asks for.
+std::vector<double> edges(const std::string& key, const BinsPart& bins, std::vector<double> values) {
+  try {
+    return bin_edges(bins, std::move(values));
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", key, error.what()), error.exit());
+  }
+}
+
 // The first samples, from whole blocks.
 Table first_rows(std::int64_t blocks, const ReadTable& read) {
   Table first;
@@ -57,12 +69,12 @@ fragility::Options fragility_options(const Study& study, const Table& first, con
   fragility::Options options;
   options.im_name = measure.name;
   options.im_unit = measure.unit;
-  options.im_edge = bin_edges(part.bins, column(first, "im_" + measure.name));
+  options.im_edge = edges("fragility.bins", part.bins, column(first, "im_" + measure.name));
   for (const std::string& name : part.edp) options.edps.push_back(edp_options(part, name));
   for (const AxisPart& axis : part.axes) {
     const std::string name = Realiser::column_of(axis.name);
     const std::string unit = first.columns[column_index(first.columns, name)].unit;
-    options.axes.push_back({name, unit, bin_edges(axis.bins, column(first, name))});
+    options.axes.push_back({name, unit, edges("fragility.axes, " + axis.name, axis.bins, column(first, name))});
   }
   options.motion_group = motion_group;
   options.resamples = part.resamples;

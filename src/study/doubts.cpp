@@ -46,6 +46,9 @@ void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
   if (!source.left_out.empty())
     doubter.said.push_back(
         fmt::format("vertical components that {} matches are left out: {}", source.records, joined(source.left_out)));
+  if (!source.no_records.empty())
+    doubter.said.push_back(
+        fmt::format("what is no record in {} is left out: {}", source.records, some(source.no_records, 20)));
   if (!source.amplitude) return;
   const sampling::Support amplitudes = support(source.amplitude->value);
   if (amplitudes.lower == 0 && amplitudes.upper == 0)

@@ -157,11 +157,13 @@ std::string bins_text(const BinsPart& bins) {
   return fmt::format("{{count: {}, spacing: {}}}", bins.count, spacings[static_cast<int>(bins.spacing)]);
 }
 
+std::string intensity_text(const IntensityPart& im) {
+  if (!im.period_s) return text_value(im.name);
+  return fmt::format("{{name: {}, {}: {}}}", text_value(im.name), im.parameter, number_text(*im.period_s));
+}
+
 std::string fragility_text(const FragilityPart& f) {
-  std::string text = "fragility:\n  im: " + text_value(f.im.name);
-  if (f.im.period_s)
-    text = fmt::format("fragility:\n  im: {{name: {}, {}: {}}}", text_value(f.im.name), f.im.parameter,
-                       number_text(*f.im.period_s));
+  std::string text = "fragility:\n  im: " + intensity_text(f.im);
   text += fmt::format("\n  bins: {}\n  edp: [{}]\n  capacities:", bins_text(f.bins), fmt::join(f.edp, ", "));
   if (f.capacities.empty()) text += " {}";
   for (const auto& part : f.capacities) text += fmt::format("\n    {}: {}", part.edp, list(part.values));
@@ -179,7 +181,8 @@ std::string fragility_text(const FragilityPart& f) {
                     number_text(f.adequate), f.empirical_fallback);
 }
 
-std::string all_but_name(const Study& study) {
+// What makes the samples: all but the name and the fragility block.
+std::string samples_text(const Study& study) {
   std::string text = fmt::format("seed: {}\n", study.seed);
   if (study.until)
     text += fmt::format("until: {{half_width: {}, at_most: {}}}\n", number_text(study.until->half_width),
@@ -188,9 +191,10 @@ std::string all_but_name(const Study& study) {
     text += fmt::format("samples: {}\n", study.samples);
   text += fmt::format("design: {}\nblock_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", name(study.design),
                       study.block_size, number_text(study.tolerance), number_text(study.free_vibration_s));
-  return text + model_text(study.model) + chain_text(study.model.chain) + motions_text(study.motions) +
-         fragility_text(study.fragility);
+  return text + model_text(study.model) + chain_text(study.model.chain) + motions_text(study.motions);
 }
+
+std::string all_but_name(const Study& study) { return samples_text(study) + fragility_text(study.fragility); }
 
 }  // namespace
 
@@ -219,6 +223,11 @@ std::string expanded(const Case& one, const std::filesystem::path& folder) {
 std::string fingerprint(const Study& study) {
   // The first word changes whenever the same study begins to give other numbers.
   return fmt::format("{:016x}", random::stable_hash("freestand-draws/1\n" + all_but_name(study)));
+}
+
+std::string samples_fingerprint(const Study& study) {
+  return fmt::format("{:016x}", random::stable_hash("freestand-draws/1\n" + samples_text(study) +
+                                                    "im: " + intensity_text(study.fragility.im)));
 }
 
 }  // namespace freestand::study

@@ -214,6 +214,7 @@ std::vector<AxisPart> read_axes(Section& section, const std::vector<AxisChoice>&
     section.problem("axes", section.name("axes") + " is no list (each axis is an entry): write [friction.mu_k]");
     return axes;
   }
+  if (lacks_braces(*node, section.name("axes"), section.line("axes"), section.problems())) return axes;
   for (std::size_t i = 0; i < node->size(); ++i) {
     const YAML::Node& entry = (*node)[i];
     if (entry.IsScalar()) {

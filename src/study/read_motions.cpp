@@ -73,6 +73,24 @@ std::vector<std::filesystem::path> find_files(Section& section, const std::strin
   }
 }
 
+// A folder holds more than records: what is none is left out, and told. Where a format is named, nothing is judged.
+void leave_out_others(Section& section, const std::string& key, const std::string& pattern,
+                      const std::filesystem::path& folder, MotionSource& source,
+                      std::vector<std::filesystem::path>& files) {
+  if (!source.format.empty() || !motion::names_whole_folder(pattern, folder)) return;
+  const std::size_t found = files.size();
+  std::vector<std::string> others;
+  std::erase_if(files, [&](const std::filesystem::path& file) {
+    const std::string why = motion::why_no_record(file);
+    if (!why.empty()) others.push_back(fmt::format("{} ({})", file.filename().string(), why));
+    return !why.empty();
+  });
+  if (found > 0 && files.empty())
+    section.problem(key, fmt::format("{}: {} holds no record ({}): name the folder of the records, or their format",
+                                     section.name(key), pattern, some(others)));
+  source.no_records.insert(source.no_records.end(), others.begin(), others.end());
+}
+
 // Vertical components that a pattern matched are left out; one that is named itself is a problem.
 void leave_out_vertical(Section& section, const std::string& key, MotionSource& source) {
   std::string named;
@@ -119,8 +137,10 @@ void read_records(Section& section, MotionSource& source, const std::string& key
   source.channel = section.text("channel", "");
   read_amplitude(section, source);
   source.files = find_files(section, key, source.records, folder, look);
+  leave_out_others(section, key, source.records, folder, source, source.files);
   leave_out_vertical(section, key, source);
   source.vertical_files = find_files(section, vertical_key, source.vertical_records, folder, look);
+  leave_out_others(section, vertical_key, source.vertical_records, folder, source, source.vertical_files);
   if (!source.vertical_files.empty() && source.vertical_files.size() != source.files.size())
     section.problem(
         vertical_key,
@@ -169,6 +189,7 @@ std::vector<MotionSource> read_motions(Section& file, const std::filesystem::pat
                                 "peak_acceleration_g: 0.6}] or [{records: \"records/*.AT2\"}]");
     return sources;
   }
+  if (lacks_braces(*node, "motions", file.line("motions"), file.problems())) return sources;
   for (std::size_t i = 0; i < node->size(); ++i) {
     const int line = line_of((*node)[i]) ? line_of((*node)[i]) : file.line("motions");
     Section section((*node)[i], fmt::format("motions[{}]", i), line, file.problems());

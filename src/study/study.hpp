@@ -97,7 +97,8 @@ struct MotionSource {
   std::string records;                                // glob, folder or file, relative to the folder of the study file
   std::string vertical_records;                       // the same for vertical components, paired in the order of names
   std::vector<std::filesystem::path> files;           // what `records` matched, sorted by name, but
-  std::vector<std::string> left_out;                  // vertical components, and why they are taken for that
+  std::vector<std::string> left_out;                  // vertical components, and why they are taken for that; and
+  std::vector<std::string> no_records;                // what else lies in a folder, and why it is taken for no record
   std::vector<std::filesystem::path> vertical_files;  // empty, or one for each of `files`
   std::optional<double> dt_s;                         // the rest as motion::ReadOptions
   std::string unit, format, channel;
@@ -221,5 +222,8 @@ std::string expanded(const Case&, const std::filesystem::path& folder);
 // Hash (16 hexadecimal digits) of all that determines the numbers in the result files; the name does not. The contents
 // of records count through MotionSet::fingerprint.
 std::string fingerprint(const Study&);
+
+// The same of what determines the samples: of the fragility block their intensity measure alone.
+std::string samples_fingerprint(const Study&);
 
 }  // namespace freestand::study

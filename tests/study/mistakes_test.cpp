@@ -245,6 +245,25 @@ TEST(StudyMistakes, InYamlItself) {
   EXPECT_THROW(read_study("no/such/study.yaml", known()), Error);
 }
 
+TEST(StudyMistakes, WhatIsOftenWrongWithAFileIsToldInWords) {
+  expect_each({
+      {"block:\n  width_m: 0.6\n\theight_m: 1.8\n" + rest, "3", "a tab indents this line"},
+      {"block:\n\twidth_m: 0.6\n\theight_m: 1.8\n" + rest, "2", "a tab indents this line"},
+      {"block: width_m: 0.6, height_m: 1.8\n" + rest, "1", "an item without braces"},
+      {block + friction + samples + fragility + "motions:\n  - pulse: B, period_s: 1, peak_acceleration_g: 1\n", "6",
+       "an item without braces"},
+      {with_motion("pulse: B, period_s: 1, peak_acceleration_g: 1"), "3",
+       "motions has 3 items of one key each (the keys of one item stand in braces): write [{pulse: ..., period_s: ..., "
+       "peak_acceleration_g: ...}]"},
+      {sound + "effects: [name: rate_weakening, drop: 0.4, speed_mps: 0.1]\n", "6", "effects has 3 items of one key"},
+      {with_fragility("{edp: [delta], axes: [name: friction.mu, bins: {count: 3}]}"), "5", "axes has 2 items of one key"},
+      {sound + std::string("\x89HDF\r\n\x1a\n\0\0", 10), "8", "no text but a binary file"},
+      {std::string("\0\1", 2), "1", "no text but a binary file (its byte 1 is 0x00)"},
+  });
+  EXPECT_EQ(problems("# \t a tab that indents nothing\n" + sound), "");
+  EXPECT_EQ(problems(sound + "effects: [name: static_friction]\n").find("items of one key"), std::string::npos);
+}
+
 TEST(StudyMistakes, AllAreReportedAtOnceWithTheirLines) {
   const std::string text =
       "samples: 0\n"

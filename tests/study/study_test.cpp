@@ -7,9 +7,11 @@
 #include <sstream>
 
 #include "base/random.hpp"
+#include "study/doubts.hpp"
 #include "study/known.hpp"
 #include "study_text.hpp"
 #include "support/data.hpp"
+#include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
 namespace freestand::study {
@@ -117,6 +119,15 @@ TEST(Study, FingerprintChangesWithWhatDeterminesTheNumbersAndNotWithTheName) {
   EXPECT_NE(print("samples: 10\n"), print("samples: 10\nseed: 2\n"));
   EXPECT_NE(print("samples: 10\n"), print("samples: 10\ntolerance: 1e-8\n"));
   EXPECT_EQ(print("samples: 10\n").size(), 16U);
+  // The samples are the same whatever is asked of them; their rows hold the intensity.
+  const auto asked = [&](const std::string& text) {
+    return samples_fingerprint(parse(block + friction + motions + "samples: 10\nfragility: " + text));
+  };
+  const std::string whole = samples_fingerprint(parse(base + "samples: 10\n"));
+  EXPECT_EQ(whole, asked("{edp: [delta], bins: {count: 3}, capacities: {delta: [9]}, resamples: 7}"));
+  EXPECT_NE(whole, asked("{im: pta_g, edp: [delta, overturned]}"));
+  EXPECT_NE(asked("{im: {name: sa_g, period_s: 1}, edp: [delta]}"),
+            asked("{im: {name: sa_g, period_s: 2}, edp: [delta]}"));
 }
 
 TEST(Study, RecordsAreFoundBesideTheStudyFileAndMayBeGoneForStoredStudies) {
@@ -134,6 +145,41 @@ TEST(Study, RecordsAreFoundBesideTheStudyFileAndMayBeGoneForStoredStudies) {
   EXPECT_THROW(parse_study(text, folder / "s.yaml", known()), Error);
   const Study stored = parse_study(expanded(study), folder / "s.yaml", known(), Files::ignore);
   EXPECT_EQ(expanded(stored), expanded(study));
+}
+
+// Beside the records of a folder lie notes, tables and binary files; a pattern that names files is believed.
+TEST(Study, WhatIsNoRecordInAFolderIsLeftOutAndTold) {
+  const freestand::test::Scratch folder("study_folder");
+  std::filesystem::create_directories(folder / "records" / "more");
+  const auto put = [&](const char* name, const std::string& text) { std::ofstream(folder / "records" / name) << text; };
+  put("b.csv", "time_s,floor_acceleration_mps2\n0,0\n0.1,1\n0.2,0\n");
+  put("a.csv", "time_s,floor_acceleration_mps2\n0,0\n0.1,1x\n0.2,0\n");  // a record with a mistake stays one
+  put("README.md", "# Records\nfrom somewhere\n");
+  put("stations.csv", "station,vs30_mps\nPET,713\n");
+  put("map.png", std::string("\x89PNG\r\n\0\1", 8));
+  put("empty.AT2", "");
+  const auto read = [&](const std::string& pattern) {
+    return parse_study(block + friction + samples + fragility + "motions: [{records: \"" + pattern + "\"}]\n",
+                       folder / "s.yaml", known())
+        .motions.at(0);
+  };
+  for (const char* pattern : {"records", "records/", "records/*"}) {
+    const MotionSource source = read(pattern);
+    ASSERT_EQ(source.files.size(), 2U) << pattern;
+    EXPECT_EQ(source.files[0].filename(), "a.csv");
+    EXPECT_THAT(source.no_records,
+                testing::ElementsAre("README.md (no record format)", "empty.AT2 (no record in the file)",
+                                     "map.png (no text but a binary file)", "stations.csv (no record format)"));
+  }
+  EXPECT_EQ(read("records/*.csv").files.size(), 3U);
+  const Study told = parse_study(block + friction + samples + fragility + "motions: [{records: records}]\n",
+                                 folder / "s.yaml", known());
+  EXPECT_THAT(doubts(told),
+              testing::Contains(testing::HasSubstr("what is no record in records is left out: README.md")));
+  for (const char* name : {"a.csv", "b.csv"}) std::filesystem::remove(folder / "records" / name);
+  EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { read("records"); }),
+              testing::AllOf(testing::HasSubstr("records holds no record (README.md (no record format), "),
+                             testing::HasSubstr("name the folder of the records")));
 }
 
 TEST(Case, IsReadWithItsDefaults) {
