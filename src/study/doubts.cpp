@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/units.hpp"
@@ -49,6 +48,11 @@ void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
   if (!source.no_records.empty())
     doubter.said.push_back(
         fmt::format("what is no record in {} is left out: {}", source.records, some(source.no_records, 20)));
+  if (!source.ungrouped.empty())
+    doubter.said.push_back(fmt::format(
+        "{} has a column {} and none named group: its records are taken as independent of each other, which "
+        "those of one earthquake are not: is group: {} meant?",
+        source.records, joined(source.ungrouped), source.ungrouped.front()));
   if (!source.amplitude) return;
   const sampling::Support amplitudes = support(source.amplitude->value);
   if (amplitudes.lower == 0 && amplitudes.upper == 0)
@@ -68,8 +72,7 @@ std::vector<std::string> doubts(const Study& study) {
   const FrictionPart& friction = study.model.friction;
   for (const auto& mu : {friction.mu, friction.mu_k, friction.mu_s})
     doubter.ask(mu, roughest, "is it a friction coefficient?");
-  const bool shaken = std::any_of(study.model.effects.begin(), study.model.effects.end(),
-                                  [](const EffectPart& effect) { return effect.name == "vertical_shaking"; });
+  const bool shaken = shakes_vertically(study.model);
   for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, doubter);
   const auto& chain = study.model.chain;

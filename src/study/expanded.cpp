@@ -125,6 +125,7 @@ Mapping source_mapping(const MotionSource& source, const char* file, const char*
     if (!source.unit.empty()) m.add("unit", text_value(source.unit));
     if (!source.format.empty()) m.add("format", text_value(source.format));
     if (!source.channel.empty()) m.add("channel", text_value(source.channel));
+    if (!source.group.empty()) m.add("group", text_value(source.group));
   }
   return m;
 }

@@ -14,8 +14,18 @@ std::vector<EffectPart> read_effects(Section& file, Model model);
 // What is said where the laws of effects and chain do not find room together; "" where they do.
 std::string no_room_for(const std::vector<EffectPart>&, const std::optional<ChainPart>&);
 
-// Entries of `motions`; globs start at `folder`.
-std::vector<MotionSource> read_motions(Section& file, const std::filesystem::path& folder, Files);
+// Entries of `motions`; globs start at `folder`. vertical: the model feels vertical components, so that tables of records
+// are searched for them.
+std::vector<MotionSource> read_motions(Section& file, const std::filesystem::path& folder, Files, bool vertical);
+
+// What an entry of `motions` says of records; `key`: records, or file of a case.
+struct RecordKeys {
+  std::string key, vertical_key;
+  std::filesystem::path folder;
+  Files look;
+  bool vertical;
+};
+void read_records(Section& section, MotionSource& source, const RecordKeys&);
 
 // `motion` of a case: one pulse or one file.
 MotionSource read_motion(Section& file, const std::filesystem::path& folder);

@@ -108,7 +108,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
                     "this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it", problems);
   read_common(file, path, study, look);
   read_design(file, study);
-  study.motions = read_motions(file, study.folder, look);
+  study.motions = read_motions(file, study.folder, look, shakes_vertically(study.model));
   // What the study draws is known only when its parts are sound.
   const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
   study.fragility = read_fragility(file, known, choices);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/record_table.hpp"
 #include "sampling/design.hpp"
 #include "sampling/distribution.hpp"
 
@@ -59,8 +60,8 @@ struct EffectPart {
 struct ChainPart {
   Quantity slack, stiffness, strength;  // chain.slack_m, chain.stiffness_npm, chain.strength_n
   std::optional<Quantity> height;       // chain.height_m, the block's height where it is not given
-  std::optional<Quantity> wall_gap;     // chain.wall_gap_m, 0 where it is not given; none where the model knows no walls
-  int side = 1;                         // +1: holds back what moves to the right
+  std::optional<Quantity> wall_gap;  // chain.wall_gap_m, 0 where it is not given; none where the model knows no walls
+  int side = 1;                      // +1: holds back what moves to the right
 };
 
 // The contact of model bouc_wen.
@@ -81,6 +82,9 @@ struct ModelPart {
 // Every number of the model, in the order of its columns.
 std::vector<Quantity> quantities(const ModelPart&);
 
+// Does it feel vertical components (effect vertical_shaking)?
+bool shakes_vertically(const ModelPart&);
+
 // One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
 struct MotionSource {
   enum class Kind { pulses, records };
@@ -94,13 +98,15 @@ struct MotionSource {
   std::optional<Quantity> period;  // motion.period_s
   double pulse_scale = 1;          // key `scale`: a plain factor on the amplitude
   // Records; all alike likely.
-  std::string records;                                // glob, folder or file, relative to the folder of the study file
-  std::string vertical_records;                       // the same for vertical components, paired in the order of names
-  std::vector<std::filesystem::path> files;           // what `records` matched, sorted by name, but
-  std::vector<std::string> left_out;                  // vertical components, and why they are taken for that; and
-  std::vector<std::string> no_records;                // what else lies in a folder, and why it is taken for no record
-  std::vector<std::filesystem::path> vertical_files;  // empty, or one for each of `files`
-  std::optional<double> dt_s;                         // the rest as motion::ReadOptions
+  std::string records;           // glob, folder, file or table of records, relative to the folder of the study file
+  std::string vertical_records;  // the same for vertical components, paired in the order of names
+  std::string group;             // of a table: the column that groups its records; else the group of all these records
+  std::vector<motion::RecordRow> files;       // what `records` names: rows of the table, or files sorted by name
+  std::vector<motion::RecordNumber> numbers;  // of those rows
+  std::vector<std::string> left_out;          // vertical components, and why they are taken for that
+  std::vector<std::string> no_records;        // what else lies in a folder, and why it is taken for no record
+  std::vector<std::string> ungrouped;         // columns by which a table could group its records, and does not
+  std::optional<double> dt_s;                 // the rest as motion::ReadOptions, where a row does not say it
   std::string unit, format, channel;
 };
 

@@ -139,7 +139,7 @@ TEST(Study, RecordsAreFoundBesideTheStudyFileAndMayBeGoneForStoredStudies) {
                            "motions: [{records: \"records/*.csv\", scale_to: {pta_g: {uniform: [0.1, 1]}}}]\n";
   const Study study = parse_study(text, folder / "s.yaml", known());
   ASSERT_EQ(study.motions.at(0).files.size(), 2U);
-  EXPECT_EQ(study.motions[0].files[0].filename(), "a.csv");
+  EXPECT_EQ(study.motions[0].files[0].file.filename(), "a.csv");
   EXPECT_EQ(study.motions[0].amplitude.value().name, "motion.pta_g");
   std::filesystem::remove_all(folder / "records");
   EXPECT_THROW(parse_study(text, folder / "s.yaml", known()), Error);
@@ -166,7 +166,7 @@ TEST(Study, WhatIsNoRecordInAFolderIsLeftOutAndTold) {
   for (const char* pattern : {"records", "records/", "records/*"}) {
     const MotionSource source = read(pattern);
     ASSERT_EQ(source.files.size(), 2U) << pattern;
-    EXPECT_EQ(source.files[0].filename(), "a.csv");
+    EXPECT_EQ(source.files[0].file.filename(), "a.csv");
     EXPECT_THAT(source.no_records,
                 testing::ElementsAre("README.md (no record format)", "empty.AT2 (no record in the file)",
                                      "map.png (no text but a binary file)", "stations.csv (no record format)"));
