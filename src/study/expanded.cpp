@@ -171,6 +171,13 @@ std::string fragility_text(const FragilityPart& f) {
   text += "\n  still:";
   if (f.still.empty()) text += " {}";
   for (const auto& [edp, threshold] : f.still) text += fmt::format("\n    {}: {}", edp, number_text(threshold));
+  if (!f.damage.empty()) text += "\n  damage:";
+  for (const auto& state : f.damage) {
+    text += fmt::format("\n    {}:\n      when: {}", state.name, text_value(state.when));
+    Mapping parameters;
+    for (const auto& parameter : state.parameters) parameters.add(parameter);
+    if (!state.parameters.empty()) text += fmt::format("\n      parameters: {}", parameters.flow());
+  }
   text += "\n  axes:";
   if (f.axes.empty()) text += " []";
   for (const auto& axis : f.axes)

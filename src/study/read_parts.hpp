@@ -40,6 +40,9 @@ std::vector<AxisChoice> axis_choices(const ModelPart&, const std::vector<MotionS
 // `fragility`, defaults where it is absent. No choices: axes are not checked.
 FragilityPart read_fragility(Section& file, const Known&, const std::vector<AxisChoice>&);
 
+// `damage` of the fragility block, after the damage states that its capacities made.
+void read_damage(Section& fragility, const Known&, FragilityPart&);
+
 // The study that a mapping says. Throws Error (Exit::usage) with all problems. `path`: names it in messages, and its folder
 // is where relative paths start. line: of the mapping, for what it lacks.
 Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known&, Files, Problems&,

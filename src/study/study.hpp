@@ -132,6 +132,15 @@ struct CapacitiesPart {
   std::vector<double> values;  // increasing
 };
 
+// A damage state: a condition on demands, whose parameters may be distributions (a capacity that is not known).
+struct DamagePart {
+  std::string name;                  // blocked_door
+  std::string when;                  // "peak_slip_m > gap_m or overturned"
+  std::vector<Quantity> parameters;  // damage.blocked_door.gap_m
+  std::vector<std::string> demands;  // that the condition looks at
+  int line = 0;
+};
+
 struct AxisPart {
   std::string name;  // a dotted name: friction.mu_k, block.alpha_rad, motion.period_s ...
   BinsPart bins;
@@ -142,6 +151,7 @@ struct FragilityPart {
   BinsPart bins;                           // default: 12 bins of equal count
   std::vector<std::string> edp;            // default: every one that is known
   std::vector<CapacitiesPart> capacities;  // of each EDP of the list that is not binary, in its order
+  std::vector<DamagePart> damage;          // each one more binary demand
   std::vector<AxisPart> axes;
   int resamples = 500;  // bootstrap repeats of the intervals
   double confidence = 0.95;

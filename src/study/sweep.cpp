@@ -127,7 +127,7 @@ class Sweep {
       return;
     world_.on_root([&] {
       const auto first = static_cast<std::size_t>(std::min(total(), bin_layout_samples));
-      fragility_options(study_, evaluator_.shakings(first), evaluator_.motions().groups());
+      laid_out(study_, evaluator_.shakings(first), evaluator_.motions().groups());
     });
   }
 

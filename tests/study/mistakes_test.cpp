@@ -206,6 +206,36 @@ TEST(StudyMistakes, InFragility) {
   });
 }
 
+TEST(StudyMistakes, InDamageStates) {
+  const auto state = [](const std::string& text) {
+    return with_fragility("{edp: [delta], damage: {door: " + text + "}}");
+  };
+  EXPECT_EQ(problems(state("delta > 1 or overturned")), "");
+  EXPECT_EQ(problems(state("{when: delta > gap, parameters: {gap: {uniform: [1, 2]}}}")), "");
+  expect_each({
+      {with_fragility("{edp: [delta], damage: [delta > 1]}"), "5", "fragility.damage is a list"},
+      {state(""), "5", "fragility.damage.door has no value"},
+      {state("delta > 1 and mu_k > 0.2"), "5", "\"mu_k\" is not known here, character 15"},
+      {state("dleta > 1"), "5", "did you mean delta?"},
+      {state("delta >"), "5", "it ends too early"},
+      {state("(delta > 1"), "5", "a parenthesis is not closed"},
+      {state("delta + 1"), "5", "it is a number and no condition"},
+      {state("delta"), "5", "it is a number and no condition"},
+      {state("\"delta = 1\""), "5", "\"=\" is not known here, == is"},
+      {state("2 > 1"), "5", "looks at no demand"},
+      {state("{when: delta > 1, parameters: {gap: 0.1}}"), "5", "parameter gap of damage state door stands nowhere"},
+      {state("{when: delta > overturned, parameters: {overturned: 0.1}}"), "5", "cannot be called that"},
+      {state("{when: delta > gap, parameters: {gap: wide}}"), "5", "\"wide\""},
+      {state("{parameters: {gap: 1}}"), "5", "fragility.damage.door.when is missing"},
+      {state("{when: delta > 1, wen: 2}"), "5", "unknown key wen"},
+      {with_fragility("{edp: [delta], damage: {overturned: delta > 1}}"), "5", "has the name of a demand"},
+      {with_fragility("{edp: [delta], damage: {a-b: delta > 1}}"), "5", "is no plain word"},
+      {with_fragility("{edp: [delta], capacities: {delta: [1, {lognormal: {median: 1}}]}}"), "5", "dispersion is missing"},
+      {with_fragility("{edp: [delta], capacities: {delta: [{normal: {mean: 1, standard_deviation: 1}}]}}"), "5",
+       "must be above zero"},
+  });
+}
+
 TEST(StudyMistakes, InTheSweep) {
   const std::string without = block + friction + motions + fragility;
   expect_each({
