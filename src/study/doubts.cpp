@@ -57,9 +57,9 @@ void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
   const sampling::Support amplitudes = support(source.amplitude->value);
   if (amplitudes.lower == 0 && amplitudes.upper == 0)
     doubter.said.push_back(fmt::format("{} is 0: nothing will shake", source.amplitude->name));
-  if (source.amplitude->unit == "1") return;
-  const bool in_g = source.amplitude->unit == "g";
-  doubter.ask(source.amplitude, in_g ? strongest_g : fastest_mps, in_g ? "is it in g?" : "is it in m/s?");
+  const bool spectral = source.scale_to && source.scale_to->period_s;  // may be larger than any peak
+  if (source.amplitude->unit == "g" && !spectral) doubter.ask(source.amplitude, strongest_g, "is it in g?");
+  if (source.amplitude->unit == "m/s") doubter.ask(source.amplitude, fastest_mps, "is it in m/s?");
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& 
   for (std::size_t s = 0; s < study.motions.size(); ++s) {
     const MotionSource& source = study.motions[s];
     if (source.kind != MotionSource::Kind::records) continue;
-    const bool as_it_is = source.amplitude && source.amplitude->unit == "1";
+    const bool as_it_is = source.amplitude && !source.scale_to;
     for (const std::size_t entry : motions.of_source[s]) {
       const FloorMotion& motion = motions.motion(entry);
       const double step = motion.duration_s() / static_cast<double>(motion.segments());

@@ -106,21 +106,26 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
   return "chain: " + m.flow() + "\n";
 }
 
+void add_amplitude(const MotionSource& source, Mapping& m) {
+  if (!source.scale_to) return m.add(source.amplitude);
+  Mapping target;
+  target.add(source.amplitude);
+  if (source.scale_to->period_s) target.add(source.scale_to->parameter, number_text(*source.scale_to->period_s));
+  m.add("scale_to", target.flow());
+}
+
 // file, vertical_file: the keys of recorded motions.
 Mapping source_mapping(const MotionSource& source, const char* file, const char* vertical_file) {
   Mapping m;
   if (source.kind == MotionSource::Kind::pulses) {
     m.add("pulse", to_string(source.pulses));
     m.add(source.period);
-    m.add(source.amplitude);
+    add_amplitude(source, m);
     m.add("scale", number_text(source.pulse_scale));
   } else {
     m.add(file, text_value(source.records));
     if (!source.vertical_records.empty()) m.add(vertical_file, text_value(source.vertical_records));
-    if (source.amplitude && source.amplitude->name == "motion.pta_g")
-      m.add("scale_to", fmt::format("{{{}}}", pair(*source.amplitude)));
-    else
-      m.add(source.amplitude);
+    add_amplitude(source, m);
     if (source.dt_s) m.add("dt_s", number_text(*source.dt_s));
     if (!source.unit.empty()) m.add("unit", text_value(source.unit));
     if (!source.format.empty()) m.add("format", text_value(source.format));

@@ -44,17 +44,20 @@ void read_pulses(Section& section, MotionSource& source) {
   source.period = section.quantity("motion", "period_s", period_range);
   const auto acceleration = section.quantity("motion", "peak_acceleration_g", range::any);
   const auto velocity = section.quantity("motion", "peak_velocity_mps", range::any);
-  source.amplitude = acceleration ? acceleration : velocity;
+  const auto target = read_scale_to(section, source);
+  source.amplitude = acceleration ? acceleration : velocity ? velocity : target;
   source.pulse_scale = section.number("scale", 1);
   const std::string name = section.name("pulse");
   if (!section.has("period_s")) section.problem("pulse", name + " has no period (a pulse has a length): add period_s");
-  if (section.has("peak_acceleration_g") && section.has("peak_velocity_mps"))
-    section.problem("peak_velocity_mps",
-                    fmt::format("{} and peak_acceleration_g are both given (one determines the other): {}",
-                                section.name("peak_velocity_mps"), "remove one"));
-  if (!section.has("peak_acceleration_g") && !section.has("peak_velocity_mps"))
-    section.problem("pulse",
-                    name + " has no amplitude (how strong is it?): add peak_acceleration_g or peak_velocity_mps");
+  std::vector<std::string> given;
+  for (const char* key : {"peak_acceleration_g", "peak_velocity_mps", "scale_to"})
+    if (section.has(key)) given.emplace_back(key);
+  if (given.size() > 1)
+    section.problem(given[1], fmt::format("{} and {} are both given (one determines the other): remove one",
+                                          section.name(given[1]), given[0]));
+  if (given.empty())
+    section.problem("pulse", name + " has no amplitude (how strong is it?): add peak_acceleration_g, peak_velocity_mps "
+                                    "or scale_to");
   out_of_place(section, record_keys, "pulse");
 }
 
@@ -79,7 +82,7 @@ MotionSource read_source(Section& section, const RecordKeys& keys) {
     section.problem("pulse",
                     fmt::format("a motion has neither pulse nor {} (nothing would shake): add one of them", file_key));
   if (pulse == file)
-    for (const auto& known : {pulse_keys, record_keys, {"scale"}})
+    for (const auto& known : {pulse_keys, record_keys, {"scale", "scale_to"}})
       for (const auto& key : known) section.find(key);
   section.finish();
   return source;

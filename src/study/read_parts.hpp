@@ -18,6 +18,9 @@ std::string no_room_for(const std::vector<EffectPart>&, const std::optional<Chai
 // are searched for them.
 std::vector<MotionSource> read_motions(Section& file, const std::filesystem::path& folder, Files, bool vertical);
 
+// The amplitude from the key scale_to, if it is there: any intensity measure that is proportional to the motion's scale.
+std::optional<Quantity> read_scale_to(Section& section, MotionSource& source);
+
 // What an entry of `motions` says of records; `key`: records, or file of a case.
 struct RecordKeys {
   std::string key, vertical_key;

@@ -10,8 +10,6 @@ namespace {
 
 using Paths = std::vector<std::filesystem::path>;
 
-constexpr Range pta_range = {.lower = 0, .why = "a peak that a record is scaled to must be above zero"};
-
 // Files of a glob, a folder or one file; a problem at the key when there is none.
 Paths find_files(Section& section, const std::string& key, const std::string& pattern, const RecordKeys& keys) {
   if (pattern.empty() || keys.look == Files::ignore) return {};
@@ -61,19 +59,9 @@ void leave_out_vertical(Section& section, const std::string& key, MotionSource& 
 }
 
 void read_amplitude(Section& section, MotionSource& source) {
-  std::optional<Quantity> peak;
-  if (const YAML::Node* node = section.find("scale_to")) {
-    Section scale_to(*node, section.name("scale_to"), section.line("scale_to"), section.problems());
-    peak = scale_to.quantity("motion", "pta_g", pta_range);
-    if (node->IsMap() && !scale_to.has("pta_g"))
-      scale_to.problem("pta_g", scale_to.name("pta_g") + " is missing (what are the records scaled to?): add pta_g");
-    scale_to.finish();
-    if (section.has("scale"))
-      section.problem("scale", fmt::format("{} and scale_to are both given (one determines the other): remove one",
-                                           section.name("scale")));
-  }
+  const std::optional<Quantity> target = read_scale_to(section, source);
   const Quantity factor = section.quantity("motion", "scale", range::any, 1);
-  source.amplitude = peak ? *peak : factor;
+  source.amplitude = target ? *target : factor;
 }
 
 // By a pattern: files in the order of their names, and vertical components likewise.

@@ -85,14 +85,22 @@ std::vector<Quantity> quantities(const ModelPart&);
 // Does it feel vertical components (effect vertical_shaking)?
 bool shakes_vertically(const ModelPart&);
 
+// An intensity measure: a name, or {name: sa_g, period_s: 1.0} for one that takes a number.
+struct IntensityPart {
+  std::string name = "report";
+  std::string parameter = {};           // key of that number; empty: the measure takes none
+  std::optional<double> period_s = {};  // the number; the measure's own default where the study gives none
+};
+
 // One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
 struct MotionSource {
   enum class Kind { pulses, records };
   Kind kind = Kind::pulses;
   double weight = 1;
-  // Pulses: motion.peak_acceleration_g or motion.peak_velocity_mps (the true peak of the floor's velocity). Records:
-  // motion.pta_g (each record scaled to this peak) or motion.scale (a factor). A negative one, but for pta_g, mirrors.
+  // Pulses: motion.peak_acceleration_g or motion.peak_velocity_mps (the true peak of the floor's velocity); records:
+  // motion.scale (a factor); negative ones mirror. Either: the intensity that the motion is scaled to, motion.sa_g.
   std::optional<Quantity> amplitude;
+  std::optional<IntensityPart> scale_to;  // of such an amplitude
   // Pulses.
   sampling::Names pulses;
   std::optional<Quantity> period;  // motion.period_s
@@ -118,13 +126,6 @@ struct BinsPart {
   double width = 0;
   int count = 0;
   Spacing spacing = Spacing::equal_count;  // of `count` bins
-};
-
-// fragility.im: a name, or {name: sa_g, period_s: 1.0} for a measure that takes a number.
-struct IntensityPart {
-  std::string name = "report";
-  std::string parameter = {};           // key of that number; empty: the measure takes none
-  std::optional<double> period_s = {};  // the number; the measure's own default where the study gives none
 };
 
 struct CapacitiesPart {
