@@ -122,7 +122,7 @@ DamagePart read_state(Section& damage, const std::string& name) {
     Section parameters(*given, state.name("parameters"), state.line("parameters"), state.problems());
     if (given->IsMap())
       for (const auto& entry : *given)
-        if (const auto quantity = parameters.quantity("damage." + name, entry.first.Scalar()))
+        if (const auto quantity = parameters.quantity("damage." + name, entry.first.Scalar(), range::any))
           part.parameters.push_back(*quantity);
     parameters.finish();
   }
