@@ -53,7 +53,7 @@ Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit
                           : options.overwrite ? io::Existing::overwrite
                                               : io::Existing::refuse,
                           "go on with --resume", {study::study_path("").string()});
-  const study::SweepSummary summary = sweep(context, study, {options.quiet, context.command_line}, folder);
+  const study::SweepSummary summary = sweep(context, study, {options.quiet, context.command_line, with_fit}, folder);
   double fit_s = 0;
   if (with_fit) fit_s = study::fit(context.world, folder, context.command_line, options.quiet, &summary).wall_s;
   if (context.world.is_root() && !options.quiet)

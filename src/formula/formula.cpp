@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "base/units.hpp"
+#include "formula/parse_error.hpp"
 
 namespace freestand::formula {
 namespace {
@@ -135,39 +136,6 @@ class Parser : public mu::ParserBase {
   void InitOprt() override {}
 };
 
-// The word, or the one sign, with which a token begins.
-std::string beginning(const std::string& token) {
-  std::size_t end = 0;
-  while (end < token.size() && (std::isalnum(static_cast<unsigned char>(token[end])) || token[end] == '_')) ++end;
-  return '"' + token.substr(0, std::max<std::size_t>(end, 1)) + '"';
-}
-
-std::string problem(const mu::ParserError& error) {
-  const std::string token = error.GetToken();
-  switch (error.GetCode()) {
-    case mu::ecUNASSIGNABLE_TOKEN:
-      return beginning(token) +
-             (std::isalpha(static_cast<unsigned char>(token[0])) ? " is not known here" : " stands where it cannot");
-    case mu::ecUNEXPECTED_EOF:
-      return "it ends too early";
-    case mu::ecMISSING_PARENS:
-      return "a parenthesis is not closed";
-    case mu::ecUNEXPECTED_PARENS:
-      return "a parenthesis stands where none can";
-    case mu::ecTOO_MANY_PARAMS:
-    case mu::ecTOO_FEW_PARAMS:
-      return "a function has too many or too few arguments";
-    case mu::ecEMPTY_EXPRESSION:
-      return "it is empty";
-    default:
-      return token.empty() ? "it cannot be read" : beginning(token) + " stands where it cannot";
-  }
-}
-
-}  // namespace
-
-namespace {
-
 double computed(Kind kind, const std::vector<int>& operands, const std::vector<double>& values) {
   const auto of = [&](std::size_t i) { return values[static_cast<std::size_t>(operands[i])]; };
   switch (kind) {
@@ -243,8 +211,7 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& parame
     if (results != 1) throw FormulaError("it has more than one value", text.find(','));
     result_ = static_cast<int>(values[0]);
   } catch (const mu::ParserError& error) {
-    const auto position = static_cast<std::size_t>(std::max(error.GetPos(), 0));
-    throw FormulaError(problem(error), std::min(position, text.size()));
+    throw formula_error(error, text);
   }
 }
 

@@ -22,6 +22,7 @@ const Register here{{
     .source = "Housner (1952)",
     .needs = [](motion::SummaryRequest& request, double) { request.housner = true; },
     .value = housner_m,
+    .proportional = true,
 }};
 
 }  // namespace

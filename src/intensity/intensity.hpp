@@ -43,6 +43,7 @@ struct Measure {
   std::optional<Parameter> parameter = {};
   void (*needs)(motion::SummaryRequest&, double parameter) = nullptr;  // what it reads of the summary besides the peaks
   double (*value)(const Input&) = nullptr;
+  bool proportional = false;  // to the scale of the motion: a motion can be scaled to it
 };
 
 // The measure of that name, or throws Error that lists the names there are.

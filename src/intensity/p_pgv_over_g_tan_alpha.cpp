@@ -16,6 +16,7 @@ const Register p_pgv_over_g_tan_alpha{{
           const Block& block = in.specimen.block;
           return block.p_radps() * in.peaks().pgv_mps / (standard_gravity_mps2 * std::tan(block.alpha_rad()));
         },
+    .proportional = true,
 }};
 
 }  // namespace freestand::intensity

@@ -10,6 +10,7 @@ const Register pga{{
     .summary = "peak acceleration of the floor",
     .source = "max |a(t)|",
     .value = [](const Input& in) { return in.peaks().pga_mps2 / standard_gravity_mps2; },
+    .proportional = true,
 }};
 
 }  // namespace freestand::intensity

@@ -16,6 +16,7 @@ const Register pga_over_g_tan_alpha{{
         [](const Input& in) {
           return in.peaks().pga_mps2 / (standard_gravity_mps2 * std::tan(in.specimen.block.alpha_rad()));
         },
+    .proportional = true,
 }};
 
 }  // namespace freestand::intensity

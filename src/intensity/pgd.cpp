@@ -9,6 +9,7 @@ const Register pgd{{
     .summary = "peak displacement of the floor, integrated from rest without baseline correction",
     .source = "max |u(t)|",
     .value = [](const Input& in) { return in.peaks().pgd_m; },
+    .proportional = true,
 }};
 
 }  // namespace freestand::intensity

@@ -9,6 +9,7 @@ const Register pgv{{
     .summary = "peak velocity of the floor, integrated from rest without baseline correction",
     .source = "max |v(t)|",
     .value = [](const Input& in) { return in.peaks().pgv_mps; },
+    .proportional = true,
 }};
 
 }  // namespace freestand::intensity

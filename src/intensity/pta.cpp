@@ -11,6 +11,7 @@ const Register pta{{
     .summary = "peak acceleration of the shaking table or floor, as the report calls it; equals pga_g",
     .source = "[KM05 ch. 5]",
     .value = [](const Input& in) { return in.peaks().pga_mps2 / standard_gravity_mps2; },
+    .proportional = true,
 }};
 
 }  // namespace freestand::intensity

@@ -28,6 +28,7 @@ const Register here{{
     .parameter = Parameter{"period_s", 1.0},
     .needs = [](motion::SummaryRequest& request, double period) { request.sa_period_s.push_back(period); },
     .value = spectral_acceleration_g,
+    .proportional = true,
 }};
 
 }  // namespace

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <numeric>
 
 #include "io/bin_fields.hpp"
+#include "io/csv_cell.hpp"
 
 namespace freestand::io {
 namespace {
@@ -27,6 +27,14 @@ Dataset coordinate(Group& group, const std::string& name, const std::vector<doub
   return dataset;
 }
 
+// The two that most groups need: each group holds its own, since readers such as xarray open one group at a time.
+Dataset im_of(Group& group, const Result& result) {
+  return coordinate(group, "im", result.im, result.im_unit, at_mean + result.im_name);
+}
+Dataset capacity_of(Group& group, const EdpResult& edp) {
+  return coordinate(group, "capacity", edp.capacity, edp.unit, "capacity");
+}
+
 void write_bins(Group& group, const Dataset& im, const EdpResult& edp) {
   for (const BinField& field : bin_fields()) {
     std::vector<double> values;
@@ -43,8 +51,9 @@ struct Curve {
   const char* description;
 };
 
-void write_surface(Group& parent, const Dataset& im, const Dataset& capacity, const EdpResult& edp) {
+void write_surface(Group& parent, const Result& result, const EdpResult& edp) {
   Group group = parent.make_group("surface");
+  const Dataset im = im_of(group, result), capacity = capacity_of(group, edp);
   const h5::Dimensions shape{edp.bins.size(), edp.capacity.size()};
   for (const Curve& curve :
        {Curve{"probability", &edp.surface.probability, "P(EDP > capacity), fit or counts by status"},
@@ -56,9 +65,10 @@ void write_surface(Group& parent, const Dataset& im, const Dataset& capacity, co
     group.put(curve.name, *curve.values, shape).attach(0, im).attach(1, capacity).describe("1", curve.description);
 }
 
-void write_distribution(Group& parent, const Dataset& im, const EdpResult& edp) {
+void write_distribution(Group& parent, const Result& result, const EdpResult& edp) {
   if (edp.distribution.ln_edge.size() < 2) return;
   Group group = parent.make_group("distribution");
+  const Dataset im = im_of(group, result);
   const std::vector<double>& edge = edp.distribution.ln_edge;
   std::vector<double> middle;
   for (std::size_t cell = 0; cell + 1 < edge.size(); ++cell) middle.push_back(0.5 * (edge[cell] + edge[cell + 1]));
@@ -70,9 +80,9 @@ void write_distribution(Group& parent, const Dataset& im, const EdpResult& edp) 
       .describe("1", "samples that moved and stood, demands moved to im along the slope");
 }
 
-void write_axis(Group& parent, const Dataset& im, const Dataset& capacity, const EdpResult& edp,
-                const AxisSurface& axis) {
+void write_axis(Group& parent, const Result& result, const EdpResult& edp, const AxisSurface& axis) {
   Group group = parent.make_group(axis.name);
+  const Dataset im = im_of(group, result), capacity = capacity_of(group, edp);
   group.attribute("unit", axis.unit);
   coordinate(group, "edge", axis.edge, axis.unit, "edges of the bins");
   const Dataset centre = coordinate(group, "centre", axis.centre, axis.unit, axis.name);
@@ -103,9 +113,10 @@ std::vector<double> per_resample(std::vector<double> values, const Result& resul
 }
 
 // Curves over IM, [capacity] and [capacity, grid].
-void write_functions(Group& parent, const Result& result, const EdpResult& edp, const Dataset& capacity) {
+void write_functions(Group& parent, const Result& result, const EdpResult& edp) {
   using fragility::FragilityFunction;
   Group group = parent.make_group("functions");
+  const Dataset capacity = capacity_of(group, edp);
   for (const FunctionField& field : function_fields()) {
     std::vector<double> values;
     for (const FragilityFunction& curve : edp.functions) values.push_back(field.value(curve));
@@ -146,15 +157,14 @@ void write_edp(Group& parent, const Result& result, const EdpResult& edp) {
   group.attribute("symbol", edp.symbol);
   group.attribute("kind", edp.binary ? "binary" : "continuous");
   write_regressions(group, edp.regressions);
-  const Dataset im = coordinate(group, "im", result.im, result.im_unit, at_mean + result.im_name);
-  const Dataset capacity = coordinate(group, "capacity", edp.capacity, edp.unit, "capacity");
-  write_bins(group, im, edp);
-  write_surface(group, im, capacity, edp);
-  if (!edp.functions.empty()) write_functions(group, result, edp, capacity);
-  write_distribution(group, im, edp);
+  capacity_of(group, edp);
+  write_bins(group, im_of(group, result), edp);
+  write_surface(group, result, edp);
+  if (!edp.functions.empty()) write_functions(group, result, edp);
+  write_distribution(group, result, edp);
   if (edp.axes.empty()) return;
   Group axes = group.make_group("axis");
-  for (const AxisSurface& axis : edp.axes) write_axis(axes, im, capacity, edp, axis);
+  for (const AxisSurface& axis : edp.axes) write_axis(axes, result, edp, axis);
 }
 
 // One curve: its numbers are attributes.
@@ -193,16 +203,6 @@ void write_root(Group& root, const Provenance& provenance, const Result& result)
   root.attribute("warnings", result.warnings);
 }
 
-std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
-
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted.append(c == '"' ? 2 : 1, c);
-  quoted += '"';
-  return quoted;
-}
-
 }  // namespace
 
 const char* name(fragility::BinStatus status) {
@@ -216,7 +216,7 @@ void write_fragility(const std::filesystem::path& path, const Provenance& proven
   write_root(root, provenance, result);
   Group im = root.make_group("im");
   coordinate(im, "edge", result.im_edge, result.im_unit, "edges of the bins, " + result.im_name);
-  im.put("centre", result.im).scale("im").describe(result.im_unit, at_mean + result.im_name);
+  coordinate(im, "centre", result.im, result.im_unit, at_mean + result.im_name);
   Group edps = root.make_group("edp");
   for (const EdpResult& edp : result.edps) write_edp(edps, result, edp);
   write_overturning(root, result);
@@ -238,21 +238,6 @@ std::string bins_csv(const Result& result) {
           text += fmt::format(",{}", cell(field.value(edp.bins[i])));
       text += '\n';
     }
-  return text;
-}
-
-std::string surface_csv(const Result& result) {
-  std::string text = "im,im_lower,im_upper,edp,capacity,probability,lower,upper,empirical,status\n";
-  for (const EdpResult& edp : result.edps)
-    for (std::size_t i = 0; i < edp.bins.size(); ++i)
-      for (std::size_t k = 0; k < edp.capacity.size(); ++k) {
-        const std::size_t at = i * edp.capacity.size() + k;
-        const fragility::Surface& surface = edp.surface;
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", cell(result.im[i]), cell(result.im_edge[i]),
-                            cell(result.im_edge[i + 1]), cell(edp.name), cell(edp.capacity[k]),
-                            cell(surface.probability[at]), cell(surface.lower[at]), cell(surface.upper[at]),
-                            cell(surface.empirical[at]), name(edp.bins[i].status));
-      }
   return text;
 }
 

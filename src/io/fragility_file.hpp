@@ -26,8 +26,9 @@ FragilityFile read_fragility(const std::filesystem::path& path);
 // The text of bins.csv: one row per EDP and bin, the columns of /edp/NAME beside edp, unit, im, im_lower, im_upper.
 // Missing values are empty, numbers read back to the same bits.
 std::string bins_csv(const fragility::Result&);
-// The text of surface.csv: im, im_lower, im_upper, edp, capacity, probability, lower, upper,
-// empirical, status.
+// The text of surface.csv: im_name, im_unit, im, im_lower, im_upper, edp, unit, capacity, axis, axis_unit, axis_value,
+// axis_lower, axis_upper, n, probability, lower, upper, empirical, status. The columns axis to axis_upper are empty in the
+// rows over the intensity alone.
 std::string surface_csv(const fragility::Result&);
 
 // "fitted", "too_few", "rejected", "counts_only"

@@ -47,6 +47,24 @@ bool is_used(const fs::path& folder) {
   return std::any_of(all.begin(), all.end(), [](const fs::path& path) { return path.filename() != lock_name; });
 }
 
+// What a folder that is used holds, and how to go on: an interrupted sweep is worth more than a wrong guess.
+std::string used_text(const fs::path& folder) {
+  std::error_code error;
+  const bool swept = fs::exists(folder / "samples.h5", error);
+  const std::vector<fs::path> blocks =
+      fs::is_directory(folder / blocks_name, error) ? entries(folder / blocks_name) : std::vector<fs::path>{};
+  const auto finished = std::count_if(blocks.begin(), blocks.end(), is_block);
+  if (swept || (finished == 0 && !fs::exists(folder / begun_name, error)))
+    return fmt::format("{} is not empty (results of another run would mix with this one's): name another folder, or "
+                       "add --overwrite",
+                       folder.string());
+  const std::string thrown = finished == 0   ? "starts again"
+                             : finished == 1 ? "throws 1 finished block away"
+                                             : fmt::format("throws {} finished blocks away", finished);
+  return fmt::format("{} holds an interrupted sweep (it is not empty): --resume goes on, --overwrite {}",
+                     folder.string(), thrown);
+}
+
 void remove_results(const fs::path& folder) {
   for (const char* name : results) remove_file(folder / name);
   remove_leftovers(folder);
@@ -67,10 +85,7 @@ void make_output_folder(const fs::path& folder, Existing existing, const std::ve
   fs::create_directories(folder, error);
   check(error, "make folder", folder);
   if (existing == Existing::refuse && is_used(folder))
-    throw Error(
-        fmt::format("{} is not empty (results of another run would mix with this one's): name another folder, or "
-                    "add --overwrite",
-                    folder.string()));
+    throw Error(used_text(folder));
   refuse_others(folder, writes);
   if (existing == Existing::overwrite) refuse_others(folder, {std::begin(results), std::end(results)});
 }

@@ -12,7 +12,6 @@
 namespace freestand::motion {
 namespace {
 
-constexpr std::size_t head_bytes = 16384;  // headers are shorter
 constexpr std::string_view words[] = {"up",  "ud",       "u-d", "v",   "ver",  "vert",
                                       "vrt", "vertical", "dn",  "dwn", "down", "z"};
 

@@ -156,6 +156,23 @@ std::vector<FormatInfo> record_formats() {
   return formats;
 }
 
+bool names_whole_folder(const std::string& pattern, const std::filesystem::path& base) {
+  std::error_code ignored;
+  return std::filesystem::path(pattern).filename() == "*" || std::filesystem::is_directory(base / pattern, ignored);
+}
+
+std::string why_no_record(const std::filesystem::path& path) {
+  try {
+    const RecordText head(path, head_bytes);
+    for (const RecordFormat& format : registry<RecordFormat>())
+      if (format.recognises(head)) return "";
+    return "no record format";
+  } catch (const Error& error) {
+    const std::string why = error.what(), name = path.string() + ": ";
+    return why.starts_with(name) ? why.substr(name.size(), why.find(" (") - name.size()) : "it cannot be read";
+  }
+}
+
 double acceleration_unit_mps2(const std::string& unit) {
   std::string name;
   for (const char c : lower_case(unit))

@@ -32,6 +32,12 @@ FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& op
 // at `base`. Throws Error when there is none.
 std::vector<std::filesystem::path> expand_glob(const std::string& pattern, const std::filesystem::path& base = {});
 
+// Does a pattern name a folder, or all that is in one ("records", "records/*")? Then what is no record may lie there too.
+bool names_whole_folder(const std::string& pattern, const std::filesystem::path& base = {});
+
+// Is the file no record, as far as its beginning tells? Why; "" where it looks like one of the formats.
+std::string why_no_record(const std::filesystem::path& path);
+
 // Name and one line about each format, sorted by name.
 struct FormatInfo {
   std::string name, summary;

@@ -9,6 +9,9 @@
 
 namespace freestand::motion {
 
+// The beginning of a record, enough to know its format by: headers are shorter.
+inline constexpr std::size_t head_bytes = 16384;
+
 class RecordText {
  public:
   // Reads the file, or its beginning; lines end in LF, CR LF or CR. Throws Error when it cannot be read or is empty.

@@ -128,10 +128,11 @@ std::vector<std::int64_t> BlockStore::finished() const {
     const auto found = found_at(path);
     if (!found || path != file(found->block)) continue;
     if (found->fingerprint != fingerprint_)
-      throw Error(
+      throw OtherBlocks(
           fmt::format("{} holds samples of another study (its fingerprint is {}, this study's is {}): resume with "
                       "the study and records it was started with, or choose another output folder",
-                      folder_.string(), found->fingerprint, fingerprint_));
+                      folder_.string(), found->fingerprint, fingerprint_),
+          found->fingerprint);
     if (found->kernel != kernel_)
       throw Error(fmt::format("{} holds samples of another version of freestand, which gives other numbers (kernel {:08x}, "
                               "this one's is {:08x}): resume with the program it was started with, or start again with "

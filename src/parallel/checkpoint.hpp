@@ -8,7 +8,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <freestand/error.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace freestand::parallel {
@@ -19,6 +21,16 @@ struct BlockRows {
   std::vector<double> values;
 
   std::int64_t rows() const { return columns ? static_cast<std::int64_t>(values.size()) / columns : 0; }
+};
+
+// Blocks that were made with another fingerprint, which is told.
+class OtherBlocks : public Error {
+ public:
+  OtherBlocks(const std::string& text, std::string fingerprint) : Error(text), fingerprint_(std::move(fingerprint)) {}
+  const std::string& fingerprint() const { return fingerprint_; }
+
+ private:
+  std::string fingerprint_;
 };
 
 class BlockStore {
@@ -32,8 +44,8 @@ class BlockStore {
   void write(std::int64_t block, const BlockRows& rows) const;
 
   // The blocks that are there and whole, ascending. Files that are torn, damaged or cannot be read do not count, they will
-  // be computed again. A block of another study or kernel is an Error (Exit::usage): resuming would mix the two. One rank
-  // asks and tells the others.
+  // be computed again. A block of another study (OtherBlocks) or kernel is an Error (Exit::usage): resuming would mix the
+  // two. One rank asks and tells the others.
   std::vector<std::int64_t> finished() const;
 
   // One block. Throws Error (Exit::data) if it is not there, damaged, or of another study.

@@ -1,6 +1,9 @@
 #include "study/analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <freestand/error.hpp>
 
 #include "edp/edp.hpp"
 #include "fragility/fit.hpp"
@@ -8,6 +11,7 @@
 #include "fragility/tally.hpp"
 #include "intensity/intensity.hpp"
 #include "study/bins.hpp"
+#include "study/damage_states.hpp"
 #include "study/realise.hpp"
 
 namespace freestand::study {
@@ -37,6 +41,15 @@ fragility::EdpOptions edp_options(const FragilityPart& part, const std::string& 
           edp.censored};
 }
 
+// `key` of the study: the bins that it asks for.
+std::vector<double> edges(const std::string& key, const BinsPart& bins, std::vector<double> values) {
+  try {
+    return bin_edges(bins, std::move(values));
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: {}", key, error.what()), error.exit());
+  }
+}
+
 // The first samples, from whole blocks.
 Table first_rows(std::int64_t blocks, const ReadTable& read) {
   Table first;
@@ -51,18 +64,19 @@ Table first_rows(std::int64_t blocks, const ReadTable& read) {
 
 }  // namespace
 
-fragility::Options fragility_options(const Study& study, const Table& first, const std::vector<int>& motion_group) {
+fragility::Options laid_out(const Study& study, const Table& first, const std::vector<int>& motion_group) {
   const FragilityPart& part = study.fragility;
   const intensity::Measure& measure = intensity::find(part.im.name);
   fragility::Options options;
   options.im_name = measure.name;
   options.im_unit = measure.unit;
-  options.im_edge = bin_edges(part.bins, column(first, "im_" + measure.name));
+  options.im_edge = edges("fragility.bins", part.bins, column(first, "im_" + measure.name));
   for (const std::string& name : part.edp) options.edps.push_back(edp_options(part, name));
+  for (fragility::EdpOptions& state : DamageStates(study).edps()) options.edps.push_back(std::move(state));
   for (const AxisPart& axis : part.axes) {
     const std::string name = Realiser::column_of(axis.name);
     const std::string unit = first.columns[column_index(first.columns, name)].unit;
-    options.axes.push_back({name, unit, bin_edges(axis.bins, column(first, name))});
+    options.axes.push_back({name, unit, edges("fragility.axes, " + axis.name, axis.bins, column(first, name))});
   }
   options.motion_group = motion_group;
   options.resamples = part.resamples;
@@ -73,7 +87,12 @@ fragility::Options fragility_options(const Study& study, const Table& first, con
   options.adequate = part.adequate;
   options.open_ends = part.bins.edges.empty();
   options.seed = study.seed;
-  fragility::Tally pilot(options);
+  return options;
+}
+
+fragility::Options fragility_options(const Study& study, Table first, const std::vector<int>& motion_group) {
+  fragility::Tally pilot(laid_out(study, first, motion_group));
+  DamageStates(study).append(first, 0);
   pilot.add(first, 0);
   return fragility::with_pilot(pilot);
 }
@@ -83,11 +102,15 @@ fragility::Result analyse(const parallel::Communicator& world, const Study& stud
                           parallel::StepDisplay* display) {
   const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_group);
   fragility::Tally tally(options);
+  const DamageStates damage(study);
   const auto show = [&](const char* what, std::size_t done, std::size_t total) {
     if (display) display->show(what, done, total);
   };
   for (std::int64_t block = world.rank(); block < blocks; block += world.size()) {
-    tally.add(read(block), static_cast<std::uint64_t>(block * block_size));
+    const auto first = static_cast<std::uint64_t>(block * block_size);
+    Table rows = read(block);
+    damage.append(rows, first);
+    tally.add(rows, first);
     show("reading blocks of samples", static_cast<std::size_t>(block + 1), static_cast<std::size_t>(blocks));
   }
   parallel::Words words = tally.words();
@@ -100,6 +123,8 @@ fragility::Result analyse(const parallel::Communicator& world, const Study& stud
 std::vector<std::string> analysed_columns(const FragilityPart& part) {
   std::vector<std::string> names = {"im_" + part.im.name, "outcome", "motion"};
   for (const std::string& edp : part.edp) names.push_back("edp_" + edp);
+  for (const DamagePart& state : part.damage)
+    for (const std::string& demand : state.demands) names.push_back("edp_" + demand);
   for (const AxisPart& axis : part.axes) names.push_back(Realiser::column_of(axis.name));
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());

@@ -21,8 +21,10 @@ inline constexpr std::int64_t bin_layout_samples = 4096;
 
 // What the study asks of the statistics. first: the first samples' rows, at least bin_layout_samples or all there are.
 // motion_group: one entry a motion (fragility::Options). Throws Error when no intensity lies above zero.
-fragility::Options fragility_options(const Study&, const Table& first,
-                                     const std::vector<int>& motion_group);
+fragility::Options fragility_options(const Study&, Table first, const std::vector<int>& motion_group);
+
+// The same before anything has responded: of `first` the draws and the intensity are read alone.
+fragility::Options laid_out(const Study&, const Table& first, const std::vector<int>& motion_group);
 
 // Rows of one block.
 using ReadTable = std::function<Table(std::int64_t block)>;

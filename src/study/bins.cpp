@@ -9,14 +9,21 @@
 namespace freestand::study {
 namespace {
 
-std::vector<double> of_width(double width, double least, double greatest) {
-  constexpr double most_bins = 100000;
+// As many as `count` may be; few samples fill fewer, but a trial of some may leave bins empty.
+constexpr double most_bins = 1000, most_bins_of_few = 100;
+
+std::vector<double> of_width(double width, const std::vector<double>& sorted) {
+  const double least = sorted.front(), greatest = sorted.back(), values = static_cast<double>(sorted.size());
   const double first = std::floor(least / width), last = std::floor(greatest / width) + 1;
-  if (!(last - first <= most_bins))
+  const double most = std::clamp(values, most_bins_of_few, most_bins);
+  if (!(last - first <= most))
     throw Error(
-        fmt::format("bins of width {} are too narrow (values reach from {} to {}): choose a greater width",
-                    sampling::number_text(width), sampling::number_text(least), sampling::number_text(greatest)),
-        Exit::data);
+        fmt::format("a width of {} makes {:.6g} bins (values reach from {:.4g} to {:.4g}, and {}): choose a "
+                    "width of at least {:.1g}, or count",
+                    sampling::number_text(width), last - first, least, greatest,
+                    most < most_bins ? fmt::format("{} samples do not fill so many", sorted.size())
+                                     : fmt::format("no more than {} are held", most_bins),
+                    2 * (greatest - least) / most));
   std::vector<double> edges;
   for (double i = first; i <= last; ++i) edges.push_back(i * width);
   return edges;
@@ -41,7 +48,7 @@ std::vector<double> bin_edges(const BinsPart& bins, std::vector<double> values) 
                 Exit::data);
   std::sort(values.begin(), values.end());
   const double least = values.front(), greatest = values.back();
-  if (bins.width > 0) return of_width(bins.width, least, greatest);
+  if (bins.width > 0) return of_width(bins.width, values);
   if (least == greatest) {
     const double margin = std::max(1e-9, 1e-6 * std::abs(least));
     return {least - margin, least + margin};

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/units.hpp"
@@ -46,13 +45,21 @@ void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
   if (!source.left_out.empty())
     doubter.said.push_back(
         fmt::format("vertical components that {} matches are left out: {}", source.records, joined(source.left_out)));
+  if (!source.no_records.empty())
+    doubter.said.push_back(
+        fmt::format("what is no record in {} is left out: {}", source.records, some(source.no_records, 20)));
+  if (!source.ungrouped.empty())
+    doubter.said.push_back(fmt::format(
+        "{} has a column {} and none named group: its records are taken as independent of each other, which "
+        "those of one earthquake are not: is group: {} meant?",
+        source.records, joined(source.ungrouped), source.ungrouped.front()));
   if (!source.amplitude) return;
   const sampling::Support amplitudes = support(source.amplitude->value);
   if (amplitudes.lower == 0 && amplitudes.upper == 0)
     doubter.said.push_back(fmt::format("{} is 0: nothing will shake", source.amplitude->name));
-  if (source.amplitude->unit == "1") return;
-  const bool in_g = source.amplitude->unit == "g";
-  doubter.ask(source.amplitude, in_g ? strongest_g : fastest_mps, in_g ? "is it in g?" : "is it in m/s?");
+  const bool spectral = source.scale_to && source.scale_to->period_s;  // may be larger than any peak
+  if (source.amplitude->unit == "g" && !spectral) doubter.ask(source.amplitude, strongest_g, "is it in g?");
+  if (source.amplitude->unit == "m/s") doubter.ask(source.amplitude, fastest_mps, "is it in m/s?");
 }
 
 }  // namespace
@@ -65,8 +72,7 @@ std::vector<std::string> doubts(const Study& study) {
   const FrictionPart& friction = study.model.friction;
   for (const auto& mu : {friction.mu, friction.mu_k, friction.mu_s})
     doubter.ask(mu, roughest, "is it a friction coefficient?");
-  const bool shaken = std::any_of(study.model.effects.begin(), study.model.effects.end(),
-                                  [](const EffectPart& effect) { return effect.name == "vertical_shaking"; });
+  const bool shaken = shakes_vertically(study.model);
   for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, doubter);
   const auto& chain = study.model.chain;
@@ -81,7 +87,7 @@ std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& 
   for (std::size_t s = 0; s < study.motions.size(); ++s) {
     const MotionSource& source = study.motions[s];
     if (source.kind != MotionSource::Kind::records) continue;
-    const bool as_it_is = source.amplitude && source.amplitude->unit == "1";
+    const bool as_it_is = source.amplitude && !source.scale_to;
     for (const std::size_t entry : motions.of_source[s]) {
       const FloorMotion& motion = motions.motion(entry);
       const double step = motion.duration_s() / static_cast<double>(motion.segments());

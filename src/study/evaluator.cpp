@@ -75,6 +75,17 @@ const std::vector<Column>& Evaluator::columns() const { return parts_->columns; 
 
 const MotionSet& Evaluator::motions() const { return parts_->realise.motions(); }
 
+Table Evaluator::shakings(std::size_t count) const {
+  const std::size_t columns = parts_->realise.draw_columns().size() + 1;
+  Table table{{parts_->columns.begin(), parts_->columns.begin() + static_cast<std::ptrdiff_t>(columns)}, {}};
+  for (std::uint64_t sample = 0; sample < count; ++sample) {
+    const Realisation drawn = parts_->realise(sample);
+    table.values.insert(table.values.end(), drawn.draws.begin(), drawn.draws.end());
+    table.values.push_back(parts_->intensity_of(drawn));
+  }
+  return table;
+}
+
 Outcome Evaluator::append(std::uint64_t sample, std::vector<double>& values) const {
   return append(sample, 1, values).front();
 }

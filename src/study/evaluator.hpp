@@ -32,6 +32,10 @@ class Evaluator {
   // blocks of any size. Tells the outcomes in order.
   std::vector<Outcome> append(std::uint64_t first, std::size_t count, std::vector<double>& values) const;
 
+  // What is known of samples 0 ... count - 1 before they are integrated: their draws and intensities, under the names of
+  // their columns.
+  Table shakings(std::size_t count) const;
+
   const MotionSet& motions() const;
 
  private:

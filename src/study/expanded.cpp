@@ -106,25 +106,31 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
   return "chain: " + m.flow() + "\n";
 }
 
+void add_amplitude(const MotionSource& source, Mapping& m) {
+  if (!source.scale_to) return m.add(source.amplitude);
+  Mapping target;
+  target.add(source.amplitude);
+  if (source.scale_to->period_s) target.add(source.scale_to->parameter, number_text(*source.scale_to->period_s));
+  m.add("scale_to", target.flow());
+}
+
 // file, vertical_file: the keys of recorded motions.
 Mapping source_mapping(const MotionSource& source, const char* file, const char* vertical_file) {
   Mapping m;
   if (source.kind == MotionSource::Kind::pulses) {
     m.add("pulse", to_string(source.pulses));
     m.add(source.period);
-    m.add(source.amplitude);
+    add_amplitude(source, m);
     m.add("scale", number_text(source.pulse_scale));
   } else {
     m.add(file, text_value(source.records));
     if (!source.vertical_records.empty()) m.add(vertical_file, text_value(source.vertical_records));
-    if (source.amplitude && source.amplitude->name == "motion.pta_g")
-      m.add("scale_to", fmt::format("{{{}}}", pair(*source.amplitude)));
-    else
-      m.add(source.amplitude);
+    add_amplitude(source, m);
     if (source.dt_s) m.add("dt_s", number_text(*source.dt_s));
     if (!source.unit.empty()) m.add("unit", text_value(source.unit));
     if (!source.format.empty()) m.add("format", text_value(source.format));
     if (!source.channel.empty()) m.add("channel", text_value(source.channel));
+    if (!source.group.empty()) m.add("group", text_value(source.group));
   }
   return m;
 }
@@ -157,17 +163,26 @@ std::string bins_text(const BinsPart& bins) {
   return fmt::format("{{count: {}, spacing: {}}}", bins.count, spacings[static_cast<int>(bins.spacing)]);
 }
 
+std::string intensity_text(const IntensityPart& im) {
+  if (!im.period_s) return text_value(im.name);
+  return fmt::format("{{name: {}, {}: {}}}", text_value(im.name), im.parameter, number_text(*im.period_s));
+}
+
 std::string fragility_text(const FragilityPart& f) {
-  std::string text = "fragility:\n  im: " + text_value(f.im.name);
-  if (f.im.period_s)
-    text = fmt::format("fragility:\n  im: {{name: {}, {}: {}}}", text_value(f.im.name), f.im.parameter,
-                       number_text(*f.im.period_s));
+  std::string text = "fragility:\n  im: " + intensity_text(f.im);
   text += fmt::format("\n  bins: {}\n  edp: [{}]\n  capacities:", bins_text(f.bins), fmt::join(f.edp, ", "));
   if (f.capacities.empty()) text += " {}";
   for (const auto& part : f.capacities) text += fmt::format("\n    {}: {}", part.edp, list(part.values));
   text += "\n  still:";
   if (f.still.empty()) text += " {}";
   for (const auto& [edp, threshold] : f.still) text += fmt::format("\n    {}: {}", edp, number_text(threshold));
+  if (!f.damage.empty()) text += "\n  damage:";
+  for (const auto& state : f.damage) {
+    text += fmt::format("\n    {}:\n      when: {}", state.name, text_value(state.when));
+    Mapping parameters;
+    for (const auto& parameter : state.parameters) parameters.add(parameter);
+    if (!state.parameters.empty()) text += fmt::format("\n      parameters: {}", parameters.flow());
+  }
   text += "\n  axes:";
   if (f.axes.empty()) text += " []";
   for (const auto& axis : f.axes)
@@ -179,7 +194,8 @@ std::string fragility_text(const FragilityPart& f) {
                     number_text(f.adequate), f.empirical_fallback);
 }
 
-std::string all_but_name(const Study& study) {
+// What makes the samples: all but the name and the fragility block.
+std::string samples_text(const Study& study) {
   std::string text = fmt::format("seed: {}\n", study.seed);
   if (study.until)
     text += fmt::format("until: {{half_width: {}, at_most: {}}}\n", number_text(study.until->half_width),
@@ -188,9 +204,10 @@ std::string all_but_name(const Study& study) {
     text += fmt::format("samples: {}\n", study.samples);
   text += fmt::format("design: {}\nblock_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", name(study.design),
                       study.block_size, number_text(study.tolerance), number_text(study.free_vibration_s));
-  return text + model_text(study.model) + chain_text(study.model.chain) + motions_text(study.motions) +
-         fragility_text(study.fragility);
+  return text + model_text(study.model) + chain_text(study.model.chain) + motions_text(study.motions);
 }
+
+std::string all_but_name(const Study& study) { return samples_text(study) + fragility_text(study.fragility); }
 
 }  // namespace
 
@@ -219,6 +236,11 @@ std::string expanded(const Case& one, const std::filesystem::path& folder) {
 std::string fingerprint(const Study& study) {
   // The first word changes whenever the same study begins to give other numbers.
   return fmt::format("{:016x}", random::stable_hash("freestand-draws/1\n" + all_but_name(study)));
+}
+
+std::string samples_fingerprint(const Study& study) {
+  return fmt::format("{:016x}", random::stable_hash("freestand-draws/1\n" + samples_text(study) +
+                                                    "im: " + intensity_text(study.fragility.im)));
 }
 
 }  // namespace freestand::study

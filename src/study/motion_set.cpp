@@ -1,7 +1,9 @@
 // Loads every floor motion of a study once.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
+#include <limits>
 #include <map>
 
 #include "base/random.hpp"
@@ -16,9 +18,11 @@ namespace {
 
 using Entry = MotionSet::Entry;
 
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
 Entry load_pulse(const std::string& name) {
   const motion::Pulse pulse = motion::find_pulse(name);
-  Entry entry{motion::pulse_motion(pulse), true, 1, pulse.peak_velocity};
+  Entry entry{motion::pulse_motion(pulse), true, 1, pulse.peak_velocity, {}, {}};
   entry.motion.name = pulse.name;
   return entry;
 }
@@ -31,31 +35,30 @@ std::string record_name(const std::filesystem::path& file, const MotionSource& s
   return (whole ? file.lexically_normal() : file.lexically_proximate(folder)).generic_string();
 }
 
-Entry load_record(const MotionSource& source, std::size_t i, const std::filesystem::path& folder) {
+// What its row says of a record, and else what the study says of all of them.
+motion::ReadOptions read_options(const MotionSource& source, const motion::RecordRow& row) {
   motion::ReadOptions options;
-  options.dt_s = source.dt_s;
-  options.unit = source.unit;
-  options.format = source.format;
-  options.channel = source.channel;
+  options.dt_s = row.dt_s ? row.dt_s : source.dt_s;
+  options.unit = row.unit.empty() ? source.unit : row.unit;
+  options.format = row.format.empty() ? source.format : row.format;
+  options.channel = row.channel.empty() ? source.channel : row.channel;
   options.component = motion::Component::horizontal;
-  if (!source.vertical_files.empty()) options.vertical_file = source.vertical_files[i].string();
-  Entry entry{motion::read_record(source.files[i], options), false, 0, 0};
-  entry.motion.name = record_name(source.files[i], source, folder);
+  options.vertical_file = row.vertical.string();
+  return options;
+}
+
+Entry load_record(const MotionSource& source, const motion::RecordRow& row, const std::filesystem::path& folder) {
+  Entry entry{motion::read_record(row.file, read_options(source, row)), false, 0, 0, row.group, {}};
+  entry.motion.name = record_name(row.file, source, folder);
   const motion::MotionPeaks peaks = motion::peaks(entry.motion);
   entry.peak_mps2 = peaks.pga_mps2;
   entry.peak_mps = peaks.pgv_mps;
   if (!(entry.peak_mps2 > 0))
     throw Error(
         fmt::format("{} is zero throughout (nothing would shake, whatever its scale): leave it out, or get it again",
-                    source.files[i].string()),
+                    row.file.string()),
         Exit::data);
   return entry;
-}
-
-bool shakes_vertically(const Study& study) {
-  for (const auto& effect : study.model.effects)
-    if (effect.name == "vertical_shaking") return true;
-  return false;
 }
 
 void hash_values(const std::vector<double>& values, std::uint64_t& hash) {
@@ -74,20 +77,24 @@ class Loader {
       for (const auto& name : source.pulses.values) items.push_back(pulse(name));
       return items;
     }
-    for (std::size_t i = 0; i < source.files.size(); ++i) {
+    for (const motion::RecordRow& row : source.files) {
       try {
-        entries_.push_back(load_record(source, i, study_.folder));
+        entries_.push_back(load_record(source, row, study_.folder));
+        add_numbers(source, row, entries_.back());
         items.push_back(entries_.size() - 1);
       } catch (const Error& error) {
-        problems_ += (problems_.empty() ? "" : "\n") + std::string(error.what());
+        problems_ += (problems_.empty() ? "" : "\n") + (row.where.empty() ? "" : row.where + ": ") + error.what();
       }
     }
     return items;
   }
 
+  const std::vector<motion::RecordNumber>& numbers() const { return numbers_; }
+
   std::vector<Entry> finish() {
+    for (Entry& entry : entries_) entry.numbers.resize(numbers_.size(), not_given);
     if (!problems_.empty()) throw Error(problems_, Exit::data);
-    bool vertical = !shakes_vertically(study_);
+    bool vertical = !shakes_vertically(study_.model);
     for (const auto& entry : entries_) vertical = vertical || !entry.motion.vertical_mps2.empty();
     if (!vertical)
       throw Error(
@@ -106,8 +113,22 @@ class Loader {
     return pulses_[name] = entries_.size() - 1;
   }
 
+  // Tables with the same column mean the same number.
+  void add_numbers(const MotionSource& source, const motion::RecordRow& row, Entry& entry) {
+    for (std::size_t column = 0; column < source.numbers.size(); ++column) {
+      const auto known = std::find_if(numbers_.begin(), numbers_.end(), [&](const motion::RecordNumber& number) {
+        return number.name == source.numbers[column].name;
+      });
+      const auto place = static_cast<std::size_t>(known - numbers_.begin());
+      if (known == numbers_.end()) numbers_.push_back(source.numbers[column]);
+      entry.numbers.resize(numbers_.size(), not_given);
+      entry.numbers[place] = row.numbers[column];
+    }
+  }
+
   const Study& study_;
   std::vector<Entry> entries_;
+  std::vector<motion::RecordNumber> numbers_;
   std::map<std::string, std::size_t> pulses_;
   std::string problems_;
 };
@@ -119,6 +140,7 @@ MotionSet load_motions(const Study& study) {
   Loader loader(study);
   for (const auto& source : study.motions) set.of_source.push_back(loader.load(source));
   set.entries = std::make_shared<const std::vector<Entry>>(loader.finish());
+  set.numbers = loader.numbers();
   return set;
 }
 
@@ -129,14 +151,23 @@ std::vector<std::string> MotionSet::names() const {
 }
 
 std::vector<int> MotionSet::groups() const {
+  std::map<std::string, std::string> group_of;  // of each record that stands in one, for wherever it stands again
+  for (const Entry& entry : *entries)
+    if (!entry.group.empty()) group_of.try_emplace(entry.motion.name, "group " + entry.group);
+  std::map<std::string, int> first;
   std::vector<int> groups;
-  for (const Entry& entry : *entries) groups.push_back(entry.pulse ? -1 : static_cast<int>(groups.size()));
+  for (const Entry& entry : *entries) {
+    const auto known = group_of.find(entry.motion.name);
+    const std::string group = known == group_of.end() ? "record " + entry.motion.name : known->second;
+    groups.push_back(entry.pulse ? -1 : first.try_emplace(group, static_cast<int>(groups.size())).first->second);
+  }
   return groups;
 }
 
 std::string MotionSet::fingerprint() const {
   std::uint64_t hash = 0;
-  for (const auto& [motion, pulse, peak_mps2, peak_mps] : *entries) {
+  for (const Entry& entry : *entries) {
+    const FloorMotion& motion = entry.motion;
     hash = random::stable_hash(motion.name, hash) ^ static_cast<std::uint64_t>(motion.degree);
     hash_values(motion.knot_s, hash);
     hash_values(motion.horizontal_mps2, hash);

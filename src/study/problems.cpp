@@ -38,4 +38,10 @@ std::string hint(std::string_view word, const std::vector<std::string>& candidat
 
 std::string joined(const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, ", ")); }
 
+std::string some(const std::vector<std::string>& words, std::size_t few) {
+  if (words.size() <= few + 1) return joined(words);
+  const std::vector<std::string> first(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(few));
+  return fmt::format("{} and {} more", joined(first), words.size() - few);
+}
+
 }  // namespace freestand::study

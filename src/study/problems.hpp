@@ -44,4 +44,7 @@ std::string hint(std::string_view word, const std::vector<std::string>& candidat
 
 std::string joined(const std::vector<std::string>& words);
 
+// The same of the first few: "a, b, c and 12 more".
+std::string some(const std::vector<std::string>& words, std::size_t few = 5);
+
 }  // namespace freestand::study

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "study/study.hpp"
 
 namespace freestand::study {
@@ -22,6 +24,11 @@ std::vector<Quantity> quantities(const ModelPart& model) {
     add(model.chain->wall_gap);
   }
   return all;
+}
+
+bool shakes_vertically(const ModelPart& model) {
+  return std::any_of(model.effects.begin(), model.effects.end(),
+                     [](const EffectPart& effect) { return effect.name == "vertical_shaking"; });
 }
 
 }  // namespace freestand::study

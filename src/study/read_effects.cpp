@@ -191,6 +191,7 @@ std::vector<EffectPart> read_effects(Section& file, Model model) {
     file.problem("effects", "effects is no list (each effect is an entry): write effects: [{name: vertical_shaking}]");
     return effects;
   }
+  if (lacks_braces(*node, "effects", file.line("effects"), file.problems())) return effects;
   for (std::size_t i = 0; i < node->size(); ++i) {
     const int line = line_of((*node)[i]) ? line_of((*node)[i]) : file.line("effects");
     Section section((*node)[i], fmt::format("effects[{}]", i), line, file.problems());

@@ -126,8 +126,34 @@ void check_capacities(Section& section, const std::string& edp, const std::vecto
                     section.name(edp) + " does not increase (each capacity must be above the one before): sort it");
 }
 
-std::vector<CapacitiesPart> read_capacities(Section& section, const Known& known,
-                                            const std::vector<std::string>& edps) {
+// The numbers of a list; each distribution in it becomes a damage state: the demand exceeds a capacity that is drawn.
+std::vector<double> read_values(Section& given, const std::string& edp, std::vector<DamagePart>& damage) {
+  const YAML::Node& node = *given.find(edp);
+  if (!node.IsSequence() || std::none_of(node.begin(), node.end(), [](const auto& entry) { return entry.IsMap(); }))
+    return given.numbers(edp);
+  std::vector<double> values;
+  int drawn = 0;
+  for (const auto& entry : node) {
+    const int line = line_of(entry) ? line_of(entry) : given.line(edp);
+    const auto value = read_distribution(entry, given.name(edp), line, given.problems());
+    if (!value) continue;
+    if (const auto* fixed = std::get_if<sampling::Fixed>(&*value)) {
+      values.push_back(fixed->value);
+      continue;
+    }
+    check_range(*value, range::positive, given.name(edp), line, given.problems());
+    const std::string name = fmt::format("{}_over_capacity_{}", edp, ++drawn);
+    damage.push_back({name,
+                      edp + " > capacity",
+                      {Quantity{fmt::format("damage.{}.capacity", name), unit_of(edp), *value, line}},
+                      {},
+                      line});
+  }
+  return values;
+}
+
+std::vector<CapacitiesPart> read_capacities(Section& section, const Known& known, const std::vector<std::string>& edps,
+                                            std::vector<DamagePart>& damage) {
   std::optional<Section> given;
   if (const YAML::Node* node = section.find("capacities"))
     given.emplace(*node, section.name("capacities"), section.line("capacities"), section.problems());
@@ -143,7 +169,9 @@ std::vector<CapacitiesPart> read_capacities(Section& section, const Known& known
     CapacitiesPart part{name, edp.default_capacities};
     if (given && given->find(name)) {
       const std::size_t before = section.problems().count();
-      part.values = given->numbers(name);
+      part.values = read_values(*given, name, damage);
+      if (part.values.empty() && !damage.empty() && damage.back().when.starts_with(name + " "))
+        part.values = edp.default_capacities;  // distributions alone
       if (section.problems().count() == before) check_capacities(*given, name, part.values);
     } else if (part.values.empty()) {
       section.problem("capacities", fmt::format("{} has no capacities (and no usual ones): add {}: [...] to {}", name,
@@ -214,6 +242,7 @@ std::vector<AxisPart> read_axes(Section& section, const std::vector<AxisChoice>&
     section.problem("axes", section.name("axes") + " is no list (each axis is an entry): write [friction.mu_k]");
     return axes;
   }
+  if (lacks_braces(*node, section.name("axes"), section.line("axes"), section.problems())) return axes;
   for (std::size_t i = 0; i < node->size(); ++i) {
     const YAML::Node& entry = (*node)[i];
     if (entry.IsScalar()) {
@@ -240,7 +269,8 @@ FragilityPart read_fragility(Section& file, const Known& known, const std::vecto
   part.im = read_intensity(section, known);
   part.bins = read_bins(section, "bins", default_bins);
   part.edp = read_edps(section, known);
-  part.capacities = read_capacities(section, known, part.edp);
+  part.capacities = read_capacities(section, known, part.edp, part.damage);
+  read_damage(section, known, part);
   part.axes = read_axes(section, choices);
   part.resamples =
       static_cast<int>(section.integer("resamples", 500, fragility::least_resamples, fragility::most_resamples));

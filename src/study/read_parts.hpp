@@ -14,8 +14,21 @@ std::vector<EffectPart> read_effects(Section& file, Model model);
 // What is said where the laws of effects and chain do not find room together; "" where they do.
 std::string no_room_for(const std::vector<EffectPart>&, const std::optional<ChainPart>&);
 
-// Entries of `motions`; globs start at `folder`.
-std::vector<MotionSource> read_motions(Section& file, const std::filesystem::path& folder, Files);
+// Entries of `motions`; globs start at `folder`. vertical: the model feels vertical components, so that tables of records
+// are searched for them.
+std::vector<MotionSource> read_motions(Section& file, const std::filesystem::path& folder, Files, bool vertical);
+
+// The amplitude from the key scale_to, if it is there: any intensity measure that is proportional to the motion's scale.
+std::optional<Quantity> read_scale_to(Section& section, MotionSource& source);
+
+// What an entry of `motions` says of records; `key`: records, or file of a case.
+struct RecordKeys {
+  std::string key, vertical_key;
+  std::filesystem::path folder;
+  Files look;
+  bool vertical;
+};
+void read_records(Section& section, MotionSource& source, const RecordKeys&);
 
 // `motion` of a case: one pulse or one file.
 MotionSource read_motion(Section& file, const std::filesystem::path& folder);
@@ -29,6 +42,9 @@ std::vector<AxisChoice> axis_choices(const ModelPart&, const std::vector<MotionS
 
 // `fragility`, defaults where it is absent. No choices: axes are not checked.
 FragilityPart read_fragility(Section& file, const Known&, const std::vector<AxisChoice>&);
+
+// `damage` of the fragility block, after the damage states that its capacities made.
+void read_damage(Section& fragility, const Known&, FragilityPart&);
 
 // The study that a mapping says. Throws Error (Exit::usage) with all problems. `path`: names it in messages, and its folder
 // is where relative paths start. line: of the mapping, for what it lacks.

@@ -3,10 +3,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <fstream>
-#include <sstream>
 
-#include "base/shown_text.hpp"
 #include "study/accuracy.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/paths.hpp"
@@ -101,32 +98,6 @@ void refuse_other_kind(Section& file, const char* wanted, const char* other, con
 
 }  // namespace
 
-std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (stream && !std::filesystem::is_directory(file)) text << stream.rdbuf();
-  if (!stream || std::filesystem::is_directory(file))
-    throw Error(fmt::format("{} cannot be read ({}): check the path", file.string(),
-                            std::filesystem::is_directory(file) ? "it is a folder"
-                            : std::filesystem::exists(file)     ? "no permission"
-                                                                : "no such file"));
-  return text.str();
-}
-
-std::optional<YAML::Node> parse_yaml(const std::string& text, Problems& problems) {
-  try {
-    YAML::Node node = YAML::Load(text);
-    if (!node.IsNull()) return node;
-    problems.add(0, "the file is empty (there is no key in it): see configs/ for examples");
-  } catch (const YAML::Exception& error) {
-    problems.add(
-        error.mark.is_null() ? 0 : error.mark.line + 1,
-        fmt::format("this is not YAML ({}): check indentation, colons and brackets here and on the line before",
-                    shown(error.msg, 200)));
-  }
-  return {};
-}
-
 Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known& known, Files look,
                  Problems& problems, int line) {
   Study study;
@@ -137,7 +108,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
                     "this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it", problems);
   read_common(file, path, study, look);
   read_design(file, study);
-  study.motions = read_motions(file, study.folder, look);
+  study.motions = read_motions(file, study.folder, look, shakes_vertically(study.model));
   // What the study draws is known only when its parts are sound.
   const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
   study.fragility = read_fragility(file, known, choices);

@@ -5,6 +5,9 @@
 
 #include "base/units.hpp"
 #include "dynamics/chain.hpp"
+#include "intensity/intensity.hpp"
+#include "motion/pulse.hpp"
+#include "motion/summary.hpp"
 #include "study/problems.hpp"
 
 namespace freestand::study {
@@ -33,26 +36,60 @@ std::optional<Drawn> drawn(const Plan& plan, const std::optional<Quantity>& quan
   return quantity ? std::optional<Drawn>(std::in_place, plan, *quantity) : std::nullopt;
 }
 
-enum class Amplitude { acceleration_g, velocity_mps, pta_g, factor };
+enum class Amplitude { acceleration_g, velocity_mps, pta_g, intensity, factor };
 
 Amplitude amplitude_of(const MotionSource& source) {
   const std::string& name = source.amplitude->name;
   if (name == "motion.peak_acceleration_g") return Amplitude::acceleration_g;
   if (name == "motion.peak_velocity_mps") return Amplitude::velocity_mps;
-  return name == "motion.pta_g" ? Amplitude::pta_g : Amplitude::factor;
+  if (name == "motion.pta_g") return Amplitude::pta_g;
+  return source.scale_to ? Amplitude::intensity : Amplitude::factor;
 }
 
+// Its draws are those of an amplitude, whatever it is measured by.
+Quantity amplitude_drawn(const MotionSource& source) {
+  Quantity amplitude = *source.amplitude;
+  if (source.scale_to) amplitude.name = "motion.pta_g";
+  return amplitude;
+}
+
+// The intensity that a motion is scaled to.
+struct Target {
+  const intensity::Measure* measure = nullptr;
+  std::optional<double> parameter;
+  std::vector<motion::MotionSummary> summaries;  // of the items of the source
+
+  Target(const MotionSource& source, const MotionSet& motions, const std::vector<std::size_t>& items) {
+    if (amplitude_of(source) != Amplitude::intensity) return;
+    measure = &intensity::find(source.scale_to->name);
+    parameter = source.scale_to->period_s;
+    motion::SummaryRequest request;
+    intensity::add_needs(*measure, request, parameter);
+    for (const std::size_t item : items)
+      summaries.push_back(motions.is_pulse(item) ? motion::summarize(motion::find_pulse(motions.motion(item).name))
+                                                 : motion::summarize(motions.motion(item), request));
+  }
+
+  // Of a motion at scale 1.
+  double unscaled(std::size_t item, Shaking shaking, const Specimen& specimen) const {
+    shaking.scale = 1;
+    return intensity::value(*measure, summaries[item], shaking, specimen, parameter);
+  }
+};
+
 struct Source {
-  Source(const Plan& plan, const MotionSource& from)
+  Source(const Plan& plan, const MotionSource& from, const MotionSet& motions, const std::vector<std::size_t>& items)
       : part(from),
         amplitude_kind(amplitude_of(from)),
-        amplitude(plan, *from.amplitude),
+        amplitude(plan, amplitude_drawn(from)),
+        target(from, motions, items),
         period(drawn(plan, from.period)),
         item(plan, from.kind == MotionSource::Kind::pulses ? "motion.pulse" : "motion.record") {}
 
   MotionSource part;
   Amplitude amplitude_kind;
   Drawn amplitude;
+  Target target;
   std::optional<Drawn> period;
   Stream item;
 };
@@ -133,9 +170,9 @@ Realiser::Parts::Parts(const Study& study, MotionSet set)
                                        [&](const Column& c) { return c.name == column_name(part.parameters[i].name); });
       if (!summary.empty()) column->description = part.name + ": " + summary;
     }
-  for (const auto& source : study.motions) {
-    sources.emplace_back(study.plan(), source);
-    weights.push_back(source.weight);
+  for (std::size_t s = 0; s < study.motions.size(); ++s) {
+    sources.emplace_back(study.plan(), study.motions[s], motions, motions.of_source[s]);
+    weights.push_back(study.motions[s].weight);
   }
   for (const auto& column : derived_columns()) {
     const bool there =
@@ -204,6 +241,9 @@ void Realiser::Parts::shake(std::uint64_t sample, Realisation& out) const {
       break;
     case Amplitude::pta_g:
       shaking.scale = amplitude * standard_gravity_mps2 / entry.peak_mps2;
+      break;
+    case Amplitude::intensity:
+      shaking.scale = amplitude / source.target.unscaled(item, shaking, out.specimen);
       break;
     case Amplitude::factor:
       shaking.scale = amplitude;

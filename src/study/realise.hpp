@@ -20,9 +20,12 @@ struct MotionSet {
   struct Entry {
     FloorMotion motion;
     bool pulse = false;
-    double peak_mps2 = 1;  // of the horizontal channel
-    double peak_mps = 0;   // velocity of a unit pulse; v_p = scale * period * peak_mps
+    double peak_mps2 = 1;              // of the horizontal channel
+    double peak_mps = 0;               // velocity of a unit pulse; v_p = scale * period * peak_mps
+    std::string group = {};            // of a record; empty: by itself
+    std::vector<double> numbers = {};  // one for each of MotionSet::numbers, nan where nothing gives it
   };
+  std::vector<motion::RecordNumber> numbers;  // intensities that tables of records bring
   std::shared_ptr<const std::vector<Entry>> entries;
   std::vector<std::vector<std::size_t>> of_source;  // per source of the study: its items -> entries
 

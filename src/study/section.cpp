@@ -37,6 +37,21 @@ int line_of(const YAML::Node& node) {
   return mark.is_null() ? 0 : mark.line + 1;
 }
 
+bool lacks_braces(const YAML::Node& list, const std::string& where, int line, Problems& problems) {
+  std::vector<std::string> keys, pairs;
+  for (const auto& entry : list) {
+    if (!entry.IsMap() || entry.size() != 1 || !entry.begin()->first.IsScalar()) return false;
+    keys.push_back(entry.begin()->first.Scalar());
+    pairs.push_back(keys.back() + ": ...");
+  }
+  std::sort(keys.begin(), keys.end());
+  if (keys.size() < 2 || std::adjacent_find(keys.begin(), keys.end()) != keys.end()) return false;
+  problems.add(line_of(list[0]) ? line_of(list[0]) : line,
+               fmt::format("{} has {} items of one key each (the keys of one item stand in braces): write [{{{}}}]",
+                           where, keys.size(), shown(fmt::format("{}", fmt::join(pairs, ", ")), 200)));
+  return true;
+}
+
 std::optional<double> number_of(const std::string& text) {
   const char* first = text.data();
   const char* last = first + text.size();

@@ -33,6 +33,10 @@ inline constexpr Range fraction = {
 // Line of a node, 1 first; 0 where the parser does not know it.
 int line_of(const YAML::Node&);
 
+// Is a list of mappings written without their braces ("[pulse: B, period_s: 0.5]")? YAML reads an entry for each key: that
+// is a problem at the entries' line.
+bool lacks_braces(const YAML::Node& list, const std::string& where, int line, Problems&);
+
 // Text of a scalar as a number; nothing unless all of it is one finite number.
 std::optional<double> number_of(const std::string& text);
 

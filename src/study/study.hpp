@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "motion/record_table.hpp"
 #include "sampling/design.hpp"
 #include "sampling/distribution.hpp"
 
@@ -59,8 +60,8 @@ struct EffectPart {
 struct ChainPart {
   Quantity slack, stiffness, strength;  // chain.slack_m, chain.stiffness_npm, chain.strength_n
   std::optional<Quantity> height;       // chain.height_m, the block's height where it is not given
-  std::optional<Quantity> wall_gap;     // chain.wall_gap_m, 0 where it is not given; none where the model knows no walls
-  int side = 1;                         // +1: holds back what moves to the right
+  std::optional<Quantity> wall_gap;  // chain.wall_gap_m, 0 where it is not given; none where the model knows no walls
+  int side = 1;                      // +1: holds back what moves to the right
 };
 
 // The contact of model bouc_wen.
@@ -81,25 +82,39 @@ struct ModelPart {
 // Every number of the model, in the order of its columns.
 std::vector<Quantity> quantities(const ModelPart&);
 
+// Does it feel vertical components (effect vertical_shaking)?
+bool shakes_vertically(const ModelPart&);
+
+// An intensity measure: a name, or {name: sa_g, period_s: 1.0} for one that takes a number.
+struct IntensityPart {
+  std::string name = "report";
+  std::string parameter = {};           // key of that number; empty: the measure takes none
+  std::optional<double> period_s = {};  // the number; the measure's own default where the study gives none
+};
+
 // One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
 struct MotionSource {
   enum class Kind { pulses, records };
   Kind kind = Kind::pulses;
   double weight = 1;
-  // Pulses: motion.peak_acceleration_g or motion.peak_velocity_mps (the true peak of the floor's velocity). Records:
-  // motion.pta_g (each record scaled to this peak) or motion.scale (a factor). A negative one, but for pta_g, mirrors.
+  // Pulses: motion.peak_acceleration_g or motion.peak_velocity_mps (the true peak of the floor's velocity); records:
+  // motion.scale (a factor); negative ones mirror. Either: the intensity that the motion is scaled to, motion.sa_g.
   std::optional<Quantity> amplitude;
+  std::optional<IntensityPart> scale_to;  // of such an amplitude
   // Pulses.
   sampling::Names pulses;
   std::optional<Quantity> period;  // motion.period_s
   double pulse_scale = 1;          // key `scale`: a plain factor on the amplitude
   // Records; all alike likely.
-  std::string records;                                // glob, folder or file, relative to the folder of the study file
-  std::string vertical_records;                       // the same for vertical components, paired in the order of names
-  std::vector<std::filesystem::path> files;           // what `records` matched, sorted by name, but
-  std::vector<std::string> left_out;                  // vertical components, and why they are taken for that
-  std::vector<std::filesystem::path> vertical_files;  // empty, or one for each of `files`
-  std::optional<double> dt_s;                         // the rest as motion::ReadOptions
+  std::string records;           // glob, folder, file or table of records, relative to the folder of the study file
+  std::string vertical_records;  // the same for vertical components, paired in the order of names
+  std::string group;             // of a table: the column that groups its records; else the group of all these records
+  std::vector<motion::RecordRow> files;       // what `records` names: rows of the table, or files sorted by name
+  std::vector<motion::RecordNumber> numbers;  // of those rows
+  std::vector<std::string> left_out;          // vertical components, and why they are taken for that
+  std::vector<std::string> no_records;        // what else lies in a folder, and why it is taken for no record
+  std::vector<std::string> ungrouped;         // columns by which a table could group its records, and does not
+  std::optional<double> dt_s;                 // the rest as motion::ReadOptions, where a row does not say it
   std::string unit, format, channel;
 };
 
@@ -113,16 +128,18 @@ struct BinsPart {
   Spacing spacing = Spacing::equal_count;  // of `count` bins
 };
 
-// fragility.im: a name, or {name: sa_g, period_s: 1.0} for a measure that takes a number.
-struct IntensityPart {
-  std::string name = "report";
-  std::string parameter = {};           // key of that number; empty: the measure takes none
-  std::optional<double> period_s = {};  // the number; the measure's own default where the study gives none
-};
-
 struct CapacitiesPart {
   std::string edp;
   std::vector<double> values;  // increasing
+};
+
+// A damage state: a condition on demands, whose parameters may be distributions (a capacity that is not known).
+struct DamagePart {
+  std::string name;                  // blocked_door
+  std::string when;                  // "peak_slip_m > gap_m or overturned"
+  std::vector<Quantity> parameters;  // damage.blocked_door.gap_m
+  std::vector<std::string> demands;  // that the condition looks at
+  int line = 0;
 };
 
 struct AxisPart {
@@ -135,6 +152,7 @@ struct FragilityPart {
   BinsPart bins;                           // default: 12 bins of equal count
   std::vector<std::string> edp;            // default: every one that is known
   std::vector<CapacitiesPart> capacities;  // of each EDP of the list that is not binary, in its order
+  std::vector<DamagePart> damage;          // each one more binary demand
   std::vector<AxisPart> axes;
   int resamples = 500;  // bootstrap repeats of the intervals
   double confidence = 0.95;
@@ -221,5 +239,8 @@ std::string expanded(const Case&, const std::filesystem::path& folder);
 // Hash (16 hexadecimal digits) of all that determines the numbers in the result files; the name does not. The contents
 // of records count through MotionSet::fingerprint.
 std::string fingerprint(const Study&);
+
+// The same of what determines the samples: of the fragility block their intensity measure alone.
+std::string samples_fingerprint(const Study&);
 
 }  // namespace freestand::study

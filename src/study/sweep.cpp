@@ -18,10 +18,14 @@
 #include "parallel/schedule.hpp"
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
+#include "study/changed_keys.hpp"
 #include "study/doubts.hpp"
 #include "study/effects_page.hpp"
 #include "study/evaluator.hpp"
 #include "study/kernel_number.hpp"
+#include "study/known.hpp"
+#include "study/read_parts.hpp"
+#include "study/until.hpp"
 
 namespace freestand::study {
 namespace {
@@ -38,12 +42,24 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 bool already_complete(const Study& study, const std::filesystem::path& folder) {
   if (!std::filesystem::exists(samples_path(folder))) return false;
   const io::SampleReader reader(samples_path(folder));
-  if (fingerprint(parse_stored(reader.provenance().study, folder)) != fingerprint(study))
+  const Study swept = parse_stored(reader.provenance().study, folder);
+  if (samples_fingerprint(swept) != samples_fingerprint(study))
     throw Error(
-        fmt::format("{} holds the results of another study (its fingerprint differs): choose another folder, or give "
+        fmt::format("{} holds the results of another study ({}): take that back, choose another folder, or give "
                     "--overwrite to replace them",
-                    folder.string()));
+                    folder.string(), changes_told(study, swept)));
   return true;
+}
+
+// Why the blocks in the folder are of another study: in which key, as the study.yaml beside them tells.
+std::string why_other(const Study& study, const std::filesystem::path& folder, const std::string& blocks_fingerprint) {
+  if (blocks_fingerprint.starts_with(samples_fingerprint(study))) return "a record has other contents now, or another name";
+  try {
+    const std::string told = changes_told(study, parse_stored(read_text(study_path(folder)), study_path(folder)));
+    if (!told.empty()) return told;
+  } catch (const Error&) {  // it is gone, or no study any more
+  }
+  return "their fingerprint differs";
 }
 
 // The root tries the records first, so that a broken one is told once and all ranks leave in order.
@@ -70,10 +86,11 @@ class Sweep {
         options_(options),
         folder_(folder),
         evaluator_(study, load_together(world, study)),
-        store_(blocks_path(folder.path()), fingerprint(study) + evaluator_.motions().fingerprint(),
+        store_(blocks_path(folder.path()), samples_fingerprint(study) + evaluator_.motions().fingerprint(),
                kernel_of(evaluator_.columns())) {}
 
   SweepSummary run() {
+    refuse_bins_that_are_too_narrow();
     take_stock();
     folder_.begin();
     std::int64_t samples = first_round();
@@ -82,6 +99,7 @@ class Sweep {
       samples = std::min(total(), 2 * samples);
       compute(samples);
     }
+    if (study_.until && samples == total() && !options_.fit_follows) tell_if_not_reached(samples);
     write(samples);
     folder_.end();
     summary_.samples = samples;
@@ -101,14 +119,37 @@ class Sweep {
     return std::min(total(), block * ((bin_layout_samples + block - 1) / block));
   }
 
+  // The bins are laid over the first samples' intensities, which are known before any response is.
+  void refuse_bins_that_are_too_narrow() const {
+    const auto& axes = study_.fragility.axes;
+    if (study_.fragility.bins.width <= 0 &&
+        std::none_of(axes.begin(), axes.end(), [](const AxisPart& axis) { return axis.bins.width > 0; }))
+      return;
+    world_.on_root([&] {
+      const auto first = static_cast<std::size_t>(std::min(total(), bin_layout_samples));
+      laid_out(study_, evaluator_.shakings(first), evaluator_.motions().groups());
+    });
+  }
+
   void take_stock() {
     parallel::Words finished;
     world_.on_root([&] {
-      finished = store_.finished();
+      finished = finished_blocks();
       store_.remove_leftovers();
       io::write_text(study_path(folder_.path()), io::signed_text(expanded(study_, folder_.path())));
     });
     finished_ = world_.broadcast(finished);
+  }
+
+  parallel::Words finished_blocks() const {
+    try {
+      return store_.finished();
+    } catch (const parallel::OtherBlocks& other) {
+      throw Error(
+          fmt::format("{} holds samples of another study ({}): resume with the study and records it was started with, "
+                      "choose another folder, or give --overwrite to replace them",
+                      folder_.path().string(), why_other(study_, folder_.path(), other.fingerprint())));
+    }
   }
 
   // All blocks of the first `samples` samples.
@@ -172,13 +213,25 @@ class Sweep {
     }
   }
 
+  // Of the finished samples; on the root.
+  fragility::Result result_so_far(std::int64_t samples) {
+    folder_.leave_if_asked();
+    return analyse(world_, study_, evaluator_.motions().groups(), layout(samples).blocks(),
+                   layout(samples).block_size, [&](std::int64_t block) {
+                     return Table{evaluator_.columns(), finished_rows(samples, block)};
+                   });
+  }
+
+  // However quiet: who asked for a half width must know that it was not reached.
+  void tell_if_not_reached(std::int64_t samples) {
+    const fragility::Result result = result_so_far(samples);
+    if (!world_.is_root()) return;
+    if (const std::string warning = not_reached(study_, result); !warning.empty()) parallel::tell(warning + "\n");
+  }
+
   // Is every wanted point of the surface within the half width asked for?
   bool known_well_enough(std::int64_t samples) {
-    folder_.leave_if_asked();
-    const fragility::Result result = analyse(world_, study_, evaluator_.motions().groups(), layout(samples).blocks(),
-                                             layout(samples).block_size, [&](std::int64_t block) {
-                                               return Table{evaluator_.columns(), finished_rows(samples, block)};
-                                             });
+    const fragility::Result result = result_so_far(samples);
     double half_width = 0;
     if (world_.is_root()) half_width = fragility::half_width(result).largest;
     half_width = world_.broadcast(std::vector<double>{half_width}).front();
@@ -234,7 +287,7 @@ SweepSummary sweep(const Communicator& world, const Study& study, const SweepOpt
     complete[0] = already_complete(study, folder.path());
     if (!complete[0]) return;
     if (std::filesystem::exists(blocks_path(folder.path())))  // its end was interrupted
-      parallel::BlockStore(blocks_path(folder.path()), fingerprint(study)).clear();
+      parallel::BlockStore(blocks_path(folder.path()), samples_fingerprint(study)).clear();
     io::write_text(study_path(folder.path()), io::signed_text(expanded(study, folder.path())));
   });
   if (world.broadcast(complete)[0]) return {.samples = static_cast<std::int64_t>(study.samples), .computed = 0};

@@ -12,7 +12,8 @@ namespace freestand::study {
 
 struct SweepOptions {
   bool quiet = false;
-  std::string command;  // for the provenance
+  std::string command;       // for the provenance
+  bool fit_follows = false;  // which tells whether `until` was reached; else the sweep does
 };
 
 // Where a sweep's files lie inside its folder.

@@ -86,7 +86,17 @@ class KillAndResume(InFolder):
         for target in (folder, self.whole):
             refused = run(["sweep", other, "-o", target, "--resume", "--quiet"])
             self.assertEqual(refused.returncode, 2, refused.stderr)
-            self.assertIn("another study", refused.stderr)
+            self.assertIn("another study (seed was 7, is 8)", refused.stderr)
+        study = (folder / "study.yaml").read_text()
+        (folder / "study.yaml").write_text(study.replace("height_m: 2.2", "height_m: 2.3"))  # the blocks are what counts
+        self.fail_with(2, ["sweep", other, "-o", folder, "--resume"], "study.yaml would be replaced")
+        (folder / "study.yaml").unlink()
+        self.fail_with(2, ["sweep", other, "-o", folder, "--resume"], "another study (their fingerprint differs)")
+        finished = len(list(folder.glob("blocks/block-*.bin")))
+        self.fail_with(2, ["sweep", self.study, "-o", folder],
+                       f"--resume goes on, --overwrite throws {finished} finished blocks away")
+        # Other bins are no other study: their samples are the same.
+        self.study = self.write("study.yaml", study_text(samples=self.samples).replace("count: 5", "count: 7"))
         self.resume(folder)
 
 

@@ -27,7 +27,9 @@ class Until(InFolder):
     def test_what_was_not_reached_is_told(self):
         text = TEXT.replace("half_width: 0.08, at_most: 200000", "half_width: 0.001, at_most: 1024")
         out = self.folder / "out"
-        done = self.succeed(["run", self.write("u.yaml", text), "-o", out])
+        self.study = self.write("u.yaml", text)
+        done = self.succeed(["run", self.study, "-o", out])
+        self.assertEqual(done.stderr.count("was to be known"), 1)
         self.assertIn("was to be known to +-0.001", done.stderr)
         summary = json.loads((out / "summary.json").read_text())
         until = summary["until"]
@@ -38,6 +40,9 @@ class Until(InFolder):
             half_width = (surface["upper"][()] - surface["lower"][()]).max() / 2
         self.assertGreaterEqual(until["half_width_reached"], half_width)
         self.assertTrue(any("was to be known" in warning for warning in summary["warnings"]))
+        alone = self.succeed(["sweep", self.study, "-o", self.folder / "alone", "--quiet"])  # no fit will tell
+        self.assertIn("was to be known to +-0.001, and after 1024 samples", alone.stderr)
+        self.assertEqual(alone.stderr.count("\n"), 1)
         reached = TEXT.replace("half_width: 0.08", "half_width: 0.49")
         self.succeed(["run", self.write("v.yaml", reached), "-o", self.folder / "v"])
         self.assertTrue(json.loads((self.folder / "v" / "summary.json").read_text())["until"]["reached"])

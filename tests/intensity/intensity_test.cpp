@@ -51,6 +51,16 @@ TEST_F(OfAPulse, DimensionlessMeasuresFollowTheirFormulas) {
   EXPECT_NEAR(value_of("p_pgv_over_g_tan_alpha"), p * value_of("pgv_mps") / (g * tan_alpha), 1e-14);
 }
 
+// Whoever says that it is proportional to the scale is, whatever its sign, and whoever is says so.
+TEST_F(OfAPulse, ProportionalOnesSaySo) {
+  for (const Measure* measure : all()) {
+    Shaking larger = shaking;
+    larger.scale = 15;  // -2.5 times
+    const double before = value(*measure, summary, shaking, specimen), after = value(*measure, summary, larger, specimen);
+    EXPECT_EQ(std::abs(after - 2.5 * before) < 1e-12 * std::abs(after), measure->proportional) << measure->name;
+  }
+}
+
 // The pulse written out as a record of its own period is another way to the same numbers.
 TEST_F(OfAPulse, SpectralMeasuresAreThoseOfTheStretchedPulse) {
   std::vector<double> samples;

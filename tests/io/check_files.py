@@ -23,10 +23,32 @@ def is_close(found, expected):
     assert np.array_equal(np.asarray(found), np.asarray(expected), equal_nan=True), f"{found} is not {expected}"
 
 
+def carries_coordinates(root):
+    """By the rules of netCDF-4, which xarray goes by: each dimension of a dataset has one scale, a dataset in the same group
+    of one dimension and the same length, whose own name is that of the dimension."""
+    h5py = need("h5py")
+    seen = []
+
+    def visit(name, item):
+        if not isinstance(item, h5py.Dataset) or h5py.h5ds.is_scale(item.id):
+            return
+        for i, dimension in enumerate(item.dims):
+            assert len(dimension) == 1, f"{name}: dimension {i} has {len(dimension)} scales"
+            scale = dimension[0]
+            assert scale.parent.name == item.parent.name, f"{name}: dimension {i} goes by {scale.name}"
+            assert scale.shape == (item.shape[i],), f"{name}: {scale.name} is of another length"
+            assert h5py.h5ds.get_scale_name(scale.id).decode() == scale.name.rsplit("/", 1)[1], scale.name
+            seen.append(scale.name)
+
+    root.visititems(visit)
+    assert seen
+
+
 def samples_h5py(path):
     h5py = need("h5py")
     with h5py.File(path, "r") as root:
         assert root.attrs["format"] == "freestand-samples/1"
+        carries_coordinates(root)
         assert root.attrs["study"] == "seed: 7\n# études\n"
         assert root.attrs["seed"] == 7 and root.attrs["samples"] == 10 and root.attrs["ranks"] == 1
         group = root["samples"]
@@ -65,6 +87,7 @@ def fragility_h5py(path):
     with h5py.File(path, "r") as root:
         assert root.attrs["format"] == "freestand-fragility/1" and root.attrs["im"] == "pga" and root.attrs["im_unit"] == "g"
         assert list(root.attrs["outcome_names"])[:2] == ["at_rest", "moved"]
+        carries_coordinates(root)
         is_close(root.attrs["outcome_counts"], [1, 2, 3, 4, 5, 6])
         assert list(root.attrs["warnings"]) == ["one thing.", "another thing."]
         is_close(root["im/edge"][:], [0, 1, 2, 4])
@@ -78,8 +101,8 @@ def fragility_h5py(path):
         is_close(edp["status"][:], [0, 2, 1])
         is_close(edp["capacity"][:], [0.5, 2])
         is_close(edp["surface/probability"][:], [[0, 0.125], [1, 1.125], [2, 2.125]])
-        assert edp["surface/probability"].dims[0][0].name == "/edp/delta/im"
-        assert edp["surface/probability"].dims[1][0].name == "/edp/delta/capacity"
+        assert edp["surface/probability"].dims[0][0].name == "/edp/delta/surface/im"
+        assert edp["surface/probability"].dims[1][0].name == "/edp/delta/surface/capacity"
         is_close(edp["distribution/count"][:], [[1, 2], [3, 4], [5, 6]])
         axis = edp["axis/friction_mu_k"]
         assert axis["probability"].shape == (3, 2, 2) and axis["probability"][2, 1, 0] == 10
@@ -100,8 +123,10 @@ def fragility_xarray(path, engine):
         assert data["lambda"].dims == ("im",) and float(data["lambda"].sel(im=1.25)) == 1.25
     with xarray.open_dataset(path, group="edp/delta/surface", engine=engine) as data:
         assert data["probability"].dims == ("im", "capacity"), data["probability"].dims
+        assert float(data["probability"].sel(im=1.25, capacity=2)) == 1.125
     with xarray.open_dataset(path, group="edp/delta/axis/friction_mu_k", engine=engine) as data:
         assert data["probability"].dims == ("im", "centre", "capacity")
+        assert float(data["probability"].sel(im=3, centre=1.5, capacity=0.5)) == 10
     for group in ("im", "edp/delta/distribution", "edp/overturned", "overturning"):
         xarray.open_dataset(path, group=group, engine=engine).close()
 

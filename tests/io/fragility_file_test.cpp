@@ -199,14 +199,32 @@ TEST(BinsCsv, HasOneRowPerEdpAndBin) {
   EXPECT_EQ(cell_of(table, 6, "edp"), "overturned");
 }
 
-TEST(SurfaceCsv, HasOneRowPerPoint) {
+TEST(SurfaceCsv, HasOneRowPerPointAndNamesWhatItIsOver) {
   const auto table = table_of(surface_csv(example()));
-  ASSERT_EQ(table.size(), 1u + 3 * 2 + 3);
-  EXPECT_EQ(table[0], (std::vector<std::string>{"im", "im_lower", "im_upper", "edp", "capacity", "probability", "lower",
-                                                "upper", "empirical", "status"}));
-  EXPECT_EQ(table[4], (std::vector<std::string>{"1.25", "1", "2", "delta", "2", "1.125", "8", "9", "0", "rejected"}));
-  EXPECT_EQ(table[5], (std::vector<std::string>{"3", "2", "4", "delta", "0.5", "2", "8", "9", "", "too_few"}));
-  EXPECT_EQ(table[9], (std::vector<std::string>{"3", "2", "4", "overturned", "0.5", "1", "1", "1", "1", "too_few"}));
+  ASSERT_EQ(table.size(), 1u + 3 * 2 + 3 * 2 * 2 + 3);
+  EXPECT_EQ(table[0],
+            (std::vector<std::string>{"im_name", "im_unit", "im", "im_lower", "im_upper", "edp", "unit", "capacity",
+                                      "axis", "axis_unit", "axis_value", "axis_lower", "axis_upper", "n", "probability",
+                                      "lower", "upper", "empirical", "status"}));
+  for (const auto& row : table) EXPECT_EQ(row.size(), table[0].size());
+  EXPECT_EQ(table[4], (std::vector<std::string>{"pga", "g", "1.25", "1", "2", "delta", "m", "2", "", "", "", "", "",
+                                                "101", "1.125", "8", "9", "0", "rejected"}));
+  EXPECT_EQ(cell_of(table, 5, "empirical"), "");
+  EXPECT_EQ(cell_of(table, 5, "status"), "too_few");
+  EXPECT_EQ(cell_of(table, 21, "edp"), "overturned");
+  EXPECT_EQ(cell_of(table, 21, "capacity"), "0.5");
+}
+
+// The example's probability at [im, axis, capacity] counts on: 10 is at the third intensity, the second cell.
+TEST(SurfaceCsv, HoldsTheSecondAxes) {
+  fragility::Result result = example();
+  result.edps[0].axes[0].probability[11] = fragility::unknown;
+  const auto table = table_of(surface_csv(result));
+  EXPECT_EQ(table[17], (std::vector<std::string>{"pga", "g", "3", "2", "4", "delta", "m", "0.5", "friction_mu_k", "1",
+                                                 "1.5", "1", "2", "5", "10", "1", "2", "10", "counts_only"}));
+  EXPECT_EQ(cell_of(table, 18, "capacity"), "2");
+  EXPECT_EQ(cell_of(table, 18, "probability"), "");
+  EXPECT_EQ(cell_of(table, 18, "status"), "too_few");
 }
 
 TEST(Summary, TellsWhatASweepFound) {

@@ -44,6 +44,22 @@ TEST(OutputFolder, WithSomethingInItIsRefused) {
   EXPECT_EQ(names_in(scratch.folder()), std::set<std::string>{"thesis.txt"});
 }
 
+TEST(OutputFolder, AnInterruptedSweepIsToldAsThat) {
+  const test::Scratch scratch("out");
+  const auto refused = [&] {
+    return error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), Existing::refuse); });
+  };
+  put(scratch / begun_name);
+  EXPECT_THAT(refused(), AllOf(HasSubstr("interrupted sweep"), HasSubstr("--overwrite starts again")));
+  put(scratch / "blocks/block-00000001.bin");
+  put(scratch / "blocks/.block-00000002.bin.h.1.part");
+  EXPECT_THAT(refused(), HasSubstr("--resume goes on, --overwrite throws 1 finished block away"));
+  put(scratch / "blocks/block-00000007.bin");
+  EXPECT_THAT(refused(), HasSubstr("--resume goes on, --overwrite throws 2 finished blocks away"));
+  put(scratch / "samples.h5");  // nothing is left to go on with
+  EXPECT_THAT(refused(), AllOf(HasSubstr("name another folder"), testing::Not(HasSubstr("--resume"))));
+}
+
 TEST(OutputFolder, OverwriteRemovesResultsAndNothingElse) {
   const test::Scratch scratch("out");
   for (const char* name : {"surface.csv", ".samples.h5.part", "thesis.txt", "blocks/block-00000001.bin",

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <freestand/error.hpp>
 
+#include "support/error_text.hpp"
+
 namespace freestand::study {
 namespace {
 
@@ -26,7 +28,23 @@ TEST(Bins, EqualWidthAndLogSpanTheValues) {
 
 TEST(Bins, WidthGivesMultiplesThatEncloseEverything) {
   EXPECT_THAT(bin_edges({{}, 0.5, 0, Spacing::equal_count}, {0.6, 1.9, -0.2}), ElementsAre(-0.5, 0, 0.5, 1, 1.5, 2));
-  EXPECT_THROW(bin_edges({{}, 1e-12, 0, Spacing::equal_count}, {0, 1}), Error);
+}
+
+// A thousand are held; few values fill fewer, but up to a hundred may stay empty.
+TEST(Bins, AWidthThatMakesMoreBinsThanCanBeHeldOrFilledIsAMistakeOfTheStudy) {
+  const auto of_width = [](double width, std::size_t values) {
+    std::vector<double> many(values, 0.5);
+    many.front() = 0.0005;
+    many.back() = 0.9995;
+    return bin_edges({{}, width, 0, Spacing::equal_count}, many).size() - 1;
+  };
+  EXPECT_EQ(of_width(0.001, 5000), 1000U);
+  EXPECT_EQ(of_width(0.01, 3), 100U);
+  EXPECT_EQ(of_width(0.005, 200), 200U);
+  EXPECT_THAT(test::error_text(Exit::usage, [&] { of_width(0.0009, 5000); }), testing::HasSubstr("1000 are held"));
+  EXPECT_THAT(test::error_text(Exit::usage, [&] { of_width(0.005, 199); }),
+              testing::HasSubstr("199 samples do not fill so many): choose a width of at least 0.01"));
+  EXPECT_THAT(test::error_text(Exit::usage, [&] { of_width(1e-300, 3); }), testing::HasSubstr("a width of 1e-300"));
 }
 
 TEST(Bins, EqualCountPutsAsManyIntoEach) {

@@ -165,8 +165,17 @@ TEST(StudyMistakes, InMotions) {
       {with_motion("{pulse: A, period: 1, period_s: 1, peak_acceleration_g: 1}"), "3", "write period_s"},
       {with_motion("{pulse: A, period_s: 1, peak_acceleration_g: 1, peak_velocity_mps: 1}"), "3",
        "one determines the other"},
+      {with_motion("{pulse: A, period_s: 1, peak_acceleration_g: 1, unit: g}"), "3", "does not go with pulse"},
       {with_motion("{pulse: A, period_s: 1, peak_acceleration_g: 1, scale_to: {pta_g: 1}}"), "3",
-       "does not go with pulse"},
+       "one determines the other"},
+      {with_motion("{pulse: A, period_s: 1, scale_to: {pgv_mps: 1}, scale: 2}"), "3", "one determines the other"},
+      {with_motion("{pulse: A, period_s: 1, scale_to: {}}"), "3", "no intensity that a motion can be scaled to"},
+      {with_motion("{pulse: A, period_s: 1, scale_to: {pgv: 1}}"), "3", "did you mean pgv_mps?"},
+      {with_motion("{pulse: A, period_s: 1, scale_to: {pgv_mps: 1, pga_g: 1}}"), "3", "remove one"},
+      {with_motion("{pulse: A, period_s: 1, scale_to: {report: 1}}"), "3", "does not grow in proportion"},
+      {with_motion("{pulse: A, period_s: 1, scale_to: {pgv_mps: 1, period_s: 1}}"), "3", "unknown key period_s"},
+      {with_motion("{pulse: A, period_s: 1, scale_to: {sa_g: 1, period_s: 0}}"), "3", "at least 0.001"},
+      {with_motion("{pulse: A, period_s: 1, scale_to: {sa_g: {uniform: [-1, 1]}}}"), "3", "must be above zero"},
       {with_motion("{pulse: A, period_s: 1, peak_acceleration_g: 1, weight: 0}"), "3", "a weight must be above zero"},
       {with_motion("{records: \"nowhere/*.AT2\"}"), "3", "nowhere/*.AT2"},
       {with_motion("{records: \"nowhere/*.AT2\", pulse: A}"), "3", "a motion is one or the other"},
@@ -203,6 +212,36 @@ TEST(StudyMistakes, InFragility) {
       {with_fragility("{edp: [delta], resamples: 60001}"), "5", "a whole number from 2 to 60000"},
       {with_fragility("{edp: [delta], minimum_samples: 1}"), "5", "a whole number from 2"},
       {with_fragility("{edp: [delta], false_discovery: 0}"), "5", "between 0 and 1"},
+  });
+}
+
+TEST(StudyMistakes, InDamageStates) {
+  const auto state = [](const std::string& text) {
+    return with_fragility("{edp: [delta], damage: {door: " + text + "}}");
+  };
+  EXPECT_EQ(problems(state("delta > 1 or overturned")), "");
+  EXPECT_EQ(problems(state("{when: delta > gap, parameters: {gap: {uniform: [1, 2]}}}")), "");
+  expect_each({
+      {with_fragility("{edp: [delta], damage: [delta > 1]}"), "5", "fragility.damage is a list"},
+      {state(""), "5", "fragility.damage.door has no value"},
+      {state("delta > 1 and mu_k > 0.2"), "5", "\"mu_k\" is not known here, character 15"},
+      {state("dleta > 1"), "5", "did you mean delta?"},
+      {state("delta >"), "5", "it ends too early"},
+      {state("(delta > 1"), "5", "a parenthesis is not closed"},
+      {state("delta + 1"), "5", "it is a number and no condition"},
+      {state("delta"), "5", "it is a number and no condition"},
+      {state("\"delta = 1\""), "5", "\"=\" is not known here, == is"},
+      {state("2 > 1"), "5", "looks at no demand"},
+      {state("{when: delta > 1, parameters: {gap: 0.1}}"), "5", "parameter gap of damage state door stands nowhere"},
+      {state("{when: delta > overturned, parameters: {overturned: 0.1}}"), "5", "cannot be called that"},
+      {state("{when: delta > gap, parameters: {gap: wide}}"), "5", "\"wide\""},
+      {state("{parameters: {gap: 1}}"), "5", "fragility.damage.door.when is missing"},
+      {state("{when: delta > 1, wen: 2}"), "5", "unknown key wen"},
+      {with_fragility("{edp: [delta], damage: {overturned: delta > 1}}"), "5", "has the name of a demand"},
+      {with_fragility("{edp: [delta], damage: {a-b: delta > 1}}"), "5", "is no plain word"},
+      {with_fragility("{edp: [delta], capacities: {delta: [1, {lognormal: {median: 1}}]}}"), "5", "dispersion is missing"},
+      {with_fragility("{edp: [delta], capacities: {delta: [{normal: {mean: 1, standard_deviation: 1}}]}}"), "5",
+       "must be above zero"},
   });
 }
 
@@ -243,6 +282,25 @@ TEST(StudyMistakes, InYamlItself) {
   EXPECT_THAT(problems(""), HasSubstr("the file is empty"));
   EXPECT_THAT(problems("- 1\n- 2\n"), HasSubstr("the file is a list"));
   EXPECT_THROW(read_study("no/such/study.yaml", known()), Error);
+}
+
+TEST(StudyMistakes, WhatIsOftenWrongWithAFileIsToldInWords) {
+  expect_each({
+      {"block:\n  width_m: 0.6\n\theight_m: 1.8\n" + rest, "3", "a tab indents this line"},
+      {"block:\n\twidth_m: 0.6\n\theight_m: 1.8\n" + rest, "2", "a tab indents this line"},
+      {"block: width_m: 0.6, height_m: 1.8\n" + rest, "1", "an item without braces"},
+      {block + friction + samples + fragility + "motions:\n  - pulse: B, period_s: 1, peak_acceleration_g: 1\n", "6",
+       "an item without braces"},
+      {with_motion("pulse: B, period_s: 1, peak_acceleration_g: 1"), "3",
+       "motions has 3 items of one key each (the keys of one item stand in braces): write [{pulse: ..., period_s: ..., "
+       "peak_acceleration_g: ...}]"},
+      {sound + "effects: [name: rate_weakening, drop: 0.4, speed_mps: 0.1]\n", "6", "effects has 3 items of one key"},
+      {with_fragility("{edp: [delta], axes: [name: friction.mu, bins: {count: 3}]}"), "5", "axes has 2 items of one key"},
+      {sound + std::string("\x89HDF\r\n\x1a\n\0\0", 10), "8", "no text but a binary file"},
+      {std::string("\0\1", 2), "1", "no text but a binary file (its byte 1 is 0x00)"},
+  });
+  EXPECT_EQ(problems("# \t a tab that indents nothing\n" + sound), "");
+  EXPECT_EQ(problems(sound + "effects: [name: static_friction]\n").find("items of one key"), std::string::npos);
 }
 
 TEST(StudyMistakes, AllAreReportedAtOnceWithTheirLines) {

@@ -15,6 +15,7 @@
 #include "study/known.hpp"
 #include "study_text.hpp"
 #include "support/data.hpp"
+#include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
 namespace freestand::study {
@@ -195,6 +196,66 @@ TEST_F(Records, EveryUnusableOneIsReported) {
   }
 }
 
+TEST_F(Records, ATableSaysWhatBelongsTogetherAndBringsItsNumbers) {
+  std::ofstream(folder_ / "records" / "c.csv") << "0\n1\n0.5\n";
+  std::ofstream(folder_ / "records" / "INDEX.csv") << "file,dt_s,unit,group,pga_g,magnitude_mw\n"
+                                                      "c.csv,0.02,g,loma,0.3,6.9\nb.csv,,,loma,,6.9\na.csv,,,,0.1,\n";
+  std::ofstream(folder_ / "records" / "two.csv") << "file,distance_km\nb.csv,12\n";
+  const MotionSet motions = load_motions(study(
+      "{records: records/INDEX.csv}, {records: records/two.csv}, {pulse: A, period_s: 1, peak_acceleration_g: 1}, "
+      "{records: records/a.csv, group: northridge}"));
+  EXPECT_THAT(motions.names(), testing::ElementsAre("records/c.csv", "records/b.csv", "records/a.csv", "records/b.csv", "A",
+                                                    "records/a.csv"));
+  // A record that stands in a group is in it wherever it stands.
+  EXPECT_THAT(motions.groups(), testing::ElementsAre(0, 0, 2, 0, -1, 2));
+  EXPECT_DOUBLE_EQ((*motions.entries)[0].peak_mps2, standard_gravity_mps2);
+  EXPECT_DOUBLE_EQ(motions.motion(0).knot_s.at(1), 0.02);
+  ASSERT_EQ(motions.numbers.size(), 3U);
+  EXPECT_EQ(motions.numbers[2].name, "distance_km");
+  const double nan = std::nan("");
+  const auto numbers = [&](std::size_t i) { return (*motions.entries)[i].numbers; };
+  EXPECT_THAT(numbers(0), testing::Pointwise(testing::NanSensitiveDoubleEq(), {0.3, 6.9, nan}));
+  EXPECT_THAT(numbers(3), testing::Pointwise(testing::NanSensitiveDoubleEq(), {nan, nan, 12.0}));
+  EXPECT_THAT(numbers(4), testing::Pointwise(testing::NanSensitiveDoubleEq(), {nan, nan, nan}));
+}
+
+TEST_F(Records, WhatATableSaysOtherwiseThanTheFileIsRefusedWithItsRow) {
+  std::ofstream(folder_ / "records" / "INDEX.csv") << "file,dt_s,unit\nb.csv,0.1,\na.csv,0.05,\nb.csv,0.1,g\n";
+  const Study swept = study("{records: records/INDEX.csv}");
+  const std::string found = freestand::test::error_text(Exit::data, [&] { load_motions(swept); });
+  EXPECT_THAT(found, testing::HasSubstr("INDEX.csv:3: " + (folder_ / "records" / "a.csv").string() +
+                                        ": dt_s 0.05 contradicts the file (it says 0.1)"));
+  EXPECT_THAT(found, testing::HasSubstr("INDEX.csv:4: "));
+  EXPECT_THAT(found, testing::HasSubstr("unit g contradicts the file"));
+  std::ofstream(folder_ / "records" / "INDEX.csv") << "file,event\ngone.csv,loma\n";
+  EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { study("{records: records/INDEX.csv}"); }),
+              testing::HasSubstr("motions[0].records: " + (folder_ / "records" / "INDEX.csv").string() +
+                                 ":2: file gone.csv is not there"));
+  std::ofstream(folder_ / "records" / "INDEX.csv") << "file,event\na.csv,loma\nb.csv,loma\n";
+  EXPECT_THAT(doubts(study("{records: records/INDEX.csv}")),
+              testing::ElementsAre(testing::HasSubstr("is group: event meant?")));
+  EXPECT_THAT(load_motions(study("{records: records/INDEX.csv, group: event}")).groups(), testing::ElementsAre(0, 0));
+  EXPECT_THAT(expanded(study("{records: records/INDEX.csv, group: event}")), testing::HasSubstr("group: event"));
+}
+
+// The guests' own table: suites in folders, events by name, vertical components in rows of their own.
+TEST(RealRecords, TheTableOfThemIsRead) {
+  FREESTAND_NEEDS_RECORDS();
+  const std::string text = block + friction + samples + fragility +
+                           "motions: [{records: INDEX.csv, group: event, unit: g, dt_s: 0.01}]\n";
+  const auto read = [&](const std::string& more) {
+    return parse_study(text + more, freestand::test::records_dir() / "s.yaml", known()).motions.at(0);
+  };
+  const MotionSource source = read("");
+  EXPECT_GT(source.files.size(), 200U);
+  EXPECT_THAT(source.left_out, testing::Contains(testing::HasSubstr("TLM1_UD.acc (its component is UD)")));
+  const auto paired = [](const MotionSource& from) {
+    return std::count_if(from.files.begin(), from.files.end(), [](const auto& row) { return !row.vertical.empty(); });
+  };
+  EXPECT_EQ(paired(source), 0);
+  EXPECT_GT(paired(read("effects: [{name: vertical_shaking}]\n")), 50);
+}
+
 TEST_F(Records, VerticalOnesAreLeftOutOfAPatternAndRefusedByName) {
   std::ofstream(folder_ / "records" / "c-UP.txt") << "0 0\n0.1 1\n0.2 -1\n";
   std::ofstream(folder_ / "records" / "c-NS.txt") << "0 0\n0.1 1\n0.2 -1\n";
@@ -219,7 +280,7 @@ TEST_F(Records, VerticalShakingNeedsAVerticalChannel) {
   EXPECT_THROW(load_motions(study("{records: records/a.csv}", effect)), Error);
   EXPECT_NO_THROW(load_motions(study("{records: records/b.csv}", effect)));
   const Study paired = study("{records: records/a.csv, vertical_records: records/b.csv}", effect);
-  EXPECT_EQ(paired.motions.at(0).vertical_files.size(), 1U);
+  EXPECT_EQ(paired.motions.at(0).files.at(0).vertical.filename(), "b.csv");
   EXPECT_FALSE(load_motions(paired).motion(0).vertical_mps2.empty());
   EXPECT_THROW(study("{records: records/a.csv, vertical_records: \"records/*.csv\"}", effect), Error);
 }

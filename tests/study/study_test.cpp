@@ -7,9 +7,11 @@
 #include <sstream>
 
 #include "base/random.hpp"
+#include "study/doubts.hpp"
 #include "study/known.hpp"
 #include "study_text.hpp"
 #include "support/data.hpp"
+#include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
 namespace freestand::study {
@@ -117,6 +119,15 @@ TEST(Study, FingerprintChangesWithWhatDeterminesTheNumbersAndNotWithTheName) {
   EXPECT_NE(print("samples: 10\n"), print("samples: 10\nseed: 2\n"));
   EXPECT_NE(print("samples: 10\n"), print("samples: 10\ntolerance: 1e-8\n"));
   EXPECT_EQ(print("samples: 10\n").size(), 16U);
+  // The samples are the same whatever is asked of them; their rows hold the intensity.
+  const auto asked = [&](const std::string& text) {
+    return samples_fingerprint(parse(block + friction + motions + "samples: 10\nfragility: " + text));
+  };
+  const std::string whole = samples_fingerprint(parse(base + "samples: 10\n"));
+  EXPECT_EQ(whole, asked("{edp: [delta], bins: {count: 3}, capacities: {delta: [9]}, resamples: 7}"));
+  EXPECT_NE(whole, asked("{im: pta_g, edp: [delta, overturned]}"));
+  EXPECT_NE(asked("{im: {name: sa_g, period_s: 1}, edp: [delta]}"),
+            asked("{im: {name: sa_g, period_s: 2}, edp: [delta]}"));
 }
 
 TEST(Study, RecordsAreFoundBesideTheStudyFileAndMayBeGoneForStoredStudies) {
@@ -128,12 +139,47 @@ TEST(Study, RecordsAreFoundBesideTheStudyFileAndMayBeGoneForStoredStudies) {
                            "motions: [{records: \"records/*.csv\", scale_to: {pta_g: {uniform: [0.1, 1]}}}]\n";
   const Study study = parse_study(text, folder / "s.yaml", known());
   ASSERT_EQ(study.motions.at(0).files.size(), 2U);
-  EXPECT_EQ(study.motions[0].files[0].filename(), "a.csv");
+  EXPECT_EQ(study.motions[0].files[0].file.filename(), "a.csv");
   EXPECT_EQ(study.motions[0].amplitude.value().name, "motion.pta_g");
   std::filesystem::remove_all(folder / "records");
   EXPECT_THROW(parse_study(text, folder / "s.yaml", known()), Error);
   const Study stored = parse_study(expanded(study), folder / "s.yaml", known(), Files::ignore);
   EXPECT_EQ(expanded(stored), expanded(study));
+}
+
+// Beside the records of a folder lie notes, tables and binary files; a pattern that names files is believed.
+TEST(Study, WhatIsNoRecordInAFolderIsLeftOutAndTold) {
+  const freestand::test::Scratch folder("study_folder");
+  std::filesystem::create_directories(folder / "records" / "more");
+  const auto put = [&](const char* name, const std::string& text) { std::ofstream(folder / "records" / name) << text; };
+  put("b.csv", "time_s,floor_acceleration_mps2\n0,0\n0.1,1\n0.2,0\n");
+  put("a.csv", "time_s,floor_acceleration_mps2\n0,0\n0.1,1x\n0.2,0\n");  // a record with a mistake stays one
+  put("README.md", "# Records\nfrom somewhere\n");
+  put("stations.csv", "station,vs30_mps\nPET,713\n");
+  put("map.png", std::string("\x89PNG\r\n\0\1", 8));
+  put("empty.AT2", "");
+  const auto read = [&](const std::string& pattern) {
+    return parse_study(block + friction + samples + fragility + "motions: [{records: \"" + pattern + "\"}]\n",
+                       folder / "s.yaml", known())
+        .motions.at(0);
+  };
+  for (const char* pattern : {"records", "records/", "records/*"}) {
+    const MotionSource source = read(pattern);
+    ASSERT_EQ(source.files.size(), 2U) << pattern;
+    EXPECT_EQ(source.files[0].file.filename(), "a.csv");
+    EXPECT_THAT(source.no_records,
+                testing::ElementsAre("README.md (no record format)", "empty.AT2 (no record in the file)",
+                                     "map.png (no text but a binary file)", "stations.csv (no record format)"));
+  }
+  EXPECT_EQ(read("records/*.csv").files.size(), 3U);
+  const Study told = parse_study(block + friction + samples + fragility + "motions: [{records: records}]\n",
+                                 folder / "s.yaml", known());
+  EXPECT_THAT(doubts(told),
+              testing::Contains(testing::HasSubstr("what is no record in records is left out: README.md")));
+  for (const char* name : {"a.csv", "b.csv"}) std::filesystem::remove(folder / "records" / name);
+  EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { read("records"); }),
+              testing::AllOf(testing::HasSubstr("records holds no record (README.md (no record format), "),
+                             testing::HasSubstr("name the folder of the records")));
 }
 
 TEST(Case, IsReadWithItsDefaults) {
@@ -197,7 +243,9 @@ TEST(Configs, EveryKeyShowsTheDefaults) {
       "effects:\n  - {name: vertical_shaking}\n  - {name: my_seam, friction: 'mu*(1 + a*sin(2*pi*u/l))', parameters: "
       "{a: 0.3, l_m: 0.05}}\nchain: {stiffness_npm: 4e5, strength_n: 2736}\nmotions:\n"
       "  - {pulse: [A, B], period_s: 0.5, peak_acceleration_g: {uniform: [0.1, 2]}}\n"
-      "  - {records: records/*, scale_to: {pta_g: {uniform: [0.1, 2]}}}\nfragility: {axes: [friction.mu_k]}\n",
+      "  - {records: records/*, scale_to: {pta_g: {uniform: [0.1, 2]}}}\nfragility:\n  axes: [friction.mu_k]\n"
+      "  damage:\n    blocked_door: peak_slip_m > 0.1 or overturned\n    leaves_table: {when: residual_slip_m > edge_m and "
+      "not overturned, parameters: {edge_m: {lognormal: {median: 0.05, dispersion: 0.4}}}}\n",
       file, registries(), Files::ignore);
   EXPECT_THAT(shown.fragility.edp, testing::UnorderedElementsAreArray(least.fragility.edp));
   EXPECT_EQ(std::get<Fixed>(shown.model.friction.static_ratio.value().value).value, 1);

@@ -1,0 +1,48 @@
+// A table of records: csv, one row a record. From it come what the files do not say themselves, which records belong
+// together, and intensities that only its author knows.
+//
+//   file       path of the record, from the table's folder (needed); with a column folder or suite: from that folder in it
+//   dt_s, unit, format, channel   as motion::ReadOptions; empty where the file says it
+//   group      records with the same word are one group of motions: of one earthquake, two components of one station
+//   component  000, NS, UD ...; vertical ones are left out
+//   vertical   path of the vertical component, as file; without that column, the row of a vertical component with the same
+//              suite, event and station is taken, where vertical components are asked for
+//   numbers    any column with a unit at its end, and magnitude, magnitude_mw, vs30_mps and the like, is an intensity
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace freestand::motion {
+
+// A column of numbers: what it is multiplied with when its record is scaled is |scale|^power.
+struct RecordNumber {
+  std::string name, unit;  // "pga_g", "g"
+  int power = 1;           // 1 an amplitude; 2 Arias intensity; 0 a property: magnitude, distance, duration, site
+};
+
+struct RecordRow {
+  std::string where;                     // "INDEX.csv:12", for messages
+  std::filesystem::path file, vertical;  // vertical: empty where there is none
+  std::optional<double> dt_s;
+  std::string unit, format, channel, group;
+  std::vector<double> numbers;  // one for each RecordTable::numbers; nan where the cell is empty
+};
+
+struct RecordTable {
+  std::vector<RecordNumber> numbers;
+  std::vector<RecordRow> rows;                // of horizontal components
+  std::vector<std::string> left_out;          // vertical ones, and why they are taken for that
+  std::vector<std::string> grouping_columns;  // event, station, earthquake: where the table says no group
+};
+
+// Is the file a table of records and no record? One that has a column `file`.
+bool is_record_table(const std::filesystem::path& file);
+
+// group: the column to group by; empty: the column group, if there is one. Throws Error (Exit::usage) that names every row
+// that is wrong: a file that is not there, an unknown unit, a step or a number that is none.
+RecordTable read_record_table(const std::filesystem::path& file, const std::string& group = {}, bool vertical = false);
+
+}  // namespace freestand::motion

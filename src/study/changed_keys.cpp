@@ -1,0 +1,26 @@
+#include "study/changed_keys.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "base/shown_text.hpp"
+#include "study/edited_study.hpp"
+
+namespace freestand::study {
+
+bool changes_samples(const std::string& key) {
+  if (key == "name") return false;
+  return !key.starts_with("fragility.") || key.starts_with("fragility.im");
+}
+
+std::string changes_told(const Study& now, const Study& before) {
+  std::vector<Difference> changed = differences(now, before);
+  std::erase_if(changed, [](const Difference& difference) { return !changes_samples(difference.key); });
+  if (changed.empty()) return "";
+  const auto& [key, is, was] = changed.front();
+  const std::string more = changed.size() > 1 ? fmt::format("; and {} more", changed.size() - 1) : "";
+  return fmt::format("{} was {}, is {}{}", key, shown(was), shown(is), more);
+}
+
+}  // namespace freestand::study

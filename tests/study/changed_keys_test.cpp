@@ -1,0 +1,35 @@
+#include "study/changed_keys.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "study/study_text.hpp"
+
+namespace freestand::study {
+namespace {
+
+const std::string sound = test::block + test::friction + test::motions + test::samples;
+
+std::string told(const std::string& now, const std::string& before) {
+  return changes_told(test::parse(now), test::parse(before));
+}
+
+TEST(ChangedKeys, TheFirstIsNamedWithBothValues) {
+  const std::string chain = "chain: {slack_m: 0.05, stiffness_npm: 4e5, strength_n: 2736}\n";
+  const std::string longer = "chain: {slack_m: 0.07, stiffness_npm: 4e5, strength_n: 2736}\n";
+  EXPECT_EQ(told(sound + longer, sound + chain), "chain.slack_m was 0.05, is 0.07");
+  EXPECT_EQ(told(sound + longer + "seed: 3\n", sound + chain), "seed was 1, is 3; and 1 more");
+  EXPECT_THAT(told(sound + chain, sound), testing::StartsWith("chain.slack_m was nothing, is 0.05; and "));
+  EXPECT_THAT(told(sound, sound + chain), testing::StartsWith("chain.slack_m was 0.05, is nothing; and "));
+  EXPECT_EQ(told(test::block + "friction: {mu: 0.3}\n" + test::motions + test::samples, sound),
+            "friction.mu was 0.25, is 0.3");
+}
+
+TEST(ChangedKeys, WhatIsAskedOfTheSamplesIsNoOtherStudy) {
+  EXPECT_EQ(told(sound + "name: two\nfragility: {edp: [delta], bins: {count: 3}}\n", sound + test::fragility), "");
+  EXPECT_EQ(told(sound + "fragility: {edp: [delta], im: pta_g}\n", sound + "fragility: {edp: [delta]}\n"),
+            "fragility.im was report, is pta_g");
+}
+
+}  // namespace
+}  // namespace freestand::study
