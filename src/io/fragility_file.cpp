@@ -43,7 +43,17 @@ struct Curve {
   const char* description;
 };
 
-void write_surface(Group& parent, const Dataset& im, const Dataset& capacity, const EdpResult& edp) {
+// Coordinate of what was found for each resampled set of motions.
+Dataset resample_numbers(Group& group, const Result& result) {
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(result.resamples));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  Dataset resample = group.put("resample", numbers);
+  resample.scale("resample").describe("", "number of the resampled set of motions, the same for every curve");
+  return resample;
+}
+
+void write_surface(Group& parent, const Result& result, const Dataset& im, const Dataset& capacity,
+                   const EdpResult& edp) {
   Group group = parent.make_group("surface");
   const h5::Dimensions shape{edp.bins.size(), edp.capacity.size()};
   for (const Curve& curve :
@@ -54,6 +64,13 @@ void write_surface(Group& parent, const Dataset& im, const Dataset& capacity, co
         Curve{"least", &edp.surface.least, "the same, had every sample that failed stayed below"},
         Curve{"most", &edp.surface.most, "the same, had every sample that failed lain above"}})
     group.put(curve.name, *curve.values, shape).attach(0, im).attach(1, capacity).describe("1", curve.description);
+  if (edp.surface.resampled.empty()) return;
+  const Dataset resample = resample_numbers(group, result);
+  group.put("resampled", edp.surface.resampled, {static_cast<std::uint64_t>(result.resamples), shape[0], shape[1]})
+      .attach(0, resample)
+      .attach(1, im)
+      .attach(2, capacity)
+      .describe("1", "probability from each resampled set of motions");
 }
 
 void write_distribution(Group& parent, const Dataset& im, const EdpResult& edp) {
@@ -85,15 +102,6 @@ void write_axis(Group& parent, const Dataset& im, const Dataset& capacity, const
     dataset.attach(0, im).attach(1, centre).attach(2, capacity).describe("1", curve.description);
   }
   group.put("n", axis.n, cells).attach(0, im).attach(1, centre).describe("1", "samples in the cell");
-}
-
-// Coordinate of what was found for each resampled set of motions.
-Dataset resample_numbers(Group& group, const Result& result) {
-  std::vector<std::int64_t> numbers(static_cast<std::size_t>(result.resamples));
-  std::iota(numbers.begin(), numbers.end(), 0);
-  Dataset resample = group.put("resample", numbers);
-  resample.scale("resample").describe("", "number of the resampled set of motions, the same for every curve");
-  return resample;
 }
 
 // As many as there are resamples; NaN where a curve has none.
@@ -149,7 +157,7 @@ void write_edp(Group& parent, const Result& result, const EdpResult& edp) {
   const Dataset im = coordinate(group, "im", result.im, result.im_unit, at_mean + result.im_name);
   const Dataset capacity = coordinate(group, "capacity", edp.capacity, edp.unit, "capacity");
   write_bins(group, im, edp);
-  write_surface(group, im, capacity, edp);
+  write_surface(group, result, im, capacity, edp);
   if (!edp.functions.empty()) write_functions(group, result, edp, capacity);
   write_distribution(group, im, edp);
   if (edp.axes.empty()) return;

@@ -75,6 +75,12 @@ const std::vector<Column>& Evaluator::columns() const { return parts_->columns; 
 
 const MotionSet& Evaluator::motions() const { return parts_->realise.motions(); }
 
+Evaluator Evaluator::drawing(const Study& study) const {
+  Parts parts = *parts_;
+  parts.realise = Realiser(study, motions());
+  return Evaluator(std::make_shared<const Parts>(std::move(parts)));
+}
+
 Outcome Evaluator::append(std::uint64_t sample, std::vector<double>& values) const {
   return append(sample, 1, values).front();
 }
