@@ -11,9 +11,10 @@ def _arguments(what, argv):
     parser = argparse.ArgumentParser(prog=f"postprocess/{what}", description={
         "figures": "Draws every picture of a result folder into DIR/figures, as SVG and PNG.",
         "report": "Writes DIR/report.html, one self-contained page, from a result folder."}[what] + " Several folders: a "
-        "validation, as compared, diagnosed and compared again, in the order of the ladder, and the sweeps before and after.")
+        "validation, as compared, diagnosed and compared again, in the order of the ladder, and the sweeps before and after; or several "
+        "sweeps, which stand side by side; and what `freestand risk` found of them.")
     parser.add_argument("folders", metavar="DIR", type=pathlib.Path, nargs="+",
-                        help="folder written by freestand run, fit, simulate, compare or diagnose")
+                        help="folder written by freestand run, fit, risk, simulate, compare or diagnose")
     parser.add_argument("--history", metavar="DIR", type=pathlib.Path, help="folder of one freestand simulate, shown beside the sweep")
     parser.add_argument("-o", "--output", metavar="PATH", type=pathlib.Path,
                         help="where to write (default: figures or report.html in the last DIR)")
@@ -21,9 +22,11 @@ def _arguments(what, argv):
 
 
 def read(folders, history=None):
-    """What there is to draw: one Validation where a folder holds a comparison or a diagnosis, else Sweep and History values."""
-    from . import reading
+    """What there is to draw: one Validation where a folder holds a comparison or a diagnosis, else the Designs of several sweeps, or
+    a Sweep with its Sensitivity, and History and Risk values."""
+    from . import designs, reading
     from .database import is_database, read_database
+    from .reading_decisions import RISK, SENSITIVITY, read_risk, read_sensitivity
     from .reading_validation import COMPARISON, DIAGNOSIS, read_comparison, read_diagnosis
     from .validation import Validation
     folders = [reading.existing_folder(folder) for folder in folders]
@@ -38,19 +41,23 @@ def read(folders, history=None):
             held.comparisons.append(read_comparison(folder))
         if diagnosed:
             held.diagnoses.append(read_diagnosis(folder))
-        if reading.is_sweep(folder) or not (reading.is_history(folder) or compared or diagnosed):
+        has_risk, has_shares = (folder / RISK).exists(), (folder / SENSITIVITY).exists()
+        if reading.is_sweep(folder) or not (reading.is_history(folder) or compared or diagnosed or has_risk or has_shares):
             held.sweeps.append(reading.read_sweep(folder))
         if reading.is_history(folder):
             found.append(reading.read_history(folder))
+        if has_risk:
+            found.append(read_risk(folder))
+        if has_shares:
+            found.append(read_sensitivity(folder))
     if history is not None:
         found.append(reading.read_history(history))
     if held.comparisons or held.diagnoses:
         _one_data_set(held)
         held.comparisons.sort(key=lambda comparison: len(comparison.effects))
         return [held] + found
-    if len(folders) > 1:
-        raise Problem("several folders, and none of them holds a comparison or a diagnosis: give one folder, or add those of "
-                      "`freestand compare` and `freestand diagnose`", USAGE)
+    if len(held.sweeps) > 1:
+        return [designs.compare(held.sweeps)] + found
     return held.sweeps + found
 
 

@@ -39,6 +39,7 @@ class Edp:
     ln_edge: np.ndarray      # [cell + 1]
     cells: np.ndarray        # [im, cell]
     axes: list = field(default_factory=list)
+    functions: list = field(default_factory=list)  # [capacity] curves over all intensities, as Sweep.overturning
 
     @property
     def label(self):
@@ -176,7 +177,7 @@ def _edp(group, name, n_im):
         ln_edge = _numbers(group["distribution"], "ln_edge")
         cells = _numbers(group["distribution"], "count", (n_im, max(ln_edge.size - 1, 0)))
     edp = Edp(name, _text(group.attrs.get("unit", "1")), _text(group.attrs.get("symbol", "")), kind, bins, capacity, surface,
-              ln_edge, cells)
+              ln_edge, cells, functions=_functions(group, capacity.size))
     for axis_name, axis in (group["axis"].items() if "axis" in group and capacity.size else ()):
         edge = _numbers(axis, "edge")
         cube = (n_im, edge.size - 1, capacity.size)
@@ -185,14 +186,30 @@ def _edp(group, name, n_im):
     return edp
 
 
+CURVE = ("probability", "lower", "upper")
+CURVE_NUMBERS = ("median", "dispersion", "median_se", "dispersion_se", "misfit", "misfit_im", "misfit_p")
+CURVE_FLAGS = ("penalised", "extrapolated", "adequate")
+RESAMPLED = ("resampled_median", "resampled_dispersion")
+
+
+def _functions(group, capacities):
+    """A curve over all intensities for each capacity."""
+    if "functions" not in group or not capacities:
+        return []
+    group = group["functions"]
+    table = {key: _numbers(group, key) for key in ("grid",) + CURVE + CURVE_NUMBERS + CURVE_FLAGS + RESAMPLED}
+    return [{key: values if key == "grid" else bool(values[i]) if key in CURVE_FLAGS else values[i] for key, values in table.items()}
+            for i in range(capacities)]
+
+
 def _overturning(root):
     if "overturning" not in root:
         return {}
     group = root["overturning"]
-    result = {key: _numbers(group, key) for key in ("grid", "probability", "lower", "upper")}
-    result.update({key: float(group.attrs.get(key, np.nan)) for key in
-                   ("median", "dispersion", "median_se", "dispersion_se", "misfit", "misfit_im", "misfit_p")})
-    result.update({key: bool(group.attrs.get(key, 0)) for key in ("penalised", "extrapolated")})
+    result = {key: _numbers(group, key) for key in ("grid",) + CURVE}
+    result.update({key: _numbers(group, key) if key in group else np.zeros(0) for key in RESAMPLED})
+    result.update({key: float(group.attrs.get(key, np.nan)) for key in CURVE_NUMBERS})
+    result.update({key: bool(group.attrs.get(key, 0)) for key in CURVE_FLAGS})
     return result
 
 

@@ -7,10 +7,12 @@ import jinja2
 import numpy as np
 from markupsafe import Markup
 
-from . import pictures, style, validation, validation_report, words
+from . import decisions_report, pictures, style, validation, validation_report, words
+from .designs import Designs
 from .model import kept_fits
 from .pictures.coverage import classes, swept
-from .reading import COUNTED, FITTED, OUTCOMES, REJECTED, TOO_FEW, Sweep
+from .reading import COUNTED, FITTED, OUTCOMES, REJECTED, TOO_FEW, History, Sweep
+from .reading_decisions import Risk
 from .validation import Validation
 
 HERE = pathlib.Path(__file__).parent
@@ -19,15 +21,20 @@ PROVENANCE = (("created_utc", "written (UTC)"), ("version", "freestand"), ("git_
 
 
 def page(results):
-    """Html text from a list of Sweep and History values, or of a Validation before them."""
+    """Html text from what command.read() found."""
     style.apply()
     figures = [_figure(picture) for result in results for picture in pictures.draw(result)]
     if isinstance(results[0], Validation):
         figures += [_figure(picture) for picture in _of_one_sweep(results[0])]
         return _render("validation.html", validation_report.content(results[0], figures))
+    if isinstance(results[0], Designs):
+        return _render("designs.html", decisions_report.designs(results[0], [r for r in results if isinstance(r, Risk)], figures))
     sweep = next((result for result in results if isinstance(result, Sweep)), None)
-    history = next((result for result in results if not isinstance(result, Sweep)), None)
-    return _render("page.html", _content(sweep, history, figures))
+    history = next((result for result in results if isinstance(result, History)), None)
+    content = _content(sweep, history, figures) if sweep or history else decisions_report.alone(results)
+    content["risks"] = decisions_report.risks(results, figures)
+    content["sensitivity"] = decisions_report.sensitivity(results, figures)
+    return _render("page.html", content)
 
 
 def _of_one_sweep(results):
@@ -56,7 +63,7 @@ def _content(sweep, history, figures):
         "fit_figure": next((figure for figure in of.get(main, []) if figure["name"].startswith("goodness")), None),
         "other": [{"name": words.capitalised(words.demand_meaning(name)), "figures": of[name], "table": _fit_table(sweep, name)}
                   for name in edps[1:]],
-        "shared": [figure for figure in figures if not figure["edp"]],
+        "shared": [figure for figure in figures if not figure["edp"] and figure["section"] not in ("risk", "sensitivity")],
         "fit": _fit_table(sweep, main) if main else None,
         "outcomes": _outcomes(sweep) if sweep else [], "computed": _computed(sweep) if sweep else None,
         "draws": _draws(sweep) if sweep else [], "study": str(sweep.attributes.get("study", "")).strip() if sweep else "",

@@ -218,3 +218,30 @@ def _spaced(unit):
 
 def capitalised(text):
     return text[:1].upper() + text[1:]
+
+
+# name in the study -> what it is, where the name of its column would not do.
+SAMPLED = {
+    "motion": "which motion",
+    "motion.amplitude": "strength of the motion",
+    "motion.period_s": "pulse period",
+    "motion.peak_acceleration_g": "peak acceleration",
+    "motion.peak_velocity_mps": "peak velocity",
+    "motion.pta_g": "peak acceleration",
+    "motion.scale": "scale of the motion",
+    "friction.static_ratio": "static over kinetic friction",
+    "impact.factor": "factor of the impact law",
+}
+
+
+def sampled(name):
+    """"friction coefficient μk": a number of a study, by its dotted name."""
+    return SAMPLED.get(name) or short_column(name.replace(".", "_")).removeprefix("block ")
+
+
+def a_year(rate):
+    """"2.3×10⁻⁴": two digits, as powers of ten below a hundredth."""
+    if not math.isfinite(rate) or rate == 0 or rate >= 0.01:
+        return number(rate)
+    mantissa, exponent = f"{rate:.1e}".split("e")
+    return mantissa + "×10" + str(int(exponent)).translate(SUPERSCRIPT)

@@ -45,5 +45,7 @@ void add_add(CLI::App& parser, Work& work);
 void add_catalogue(CLI::App& parser, Work& work);
 void add_query(CLI::App& parser, Work& work);
 void add_export(CLI::App& parser, Work& work);
+void add_risk(CLI::App& parser, Work& work);
+void add_sensitivity(CLI::App& parser, Work& work);
 
 }  // namespace freestand::app

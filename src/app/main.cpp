@@ -51,6 +51,8 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
   freestand::app::add_catalogue(parser, work);
   freestand::app::add_query(parser, work);
   freestand::app::add_export(parser, work);
+  freestand::app::add_risk(parser, work);
+  freestand::app::add_sensitivity(parser, work);
   try {
     parser.parse(argc, argv);
     return static_cast<int>(work({world, freestand::io::command_line(argc, argv)}));

@@ -10,17 +10,22 @@
 namespace freestand::fragility {
 namespace {
 
-// One row of a surface.
+// One point of a surface.
 struct Point {
   double probability = unknown, lower = unknown, upper = unknown;
+  std::vector<double> resampled = {};
 };
 
 // Share of the samples above a capacity, its counts in the given column of the groups' table.
-Point empirical_point(const Eigen::MatrixXd& groups, Eigen::Index column, std::size_t records, double confidence) {
+// totals: the same of each resample.
+Point empirical_point(const Eigen::MatrixXd& groups, const Eigen::MatrixXd& totals, Eigen::Index column,
+                      std::size_t records, double confidence) {
   std::vector<GroupShare> shares;
   for (Eigen::Index g = 0; g < groups.rows(); ++g) shares.push_back({groups(g, 0), groups(g, column)});
   const Interval band = clustered_interval(shares, records, confidence);
-  return {groups.col(column).sum() / groups.col(0).sum(), band.lower, band.upper};
+  std::vector<double> resampled;
+  for (Eigen::Index r = 0; r < totals.rows(); ++r) resampled.push_back(totals(r, column) / totals(r, 0));
+  return {groups.col(column).sum() / groups.col(0).sum(), band.lower, band.upper, std::move(resampled)};
 }
 
 struct Parts {
@@ -54,6 +59,7 @@ Point fitted_point(const Parts& parts, const BinFit& bin, double capacity, doubl
   const Interval band = percentile_interval(values, point.probability, confidence, bin.motions);
   point.lower = band.lower;
   point.upper = band.upper;
+  point.resampled = std::move(values);
   if (std::isnan(band.lower)) return point;
   if (bin.n_over == 0) point.upper = std::max(point.upper, exceedance(bin.p_over_upper, bin.p_never));
   if (bin.n_still == 0) point.lower = std::min(point.lower, exceedance(bin.p_over, bin.p_still_upper));
@@ -70,15 +76,15 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
   Surface result;
   result.probability.assign(size, unknown);
   result.lower = result.upper = result.empirical = result.least = result.most = result.probability;
+  result.resampled.assign(size * static_cast<std::size_t>(resampling.resamples()), unknown);
   for (std::size_t b = 0; b < bins.size(); ++b) {
     BinFit& bin = bins[b];
     if (bin.status == BinStatus::too_few) continue;
-    const Eigen::MatrixXd groups = sums_by_group(tally, edp, b);
+    const Eigen::MatrixXd groups = sums_by_group(tally, edp, b), totals = resampling.totals(groups);
     const bool has_fit = bin.status == BinStatus::fitted || bin.status == BinStatus::rejected;
     const bool use_fit =
         bin.status == BinStatus::fitted || (bin.status == BinStatus::rejected && !options.empirical_fallback);
-    const Parts parts =
-        has_fit ? resampled_parts(resampling.totals(groups), bin.im_mean, options.edps[edp].still_threshold) : Parts{};
+    const Parts parts = has_fit ? resampled_parts(totals, bin.im_mean, options.edps[edp].still_threshold) : Parts{};
     if (has_fit && bin.motions > 1) {
       bin.lambda_se = standard_deviation(parts.lambda);
       bin.omega_se = standard_deviation(parts.omega);
@@ -86,13 +92,14 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
     for (std::size_t c = 0; c < capacity.size(); ++c) {
       const Eigen::Index column = BinSums::size + static_cast<Eigen::Index>(c);
       const Point point = use_fit ? fitted_point(parts, bin, capacity[c], options.confidence)
-                                  : empirical_point(groups, column, records, options.confidence);
+                                  : empirical_point(groups, totals, column, records, options.confidence);
       const double hits = groups.col(column).sum(), n = static_cast<double>(bin.n);
       const double failed = static_cast<double>(bin.n_failed);
       const std::size_t at = b * capacity.size() + c;
       result.probability[at] = point.probability;
       result.lower[at] = point.lower;
       result.upper[at] = point.upper;
+      for (std::size_t r = 0; r < point.resampled.size(); ++r) result.resampled[r * size + at] = point.resampled[r];
       result.empirical[at] = hits / n;
       result.least[at] = hits / (n + failed);
       result.most[at] = (hits + failed) / (n + failed);

@@ -51,6 +51,15 @@ struct Curve {
   const char* description;
 };
 
+// Coordinate of what was found for each resampled set of motions.
+Dataset resample_numbers(Group& group, const Result& result) {
+  std::vector<std::int64_t> numbers(static_cast<std::size_t>(result.resamples));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  Dataset resample = group.put("resample", numbers);
+  resample.scale("resample").describe("", "number of the resampled set of motions, the same for every curve");
+  return resample;
+}
+
 void write_surface(Group& parent, const Result& result, const EdpResult& edp) {
   Group group = parent.make_group("surface");
   const Dataset im = im_of(group, result), capacity = capacity_of(group, edp);
@@ -63,6 +72,13 @@ void write_surface(Group& parent, const Result& result, const EdpResult& edp) {
         Curve{"least", &edp.surface.least, "the same, had every sample that failed stayed below"},
         Curve{"most", &edp.surface.most, "the same, had every sample that failed lain above"}})
     group.put(curve.name, *curve.values, shape).attach(0, im).attach(1, capacity).describe("1", curve.description);
+  if (edp.surface.resampled.empty()) return;
+  const Dataset resample = resample_numbers(group, result);
+  group.put("resampled", edp.surface.resampled, {static_cast<std::uint64_t>(result.resamples), shape[0], shape[1]})
+      .attach(0, resample)
+      .attach(1, im)
+      .attach(2, capacity)
+      .describe("1", "probability from each resampled set of motions");
 }
 
 void write_distribution(Group& parent, const Result& result, const EdpResult& edp) {
@@ -95,15 +111,6 @@ void write_axis(Group& parent, const Result& result, const EdpResult& edp, const
     dataset.attach(0, im).attach(1, centre).attach(2, capacity).describe("1", curve.description);
   }
   group.put("n", axis.n, cells).attach(0, im).attach(1, centre).describe("1", "samples in the cell");
-}
-
-// Coordinate of what was found for each resampled set of motions.
-Dataset resample_numbers(Group& group, const Result& result) {
-  std::vector<std::int64_t> numbers(static_cast<std::size_t>(result.resamples));
-  std::iota(numbers.begin(), numbers.end(), 0);
-  Dataset resample = group.put("resample", numbers);
-  resample.scale("resample").describe("", "number of the resampled set of motions, the same for every curve");
-  return resample;
 }
 
 // As many as there are resamples; NaN where a curve has none.

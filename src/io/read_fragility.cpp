@@ -78,8 +78,13 @@ EdpResult read_edp(const Group& group, const std::string& name, std::size_t bins
   edp.capacity = values(group, "capacity");
   read_bins(group, edp, bins);
   const Group surface = group.open_group("surface");
-  edp.surface = {values(surface, "probability"), values(surface, "lower"), values(surface, "upper"),
-                 values(surface, "empirical"),   values(surface, "least"), values(surface, "most")};
+  edp.surface = {values(surface, "probability"),
+                 values(surface, "lower"),
+                 values(surface, "upper"),
+                 values(surface, "empirical"),
+                 values(surface, "least"),
+                 values(surface, "most"),
+                 surface.has("resampled") ? values(surface, "resampled") : std::vector<double>{}};
   if (group.has("functions")) read_functions(group.open_group("functions"), edp);
   if (group.has("distribution")) {
     const Group distribution = group.open_group("distribution");

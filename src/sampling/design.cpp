@@ -82,7 +82,10 @@ int sobol_dimension(std::string_view parameter) {
 }
 
 Stream::Stream(const Plan& plan, std::string_view parameter)
-    : plan_(plan), stream_(random::stable_hash(parameter)), dimension_(sobol_dimension(parameter)) {
+    : plan_(plan),
+      redrawn_(std::find(plan.redrawn.begin(), plan.redrawn.end(), parameter) != plan.redrawn.end()),
+      stream_(random::stable_hash(redrawn_ ? "/redrawn" : "", random::stable_hash(parameter))),
+      dimension_(sobol_dimension(parameter)) {
   constexpr std::uint64_t key_counter = ~0ULL;  // no sample has this index
   const auto [first, second] = random::bits(plan.seed, key_counter, stream_);
   key_ = first;
@@ -92,7 +95,7 @@ Stream::Stream(const Plan& plan, std::string_view parameter)
 }
 
 double Stream::operator()(std::uint64_t sample) const {
-  switch (plan_.design) {
+  switch (redrawn_ ? Design::monte_carlo : plan_.design) {
     case Design::latin_hypercube:
       return latin_hypercube(sample);
     case Design::sobol:

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace freestand::sampling {
 
@@ -16,6 +17,8 @@ struct Plan {
   Design design = Design::sobol;
   std::uint64_t seed = 1;
   std::uint64_t samples = 0;
+  std::vector<std::string> redrawn = {};  // parameters that take other draws, independent of all of the design: what does
+                                          // the answer owe them?
 };
 
 // The uniforms of one parameter: stream(sample) in the open interval (0, 1), a pure function of (plan, name, sample).
@@ -30,6 +33,8 @@ struct Plan {
 //                  once. Known parameter names have fixed dimensions (sobol_dimension). Any other name takes the first
 //                  dimension with its samples in an order of its own (nested uniform shuffle of the index, [Owen 2003;
 //                  Burley 2020]): as even by itself, and paired at random with the others.
+//
+// Of a parameter of Plan::redrawn: as monte_carlo, at a stream of its own.
 class Stream {
  public:
   // Throws Error for latin_hypercube without samples.
@@ -41,6 +46,7 @@ class Stream {
   double sobol(std::uint64_t sample) const;
 
   Plan plan_;
+  bool redrawn_;
   std::uint64_t stream_;     // hash of the name
   std::uint64_t key_;        // of the permutation or scrambling, from (seed, name)
   std::uint64_t order_key_;  // of the shuffle of the index; 0: none

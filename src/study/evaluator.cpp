@@ -86,6 +86,12 @@ Table Evaluator::shakings(std::size_t count) const {
   return table;
 }
 
+Evaluator Evaluator::drawing(const Study& study) const {
+  Parts parts = *parts_;
+  parts.realise = Realiser(study, motions());
+  return Evaluator(std::make_shared<const Parts>(std::move(parts)));
+}
+
 Outcome Evaluator::append(std::uint64_t sample, std::vector<double>& values) const {
   return append(sample, 1, values).front();
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <freestand/simulate.hpp>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/table.hpp"
@@ -38,8 +39,12 @@ class Evaluator {
 
   const MotionSet& motions() const;
 
+  // The same motions, for a study that differs from this one in what it draws (Study::redrawn).
+  Evaluator drawing(const Study&) const;
+
  private:
   struct Parts;
+  explicit Evaluator(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
   std::shared_ptr<const Parts> parts_;
 };
 

@@ -183,7 +183,10 @@ struct Study {
   std::vector<MotionSource> motions;
   FragilityPart fragility;
 
-  sampling::Plan plan() const { return {design, seed, samples}; }
+  // Of no study file: parameters that take other draws than the study's, with all others as they are.
+  std::vector<std::string> redrawn = {};
+
+  sampling::Plan plan() const { return {design, seed, samples, redrawn}; }
 };
 
 // One sample to be simulated: a study in which every number is fixed and there is one motion.

@@ -34,6 +34,7 @@ fragility::EdpResult continuous_edp() {
   edp.surface.upper = std::vector<double>(6, 9);
   edp.surface.empirical = {0, 0, 0, 0, fragility::unknown, 0.5};
   edp.surface.least = edp.surface.most = edp.surface.empirical;
+  for (int i = 0; i < 12; ++i) edp.surface.resampled.push_back(i / 16.0);  // [2, 3, 2]
   edp.distribution = {{-1, 0, 1}, {1, 2, 3, 4, 5, 6}};
   edp.axes = {
       {"friction_mu_k", "1", {0, 1, 2}, {0.5, 1.5}, {}, std::vector<double>(12, 1), std::vector<double>(12, 2), {}}};
@@ -143,6 +144,7 @@ TEST(FragilityFile, ReadsBackAsItWasWritten) {
   EXPECT_EQ(surface_csv(result), surface_csv(written));
   EXPECT_EQ(fragility_summary(from, result).dump(), fragility_summary(provenance(), written).dump());
   EXPECT_EQ(result.im_edge, written.im_edge);
+  EXPECT_EQ(result.edps[0].surface.resampled, written.edps[0].surface.resampled);
   EXPECT_EQ(result.edps[0].distribution.count, written.edps[0].distribution.count);
   EXPECT_EQ(result.edps[0].axes[0].probability, written.edps[0].axes[0].probability);
   EXPECT_EQ(result.edps[0].axes[0].n, written.edps[0].axes[0].n);

@@ -130,7 +130,7 @@ class Refuses(Temporary):
             (self.folder / name).mkdir()
         with self.assertRaises(Problem):
             command.read([self.folder / "one", self.folder / "two"])
-        with self.assertRaises(Problem) as caught:
+        with self.assertRaisesRegex(Problem, "given twice") as caught:
             command.read([support.sweep(), support.sweep()])
         self.assertEqual(caught.exception.exit_code, USAGE)
 

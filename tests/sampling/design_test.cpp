@@ -198,5 +198,23 @@ TEST(Design, KnownNamesHaveFixedDimensions) {
   EXPECT_EQ(sobol_dimension(""), -1);
 }
 
+TEST(Design, AParameterThatIsDrawnAgainIsIndependentOfAllDesigns) {
+  for (const Design design : every_design) {
+    const Plan plan{design, 5, 4096}, again{design, 5, 4096, {"friction.mu_k"}};
+    const std::vector<double> first = draws(plan, "friction.mu_k", 0, 4096),
+                              second = draws(again, "friction.mu_k", 0, 4096);
+    EXPECT_EQ(draws(plan, "block.width_m", 0, 64), draws(again, "block.width_m", 0, 64));
+    // 16 x 16 cells of pairs, 16 in each: chi squared with 255 degrees of freedom (its 0.1 % points are 190 and 330). Another
+    // scramble of the same design would leave most of them empty.
+    std::vector<double> cell(256, 0);
+    for (std::size_t i = 0; i < first.size(); ++i)
+      cell[static_cast<std::size_t>(first[i] * 16) * 16 + static_cast<std::size_t>(second[i] * 16)] += 1;
+    double chi_squared = 0;
+    for (const double n : cell) chi_squared += (n - 16) * (n - 16) / 16;
+    EXPECT_GT(chi_squared, 190);
+    EXPECT_LT(chi_squared, 330);
+  }
+}
+
 }  // namespace
 }  // namespace freestand::sampling

@@ -1,0 +1,101 @@
+"""What the pages say of decisions: annual risk, shares of variance, several designs side by side."""
+import math
+
+from . import words
+from .designs import verdict
+from .reading_decisions import Risk, Sensitivity
+
+
+def risks(results, figures, named=False):
+    """Sections of the Risk values, in their order; `figures`: those of all results."""
+    found = [result for result in results if isinstance(result, Risk)]
+    drawn = iter([figure for figure in figures if figure["section"] == "risk"])
+    return [_risk(risk, next(drawn) if risk.told() else None, named or len(found) > 1) for risk in found]
+
+
+def _risk(risk, figure, named):
+    return {"name": f"{risk.study_name} ({risk.sweep})" if named else "", "figure": figure, "warnings": risk.warnings,
+            "level": words.level(risk.confidence), "years": [f"{years:g}" for years in risk.years], "rows": [_row(risk, row) for row in risk.rows]}
+
+
+def _row(risk, row):
+    def chance(value):
+        return f"{words.number(100 * value)} %" if math.isfinite(value) else "–"
+
+    return {"title": words.capitalised(row.title), "rate": words.a_year(row.rate[0]), "interval": _span(words.a_year, *row.rate[1:]),
+            "chances": [(chance(value), _span(chance, low, high)) for _, value, low, high in row.in_years],
+            "median": words.quantity(row.median_im, risk.im_unit), "sweep": _share(row.outside_sweep), "hazard": _share(row.outside_hazard),
+            "by": "fitted curve" if row.by == "function" else "counted shares", "why": row.why, "refused": row.refused}
+
+
+def _span(text, low, high):
+    return f"{text(low)} to {text(high)}" if math.isfinite(low) and math.isfinite(high) else "–"
+
+
+def _share(value):
+    return words.percent(value) if math.isfinite(value) else "–"
+
+
+def sensitivity(results, figures):
+    found = next((result for result in results if isinstance(result, Sensitivity)), None)
+    if found is None:
+        return None
+    names = list(dict.fromkeys(share.parameter for answer in found.answers for share in answer.shares))
+    rows = []
+    for answer in found.answers:
+        shares = {share.parameter: share for share in answer.shares}
+        cells = [_cell(shares[name]) if name in shares else "–" for name in names] + [words.plus_minus(*answer.together[:2])]
+        rows.append({"title": words.capitalised(answer.title), "cells": cells, "why": answer.why_empty, "samples": answer.samples})
+    return {"figure": next((figure for figure in figures if figure["section"] == "sensitivity"), None),
+            "parameters": [words.capitalised(words.sampled(name)) for name in names], "rows": rows, "total": bool(found.pairs)}
+
+
+def _cell(share):
+    text = words.plus_minus(max(share.share[0], 0), share.share[1])
+    return text + (f" ({words.plus_minus(*share.total[:2])})" if math.isfinite(share.total[0]) else "")
+
+
+def alone(results):
+    """The page of a risk or a sensitivity whose sweep was not given."""
+    name = next((risk.study_name for risk in results if isinstance(risk, Risk)), "") or results[0].folder.resolve().name
+    return {"title": words.capitalised(name), "headline": [], "hero": None, "demand": [], "fit_figure": None, "other": [], "shared": [],
+            "fit": None, "outcomes": [], "computed": None, "draws": [], "study": "", "accuracy": None, "effects": [], "warnings": [],
+            "provenance": []}
+
+
+def designs(found, risk_results, figures):
+    """The page of several designs."""
+    names = list(dict.fromkeys(str(sweep.summary.get("study_name") or "") for sweep in found.sweeps))
+    title = words.capitalised(names[0]) if len(names) == 1 and names[0] else "Several designs"
+    return {"title": f"{title}: side by side", "lead": "; ".join(words.capitalised(label) for label in found.labels) + ".",
+            "headline": _headline(found), "figures": [figure for figure in figures if figure["section"] == "designs"],
+            "differing": found.differing, "folders": [sweep.folder.resolve().name for sweep in found.sweeps], "im": found.im_symbol,
+            "im_unit": words.UNITS.get(found.sweeps[0].im_unit, found.sweeps[0].im_unit), "level": words.level(found.level), "paired": found.paired,
+            "medians": _medians(found), "risks": risks(risk_results, figures, named=True), "provenance": _provenance(found)}
+
+
+def _headline(found):
+    row = next((row for row in found.rows if all(math.isfinite(curve["median"]) for curve in row.curves)), None)
+    if row is None:
+        return []
+    unit = found.sweeps[0].im_unit
+    return [(words.quantity(curve["median"], unit), f"median {found.im_symbol} of {row.what}: {label}") for curve, label in zip(row.curves, found.labels)]
+
+
+def _medians(found):
+    rows = []
+    for row in found.rows:
+        for i, (curve, label) in enumerate(zip(row.curves, found.labels)):
+            mark = ("*" if curve["extrapolated"] else "") + ("" if curve["adequate"] or not math.isfinite(curve["median"]) else "†")
+            value, low, high = row.ratio[i]
+            rows.append({"what": words.capitalised(row.what) if i == 0 else "", "design": label,
+                         "median": words.plus_minus(curve["median"], curve["median_se"]) + mark,
+                         "dispersion": words.plus_minus(curve["dispersion"], curve["dispersion_se"]),
+                         "ratio": "" if i == 0 else words.fixed(value, 2), "interval": "" if i == 0 or not math.isfinite(low) else f"{low:.2f} to {high:.2f}",
+                         "verdict": "" if i == 0 else verdict(row.ratio[i])})
+    return rows
+
+
+def _provenance(found):
+    return [(label, f"{sweep.folder.resolve().name}: {words.count(sweep.samples)} samples, seed {sweep.attributes.get('seed', '–')}, "
+             f"freestand {sweep.attributes.get('version', '–')}, {sweep.attributes.get('created_utc', '')}") for sweep, label in zip(found.sweeps, found.labels)]

@@ -1,0 +1,87 @@
+"""Fragility of several designs in one axis: overturning, and the main demand above two capacities."""
+import numpy as np
+
+from .. import style, words
+from ..designs import Designs, verdict
+from ..model import chosen_capacities
+from . import Picture
+
+order = 5
+COLOURS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY)
+CAPTION = ("Lines and bands: lognormal curves fitted over all intensities with {level} bands from resampled motions (dashed where one misses the "
+           "counted shares by more than it may); points: share counted in each bin.")
+
+
+def pictures(results):
+    if isinstance(results, Designs):
+        picture = _picture(results)
+        if picture:
+            yield picture
+
+
+def panels(designs):
+    """(title, [(sweep, curve, bins' intensity and counted share) of each]) that are drawn."""
+    found = []
+    if all(sweep.overturning and np.isfinite(sweep.overturning["probability"]).any() for sweep in designs.sweeps):
+        found.append(("P(overturned)", [(sweep.overturning, sweep.centre, _over(sweep)) for sweep in designs.sweeps]))
+    for edp in designs.sweeps[0].continuous():
+        others = [next((one for one in sweep.continuous() if one.name == edp.name and one.unit == edp.unit), None) for sweep in designs.sweeps]
+        if not all(other is not None and other.functions for other in others):
+            continue
+        for k in chosen_capacities(edp, 3):
+            places = [int(np.argmin(np.abs(other.capacity - edp.capacity[k]))) for other in others]
+            if all(np.isclose(other.capacity[j], edp.capacity[k]) for other, j in zip(others, places)) and len(found) < 3:
+                found.append((f"P({edp.label} > {words.chosen(edp.capacity[k], edp.unit)})",
+                              [(other.functions[j], sweep.centre, other.surface["empirical"][:, j])
+                               for sweep, other, j in zip(designs.sweeps, others, places)]))
+        break
+    return found
+
+
+def _over(sweep):
+    edp = next((edp for edp in sweep.edps if edp.name == "overturned"), sweep.edps[0])
+    return edp.bins["p_over"]
+
+
+def _picture(designs):
+    drawn = panels(designs)
+    if not drawn:
+        return None
+    fig = style.figure(8.8 if len(drawn) > 1 else 7.4, 4.2)
+    axes = fig.subplots(1, len(drawn), sharey=True, squeeze=False)[0]
+    for ax, (title, curves) in zip(axes, drawn):
+        for (curve, x, counted), label, colour in zip(curves, designs.labels, COLOURS * len(designs.labels)):
+            if np.isfinite(curve["probability"]).any():
+                ax.fill_between(curve["grid"], curve["lower"], curve["upper"], color=colour, alpha=0.14, lw=0)
+                ax.plot(curve["grid"], curve["probability"], color=colour, lw=1.8, ls="-" if curve["adequate"] else "--", label=label)
+            else:
+                ax.plot([], [], color=colour, label=label)
+            ax.plot(x, counted, "o", ms=3.6, color=colour, mec="white", mew=0.5)
+        ax.set_title(title, weight="bold", pad=5)
+        ax.set(ylim=(0, 1.015), xlim=_view(designs), xlabel=words.with_unit(designs.im_symbol, designs.sweeps[0].im_unit))
+        style.grid(ax)
+    axes[0].set_ylabel("probability")
+    style.legend_above(axes, ncol=min(len(designs.labels), 3))
+    finding = _finding(designs)
+    level = words.level(designs.level)
+    style.headline(fig, finding, ("Each sample has the same motion and draws in every design: differences are of pairs. " if designs.paired
+                                  else "The sweeps have other motions: differences are of independent samples. ") + f"Bands: {level}.")
+    return Picture("designs", fig, finding, CAPTION.format(level=level), "designs")
+
+
+def _view(designs):
+    views = [sweep.view for sweep in designs.sweeps]
+    return min(view[0] for view in views), max(view[1] for view in views)
+
+
+def _finding(designs):
+    row = next((row for row in designs.rows if any(np.isfinite(ratio[1]) for ratio in row.ratio)), None)
+    if row is None:
+        return "The medians of these designs cannot be compared: too few samples exceed"
+    i = max((i for i, ratio in enumerate(row.ratio) if np.isfinite(ratio[1])), key=lambda i: abs(np.log(row.ratio[i][0])))
+    value, low, high = row.ratio[i]
+    what = f"the median {designs.im_symbol} of {row.what}"
+    if verdict(row.ratio[i]) == "no":
+        return f"{words.capitalised(designs.labels[i])} against {designs.labels[0]}: {what} differs by no more than chance"
+    return (f"{words.capitalised(designs.labels[i])} against {designs.labels[0]}: {what} is {value:.2f} times as large "
+            f"({low:.2f} to {high:.2f})")

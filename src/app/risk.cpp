@@ -1,0 +1,72 @@
+#include "study/risk.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "app/command.hpp"
+#include "decision/annual_rate.hpp"
+
+namespace freestand::app {
+namespace {
+
+std::string percent(double probability) {
+  return std::isnan(probability) ? "-" : fmt::format("{:.2g} %", 100 * probability);
+}
+
+void tell(const study::RiskAnswer& answer, const study::RiskOptions& options) {
+  const decision::Risk& risk = answer.risk;
+  std::size_t width = 0;
+  for (const auto& row : risk.rows) width = std::max(width, title(row).size());
+  const double years = options.years.front();
+  fmt::print("{}, bands of {:g} %; hazard over {}\n", answer.study_name, 100 * risk.confidence, risk.im);
+  fmt::print("  {:<{}}  {:<32}  {:<28}  {:<17}  by\n", "", width, "annual rate", fmt::format("in {:g} years", years),
+             "half from above");
+  for (const decision::RiskRow& row : risk.rows) {
+    if (!row.refused.empty()) {
+      fmt::print("  {:<{}}  not told: {}\n", title(row), width, row.refused);
+      continue;
+    }
+    const decision::Rate& rate = row.rate();
+    const auto chance = [&](double r) { return percent(decision::probability_in_years(r, years)); };
+    fmt::print("  {:<{}}  {:<32}  {:<28}  {:<17}  {}\n", title(row), width,
+               fmt::format("{:.2g} [{:.2g}, {:.2g}]", rate.value, rate.lower, rate.upper),
+               fmt::format("{} [{}, {}]", chance(rate.value), chance(rate.lower), chance(rate.upper)),
+               std::isnan(row.median_im) ? "-" : fmt::format("{:.2g} {}", row.median_im, risk.im_unit),
+               row.recommended == decision::By::function ? "fitted curve" : "counts");
+  }
+  for (const std::string& warning : risk.warnings) fmt::print("warning: {}\n", warning);
+  fmt::print("risk.csv and risk.json in {}\n", options.output.string());
+}
+
+}  // namespace
+
+void add_risk(CLI::App& parser, Work& work) {
+  auto options = std::make_shared<study::RiskOptions>();
+  auto quiet = std::make_shared<bool>(false);
+  CLI::App* verb = parser.add_subcommand(
+      "risk", "annual rate and probability in N years of each demand and capacity, from a hazard curve");
+  verb->add_option("folder", options->folder, "folder of a fitted sweep")->required();
+  verb->add_option("--hazard", options->hazard,
+                   "csv file: an intensity with its unit (pga_g, pgv_mps, sa_g ...) and annual_rate")
+      ->required();
+  verb->add_option("-o,--output", options->output, "folder for risk.json and risk.csv")->required();
+  verb->add_option("--years", options->years, "one or several (default 50)");
+  verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder");
+  verb->add_flag("--quiet", *quiet, "no table");
+  verb->callback([options, quiet, &work] {
+    work = [options, quiet](const Context& context) {
+      options->command = context.command_line;
+      context.world.on_root([&] {
+        const study::RiskAnswer answer = study::risk(*options);
+        study::write_risk(answer, *options);
+        if (!*quiet) tell(answer, *options);
+      });
+      return Exit::done;
+    };
+  });
+}
+
+}  // namespace freestand::app

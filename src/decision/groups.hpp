@@ -1,0 +1,26 @@
+// Groups that are left out in turn.
+#pragma once
+
+#include <vector>
+
+#include "fragility/groups.hpp"
+
+namespace freestand::decision {
+
+// The groups of motions of a fragility analysis, at most 64 a stratum (records, whole ones to a group; pulses): as many are
+// enough for an error known to 9 % (1/sqrt(2 * 63)), and memory stays bounded.
+class LeaveOutGroups {
+ public:
+  static constexpr int most_of_a_stratum = 64;
+
+  explicit LeaveOutGroups(const fragility::MotionGroups& motions);
+
+  int count() const { return records_ + others_; }
+  int of(int motion_group) const;  // of a group of MotionGroups
+  int stratum(int group) const { return group < records_ ? 0 : 1; }
+
+ private:
+  int record_groups_, records_, others_;
+};
+
+}  // namespace freestand::decision

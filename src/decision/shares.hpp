@@ -1,0 +1,84 @@
+// Which sampled parameter makes a demand scatter: first-order shares of its variance, from samples that are there.
+//
+//   share of X in Y = Var(E[Y | X]) / Var(Y)           I. M. Sobol, Mathematical Modelling and Computational Experiments 1, 1993
+//
+// the part of the variance that would go if X were known. The samples are parted by X into K classes of equal probability (32, or so
+// few that each holds 50 samples; the values of a choice and the motions are classes by themselves), and
+//
+//   share = 1 - (N - 1)/(N - K) sum_k SS_k / SS           T. L. Kelley, Proc. Natl. Acad. Sci. 21, 1935
+//
+// with SS the sum of squares about the mean, SS_k that of a class about its own: the correction takes away what K class means
+// scatter by chance. What is lost inside the classes is a 1/K^2 of the share of a straight line. Samples that share a motion are
+// not independent: motions are left out in turn (jackknife.hpp), for the error and against the bias of few motions. A share that is
+// zero comes out as zero on the average, so now and then below it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "decision/groups.hpp"
+#include "decision/jackknife.hpp"
+
+namespace freestand::decision {
+
+// A sampled parameter and how many classes its samples come in.
+struct Parameter {
+  std::string name, unit = "1";
+  int classes = 32;
+  bool ordered = true;  // neighbouring classes may be joined
+};
+
+// What scatters: ln of a demand, over those that moved and stood; or whether something happens, the demand above a capacity, say.
+struct Answer {
+  std::string edp, unit = "1";
+  double capacity = 0;  // NaN for ln of the demand, and where the demand itself is yes or no
+  bool yes_or_no = false;
+};
+
+struct ShareRow {
+  std::vector<Estimate> share;  // [parameter]
+  Estimate together;            // of each alone, summed; what is missing to 1 is due to parameters that act together
+  std::int64_t samples = 0;     // with this answer
+  int motions = 0;              // groups of motions that these have (at most 64 of records and 64 of others)
+  double mean = 0, variance = 0;
+};
+
+// Counts and sums by class and group. Sums are of multiples of 2^-20, as integers: the same in any order, and words of
+// tallies of the same shape may be added element by element. |values| < 2^10, up to 2^30 samples.
+class ShareTally {
+ public:
+  ShareTally(std::vector<Parameter> parameters, std::vector<Answer> answers, const LeaveOutGroups& groups);
+
+  // of_class: [parameter], 0 ... classes - 1, or `classes` where a sample has none (the period of a record). value: [answer], NaN:
+  // not known for this sample, as the slip of what overturned.
+  void add(int group, std::span<const int> of_class, std::span<const double> value);
+
+  std::vector<std::int64_t>& words() { return words_; }
+  ShareRow row(std::size_t answer, double confidence) const;
+
+ private:
+  struct Sums {
+    double n = 0, sum = 0, squares = 0;
+    void operator+=(const Sums& other) { *this = {n + other.n, sum + other.sum, squares + other.squares}; }
+    void operator-=(const Sums& other) { *this = {n - other.n, sum - other.sum, squares - other.squares}; }
+  };
+  struct Shares;
+  Sums cell(std::size_t parameter, std::size_t of_class, std::size_t group, std::size_t answer) const;
+  std::size_t place(std::size_t parameter, std::size_t of_class, std::size_t group, std::size_t answer) const;
+  static double share(const std::vector<Sums>& of_class);
+  std::vector<Sums> by_group(std::size_t answer) const;
+  std::vector<std::vector<Sums>> by_class_and_group(std::size_t parameter, std::size_t answer, double samples) const;
+  Shares shares(std::size_t parameter, std::size_t answer, const std::vector<Sums>& of_group) const;
+
+  std::vector<Parameter> parameters_;
+  std::vector<Answer> answers_;
+  LeaveOutGroups groups_;
+  std::size_t width_ = 0;               // words of a cell
+  std::vector<std::size_t> of_answer_;  // offset in a cell
+  std::vector<std::size_t> first_;      // cell of class 0 and group 0 of each parameter
+  std::vector<std::int64_t> words_;
+};
+
+}  // namespace freestand::decision

@@ -1,0 +1,72 @@
+#include "decision/total_shares.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace freestand::decision {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double scale = 1 << 20;
+constexpr std::size_t words_of_sums = 4;
+
+// Of pairs by the group of the sample; of those by the group of the redrawn one, where that is another.
+constexpr std::size_t first_side = 0, other_side = 1, sides = 2;
+
+}  // namespace
+
+TotalTally::TotalTally(std::size_t parameters, std::vector<Answer> answers, const LeaveOutGroups& groups)
+    : answers_(std::move(answers)),
+      groups_(groups),
+      words_(parameters * answers_.size() * static_cast<std::size_t>(groups_.count()) * sides * words_of_sums, 0) {}
+
+std::size_t TotalTally::place(std::size_t parameter, std::size_t answer, std::size_t group, std::size_t side) const {
+  const std::size_t row = (parameter * answers_.size() + answer) * static_cast<std::size_t>(groups_.count()) + group;
+  return (row * sides + side) * words_of_sums;
+}
+
+void TotalTally::add(std::size_t parameter, int group, int group_again, std::span<const double> value,
+                     std::span<const double> again) {
+  for (std::size_t a = 0; a < answers_.size(); ++a) {
+    const double y = value[a], z = again[a];
+    if (std::isnan(y) || std::isnan(z)) continue;
+    const std::int64_t sums[] = {1, std::llround((y - z) * (y - z) * scale), std::llround((y + z) * scale),
+                                 std::llround((y * y + z * z) * scale)};
+    for (std::size_t i = 0; i < words_of_sums; ++i) {
+      words_[place(parameter, a, static_cast<std::size_t>(group), first_side) + i] += sums[i];
+      if (group_again != group)
+        words_[place(parameter, a, static_cast<std::size_t>(group_again), other_side) + i] += sums[i];
+    }
+  }
+}
+
+TotalTally::Sums TotalTally::read(std::size_t at) const {
+  const auto number = [&](std::size_t i) { return static_cast<double>(words_[at + i]); };
+  return {number(0), number(1) / scale, number(2) / scale, number(3) / scale};
+}
+
+TotalShare TotalTally::share(std::size_t parameter, std::size_t answer, double confidence) const {
+  const auto of = [](const Sums& sums) {
+    const double values = 2 * sums.n, mean = sums.sum / values;
+    const double variance = sums.squares / values - mean * mean;
+    return sums.n < 2 || !(variance > 0) ? nan : sums.differences / values / variance;
+  };
+  const auto groups = static_cast<std::size_t>(groups_.count());
+  Sums all;
+  for (std::size_t g = 0; g < groups; ++g) {
+    const Sums one = read(place(parameter, answer, g, first_side));
+    all = {all.n + one.n, all.differences + one.differences, all.sum + one.sum, all.squares + one.squares};
+  }
+  LeftOut left_out(2);
+  for (std::size_t g = 0; g < groups; ++g) {
+    Sums rest = all;
+    for (const std::size_t side : {first_side, other_side}) {
+      const Sums one = read(place(parameter, answer, g, side));
+      rest = {rest.n - one.n, rest.differences - one.differences, rest.sum - one.sum, rest.squares - one.squares};
+    }
+    if (rest.n < all.n) left_out[static_cast<std::size_t>(groups_.stratum(static_cast<int>(g)))].push_back(of(rest));
+  }
+  return {jackknife_share(of(all), left_out, confidence), static_cast<std::int64_t>(all.n)};
+}
+
+}  // namespace freestand::decision

@@ -1,0 +1,114 @@
+#include "study/sampled.hpp"
+
+#include <algorithm>
+#include <memory>
+
+namespace freestand::study {
+namespace {
+
+using sampling::Stream;
+
+constexpr int classes = 32;
+
+// Class of a draw by its uniform.
+struct Classes {
+  Classes(const sampling::Plan& plan, const Quantity& quantity) : stream(plan, quantity.name) {
+    if (const auto* choice = std::get_if<sampling::Choice>(&quantity.value)) {
+      items = choice->values.size();
+      weights = choice->weights;
+    }
+  }
+  bool ordered() const { return items == 0; }
+  int count() const { return ordered() ? classes : static_cast<int>(items); }
+  int operator()(std::uint64_t sample) const {
+    const double u = stream(sample);
+    return ordered() ? static_cast<int>(u * classes) : static_cast<int>(sampling::pick(items, weights, u));
+  }
+
+  Stream stream;
+  std::size_t items = 0;  // of a choice
+  std::vector<double> weights;
+};
+
+bool varies(const std::optional<Quantity>& quantity) { return quantity && !is_fixed(quantity->value); }
+
+Sampled of_model(const Study& study, const Quantity& quantity) {
+  const Classes of(study.plan(), quantity);
+  Sampled one;
+  one.parameter.name = quantity.name;
+  one.parameter.unit = quantity.unit;
+  one.parameter.classes = of.count();
+  one.parameter.ordered = of.ordered();
+  one.streams = {quantity.name};
+  one.class_of = [of](std::uint64_t sample, std::size_t) { return of(sample); };
+  return one;
+}
+
+Sampled of_motion(std::size_t motions) {
+  Sampled one;
+  one.parameter.name = "motion";
+  one.parameter.classes = static_cast<int>(motions);
+  one.parameter.ordered = false;
+  one.streams = {"motion.source", "motion.pulse", "motion.record"};
+  one.class_of = [](std::uint64_t, std::size_t motion) { return static_cast<int>(motion); };
+  return one;
+}
+
+// Which entry of `motions` a sample takes, as the sweep picks it.
+std::function<std::size_t(std::uint64_t)> entry_of(const Study& study) {
+  std::vector<double> weights;
+  for (const MotionSource& source : study.motions) weights.push_back(source.weight);
+  if (weights.size() == 1) return [](std::uint64_t) { return std::size_t{0}; };
+  return [weights, stream = Stream(study.plan(), "motion.source")](std::uint64_t sample) {
+    return sampling::pick(weights.size(), weights, stream(sample));
+  };
+}
+
+// A number that each entry of `motions` may give in its own way: amplitude, period. Of one entry's choice the values are the
+// classes; of several entries, equal shares of what each draws.
+void add_of_motions(const Study& study, std::optional<Quantity> MotionSource::*number, const std::string& name,
+                    std::vector<Sampled>& all) {
+  Sampled found;
+  found.parameter.classes = classes;
+  std::string unit;
+  auto of = std::make_shared<std::vector<std::optional<Classes>>>();
+  for (const MotionSource& source : study.motions) {
+    const std::optional<Quantity>& quantity = source.*number;
+    of->emplace_back();
+    if (!varies(quantity)) continue;
+    of->back().emplace(study.plan(), *quantity);
+    if (std::find(found.streams.begin(), found.streams.end(), quantity->name) == found.streams.end())
+      found.streams.push_back(quantity->name);
+    unit = quantity->unit;
+  }
+  if (found.streams.empty()) return;
+  const bool several = found.streams.size() > 1;
+  found.parameter.name = several ? name : found.streams.front();
+  if (!several) found.parameter.unit = unit;
+  if (of->size() == 1) {
+    found.parameter.classes = of->front()->count();
+    found.parameter.ordered = of->front()->ordered();
+  } else {
+    for (auto& one : *of)
+      if (one) one->items = 0;
+  }
+  found.class_of = [of, entry = entry_of(study), none = found.parameter.classes](std::uint64_t sample, std::size_t) {
+    const std::optional<Classes>& mine = (*of)[entry(sample)];
+    return mine ? (*mine)(sample) : none;
+  };
+  all.push_back(std::move(found));
+}
+
+}  // namespace
+
+std::vector<Sampled> sampled(const Study& study, std::size_t motions) {
+  std::vector<Sampled> all;
+  for (const Quantity& quantity : quantities(study.model))
+    if (!is_fixed(quantity.value)) all.push_back(of_model(study, quantity));
+  add_of_motions(study, &MotionSource::amplitude, "motion.amplitude", all);
+  add_of_motions(study, &MotionSource::period, "motion.period_s", all);
+  if (motions > 1) all.push_back(of_motion(motions));
+  return all;
+}
+
+}  // namespace freestand::study

@@ -1,0 +1,26 @@
+// What a study samples: each number that is no fixed one, and the motion, with the class that a sample's draw falls in.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "decision/shares.hpp"
+#include "study/study.hpp"
+
+namespace freestand::study {
+
+struct Sampled {
+  decision::Parameter parameter;
+  std::vector<std::string> streams;  // names of its draws, for Study::redrawn
+  // Class of a sample, by the uniform that its draw was made from: a pure function of its number, as the draw is. `motion`: which
+  // one it was shaken by. parameter.classes: a sample that has none, as the period of a record.
+  std::function<int(std::uint64_t sample, std::size_t motion)> class_of;
+};
+
+// Numbers of the model by their names in the study; motion.* by the entry that a sample takes; `motion`, where there are several
+// (`motions`: how many).
+std::vector<Sampled> sampled(const Study&, std::size_t motions);
+
+}  // namespace freestand::study

@@ -1,0 +1,220 @@
+#include "study/sensitivity.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numeric>
+#include <span>
+
+#include "fragility/groups.hpp"
+#include "io/samples_file.hpp"
+#include "parallel/progress.hpp"
+#include "parallel/schedule.hpp"
+#include "parallel/step_display.hpp"
+#include "study/answers.hpp"
+#include "study/evaluator.hpp"
+#include "study/known.hpp"
+#include "study/sampled.hpp"
+#include "study/swept_study.hpp"
+
+namespace freestand::study {
+namespace {
+
+constexpr std::int64_t rows_at_once = 8192, pairs_at_once = 1024;
+
+std::span<const double> row_of(const Table& table, std::size_t row) {
+  return std::span(table.values).subspan(row * table.columns.size(), table.columns.size());
+}
+
+// The groups of motions need no more of the options.
+fragility::Options group_options(const io::SampleReader& reader) {
+  fragility::Options options;
+  options.motion_group = reader.motion_group();
+  return options;
+}
+
+// A finished sweep, and how its samples are told apart.
+class Shares {
+ public:
+  Shares(const parallel::Communicator& world, const SensitivityOptions& options)
+      : world_(world),
+        options_(options),
+        reader_(samples_path(options.folder)),
+        study_(analysed_study(options.folder, reader_)),
+        motions_(group_options(reader_)),
+        groups_(motions_),
+        sampled_(sampled(study_, reader_.motion_names().size())),
+        answers_(study_.fragility, reader_.columns()) {
+    if (sampled_.empty())
+      throw Error(
+          fmt::format("{} samples nothing (every number is fixed, and there is one motion): give a number of the "
+                      "study as a distribution and sweep again",
+                      options.folder.string()));
+    if (options.pairs > reader_.rows())
+      throw Error(
+          fmt::format("--total {} is more than the {} samples of {} (each is a sample of the sweep with one "
+                      "parameter drawn again): ask for fewer, or sweep more",
+                      options.pairs, reader_.rows(), options.folder.string()));
+    refuse_other_draws();
+  }
+
+  Sensitivity operator()() {
+    Sensitivity found;
+    for (const Sampled& one : sampled_) found.parameters.push_back(one.parameter);
+    found.answers = answers_.answers();
+    found.confidence = options_.confidence;
+    found.pairs = options_.pairs;
+    decision::ShareTally first = first_order(found.parameters);
+    decision::TotalTally total(options_.pairs > 0 ? sampled_.size() : 0, found.answers, groups_);
+    if (options_.pairs > 0) compute_pairs(total);
+    world_.sum_in_place(first.words());
+    world_.sum_in_place(total.words());
+    if (!world_.is_root()) return {};
+    for (std::size_t a = 0; a < found.answers.size(); ++a) {
+      found.rows.push_back(first.row(a, options_.confidence));
+      found.why_empty.push_back(too_few(found.answers[a], found.rows[a]));
+      if (!found.why_empty[a].empty()) found.rows[a].share.clear();
+      found.totals.emplace_back();
+      if (options_.pairs > 0 && found.why_empty[a].empty())
+        for (std::size_t p = 0; p < sampled_.size(); ++p)
+          found.totals[a].push_back(total.share(p, a, options_.confidence));
+    }
+    return found;
+  }
+
+ private:
+  int group(std::size_t motion, std::uint64_t sample) const {
+    return groups_.of(motions_.group(static_cast<int>(motion), sample));
+  }
+
+  // The classes are those of the draws that this program makes; the samples must be made of them.
+  void refuse_other_draws() const {
+    const std::int64_t rows = std::min<std::int64_t>(reader_.rows(), 64);
+    for (const Quantity& quantity : quantities(study_.model)) {
+      if (is_fixed(quantity.value)) continue;
+      std::string column = quantity.name;
+      std::replace(column.begin(), column.end(), '.', '_');
+      const Table table = reader_.read(0, rows, {column});
+      const sampling::Stream stream(study_.plan(), quantity.name);
+      for (std::size_t i = 0; i < table.rows(); ++i)
+        if (quantile(quantity.value, stream(i)) != table.at(i, 0))
+          throw Error(
+              fmt::format("{}: {} of sample {} is {}, not the draw of its study (the samples were made by another "
+                          "version): sweep again",
+                          samples_path(options_.folder).string(), quantity.name, i, table.at(i, 0)),
+              Exit::data);
+    }
+  }
+
+  decision::ShareTally first_order(const std::vector<decision::Parameter>& parameters) const {
+    decision::ShareTally tally(parameters, answers_.answers(), groups_);
+    const io::BlockLayout layout{reader_.rows(), rows_at_once};
+    std::vector<std::string> names = answers_.columns();
+    names.emplace_back("motion");
+    parallel::StepDisplay display(options_.quiet || !world_.is_root());
+    std::vector<double> values;
+    std::vector<int> of_class(sampled_.size());
+    for (std::int64_t block = world_.rank(); block < layout.blocks(); block += world_.size()) {
+      const Table table = reader_.read(block * rows_at_once, layout.rows(block), names);
+      const Answers answers(study_.fragility, table.columns);
+      const std::size_t motion_column = column_index(table.columns, "motion");
+      for (std::size_t i = 0; i < table.rows(); ++i) {
+        const auto sample = static_cast<std::uint64_t>(block * rows_at_once) + i;
+        const auto motion = static_cast<std::size_t>(table.at(i, motion_column));
+        answers.read(row_of(table, i), values);
+        for (std::size_t p = 0; p < sampled_.size(); ++p) of_class[p] = sampled_[p].class_of(sample, motion);
+        tally.add(group(motion, sample), of_class, values);
+      }
+      display.show("reading blocks of samples", static_cast<std::size_t>(block + 1),
+                   static_cast<std::size_t>(layout.blocks()));
+    }
+    return tally;
+  }
+
+  // Every parameter times every stretch of samples is one piece of work.
+  void compute_pairs(decision::TotalTally& total) const {
+    const Study study = swept_study(world_, options_.folder, reader_);
+    const Evaluator whole(study, load_motions(study));
+    std::vector<Evaluator> evaluators;
+    for (const Sampled& one : sampled_) {
+      Study other = study;
+      other.redrawn = one.streams;
+      evaluators.push_back(whole.drawing(other));
+    }
+    const io::BlockLayout layout{options_.pairs, pairs_at_once};
+    std::vector<std::int64_t> todo(static_cast<std::size_t>(layout.blocks()) * sampled_.size());
+    std::iota(todo.begin(), todo.end(), 0);
+    std::optional<parallel::Progress> progress;
+    if (world_.is_root())
+      progress.emplace(options_.pairs * static_cast<std::int64_t>(sampled_.size()), 0,
+                       parallel::Progress::Settings{.quiet = options_.quiet});
+    const auto compute = [&](std::int64_t piece, const parallel::Beat&) {
+      const auto p = static_cast<std::size_t>(piece / layout.blocks());
+      return add_pairs(p, evaluators[p], piece % layout.blocks(), layout, total);
+    };
+    if (!parallel::for_each_block(world_, todo, compute, progress ? &*progress : nullptr))
+      throw Error("stopped on request (nothing of the total shares is kept): start again", Exit::resumable);
+  }
+
+  parallel::Counts add_pairs(std::size_t p, const Evaluator& evaluator, std::int64_t block,
+                             const io::BlockLayout& layout, decision::TotalTally& total) const {
+    const std::int64_t first = block * pairs_at_once, count = layout.rows(block);
+    const Table table = reader_.read(first, count);
+    Table again{evaluator.columns(), {}};
+    parallel::Counts counts;
+    for (const Outcome outcome :
+         evaluator.append(static_cast<std::uint64_t>(first), static_cast<std::size_t>(count), again.values)) {
+      ++counts.samples;
+      counts.overturned += outcome == Outcome::overturned;
+      counts.failed += outcome > Outcome::overturned;
+    }
+    const Answers answers_again(study_.fragility, again.columns);
+    const std::size_t motion = column_index(table.columns, "motion"),
+                      motion_again = column_index(again.columns, "motion");
+    std::vector<double> value, value_again;
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+      const std::uint64_t sample = static_cast<std::uint64_t>(first) + i;
+      answers_.read(row_of(table, i), value);
+      answers_again.read(row_of(again, i), value_again);
+      total.add(p, group(static_cast<std::size_t>(table.at(i, motion)), sample),
+                group(static_cast<std::size_t>(again.at(i, motion_again)), sample), value, value_again);
+    }
+    return counts;
+  }
+
+  // Shares of what hardly ever varies would be shares of chance: as many samples as a bin needs must have each answer.
+  std::string too_few(const decision::Answer& answer, const decision::ShareRow& row) const {
+    const double least = study_.fragility.minimum_samples, n = static_cast<double>(row.samples);
+    if (!answer.yes_or_no)
+      return n < least ? fmt::format("{:.0f} samples moved and stood, fewer than {:.0f}", n, least) : "";
+    const double yes = row.samples > 0 ? std::round(row.mean * n) : 0;
+    if (yes < least) return fmt::format("it happens in {:.0f} of {:.0f} samples, fewer than {:.0f}", yes, n, least);
+    if (n - yes < least)
+      return fmt::format("it does not happen in {:.0f} of {:.0f} samples, fewer than {:.0f}", n - yes, n, least);
+    return "";
+  }
+
+  const parallel::Communicator& world_;
+  const SensitivityOptions& options_;
+  const io::SampleReader reader_;
+  const Study study_;
+  const fragility::MotionGroups motions_;
+  const decision::LeaveOutGroups groups_;
+  const std::vector<Sampled> sampled_;
+  const Answers answers_;
+};
+
+}  // namespace
+
+Sensitivity sensitivity(const parallel::Communicator& world, const SensitivityOptions& options) {
+  world.on_root([&] { Shares(world, options); });  // so that what is wrong is told once
+  return Shares(world, options)();
+}
+
+std::string title(const decision::Answer& answer) {
+  if (!answer.yes_or_no) return "ln " + answer.edp;
+  if (std::isnan(answer.capacity)) return answer.edp;
+  return fmt::format("{} > {}{}", answer.edp, answer.capacity, answer.unit == "1" ? "" : " " + answer.unit);
+}
+
+}  // namespace freestand::study

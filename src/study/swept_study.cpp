@@ -1,0 +1,40 @@
+#include "study/swept_study.hpp"
+
+#include <fmt/format.h>
+
+#include <freestand/error.hpp>
+
+#include "io/fragility_file.hpp"
+#include "io/h5.hpp"
+#include "study/known.hpp"
+
+namespace freestand::study {
+
+Study analysed_study(const std::filesystem::path& folder, const io::SampleReader& samples) {
+  Study study = parse_stored(samples.provenance().study, samples_path(folder));
+  const std::filesystem::path fitted = folder / "fragility.h5";
+  if (!std::filesystem::exists(fitted)) return study;
+  const io::Provenance provenance = io::read_provenance(io::h5::File::open(fitted).root(), io::fragility_format);
+  study.fragility = parse_stored(provenance.study, fitted).fragility;
+  return study;
+}
+
+Study swept_study(const parallel::Communicator& world, const std::filesystem::path& folder,
+                  const io::SampleReader& samples) {
+  const std::filesystem::path file = study_path(folder);
+  const auto read = [&] {
+    Study study = read_study(file, registries());
+    const Study swept = parse_stored(samples.provenance().study, samples_path(folder));
+    study.fragility = swept.fragility;  // which may be edited; the samples do not depend on it but for the intensity
+    if (fingerprint(study) != fingerprint(swept))
+      throw Error(
+          fmt::format("{} is not the study that was swept (it was edited): undo the changes outside of "
+                      "`fragility:`",
+                      file.string()));
+    return study;
+  };
+  world.on_root([&] { read(); });
+  return read();
+}
+
+}  // namespace freestand::study

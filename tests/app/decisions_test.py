@@ -1,0 +1,106 @@
+"""`risk` and `sensitivity` on a real sweep, and the mistakes that their users make."""
+
+import csv
+import json
+import unittest
+
+from support import InFolder, h5py, study_text
+
+HAZARD = "pga_g,annual_rate\n0.02,0.5\n0.1,0.06\n0.3,0.008\n1,3e-4\n3,1e-6\n"
+STUDY = study_text(samples=3000).replace("im: report", "im: pga_g").replace("axes: [friction.mu_k], ", "")
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+class Risk(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "out"
+        self.succeed(["run", self.write("study.yaml", STUDY), "-o", self.out], 2)
+        self.hazard = self.write("hazard.csv", HAZARD)
+
+    def test_rates_of_every_demand_and_capacity(self):
+        done = self.succeed(["risk", self.out, "--hazard", self.hazard, "-o", self.folder / "risk", "--years", 50, 475])
+        self.assertIn("in 50 years", done.stdout)
+        found = json.loads((self.folder / "risk/risk.json").read_text())
+        table = rows(self.folder / "risk/risk.csv")
+        with h5py.File(self.out / "fragility.h5") as file:
+            titles = [(name, c) for name in file["edp"] for c in file[f"edp/{name}/capacity"][()]]
+        self.assertEqual(len(found["demands"]), len(titles))
+        self.assertEqual(len(table), len(titles))
+        told = [row for row in found["demands"] if row["annual_rate"]]
+        self.assertTrue(told)
+        for row in told:
+            self.assertLess(row["lower"], row["annual_rate"])
+            self.assertGreater(row["upper"], row["annual_rate"])
+            self.assertAlmostEqual(sum(row["share_by_im"]), 1, delta=1e-9)
+            self.assertEqual([one["years"] for one in row["in_years"]], [50, 475])
+        delta = [row["annual_rate"] for row in told if row["edp"] == "delta"]
+        self.assertEqual(delta, sorted(delta, reverse=True))
+        self.assertIn("probability_475y", table[0])
+        # Nothing is replaced unasked, nor the sweep at all.
+        self.fail_with(2, ["risk", self.out, "--hazard", self.hazard, "-o", self.folder / "risk"], "--overwrite")
+        self.succeed(["risk", self.out, "--hazard", self.hazard, "-o", self.folder / "risk", "--overwrite"])
+        self.fail_with(2, ["risk", self.out, "--hazard", self.hazard, "-o", self.out, "--overwrite"], "is the sweep itself")
+        self.assertTrue((self.out / "samples.h5").exists())
+
+    def test_mistakes_are_told_with_file_and_line(self):
+        def refused(code, text, *words):
+            self.fail_with(code, ["risk", self.out, "--hazard", self.write("bad.csv", text), "-o", self.folder / "no"], *words)
+            self.assertFalse((self.folder / "no").exists())
+
+        refused(3, HAZARD.replace("0.3,0.008", "0.3,0.08"), "bad.csv:4", "annual_rate rises from 0.06 to 0.08")
+        refused(3, HAZARD.replace("3e-4", "0"), "bad.csv:5", "not positive")
+        refused(3, HAZARD.replace("pga_g", "pga"), "bad.csv:1", "pga is unknown", "pga_g")
+        refused(2, HAZARD.replace("pga_g", "pgv_mps"), "bad.csv:1: the curve is over pgv_mps", "was fitted over pga_g")
+        refused(2, "pga_g,annual_rate\n20,0.5\n30,0.1\n", "share no intensity")
+        self.fail_with(2, ["risk", self.out, "--hazard", self.folder / "none.csv", "-o", self.folder / "no"], "none.csv")
+        self.fail_with(2, ["risk", self.folder, "--hazard", self.hazard, "-o", self.folder / "no"], "has no fragility.h5")
+        self.fail_with(2, ["risk", self.out, "--hazard", self.hazard, "-o", self.folder / "no", "--years", -1], "--years -1")
+
+
+class Sensitivity(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "out"
+        self.succeed(["run", self.write("study.yaml", STUDY), "-o", self.out], 2)
+
+    def test_the_same_numbers_on_any_number_of_ranks(self):
+        done = self.succeed(["sensitivity", self.out, "--total", 256, "-o", self.folder / "one"])
+        self.assertIn("ln delta", done.stdout)
+        self.succeed(["sensitivity", self.out, "--total", 256, "-o", self.folder / "three"], 3)
+        for name in ("sensitivity.json", "sensitivity.csv"):
+            self.assertEqual((self.folder / "one" / name).read_bytes(), (self.folder / "three" / name).read_bytes())
+        found = json.loads((self.folder / "one/sensitivity.json").read_text())
+        names = [one["name"] for one in found["parameters"]]
+        self.assertEqual(names, ["block.width_m", "friction.mu_k", "motion.peak_acceleration_g", "motion.period_s", "motion"])
+        ln_delta = found["answers"][0]
+        self.assertEqual((ln_delta["edp"], ln_delta["kind"]), ("delta", "ln_demand"))
+        shares = {name: one["share"]["value"] for name, one in ln_delta["shares"].items()}
+        # Friction and peak acceleration make the slip; the width does not enter it while the block does not rock.
+        self.assertGreater(min(shares["friction.mu_k"], shares["motion.peak_acceleration_g"]), 0.05)
+        self.assertLess(shares["block.width_m"], 0.05)
+        for one in ln_delta["shares"].values():
+            self.assertGreater(one["total"]["value"], one["share"]["value"] - 4 * (one["total"]["se"] + one["share"]["se"]))
+
+    def test_mistakes(self):
+        self.fail_with(2, ["sensitivity", self.out, "--total", 99999], "--total 99999 is more than the 3000 samples")
+        self.fail_with(3, ["sensitivity", self.folder], "samples.h5")
+        (self.out / "sensitivity.csv").write_text("mine\n")
+        self.fail_with(2, ["sensitivity", self.out], "sensitivity.csv", "did not write")
+        self.assertEqual((self.out / "sensitivity.csv").read_text(), "mine\n")
+        path = self.out / "study.yaml"
+        path.write_text(path.read_text().replace("dispersion: 0.4", "dispersion: 0.5"))
+        self.fail_with(2, ["sensitivity", self.out, "--total", 64, "-o", self.folder / "x"], "is not the study that was swept")
+        fixed = STUDY.replace("{uniform: [0.5, 0.9]}", "0.7").replace("{lognormal: {median: 0.25, dispersion: 0.4}}", "0.25")
+        fixed = fixed.replace("pulse: [A, B, C1]", "pulse: A").replace("{uniform: [0.3, 1.5]}", "0.8").replace("{uniform: [0.1, 2]}", "0.7")
+        fixed = fixed.replace("samples: 3000", "samples: 40").replace("bins: {count: 5}", "bins: {edges: [0.1, 2]}")
+        self.succeed(["run", self.write("fixed.yaml", fixed), "-o", self.folder / "fixed"])
+        self.fail_with(2, ["sensitivity", self.folder / "fixed"], "samples nothing")
+
+
+if __name__ == "__main__":
+    unittest.main()

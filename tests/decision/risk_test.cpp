@@ -1,0 +1,181 @@
+// Rates of whole fragility results: which one is recommended, what is refused, and whether their bands hold the truth.
+#include "decision/risk.hpp"
+
+#include <gmock/gmock.h>
+#include <gsl/gsl_cdf.h>
+
+#include <cmath>
+#include <freestand/error.hpp>
+
+#include "base/random.hpp"
+#include "decision/annual_rate.hpp"
+#include "fragility/fit.hpp"
+
+namespace freestand::decision {
+namespace {
+
+using testing::HasSubstr;
+
+double uniform(std::uint64_t seed, std::uint64_t counter, std::string_view stream) {
+  return random::uniform(seed, counter, random::stable_hash(stream));
+}
+double normal(std::uint64_t seed, std::uint64_t counter, std::string_view stream) {
+  return gsl_cdf_ugaussian_Pinv(uniform(seed, counter, stream));
+}
+
+HazardCurve power_law(double k0, double k, double first, double last) {
+  HazardCurve curve{"pga_g", 0, {}, {}};
+  for (int i = 0; i < 8; ++i) {
+    curve.im.push_back(first * std::pow(last / first, i / 7.0));
+    curve.annual_rate.push_back(k0 * std::pow(curve.im.back(), -k));
+  }
+  return curve;
+}
+
+// Records of which each overturns at its own intensity: ln of it is normal with `between` among records, and `within` among the
+// samples of one. A share `floor` overturns at whatever intensity, so that the curve is no lognormal where it is not 0.
+struct Sweep {
+  int records = 40, per_record = 25;
+  double median = 0.6, between = 0.35, within = 0.25, floor = 0, least = 0.05, most = 3;
+  double dispersion() const { return std::hypot(between, within); }
+
+  fragility::Result fit(std::uint64_t seed, int resamples) const {
+    fragility::Options options;
+    options.im_name = "pga_g";
+    options.im_unit = "g";
+    for (int i = 0; i <= 10; ++i) options.im_edge.push_back(least * std::pow(most / least, i / 10.0));
+    fragility::EdpOptions edp;
+    edp.name = "overturned";
+    edp.binary = true;
+    edp.censored = false;
+    options.edps = {edp};
+    for (int r = 0; r < records; ++r) options.motion_group.push_back(r);
+    options.resamples = resamples;
+    options.confidence = 0.9;
+    fragility::Tally tally(options);
+    for (int r = 0, i = 0; r < records; ++r) {
+      const double own = median * std::exp(between * normal(seed, static_cast<std::uint64_t>(r), "record"));
+      for (int k = 0; k < per_record; ++k, ++i) {
+        const auto at = static_cast<std::uint64_t>(i);
+        const double im = least * std::pow(most / least, uniform(seed, at, "im"));
+        const bool over =
+            im > own * std::exp(within * normal(seed, at, "sample")) || uniform(seed, at, "floor") < floor;
+        const double value = over;
+        tally.add({at, im, r, over ? Outcome::overturned : Outcome::moved, {&value, 1}, {}});
+      }
+    }
+    return fragility::fit(tally);
+  }
+};
+
+TEST(Risk, BandsHoldTheTruthWhereRecordsAreShared) {
+  const Sweep sweep;
+  const double k = 2.5, k0 = 1e-3;
+  const HazardCurve hazard = power_law(k0, k, 1e-3, 50);
+  const double truth = k0 * std::pow(sweep.median, -k) * std::exp(0.5 * std::pow(k * sweep.dispersion(), 2));
+  int by_function = 0, by_counts = 0;
+  constexpr int repeats = 250;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    const Risk found = risk(sweep.fit(static_cast<std::uint64_t>(repeat + 1), 200), hazard);
+    const auto holds = [&](const Rate& rate) { return rate.lower <= truth && truth <= rate.upper; };
+    by_function += holds(found.rows[0].by_function);
+    by_counts += holds(found.rows[0].by_counts);
+  }
+  RecordProperty("coverage_by_function", by_function / static_cast<double>(repeats));
+  RecordProperty("coverage_by_counts", by_counts / static_cast<double>(repeats));
+  // 250 repeats know a coverage of 0.90 to 0.019.
+  EXPECT_NEAR(by_function / static_cast<double>(repeats), 0.90, 0.05);
+  EXPECT_GT(by_counts / static_cast<double>(repeats), 0.80);
+}
+
+TEST(Risk, AnAdequateCurveIsRecommendedAndAgreesWithTheCounts) {
+  Sweep sweep;
+  sweep.records = 200;
+  const Risk found = risk(sweep.fit(3, 200), power_law(1e-3, 2, 0.01, 20));
+  const RiskRow& row = found.rows.at(0);
+  EXPECT_EQ(row.recommended, By::function);
+  EXPECT_THAT(row.why, HasSubstr("adequate"));
+  EXPECT_NEAR(row.by_counts.value / row.by_function.value, 1, 0.15);
+  double sum = 0;
+  for (const double share : row.share) sum += share;
+  EXPECT_NEAR(sum, 1, 1e-9);
+  EXPECT_EQ(row.share.size() + 1, found.edge.size());
+  EXPECT_TRUE(std::isnan(row.capacity));
+  EXPECT_EQ(title(row), "overturned");
+  // Half of the rate comes from above the intensity that the shares say.
+  double below = 0;
+  for (std::size_t i = 0; found.edge[i + 1] < row.median_im; ++i) below += row.share[i];
+  EXPECT_LT(below, 0.5);
+}
+
+TEST(Risk, ACurveThatMissesTheCountsIsNot) {
+  Sweep sweep;
+  sweep.records = 200;
+  sweep.per_record = 50;
+  sweep.floor = 0.3;
+  const RiskRow row = risk(sweep.fit(3, 200), power_law(1e-3, 2, 0.06, 20)).rows.at(0);
+  EXPECT_EQ(row.recommended, By::counts);
+  EXPECT_THAT(row.why, HasSubstr("off the counted shares"));
+  // A floor of 0.3 and 0.7 of the lognormal.
+  const HazardCurve hazard = power_law(1e-3, 2, 0.06, 20);
+  const double exact = 0.3 * hazard.rate(0.06) + 0.7 * annual_rate(hazard, {sweep.median, sweep.dispersion()});
+  EXPECT_NEAR(row.rate().value / exact, 1, 0.1);
+}
+
+TEST(Risk, WhatComesFromBeyondTheSweepIsWarnedOfOrRefused) {
+  Sweep sweep;
+  sweep.records = 200;
+  sweep.most = 0.8;
+  const fragility::Result result = sweep.fit(3, 100);
+  // By parts, the rate of a power law from above x is rate(x) Phi(z) + whole (1 - Phi(z + k d)), z = ln(x/median)/d.
+  const HazardCurve flat = power_law(1e-3, 0.8, 0.01, 30), steep = power_law(1e-3, 6, 0.01, 30),
+                    middle = power_law(1e-3, 2, 0.01, 30);
+  const auto row = [&](const HazardCurve& hazard) { return risk(result, hazard).rows.at(0); };
+  const auto& f = result.overturning;
+  for (const auto& [hazard, k] : {std::pair(flat, 0.8), std::pair(steep, 6.0), std::pair(middle, 2.0)}) {
+    const double whole = 1e-3 * std::pow(f.median, -k) * std::exp(0.5 * std::pow(k * f.dispersion, 2));
+    const auto above = [&, slope = k](double x) {
+      const double z = std::log(x / f.median) / f.dispersion;
+      return 1e-3 * std::pow(x, -slope) * gsl_cdf_ugaussian_P(z) / whole +
+             gsl_cdf_ugaussian_Q(z + slope * f.dispersion);
+    };
+    EXPECT_NEAR(row(hazard).outside_sweep, 1 - above(f.im_least) + above(f.im_most), 0.01);
+  }
+  EXPECT_THAT(row(flat).refused, HasSubstr("outside of the sweep"));
+  EXPECT_TRUE(row(flat).share.empty());
+  EXPECT_EQ(row(middle).refused, "");
+  EXPECT_THAT(risk(result, middle).warnings,
+              testing::Contains(HasSubstr("extrapolated beyond the sweep: overturned (")));
+  EXPECT_THAT(risk(result, steep).warnings, testing::Not(testing::Contains(HasSubstr("extrapolated"))));
+}
+
+TEST(Risk, WhatComesFromBeyondTheHazardCurveIsWarnedOfOrRefused) {
+  Sweep sweep;
+  sweep.records = 200;
+  const fragility::Result result = sweep.fit(3, 100);
+  const RiskRow short_above = risk(result, power_law(1e-3, 2, 0.01, 0.4)).rows.at(0);
+  EXPECT_THAT(short_above.refused, HasSubstr("outside of the hazard curve"));
+  const RiskRow late = risk(result, power_law(1e-3, 3, 0.35, 30)).rows.at(0);
+  const double whole = risk(result, power_law(1e-3, 3, 0.001, 30)).rows.at(0).by_function.value;
+  EXPECT_NEAR(late.outside_hazard, 1 - late.by_function.value / whole, 1e-3);
+  EXPECT_GT(late.outside_hazard, outside_to_warn_of);
+}
+
+TEST(Risk, NothingCountedIsAZeroWithItsLimit) {
+  Sweep sweep;
+  sweep.median = 1e6;
+  const HazardCurve hazard = power_law(1e-3, 2, 0.01, 20);
+  const Risk found = risk(sweep.fit(3, 100), hazard);
+  const RiskRow& row = found.rows.at(0);
+  EXPECT_EQ(row.recommended, By::counts);
+  EXPECT_EQ(row.rate().value, 0);
+  EXPECT_EQ(row.rate().lower, 0);
+  EXPECT_GT(row.rate().upper, 0);
+  EXPECT_LT(row.rate().upper, hazard.rate(0.05));
+  EXPECT_THAT(found.warnings, testing::Contains(HasSubstr("no sample exceeds it")));
+}
+
+TEST(Risk, NoIntensityInCommonIsRefused) { EXPECT_THROW(risk(Sweep{}.fit(3, 50), power_law(1e-3, 2, 10, 20)), Error); }
+
+}  // namespace
+}  // namespace freestand::decision

@@ -1,0 +1,146 @@
+#!/usr/bin/python3
+"""Pages of decisions: several designs side by side, annual risk, shares of variance."""
+import html
+import pathlib
+import tempfile
+import unittest
+
+import support
+
+import make_decisions
+import numpy as np
+from freestand_post import designs, pictures, reading
+from freestand_post.command import read
+from freestand_post.report import page
+
+STUDY = """name: statue
+seed: 1
+block: {{width_m: {width}, height_m: 1.8, mass_kg: 200}}
+friction: {{mu_k: {mu}}}
+{chain}motions:
+  - records: "records/*.AT2"
+    scale_to: {{pta_g: {{uniform: [0.1, 2]}}}}
+"""
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="freestand-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def design(self, name, median, width=0.6, mu=0.3, chain="", **more):
+        study = STUDY.format(width=width, mu=mu, chain=chain)
+        return make_decisions.make_design(support.sweep_copy(self.folder / name), study, median, **more)
+
+    def sweeps(self, *folders):
+        return designs.compare([reading.read_sweep(folder) for folder in folders])
+
+
+class Labels(InFolder):
+    def test_designs_are_called_by_what_their_studies_differ_in(self):
+        found = self.sweeps(self.design("a", 2.0), self.design("b", 3.0, width=0.9))
+        self.assertEqual(found.labels, ["width 0.6\u00a0m", "width 0.9\u00a0m"])
+        self.assertEqual(found.differing, [("block.width_m", ["0.6", "0.9"])])
+
+    def test_distributions_and_several_keys(self):
+        found = self.sweeps(self.design("a", 2.0), self.design("b", 3.0, width="{uniform: [0.5, 0.9]}", mu="{lognormal: {median: 0.2, dispersion: 0.3}}"))
+        self.assertEqual(found.labels[1], "width 0.5 to 0.9\u00a0m, friction coefficient μk 0.2 (dispersion 0.3)")
+
+    def test_what_one_has_and_the_other_has_not_is_one_word(self):
+        chain = "chain: {slack_m: 0.02, stiffness_npm: 4e5, strength_n: 2700}\n"
+        found = self.sweeps(self.design("a", 2.0), self.design("b", 3.0, chain=chain))
+        self.assertEqual(found.labels, ["without chain", "with chain"])
+
+    def test_the_same_study_goes_by_its_folder(self):
+        found = self.sweeps(self.design("a", 2.0), self.design("b", 2.0))
+        self.assertEqual((found.labels, found.differing), (["a", "b"], []))
+
+
+class Differences(InFolder):
+    def test_pairs_see_a_difference_that_independent_samples_do_not(self):
+        """Both medians scatter by 10 % with the motions, but by 1 % against each other: 5 % are beyond chance in pairs alone."""
+        first = self.design("a", 2.0)
+        paired = self.sweeps(first, self.design("b", 2.1, width=0.9, of_own=1))
+        self.assertTrue(paired.paired)
+        row = paired.rows[0]
+        self.assertEqual((row.what, designs.verdict(row.ratio[1])), ("overturning", "yes"))
+        value, low, high = row.ratio[1]
+        self.assertAlmostEqual(value, 1.05, delta=1e-9)
+        self.assertAlmostEqual(np.log(high / low), 2 * 1.96 * 0.01 * np.sqrt(2), delta=0.01)
+        other = self.sweeps(first, self.design("c", 2.1, width=0.9, of_own=1, seed=2))
+        self.assertFalse(other.paired)
+        self.assertEqual(designs.verdict(other.rows[0].ratio[1]), "no")
+        value, low, high = other.rows[0].ratio[1]
+        self.assertAlmostEqual(np.log(high / low), 2 * 1.96 * 0.1 * np.sqrt(2), delta=0.08)
+
+    def test_every_common_capacity_has_its_row(self):
+        found = self.sweeps(self.design("a", 2.0), self.design("b", 3.0, width=0.9))
+        self.assertEqual(len([row for row in found.rows if row.what.startswith("dimensionless")]), len(found.sweeps[0].edps[0].capacity))
+        self.assertTrue(all(abs(row.ratio[1][0] - 1.5) < 1e-9 for row in found.rows))
+
+
+class Pages(InFolder):
+    def text(self, *folders):
+        return html.unescape(page(read(folders)))
+
+    def test_several_sweeps_stand_on_one_page_with_their_risks(self):
+        folders = [self.design("a", 2.0), self.design("b", 3.0, width=0.9), make_decisions.make_risk(self.folder / "ra"),
+                   make_decisions.make_risk(self.folder / "rb")]
+        text = self.text(*folders)
+        for words in ("width 0.6\u00a0m", "width 0.9\u00a0m", "1.50 times as large", "block.width_m", "Annual risk: refrigerator (out)"):
+            self.assertIn(words, text)
+        self.assertEqual(text.count("<svg"), 3)
+        self.assertNotIn("nan", text.split("<body>")[1].split("<svg")[0])
+
+    def test_other_intensities_do_not_fit_into_one_axis(self):
+        import h5py
+        other = self.design("b", 3.0)
+        with h5py.File(other / "fragility.h5", "a") as root:
+            root.attrs["im"] = "pga_g"
+        done = support.run("report", self.design("a", 2.0), other)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("do not fit into one axis", done.stderr)
+
+    def test_a_sweep_shows_its_risk_and_its_shares(self):
+        sweep = make_decisions.make_sensitivity(support.sweep_copy(self.folder / "a"))
+        text = self.text(sweep, make_decisions.make_risk(self.folder / "risk"))
+        for words in ("Annual risk", "3.1×10⁻⁴", "71 % of the rate would come from", "What the scatter is owed to", "0.45", "fewer than 30",
+                      "Peak acceleration explains 45 % of the scatter of the largest slip"):
+            self.assertIn(words, text)
+
+    def test_a_risk_stands_alone(self):
+        text = self.text(make_decisions.make_risk(self.folder / "risk"))
+        self.assertIn("The chance that the specimen is overturned in 50 years is 1.5 %", text)
+
+    def test_shares_without_totals_have_no_points(self):
+        folder = self.folder / "only"
+        folder.mkdir()
+        text = self.text(make_decisions.make_sensitivity(folder, pairs=0))
+        self.assertNotIn("Open points", text)
+
+    def test_a_file_of_another_format_or_a_spoilt_one_is_told(self):
+        folder = make_decisions.make_risk(self.folder / "risk")
+        path = folder / "risk.json"
+        path.write_text(path.read_text().replace("freestand-risk/1", "freestand-risk/9"))
+        self.assertIn("freestand-risk/9", support.run("report", folder).stderr)
+        path.write_text(path.read_text().replace("freestand-risk/9", "freestand-risk/1").replace('"im_edge"', '"im_edges"'))
+        done = support.run("report", folder)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("lacks what a risk needs", done.stderr)
+
+
+class NoRate(InFolder):
+    def test_a_risk_without_any_rate_has_no_picture(self):
+        import json
+        folder = make_decisions.make_risk(self.folder / "risk")
+        found = json.loads((folder / "risk.json").read_text())
+        found["demands"] = [one for one in found["demands"] if one["refused"]]
+        (folder / "risk.json").write_text(json.dumps(found))
+        results = read([folder])
+        self.assertEqual([picture for result in results for picture in pictures.draw(result)], [])
+        self.assertIn("71 %", page(results))
+
+
+if __name__ == "__main__":
+    unittest.main()
