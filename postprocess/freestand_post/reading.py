@@ -69,8 +69,14 @@ class Sweep:
         return words.level(float(self.attributes.get("confidence", 0.95)))
 
     @property
+    def im_name(self):
+        """With its period, as the command line takes it: "sa_g:0.5"."""
+        period = self.summary.get("im_period_s")
+        return self.im if period is None else f"{self.im}:{period:g}"
+
+    @property
     def im_symbol(self):
-        return words.intensity(self.im, str(self.attributes.get("im_symbol", "")))
+        return words.intensity(self.im_name, str(self.attributes.get("im_symbol", "")))
 
     @property
     def view(self):
@@ -229,7 +235,7 @@ def _samples(path):
     """Draws, outcomes, motion names and which of them are records, of samples.h5; empty where the file is not there."""
     if not path.exists():
         return {}, np.zeros(0, int), [], np.zeros(0, int)
-    with _open(path, "freestand-samples/1") as root:
+    with _open(path, "freestand-samples/2") as root:
         if "samples" not in root or "outcome" not in root["samples"]:
             raise Problem(f"{path} has no /samples/outcome: it is incomplete; finish it with `freestand sweep --resume`")
         group = root["samples"]
@@ -273,7 +279,7 @@ def _read_sweep(folder):
     names = attributes.get("outcome_names", OUTCOMES)
     names = names.split() if isinstance(names, str) else names
     outcomes = dict(zip(names, np.atleast_1d(attributes.get("outcome_counts", [])).astype(int).tolist()))
-    draws, outcome, motions, is_record = _samples(folder / "samples.h5")
+    draws, outcome, motions, is_record = _samples(folder / summary.get("samples_in", "") / "samples.h5")
     return Sweep(folder, attributes, summary, outcomes or summary.get("outcomes", {}), str(attributes.get("im", "im")),
                  str(attributes.get("im_unit", "1")), edge, centre, _in_order(edps, summary), overturning, draws, outcome, motions,
                  is_record)

@@ -27,7 +27,8 @@ HAPPENINGS = {
     "connection_failed": "the connection fails",
     "wall_hit": "the block strikes the wall",
 }
-INTENSITIES = {"report": "PTA/(μg)\u00a0−\u00a01"}
+INTENSITIES = {"report": "PTA/(μg)\u00a0−\u00a01", "housner_m": "Housner's SI", "pga_over_g_tan_alpha": "PGA/(g\u00a0tan\u00a0α)",
+               "p_pgv_over_g_tan_alpha": "p\u00a0PGV/(g\u00a0tan\u00a0α)"}
 DRAWS = {
     "friction_mu": "friction coefficient μ",
     "friction_mu_k": "friction coefficient μk",
@@ -87,7 +88,10 @@ def happening(name):
 
 
 def intensity(name, symbol=""):
-    """Symbol of an intensity measure."""
+    """Symbol of an intensity measure: "pga_g", "sa_g:0.5"."""
+    name, _, period = name.partition(":")
+    if period:
+        return f"Sa({period}\u00a0s)"
     stem = split_unit(name)[0]
     return symbol or INTENSITIES.get(name) or (stem.upper() if len(stem) < 4 else stem.replace("_", " "))
 

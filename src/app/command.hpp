@@ -39,6 +39,8 @@ void add_fit(CLI::App& parser, Work& work);
 void add_simulate(CLI::App& parser, Work& work);
 void add_motion(CLI::App& parser, Work& work);
 void add_effects(CLI::App& parser, Work& work);
+void add_im(CLI::App& parser, Work& work);
+void add_edp(CLI::App& parser, Work& work);
 void add_compare(CLI::App& parser, Work& work);
 void add_diagnose(CLI::App& parser, Work& work);
 void add_add(CLI::App& parser, Work& work);

@@ -7,38 +7,79 @@
 
 #include "app/command.hpp"
 #include "app/times.hpp"
-#include "io/samples_file.hpp"
 
 namespace freestand::app {
-
 namespace {
 
-void tell(const study::FitSummary& summary, const std::string& folder) {
+struct Options {
+  std::string folder, into;
+  study::FragilityChanges changes;
+  bool overwrite = false, quiet = false, rank = false;
+};
+
+void tell(const study::FitSummary& summary, const Options& options) {
+  for (const std::string& note : summary.notes) fmt::print("{}\n", note);
+  fmt::print("{}", summary.ranking);
   const std::string by = summary.changed.empty()
                              ? "by the study as it was swept"
-                             : fmt::format("by {} of {}, changed since the sweep", fmt::join(summary.changed, ", "),
-                                           study::study_path(folder).string());
-  fmt::print("{} samples fitted in {}, {}; results in {}\n", summary.samples, short_duration(summary.wall_s), by,
-             folder);
+                             : fmt::format("by {} of {}{}, changed since the sweep", fmt::join(summary.changed, ", "),
+                                           study::study_path(options.folder).string(),
+                                           options.changes.any() ? " or of the command line" : "");
+  fmt::print("{} samples fitted over {} in {}, {}; results in {}\n", summary.samples, summary.intensity,
+             short_duration(summary.wall_s), by, options.into.empty() ? options.folder : options.into);
+}
+
+// Else a folder would be made for nothing.
+void check(const Options& options) {
+  const std::string& folder = options.folder;
+  const auto samples = study::samples_path(folder);
+  if (!std::filesystem::exists(samples) && std::filesystem::exists(std::filesystem::path(folder) / "fragility.h5"))
+    throw Error(fmt::format("{} holds a fit, and no samples (its summary.json says samples_in): name the folder of the "
+                            "sweep",
+                            folder),
+                Exit::data);
+  study::check_fit({.from = folder, .changes = options.changes});
+}
+
+Exit run(const Context& context, const Options& options) {
+  context.world.on_root([&] { check(options); });
+  const bool here = options.into.empty();
+  study::RunFolder into(context.world, here ? options.folder : options.into,
+                        here                ? io::Existing::resume
+                        : options.overwrite ? io::Existing::overwrite
+                                            : io::Existing::refuse,
+                        "start again", here ? std::vector<std::string>{} : std::vector{study::study_path("").string()});
+  const study::FitSummary summary = study::fit(context.world, into,
+                                               {.from = options.folder,
+                                                .changes = options.changes,
+                                                .command = context.command_line,
+                                                .quiet = options.quiet,
+                                                .whole_ranking = options.rank});
+  if (context.world.is_root() && !options.quiet) tell(summary, options);
+  return Exit::done;
 }
 
 }  // namespace
 
 void add_fit(CLI::App& parser, Work& work) {
-  auto folder = std::make_shared<std::string>();
-  auto quiet = std::make_shared<bool>(false);
-  CLI::App* verb = parser.add_subcommand("fit", "the second half of run: samples.h5 -> fragility.h5, tables, summary");
-  verb->add_option("folder", *folder, "folder of a sweep")->required();
-  verb->add_flag("--quiet", *quiet, "no progress");
-  verb->callback([folder, quiet, &work] {
-    work = [folder, quiet](const Context& context) {
-      context.world.on_root([&] { io::SampleReader{study::samples_path(*folder)}; });  // else no folder is made
-      study::RunFolder run_folder(context.world, *folder, io::Existing::resume, "start again");
-      const study::FitSummary summary = study::fit(context.world, run_folder, context.command_line, *quiet);
-      if (context.world.is_root() && !*quiet) tell(summary, *folder);
-      return Exit::done;
-    };
-  });
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = parser.add_subcommand(
+      "fit", "the second half of run: samples.h5 -> fragility.h5, tables, summary; over any intensity");
+  verb->add_option("folder", options->folder, "folder of a sweep")->required();
+  verb->add_option("--im", options->changes.im, "another intensity: pgv_mps, sa_g:0.5 (period in s); see freestand im");
+  verb->add_option("--bins", options->changes.bins,
+                   "other bins: 12 (as many samples in each), 0.1,0.2,0.5 (edges), \"{count: 12, spacing: log}\"");
+  verb->add_option("--edp", options->changes.edp, "other demands: peak_slip_m,overturned; see freestand edp")
+      ->delimiter(',');
+  verb->add_option("--capacities", options->changes.capacities, "other capacities: peak_slip_m=0.05,0.1; once a demand")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  auto* output = verb->add_option("-o,--output", options->into, "folder for the results; else that of the sweep");
+  verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder of -o")
+      ->needs(output);
+  verb->add_flag("--rank", options->rank, "print the whole ranking of the intensities, as ranking.csv holds it");
+  verb->add_flag("--quiet", options->quiet, "no progress");
+  verb->callback([options, &work] { work = [options](const Context& context) { return run(context, *options); }; });
 }
 
 }  // namespace freestand::app

@@ -54,11 +54,15 @@ Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit
                                               : io::Existing::refuse,
                           "go on with --resume", {study::study_path("").string()});
   const study::SweepSummary summary = sweep(context, study, {options.quiet, context.command_line, with_fit}, folder);
-  double fit_s = 0;
-  if (with_fit) fit_s = study::fit(context.world, folder, context.command_line, options.quiet, &summary).wall_s;
+  study::FitSummary fitted;
+  if (with_fit)
+    fitted = study::fit(
+        context.world, folder,
+        {.from = options.folder, .command = context.command_line, .quiet = options.quiet, .sweep = &summary});
   if (context.world.is_root() && !options.quiet)
-    parallel::tell(
-        fmt::format("{}; results in {}\n", times_text(summary, fit_s, context.world.size()), options.folder), stdout);
+    parallel::tell(fmt::format("{}{}; results in {}\n", fitted.ranking,
+                               times_text(summary, fitted.wall_s, context.world.size()), options.folder),
+                   stdout);
   return Exit::done;
 }
 

@@ -5,14 +5,6 @@
 #include "base/registry.hpp"
 
 namespace freestand::intensity {
-namespace {
-
-double parameter_of(const Measure& measure, std::optional<double> given) {
-  return measure.parameter ? given.value_or(measure.parameter->fallback) : 0;
-}
-
-}  // namespace
-
 Register::Register(Measure measure) { Registered<Measure> kept{std::move(measure)}; }
 
 std::vector<const Measure*> all() {
@@ -30,13 +22,8 @@ const Measure& find(const std::string& name) {
   throw Error("no intensity measure \"" + name + "\" (the measures are " + known + "): name one of these");
 }
 
-double value(const Measure& measure, const motion::MotionSummary& summary, const Shaking& shaking,
-             const Specimen& specimen, std::optional<double> parameter) {
-  return measure.value({summary, shaking, specimen, parameter_of(measure, parameter)});
-}
-
-void add_needs(const Measure& measure, motion::SummaryRequest& request, std::optional<double> parameter) {
-  if (measure.needs) measure.needs(request, parameter_of(measure, parameter));
+double parameter_of(const Measure& measure, std::optional<double> given) {
+  return measure.parameter ? given.value_or(measure.parameter->fallback) : 0;
 }
 
 }  // namespace freestand::intensity

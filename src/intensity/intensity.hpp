@@ -4,11 +4,9 @@
 //       .name = "pga_g", .unit = "g", .symbol = "PGA", .summary = "...", .source = "...", .value = [](const Input& in)
 //       {...}}};
 //
-// and from that come the study's names, the columns of samples.h5 and the labels of the pictures.
+// and from that come the study's names, `freestand im`, the ranking and the labels of the pictures.
 #pragma once
 
-#include <freestand/floor_motion.hpp>
-#include <freestand/specimen.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,15 +15,15 @@
 
 namespace freestand::intensity {
 
-// What a measure may look at. `parameter` holds the declared default where the study gives none.
+// What a measure may look at: the sample's motion at unit scale, and what the sample's row holds.
 struct Input {
-  const motion::MotionSummary& summary;  // of shaking.motion, unscaled
-  const Shaking& shaking;
-  const Specimen& specimen;
-  double parameter = 0;
+  const motion::MotionSummary& motion;
+  double scale = 1, stretch = 1;  // the floor's acceleration is scale * motion(t / stretch); stretch is 1 for records
+  double alpha_rad = 0, p_radps = 0, mu_k = 0;  // of the block: slenderness, frequency parameter, kinetic friction
+  double parameter = 0;                         // the declared default where the study gives none
 
   // Peaks of the floor as this sample feels it.
-  motion::MotionPeaks peaks() const { return motion::scaled(summary.peaks, shaking.scale, shaking.stretch); }
+  motion::MotionPeaks peaks() const { return motion::scaled(motion.peaks, scale, stretch); }
 };
 
 // The one number a measure may take, as the period of Sa(T).
@@ -41,9 +39,9 @@ struct Measure {
   std::string summary;  // one line
   std::string source;
   std::optional<Parameter> parameter = {};
-  void (*needs)(motion::SummaryRequest&, double parameter) = nullptr;  // what it reads of the summary besides the peaks
-  double (*value)(const Input&) = nullptr;
+  double (*value)(const Input&) = nullptr;  // undefined ones (no friction in PTA/(mu_k g) - 1) are +inf
   bool proportional = false;  // to the scale of the motion: a motion can be scaled to it
+  bool spectral = false;      // reads the spectrum
 };
 
 // The measure of that name, or throws Error that lists the names there are.
@@ -52,12 +50,8 @@ const Measure& find(const std::string& name);
 // All measures, sorted by name.
 std::vector<const Measure*> all();
 
-// Value for one sample. Undefined ones (no friction in PTA/(mu_k g) - 1) are +inf, never an exception.
-double value(const Measure& measure, const motion::MotionSummary& summary, const Shaking& shaking,
-             const Specimen& specimen, std::optional<double> parameter = {});
-
-// Adds to the request what the measure will ask of each motion's summary.
-void add_needs(const Measure& measure, motion::SummaryRequest& request, std::optional<double> parameter = {});
+// What the measure takes: the given number, or its default where none is given.
+double parameter_of(const Measure& measure, std::optional<double> given);
 
 // Puts a measure into the registry; used once in each measure's file.
 struct Register {

@@ -13,8 +13,7 @@ const Register p_pgv_over_g_tan_alpha{{
     .source = "dimensionless velocity of rocking blocks, as in Dimitrakopoulos & Paraskeva (2015)",
     .value =
         [](const Input& in) {
-          const Block& block = in.specimen.block;
-          return block.p_radps() * in.peaks().pgv_mps / (standard_gravity_mps2 * std::tan(block.alpha_rad()));
+          return in.p_radps * in.peaks().pgv_mps / (standard_gravity_mps2 * std::tan(in.alpha_rad));
         },
     .proportional = true,
 }};

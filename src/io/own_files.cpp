@@ -44,7 +44,7 @@ std::string beginning(const fs::path& path) {
 bool has_own_columns(const std::string& text) {
   const std::string_view header = std::string_view(text).substr(0, text.find('\n'));
   for (const std::string_view columns :
-       {"edp,unit,im", "edp,capacity,probability", "edp,unit,capacity,axis", "rotation_rate_radps,mode",
+       {"edp,unit,im", "edp,capacity,probability", "edp,unit,capacity,axis", "edp,rank,im", "rotation_rate_radps,mode",
         "id,width_m,height_m", "id,intensity,demand,capacity", "parameter,share,share_se",
         "annual_rate,annual_rate_lower"})
     if (header.find(columns) != std::string_view::npos) return true;

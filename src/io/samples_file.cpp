@@ -50,6 +50,46 @@ std::vector<std::int64_t> counted(std::size_t n) {
   return numbers;
 }
 
+template <class T>
+std::vector<T> whole_numbers(const std::vector<double>& values, const Column& column) {
+  std::vector<T> whole;
+  whole.reserve(values.size());
+  for (const double value : values) {
+    if (!(value >= std::numeric_limits<T>::min() && value <= std::numeric_limits<T>::max()) ||
+        value != std::floor(value))
+      throw Error(fmt::format("column {} cannot be stored ({} is no whole number of its range): report this",
+                              column.name, value),
+                  Exit::data);
+    whole.push_back(static_cast<T>(value));
+  }
+  return whole;
+}
+
+void lay_out(h5::Group& group, const MotionRows& motions) {
+  group.attribute("fingerprint", motions.fingerprint);
+  h5::Dataset motion = group.put("motion", counted(motions.names.size()));
+  motion.scale("motion").describe("", "number of the floor motion, the samples' column motion");
+  group.put("name", motions.names).attach(0, motion).describe("", "name of the floor motion");
+  group.put("group", motions.group)
+      .attach(0, motion)
+      .describe("1", "records whose samples are not independent have one number; -1: a family of pulses");
+  const std::vector<Column>& columns = motions.table.columns;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    std::vector<double> values;
+    for (std::size_t row = 0; row < motions.table.rows(); ++row) values.push_back(motions.table.at(row, c));
+    h5::Dataset dataset = columns[c].kind == ColumnKind::real
+                              ? group.put(columns[c].name, values)
+                              : group.put(columns[c].name, whole_numbers<std::int32_t>(values, columns[c]));
+    dataset.attach(0, motion).describe(columns[c].unit, columns[c].description);
+  }
+  h5::Dataset period = group.put("period_s", motions.sa_period_s);
+  period.scale("period_s").describe("s", "period of the oscillator");
+  group.put("sa_mps2", motions.sa_mps2, {motions.names.size(), motions.sa_period_s.size()})
+      .attach(0, motion)
+      .attach(1, period)
+      .describe("m/s2", "pseudo-spectral acceleration at scale 1, 5 % damping; of pulses with a period of 1 s");
+}
+
 void lay_out(h5::File& file, const SamplesHeader& header, std::int64_t rows) {
   h5::Group root = file.root();
   write_provenance(root, samples_format, header.provenance);
@@ -62,12 +102,7 @@ void lay_out(h5::File& file, const SamplesHeader& header, std::int64_t rows) {
     if (column.name == "outcome") describe_outcome(dataset);
   }
   h5::Group motions = root.make_group("motions");
-  h5::Dataset motion = motions.put("motion", counted(header.motion_names.size()));
-  motion.scale("motion").describe("", "number of the floor motion, the samples' column motion");
-  motions.put("name", header.motion_names).attach(0, motion).describe("", "name of the floor motion");
-  motions.put("group", header.motion_group)
-      .attach(0, motion)
-      .describe("1", "records whose samples are not independent have one number; -1: a family of pulses");
+  lay_out(motions, header.motions);
 }
 
 // Rows of consecutive blocks, row-major.
@@ -90,21 +125,6 @@ Slab read_slab(const BlockLayout& layout, std::size_t columns, std::int64_t firs
   return slab;
 }
 
-template <class T>
-std::vector<T> whole_numbers(const std::vector<double>& values, const Column& column) {
-  std::vector<T> whole;
-  whole.reserve(values.size());
-  for (const double value : values) {
-    if (!(value >= std::numeric_limits<T>::min() && value <= std::numeric_limits<T>::max()) ||
-        value != std::floor(value))
-      throw Error(fmt::format("column {} cannot be stored ({} is no whole number of its range): report this",
-                              column.name, value),
-                  Exit::data);
-    whole.push_back(static_cast<T>(value));
-  }
-  return whole;
-}
-
 void write_slab(h5::Group& samples, const std::vector<Column>& columns, const Slab& slab) {
   const std::size_t rows = slab.values.size() / columns.size();
   std::vector<double> values(rows);
@@ -117,6 +137,37 @@ void write_slab(h5::Group& samples, const std::vector<Column>& columns, const Sl
       dataset.write_rows(first, whole_numbers<std::int32_t>(values, columns[c]));
     if (columns[c].kind == ColumnKind::flag) dataset.write_rows(first, whole_numbers<std::uint8_t>(values, columns[c]));
   }
+}
+
+Column column_of(const std::string& name, const h5::Dataset& dataset) {
+  const auto text = [&](const char* key) { return dataset.has_attribute(key) ? dataset.text_attribute(key) : ""; };
+  return {name, text("unit"), text("description"), kind_of(dataset.type())};
+}
+
+MotionRows read_motions(const h5::Group& group) {
+  MotionRows motions;
+  motions.fingerprint = group.text_attribute("fingerprint");
+  motions.names = group.open_dataset("name").read_texts();
+  for (const double number : group.open_dataset("group").read()) motions.group.push_back(static_cast<int>(number));
+  motions.sa_period_s = group.open_dataset("period_s").read();
+  motions.sa_mps2 = group.open_dataset("sa_mps2").read();
+  std::vector<std::vector<double>> columns;
+  for (const std::string& name : group.names()) {
+    if (name == "motion" || name == "name" || name == "group" || name == "period_s" || name == "sa_mps2") continue;
+    const h5::Dataset dataset = group.open_dataset(name);
+    motions.table.columns.push_back(column_of(name, dataset));
+    columns.push_back(dataset.read());
+  }
+  const std::size_t count = motions.names.size();
+  const bool whole = motions.group.size() == count && motions.sa_mps2.size() == count * motions.sa_period_s.size() &&
+                     std::all_of(columns.begin(), columns.end(), [&](const auto& c) { return c.size() == count; });
+  if (!whole)
+    throw Error(fmt::format("{} cannot be used (the tables of its motions differ in length): run the sweep again",
+                            group.file_path()),
+                Exit::data);
+  for (std::size_t row = 0; row < count; ++row)
+    for (const std::vector<double>& column : columns) motions.table.values.push_back(column[row]);
+  return motions;
 }
 
 }  // namespace
@@ -151,12 +202,9 @@ SampleReader::SampleReader(const std::filesystem::path& path)
       rows_ = static_cast<std::int64_t>(dataset.dimensions().at(0));
       continue;
     }
-    const auto text = [&](const char* key) { return dataset.has_attribute(key) ? dataset.text_attribute(key) : ""; };
-    columns_.push_back({name, text("unit"), text("description"), kind_of(dataset.type())});
+    columns_.push_back(column_of(name, dataset));
   }
-  motion_names_ = root.open_group("motions").open_dataset("name").read_texts();
-  for (const double group : root.open_group("motions").open_dataset("group").read())
-    motion_group_.push_back(static_cast<int>(group));
+  motions_ = read_motions(root.open_group("motions"));
 }
 
 Table SampleReader::read(std::int64_t first, std::int64_t count) const {

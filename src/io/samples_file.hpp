@@ -1,9 +1,11 @@
 // samples.h5: one dataset per column, one row per sample.
 //
-// root attributes: provenance.hpp, format "freestand-samples/1". /samples/sample is the dimension scale 0..n-1;
+// root attributes: provenance.hpp, format "freestand-samples/2". /samples/sample is the dimension scale 0..n-1;
 // /samples/NAME [sample] is float64, int32 or uint8 by the column's kind, with attributes unit and description; outcome
 // carries flag_values and flag_meanings. /motions/name [motion], scale /motions/motion: names of the floor motions,
-// which the column `motion` points to.
+// which the column `motion` points to, and beside it [motion] what is kept of them at scale 1, with units;
+// /motions has an attribute fingerprint, of their contents; /motions/period_s is the scale of /motions/sa_mps2 [motion, period_s], spectral accelerations, 5 % damping. From these and
+// its row every intensity of a sample follows.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +20,22 @@
 
 namespace freestand::io {
 
-inline constexpr const char* samples_format = "freestand-samples/1";
+inline constexpr const char* samples_format = "freestand-samples/2";
+
+// What is kept of the floor motions.
+struct MotionRows {
+  std::vector<std::string> names;
+  std::vector<int> group;           // the group of a record, -1 a family of pulses
+  Table table;                      // one row a motion
+  std::vector<double> sa_period_s;  // increasing
+  std::vector<double> sa_mps2;      // [motion, period]
+  std::string fingerprint = {};     // of their contents
+};
 
 struct SamplesHeader {
   Provenance provenance;
   std::vector<Column> columns;
-  std::vector<std::string> motion_names;
-  std::vector<int> motion_group;  // one entry a motion: the group of a record, -1 a family of pulses
+  MotionRows motions;
 };
 
 // How samples lie in blocks: block i holds samples i * block_size up to the next block or the end.
@@ -52,8 +63,7 @@ class SampleReader {
 
   std::int64_t rows() const { return rows_; }
   const std::vector<Column>& columns() const { return columns_; }  // `sample` itself is not among them
-  const std::vector<std::string>& motion_names() const { return motion_names_; }
-  const std::vector<int>& motion_group() const { return motion_group_; }
+  const MotionRows& motions() const { return motions_; }
   const Provenance& provenance() const { return provenance_; }
 
   // Rows first .. first + count - 1, all columns or the named ones, in that order.
@@ -64,8 +74,7 @@ class SampleReader {
   std::shared_ptr<const h5::File> file_;
   Provenance provenance_;
   std::vector<Column> columns_;
-  std::vector<std::string> motion_names_;
-  std::vector<int> motion_group_;
+  MotionRows motions_;
   std::int64_t rows_ = 0;
 };
 

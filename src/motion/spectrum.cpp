@@ -45,17 +45,64 @@ double spectral_acceleration_mps2(const FloorMotion& motion, double period_s, do
   return 2 * pi / period_s * spectral_velocity_mps(motion, period_s, damping);
 }
 
-// Of a(t / s) the pseudo-velocity at period T is s times that of a(t) at period T / s.
-double housner_intensity_m(const FloorMotion& motion, double stretch) {
+double housner_intensity_m(const std::function<double(double)>& sa_mps2) {
   constexpr int steps = 120;
   constexpr double first = 0.1, last = 2.5, step = (last - first) / steps;
   double sum = 0;
   for (int i = 0; i <= steps; ++i) {
     const double period = first + step * i;
-    const double velocity = stretch * spectral_velocity_mps(motion, period / stretch);
+    const double velocity = sa_mps2(period) * period / (2 * pi);
     sum += i == 0 || i == steps ? velocity / 2 : velocity;
   }
   return sum * step;
+}
+
+double housner_intensity_m(const FloorMotion& motion) {
+  return housner_intensity_m([&](double period) { return spectral_acceleration_mps2(motion, period); });
+}
+
+std::vector<double> kept_periods_s() {
+  struct Stretch {
+    int per_second, first, end;  // periods first/per_second up to, without, end/per_second
+  };
+  std::vector<double> periods;
+  for (const auto& [per_second, first, end] :
+       {Stretch{400, 8, 40}, {200, 20, 60}, {100, 30, 100}, {50, 50, 100}, {20, 40, 100}, {10, 50, 101}})
+    for (int i = first; i < end; ++i) periods.push_back(static_cast<double>(i) / per_second);
+  return periods;
+}
+
+ResponseSpectrum response_spectrum(const FloorMotion& motion, std::vector<double> period_s) {
+  ResponseSpectrum spectrum{std::move(period_s), {}};
+  for (const double period : spectrum.period_s) spectrum.sa_mps2.push_back(spectral_acceleration_mps2(motion, period));
+  return spectrum;
+}
+
+bool ResponseSpectrum::holds(double period) const {
+  return std::binary_search(period_s.begin(), period_s.end(), period);
+}
+
+double ResponseSpectrum::at(double period) const {
+  const auto above = std::lower_bound(period_s.begin(), period_s.end(), period);
+  const auto i = static_cast<std::size_t>(above - period_s.begin());
+  if (above != period_s.end() && *above == period) return sa_mps2[i];
+  if (i == 0 || above == period_s.end())
+    throw Error(
+        fmt::format("no spectral acceleration at {} s (the table {}): choose a period within it", period,
+                    period_s.empty() ? std::string("is empty")
+                                     : fmt::format("reaches from {} to {} s", period_s.front(), period_s.back())),
+        Exit::data);
+  const std::size_t first = std::min(i < 2 ? 0 : i - 2, period_s.size() - std::min<std::size_t>(4, period_s.size()));
+  const std::size_t end = std::min(first + 4, period_s.size());
+  const double x = std::log(period);
+  double sum = 0;
+  for (std::size_t j = first; j < end; ++j) {
+    double weight = 1;
+    for (std::size_t k = first; k < end; ++k)
+      if (k != j) weight *= (x - std::log(period_s[k])) / (std::log(period_s[j]) - std::log(period_s[k]));
+    sum += weight * std::log(sa_mps2[j]);
+  }
+  return std::exp(sum);
 }
 
 }  // namespace freestand::motion

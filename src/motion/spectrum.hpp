@@ -2,6 +2,7 @@
 #pragma once
 
 #include <freestand/floor_motion.hpp>
+#include <functional>
 #include <vector>
 
 namespace freestand::motion {
@@ -23,8 +24,25 @@ double spectral_displacement_m(const FloorMotion& motion, double period_s, doubl
 double spectral_acceleration_mps2(const FloorMotion& motion, double period_s, double damping = 0.05);
 double spectral_velocity_mps(const FloorMotion& motion, double period_s, double damping = 0.05);
 
-// Housner's intensity [m]: integral of the pseudo-velocity over periods 0.1 to 2.5 s, 5 % damping (Housner 1952), of
-// motion(t / stretch); trapezoids of 0.02 s.
-double housner_intensity_m(const FloorMotion& motion, double stretch = 1);
+// Housner's intensity [m]: integral of the pseudo-velocity over periods 0.1 to 2.5 s, 5 % damping (Housner 1952);
+// trapezoids of 0.02 s. Of a motion, or of any spectrum Sa [m/s2] over periods [s].
+double housner_intensity_m(const FloorMotion& motion);
+double housner_intensity_m(const std::function<double(double)>& sa_mps2);
+
+// A response spectrum as a table, 5 % damping.
+struct ResponseSpectrum {
+  std::vector<double> period_s;  // increasing
+  std::vector<double> sa_mps2;   // one a period
+
+  // The ordinate of a period of the table, to the bit; between two of them interpolated: a cubic through the four
+  // neighbours in ln Sa over ln T. Throws Error outside the table.
+  double at(double period) const;
+  bool holds(double period) const;  // is it one of the table?
+};
+ResponseSpectrum response_spectrum(const FloorMotion& motion, std::vector<double> period_s);
+
+// The periods that are kept of every record, 0.02 to 10 s: every hundredth of a second from 0.02 to 1 s and more between
+// them below 0.3 s, every fiftieth up to 2 s, every twentieth up to 5 s, every tenth up to 10 s.
+std::vector<double> kept_periods_s();
 
 }  // namespace freestand::motion

@@ -1,37 +1,45 @@
-// What is costly about a motion, computed once and read by every sample that uses it.
+// What is costly about a motion, computed once and read by every sample that uses it. With its row every intensity of a
+// sample follows from it, without the motion.
 #pragma once
 
 #include <freestand/floor_motion.hpp>
+#include <limits>
+#include <memory>
 #include <vector>
 
 #include "motion/identify.hpp"
 #include "motion/peaks.hpp"
 #include "motion/pulse.hpp"
+#include "motion/spectrum.hpp"
 
 namespace freestand::motion {
-
-// What the samples will ask for. Peaks are always there.
-struct SummaryRequest {
-  bool pulse = false;  // identify the pulse of a record (needed by pulse_frequency_radps)
-  bool housner = false;
-  std::vector<double> sa_period_s = {};  // spectral accelerations, 5 % damping
-};
 
 // All of the motion as it stands: scale 1, stretch 1.
 struct MotionSummary {
   MotionPeaks peaks;
   bool is_pulse = false;
-  IdentifiedPulse pulse;            // of a unit pulse: itself, with period 1 s; of a record: the fit, where asked for
-  double housner_m = -1;            // negative: not asked for
-  std::vector<double> sa_period_s;  // increasing
-  std::vector<double> sa_mps2;      // one per period
+  IdentifiedPulse pulse;  // of a unit pulse: itself, with period 1 s; of a record: the fit, where asked for
+  double housner_m = std::numeric_limits<double>::quiet_NaN();  // of a record, with the spectrum
+  ResponseSpectrum spectrum;  // of a record: where asked for; of a unit pulse: fine enough to integrate it
+  std::shared_ptr<const FloorMotion> unit_pulse;  // null for records, and where a pulse's table will do
 };
 
+// Of a record: its peaks, and what else is asked for.
+struct SummaryRequest {
+  bool pulse = false;  // identify its pulse (needed by pulse_frequency_radps)
+  std::vector<double> sa_period_s =
+      {};  // spectrum at these periods, increasing, and Housner's intensity; empty: neither
+};
 MotionSummary summarize(const FloorMotion& record, const SummaryRequest& request = {});
 MotionSummary summarize(const Pulse& pulse);
 
+// Of motion(t / stretch), 5 % damping; stretch is 1 for records. The spectral acceleration of a pulse is that of its
+// closed form (null: of its table), of a record that of its spectrum. Throw Error where that was not asked for, or the period lies outside.
+double spectral_acceleration_mps2(const MotionSummary& summary, double period_s, double stretch);
+double housner_intensity_m(const MotionSummary& summary, double stretch);
+
 // w_p = 2 pi / T_p [rad/s] of Delta = U w_p^2 / PTA [KM05 5.7]: of the pulse itself, or of the pulse identified in the
 // record. nan when the record's pulse was not asked for or there is none.
-double pulse_frequency_radps(const MotionSummary& summary, const Shaking& shaking);
+double pulse_frequency_radps(const MotionSummary& summary, double stretch);
 
 }  // namespace freestand::motion

@@ -29,7 +29,7 @@ parallel::Words rows_of(const parallel::Communicator& world, const Study& study,
                         std::int64_t stretches, std::int64_t samples) {
   Study strict = study;
   strict.tolerance = tighter(study.tolerance);
-  const Evaluator tight(strict, plain.motions());
+  const Evaluator tight(strict, plain.motions(), plain.summaries());
   std::vector<double> values;
   for (std::int64_t i = world.rank(); i < stretches; i += world.size()) {
     const std::uint64_t sample = pick(study.seed, i, stretches, samples);

@@ -12,6 +12,7 @@
 #include "intensity/intensity.hpp"
 #include "study/bins.hpp"
 #include "study/damage_states.hpp"
+#include "study/intensities.hpp"
 #include "study/realise.hpp"
 
 namespace freestand::study {
@@ -121,7 +122,8 @@ fragility::Result analyse(const parallel::Communicator& world, const Study& stud
 }
 
 std::vector<std::string> analysed_columns(const FragilityPart& part) {
-  std::vector<std::string> names = {"im_" + part.im.name, "outcome", "motion"};
+  std::vector<std::string> names = SampleIntensity::columns();
+  names.insert(names.end(), {"outcome", "motion"});
   for (const std::string& edp : part.edp) names.push_back("edp_" + edp);
   for (const DamagePart& state : part.damage)
     for (const std::string& demand : state.demands) names.push_back("edp_" + demand);

@@ -26,7 +26,7 @@ fragility::Options fragility_options(const Study&, Table first, const std::vecto
 // The same before anything has responded: of `first` the draws and the intensity are read alone.
 fragility::Options laid_out(const Study&, const Table& first, const std::vector<int>& motion_group);
 
-// Rows of one block.
+// Rows of one block, with the column im_NAME beside them (intensities.hpp).
 using ReadTable = std::function<Table(std::int64_t block)>;
 
 // Tallies the blocks, of block_size samples each but the last, dealt to the ranks, and analyses them. The result stands
@@ -36,7 +36,7 @@ fragility::Result analyse(const parallel::Communicator&, const Study&,
                           const std::vector<int>& motion_group, std::int64_t blocks,
                           std::int64_t block_size, const ReadTable&, parallel::StepDisplay* display = nullptr);
 
-// Names of the columns that it reads.
+// Names of the columns of samples.h5 that it and the intensity read.
 std::vector<std::string> analysed_columns(const FragilityPart&);
 
 }  // namespace freestand::study

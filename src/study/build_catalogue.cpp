@@ -57,10 +57,8 @@ class Fingerprints {
   std::map<std::string, std::string> motions_;
 };
 
-// What may change without new samples: they hold one intensity measure.
-bool is_of_fragility(const Difference& difference) {
-  return difference.key.starts_with("fragility.") && !difference.key.starts_with("fragility.im");
-}
+// What may change without new samples.
+bool is_of_fragility(const Difference& difference) { return difference.key.starts_with("fragility."); }
 
 // The study of the samples that lie in an entry's folder; nothing where there are none, or of another kernel.
 std::optional<Study> swept_study(const fs::path& folder) {
@@ -138,7 +136,8 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
     world.on_root([&] { write_study(entry.study, folder); });
   else
     summary = sweep(world, entry.study, {quiet, options.command}, run_folder);
-  fit(world, run_folder, options.command, true, work == refit ? nullptr : &summary);
+  fit(world, run_folder,
+      {.from = folder, .command = options.command, .quiet = true, .sweep = work == refit ? nullptr : &summary});
 }
 
 // What the folder of an entry holds, as rows of the database.

@@ -11,7 +11,7 @@ namespace freestand::study {
 
 bool changes_samples(const std::string& key) {
   if (key == "name") return false;
-  return !key.starts_with("fragility.") || key.starts_with("fragility.im");
+  return !key.starts_with("fragility.");
 }
 
 std::string changes_told(const Study& now, const Study& before) {

@@ -76,18 +76,15 @@ EditedStudy edited_study(const std::string& swept, const std::string& text, cons
   EditedStudy edited{parse_stored(text, file), {}};
   Problems problems(file.string());
   for (const auto& [key, now, then] : differences(edited.study, before)) {
-    const bool of_fragility = key.starts_with("fragility."), of_intensity = key.starts_with("fragility.im");
-    if (of_fragility && !of_intensity) {
+    if (key.starts_with("fragility.")) {
       edited.changed.push_back(second_level(key));
       continue;
     }
     problems.add(
         line_of_key(YAML::Load(text), key),
-        fmt::format("{} is {}, and the samples were made with {} ({}): take it back, or run the study into another "
-                    "folder",
-                    key, now, then,
-                    of_intensity ? "they hold no other intensity measure"
-                                 : "only the fragility block can change after the sweep"));
+        fmt::format("{} is {}, and the samples were made with {} (only the fragility block can change after the "
+                    "sweep): take it back, or run the study into another folder",
+                    key, now, then));
     problems.throw_if_any();
   }
   std::sort(edited.changed.begin(), edited.changed.end());

@@ -5,9 +5,6 @@
 
 #include "base/units.hpp"
 #include "edp/edp.hpp"
-#include "intensity/intensity.hpp"
-#include "motion/pulse.hpp"
-#include "motion/summary.hpp"
 
 namespace freestand::study {
 namespace {
@@ -20,33 +17,18 @@ bool has_value(const edp::Edp& edp, Outcome outcome) {
   return outcome == Outcome::at_rest || outcome == Outcome::moved;
 }
 
-std::vector<motion::MotionSummary> summarize(const MotionSet& motions, const motion::SummaryRequest& request) {
-  std::vector<motion::MotionSummary> summaries;
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    summaries.push_back(motions.is_pulse(i) ? motion::summarize(motion::find_pulse(motions.motion(i).name))
-                                            : motion::summarize(motions.motion(i), request));
-  return summaries;
-}
-
 }  // namespace
 
 struct Evaluator::Parts {
   Realiser realise;
   Settings settings;
-  const intensity::Measure& measure;
-  std::optional<double> measure_parameter;
-  std::vector<motion::MotionSummary> summaries;
+  MotionSummaries summaries;
   std::vector<Column> columns;
-
-  double intensity_of(const Realisation& sample) const {
-    return intensity::value(measure, summaries[sample.motion], sample.shaking, sample.specimen, measure_parameter);
-  }
 
   void append(const Realisation& drawn, const Response& response, std::vector<double>& values) const {
     values.insert(values.end(), drawn.draws.begin(), drawn.draws.end());
-    values.push_back(intensity_of(drawn));
     const edp::Input input{response, drawn.specimen, drawn.pta_g * standard_gravity_mps2,
-                           motion::pulse_frequency_radps(summaries[drawn.motion], drawn.shaking)};
+                           motion::pulse_frequency_radps(summaries[drawn.motion], drawn.shaking.stretch)};
     for (const edp::Edp& edp : edp::all())
       values.push_back(has_value(edp, response.outcome) ? edp.value(input) : nothing);
     values.push_back(static_cast<double>(response.outcome));
@@ -54,34 +36,30 @@ struct Evaluator::Parts {
   }
 };
 
-Evaluator::Evaluator(const Study& study, MotionSet motions) {
-  const IntensityPart& im = study.fragility.im;
-  const intensity::Measure& measure = intensity::find(im.name);
-  motion::SummaryRequest request{.pulse = true};
-  intensity::add_needs(measure, request, im.period_s);
-  auto summaries = summarize(motions, request);
+Evaluator::Evaluator(const Study& study, MotionSet motions) : Evaluator(study, motions, summarize(motions, {})) {}
+
+Evaluator::Evaluator(const Study& study, MotionSet motions, MotionSummaries summaries) {
   Realiser realiser(study, std::move(motions));
 
   std::vector<Column> columns = realiser.draw_columns();
-  columns.push_back({"im_" + measure.name, measure.unit, measure.summary});
   for (const edp::Edp& edp : edp::all()) columns.push_back({"edp_" + edp.name, edp.unit, edp.summary});
   columns.push_back({"outcome", "1", "how the sample ended", ColumnKind::integer});
   columns.push_back({"events", "1", "changes of mode and impacts", ColumnKind::integer});
-  parts_ = std::make_shared<const Parts>(Parts{std::move(realiser), integration_settings(study), measure, im.period_s,
-                                               std::move(summaries), std::move(columns)});
+  parts_ = std::make_shared<const Parts>(
+      Parts{std::move(realiser), integration_settings(study), std::move(summaries), std::move(columns)});
 }
 
 const std::vector<Column>& Evaluator::columns() const { return parts_->columns; }
 
 const MotionSet& Evaluator::motions() const { return parts_->realise.motions(); }
 
-Table Evaluator::shakings(std::size_t count) const {
-  const std::size_t columns = parts_->realise.draw_columns().size() + 1;
-  Table table{{parts_->columns.begin(), parts_->columns.begin() + static_cast<std::ptrdiff_t>(columns)}, {}};
+const MotionSummaries& Evaluator::summaries() const { return parts_->summaries; }
+
+Table Evaluator::draws(std::size_t count) const {
+  Table table{parts_->realise.draw_columns(), {}};
   for (std::uint64_t sample = 0; sample < count; ++sample) {
     const Realisation drawn = parts_->realise(sample);
     table.values.insert(table.values.end(), drawn.draws.begin(), drawn.draws.end());
-    table.values.push_back(parts_->intensity_of(drawn));
   }
   return table;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/table.hpp"
+#include "study/motion_summaries.hpp"
 #include "study/realise.hpp"
 #include "study/study.hpp"
 
@@ -16,10 +17,11 @@ namespace freestand::study {
 // A pure function of the sample index; const and safe to share between threads.
 class Evaluator {
  public:
-  Evaluator(const Study&, MotionSet);
+  Evaluator(const Study&, MotionSet, MotionSummaries);
+  Evaluator(const Study&, MotionSet);  // summarizes the motions itself
 
-  // Columns of a row: the draws (Realiser::draw_columns), im_NAME, edp_NAME for every demand parameter, outcome,
-  // events.
+  // Columns of a row: the draws (Realiser::draw_columns), edp_NAME for every demand parameter, outcome, events.
+  // Intensities follow from them (intensities.hpp).
   const std::vector<Column>& columns() const;
 
   // Draws, integrates and appends the row of this sample. Demand parameters without meaning for an overturned block,
@@ -33,11 +35,11 @@ class Evaluator {
   // blocks of any size. Tells the outcomes in order.
   std::vector<Outcome> append(std::uint64_t first, std::size_t count, std::vector<double>& values) const;
 
-  // What is known of samples 0 ... count - 1 before they are integrated: their draws and intensities, under the names of
-  // their columns.
-  Table shakings(std::size_t count) const;
+  // What is known of samples 0 ... count - 1 before they are integrated.
+  Table draws(std::size_t count) const;
 
   const MotionSet& motions() const;
+  const MotionSummaries& summaries() const;
 
   // The same motions, for a study that differs from this one in what it draws (Study::redrawn).
   Evaluator drawing(const Study&) const;

@@ -239,8 +239,7 @@ std::string fingerprint(const Study& study) {
 }
 
 std::string samples_fingerprint(const Study& study) {
-  return fmt::format("{:016x}", random::stable_hash("freestand-draws/1\n" + samples_text(study) +
-                                                    "im: " + intensity_text(study.fragility.im)));
+  return fmt::format("{:016x}", random::stable_hash("freestand-draws/2\n" + samples_text(study)));
 }
 
 }  // namespace freestand::study

@@ -11,6 +11,9 @@
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
 #include "study/edited_study.hpp"
+#include "study/intensities.hpp"
+#include "study/paths.hpp"
+#include "study/ranking.hpp"
 #include "study/read_parts.hpp"
 #include "study/until.hpp"
 
@@ -34,64 +37,107 @@ nlohmann::ordered_json timing_json(const SweepSummary* sweep, double fit_s, int 
   return json;
 }
 
+EditedStudy changed_study(const std::string& swept, const std::string& text, const std::filesystem::path& file,
+                          const FragilityChanges& changes) {
+  const EditedStudy edited = edited_study(swept, text, file);
+  if (!changes.any()) return edited;
+  Study study = with_changes(edited.study, changes);
+  return {study, edited_study(swept, expanded(study), file).changed};
+}
+
 // The study to go by: on the root first, so that what is wrong is told once.
-EditedStudy study_of(const parallel::Communicator& world, const std::string& swept,
-                     const std::filesystem::path& folder) {
-  const std::filesystem::path file = study_path(folder);
+EditedStudy study_of(const parallel::Communicator& world, const std::string& swept, const FitOptions& options) {
+  const std::filesystem::path file = study_path(options.from);
   std::string text;
   world.on_root([&] {
     text = std::filesystem::exists(file) ? read_text(file) : swept;
-    edited_study(swept, text, file);
+    changed_study(swept, text, file, options.changes);
   });
-  return edited_study(swept, world.broadcast(text), file);
+  return changed_study(swept, world.broadcast(text), file, options.changes);
+}
+
+io::Provenance provenance_of(const io::SampleReader& reader, const Study& study, const FitOptions& options, int ranks) {
+  io::Provenance provenance = io::provenance_here(options.command, ranks);
+  provenance.study = expanded(study);
+  provenance.effects = reader.provenance().effects;
+  provenance.accuracy = reader.provenance().accuracy;
+  provenance.doubts = reader.provenance().doubts;
+  provenance.study_name = study.name;
+  provenance.kernel = reader.provenance().kernel;
+  provenance.seed = reader.provenance().seed;
+  provenance.samples = reader.provenance().samples;
+  return provenance;
+}
+
+nlohmann::ordered_json summary_of(const Study& study, const io::Provenance& provenance, const fragility::Result& result,
+                                  const FitSummary& told) {
+  nlohmann::ordered_json summary = io::fragility_summary(provenance, result);
+  if (study.fragility.im.period_s) summary["im_" + study.fragility.im.parameter] = *study.fragility.im.period_s;
+  summary["accuracy"] = nlohmann::ordered_json::parse(provenance.accuracy);
+  for (const auto& doubt : nlohmann::json::parse(provenance.doubts))
+    summary["warnings"].push_back(doubt.get<std::string>());
+  for (const auto& warning : accuracy_warnings(summary["accuracy"])) summary["warnings"].push_back(warning);
+  for (const std::string& note : told.notes) summary["warnings"].push_back(note);
+  tell_until(study, result, summary);
+  summary["motion_entries"] = study.motions.size();
+  summary["study_changed"] = told.changed;
+  return summary;
 }
 
 }  // namespace
 
-FitSummary fit(const parallel::Communicator& world, RunFolder& run_folder, const std::string& command, bool quiet,
-               const SweepSummary* sweep) {
-  const std::filesystem::path& folder = run_folder.path();
+void check_fit(const FitOptions& options) {
+  const io::SampleReader reader(samples_path(options.from));
+  const std::filesystem::path file = study_path(options.from);
+  const std::string& swept = reader.provenance().study;
+  const EditedStudy edited =
+      changed_study(swept, std::filesystem::exists(file) ? read_text(file) : swept, file, options.changes);
+  SampleIntensity(edited.study.fragility.im, motion_summaries(reader.motions()));
+}
+
+FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOptions& options) {
+  const std::filesystem::path& folder = into.path();
+  const bool elsewhere = !std::filesystem::equivalent(folder, options.from);
   const auto start = std::chrono::steady_clock::now();
   const auto so_far = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  const std::vector<std::string> written = {"fragility.h5", "bins.csv", "surface.csv", "summary.json"};
+  std::vector<std::string> written = {"fragility.h5", "bins.csv", "surface.csv", "ranking.csv", "summary.json"};
+  if (elsewhere) written.push_back(study_path("").string());
   world.on_root([&] { io::refuse_others(folder, written); });
-  const io::SampleReader reader(samples_path(folder));
-  const auto [study, changed] = study_of(world, reader.provenance().study, folder);
+  const io::SampleReader reader(samples_path(options.from));
+  const auto [study, changed] = study_of(world, reader.provenance().study, options);
+  const SampleIntensity intensity(study.fragility.im, motion_summaries(reader.motions()));
+  FitSummary told{reader.rows(), 0, described(study.fragility.im), changed, {}, ""};
+  if (!intensity.interpolation().empty()) told.notes.push_back(intensity.interpolation());
   const io::BlockLayout layout{reader.rows(), rows_at_once};
-  run_folder.begin();
-  run_folder.leave_if_asked();
+  into.begin();
+  into.leave_if_asked();
   const std::vector<std::string> columns = analysed_columns(study.fragility);
-  parallel::StepDisplay display(quiet || !world.is_root());
-  const fragility::Result result = analyse(
-      world, study, reader.motion_group(), layout.blocks(), rows_at_once,
-      [&](std::int64_t block) { return reader.read(block * rows_at_once, layout.rows(block), columns); }, &display);
+  const auto rows_of = [&](std::int64_t block) {
+    return intensity.beside(reader.read(block * rows_at_once, layout.rows(block), columns));
+  };
+  parallel::StepDisplay display(options.quiet || !world.is_root());
+  const fragility::Result result =
+      analyse(world, study, reader.motions().group, layout.blocks(), rows_at_once, rows_of, &display);
+  const Ranking ranking = rank_intensities(world, study, reader);
   world.on_root([&] {
-    io::Provenance provenance = io::provenance_here(command, world.size());
-    provenance.study = expanded(study);
-    provenance.effects = reader.provenance().effects;
-    provenance.accuracy = reader.provenance().accuracy;
-    provenance.doubts = reader.provenance().doubts;
-    provenance.study_name = study.name;
-    provenance.kernel = reader.provenance().kernel;
-    provenance.seed = reader.provenance().seed;
-    provenance.samples = reader.provenance().samples;
+    const io::Provenance provenance = provenance_of(reader, study, options, world.size());
     io::write_fragility(folder / "fragility.h5", provenance, result);
     io::write_text(folder / "bins.csv", io::bins_csv(result));
     io::write_text(folder / "surface.csv", io::surface_csv(result));
-    nlohmann::ordered_json summary = io::fragility_summary(provenance, result);
-    summary["accuracy"] = nlohmann::ordered_json::parse(provenance.accuracy);
-    for (const auto& doubt : nlohmann::json::parse(provenance.doubts))
-      summary["warnings"].push_back(doubt.get<std::string>());
-    for (const auto& warning : accuracy_warnings(summary["accuracy"])) summary["warnings"].push_back(warning);
-    tell_until(study, result, summary);
-    summary["motion_entries"] = study.motions.size();
-    summary["study_changed"] = changed;
-    summary["timing"] = timing_json(sweep, so_far(), world.size());
-    summary["files"] = {"samples.h5", "fragility.h5", "bins.csv", "surface.csv", "study.yaml"};
+    io::write_text(folder / "ranking.csv", ranking_csv(ranking));
+    if (elsewhere) io::write_text(study_path(folder), io::signed_text(expanded(study, folder)));
+    nlohmann::ordered_json summary = summary_of(study, provenance, result, told);
+    summary["ranking"] = ranking_json(ranking);
+    summary["timing"] = timing_json(options.sweep, so_far(), world.size());
+    if (elsewhere) summary["samples_in"] = way_between(folder, options.from);
+    summary["files"] = {"fragility.h5", "bins.csv", "surface.csv", "ranking.csv", "study.yaml"};
+    if (!elsewhere) summary["files"].push_back("samples.h5");
     io::write_text(folder / "summary.json", io::json_text(summary));
   });
-  run_folder.end();
-  return {reader.rows(), so_far(), changed};
+  into.end();
+  told.wall_s = so_far();
+  told.ranking = ranking_text(ranking, study, options.whole_ranking);
+  return told;
 }
 
 }  // namespace freestand::study

@@ -56,24 +56,29 @@ Quantity amplitude_drawn(const MotionSource& source) {
 // The intensity that a motion is scaled to.
 struct Target {
   const intensity::Measure* measure = nullptr;
-  std::optional<double> parameter;
+  double parameter = 0;
   std::vector<motion::MotionSummary> summaries;  // of the items of the source
 
   Target(const MotionSource& source, const MotionSet& motions, const std::vector<std::size_t>& items) {
     if (amplitude_of(source) != Amplitude::intensity) return;
     measure = &intensity::find(source.scale_to->name);
-    parameter = source.scale_to->period_s;
+    parameter = intensity::parameter_of(*measure, source.scale_to->period_s);
     motion::SummaryRequest request;
-    intensity::add_needs(*measure, request, parameter);
+    if (measure->spectral) request.sa_period_s = {measure->parameter ? parameter : 1.0};
     for (const std::size_t item : items)
       summaries.push_back(motions.is_pulse(item) ? motion::summarize(motion::find_pulse(motions.motion(item).name))
                                                  : motion::summarize(motions.motion(item), request));
   }
 
   // Of a motion at scale 1.
-  double unscaled(std::size_t item, Shaking shaking, const Specimen& specimen) const {
-    shaking.scale = 1;
-    return intensity::value(*measure, summaries[item], shaking, specimen, parameter);
+  double unscaled(std::size_t item, double stretch, const Specimen& specimen) const {
+    return measure->value({.motion = summaries[item],
+                           .scale = 1,
+                           .stretch = stretch,
+                           .alpha_rad = specimen.block.alpha_rad(),
+                           .p_radps = specimen.block.p_radps(),
+                           .mu_k = specimen.friction.mu_k,
+                           .parameter = parameter});
   }
 };
 
@@ -243,7 +248,7 @@ void Realiser::Parts::shake(std::uint64_t sample, Realisation& out) const {
       shaking.scale = amplitude * standard_gravity_mps2 / entry.peak_mps2;
       break;
     case Amplitude::intensity:
-      shaking.scale = amplitude / source.target.unscaled(item, shaking, out.specimen);
+      shaking.scale = amplitude / source.target.unscaled(item, shaking.stretch, out.specimen);
       break;
     case Amplitude::factor:
       shaking.scale = amplitude;

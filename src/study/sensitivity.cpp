@@ -29,7 +29,7 @@ std::span<const double> row_of(const Table& table, std::size_t row) {
 // The groups of motions need no more of the options.
 fragility::Options group_options(const io::SampleReader& reader) {
   fragility::Options options;
-  options.motion_group = reader.motion_group();
+  options.motion_group = reader.motions().group;
   return options;
 }
 
@@ -43,7 +43,7 @@ class Shares {
         study_(analysed_study(options.folder, reader_)),
         motions_(group_options(reader_)),
         groups_(motions_),
-        sampled_(sampled(study_, reader_.motion_names().size())),
+        sampled_(sampled(study_, reader_.motions().names.size())),
         answers_(study_.fragility, reader_.columns()) {
     if (sampled_.empty())
       throw Error(

@@ -243,7 +243,7 @@ std::string expanded(const Case&, const std::filesystem::path& folder);
 // of records count through MotionSet::fingerprint.
 std::string fingerprint(const Study&);
 
-// The same of what determines the samples: of the fragility block their intensity measure alone.
+// The same of what determines the samples: nothing of the fragility block.
 std::string samples_fingerprint(const Study&);
 
 }  // namespace freestand::study

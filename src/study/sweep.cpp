@@ -22,6 +22,7 @@
 #include "study/doubts.hpp"
 #include "study/effects_page.hpp"
 #include "study/evaluator.hpp"
+#include "study/intensities.hpp"
 #include "study/kernel_number.hpp"
 #include "study/known.hpp"
 #include "study/read_parts.hpp"
@@ -53,7 +54,8 @@ bool already_complete(const Study& study, const std::filesystem::path& folder) {
 
 // Why the blocks in the folder are of another study: in which key, as the study.yaml beside them tells.
 std::string why_other(const Study& study, const std::filesystem::path& folder, const std::string& blocks_fingerprint) {
-  if (blocks_fingerprint.starts_with(samples_fingerprint(study))) return "a record has other contents now, or another name";
+  if (blocks_fingerprint.starts_with(samples_fingerprint(study)))
+    return "a record has other contents now, or another name";
   try {
     const std::string told = changes_told(study, parse_stored(read_text(study_path(folder)), study_path(folder)));
     if (!told.empty()) return told;
@@ -71,6 +73,12 @@ MotionSet load_together(const Communicator& world, const Study& study) {
   return load_motions(study);
 }
 
+Evaluator evaluator_together(const Communicator& world, const Study& study, bool quiet) {
+  const MotionSet motions = load_together(world, study);
+  parallel::StepDisplay display(quiet || !world.is_root());
+  return {study, motions, summarize_together(world, study, motions, &display)};
+}
+
 // Of the numbers of a row and of what they mean.
 std::uint32_t kernel_of(const std::vector<Column>& columns) {
   std::string names;
@@ -85,7 +93,7 @@ class Sweep {
         study_(study),
         options_(options),
         folder_(folder),
-        evaluator_(study, load_together(world, study)),
+        evaluator_(evaluator_together(world, study, options.quiet)),
         store_(blocks_path(folder.path()), samples_fingerprint(study) + evaluator_.motions().fingerprint(),
                kernel_of(evaluator_.columns())) {}
 
@@ -127,7 +135,8 @@ class Sweep {
       return;
     world_.on_root([&] {
       const auto first = static_cast<std::size_t>(std::min(total(), bin_layout_samples));
-      laid_out(study_, evaluator_.shakings(first), evaluator_.motions().groups());
+      const SampleIntensity intensity(study_.fragility.im, evaluator_.summaries());
+      laid_out(study_, intensity.beside(evaluator_.draws(first)), evaluator_.motions().groups());
     });
   }
 
@@ -216,9 +225,10 @@ class Sweep {
   // Of the finished samples; on the root.
   fragility::Result result_so_far(std::int64_t samples) {
     folder_.leave_if_asked();
-    return analyse(world_, study_, evaluator_.motions().groups(), layout(samples).blocks(),
-                   layout(samples).block_size, [&](std::int64_t block) {
-                     return Table{evaluator_.columns(), finished_rows(samples, block)};
+    const SampleIntensity intensity(study_.fragility.im, evaluator_.summaries());
+    return analyse(world_, study_, evaluator_.motions().groups(), layout(samples).blocks(), layout(samples).block_size,
+                   [&](std::int64_t block) {
+                     return intensity.beside({evaluator_.columns(), finished_rows(samples, block)});
                    });
   }
 
@@ -248,7 +258,7 @@ class Sweep {
     summary_.accuracy_s = seconds_since(check);
     const auto writing = Clock::now();
     io::SamplesHeader header{io::provenance_here(options_.command, world_.size()), evaluator_.columns(),
-                             evaluator_.motions().names(), evaluator_.motions().groups()};
+                             motion_rows(evaluator_.motions(), evaluator_.summaries())};
     header.provenance.study = expanded(study_);
     header.provenance.effects = effects_json(study_).dump();
     header.provenance.accuracy = world_.broadcast(accuracy_json(accuracy).dump());

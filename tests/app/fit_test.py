@@ -46,7 +46,7 @@ class Fit(InFolder):
     def test_a_bin_stands_at_the_mean_of_its_samples_everywhere(self):
         self.sweep()
         with h5py.File(self.out / "samples.h5") as file:
-            im, usable = file["samples/im_report"][()], file["samples/outcome"][()] <= 2
+            im, usable = file["samples/pta_g"][()] / file["samples/friction_mu_k"][()] - 1, file["samples/outcome"][()] <= 2
         with h5py.File(self.out / "fragility.h5") as file:
             edge, centre = file["im/edge"][()], file["im/centre"][()]
             self.assertEqual(list(file["edp/delta/im"][()]), list(centre))

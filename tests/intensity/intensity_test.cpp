@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <freestand/error.hpp>
+#include <freestand/specimen.hpp>
 
 #include "base/units.hpp"
 #include "motion/spectrum.hpp"
@@ -16,23 +17,25 @@ namespace {
 
 constexpr double g = standard_gravity_mps2;
 
-Specimen refrigerator() {
-  Specimen specimen;
-  specimen.block = Block::rectangular(0.6, 1.8, 150);
-  specimen.friction = {0.3, 0.25};
-  return specimen;
+// A refrigerator of 0.6 x 1.8 m, mu_k = 0.25.
+Input refrigerator_on(const motion::MotionSummary& motion, double scale, double stretch) {
+  const Block block = Block::rectangular(0.6, 1.8, 150);
+  return {motion, scale, stretch, block.alpha_rad(), block.p_radps(), 0.25};
+}
+
+double value_of(const Measure& measure, Input input, std::optional<double> parameter = {}) {
+  input.parameter = parameter_of(measure, parameter);
+  return measure.value(input);
 }
 
 class OfAPulse : public testing::Test {
  protected:
   const motion::Pulse pulse = motion::find_pulse("C1");
-  const FloorMotion table = motion::pulse_motion(pulse);
   const motion::MotionSummary summary = motion::summarize(pulse);
-  const Shaking shaking{&table, -6.0, 0.8, 0.0};  // mirrored, 6 m/s2, period 0.8 s
-  const Specimen specimen = refrigerator();
 
+  // Mirrored, 6 m/s2, period 0.8 s.
   double value_of(const std::string& name, std::optional<double> parameter = {}) const {
-    return value(find(name), summary, shaking, specimen, parameter);
+    return intensity::value_of(find(name), refrigerator_on(summary, -6, 0.8), parameter);
   }
 };
 
@@ -75,47 +78,38 @@ TEST_F(OfAPulse, SpectralMeasuresAreThoseOfTheStretchedPulse) {
   EXPECT_NEAR(value_of("housner_m"), motion::housner_intensity_m(record), 1e-5);
 }
 
-TEST(OfARecord, SummaryHoldsWhatWasAskedForAndTheMeasuresReadIt) {
+TEST(OfARecord, EverythingFollowsFromWhatIsKept) {
   std::vector<double> samples;
   for (int i = 0; i < 800; ++i) samples.push_back(std::sin(0.05 * i) * std::exp(-0.004 * i));
   const FloorMotion record = piecewise_linear("record", 0.01, samples);
-  motion::SummaryRequest request;
-  add_needs(find("sa_g"), request, 0.5);
-  add_needs(find("sa_g"), request, 0.25);
-  add_needs(find("housner_m"), request);
-  add_needs(find("report"), request);
-  motion::MotionSummary summary = motion::summarize(record, request);
-  ASSERT_EQ(summary.sa_period_s, (std::vector<double>{0.25, 0.5}));
-  EXPECT_FALSE(summary.is_pulse);
-
-  const Shaking shaking{&record, 2.0, 1.0, 0.0};
+  motion::MotionSummary summary = motion::summarize(record, {.pulse = false, .sa_period_s = {0.25, 0.5}});
   const auto value_of = [&](const char* name, double parameter) {
-    return value(find(name), summary, shaking, refrigerator(), parameter);
+    return intensity::value_of(find(name), refrigerator_on(summary, 2, 1), parameter);
   };
   EXPECT_EQ(value_of("sa_g", 0.5), 2 * motion::spectral_acceleration_mps2(record, 0.5) / g);
-  EXPECT_EQ(value_of("sa_g", 0.7), 2 * motion::spectral_acceleration_mps2(record, 0.7) / g);
   EXPECT_EQ(value_of("housner_m", 0), 2 * motion::housner_intensity_m(record));
-  summary.sa_mps2[1] = 123 * g;  // read, not computed again
+  EXPECT_THROW(value_of("sa_g", 0.7), Error);
+  summary.spectrum.sa_mps2[1] = 123 * g;  // read, not computed again
   summary.housner_m = 7;
   EXPECT_NEAR(value_of("sa_g", 0.5), 246, 1e-12);
   EXPECT_EQ(value_of("housner_m", 0), 14);
+  const motion::MotionSummary peaks_only = motion::summarize(record);
+  EXPECT_THROW(intensity::value_of(find("housner_m"), refrigerator_on(peaks_only, 2, 1)), Error);
 }
 
 TEST(EveryMeasure, DoesNotTellAMotionFromItsMirrorImage) {
-  const FloorMotion table = motion::pulse_motion(motion::find_pulse("B"));
   const motion::MotionSummary summary = motion::summarize(motion::find_pulse("B"));
-  const Shaking one{&table, 3.7, 0.6, 0.0}, other{&table, -3.7, 0.6, 0.0};
   for (const Measure* measure : all())
-    EXPECT_EQ(value(*measure, summary, one, refrigerator()), value(*measure, summary, other, refrigerator()))
+    EXPECT_EQ(value_of(*measure, refrigerator_on(summary, 3.7, 0.6)),
+              value_of(*measure, refrigerator_on(summary, -3.7, 0.6)))
         << measure->name;
 }
 
 TEST(EveryMeasure, GrowsWithTheMotionAndSaysWhatItIs) {
-  const FloorMotion table = motion::pulse_motion(motion::find_pulse("A"));
   const motion::MotionSummary summary = motion::summarize(motion::find_pulse("A"));
-  const Shaking weak{&table, 2.0, 0.6, 0.0}, strong{&table, 4.0, 0.6, 0.0};
   for (const Measure* measure : all()) {
-    EXPECT_LT(value(*measure, summary, weak, refrigerator()), value(*measure, summary, strong, refrigerator()))
+    EXPECT_LT(value_of(*measure, refrigerator_on(summary, 2, 0.6)),
+              value_of(*measure, refrigerator_on(summary, 4, 0.6)))
         << measure->name;
     for (const std::string& text : {measure->unit, measure->symbol, measure->summary, measure->source})
       EXPECT_FALSE(text.empty()) << measure->name;
@@ -140,11 +134,10 @@ TEST(Measures, UnknownNamesAreRefusedWithTheKnownOnes) {
 }
 
 TEST(Measures, WithoutFrictionTheReportsMeasureIsInfinite) {
-  const FloorMotion table = motion::pulse_motion(motion::find_pulse("A"));
-  Specimen specimen = refrigerator();
-  specimen.friction = {0, 0};
-  EXPECT_TRUE(
-      std::isinf(value(find("report"), motion::summarize(motion::find_pulse("A")), {&table, 1.0, 1.0, 0.0}, specimen)));
+  const motion::MotionSummary summary = motion::summarize(motion::find_pulse("A"));
+  Input input = refrigerator_on(summary, 1, 1);
+  input.mu_k = 0;
+  EXPECT_TRUE(std::isinf(value_of(find("report"), input)));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ def carries_coordinates(root):
 def samples_h5py(path):
     h5py = need("h5py")
     with h5py.File(path, "r") as root:
-        assert root.attrs["format"] == "freestand-samples/1"
+        assert root.attrs["format"] == "freestand-samples/2"
         carries_coordinates(root)
         assert root.attrs["study"] == "seed: 7\n# études\n"
         assert root.attrs["seed"] == 7 and root.attrs["samples"] == 10 and root.attrs["ranks"] == 1
@@ -66,6 +66,9 @@ def samples_h5py(path):
         assert group["outcome"].attrs["flag_meanings"] == "at_rest moved overturned painleve step_limit not_finite"
         is_close(group["outcome"].attrs["flag_values"], np.arange(6))
         assert [text.decode() for text in root["motions/name"][:]] == ["A", "records/x y.AT2", "é"]
+        is_close(root["motions/pga_mps2"][:], [1, 3.7, 1 / 3])
+        assert root["motions/pga_mps2"].attrs["unit"] == "m/s2" and root["motions/pulse_type"].dtype == np.int32
+        is_close(root["motions/sa_mps2"][:], [[1, 2], [0.1, 0.7], [5, 6]])
 
 
 def samples_xarray(path, engine):
@@ -78,6 +81,7 @@ def samples_xarray(path, engine):
         assert float(data["edp_delta"].sel(sample=2)) == 4.0
     with xarray.open_dataset(path, group="motions", engine=engine) as data:
         assert [str(text) for text in data["name"].values] == ["A", "records/x y.AT2", "é"]
+        assert float(data["sa_mps2"].sel(motion=1, period_s=0.5)) == 0.7
     with xarray.open_dataset(path, engine=engine) as data:
         assert data.attrs["study"] == "seed: 7\n# études\n"
 

@@ -62,8 +62,13 @@ TEST(SamplesFile, ColumnsAndProvenanceComeBack) {
     EXPECT_EQ(reader.columns()[i].description, header.columns[i].description);
     EXPECT_EQ(reader.columns()[i].kind, header.columns[i].kind);
   }
-  EXPECT_EQ(reader.motion_names(), header.motion_names);
-  EXPECT_EQ(reader.motion_group(), header.motion_group);
+  EXPECT_EQ(reader.motions().names, header.motions.names);
+  EXPECT_EQ(reader.motions().group, header.motions.group);
+  EXPECT_EQ(reader.motions().table.values, header.motions.table.values);
+  EXPECT_EQ(reader.motions().table.columns.at(0).unit, "m/s2");
+  EXPECT_EQ(reader.motions().table.columns.at(1).kind, ColumnKind::integer);
+  EXPECT_EQ(reader.motions().sa_period_s, header.motions.sa_period_s);
+  EXPECT_EQ(reader.motions().sa_mps2, header.motions.sa_mps2);
   EXPECT_EQ(reader.provenance().study, header.provenance.study);
   EXPECT_EQ(reader.provenance().seed, 7u);
   EXPECT_EQ(reader.provenance().samples, 10);

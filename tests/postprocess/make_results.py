@@ -59,7 +59,6 @@ def draw(samples, seed):
         "pta_g": (pta, "g", "peak floor acceleration"),
         "scale": (pta * 9.80665, "1", "factor on the motion"),
         "motion": (random.integers(0, 3, samples).astype(np.int32), "1", "index into /motions/name"),
-        "im_report": (im, "1", "PTA/(mu g) - 1"),
         "edp_delta": (np.where(moved, delta, np.where(outcome == 0, 0.0, np.nan)), "1", "U w_p^2 / PTA"),
         "edp_peak_rotation_over_alpha": (np.where(moved, rotation, np.where(outcome == 0, 0.0, np.nan)), "1", "peak rotation / alpha"),
         "edp_connection_failed": ((random.uniform(size=samples) < 0.09 * np.maximum(im, 0)).astype(np.uint8), "1", "connection failed"),
@@ -180,11 +179,11 @@ def make_sweep(folder, samples=6000, seed=1):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     columns = draw(samples, seed)
-    outcome, im = columns["outcome"][0], columns["im_report"][0]
+    outcome, im = columns["outcome"][0], columns["pta_g"][0] / columns["friction_mu_k"][0] - 1
     counts = np.bincount(outcome, minlength=6)
     random = np.random.default_rng(seed + 1)
     with h5py.File(folder / "samples.h5", "w") as root:
-        root.attrs.update(provenance("freestand-samples/1", samples))
+        root.attrs.update(provenance("freestand-samples/2", samples))
         root["samples/sample"] = np.arange(samples)
         root["samples/sample"].make_scale("sample")
         for name, (values, unit, description) in columns.items():

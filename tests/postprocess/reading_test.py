@@ -97,7 +97,7 @@ class Refuses(Folder):
 
     def test_samples_under_the_name_of_the_fit(self):
         self.fragility.write_bytes((self.folder / "samples.h5").read_bytes())
-        self.refused('"freestand-samples/1"')
+        self.refused('"freestand-samples/2"')
 
     def test_missing_group_and_wrong_shape(self):
         with h5py.File(self.fragility, "a") as root:

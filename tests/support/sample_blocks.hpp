@@ -25,8 +25,12 @@ inline io::SamplesHeader small_header() {
                     {"motion", "1", "index into /motions/name", ColumnKind::integer},
                     {"outcome", "1", "how it ended", ColumnKind::integer},
                     {"overturned", "1", "", ColumnKind::flag}};
-  header.motion_names = {"A", "records/x y.AT2", "é"};
-  header.motion_group = {-1, 1, 2};
+  header.motions.names = {"A", "records/x y.AT2", "é"};
+  header.motions.group = {-1, 1, 2};
+  header.motions.table = {{{"pga_mps2", "m/s2", "peak", ColumnKind::real}, {"pulse_type", "1", "", ColumnKind::integer}},
+                          {1, -1, 3.7, 2, 1.0 / 3, 0}};
+  header.motions.sa_period_s = {0.1, 0.5};
+  header.motions.sa_mps2 = {1, 2, 0.1, 0.7, 5, 6};
   return header;
 }
 

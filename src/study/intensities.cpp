@@ -1,0 +1,111 @@
+#include "study/intensities.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+
+namespace freestand::study {
+namespace {
+
+enum Read : std::size_t { motion_index, scale, pulse_period, alpha, p, mu_k };
+
+// One ordinate is looked up faster than many.
+motion::MotionSummary with_one_period(motion::MotionSummary summary, double period_s) {
+  if (!summary.is_pulse) summary.spectrum = {{period_s}, {summary.spectrum.at(period_s)}};
+  return summary;
+}
+
+// Relative error with which a kept ordinate next to the period is met when it is left out: of wider gaps, so more than that
+// at the period itself.
+double missed(const motion::ResponseSpectrum& spectrum, double period_s) {
+  const std::vector<double>& periods = spectrum.period_s;
+  const auto above = std::lower_bound(periods.begin() + 1, periods.end() - 2, period_s) - periods.begin();
+  motion::ResponseSpectrum without = spectrum;
+  without.period_s.erase(without.period_s.begin() + above);
+  without.sa_mps2.erase(without.sa_mps2.begin() + above);
+  const auto i = static_cast<std::size_t>(above);
+  return std::abs(without.at(periods[i]) / spectrum.sa_mps2[i] - 1);
+}
+
+std::string interpolation_told(const IntensityPart& part, double period_s, const MotionSummaries& motions) {
+  double sum = 0, largest = 0;
+  int count = 0;
+  for (const motion::MotionSummary& summary : motions) {
+    if (summary.is_pulse || summary.spectrum.holds(period_s) || summary.spectrum.period_s.size() < 4) continue;
+    const double error = missed(summary.spectrum, period_s);
+    sum += error;
+    largest = std::max(largest, error);
+    ++count;
+  }
+  if (count == 0) return "";
+  return fmt::format(
+      "{} at {} s is interpolated between the periods that are kept of the {} records (a kept one beside it, "
+      "left out, is met to {:.2g} % on the average and {:.2g} % at worst): take a kept one, such as any "
+      "hundredth of a second up to 1 s, for none",
+      part.name, sampling::number_text(period_s), count, 100 * sum / count, 100 * largest);
+}
+
+}  // namespace
+
+const std::vector<std::string>& SampleIntensity::columns() {
+  static const std::vector<std::string> names = {"motion",          "scale",         "pulse_period_s",
+                                                 "block_alpha_rad", "block_p_radps", "friction_mu_k"};
+  return names;
+}
+
+SampleIntensity::SampleIntensity(const IntensityPart& part, const MotionSummaries& motions)
+    : measure_(intensity::find(part.name)), parameter_(intensity::parameter_of(measure_, part.period_s)) {
+  for (const motion::MotionSummary& summary : motions) {
+    if (!measure_.parameter) {
+      motions_.push_back(summary);
+      continue;
+    }
+    const std::vector<double>& kept = summary.spectrum.period_s;
+    if (!summary.is_pulse && (kept.empty() || parameter_ < kept.front() || parameter_ > kept.back()))
+      throw Error(
+          fmt::format("no intensity {} at {} s (of the records of this sweep it is kept from {} to {} s): name "
+                      "a period within them, or run the study with this one",
+                      part.name, parameter_, kept.empty() ? 0 : kept.front(), kept.empty() ? 0 : kept.back()));
+    motions_.push_back(with_one_period(summary, parameter_));
+  }
+  if (measure_.parameter) interpolation_ = interpolation_told(part, parameter_, motions);
+}
+
+std::vector<double> SampleIntensity::operator()(const Table& rows) const {
+  std::vector<std::size_t> at;
+  for (const std::string& name : columns()) at.push_back(column_index(rows.columns, name));
+  std::vector<double> values;
+  for (std::size_t row = 0; row < rows.rows(); ++row) {
+    const double index = rows.at(row, at[motion_index]), period = rows.at(row, at[pulse_period]);
+    if (!(index >= 0 && index < static_cast<double>(motions_.size())))
+      throw Error(fmt::format("a sample cannot be used (its motion is {}, of {}): the samples are damaged", index,
+                              motions_.size()),
+                  Exit::data);
+    values.push_back(measure_.value({.motion = motions_[static_cast<std::size_t>(index)],
+                                     .scale = rows.at(row, at[scale]),
+                                     .stretch = std::isnan(period) ? 1 : period,
+                                     .alpha_rad = rows.at(row, at[alpha]),
+                                     .p_radps = rows.at(row, at[p]),
+                                     .mu_k = rows.at(row, at[mu_k]),
+                                     .parameter = parameter_}));
+  }
+  return values;
+}
+
+Table SampleIntensity::beside(Table rows) const {
+  const std::vector<double> intensity = (*this)(rows);
+  const std::size_t before = rows.columns.size();
+  Table wider{std::move(rows.columns), {}};
+  wider.columns.push_back({"im_" + measure_.name, measure_.unit, measure_.summary});
+  wider.values.reserve(intensity.size() * (before + 1));
+  for (std::size_t row = 0; row < intensity.size(); ++row) {
+    const auto first = rows.values.begin() + static_cast<std::ptrdiff_t>(row * before);
+    wider.values.insert(wider.values.end(), first, first + static_cast<std::ptrdiff_t>(before));
+    wider.values.push_back(intensity[row]);
+  }
+  return wider;
+}
+
+}  // namespace freestand::study

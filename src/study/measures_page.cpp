@@ -1,0 +1,133 @@
+#include "study/measures_page.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "edp/edp.hpp"
+#include "intensity/intensity.hpp"
+#include "study/problems.hpp"
+
+namespace freestand::study {
+namespace {
+
+using edp::Edp;
+using intensity::Measure;
+using nlohmann::ordered_json;
+
+std::vector<const Edp*> demands() {
+  std::vector<const Edp*> all;
+  for (const Edp& edp : edp::all()) all.push_back(&edp);
+  return all;
+}
+
+// The entry of that name among all, or throws.
+template <class Entry>
+const Entry& named(const std::vector<const Entry*>& all, const std::string& name, const char* kind, const char* verb) {
+  std::vector<std::string> names;
+  for (const Entry* entry : all) {
+    if (entry->name == name) return *entry;
+    names.push_back(entry->name);
+  }
+  throw Error(
+      fmt::format("{} {} is not in the catalogue ({}): see `freestand {}`", kind, name, hint(name, names), verb));
+}
+
+template <class Entry>
+std::string list(const std::vector<const Entry*>& all, const std::string& note) {
+  std::size_t name = 0, unit = 0;
+  for (const Entry* entry : all) {
+    name = std::max(name, entry->name.size());
+    unit = std::max(unit, entry->unit.size());
+  }
+  std::string text;
+  for (const Entry* entry : all)
+    text += fmt::format("{:<{}}  {:<{}}  {}\n", entry->name, name, entry->unit, unit, entry->summary);
+  return text + "\n" + note;
+}
+
+std::string line(const std::string& label, const std::string& text) { return fmt::format("  {:<11}{}\n", label, text); }
+
+std::string page(const Measure& im) {
+  std::string text = fmt::format("{}: {}\n", im.name, im.summary) + line("symbol", im.symbol) + line("unit", im.unit);
+  std::string study = im.name, fit = im.name;
+  if (im.parameter) {
+    text += line("takes", fmt::format("{}, {} where none is given", im.parameter->name, im.parameter->fallback));
+    study = fmt::format("{{name: {}, {}: {}}}", im.name, im.parameter->name, 0.5);
+    fit += ":0.5";
+  }
+  return text + line("source", im.source) + line("study", fmt::format("fragility: {{im: {}}}", study)) +
+         line("afterwards", fmt::format("freestand fit DIR --im {} -o DIR2", fit));
+}
+
+ordered_json json(const Measure& im) {
+  ordered_json json = {
+      {"name", im.name}, {"unit", im.unit}, {"symbol", im.symbol}, {"summary", im.summary}, {"source", im.source}};
+  json["parameter"] =
+      im.parameter ? ordered_json{{"name", im.parameter->name}, {"default", im.parameter->fallback}} : ordered_json();
+  return json;
+}
+
+std::string page(const Edp& edp) {
+  std::string text =
+      fmt::format("{}: {}\n", edp.name, edp.summary) + line("symbol", edp.symbol) + line("unit", edp.unit);
+  if (edp.binary)
+    text += line("happens", "or not: it takes no capacities");
+  else
+    text +=
+        line("still", edp.still > 0 ? fmt::format("up to {} {}", edp.still, edp.unit == "1" ? "" : edp.unit) : "at 0");
+  if (!edp.binary)
+    text += line("capacities", edp.default_capacities.empty()
+                                   ? "none by themselves: a study has to give them"
+                                   : fmt::format("{} where none are given", fmt::join(edp.default_capacities, ", ")));
+  if (edp.censored) text += line("overturned", "it has no value then, and counts as above every capacity");
+  text += line("fitted", edp.by_default ? "where a study names no demands, and where it names this one"
+                                        : "where a study names it");
+  return text + line("source", edp.source) + line("study", fmt::format("fragility: {{edp: [{}]}}", edp.name)) +
+         line("afterwards", fmt::format("freestand fit DIR --edp {} -o DIR2", edp.name));
+}
+
+ordered_json json(const Edp& edp) {
+  return {{"name", edp.name},
+          {"unit", edp.unit},
+          {"symbol", edp.symbol},
+          {"summary", edp.summary},
+          {"source", edp.source},
+          {"binary", edp.binary},
+          {"censored", edp.censored},
+          {"still", edp.still},
+          {"by_default", edp.by_default},
+          {"default_capacities", edp.default_capacities}};
+}
+
+template <class Entry>
+Catalogue catalogue(std::vector<const Entry*> all, const char* kind, const char* verb, const std::string& note) {
+  return {[=](const std::string& name) { return name.empty() ? list(all, note) : page(named(all, name, kind, verb)); },
+          [=](const std::string& name) {
+            if (!name.empty()) return json(named(all, name, kind, verb)).dump(2) + "\n";
+            auto array = ordered_json::array();
+            for (const Entry* entry : all) array.push_back(json(*entry));
+            return array.dump(2) + "\n";
+          }};
+}
+
+}  // namespace
+
+Catalogue intensities_catalogue() {
+  return catalogue(
+      intensity::all(), "intensity", "im",
+      "`freestand im NAME` tells more. A finished sweep holds all of them: `freestand fit DIR --im NAME -o "
+      "DIR2`\nneeds no new one.\n");
+}
+
+Catalogue demands_catalogue() {
+  return catalogue(
+      demands(), "demand", "edp",
+      "`freestand edp NAME` tells more. A finished sweep holds all of them: `freestand fit DIR --edp NAME -o "
+      "DIR2`\nneeds no new one.\n");
+}
+
+}  // namespace freestand::study

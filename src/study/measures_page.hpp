@@ -1,0 +1,17 @@
+// What `freestand im` and `freestand edp` tell, from the registries.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace freestand::study {
+
+struct Catalogue {
+  // Of one of them, or the list of all for an empty name. Throw Error for a name that there is not.
+  std::function<std::string(const std::string& name)> page, json;
+};
+
+Catalogue intensities_catalogue();
+Catalogue demands_catalogue();
+
+}  // namespace freestand::study

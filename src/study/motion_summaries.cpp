@@ -1,0 +1,137 @@
+#include "study/motion_summaries.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace freestand::study {
+namespace {
+
+const std::vector<std::string>& pulse_types() {
+  static const std::vector<std::string> types = {"", "A", "B", "C1", "C2"};
+  return types;
+}
+
+const std::vector<Column>& columns() {
+  static const std::vector<Column> columns = {
+      {"pga_mps2", "m/s2", "peak acceleration at scale 1"},
+      {"pgv_mps", "m/s", "peak velocity at scale 1"},
+      {"pgd_m", "m", "peak displacement at scale 1"},
+      {"housner_m", "m", "Housner's intensity at scale 1; nan for pulses, whose period each sample has for itself"},
+      {"pulse_type", "1", "pulse in the record: 0 none, 1 A, 2 B, 3 C1, 4 C2; -1: the motion is a pulse itself",
+       ColumnKind::integer},
+      {"pulse_period_s", "s", "period T_p of the pulse in the record; of a pulse itself 1"},
+      {"pulse_velocity_mps", "m/s", "amplitude v_p of the pulse in the record; negative: mirrored"},
+      {"pulse_start_s", "s", "when the pulse in the record starts"},
+      {"pulse_explained", "1", "share of the integral of velocity^2 that the pulse explains"},
+  };
+  return columns;
+}
+
+std::vector<double> row_of(const motion::MotionSummary& s) {
+  const auto type = std::find(pulse_types().begin(), pulse_types().end(), s.pulse.type) - pulse_types().begin();
+  return {s.peaks.pga_mps2,
+          s.peaks.pgv_mps,
+          s.peaks.pgd_m,
+          s.housner_m,
+          s.is_pulse ? -1.0 : static_cast<double>(type),
+          s.pulse.period_s,
+          s.pulse.velocity_mps,
+          s.pulse.start_s,
+          s.pulse.explained};
+}
+
+// Of a record, from its row and its ordinates.
+motion::MotionSummary record_summary(const double* row, const std::vector<double>& period_s, const double* sa_mps2) {
+  motion::MotionSummary s;
+  s.peaks = {row[0], row[1], row[2]};
+  s.housner_m = row[3];
+  const bool known = row[4] >= 0 && row[4] < static_cast<double>(pulse_types().size());
+  s.pulse = {known ? pulse_types()[static_cast<std::size_t>(row[4])] : "", row[5], row[6], row[7], row[8]};
+  s.spectrum = {period_s, std::vector<double>(sa_mps2, sa_mps2 + period_s.size())};
+  return s;
+}
+
+motion::MotionSummary summary_of(const MotionSet& motions, std::size_t i, const std::vector<double>& sa_period_s) {
+  if (motions.is_pulse(i)) return motion::summarize(motion::find_pulse(motions.motion(i).name));
+  return motion::summarize(motions.motion(i), {.pulse = true, .sa_period_s = sa_period_s});
+}
+
+std::vector<double> periods_of(const Study& study) {
+  std::vector<double> periods = motion::kept_periods_s();
+  if (study.fragility.im.period_s) periods.push_back(*study.fragility.im.period_s);
+  std::sort(periods.begin(), periods.end());
+  periods.erase(std::unique(periods.begin(), periods.end()), periods.end());
+  return periods;
+}
+
+}  // namespace
+
+MotionSummaries summarize(const MotionSet& motions, const std::vector<double>& sa_period_s) {
+  MotionSummaries summaries;
+  for (std::size_t i = 0; i < motions.size(); ++i) summaries.push_back(summary_of(motions, i, sa_period_s));
+  return summaries;
+}
+
+MotionSummaries summarize_together(const parallel::Communicator& world, const Study& study, const MotionSet& motions,
+                                   parallel::StepDisplay* display) {
+  const std::vector<double> periods = periods_of(study);
+  const std::size_t width = columns().size() + periods.size();
+  parallel::Words words(motions.size() * width, 0);
+  for (std::size_t i = static_cast<std::size_t>(world.rank()); i < motions.size();
+       i += static_cast<std::size_t>(world.size())) {
+    if (motions.is_pulse(i)) continue;
+    const motion::MotionSummary summary = summary_of(motions, i, periods);
+    std::vector<double> values = row_of(summary);
+    values.insert(values.end(), summary.spectrum.sa_mps2.begin(), summary.spectrum.sa_mps2.end());
+    std::transform(values.begin(), values.end(), words.begin() + static_cast<std::ptrdiff_t>(i * width),
+                   [](double x) { return std::bit_cast<std::int64_t>(x); });
+    if (display) display->show("spectra of the motions", i + 1, motions.size());
+  }
+  world.sum_in_place(words);  // each is of one rank, 0 on the others
+  std::vector<double> values(words.size());
+  std::transform(words.begin(), words.end(), values.begin(), [](std::int64_t x) { return std::bit_cast<double>(x); });
+  MotionSummaries summaries;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const double* row = values.data() + i * width;
+    summaries.push_back(motions.is_pulse(i) ? summary_of(motions, i, {})
+                                            : record_summary(row, periods, row + columns().size()));
+  }
+  return summaries;
+}
+
+io::MotionRows motion_rows(const MotionSet& motions, const MotionSummaries& summaries) {
+  io::MotionRows rows{.names = motions.names(),
+                      .group = motions.groups(),
+                      .table = {columns(), {}},
+                      .sa_period_s = motion::kept_periods_s(),
+                      .sa_mps2 = {},
+                      .fingerprint = motions.fingerprint()};
+  for (const motion::MotionSummary& s : summaries)
+    if (!s.is_pulse) rows.sa_period_s = s.spectrum.period_s;
+  for (const motion::MotionSummary& s : summaries) {
+    const std::vector<double> values = row_of(s);
+    rows.table.values.insert(rows.table.values.end(), values.begin(), values.end());
+    for (const double period : rows.sa_period_s)
+      rows.sa_mps2.push_back(motion::spectral_acceleration_mps2(s, period, 1));
+  }
+  return rows;
+}
+
+MotionSummaries motion_summaries(const io::MotionRows& rows) {
+  std::vector<std::size_t> place;
+  for (const Column& column : columns()) place.push_back(column_index(rows.table.columns, column.name));
+  MotionSummaries summaries;
+  for (std::size_t i = 0; i < rows.names.size(); ++i) {
+    if (rows.group[i] < 0) {
+      summaries.push_back(motion::summarize(motion::find_pulse(rows.names[i])));
+      continue;
+    }
+    std::vector<double> row;
+    for (const std::size_t column : place) row.push_back(rows.table.at(i, column));
+    summaries.push_back(
+        record_summary(row.data(), rows.sa_period_s, rows.sa_mps2.data() + i * rows.sa_period_s.size()));
+  }
+  return summaries;
+}
+
+}  // namespace freestand::study

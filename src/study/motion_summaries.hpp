@@ -1,0 +1,30 @@
+// What a sweep keeps of its floor motions: enough for any intensity of any sample, without the motions being there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/samples_file.hpp"
+#include "motion/summary.hpp"
+#include "parallel/communicator.hpp"
+#include "parallel/step_display.hpp"
+#include "study/realise.hpp"
+
+namespace freestand::study {
+
+// By the index of the motion.
+using MotionSummaries = std::vector<motion::MotionSummary>;
+
+// Peaks, pulse and, at these periods, the spectrum of every motion; none given: no spectra. By this process alone.
+MotionSummaries summarize(const MotionSet&, const std::vector<double>& sa_period_s);
+
+// The same with the periods that are kept of every record and the one that the study asks for. Each rank does its share.
+// display: of the root; null: none. Collective.
+MotionSummaries summarize_together(const parallel::Communicator&, const Study&, const MotionSet&,
+                                   parallel::StepDisplay* display);
+
+// To samples.h5 and back, to the bit. Pulses are known by their names.
+io::MotionRows motion_rows(const MotionSet&, const MotionSummaries&);
+MotionSummaries motion_summaries(const io::MotionRows&);
+
+}  // namespace freestand::study

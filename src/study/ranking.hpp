@@ -1,0 +1,34 @@
+// Which of the intensities that a sweep can answer for foretells its demands best (fragility/ranking.hpp).
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "fragility/ranking.hpp"
+#include "io/samples_file.hpp"
+#include "parallel/communicator.hpp"
+#include "study/study.hpp"
+
+namespace freestand::study {
+
+// As many samples are ranked, the first of the sweep: motions are the unit, and more samples of the same motions tell
+// little more.
+inline constexpr std::int64_t most_ranked_samples = 65536;
+
+struct Ranking {
+  std::int64_t samples = 0;                      // that were ranked
+  std::vector<fragility::RankedDemand> demands;  // of the study
+};
+
+// Every intensity of the catalogue once, spectral accelerations at usual periods and at the study's. On the root, the
+// others get an empty one; the same to the bit on any number of ranks. Collective.
+Ranking rank_intensities(const parallel::Communicator&, const Study&, const io::SampleReader&);
+
+nlohmann::ordered_json ranking_json(const Ranking&);
+std::string ranking_csv(const Ranking&);
+
+// A line a demand: the best, and how the study's own does beside it. `all`: the whole table.
+std::string ranking_text(const Ranking&, const Study&, bool all);
+
+}  // namespace freestand::study

@@ -1,0 +1,120 @@
+"""Any intensity, bins, demands and capacities out of one sweep, the ranking of intensities, and what is told of mistakes."""
+
+import csv
+import json
+import math
+import re
+import unittest
+
+from support import InFolder, datasets, h5py, study_text
+
+RECORDS = '  - {records: "records/*.csv", scale_to: {pta_g: {uniform: [0.1, 1.5]}}}\n'
+WITHOUT_ORIGIN = {"study", "study_name", "command", "host", "created_utc", "ranks"}
+
+
+def study_over(im, samples=1500):
+    text = study_text(samples=samples).replace("im: report", f"im: {im}")
+    return text[:text.index("  - {pulse")] + RECORDS + text[text.index("fragility:"):]
+
+
+class AnyIntensity(InFolder):
+    def setUp(self):
+        super().setUp()
+        (self.folder / "records").mkdir()
+        for name, beat, fade in (("a", 5, 0.3), ("b", 9, 0.5), ("c", 3, 0.2), ("d", 14, 0.4), ("e", 7, 0.3), ("f", 20, 0.2)):
+            rows = (f"{0.01 * i:.2f},{4 * math.sin(beat * 0.01 * i * (1 + 0.001 * i)) * math.exp(-fade * 0.01 * i):.9f}\n"
+                    for i in range(600))
+            (self.folder / "records" / f"{name}.csv").write_text("time_s,floor_acceleration_mps2\n" + "".join(rows))
+        self.out = self.folder / "out"
+        self.done = self.succeed(["run", self.write("study.yaml", study_over("report")), "-o", self.out], 2)
+
+    def fit(self, name, *options, ranks=1):
+        self.succeed(["fit", self.out, *options, "-o", self.folder / name], ranks)
+        return self.folder / name
+
+    def assert_same(self, a, b):
+        """The same files, but for where they come from."""
+        self.assertEqual(datasets(a / "fragility.h5"), datasets(b / "fragility.h5"))
+        for name in ("bins.csv", "surface.csv", "ranking.csv"):
+            self.assertEqual((a / name).read_bytes(), (b / name).read_bytes(), name)
+        with h5py.File(a / "fragility.h5") as one, h5py.File(b / "fragility.h5") as other:
+            for key in set(one.attrs) - WITHOUT_ORIGIN:
+                self.assertEqual(str(one.attrs[key]), str(other.attrs[key]), key)
+
+    def test_one_sweep_answers_as_sweeps_of_their_own(self):
+        before = {path.name: path.read_bytes() for path in self.out.iterdir() if path.is_file()}
+        for im, option in (("pga_g", "pga_g"), ("{name: sa_g, period_s: 0.5}", "sa_g:0.5"), ("housner_m", "housner_m")):
+            own = self.folder / "own"
+            self.succeed(["run", self.write("own.yaml", study_over(im)), "-o", own, "--overwrite", "--quiet"])
+            self.assert_same(self.fit(option.replace(":", "_"), "--im", option, ranks=2), own)
+        self.assertEqual({path.name: path.read_bytes() for path in self.out.iterdir() if path.is_file()}, before)
+
+    def test_the_records_need_not_be_there_and_the_fit_can_be_swept_again(self):
+        first = self.fit("first", "--im", "pgv_mps", "--bins", "4", "--edp", "delta", "--capacities", "delta=0.5,1.5")
+        self.succeed(["run", first / "study.yaml", "-o", self.folder / "again", "--quiet"])
+        self.assert_same(first, self.folder / "again")
+        for record in (self.folder / "records").iterdir():
+            record.unlink()
+        self.assert_same(self.fit("second", "--im", "pgv_mps", "--bins", "4", "--edp", "delta", "--capacities", "delta=0.5,1.5"), first)
+        summary = json.loads((first / "summary.json").read_text())
+        self.assertEqual(summary["samples_in"], "../out")
+        self.assertLessEqual({"fragility.bins", "fragility.capacities", "fragility.edp", "fragility.im"}, set(summary["study_changed"]))
+
+    def test_a_period_between_those_kept_is_told_with_how_well(self):
+        done = self.succeed(["fit", self.out, "--im", "sa_g:0.333", "-o", self.folder / "third"])
+        self.assertRegex(done.stdout, r"sa_g at 0.333 s is interpolated")
+        summary = json.loads((self.folder / "third" / "summary.json").read_text())
+        self.assertTrue(any("interpolated" in warning for warning in summary["warnings"]))
+        self.assertEqual(summary["im_period_s"], 0.333)
+        self.assertNotIn("interpolated", self.succeed(["fit", self.out, "--im", "sa_g:0.33", "-o", self.folder / "fourth"]).stdout)
+
+    def test_intensities_are_ranked_in_every_output(self):
+        self.assertIn("best intensity for delta: ", self.done.stdout)
+        ranking = json.loads((self.out / "summary.json").read_text())["ranking"]
+        self.assertEqual(ranking["samples"], 1500)
+        ims = [entry["im"] for entry in ranking["demands"]["delta"]]
+        self.assertEqual(len(ims), len(set(ims)))
+        self.assertLessEqual({"pga_g", "pgv_mps", "pgd_m", "sa_g:0.5", "sa_g:1", "housner_m", "report"}, set(ims))
+        scatters = [entry["scatter"] for entry in ranking["demands"]["delta"]]
+        self.assertEqual(scatters, sorted(scatters))
+        on = {left["on"]: left["motions"] for left in ranking["demands"]["delta"][0]["sufficiency"]}
+        self.assertEqual(on, {"record_pulse_period_s": 6})
+        with open(self.out / "ranking.csv", newline="") as file:
+            rows = [row for row in csv.DictReader(file) if row["edp"] == "delta"]
+        self.assertEqual([row["im"] for row in rows], ims)
+        table = self.succeed(["fit", self.out, "--rank"], 3).stdout
+        for im in ims:
+            self.assertRegex(table, re.escape(im) + r" +[\d.]+")
+        self.assertEqual(json.loads((self.out / "summary.json").read_text())["ranking"], ranking)  # on any number of ranks
+
+    def test_mistakes_are_told_and_make_no_folder(self):
+        into = self.folder / "into"
+        for words, *options in ((("intensity measure pgx is not known",), "--im", "pgx"),
+                                (("kept from 0.02 to 10 s",), "--im", "sa_g:30"),
+                                (("does not increase",), "--bins", "2,1"),
+                                (("slip is not known",), "--edp", "slip"),
+                                (("names no demand",), "--capacities", "0.1")):
+            done = self.fail_with(2, ["fit", self.out, *options, "-o", into], *words, ranks=2)
+            self.assertNotIn("unexpected", done.stderr)
+            self.assertFalse(into.exists(), options)
+        self.fit("into")
+        self.fail_with(2, ["fit", self.out, "-o", into], "not empty")
+        self.fit("into", "--overwrite")
+        self.fail_with(3, ["fit", into], "holds a fit, and no samples")
+
+
+class Catalogues(InFolder):
+    def test_they_list_and_explain(self):
+        for verb, name in (("im", "sa_g"), ("edp", "peak_slip_m")):
+            self.assertIn(name, self.succeed([verb]).stdout)
+            page = self.succeed([verb, name]).stdout
+            for word in ("source", "study", "afterwards"):
+                self.assertIn(word, page)
+            entries = json.loads(self.succeed([verb, "--json"]).stdout)
+            one = json.loads(self.succeed([verb, name, "--json"]).stdout)
+            self.assertIn(one, entries)
+            self.fail_with(2, [verb, name + "x"], "is not in the catalogue", f"did you mean {name}?")
+
+
+if __name__ == "__main__":
+    unittest.main()

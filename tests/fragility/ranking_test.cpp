@@ -1,0 +1,173 @@
+#include "fragility/ranking.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <freestand/error.hpp>
+
+#include "base/random.hpp"
+
+namespace freestand::fragility {
+namespace {
+
+// Standard normal numbers by counter.
+double normal(std::uint64_t seed, std::uint64_t i, std::uint64_t stream) {
+  return std::sqrt(-2 * std::log(random::uniform(seed, i, stream))) *
+         std::cos(6.283185307179586 * random::uniform(seed, i, stream + 1));
+}
+
+constexpr int motions = 40, samples_each = 25;
+
+struct Made {
+  double scatter = 0.2, of_motion = 0.3;  // of ln demand: between samples, and between motions
+  double on_period = 0;                   // slope of ln demand over ln period
+  bool pulses = false;                    // every sample a motion, with a period of its own
+};
+
+RankingOptions options(const std::vector<std::string>& ims, bool pulses, std::uint64_t seed) {
+  RankingOptions options{ims, {{"peak_slip_m", false, 1e-4, true}, {"overturned", true, 0, false}}, {}, {}};
+  MotionProperty period{.name = "period_s", .of_pulses = pulses, .value = {}};
+  for (int m = 0; m < (pulses ? 1 : motions); ++m) {
+    options.motion_group.push_back(pulses ? -1 : m);
+    if (!pulses) period.value.push_back(std::exp(0.5 * normal(seed, static_cast<std::uint64_t>(m), 70)));
+  }
+  options.properties.push_back(period);
+  return options;
+}
+
+// ln demand = 2 + 1.5 ln im[0] + what Made says; the other intensities are im[0] times more and more noise. A block
+// overturns by chance at a probability that rises with im[0].
+RankingTally made(std::size_t ims, const Made& made, std::uint64_t seed) {
+  const std::vector<std::string> names = {"first", "second", "third"};
+  RankingTally tally(options({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(ims)}, made.pulses, seed));
+  for (std::uint64_t i = 0; i < motions * samples_each; ++i) {
+    const auto m = made.pulses ? i : i % motions;
+    const double ln_period = made.pulses ? 0.5 * normal(seed, i, 50) : 0.5 * normal(seed, m, 70);
+    const double x = 0.8 * normal(seed, i, 10);
+    std::vector<double> im;
+    for (std::size_t k = 0; k < ims; ++k)
+      im.push_back(std::exp(x + 0.3 * static_cast<double>(k) * normal(seed, i, 20 + 2 * k)));
+    const double y = 2 + 1.5 * x + made.scatter * normal(seed, i, 30) + made.of_motion * normal(seed, m, 40) +
+                     made.on_period * ln_period;
+    const bool over = x + 0.4 * normal(seed, i, 60) > 0.7;
+    const double edp[] = {std::exp(y), over ? 1.0 : 0.0};
+    tally.add({i, made.pulses ? 0 : static_cast<int>(m), over, made.pulses ? std::exp(ln_period) : unknown, im, edp});
+  }
+  return tally;
+}
+
+TEST(Ranking, TheIntensityThatTheDemandFollowsComesFirstAndClearly) {
+  const std::vector<RankedDemand> ranked = rank(made(3, {}, 1));
+  ASSERT_EQ(ranked.size(), 2u);
+  for (const RankedDemand& demand : ranked) {
+    EXPECT_EQ(demand.ims[0].im, "first") << demand.edp;
+    EXPECT_EQ(demand.ims[1].im, "second") << demand.edp;
+    EXPECT_EQ(demand.ims[0].behind, 0);
+    EXPECT_GT(demand.ims[1].behind, 2 * demand.ims[1].behind_se) << demand.edp;
+    EXPECT_GT(demand.ims[2].behind, demand.ims[1].behind) << demand.edp;
+  }
+  const RankedIm& best = ranked[0].ims[0];
+  EXPECT_NEAR(best.slope, 1.5, 0.1);
+  EXPECT_NEAR(best.value, std::hypot(0.2, 0.3), 4 * best.value_se);
+  EXPECT_GT(ranked[1].ims[0].parts, ranked[1].ims[1].parts);
+}
+
+// The line through the same numbers, by the formulas of a textbook.
+TEST(Ranking, ScatterAndSlopeAreThoseOfALeastSquaresLine) {
+  const std::uint64_t seed = 4;
+  const std::vector<RankedDemand> ranked = rank(made(2, {}, seed));
+  std::vector<double> xs, ys;
+  for (std::uint64_t i = 0; i < motions * samples_each; ++i) {
+    const double x = 0.8 * normal(seed, i, 10);
+    if (x + 0.4 * normal(seed, i, 60) > 0.7) continue;  // overturned: no slip
+    xs.push_back(x);
+    ys.push_back(2 + 1.5 * x + 0.2 * normal(seed, i, 30) + 0.3 * normal(seed, i % motions, 40));
+  }
+  double mx = 0, my = 0, xx = 0, xy = 0, rest = 0;
+  const auto n = static_cast<double>(xs.size());
+  for (std::size_t i = 0; i < xs.size(); ++i) mx += xs[i] / n, my += ys[i] / n;
+  for (std::size_t i = 0; i < xs.size(); ++i) {
+    xx += (xs[i] - mx) * (xs[i] - mx);
+    xy += (xs[i] - mx) * (ys[i] - my);
+  }
+  for (std::size_t i = 0; i < xs.size(); ++i) rest += std::pow(ys[i] - my - xy / xx * (xs[i] - mx), 2);
+  EXPECT_EQ(ranked[0].ims[0].samples, static_cast<std::int64_t>(xs.size()));
+  EXPECT_NEAR(ranked[0].ims[0].slope, xy / xx, 1e-8);
+  EXPECT_NEAR(ranked[0].ims[0].value, std::sqrt(rest / (n - 2)), 1e-8);
+}
+
+// 400 sets without any dependence: a test of 5 % that takes motions as the unit finds one in 20 of them, within three
+// standard errors of that count (sqrt(400 * 0.05 * 0.95) = 4.4). Over samples it would find more than half.
+TEST(Sufficiency, FindsNothingWhereThereIsNothing) {
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed)
+    found += rank(made(1, {}, 1000 + seed))[0].ims[0].sufficiency[0].p < 0.05;
+  EXPECT_NEAR(found, 20, 14);
+}
+
+TEST(Sufficiency, FindsWhatIsThereOnRecordsAndOnPulses) {
+  for (const bool pulses : {false, true}) {
+    const std::vector<RankedDemand> ranked = rank(made(1, {.on_period = 0.6, .pulses = pulses}, 5));
+    const Sufficiency& left = ranked[0].ims[0].sufficiency[0];
+    EXPECT_EQ(left.motions, pulses ? ranked[0].ims[0].samples : motions);
+    EXPECT_LT(left.p, 1e-3);
+    EXPECT_NEAR(left.slope, 0.6, 4 * left.slope_se);
+    EXPECT_LT(left.slope_se, 0.2);
+  }
+}
+
+// Records of one group count once: 40 motions in 10 groups are 10.
+TEST(Sufficiency, GroupsOfRecordsAreOneUnit) {
+  RankingOptions grouped = options({"first"}, false, 5);
+  for (int& group : grouped.motion_group) group %= 10;
+  RankingTally tally(grouped);
+  for (std::uint64_t i = 0; i < 1000; ++i) {
+    const double im[] = {std::exp(normal(5, i, 1))}, edp[] = {std::exp(normal(5, i, 3)), 0.0};
+    tally.add({i, static_cast<int>(i % motions), false, unknown, im, edp});
+  }
+  EXPECT_EQ(rank(tally)[0].ims[0].sufficiency[0].motions, 10);
+}
+
+TEST(Ranking, AnySplitOfTheSamplesGivesTheSameBits) {
+  const RankingOptions opts = options({"first"}, false, 3);
+  RankingTally whole(opts), odd(opts), even(opts);
+  for (std::uint64_t i = 0; i < 3000; ++i) {
+    const double im[] = {std::exp(normal(3, i, 1))}, edp[] = {std::exp(-5 + normal(3, i, 3)), i % 7 == 0 ? 1.0 : 0.0};
+    const RankedSample sample{i, static_cast<int>(i % motions), false, unknown, im, edp};
+    whole.add(sample);
+    (i % 2 ? odd : even).add(sample);
+  }
+  std::vector<std::int64_t> words = odd.words();
+  const std::vector<std::int64_t> more = even.words();
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] += more[i];
+  EXPECT_EQ(RankingTally::from_words(opts, words).words(), whole.words());
+  words.pop_back();
+  EXPECT_THROW(RankingTally::from_words(opts, words), Error);
+}
+
+TEST(Ranking, AnIntensityThatPartsAllHasAllTheDevianceAndAllPairs) {
+  RankingTally tally(options({"perfect", "blind"}, true, 1));
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const double x = random::uniform(1, i, 1);
+    const double im[] = {0.1 + x, 0.1 + random::uniform(1, i, 2)}, edp[] = {unknown, x > 0.6 ? 1.0 : 0.0};
+    tally.add({i, 0, x > 0.6, 1, im, edp});
+  }
+  const std::vector<RankedDemand> ranked = rank(tally);
+  ASSERT_EQ(ranked.size(), 1u);  // no demand that moved
+  EXPECT_EQ(ranked[0].ims[0].im, "perfect");
+  EXPECT_GT(ranked[0].ims[0].parts, 0.99);
+  EXPECT_GT(ranked[0].ims[0].value, 0.95);
+  EXPECT_NEAR(ranked[0].ims[1].parts, 0.5, 0.05);
+  EXPECT_NEAR(ranked[0].ims[1].value, 0, 0.01);
+}
+
+TEST(Ranking, WithoutWhatItNeedsThereIsNone) {
+  RankingTally tally(options({"first"}, true, 1));
+  EXPECT_TRUE(rank(tally).empty());
+  const double im[] = {1.0}, edp[] = {1.0, 0.0};
+  EXPECT_THROW(tally.add({0, 3, false, 1, im, edp}), Error);
+  EXPECT_THROW(tally.add({0, 0, false, 1, im, std::span(edp, 1)}), Error);
+}
+
+}  // namespace
+}  // namespace freestand::fragility
