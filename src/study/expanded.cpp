@@ -121,7 +121,7 @@ Mapping source_mapping(const MotionSource& source, const char* file, const char*
     m.add("pulse", to_string(source.pulses));
     m.add(source.period);
     add_amplitude(source, m);
-    m.add("scale", number_text(source.pulse_scale));
+    if (!source.scale_to) m.add("scale", number_text(source.pulse_scale));
   } else {
     m.add(file, text_value(source.records));
     if (!source.vertical_records.empty()) m.add(vertical_file, text_value(source.vertical_records));

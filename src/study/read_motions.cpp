@@ -12,8 +12,8 @@ constexpr Range period_range = {
 constexpr Range weight_range = {.lower = 0, .why = "a weight must be above zero"};
 
 const std::vector<std::string> pulse_keys = {"period_s", "peak_acceleration_g", "peak_velocity_mps"};
-const std::vector<std::string> record_keys = {"scale_to",         "dt_s",          "unit", "format", "channel",
-                                              "vertical_records", "vertical_file", "group"};
+const std::vector<std::string> record_keys = {"dt_s",          "unit", "format", "channel", "vertical_records",
+                                              "vertical_file", "group"};
 
 // Keys of the other kind of source are not unknown, but out of place.
 void out_of_place(Section& section, const std::vector<std::string>& keys, const std::string& with) {
@@ -56,8 +56,9 @@ void read_pulses(Section& section, MotionSource& source) {
     section.problem(given[1], fmt::format("{} and {} are both given (one determines the other): remove one",
                                           section.name(given[1]), given[0]));
   if (given.empty())
-    section.problem("pulse", name + " has no amplitude (how strong is it?): add peak_acceleration_g, peak_velocity_mps "
-                                    "or scale_to");
+    section.problem("pulse", name +
+                                 " has no amplitude (how strong is it?): add peak_acceleration_g, peak_velocity_mps "
+                                 "or scale_to");
   out_of_place(section, record_keys, "pulse");
 }
 

@@ -46,13 +46,17 @@ std::optional<Quantity> read_scale_to(Section& section, MotionSource& source) {
   const auto named = measures_named(scale_to);
   const std::string known = joined(proportional_measures());
   if (named.size() != 1) {
-    const std::string first = node->size() ? shown(node->begin()->first.Scalar()) : "nothing";
+    const std::string first = node->size() ? node->begin()->first.Scalar() : "";
+    const std::string near = nearest(first, proportional_measures());
     section.problem("scale_to",
-                    named.empty()
-                        ? fmt::format("{} is {} (no intensity that a motion can be scaled to): name one of {}",
-                                      scale_to.name(first), hint(first, proportional_measures()), known)
-                        : fmt::format("{} has {} and {} (one determines the other): remove one",
-                                      section.name("scale_to"), named[0]->name, named[1]->name));
+                    !named.empty()
+                        ? fmt::format("{} has {} and {} (one determines the other): remove one",
+                                      section.name("scale_to"), named[0]->name, named[1]->name)
+                        : fmt::format("{} names no intensity that a motion can be scaled to ({}): name one of {}",
+                                      section.name("scale_to"),
+                                      near.empty() ? "it has " + (first.empty() ? "nothing in it" : shown(first))
+                                                   : "did you mean " + near + "?",
+                                      known));
     return {};
   }
   const intensity::Measure& measure = *named.front();

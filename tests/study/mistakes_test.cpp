@@ -221,16 +221,22 @@ TEST(StudyMistakes, InDamageStates) {
   };
   EXPECT_EQ(problems(state("delta > 1 or overturned")), "");
   EXPECT_EQ(problems(state("{when: delta > gap, parameters: {gap: {uniform: [1, 2]}}}")), "");
+  // Where a condition does not hold together, two lines more show the place.
+  for (const auto& [text, says] : std::vector<std::pair<std::string, std::string>>{
+           {"delta > 1 and mu_k > 0.2", "\"mu_k\" is not known here, character 15"},
+           {"dleta > 1", "did you mean delta?"},
+           {"delta >", "it ends too early"},
+           {"(delta > 1", "a parenthesis is not closed"},
+           {"delta + 1", "it is a number and no condition"},
+           {"delta", "it is a number and no condition"},
+           {"\"delta = 1\"", "\"=\" is not known here, == is"}}) {
+    const std::string found = problems(state(text));
+    EXPECT_THAT(found, testing::AllOf(testing::StartsWith("folder/some.yaml:5: "), HasSubstr(says))) << text;
+    EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), 2) << found;
+  }
   expect_each({
       {with_fragility("{edp: [delta], damage: [delta > 1]}"), "5", "fragility.damage is a list"},
       {state(""), "5", "fragility.damage.door has no value"},
-      {state("delta > 1 and mu_k > 0.2"), "5", "\"mu_k\" is not known here, character 15"},
-      {state("dleta > 1"), "5", "did you mean delta?"},
-      {state("delta >"), "5", "it ends too early"},
-      {state("(delta > 1"), "5", "a parenthesis is not closed"},
-      {state("delta + 1"), "5", "it is a number and no condition"},
-      {state("delta"), "5", "it is a number and no condition"},
-      {state("\"delta = 1\""), "5", "\"=\" is not known here, == is"},
       {state("2 > 1"), "5", "looks at no demand"},
       {state("{when: delta > 1, parameters: {gap: 0.1}}"), "5", "parameter gap of damage state door stands nowhere"},
       {state("{when: delta > overturned, parameters: {overturned: 0.1}}"), "5", "cannot be called that"},
