@@ -114,6 +114,7 @@ DamagePart read_state(Section& damage, const std::string& name) {
     part.when = damage.text(name, "");
     return part;
   }
+  const std::size_t before = damage.problems().count();
   Section state(node, damage.name(name), damage.line(name), damage.problems());
   part.when = state.text("when", "");
   if (!state.has("when"))
@@ -127,6 +128,7 @@ DamagePart read_state(Section& damage, const std::string& name) {
     parameters.finish();
   }
   state.finish();
+  if (damage.problems().count() != before) part.when.clear();  // what follows from them is not told as well
   return part;
 }
 
