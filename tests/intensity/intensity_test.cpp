@@ -57,9 +57,8 @@ TEST_F(OfAPulse, DimensionlessMeasuresFollowTheirFormulas) {
 // Whoever says that it is proportional to the scale is, whatever its sign, and whoever is says so.
 TEST_F(OfAPulse, ProportionalOnesSaySo) {
   for (const Measure* measure : all()) {
-    Shaking larger = shaking;
-    larger.scale = 15;  // -2.5 times
-    const double before = value(*measure, summary, shaking, specimen), after = value(*measure, summary, larger, specimen);
+    const double before = intensity::value_of(*measure, refrigerator_on(summary, -6, 0.8)),
+                 after = intensity::value_of(*measure, refrigerator_on(summary, 15, 0.8));  // -2.5 times
     EXPECT_EQ(std::abs(after - 2.5 * before) < 1e-12 * std::abs(after), measure->proportional) << measure->name;
   }
 }
