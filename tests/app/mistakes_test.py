@@ -45,9 +45,9 @@ class Mistakes(InFolder):
         self.check(study_text().replace("static_ratio: 1.2", "static_ratio: 0.8"), "static_ratio")
 
     def test_bins_that_are_too_narrow_are_refused_before_the_sweep(self):
-        text = study_text(samples=10**9).replace("count: 5", "width: 1e-6")
+        text = study_text(samples=2 * 10**8).replace("count: 5", "width: 1e-6")
         self.check(text, "fragility.bins: a width of 1e-06 makes", "no more than 1000 are held")
-        text = study_text(samples=10**9).replace("axes: [friction.mu_k]", "axes: [{name: friction.mu_k, bins: {width: 1e-6}}]")
+        text = study_text(samples=2 * 10**8).replace("axes: [friction.mu_k]", "axes: [{name: friction.mu_k, bins: {width: 1e-6}}]")
         self.check(text, "fragility.axes, friction.mu_k: a width of 1e-06 makes")
         self.assertFalse((self.folder / "out" / "blocks").exists())
 
