@@ -74,7 +74,9 @@ TEST_F(OfAPulse, SpectralMeasuresAreThoseOfTheStretchedPulse) {
     EXPECT_NEAR(value_of("sa_g", period), expected, 1e-5 * expected) << period;
   }
   EXPECT_EQ(value_of("sa_g"), value_of("sa_g", 1.0));
-  EXPECT_NEAR(value_of("housner_m"), motion::housner_intensity_m(record), 1e-5);
+  const double housner =
+      motion::housner_intensity_m(record);  // of a pulse from a table: tests/motion/spectrum_test.cpp
+  EXPECT_NEAR(value_of("housner_m"), housner, 1e-4 * housner);
 }
 
 TEST(OfARecord, EverythingFollowsFromWhatIsKept) {
