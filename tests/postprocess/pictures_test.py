@@ -113,7 +113,8 @@ class Pictures(unittest.TestCase):
 
     def test_bins_stand_at_the_mean_of_their_samples(self):
         with h5py.File(support.sweep() / "samples.h5") as samples, h5py.File(support.sweep() / "fragility.h5") as root:
-            im, edge = samples["samples/im_report"][()], root["im/edge"][()]
+            im = samples["samples/pta_g"][()] / samples["samples/friction_mu_k"][()] - 1
+            edge = root["im/edge"][()]
             usable = samples["samples/outcome"][()] <= 2
         sweep = reading.read_sweep(support.sweep())
         means = [im[usable & (im >= low) & (im < high)].mean() for low, high in zip(edge[:-1], edge[1:])]
