@@ -94,11 +94,9 @@ class Sweep {
         options_(options),
         folder_(folder),
         evaluator_(evaluator_together(world, study, options.quiet)),
-        store_(blocks_path(folder.path()), samples_fingerprint(study) + evaluator_.motions().fingerprint(),
-               kernel_of(evaluator_.columns())) {}
+        store_(store_in(folder.path())) {}
 
   SweepSummary run() {
-    refuse_bins_that_are_too_narrow();
     take_stock();
     folder_.begin();
     std::int64_t samples = first_round();
@@ -117,6 +115,13 @@ class Sweep {
   }
 
  private:
+  // What is wrong with the bins is told before anything is made.
+  parallel::BlockStore store_in(const std::filesystem::path& folder) const {
+    refuse_bins_that_are_too_narrow();
+    return {blocks_path(folder), samples_fingerprint(study_) + evaluator_.motions().fingerprint(),
+            kernel_of(evaluator_.columns())};
+  }
+
   std::int64_t total() const { return static_cast<std::int64_t>(study_.samples); }
   io::BlockLayout layout(std::int64_t samples) const { return {samples, static_cast<std::int64_t>(study_.block_size)}; }
 
