@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <freestand/error.hpp>
 #include <fstream>
-#include <optional>
-#include <string_view>
 
 #include "base/shown_text.hpp"
 
@@ -14,29 +12,6 @@ namespace {
 std::string trimmed(std::string text) {
   const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-// The cells of one line; nothing where a quote does not end on it.
-std::optional<std::vector<std::string>> cells_of(std::string_view line) {
-  std::vector<std::string> cells(1);
-  bool quoted = false, was_quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      cells.back() += line[++i];
-    } else if (c == '"' && (quoted || trimmed(cells.back()).empty())) {
-      quoted = !quoted;
-      was_quoted = true;
-    } else if (c == ',' && !quoted) {
-      if (!was_quoted) cells.back() = trimmed(cells.back());
-      cells.emplace_back();
-      was_quoted = false;
-    } else if (!(was_quoted && !quoted)) {  // what stands behind a closing quote is blank
-      cells.back() += c;
-    }
-  }
-  if (!was_quoted) cells.back() = trimmed(cells.back());
-  return quoted ? std::nullopt : std::optional(cells);
 }
 
 bool says_nothing(const std::string& line) {
@@ -74,6 +49,29 @@ std::string wrong_header(const std::vector<std::string>& columns) {
 
 }  // namespace
 
+std::optional<std::vector<std::string>> csv_cells(std::string_view line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false, was_quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
+      cells.back() += line[++i];
+    } else if (c == '"' && (quoted || trimmed(cells.back()).empty())) {
+      if (!quoted) cells.back().clear();  // blanks before it
+      quoted = !quoted;
+      was_quoted = true;
+    } else if (c == ',' && !quoted) {
+      if (!was_quoted) cells.back() = trimmed(cells.back());
+      cells.emplace_back();
+      was_quoted = false;
+    } else if (!(was_quoted && !quoted)) {  // what stands behind a closing quote is blank
+      cells.back() += c;
+    }
+  }
+  if (!was_quoted) cells.back() = trimmed(cells.back());
+  return quoted ? std::nullopt : std::optional(cells);
+}
+
 std::size_t CsvTable::column(const std::string& name) const {
   return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
 }
@@ -90,7 +88,7 @@ std::vector<std::string> csv_columns(const std::filesystem::path& file) {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const std::string line = text.substr(begin, end - begin);
-    if (!says_nothing(line)) return cells_of(line).value_or(std::vector<std::string>{});
+    if (!says_nothing(line)) return csv_cells(line).value_or(std::vector<std::string>{});
     begin = end + 1;
   }
   return {};
@@ -105,7 +103,7 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
     problems.append(table.at({line, {}})).append(what);
   };
   for (int line = next_line(stream, 0, text); line > 0; line = next_line(stream, line, text)) {
-    const auto cells = cells_of(text);
+    const auto cells = csv_cells(text);
     if (text.find('\0') != std::string::npos)
       throw Error(table.at({line, {}}) + "no text but a binary file (it holds a zero byte): give the table as csv");
     if (!cells) {

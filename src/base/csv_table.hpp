@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace freestand {
@@ -23,6 +25,9 @@ struct CsvTable {
   // "FILE:LINE: "
   std::string at(const Row& row) const;
 };
+
+// The cells of one line, without blanks around them; nothing where a quote does not end on it.
+std::optional<std::vector<std::string>> csv_cells(std::string_view line);
 
 // The columns of the file's first line that is no comment; empty where it cannot be read as text.
 std::vector<std::string> csv_columns(const std::filesystem::path& file);

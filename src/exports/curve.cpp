@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fragility/normal.hpp"
+
 namespace freestand::exports {
 namespace {
 
@@ -35,15 +37,14 @@ double of_parts(const Curve& curve, double im) {
   const PartsPoint& b = share > 0 ? curve.parts[below + 1] : a;
   const double p_over = between(a.p_over, b.p_over, share), p_never = between(a.p_never, b.p_never, share),
                lambda = between(a.lambda, b.lambda, share), omega = between(a.omega, b.omega, share);
-  return p_over + (1 - p_over) * (1 - p_never) * normal_cdf((lambda - curve.ln_capacity) / omega);
+  return p_over + (1 - p_over) * (1 - p_never) * fragility::normal_cdf((lambda - curve.ln_capacity) / omega);
 }
 
 }  // namespace
 
-double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
-
 double probability(const Curve& curve, double im) {
-  if (curve.form == Form::lognormal) return im > 0 ? normal_cdf(std::log(im / curve.median) / curve.dispersion) : 0;
+  if (curve.form == Form::lognormal)
+    return im > 0 ? fragility::normal_cdf(std::log(im / curve.median) / curve.dispersion) : 0;
   return curve.form == Form::discrete ? of_points(curve.points, im) : of_parts(curve, im);
 }
 

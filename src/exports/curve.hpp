@@ -34,7 +34,4 @@ struct Curve {
 // A lognormal is 0 at im <= 0; points are constant below the first and above the last.
 double probability(const Curve&, double im);
 
-// Standard normal distribution function.
-double normal_cdf(double z);
-
 }  // namespace freestand::exports

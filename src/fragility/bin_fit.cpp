@@ -9,7 +9,6 @@
 namespace freestand::fragility {
 namespace {
 
-constexpr double test_level = 0.05;
 constexpr double least_omega = 1e-6;  // below it all samples are one value
 // Simulated bins of one null distribution: p values to a 500th, the critical value to a level of 0.05 +- 0.01.
 constexpr int null_repeats = 500;
@@ -42,8 +41,9 @@ class Bin {
     fit_.lambda = found.lambda;
     fit_.omega = found.omega;
     fit_.p_never = found.never;
-    fit_.mean = std::exp(found.lambda + found.omega * found.omega / 2);
-    fit_.standard_deviation = fit_.mean * std::sqrt(std::expm1(found.omega * found.omega));
+    const LognormalMoments moments = lognormal_moments(found.lambda, found.omega);
+    fit_.mean = moments.mean;
+    fit_.standard_deviation = moments.standard_deviation;
     judge(null);
     return fit_;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fragility/goodness.hpp"
 #include "fragility/intervals.hpp"
 #include "fragility/probit.hpp"
 
@@ -10,7 +11,6 @@ namespace freestand::fragility {
 namespace {
 
 constexpr int grid_points = 81;
-constexpr double misfit_level = 0.05;  // of the test whether the curve misses the counted shares by more than chance
 
 // Counts by fine cell of IM and by group of motions. Cells without samples are left out.
 struct Cells {
@@ -177,7 +177,7 @@ class Resampled {
     const auto larger = scatter.end() - std::lower_bound(scatter.begin(), scatter.end(), size);
     curve.misfit_p = (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(scatter.size()));
     curve.off_by = size + sorted_quantile(scatter, tally_.options().confidence);
-    curve.adequate = curve.misfit_p > misfit_level || curve.off_by <= tally_.options().adequate;
+    curve.adequate = curve.misfit_p > test_level || curve.off_by <= tally_.options().adequate;
   }
 
  private:

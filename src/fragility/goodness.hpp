@@ -19,6 +19,9 @@
 
 namespace freestand::fragility {
 
+// Level of the tests of fits [KM05 5.31].
+inline constexpr double test_level = 0.05;
+
 // S = max |F_n - F| over both sides of every step [KM05 5.28-5.30], from u_i = F(x_i) in increasing order.
 double ks_statistic(std::span<const double> sorted_u);
 

@@ -19,8 +19,9 @@ LognormalFit from_moments(double n, double lambda, double omega2) {
   const double s = fit.omega * std::sqrt(n / (n - 1));
   fit.lambda_se = s / std::sqrt(n);
   fit.omega_se = s / std::sqrt(2 * (n - 1));
-  fit.mean = std::exp(lambda + omega2 / 2);
-  fit.standard_deviation = fit.mean * std::sqrt(std::expm1(omega2));
+  const LognormalMoments moments = lognormal_moments(fit.lambda, fit.omega);
+  fit.mean = moments.mean;
+  fit.standard_deviation = moments.standard_deviation;
   return fit;
 }
 
@@ -61,6 +62,11 @@ Interval lambda_interval(const LognormalFit& fit, double confidence) {
 Interval omega_interval(const LognormalFit& fit, double confidence) {
   const double tail = (1 - confidence) / 2, sum = fit.n * fit.omega * fit.omega;
   return {std::sqrt(sum / gsl_cdf_chisq_Qinv(tail, fit.n - 1)), std::sqrt(sum / gsl_cdf_chisq_Pinv(tail, fit.n - 1))};
+}
+
+LognormalMoments lognormal_moments(double lambda, double omega) {
+  const double mean = std::exp(lambda + omega * omega / 2);
+  return {mean, mean * std::sqrt(std::expm1(omega * omega))};
 }
 
 LognormalParameters lognormal_from_moments(double mean, double standard_deviation) {

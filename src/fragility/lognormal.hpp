@@ -27,6 +27,12 @@ LognormalFit fit_lognormal(double n, double sum_ln, double sum_ln2);
 Interval lambda_interval(const LognormalFit& fit, double confidence);
 Interval omega_interval(const LognormalFit& fit, double confidence);
 
+// Of the lognormal distribution [KM05 5.24]: exp(lambda + omega^2/2), mean sqrt(exp(omega^2) - 1).
+struct LognormalMoments {
+  double mean, standard_deviation;
+};
+LognormalMoments lognormal_moments(double lambda, double omega);
+
 // Parameters of the lognormal distribution with the given mean and standard deviation (both > 0) [KM05 5.24]:
 //   omega^2 = ln(1 + (sd/mean)^2),  lambda = ln mean - omega^2/2.
 struct LognormalParameters {

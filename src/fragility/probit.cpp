@@ -6,11 +6,10 @@
 #include <limits>
 
 #include "base/units.hpp"
+#include "fragility/normal.hpp"
 
 namespace freestand::fragility {
 namespace {
-
-double upper_tail(double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); }
 
 // Logarithms of Phi(eta) and 1 - Phi(eta), and phi/Phi and phi/(1 - Phi), also far out where the tails vanish.
 struct Tails {
@@ -19,14 +18,13 @@ struct Tails {
 
 Tails tails(double eta) {
   const double x = std::fabs(eta);
-  const double density = std::exp(-x * x / 2) / std::sqrt(2 * pi);
-  const double small = upper_tail(x);
+  const double density = normal_density(x), small = normal_cdf(-x);
   const bool far = x > 30;
   const double log_small =
       far ? -x * x / 2 - std::log(x * std::sqrt(2 * pi)) + std::log1p(-1 / (x * x)) : std::log(small);
-  const double hazard = far ? x + 1 / x - 2 / (x * x * x) : density / small;
+  const double steep = normal_hazard(x);
   const double log_large = std::log1p(-small), other = density / (1 - small);
-  return eta < 0 ? Tails{log_small, log_large, hazard, other} : Tails{log_large, log_small, other, hazard};
+  return eta < 0 ? Tails{log_small, log_large, steep, other} : Tails{log_large, log_small, other, steep};
 }
 
 // A point as the likelihood sees it.
@@ -130,7 +128,7 @@ ProbitFit fit_probit(const std::vector<ProbitPoint>& points, const ProbitFit& st
 
 double probit_probability(const ProbitFit& fit, double im) {
   if (!(im > 0)) return std::isnan(fit.a) ? unknown : 0;
-  return upper_tail(-(fit.a + fit.b * std::log(im)));
+  return normal_cdf(fit.a + fit.b * std::log(im));
 }
 
 }  // namespace freestand::fragility

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "fragility/normal.hpp"
 #include "fragility/probit.hpp"
 
 namespace freestand::fragility {
@@ -170,9 +171,9 @@ double deviance_explained(const std::vector<ProbitPoint>& points, ProbitFit& sta
   start = fit;
   double curve = 0;
   for (const ProbitPoint& point : points) {
-    const double eta = fit.a + fit.b * std::log(point.im), root = std::sqrt(2.0);
-    if (point.hits > 0) curve += point.hits * std::log(std::max(0.5 * std::erfc(-eta / root), 1e-300));
-    if (point.hits < point.n) curve += (point.n - point.hits) * std::log(std::max(0.5 * std::erfc(eta / root), 1e-300));
+    const double eta = fit.a + fit.b * std::log(point.im);
+    if (point.hits > 0) curve += point.hits * std::log(std::max(normal_cdf(eta), 1e-300));
+    if (point.hits < point.n) curve += (point.n - point.hits) * std::log(std::max(normal_cdf(-eta), 1e-300));
   }
   const double none = hits * std::log(hits / n) + (n - hits) * std::log(1 - hits / n);
   return 1 - curve / none;

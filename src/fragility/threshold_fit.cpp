@@ -4,20 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "base/units.hpp"
+#include "fragility/lognormal.hpp"
+#include "fragility/normal.hpp"
 
 namespace freestand::fragility {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-double cdf(double x) { return 0.5 * std::erfc(-x / std::sqrt(2.0)); }
-
-// phi(z)/(1 - Phi(z)); beyond 30 by its asymptotic series, since both vanish.
-double hazard(double z) {
-  if (z > 30) return z + 1 / z - 2 / (z * z * z);
-  return std::exp(-z * z / 2) / std::sqrt(2 * pi) / cdf(-z);
-}
 
 // Halves [low, high] until f, which is positive at low and negative at high, changes sign within round-off.
 template <class Function>
@@ -36,9 +29,9 @@ ThresholdFit censored(double n, double first, double second, double still, doubl
   const auto a_of = [&](double b) {
     return (b * n * first + std::sqrt(b * b * n * n * first * first + 4 * n * n * second)) / (2 * n * second);
   };
-  const double b = root(-30, 1e3, [&](double x) { return a_of(x) * n * first - n * x - still * hazard(x); });
+  const double b = root(-30, 1e3, [&](double x) { return a_of(x) * n * first - n * x - still * normal_hazard(x); });
   const double omega = 1 / a_of(b);
-  return {ln_threshold + b * omega, omega, 0, cdf(-b)};
+  return {ln_threshold + b * omega, omega, 0, normal_cdf(-b)};
 }
 
 }  // namespace
@@ -49,27 +42,27 @@ TruncatedNormal fit_truncated(double c, double first, double second) {
   const double wanted = second / (first * first);
   if (!(wanted > 1) || !(wanted < 2)) return {nan, nan};
   const auto ratio = [](double z) {
-    const double rest = hazard(z) - z;
+    const double rest = normal_hazard(z) - z;
     return (1 - z * rest) / (rest * rest);
   };
   constexpr double farthest = 20;  // beyond it the tail is exponential to a 400th
   if (wanted >= ratio(farthest)) return {nan, nan};
   const double least = -1 / std::sqrt(wanted - 1) - 1;
   const double z = root(least, farthest, [&](double x) { return wanted - ratio(x); });
-  const double deviation = first / (hazard(z) - z);
+  const double deviation = first / (normal_hazard(z) - z);
   return {c - z * deviation, deviation};
 }
 
 ThresholdFit fit_above(double moved, double sum_ln, double sum_ln2, double still, double threshold) {
-  const double mean = sum_ln / moved, square = sum_ln2 / moved;
-  const double variance = square - mean * mean;
   const double share = still / (still + moved);
-  if (!(moved >= 2) || !(variance > 0)) return {nan, nan, share, nan};
-  if (!(threshold > 0)) return {mean, std::sqrt(variance), share, 0};
+  const LognormalFit plain = fit_lognormal(moved, sum_ln, sum_ln2);
+  if (!(plain.omega > 0)) return {nan, nan, share, nan};
+  if (!(threshold > 0)) return {plain.lambda, plain.omega, share, 0};
+  const double mean = sum_ln / moved, square = sum_ln2 / moved;
   const double c = std::log(threshold), first = mean - c, second = square - 2 * c * mean + c * c;
   const auto [lambda, omega] = fit_truncated(c, first, second);
   if (std::isnan(omega)) return {nan, nan, share, nan};
-  const double below = cdf((c - lambda) / omega);
+  const double below = normal_cdf((c - lambda) / omega);
   if (share >= below) return {lambda, omega, (share - below) / (1 - below), below};
   return censored(moved, first, second, still, c);
 }

@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "base/csv_table.hpp"
 #include "base/shown_text.hpp"
 #include "study/read_parts.hpp"
 
@@ -38,30 +39,6 @@ bool is_dotted(const std::string& column) {
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-// Cells of a line, parted by commas; one that begins with a quote goes to the next lone quote. False: that is missing.
-bool split(const std::string& line, Cells& cells) {
-  for (std::size_t at = 0;; ++at) {
-    const std::size_t start = line.find_first_not_of(" \t", at);
-    std::string cell;
-    if (start != std::string::npos && line[start] == '"') {
-      at = start + 1;
-      for (;; ++at) {
-        if (at >= line.size()) return false;
-        if (line[at] == '"' && !(at + 1 < line.size() && line[at + 1] == '"')) break;
-        at += line[at] == '"';
-        cell += line[at];
-      }
-      at = std::min(line.find(',', at), line.size());
-    } else {
-      const std::size_t end = std::min(line.find(',', at), line.size());
-      cell = trimmed(line.substr(at, end - at));
-      at = end;
-    }
-    cells.push_back(cell);
-    if (at >= line.size()) return true;
-  }
 }
 
 std::string quoted(const std::string& text) {
@@ -119,11 +96,12 @@ std::string entry_text(const Cells& header, const Cells& cells) {
 
 void read_row(const Cells& header, const std::string& text, int line, std::vector<SpecimenRow>& rows,
               Problems& problems) {
-  Cells cells;
-  if (!split(text, cells)) {
+  const auto found = csv_cells(text);
+  if (!found) {
     problems.add(line, "a quote is not closed (a cell in quotes ends on its line): close it");
     return;
   }
+  const Cells& cells = *found;
   if (cells.size() != header.size()) {
     problems.add(line,
                  fmt::format("the row has {} cells, the header {} (a distribution with commas wants quotes around it): "
@@ -153,7 +131,7 @@ std::vector<SpecimenRow> read_specimen_table(const std::filesystem::path& file, 
       read_row(header, text, line, rows, problems);
       continue;
     }
-    split(text, header);
+    header = csv_cells(text).value_or(Cells{text});
     if (header.size() == 1 && text.find_first_of(";\t") != std::string::npos) {
       problems.add(line,
                    "the header has one column (they are parted by commas here): write commas in place of ; and tabs");
