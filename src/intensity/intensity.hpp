@@ -7,6 +7,7 @@
 // and from that come the study's names, `freestand im`, the ranking and the labels of the pictures.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,12 +40,13 @@ struct Measure {
   std::string summary;  // one line
   std::string source;
   std::optional<Parameter> parameter = {};
-  double (*value)(const Input&) = nullptr;  // undefined ones (no friction in PTA/(mu_k g) - 1) are +inf
+  std::function<double(const Input&)> value = {};  // undefined ones (no friction in PTA/(mu_k g) - 1) are +inf
   bool proportional = false;  // to the scale of the motion: a motion can be scaled to it
   bool spectral = false;      // reads the spectrum
 };
 
-// The measure of that name, or throws Error that lists the names there are.
+// The measure of that name, or throws Error that lists the names there are. record.COLUMN is what tables of records give, at
+// the scale of the sample (motion/record_table.hpp); nan for motions of which none does.
 const Measure& find(const std::string& name);
 
 // All measures, sorted by name.

@@ -37,17 +37,6 @@ bool holds(const Words& words, std::string_view word) {
   return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
-// The column as an intensity, if it is one.
-std::optional<RecordNumber> number_of_column(const std::string& column) {
-  if (holds(own_columns, column)) return {};
-  const std::string first = lower_case(column.substr(0, column.find('_')));
-  const std::string unit = column.ends_with("_km") ? "km" : unit_of(column);
-  if (holds(properties, first)) return RecordNumber{column, unit, 0};
-  if (first == "arias" && unit != "1") return RecordNumber{column, unit, 2};
-  if (unit == "1") return {};
-  return RecordNumber{column, unit, holds(amplitude_units, unit) ? 1 : 0};
-}
-
 class Reader {
  public:
   Reader(const fs::path& file, const std::string& group, bool vertical)
@@ -58,7 +47,7 @@ class Reader {
       throw Error(fmt::format("{} has no column {} to group by (its columns are {}): name one of them, or add it",
                               file.string(), shown(group), fmt::format("{}", fmt::join(table_.columns, ", "))));
     for (const std::string& column : table_.columns)
-      if (const auto number = number_of_column(column)) found_.numbers.push_back(*number);
+      if (const auto number = record_number(column)) found_.numbers.push_back(*number);
     for (const char* column : {"event", "earthquake", "station"})
       if (!has(group_) && has(column)) found_.grouping_columns.emplace_back(column);
   }
@@ -166,6 +155,16 @@ class Reader {
 };
 
 }  // namespace
+
+std::optional<RecordNumber> record_number(const std::string& column) {
+  if (holds(own_columns, column)) return {};
+  const std::string first = lower_case(column.substr(0, column.find('_')));
+  const std::string unit = column.ends_with("_km") ? "km" : unit_of(column);
+  if (holds(properties, first)) return RecordNumber{column, unit, 0};
+  if (first == "arias" && unit != "1") return RecordNumber{column, unit, 2};
+  if (unit == "1") return {};
+  return RecordNumber{column, unit, holds(amplitude_units, unit) ? 1 : 0};
+}
 
 bool is_record_table(const fs::path& file) {
   std::error_code ignored;

@@ -23,6 +23,9 @@ struct RecordNumber {
   int power = 1;           // 1 an amplitude; 2 Arias intensity; 0 a property: magnitude, distance, duration, site
 };
 
+// The column of a table as such a number; nothing where it is none.
+std::optional<RecordNumber> record_number(const std::string& column);
+
 struct RecordRow {
   std::string where;                     // "INDEX.csv:12", for messages
   std::filesystem::path file, vertical;  // vertical: empty where there is none

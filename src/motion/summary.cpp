@@ -68,4 +68,10 @@ double pulse_frequency_radps(const MotionSummary& summary, double stretch) {
   return 2 * pi / (summary.pulse.period_s * stretch);
 }
 
+double MotionSummary::given_value(const std::string& column) const {
+  for (const auto& [name, value] : given)
+    if (name == column) return value;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
 }  // namespace freestand::motion

@@ -5,6 +5,8 @@
 #include <freestand/floor_motion.hpp>
 #include <limits>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "motion/identify.hpp"
@@ -22,6 +24,9 @@ struct MotionSummary {
   double housner_m = std::numeric_limits<double>::quiet_NaN();  // of a record, with the spectrum
   ResponseSpectrum spectrum;  // of a record: where asked for; of a unit pulse: fine enough to integrate it
   std::shared_ptr<const FloorMotion> unit_pulse;  // null for records, and where a pulse's table will do
+  std::vector<std::pair<std::string, double>> given = {};  // what a table of records says of it, at scale 1; by column
+
+  double given_value(const std::string& column) const;  // nan where nothing gives it
 };
 
 // Of a record: its peaks, and what else is asked for.

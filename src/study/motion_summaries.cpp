@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <string_view>
+
+#include "intensity/intensity.hpp"
 
 namespace freestand::study {
 namespace {
@@ -51,9 +54,21 @@ motion::MotionSummary record_summary(const double* row, const std::vector<double
   return s;
 }
 
+// Columns of what tables of records give.
+constexpr std::string_view given_prefix = "record_";
+
+std::vector<std::pair<std::string, double>> given_of(const MotionSet& motions, std::size_t i) {
+  std::vector<std::pair<std::string, double>> given;
+  for (std::size_t n = 0; n < motions.numbers.size(); ++n)
+    given.emplace_back(motions.numbers[n].name, (*motions.entries)[i].numbers[n]);
+  return given;
+}
+
 motion::MotionSummary summary_of(const MotionSet& motions, std::size_t i, const std::vector<double>& sa_period_s) {
   if (motions.is_pulse(i)) return motion::summarize(motion::find_pulse(motions.motion(i).name));
-  return motion::summarize(motions.motion(i), {.pulse = true, .sa_period_s = sa_period_s});
+  motion::MotionSummary summary = motion::summarize(motions.motion(i), {.pulse = true, .sa_period_s = sa_period_s});
+  summary.given = given_of(motions, i);
+  return summary;
 }
 
 std::vector<double> periods_of(const Study& study) {
@@ -95,6 +110,7 @@ MotionSummaries summarize_together(const parallel::Communicator& world, const St
     const double* row = values.data() + i * width;
     summaries.push_back(motions.is_pulse(i) ? summary_of(motions, i, {})
                                             : record_summary(row, periods, row + columns().size()));
+    if (!motions.is_pulse(i)) summaries.back().given = given_of(motions, i);
   }
   return summaries;
 }
@@ -106,10 +122,14 @@ io::MotionRows motion_rows(const MotionSet& motions, const MotionSummaries& summ
                       .sa_period_s = motion::kept_periods_s(),
                       .sa_mps2 = {},
                       .fingerprint = motions.fingerprint()};
+  for (const motion::RecordNumber& number : motions.numbers)
+    rows.table.columns.push_back({std::string(given_prefix) + number.name, number.unit,
+                                  intensity::find("record." + number.name).summary + "; here at scale 1"});
   for (const motion::MotionSummary& s : summaries)
     if (!s.is_pulse) rows.sa_period_s = s.spectrum.period_s;
   for (const motion::MotionSummary& s : summaries) {
-    const std::vector<double> values = row_of(s);
+    std::vector<double> values = row_of(s);
+    for (const motion::RecordNumber& number : motions.numbers) values.push_back(s.given_value(number.name));
     rows.table.values.insert(rows.table.values.end(), values.begin(), values.end());
     for (const double period : rows.sa_period_s)
       rows.sa_mps2.push_back(motion::spectral_acceleration_mps2(s, period, 1));
@@ -130,6 +150,9 @@ MotionSummaries motion_summaries(const io::MotionRows& rows) {
     for (const std::size_t column : place) row.push_back(rows.table.at(i, column));
     summaries.push_back(
         record_summary(row.data(), rows.sa_period_s, rows.sa_mps2.data() + i * rows.sa_period_s.size()));
+    for (std::size_t column = 0; column < rows.table.columns.size(); ++column)
+      if (const std::string& name = rows.table.columns[column].name; name.starts_with(given_prefix))
+        summaries.back().given.emplace_back(name.substr(given_prefix.size()), rows.table.at(i, column));
   }
   return summaries;
 }

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/key_names.hpp"
 #include "edp/edp.hpp"
 #include "intensity/intensity.hpp"
+#include "motion/record_table.hpp"
 #include "study/fragility_changes.hpp"
 #include "study/intensities.hpp"
 #include "study/motion_summaries.hpp"
@@ -23,9 +25,27 @@ constexpr double usual_periods_s[] = {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3};
 
 bool same(const IntensityPart& a, const IntensityPart& b) { return a.name == b.name && a.period_s == b.period_s; }
 
+// What tables of records give of any motion.
+std::vector<std::string> given_columns(const MotionSummaries& summaries) {
+  std::vector<std::string> columns;
+  for (const motion::MotionSummary& summary : summaries)
+    for (const auto& [column, value] : summary.given)
+      if (!std::isnan(value) && std::find(columns.begin(), columns.end(), column) == columns.end())
+        columns.push_back(column);
+  return columns;
+}
+
+// Is it an intensity, or a property of the record such as its magnitude?
+bool scales(const std::string& column) {
+  const auto number = motion::record_number(column);
+  return number && number->power > 0;
+}
+
 // What is ranked. pta_g is pga_g under another name.
-std::vector<IntensityPart> candidates(const Study& study) {
+std::vector<IntensityPart> candidates(const Study& study, const MotionSummaries& summaries) {
   std::vector<IntensityPart> parts;
+  for (const std::string& column : given_columns(summaries))
+    if (scales(column)) parts.push_back({"record." + column});
   for (const intensity::Measure* measure : intensity::all()) {
     if (measure->name == "pta_g") continue;
     if (!measure->parameter)
@@ -63,6 +83,12 @@ fragility::RankingOptions options_of(const Study& study, const std::vector<Inten
     (motions.group[i] < 0 ? pulses : records) = true;
   }
   if (records) options.properties.push_back(std::move(of_records));
+  for (const std::string& column : given_columns(summaries)) {
+    if (scales(column)) continue;
+    fragility::MotionProperty& property = options.properties.emplace_back("record_" + column);
+    for (const motion::MotionSummary& summary : summaries) property.value.push_back(summary.given_value(column));
+    property.logarithm = unit_of(column) != "1" || column.ends_with("_km");  // a magnitude is one
+  }
   if (pulses) options.properties.push_back({.name = "pulse_period_s", .of_pulses = true, .value = {}});
   return options;
 }
@@ -151,7 +177,7 @@ std::string table(const RankedDemand& demand) {
 
 Ranking rank_intensities(const parallel::Communicator& world, const Study& study, const io::SampleReader& reader) {
   const MotionSummaries summaries = quick(motion_summaries(reader.motions()));
-  const std::vector<IntensityPart> parts = candidates(study);
+  const std::vector<IntensityPart> parts = candidates(study, summaries);
   const fragility::RankingOptions options = options_of(study, parts, reader.motions(), summaries);
   fragility::RankingTally tally(options);
   Counter counter(tally, parts, summaries);

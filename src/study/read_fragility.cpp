@@ -62,6 +62,7 @@ IntensityPart read_intensity(Section& section, const Known& known) {
   }
   const auto found = std::find_if(known.intensities.begin(), known.intensities.end(),
                                   [&](const auto& k) { return k.name == im.name; });
+  if (found == known.intensities.end() && known.any_record && im.name.starts_with("record.")) return im;
   if (found == known.intensities.end()) {
     if (!im.name.empty())
       section.problem("im",

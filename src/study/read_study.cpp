@@ -96,6 +96,14 @@ void refuse_other_kind(Section& file, const char* wanted, const char* other, con
   problems.throw_if_any();
 }
 
+// And what the tables of records bring: record.pga_g.
+Known with_numbers(Known known, const std::vector<MotionSource>& motions, Files look) {
+  known.any_record = look == Files::ignore;
+  for (const MotionSource& source : motions)
+    for (const motion::RecordNumber& number : source.numbers) known.intensities.push_back({"record." + number.name, "", 0});
+  return known;
+}
+
 }  // namespace
 
 Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known& known, Files look,
@@ -111,7 +119,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   study.motions = read_motions(file, study.folder, look, shakes_vertically(study.model));
   // What the study draws is known only when its parts are sound.
   const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
-  study.fragility = read_fragility(file, known, choices);
+  study.fragility = read_fragility(file, with_numbers(known, study.motions, look), choices);
   file.finish();
   problems.throw_if_any();
   return study;

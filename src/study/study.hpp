@@ -213,6 +213,7 @@ struct KnownIntensity {
 struct Known {
   std::vector<KnownEdp> edps;
   std::vector<KnownIntensity> intensities;
+  bool any_record = false;  // record.COLUMN of any column: the tables of records are not looked at
 };
 
 // Are the records of the study looked for? `ignore`: for the stored study of finished results, whose records need not
