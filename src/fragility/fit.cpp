@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fragility/bin_fit.hpp"
+#include "fragility/covariance.hpp"
 #include "fragility/fragility_function.hpp"
 #include "fragility/histogram.hpp"
 #include "fragility/regression.hpp"
@@ -109,6 +110,7 @@ Result fit(const Tally& tally, EstimatedNull& null, const Steps& steps) {
   for (std::size_t e = 0; e < options.edps.size(); ++e)
     result.edps.push_back(fit_edp(tally, e, resampling, null, told));
   result.overturning = overturning_function(tally, resampling);
+  result.covariance = covariance(tally);
   told.step();
   result.warnings = warnings(tally, result);
   return result;

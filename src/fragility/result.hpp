@@ -136,6 +136,13 @@ struct EdpResult {
   Regressions regressions;  // NaN for a binary EDP
 };
 
+// Of ln EDP of every two demands that take capacities, in each bin (covariance.hpp): [im, edp, edp].
+struct Covariance {
+  std::vector<std::string> edps;
+  std::vector<double> ln_covariance;
+  std::vector<std::int64_t> n;  // samples that moved by both, and stood
+};
+
 struct Result {
   std::string im_name, im_unit;
   std::vector<double> im_edge;  // n + 1
@@ -148,6 +155,7 @@ struct Result {
   int motions = 0;                                           // groups of motions that have samples
   std::vector<EdpResult> edps;
   FragilityFunction overturning;
+  Covariance covariance;
   std::vector<std::string> warnings;  // plain sentences
 };
 

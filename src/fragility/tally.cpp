@@ -61,6 +61,7 @@ void Tally::add(const Sample& sample) {
   if (sample.outcome == Outcome::overturned) ++count_[layout_.at_im_cell(cell, group) + 1];
   sum_[layout_.im_sums + cell].add(sample.im);
   for (std::size_t e = 0; e < layout_.edps; ++e) add_edp(e, bin, cell, group, sample);
+  add_pairs(bin, sample);
 }
 
 void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t cell, std::size_t group, const Sample& sample) {

@@ -46,6 +46,12 @@ struct RegressionSums {
   double unit = 1;  // y is in this many units of the EDP
 };
 
+// Sums over the samples of a bin that moved by both of two EDPs and stood, and have IM > 0: m = ln IM, a, b = ln EDP.
+struct PairSums {
+  std::int64_t n = 0;
+  double m = 0, mm = 0, a = 0, b = 0, ab = 0, am = 0, bm = 0;
+};
+
 class Tally {
  public:
   // Throws Error listing everything that is wrong with the options.
@@ -92,12 +98,14 @@ class Tally {
   std::int64_t im_cell_over(std::size_t cell, std::size_t group) const;
   // Of one EDP: samples, then those above each capacity.
   std::span<const std::int64_t> im_cell_of(std::size_t edp, std::size_t cell, std::size_t group) const;
+  PairSums pair(std::size_t bin, std::size_t i, std::size_t j) const;  // of TallyLayout::paired, i <= j
   RegressionSums regression(std::size_t edp) const;
   RegressionSums regression(std::size_t edp, std::size_t group) const;
 
   bool operator==(const Tally& other) const { return count_ == other.count_ && sum_ == other.sum_; }
 
  private:
+  void add_pairs(std::size_t bin, const Sample& sample);
   void add_edp(std::size_t edp, std::size_t bin, std::size_t cell, std::size_t group, const Sample& sample);
   void add_regression(std::size_t edp, std::size_t group, double im, double value);
   double residual(std::size_t edp, std::size_t bin, double im, double ln_value) const;

@@ -40,11 +40,15 @@ TallyLayout::TallyLayout(const Options& options, std::size_t group_count)
     std::vector<std::size_t>& offsets = axis.emplace_back();
     for (const std::size_t cells : axis_cells) offsets.push_back(take(bins * cells * groups * (1 + capacity)));
   }
+  for (std::size_t e = 0; e < edps; ++e)
+    if (!options.edps[e].binary) paired.push_back(e);
+  pair_counts = take(bins * pairs());
   count_size = next;
   next = 0;
   bin_sums = take(sums_per_bin * edps * bins * groups);
   im_sums = take(im_cell_count());
   regression_sums = take(sums_per_regression * edps * groups);
+  pair_sums = take(sums_per_pair * bins * pairs());
   sum_size = next;
 }
 

@@ -20,6 +20,7 @@ struct TallyLayout {
   static constexpr std::size_t cells_per_bin = 8;  // fine IM cells, for curves over IM
   static constexpr std::size_t sums_per_regression = 11;
   static constexpr std::size_t counts_per_bin = 5, sums_per_bin = 5;
+  static constexpr std::size_t sums_per_pair = 7;
 
   TallyLayout(const Options& options, std::size_t group_count);
 
@@ -32,6 +33,13 @@ struct TallyLayout {
   std::vector<std::vector<std::size_t>> axis;                  // [edp][axis]
   std::size_t bin_sums, im_sums, regression_sums;              // offsets of sums
   std::size_t count_size, sum_size;
+
+  std::vector<std::size_t> paired;      // EDPs that take capacities: of these, every two vary together
+  std::size_t pair_counts, pair_sums;   // offsets, by pair()
+
+  // Of the i-th and the j-th of them, i <= j.
+  std::size_t pairs() const { return paired.size() * (paired.size() + 1) / 2; }
+  std::size_t pair(std::size_t bin, std::size_t i, std::size_t j) const { return bin * pairs() + j * (j + 1) / 2 + i; }
 
   std::size_t im_cell_count() const { return bins * cells_per_bin; }
   // n, still, over, moved, moved at an IM that is not above 0

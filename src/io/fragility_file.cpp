@@ -194,6 +194,24 @@ void write_overturning(Group& root, const Result& result) {
       .describe("1", "dispersion of each resampled set of motions");
 }
 
+// [im, edp, other]; the two are the same list of demands.
+void write_covariance(Group& root, const Result& result) {
+  const fragility::Covariance& covariance = result.covariance;
+  if (covariance.edps.size() < 2) return;
+  Group group = root.make_group("covariance");
+  const Dataset im = im_of(group, result);
+  Dataset edp = group.put("edp", covariance.edps), other = group.put("other", covariance.edps);
+  edp.scale("edp").describe("", "demand");
+  other.scale("other").describe("", "the same demands once more");
+  const h5::Dimensions shape{result.im.size(), covariance.edps.size(), covariance.edps.size()};
+  const auto attached = [&](Dataset dataset, const char* description) {
+    dataset.attach(0, im).attach(1, edp).attach(2, other).describe("1", description);
+  };
+  attached(group.put("ln_covariance", covariance.ln_covariance, shape),
+           "covariance of ln EDP of samples that moved by both and stood, about their lines over ln IM");
+  attached(group.put("n", covariance.n, shape), "samples that moved by both and stood");
+}
+
 void write_root(Group& root, const Provenance& provenance, const Result& result) {
   write_provenance(root, fragility_format, provenance);
   root.attribute("im", result.im_name);
@@ -227,6 +245,7 @@ void write_fragility(const std::filesystem::path& path, const Provenance& proven
   Group edps = root.make_group("edp");
   for (const EdpResult& edp : result.edps) write_edp(edps, result, edp);
   write_overturning(root, result);
+  write_covariance(root, result);
   file.finish();
 }
 

@@ -129,6 +129,10 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
   for (const std::string& name : edps.names())
     result.edps.push_back(read_edp(edps.open_group(name), name, result.im.size()));
   result.overturning = read_overturning(root.open_group("overturning"));
+  if (root.has("covariance")) {
+    const Group group = root.open_group("covariance");
+    result.covariance = {group.open_dataset("edp").read_texts(), values(group, "ln_covariance"), whole(group, "n")};
+  }
   return read;
 }
 
