@@ -21,10 +21,11 @@ namespace fs = std::filesystem;
 // the root, which speaks for all, goes first.
 constexpr double patience_of_root_s = 7, patience_of_others_s = 8;
 
-// The number of blocks, or more than any once samples.h5 is there.
+// The number of blocks; without any, more than any once samples.h5 is there.
 std::int64_t finished_in(const fs::path& folder) {
   std::error_code error;
-  if (fs::exists(samples_path(folder), error)) return std::numeric_limits<std::int64_t>::max();
+  if (!fs::exists(blocks_path(folder), error) && fs::exists(samples_path(folder), error))
+    return std::numeric_limits<std::int64_t>::max();
   std::int64_t blocks = 0;
   for (fs::directory_iterator i(blocks_path(folder), error), end; !error && i != end; i.increment(error))
     blocks += i->path().filename().string().starts_with("block-");

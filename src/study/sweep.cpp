@@ -20,6 +20,7 @@
 #include "study/analysis.hpp"
 #include "study/changed_keys.hpp"
 #include "study/doubts.hpp"
+#include "study/earlier_samples.hpp"
 #include "study/effects_page.hpp"
 #include "study/evaluator.hpp"
 #include "study/intensities.hpp"
@@ -38,19 +39,6 @@ using parallel::Communicator;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-// A sweep whose samples.h5 is already there: nothing to do, if it is of this study.
-bool already_complete(const Study& study, const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(samples_path(folder))) return false;
-  const io::SampleReader reader(samples_path(folder));
-  const Study swept = parse_stored(reader.provenance().study, folder);
-  if (samples_fingerprint(swept) != samples_fingerprint(study))
-    throw Error(
-        fmt::format("{} holds the results of another study ({}): take that back, choose another folder, or give "
-                    "--overwrite to replace them",
-                    folder.string(), changes_told(study, swept)));
-  return true;
-}
 
 // Why the blocks in the folder are of another study: in which key, as the study.yaml beside them tells.
 std::string why_other(const Study& study, const std::filesystem::path& folder, const std::string& blocks_fingerprint) {
@@ -93,13 +81,16 @@ class Sweep {
         study_(study),
         options_(options),
         folder_(folder),
+        earlier_(study, folder.path()),
         evaluator_(evaluator_together(world, study, options.quiet)),
-        store_(store_in(folder.path())) {}
+        store_(store_in(folder.path())) {
+    earlier_.check(evaluator_.columns(), evaluator_.motions().fingerprint());
+  }
 
   SweepSummary run() {
     take_stock();
     folder_.begin();
-    std::int64_t samples = first_round();
+    std::int64_t samples = std::max(first_round(), earlier_.rows());
     compute(samples);
     while (samples < total() && !known_well_enough(samples)) {
       samples = std::min(total(), 2 * samples);
@@ -150,9 +141,19 @@ class Sweep {
     world_.on_root([&] {
       finished = finished_blocks();
       store_.remove_leftovers();
-      io::write_text(study_path(folder_.path()), io::signed_text(expanded(study_, folder_.path())));
+      if (earlier_.rows() == 0) write_study();  // else it is of the samples that are there, until all are
     });
     finished_ = world_.broadcast(finished);
+  }
+
+  void write_study() const {
+    io::write_text(study_path(folder_.path()), io::signed_text(expanded(study_, folder_.path())));
+  }
+
+  // How many samples of a block the earlier sweep holds.
+  std::int64_t earlier_rows(std::int64_t samples, std::int64_t block) const {
+    const io::BlockLayout blocks = layout(samples);
+    return std::clamp<std::int64_t>(earlier_.rows() - block * blocks.block_size, 0, blocks.rows(block));
   }
 
   parallel::Words finished_blocks() const {
@@ -171,10 +172,10 @@ class Sweep {
     parallel::Words todo;
     std::int64_t there = 0;
     for (std::int64_t block = 0; block < layout(samples).blocks(); ++block) {
-      if (std::binary_search(finished_.begin(), finished_.end(), block))
-        there += layout(samples).rows(block);
-      else
-        todo.push_back(block);
+      const std::int64_t rows = layout(samples).rows(block), earlier = earlier_rows(samples, block);
+      const bool finished = earlier == rows || std::binary_search(finished_.begin(), finished_.end(), block);
+      there += finished ? rows : earlier;
+      if (!finished) todo.push_back(block);
     }
     std::optional<parallel::Progress> progress;
     if (world_.is_root())
@@ -203,7 +204,9 @@ class Sweep {
     parallel::BlockRows rows{.columns = static_cast<std::int64_t>(evaluator_.columns().size()), .values = {}};
     rows.values.reserve(static_cast<std::size_t>(rows.columns * blocks.rows(block)));
     const std::int64_t first = block * blocks.block_size, end = first + blocks.rows(block);
-    for (std::int64_t sample = first; sample < end; sample += pack_samples) {
+    const std::int64_t earlier = earlier_rows(samples, block);
+    if (earlier > 0) rows.values = earlier_.read(first, earlier);
+    for (std::int64_t sample = first + earlier; sample < end; sample += pack_samples) {
       const auto count = static_cast<std::size_t>(std::min(pack_samples, end - sample));
       for (const Outcome outcome : evaluator_.append(static_cast<std::uint64_t>(sample), count, rows.values)) {
         ++counts.samples;
@@ -218,6 +221,8 @@ class Sweep {
 
   // A finished block; one whose file has become unreadable since is computed again.
   std::vector<double> finished_rows(std::int64_t samples, std::int64_t block) const {
+    const std::int64_t rows = layout(samples).rows(block);
+    if (earlier_rows(samples, block) == rows) return earlier_.read(block * layout(samples).block_size, rows);
     try {
       return store_.read(block).values;
     } catch (const Error& error) {
@@ -275,7 +280,10 @@ class Sweep {
     folder_.confirm();
     io::write_samples(samples_path(folder_.path()), header, layout(samples),
                       [&](std::int64_t block) { return finished_rows(samples, block); });
-    world_.on_root([&] { store_.clear(); });
+    world_.on_root([&] {
+      write_study();
+      store_.clear();
+    });
     summary_.write_s = seconds_since(writing);
   }
 
@@ -284,6 +292,7 @@ class Sweep {
   const Study& study_;
   const SweepOptions& options_;
   RunFolder& folder_;
+  const EarlierSamples earlier_;
   Evaluator evaluator_;
   parallel::BlockStore store_;
   parallel::Words finished_;
@@ -299,7 +308,7 @@ std::filesystem::path study_path(const std::filesystem::path& folder) { return f
 SweepSummary sweep(const Communicator& world, const Study& study, const SweepOptions& options, RunFolder& folder) {
   parallel::Words complete{0};
   world.on_root([&] {
-    complete[0] = already_complete(study, folder.path());
+    complete[0] = EarlierSamples(study, folder.path()).complete();
     if (!complete[0]) return;
     if (std::filesystem::exists(blocks_path(folder.path())))  // its end was interrupted
       parallel::BlockStore(blocks_path(folder.path()), samples_fingerprint(study)).clear();
