@@ -66,8 +66,9 @@ struct BinFit {
 struct Surface {
   std::vector<double> probability, lower, upper, empirical;
   std::vector<double> least, most;  // of `empirical`, had every sample that failed stayed below, or lain above
-  std::vector<double> resampled;    // [resample, im, capacity], `probability` from resampled motions: for bands of what is
-                                    // computed from several points
+  std::vector<double>
+      resampled;  // [resample, im, capacity], `probability` from resampled motions: for bands of what is
+                  // computed from several points
 };
 
 // P(EDP > C) over IM x a second axis, from counts, with band from resampled motions. All [im, axis, capacity] but n

@@ -34,8 +34,8 @@ struct TallyLayout {
   std::size_t bin_sums, im_sums, regression_sums;              // offsets of sums
   std::size_t count_size, sum_size;
 
-  std::vector<std::size_t> paired;      // EDPs that take capacities: of these, every two vary together
-  std::size_t pair_counts, pair_sums;   // offsets, by pair()
+  std::vector<std::size_t> paired;     // EDPs that take capacities: of these, every two vary together
+  std::size_t pair_counts, pair_sums;  // offsets, by pair()
 
   // Of the i-th and the j-th of them, i <= j.
   std::size_t pairs() const { return paired.size() * (paired.size() + 1) / 2; }

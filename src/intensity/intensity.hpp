@@ -41,8 +41,8 @@ struct Measure {
   std::string source;
   std::optional<Parameter> parameter = {};
   std::function<double(const Input&)> value = {};  // undefined ones (no friction in PTA/(mu_k g) - 1) are +inf
-  bool proportional = false;  // to the scale of the motion: a motion can be scaled to it
-  bool spectral = false;      // reads the spectrum
+  bool proportional = false;                       // to the scale of the motion: a motion can be scaled to it
+  bool spectral = false;                           // reads the spectrum
 };
 
 // The measure of that name, or throws Error that lists the names there are. record.COLUMN is what tables of records give, at

@@ -23,7 +23,7 @@ struct MotionSummary {
   IdentifiedPulse pulse;  // of a unit pulse: itself, with period 1 s; of a record: the fit, where asked for
   double housner_m = std::numeric_limits<double>::quiet_NaN();  // of a record, with the spectrum
   ResponseSpectrum spectrum;  // of a record: where asked for; of a unit pulse: fine enough to integrate it
-  std::shared_ptr<const FloorMotion> unit_pulse;  // null for records, and where a pulse's table will do
+  std::shared_ptr<const FloorMotion> unit_pulse;           // null for records, and where a pulse's table will do
   std::vector<std::pair<std::string, double>> given = {};  // what a table of records says of it, at scale 1; by column
 
   double given_value(const std::string& column) const;  // nan where nothing gives it

@@ -100,7 +100,8 @@ void refuse_other_kind(Section& file, const char* wanted, const char* other, con
 Known with_numbers(Known known, const std::vector<MotionSource>& motions, Files look) {
   known.any_record = look == Files::ignore;
   for (const MotionSource& source : motions)
-    for (const motion::RecordNumber& number : source.numbers) known.intensities.push_back({"record." + number.name, "", 0});
+    for (const motion::RecordNumber& number : source.numbers)
+      known.intensities.push_back({"record." + number.name, "", 0});
   return known;
 }
 

@@ -54,7 +54,7 @@ TEST(Covariance, CountsWhatMovedByBothAndStood) {
   add(0, std::exp(1), std::exp(2), Outcome::moved);
   add(1, std::exp(2), std::exp(4), Outcome::moved);
   add(2, std::exp(4), std::exp(3), Outcome::moved);
-  add(3, 5e-5, 1, Outcome::moved);                        // still by slip
+  add(3, 5e-5, 1, Outcome::moved);  // still by slip
   add(4, std::nan(""), std::nan(""), Outcome::overturned);
   add(5, 1, 1, Outcome::painleve);
   const Covariance found = covariance(tally);

@@ -37,8 +37,12 @@ TEST_F(RecordNumbers, AreScaledAsTheyAre) {
   const Study swept = study("record.pga_g");
   const MotionSet motions = load_motions(swept);
   const MotionSummaries summaries = summarize(motions, {1.0});
-  const Table rows{{{"motion", "1", ""}, {"scale", "1", ""}, {"pulse_period_s", "s", ""}, {"block_alpha_rad", "rad", ""},
-                    {"block_p_radps", "rad/s", ""}, {"friction_mu_k", "1", ""}},
+  const Table rows{{{"motion", "1", ""},
+                    {"scale", "1", ""},
+                    {"pulse_period_s", "s", ""},
+                    {"block_alpha_rad", "rad", ""},
+                    {"block_p_radps", "rad/s", ""},
+                    {"friction_mu_k", "1", ""}},
                    {0, -1.5, std::nan(""), 0.3, 2, 0.2, 1, 1.5, std::nan(""), 0.3, 2, 0.2}};
   const double nan = std::nan("");
   const auto is = [](std::vector<double> values) {
