@@ -56,8 +56,8 @@ std::string used_text(const fs::path& folder) {
   const auto finished = std::count_if(blocks.begin(), blocks.end(), is_block);
   if (swept || (finished == 0 && !fs::exists(folder / begun_name, error)))
     return fmt::format("{} is not empty (results of another run would mix with this one's): name another folder, or "
-                       "add --overwrite",
-                       folder.string());
+                       "add --overwrite{}",
+                       folder.string(), swept ? "; --resume adds what the same study has more" : "");
   const std::string thrown = finished == 0   ? "starts again"
                              : finished == 1 ? "throws 1 finished block away"
                                              : fmt::format("throws {} finished blocks away", finished);

@@ -30,10 +30,11 @@ struct SweepSummary {
   double samples_per_s = 0;  // while integrating, all ranks together
 };
 
-// Computes the blocks that are not there yet and writes samples.h5; nothing, if that is there with as many; where it holds fewer, the first of the same study, these are taken over. With `until`, goes on in rounds, each twice as long
-// as all before, until every wanted point of the surface is known well enough. The same numbers, to the bit, on any
-// number of ranks and after any restart. Collective. Throws Error: another study's results (Exit::usage; the
-// folder is then as it was), full disk (Exit::cure), stopped on request (as RunFolder::leave).
+// Computes the blocks that are not there yet and writes samples.h5; nothing, if that is there with as many samples. Where
+// it holds fewer of the same study, these are taken over. With `until`, goes on in rounds, each twice as long as all
+// before, until every wanted point of the surface is known well enough. The same numbers, to the bit, on any number of
+// ranks and after any restart. Collective. Throws Error: another study's results (Exit::usage; the folder is then as it
+// was), full disk (Exit::cure), stopped on request (as RunFolder::leave).
 SweepSummary sweep(const parallel::Communicator&, const Study&, const SweepOptions&, RunFolder&);
 
 }  // namespace freestand::study
