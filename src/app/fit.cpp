@@ -74,6 +74,11 @@ void add_fit(CLI::App& parser, Work& work) {
   verb->add_option("--capacities", options->changes.capacities, "other capacities: peak_slip_m=0.05,0.1; once a demand")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  verb->add_option(
+          "--target", options->changes.target,
+          "other distributions of what was swept: \"friction.mu_k={lognormal: {median: 0.3, dispersion: 0.2}}\"")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   auto* output = verb->add_option("-o,--output", options->into, "folder for the results; else that of the sweep");
   verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder of -o")
       ->needs(output);

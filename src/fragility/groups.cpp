@@ -16,7 +16,7 @@ constexpr int hashed_group_count = 128;
 
 }  // namespace
 
-MotionGroups::MotionGroups(const Options& options) {
+MotionGroups::MotionGroups(const Options& options) : scrambles_(static_cast<std::uint64_t>(options.scrambles)) {
   const std::vector<int>& given = options.motion_group;
   std::map<int, int> number;  // of each group, in the order of first mention
   for (const int group : given)
@@ -27,7 +27,7 @@ MotionGroups::MotionGroups(const Options& options) {
   for (const int group : given)
     record_group_.push_back(group >= 0 && !lone ? number.at(group) % most_record_groups : -1);
   const bool pulses = std::any_of(given.begin(), given.end(), [](int group) { return group < 0; });
-  if (lone || pulses || given.empty()) hashed_groups_ = hashed_group_count;
+  if (lone || pulses || given.empty()) hashed_groups_ = scrambles_ > 1 ? options.scrambles : hashed_group_count;
 }
 
 int MotionGroups::group(int motion, std::uint64_t sample) const {
@@ -39,6 +39,7 @@ int MotionGroups::group(int motion, std::uint64_t sample) const {
     const int record = record_group_[static_cast<std::size_t>(motion)];
     if (record >= 0) return record;
   }
+  if (scrambles_ > 1) return record_groups_ + static_cast<int>(sample % scrambles_);
   return record_groups_ + static_cast<int>(random::mix(sample + 0x9e3779b97f4a7c15ULL) % hashed_group_count);
 }
 

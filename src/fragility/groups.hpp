@@ -12,7 +12,8 @@ namespace freestand::fragility {
 
 // The samples of a group of records are one group (beyond 256 of them they are joined, whole ones to a group). A pulse
 // sample is a motion of its own: a hash of its index puts it in one of 128 groups, which resample like the samples
-// themselves and keep memory bounded. Where all records are one group they are treated in the same way: the bands then
+// themselves and keep memory bounded; with scrambles, each of these designs is a group, since samples of one design are
+// spread evenly, and so more alike to those of another than independent ones. Where all records are one group they are treated in the same way: the bands then
 // say how well the answer for these records is known, and nothing about others.
 class MotionGroups {
  public:
@@ -29,6 +30,7 @@ class MotionGroups {
  private:
   std::vector<int> record_group_;  // by motion; -1: hashed
   int records_ = 0, record_groups_ = 0, hashed_groups_ = 0;
+  std::uint64_t scrambles_;
 };
 
 // Bootstrap weights: how often each group is drawn in each resample. Groups are drawn with replacement among the groups

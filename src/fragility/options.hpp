@@ -27,6 +27,7 @@ struct AxisOptions {
 
 // What Options::resamples may be: two make a spread, and each has a counter of its own in Resampling.
 inline constexpr int least_resamples = 2, most_resamples = 60000;
+inline constexpr int most_scrambles = 128;       // tallies are counted for each
 inline constexpr int least_minimum_samples = 2;  // a fit needs two
 
 struct Options {
@@ -43,6 +44,8 @@ struct Options {
   // earthquake, two components of one station; else each by itself), whose samples are not independent; -1 a family of
   // pulses, where every sample is a motion of its own. Empty: every sample is a motion of its own.
   std::vector<int> motion_group;
+
+  int scrambles = 1;  // sample i is of design i mod scrambles (sampling/design.hpp)
 
   // ln EDP of a bin is told against a straight line over ln IM, fitted to the first samples: slope of each [edp][bin], and
   // the IM at which it is 0 [bin]. Empty: no slopes. pilot.hpp fills them.

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <freestand/response.hpp>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -63,7 +64,8 @@ class Tally {
 
   // Every row of a table with the columns im_<name>, edp_<name>, outcome, those of the axes, and motion where
   // Options::motion_group is not empty. Row i is sample first_sample + i. Throws Error if a column is missing.
-  void add(const Table& table, std::uint64_t first_sample);
+  // `keeps`: which samples count; without it all.
+  void add(const Table& table, std::uint64_t first_sample, const std::function<bool(std::uint64_t)>& keeps = {});
 
   // Throws Error if the other tally has another shape.
   void merge(const Tally& other);

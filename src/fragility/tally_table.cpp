@@ -18,7 +18,7 @@ int whole(double value, int below, const char* column, std::uint64_t sample) {
 
 }  // namespace
 
-void Tally::add(const Table& table, std::uint64_t first_sample) {
+void Tally::add(const Table& table, std::uint64_t first_sample, const std::function<bool(std::uint64_t)>& keeps) {
   const std::size_t im = column_index(table.columns, "im_" + options_.im_name);
   const std::size_t outcome = column_index(table.columns, "outcome");
   const bool by_motion = !options_.motion_group.empty();
@@ -31,6 +31,7 @@ void Tally::add(const Table& table, std::uint64_t first_sample) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     Sample sample;
     sample.index = first_sample + row;
+    if (keeps && !keeps(sample.index)) continue;
     sample.im = table.at(row, im);
     sample.outcome = static_cast<Outcome>(whole(table.at(row, outcome), outcome_count, "outcome", sample.index));
     if (by_motion)

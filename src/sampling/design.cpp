@@ -67,6 +67,10 @@ std::uint64_t feistel(std::uint64_t word, int half_bits, std::uint64_t key) {
   return (left << half_bits) | right;
 }
 
+std::uint64_t of_replicate(std::uint64_t key, std::uint64_t replicate) {
+  return replicate == 0 ? key : random::mix(key + replicate * 0x9e3779b97f4a7c15ULL);
+}
+
 }  // namespace
 
 const char* name(Design design) {
@@ -107,18 +111,22 @@ double Stream::operator()(std::uint64_t sample) const {
 }
 
 double Stream::latin_hypercube(std::uint64_t sample) const {
-  const int half_bits = std::max(1, (static_cast<int>(std::bit_width(plan_.samples - 1)) + 1) / 2);
-  std::uint64_t stratum = sample;
-  do stratum = feistel(stratum, half_bits, key_);
-  while (stratum >= plan_.samples);
+  const auto scrambles = static_cast<std::uint64_t>(plan_.scrambles);
+  const std::uint64_t strata = (plan_.samples + scrambles - 1 - replicate(sample)) / scrambles;
+  const int half_bits = std::max(1, (static_cast<int>(std::bit_width(strata - 1)) + 1) / 2);
+  const std::uint64_t key = of_replicate(key_, replicate(sample));
+  std::uint64_t stratum = point(sample);
+  do stratum = feistel(stratum, half_bits, key);
+  while (stratum >= strata);
   const double jitter = random::uniform(plan_.seed, sample, stream_);
-  const double u = (static_cast<double>(stratum) + jitter) / static_cast<double>(plan_.samples);
+  const double u = (static_cast<double>(stratum) + jitter) / static_cast<double>(strata);
   return std::min(u, 1 - 0x1.0p-53);
 }
 
 double Stream::sobol(std::uint64_t sample) const {
-  const std::uint64_t index = order_key_ == 0 ? sample : owen_scramble(sample, order_key_);
-  return random::unit_interval(owen_scramble(sobol_word(std::max(dimension_, 0), index), key_));
+  const std::uint64_t i = point(sample), r = replicate(sample);
+  const std::uint64_t index = order_key_ == 0 ? i : owen_scramble(i, of_replicate(order_key_, r));
+  return random::unit_interval(owen_scramble(sobol_word(std::max(dimension_, 0), index), of_replicate(key_, r)));
 }
 
 }  // namespace freestand::sampling

@@ -17,8 +17,10 @@ struct Plan {
   Design design = Design::sobol;
   std::uint64_t seed = 1;
   std::uint64_t samples = 0;
-  std::vector<std::string> redrawn = {};  // parameters that take other draws, independent of all of the design: what does
-                                          // the answer owe them?
+  int scrambles = 1;  // designs of their own, which the samples take in turn
+  std::vector<std::string> redrawn =
+      {};  // parameters that take other draws, independent of all of the design: what does
+           // the answer owe them?
 };
 
 // The uniforms of one parameter: stream(sample) in the open interval (0, 1), a pure function of (plan, name, sample).
@@ -34,6 +36,10 @@ struct Plan {
 //                  dimension with its samples in an order of its own (nested uniform shuffle of the index, [Owen 2003;
 //                  Burley 2020]): as even by itself, and paired at random with the others.
 //
+// With Plan::scrambles = R, sample i is point i/R of the design numbered i mod R. The R designs are scrambled (permuted)
+// independently, so that how answers differ between them shows how well the design knows them (A. Owen, J. of
+// Complexity 14, 1998). The design numbered 0 is the one of a single scramble.
+//
 // Of a parameter of Plan::redrawn: as monte_carlo, at a stream of its own.
 class Stream {
  public:
@@ -44,6 +50,8 @@ class Stream {
  private:
   double latin_hypercube(std::uint64_t sample) const;
   double sobol(std::uint64_t sample) const;
+  std::uint64_t replicate(std::uint64_t sample) const { return sample % static_cast<std::uint64_t>(plan_.scrambles); }
+  std::uint64_t point(std::uint64_t sample) const { return sample / static_cast<std::uint64_t>(plan_.scrambles); }
 
   Plan plan_;
   bool redrawn_;

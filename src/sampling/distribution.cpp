@@ -49,6 +49,53 @@ double value(const Triangular& d, double u) {
 
 double value(const Choice& d, double u) { return d.values[pick(d.values.size(), d.weights, u)]; }
 
+// P(Z <= z) of the standard normal cut to [lower, upper], in the smaller tail as above.
+double below_in_cut_normal(double lower, double upper, double z) {
+  z = std::clamp(z, lower, upper);
+  if (lower > 0) {
+    const double a = gsl_cdf_ugaussian_Q(lower), b = gsl_cdf_ugaussian_Q(upper);
+    return (a - gsl_cdf_ugaussian_Q(z)) / (a - b);
+  }
+  const double a = gsl_cdf_ugaussian_P(lower), b = gsl_cdf_ugaussian_P(upper);
+  return (gsl_cdf_ugaussian_P(z) - a) / (b - a);
+}
+
+double below(const Fixed& d, double x) { return x < d.value ? 0 : 1; }
+
+double below(const Uniform& d, double x) { return std::clamp((x - d.lower) / (d.upper - d.lower), 0.0, 1.0); }
+
+double below(const LogUniform& d, double x) {
+  return x > d.lower ? std::min(std::log(x / d.lower) / std::log(d.upper / d.lower), 1.0) : 0;
+}
+
+double below(const Normal& d, double x) {
+  const auto z = [&](double value) { return (value - d.mean) / d.standard_deviation; };
+  return below_in_cut_normal(z(d.min), z(d.max), z(x));
+}
+
+double below(const Lognormal& d, double x) {
+  const auto z = [&](double value) { return value > 0 ? std::log(value / d.median) / d.dispersion : -unbounded; };
+  return below_in_cut_normal(z(d.min), z(d.max), z(x));
+}
+
+double below(const Triangular& d, double x) {
+  if (x <= d.lower) return 0;
+  if (x >= d.upper) return 1;
+  const double width = d.upper - d.lower;
+  return x < d.mode ? (x - d.lower) * (x - d.lower) / (width * (d.mode - d.lower))
+                    : 1 - (d.upper - x) * (d.upper - x) / (width * (d.upper - d.mode));
+}
+
+double below(const Choice& d, double x) {
+  double here = 0, sum = 0;
+  for (std::size_t i = 0; i < d.values.size(); ++i) {
+    const double weight = d.weights.empty() ? 1 : d.weights[i];
+    sum += weight;
+    if (d.values[i] <= x) here += weight;
+  }
+  return here / sum;
+}
+
 Support ends(const Fixed& d) { return {d.value, d.value, false, false}; }
 Support ends(const Uniform& d) { return {d.lower, d.upper, true, true}; }
 Support ends(const LogUniform& d) { return {d.lower, d.upper, true, true}; }
@@ -103,6 +150,10 @@ std::string quoted(const std::string& name) {
 
 double quantile(const Distribution& distribution, double u) {
   return std::visit([u](const auto& d) { return value(d, u); }, distribution);
+}
+
+double cumulative(const Distribution& distribution, double x) {
+  return std::visit([x](const auto& d) { return below(d, x); }, distribution);
 }
 
 std::size_t pick(std::size_t count, const std::vector<double>& weights, double u) {

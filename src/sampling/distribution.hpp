@@ -53,6 +53,9 @@ struct Names {
 // Value with probability u below it, 0 < u < 1. Monotone in u (a Choice: in the order of its list).
 double quantile(const Distribution&, double u);
 
+// P(value <= x).
+double cumulative(const Distribution&, double x);
+
 // Position of the item that u in (0, 1) falls on, items 0..count-1, with the given weights (empty: all alike).
 std::size_t pick(std::size_t count, const std::vector<double>& weights, double u);
 

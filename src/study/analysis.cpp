@@ -14,15 +14,23 @@
 #include "study/damage_states.hpp"
 #include "study/intensities.hpp"
 #include "study/realise.hpp"
+#include "study/target.hpp"
 
 namespace freestand::study {
 namespace {
 
-std::vector<double> column(const Table& table, const std::string& name) {
-  const std::size_t index = column_index(table.columns, name);
+// Of the first samples, those that the target keeps.
+std::vector<double> column(const Table& first, const std::string& name, const Target& target) {
+  const std::size_t index = column_index(first.columns, name);
   std::vector<double> values;
-  for (std::size_t row = 0; row < table.rows(); ++row) values.push_back(table.at(row, index));
+  for (std::size_t row = 0; row < first.rows(); ++row)
+    if (target.keeps(row)) values.push_back(first.at(row, index));
   return values;
+}
+
+std::function<bool(std::uint64_t)> keeping(const Target& target) {
+  if (target.empty()) return {};
+  return [&target](std::uint64_t sample) { return target.keeps(sample); };
 }
 
 std::vector<double> capacities_of(const FragilityPart& part, const std::string& edp) {
@@ -67,17 +75,18 @@ Table first_rows(std::int64_t blocks, const ReadTable& read) {
 
 fragility::Options laid_out(const Study& study, const Table& first, const std::vector<int>& motion_group) {
   const FragilityPart& part = study.fragility;
+  const Target target(study);
   const intensity::Measure& measure = intensity::find(part.im.name);
   fragility::Options options;
   options.im_name = measure.name;
   options.im_unit = measure.unit;
-  options.im_edge = edges("fragility.bins", part.bins, column(first, "im_" + measure.name));
+  options.im_edge = edges("fragility.bins", part.bins, column(first, "im_" + measure.name, target));
   for (const std::string& name : part.edp) options.edps.push_back(edp_options(part, name));
   for (fragility::EdpOptions& state : DamageStates(study).edps()) options.edps.push_back(std::move(state));
   for (const AxisPart& axis : part.axes) {
     const std::string name = Realiser::column_of(axis.name);
     const std::string unit = first.columns[column_index(first.columns, name)].unit;
-    options.axes.push_back({name, unit, edges("fragility.axes, " + axis.name, axis.bins, column(first, name))});
+    options.axes.push_back({name, unit, edges("fragility.axes, " + axis.name, axis.bins, column(first, name, target))});
   }
   options.motion_group = motion_group;
   options.resamples = part.resamples;
@@ -87,6 +96,7 @@ fragility::Options laid_out(const Study& study, const Table& first, const std::v
   options.empirical_fallback = part.empirical_fallback;
   options.adequate = part.adequate;
   options.open_ends = part.bins.edges.empty();
+  options.scrambles = study.scrambles;
   options.seed = study.seed;
   return options;
 }
@@ -94,7 +104,8 @@ fragility::Options laid_out(const Study& study, const Table& first, const std::v
 fragility::Options fragility_options(const Study& study, Table first, const std::vector<int>& motion_group) {
   fragility::Tally pilot(laid_out(study, first, motion_group));
   DamageStates(study).append(first, 0);
-  pilot.add(first, 0);
+  const Target target(study);
+  pilot.add(first, 0, keeping(target));
   return fragility::with_pilot(pilot);
 }
 
@@ -104,6 +115,7 @@ fragility::Result analyse(const parallel::Communicator& world, const Study& stud
   const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_group);
   fragility::Tally tally(options);
   const DamageStates damage(study);
+  const Target target(study);
   const auto show = [&](const char* what, std::size_t done, std::size_t total) {
     if (display) display->show(what, done, total);
   };
@@ -111,7 +123,7 @@ fragility::Result analyse(const parallel::Communicator& world, const Study& stud
     const auto first = static_cast<std::uint64_t>(block * block_size);
     Table rows = read(block);
     damage.append(rows, first);
-    tally.add(rows, first);
+    tally.add(rows, first, keeping(target));
     show("reading blocks of samples", static_cast<std::size_t>(block + 1), static_cast<std::size_t>(blocks));
   }
   parallel::Words words = tally.words();

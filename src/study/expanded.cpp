@@ -187,6 +187,8 @@ std::string fragility_text(const FragilityPart& f) {
   if (f.axes.empty()) text += " []";
   for (const auto& axis : f.axes)
     text += fmt::format("\n    - {{name: {}, bins: {}}}", axis.name, bins_text(axis.bins));
+  if (!f.target.empty()) text += "\n  target:";
+  for (const Quantity& target : f.target) text += fmt::format("\n    {}: {}", target.name, to_string(target.value));
   return text + fmt::format(
                     "\n  resamples: {}\n  confidence: {}\n  minimum_samples: {}\n  false_discovery: {}\n"
                     "  adequate: {}\n  empirical_fallback: {}\n",
@@ -202,8 +204,10 @@ std::string samples_text(const Study& study) {
                         study.until->at_most);
   else
     text += fmt::format("samples: {}\n", study.samples);
-  text += fmt::format("design: {}\nblock_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", name(study.design),
-                      study.block_size, number_text(study.tolerance), number_text(study.free_vibration_s));
+  text += fmt::format("design: {}\n", name(study.design));
+  if (study.scrambles > 1) text += fmt::format("scrambles: {}\n", study.scrambles);
+  text += fmt::format("block_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", study.block_size,
+                      number_text(study.tolerance), number_text(study.free_vibration_s));
   return text + model_text(study.model) + chain_text(study.model.chain) + motions_text(study.motions);
 }
 

@@ -15,6 +15,7 @@
 #include "study/paths.hpp"
 #include "study/ranking.hpp"
 #include "study/read_parts.hpp"
+#include "study/target.hpp"
 #include "study/until.hpp"
 
 namespace freestand::study {
@@ -108,6 +109,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   const SampleIntensity intensity(study.fragility.im, motion_summaries(reader.motions()));
   FitSummary told{reader.rows(), 0, described(study.fragility.im), changed, {}, ""};
   if (!intensity.interpolation().empty()) told.notes.push_back(intensity.interpolation());
+  if (const std::string target = Target(study).told(); !target.empty()) told.notes.push_back(target);
   const io::BlockLayout layout{reader.rows(), rows_at_once};
   into.begin();
   into.leave_if_asked();

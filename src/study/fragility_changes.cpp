@@ -85,6 +85,18 @@ void change_capacities(YAML::Node fragility, const FragilityChanges& changes) {
   fragility["still"] = still;
 }
 
+void change_target(YAML::Node fragility, const std::vector<std::string>& target) {
+  for (const std::string& text : target) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos)
+      throw Error(
+          fmt::format("{}: --target {} gives nothing to a number (how is it distributed?): write --target "
+                      "\"friction.mu_k={{lognormal: {{median: 0.3, dispersion: 0.2}}}}\"",
+                      origin, text));
+    fragility["target"][text.substr(0, equals)] = loaded(text.substr(equals + 1), "--target");
+  }
+}
+
 // What is wrong is in no line of a file.
 std::string without_lines(const std::string& text) {
   static const std::regex line(std::string("^") + origin + ":[0-9]+:", std::regex::multiline);
@@ -104,6 +116,7 @@ Study with_changes(const Study& study, const FragilityChanges& changes) {
     fragility.remove("bins");
   if (!changes.edp.empty()) fragility["edp"] = changes.edp;
   change_capacities(fragility, changes);
+  change_target(fragility, changes.target);
   YAML::Emitter out;
   out << root;
   try {

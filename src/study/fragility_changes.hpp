@@ -14,7 +14,9 @@ struct FragilityChanges {
   std::vector<std::string> edp = {};         // names
   std::vector<std::string> capacities = {};  // "peak_slip_m=0.05,0.1"
 
-  bool any() const { return !im.empty() || !bins.empty() || !edp.empty() || !capacities.empty(); }
+  std::vector<std::string> target = {};  // "friction.mu_k={lognormal: {median: 0.3, dispersion: 0.2}}"
+
+  bool any() const { return !im.empty() || !bins.empty() || !edp.empty() || !capacities.empty() || !target.empty(); }
 };
 
 // The study with these changes, checked as any study file. Bins by edges or by width are in the unit of their intensity:

@@ -12,6 +12,7 @@
 #include "study/fragility_changes.hpp"
 #include "study/intensities.hpp"
 #include "study/motion_summaries.hpp"
+#include "study/target.hpp"
 
 namespace freestand::study {
 namespace {
@@ -96,8 +97,9 @@ fragility::RankingOptions options_of(const Study& study, const std::vector<Inten
 // Adds the rows of one block to the tally.
 class Counter {
  public:
-  Counter(fragility::RankingTally& tally, const std::vector<IntensityPart>& parts, const MotionSummaries& summaries)
-      : tally_(tally) {
+  Counter(fragility::RankingTally& tally, const Study& study, const std::vector<IntensityPart>& parts,
+          const MotionSummaries& summaries)
+      : tally_(tally), target_(study) {
     for (const IntensityPart& part : parts) intensities_.emplace_back(part, summaries);
   }
 
@@ -117,6 +119,7 @@ class Counter {
     std::vector<double> im(intensities_.size()), edp(edps);
     for (std::size_t row = 0; row < rows.rows(); ++row) {
       const auto ended = static_cast<Outcome>(rows.at(row, outcome));
+      if (!target_.keeps(static_cast<std::uint64_t>(first) + row)) continue;
       if (ended != Outcome::at_rest && ended != Outcome::moved && ended != Outcome::overturned) continue;
       for (std::size_t k = 0; k < im.size(); ++k) im[k] = values[k][row];
       for (std::size_t e = 0; e < edps; ++e) edp[e] = rows.at(row, first_edp + e);
@@ -131,6 +134,7 @@ class Counter {
 
  private:
   fragility::RankingTally& tally_;
+  const Target target_;
   std::vector<SampleIntensity> intensities_;
 };
 
@@ -180,7 +184,7 @@ Ranking rank_intensities(const parallel::Communicator& world, const Study& study
   const std::vector<IntensityPart> parts = candidates(study, summaries);
   const fragility::RankingOptions options = options_of(study, parts, reader.motions(), summaries);
   fragility::RankingTally tally(options);
-  Counter counter(tally, parts, summaries);
+  Counter counter(tally, study, parts, summaries);
   const io::BlockLayout layout{std::min(reader.rows(), most_ranked_samples), rows_at_once};
   for (std::int64_t block = world.rank(); block < layout.blocks(); block += world.size())
     counter.add(reader.read(block * rows_at_once, layout.rows(block), counter.columns()), block * rows_at_once);

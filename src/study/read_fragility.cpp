@@ -235,6 +235,24 @@ void check_axis(Section& section, const std::string& key, const std::string& nam
   }
 }
 
+// target: {friction.mu_k: {lognormal: {median: 0.3, dispersion: 0.2}}}; check_target() says of which numbers.
+std::vector<Quantity> read_target(Section& section) {
+  std::vector<Quantity> target;
+  const YAML::Node* node = section.find("target");
+  if (!node) return target;
+  Section given(*node, section.name("target"), section.line("target"), section.problems());
+  if (!node->IsMap()) return target;
+  for (const auto& entry : *node) {
+    const std::string name = entry.first.Scalar();
+    if (auto quantity = given.quantity("target", name, range::any)) {
+      quantity->name = name;
+      target.push_back(std::move(*quantity));
+    }
+  }
+  given.finish();
+  return target;
+}
+
 std::vector<AxisPart> read_axes(Section& section, const std::vector<AxisChoice>& choices) {
   std::vector<AxisPart> axes;
   const YAML::Node* node = section.find("axes");
@@ -273,6 +291,7 @@ FragilityPart read_fragility(Section& file, const Known& known, const std::vecto
   part.capacities = read_capacities(section, known, part.edp, part.damage);
   read_damage(section, known, part);
   part.axes = read_axes(section, choices);
+  part.target = read_target(section);
   part.resamples =
       static_cast<int>(section.integer("resamples", 500, fragility::least_resamples, fragility::most_resamples));
   part.confidence = section.number("confidence", 0.95, {.lower = 0, .upper = 1, .why = "it must lie between 0 and 1"});

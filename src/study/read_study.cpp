@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <bit>
 
+#include "fragility/options.hpp"
 #include "study/accuracy.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/paths.hpp"
 #include "study/read_parts.hpp"
+#include "study/target.hpp"
 
 namespace freestand::study {
 namespace {
@@ -58,6 +60,11 @@ void read_until(Section& file, Study& study) {
 void read_design(Section& file, Study& study) {
   study.seed = file.integer("seed", 1, 0);
   study.design = static_cast<sampling::Design>(file.choice("design", {"monte_carlo", "latin_hypercube", "sobol"}, 2));
+  study.scrambles = static_cast<int>(file.integer("scrambles", 1, 1, fragility::most_scrambles));
+  if (study.scrambles > 1 && study.design == sampling::Design::monte_carlo)
+    file.problem("scrambles",
+                 "scrambles are of a design (samples of monte_carlo are independent as they are): remove them, or take "
+                 "sobol or latin_hypercube");
   study.samples = file.integer("samples", 0, 1, most_samples);
   read_until(file, study);
   if (!file.has("samples") && !file.has("until"))
@@ -121,6 +128,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   // What the study draws is known only when its parts are sound.
   const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
   study.fragility = read_fragility(file, with_numbers(known, study.motions, look), choices);
+  if (problems.empty()) check_target(study, problems);
   file.finish();
   problems.throw_if_any();
   return study;

@@ -154,7 +154,8 @@ struct FragilityPart {
   std::vector<CapacitiesPart> capacities;  // of each EDP of the list that is not binary, in its order
   std::vector<DamagePart> damage;          // each one more binary demand
   std::vector<AxisPart> axes;
-  int resamples = 500;  // bootstrap repeats of the intervals
+  std::vector<Quantity> target;  // other distributions of what was swept (target.hpp)
+  int resamples = 500;           // bootstrap repeats of the intervals
   double confidence = 0.95;
   int minimum_samples = 30;                  // a bin with fewer stays empty
   double adequate = 0.05;                    // a fit that fails its test is used where it is off by no more
@@ -176,6 +177,8 @@ struct Study {
   std::uint64_t samples = 0;  // with `until`: until->at_most
   std::optional<UntilPart> until;
   sampling::Design design = sampling::Design::sobol;
+  int scrambles =
+      1;  // independent designs, from whose differences errors come where every sample is a motion of its own
   double tolerance = 1e-9;
   double free_vibration_s = 60;
   std::uint64_t block_size = 0;  // samples a work unit; default: samples/1000 as a power of two within 256 and 8192
@@ -186,7 +189,7 @@ struct Study {
   // Of no study file: parameters that take other draws than the study's, with all others as they are.
   std::vector<std::string> redrawn = {};
 
-  sampling::Plan plan() const { return {design, seed, samples, redrawn}; }
+  sampling::Plan plan() const { return {design, seed, samples, scrambles, redrawn}; }
 };
 
 // One sample to be simulated: a study in which every number is fixed and there is one motion.

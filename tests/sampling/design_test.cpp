@@ -29,6 +29,30 @@ bool stratified(const std::vector<double>& u) {
   return strata.size() == u.size() && *strata.rbegin() == u.size() - 1;
 }
 
+// Sample i is point i/R of design i mod R: each is as even by itself as one alone, and no two are alike.
+TEST(Design, ScramblesAreDesignsOfTheirOwn) {
+  constexpr std::uint64_t scrambles = 16, points = 64;
+  for (const Design design : {Design::latin_hypercube, Design::sobol})
+    for (const std::string& name : some_names) {
+      const Stream stream({design, 5, scrambles * points, scrambles}, name);
+      std::vector<std::vector<double>> u(scrambles);
+      for (std::uint64_t i = 0; i < scrambles * points; ++i) u[i % scrambles].push_back(stream(i));
+      for (const auto& one : u) EXPECT_TRUE(stratified(one)) << name;
+      if (design == Design::sobol) EXPECT_EQ(u[0], draws({design, 5, 0}, name, 0, points));
+      for (std::size_t a = 0; a < scrambles; ++a)
+        for (std::size_t b = a + 1; b < scrambles; ++b) {
+          double sum = 0;
+          for (std::size_t i = 0; i < points; ++i) sum += 12 * (u[a][i] - 0.5) * (u[b][i] - 0.5);
+          EXPECT_LT(std::abs(sum / points), 5 / std::sqrt(points)) << name;  // a correlation of none; 3360 such pairs
+        }
+    }
+  // A number of samples that the scrambles do not divide: the first designs hold one point more.
+  const Stream uneven({Design::latin_hypercube, 5, 37, 16}, "friction.mu_k");
+  std::vector<std::vector<double>> u(16);
+  for (std::uint64_t i = 0; i < 37; ++i) u[i % 16].push_back(uneven(i));
+  for (const auto& one : u) EXPECT_TRUE(stratified(one));
+}
+
 // Computed by an independent implementation (Python integers; Philox, FNV-1a and the scrambling written out again;
 // direction numbers from SciPy).
 TEST(Design, DrawsAreReproducibleToTheBit) {

@@ -23,6 +23,22 @@ TEST(Distribution, QuantilesAgreeWithTheirClosedForms) {
   EXPECT_EQ(quantile(Choice{{5, 3, 4}, {}}, 0.34), 3);
 }
 
+TEST(Distribution, CumulativeInvertsTheQuantile) {
+  const std::vector<Distribution> all = {Uniform{0.3, 2},      LogUniform{0.3, 2},
+                                         Normal{1, 2, 0, 2.5}, Normal{0, 1, 8, unbounded},
+                                         Lognormal{0.2, 0.3},  Lognormal{0.2, 0.3, 0.1, 1.0},
+                                         Triangular{0, 1, 4},  Triangular{0, 0, 1},
+                                         Triangular{0, 1, 1}};
+  for (const auto& d : all) {
+    for (const double u : {1e-6, 0.01, 0.2, 0.5, 0.77, 0.99}) EXPECT_NEAR(cumulative(d, quantile(d, u)), u, 1e-9);
+    EXPECT_EQ(cumulative(d, -1e9), 0) << to_string(d);
+    EXPECT_EQ(cumulative(d, 1e9), 1) << to_string(d);
+  }
+  EXPECT_EQ(cumulative(Fixed{2}, 1.9), 0);
+  EXPECT_EQ(cumulative(Fixed{2}, 2), 1);
+  EXPECT_EQ(cumulative(Choice{{5, 3, 4}, {1, 2, 1}}, 4), 0.75);
+}
+
 TEST(Distribution, TruncatedQuantilesInvertTheTruncatedCdf) {
   const Normal d{1, 2, 0, 2.5};
   const double a = normal_cdf(-0.5), b = normal_cdf(0.75);
