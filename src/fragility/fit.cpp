@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "fragility/bin_fit.hpp"
 #include "fragility/covariance.hpp"
 #include "fragility/fragility_function.hpp"
 #include "fragility/histogram.hpp"
 #include "fragility/regression.hpp"
+#include "fragility/result_numbers.hpp"
 #include "fragility/surface.hpp"
 #include "fragility/warnings.hpp"
 
@@ -41,52 +43,79 @@ Distribution coarsened(const Tally& tally, std::size_t edp) {
   return result;
 }
 
-// Counts the steps of a fit: of each EDP its bins with their surface and each axis, and the overturning curve.
-class Told {
- public:
-  Told(const Options& options, const Steps& steps)
-      : steps_(steps), total_(options.edps.size() * (1 + options.axes.size()) + 1) {}
-  void step() {
-    ++done_;
-    if (steps_) steps_(done_, total_);
-  }
-
- private:
-  const Steps& steps_;
-  std::size_t done_ = 0, total_;
-};
-
-EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resampling, EstimatedNull& null, Told& told) {
+// All but the curves over IM.
+EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resampling, EstimatedNull& null) {
   const EdpOptions& options = tally.options().edps[e];
   EdpResult result;
-  result.name = options.name;
-  result.unit = options.unit;
-  result.symbol = options.symbol;
   result.binary = options.binary;
   result.capacity = capacities(options);
   result.bins = fit_bins(tally, e, null);
   result.surface = surface(tally, e, resampling, result.bins);
-  for (std::size_t c = 0; c < result.capacity.size(); ++c)
-    result.functions.push_back(fragility_function(tally, e, c, resampling));
-  told.step();
-  for (std::size_t a = 0; a < tally.options().axes.size(); ++a) {
-    result.axes.push_back(axis_surface(tally, e, a));
-    told.step();
-  }
+  for (std::size_t a = 0; a < tally.options().axes.size(); ++a) result.axes.push_back(axis_surface(tally, e, a));
   if (options.binary) return result;
   result.distribution = coarsened(tally, e);
   result.regressions = regressions(tally, e, resampling, result.bins);
   return result;
 }
 
-}  // namespace
+// What can be made by itself: a demand's bins with all that rests on them, one of its curves over IM, or the curve of
+// overturning.
+struct Piece {
+  std::size_t edp = 0;
+  std::optional<std::size_t> capacity = {};
+  bool overturning = false;
+};
 
-Result fit(const Tally& tally, const Steps& steps) {
-  EstimatedNull null(tally.options().seed);
-  return fit(tally, null, steps);
+std::vector<Piece> pieces(const Options& options) {
+  std::vector<Piece> all;
+  for (std::size_t e = 0; e < options.edps.size(); ++e) {
+    all.push_back({e});
+    for (std::size_t c = 0; c < capacities(options.edps[e]).size(); ++c) all.push_back({e, c});
+  }
+  all.push_back({.overturning = true});
+  return all;
 }
 
-Result fit(const Tally& tally, EstimatedNull& null, const Steps& steps) {
+void fit_pieces(const Tally& tally, const Resampling& resampling, EstimatedNull& null, const Jobs& jobs,
+                Result& result) {
+  const Options& options = tally.options();
+  const std::vector<Piece> all = pieces(options);
+  const auto found = jobs("fit", all.size(), [&](std::size_t i) {
+    const auto& [edp, capacity, overturning] = all[i];
+    if (overturning) return numbers_of(overturning_function(tally, resampling));
+    if (capacity) return numbers_of(fragility_function(tally, edp, *capacity, resampling));
+    return numbers_of(fit_edp(tally, edp, resampling, null));
+  });
+  result.edps.resize(options.edps.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& [edp, capacity, overturning] = all[i];
+    if (overturning)
+      from_numbers(found[i], result.overturning);
+    else if (capacity)
+      from_numbers(found[i], result.edps[edp].functions.emplace_back());
+    else
+      from_numbers(found[i], result.edps[edp]);
+  }
+  for (std::size_t e = 0; e < options.edps.size(); ++e) {
+    EdpResult& edp = result.edps[e];
+    edp.name = options.edps[e].name;
+    edp.unit = options.edps[e].unit;
+    edp.symbol = options.edps[e].symbol;
+    for (std::size_t a = 0; a < options.axes.size(); ++a) {
+      edp.axes[a].name = options.axes[a].name;
+      edp.axes[a].unit = options.axes[a].unit;
+    }
+  }
+}
+
+}  // namespace
+
+Result fit(const Tally& tally, const Jobs& jobs) {
+  EstimatedNull null(tally.options().seed);
+  return fit(tally, null, jobs);
+}
+
+Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs) {
   const Options& options = tally.options();
   Result result;
   result.im_name = options.im_name;
@@ -106,12 +135,8 @@ Result fit(const Tally& tally, EstimatedNull& null, const Steps& steps) {
   result.motions = static_cast<int>(std::count(there.begin(), there.end(), true));
 
   const Resampling resampling(tally.groups(), there, options.resamples, options.seed);
-  Told told(options, steps);
-  for (std::size_t e = 0; e < options.edps.size(); ++e)
-    result.edps.push_back(fit_edp(tally, e, resampling, null, told));
-  result.overturning = overturning_function(tally, resampling);
+  fit_pieces(tally, resampling, null, jobs, result);
   result.covariance = covariance(tally);
-  told.step();
   result.warnings = warnings(tally, result);
   return result;
 }

@@ -1,10 +1,9 @@
 // From a tally to everything that is reported: fits per bin, goodness of fit, surfaces with bands, overturning curve.
 #pragma once
 
-#include <cstddef>
-#include <functional>
 #include <string>
 
+#include "base/jobs.hpp"
 #include "fragility/goodness.hpp"
 #include "fragility/result.hpp"
 #include "fragility/tally.hpp"
@@ -13,10 +12,9 @@ namespace freestand::fragility {
 
 // A pure function of the tally and its options (seed, resamples ...): the same bits every time. `null` only saves the
 // time of simulating the same test statistics again when fits are repeated; it must carry the seed of the options to
-// give the same. `told` hears of each step that is done.
-using Steps = std::function<void(std::size_t done, std::size_t total)>;
-Result fit(const Tally& tally, const Steps& told = {});
-Result fit(const Tally& tally, EstimatedNull& null, const Steps& told = {});
+// give the same. jobs: demands and curves are fitted by whoever they are given to.
+Result fit(const Tally& tally, const Jobs& jobs = run_here);
+Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs = run_here);
 
 // How well the surfaces IM x C are known, for `until: {half_width: ...}`: the largest (upper - lower)/2 over all points. A
 // point without a band (too few samples, or too few motions) in a bin that the sweep does reach counts as unknown, which

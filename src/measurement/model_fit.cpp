@@ -114,12 +114,6 @@ std::vector<Interval> jackknife(const ModelFit& fit) {
 
 }  // namespace
 
-std::vector<Values> run_here(const std::string&, std::size_t n, const Job& job) {
-  std::vector<Values> answers;
-  for (std::size_t i = 0; i < n; ++i) answers.push_back(job(i));
-  return answers;
-}
-
 double ModelFit::mean_left_out() const {
   double sum = 0;
   for (const TestError& e : left_out) sum += e.score;

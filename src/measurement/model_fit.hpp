@@ -6,17 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/jobs.hpp"
 #include "measurement/fit.hpp"
 #include "measurement/score.hpp"
 
 namespace freestand::measurement {
-
-// Runs job(0) ... job(n - 1), anywhere and in any order, and returns their answers in order. `what`: for progress.
-using Job = std::function<Values(std::size_t)>;
-using Jobs = std::function<std::vector<Values>(const std::string& what, std::size_t n, const Job&)>;
-
-// One after the other, here.
-std::vector<Values> run_here(const std::string& what, std::size_t n, const Job& job);
 
 struct Effort {
   std::size_t screened_per_number = 32;  // points, times the count of free numbers

@@ -110,27 +110,24 @@ fragility::Options fragility_options(const Study& study, Table first, const std:
 }
 
 fragility::Result analyse(const parallel::Communicator& world, const Study& study, const std::vector<int>& motion_group,
-                          std::int64_t blocks, std::int64_t block_size, const ReadTable& read,
+                          std::int64_t blocks, std::int64_t block_size, const ReadTable& read, const Jobs& jobs,
                           parallel::StepDisplay* display) {
   const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_group);
   fragility::Tally tally(options);
   const DamageStates damage(study);
   const Target target(study);
-  const auto show = [&](const char* what, std::size_t done, std::size_t total) {
-    if (display) display->show(what, done, total);
-  };
   for (std::int64_t block = world.rank(); block < blocks; block += world.size()) {
     const auto first = static_cast<std::uint64_t>(block * block_size);
     Table rows = read(block);
     damage.append(rows, first);
     tally.add(rows, first, keeping(target));
-    show("reading blocks of samples", static_cast<std::size_t>(block + 1), static_cast<std::size_t>(blocks));
+    if (display)
+      display->show("reading blocks of samples", static_cast<std::size_t>(block + 1), static_cast<std::size_t>(blocks));
   }
   parallel::Words words = tally.words();
   world.sum_in_place(words);
-  if (!world.is_root()) return {};
-  return fragility::fit(fragility::Tally::from_words(options, words),
-                        [&](std::size_t done, std::size_t total) { show("fit", done, total); });
+  fragility::Result result = fragility::fit(fragility::Tally::from_words(options, words), jobs);
+  return world.is_root() ? result : fragility::Result{};
 }
 
 std::vector<std::string> analysed_columns(const FragilityPart& part) {

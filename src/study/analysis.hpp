@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/jobs.hpp"
 #include "base/table.hpp"
 #include "fragility/options.hpp"
 #include "fragility/result.hpp"
@@ -30,11 +31,11 @@ fragility::Options laid_out(const Study&, const Table& first, const std::vector<
 using ReadTable = std::function<Table(std::int64_t block)>;
 
 // Tallies the blocks, of block_size samples each but the last, dealt to the ranks, and analyses them. The result stands
-// on the root, the others get an empty one. The same to the bit on any number of ranks. display: of the root, told how
-// far it is; null: none. Collective.
-fragility::Result analyse(const parallel::Communicator&, const Study&,
-                          const std::vector<int>& motion_group, std::int64_t blocks,
-                          std::int64_t block_size, const ReadTable&, parallel::StepDisplay* display = nullptr);
+// on the root, the others get an empty one. The same to the bit on any number of ranks. jobs: spreads the fits over the
+// ranks. display: of the root, told how far the reading is; null: none. Collective.
+fragility::Result analyse(const parallel::Communicator&, const Study&, const std::vector<int>& motion_group,
+                          std::int64_t blocks, std::int64_t block_size, const ReadTable&, const Jobs&,
+                          parallel::StepDisplay* display = nullptr);
 
 // Names of the columns of samples.h5 that it and the intensity read.
 std::vector<std::string> analysed_columns(const FragilityPart&);

@@ -15,6 +15,7 @@
 #include "study/paths.hpp"
 #include "study/ranking.hpp"
 #include "study/read_parts.hpp"
+#include "study/spread_jobs.hpp"
 #include "study/target.hpp"
 #include "study/until.hpp"
 
@@ -118,8 +119,8 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     return intensity.beside(reader.read(block * rows_at_once, layout.rows(block), columns));
   };
   parallel::StepDisplay display(options.quiet || !world.is_root());
-  const fragility::Result result =
-      analyse(world, study, reader.motions().group, layout.blocks(), rows_at_once, rows_of, &display);
+  const fragility::Result result = analyse(world, study, reader.motions().group, layout.blocks(), rows_at_once, rows_of,
+                                           spread_jobs(world, options.quiet, [&] { into.leave(); }), &display);
   const Ranking ranking = rank_intensities(world, study, reader);
   world.on_root([&] {
     const io::Provenance provenance = provenance_of(reader, study, options, world.size());

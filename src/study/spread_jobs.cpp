@@ -10,7 +10,7 @@
 namespace freestand::study {
 namespace {
 
-using measurement::Values;
+using Values = std::vector<double>;
 using parallel::Words;
 
 // Every rank's answers on every rank: lengths first, then the bits of the numbers, each written by one rank.
@@ -37,9 +37,9 @@ std::vector<Values> share(const parallel::Communicator& world, const std::vector
 
 }  // namespace
 
-measurement::Jobs spread_jobs(const parallel::Communicator& world, bool quiet) {
+Jobs spread_jobs(const parallel::Communicator& world, bool quiet, std::function<void()> leave) {
   const auto display = std::make_shared<parallel::StepDisplay>(quiet || !world.is_root());
-  return [world, display](const std::string& what, std::size_t n, const measurement::Job& job) {
+  return [world, display, leave = std::move(leave)](const std::string& what, std::size_t n, const Job& job) {
     std::vector<Values> mine(n);
     std::vector<std::int64_t> todo(n);
     std::iota(todo.begin(), todo.end(), 0);
@@ -48,8 +48,9 @@ measurement::Jobs spread_jobs(const parallel::Communicator& world, bool quiet) {
       display->show(what, static_cast<std::size_t>(i), n);
       return parallel::Counts{.samples = 1};
     };
-    if (!parallel::for_each_block(world, todo, compute))
-      throw Error("stopped on request (nothing of the fits is kept): start again", Exit::resumable);
+    const bool complete = parallel::for_each_block(world, todo, compute);
+    if (!complete && leave) leave();
+    if (!complete) throw Error("stopped on request (nothing of the fits is kept): start again", Exit::resumable);
     return world.size() == 1 ? mine : share(world, mine);
   };
 }

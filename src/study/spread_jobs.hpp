@@ -1,14 +1,16 @@
-// The fits of compare, diagnose and add, spread over the ranks.
+// Fits, spread over the ranks.
 #pragma once
 
-#include "measurement/model_fit.hpp"
+#include <functional>
+
+#include "base/jobs.hpp"
 #include "parallel/communicator.hpp"
 
 namespace freestand::study {
 
 // Each job runs on whichever rank is free; every rank gets all answers. The jobs themselves are the same on any number
-// of ranks, so that the answer is. What is done is shown on stderr unless `quiet`. Collective; throws Error
-// (Exit::resumable) when a stop was requested.
-measurement::Jobs spread_jobs(const parallel::Communicator&, bool quiet);
+// of ranks, so that the answer is. What is done is shown on stderr unless `quiet`. Collective. When a stop was requested,
+// `leave` is called, which throws; without one, Error (Exit::resumable).
+Jobs spread_jobs(const parallel::Communicator&, bool quiet, std::function<void()> leave = {});
 
 }  // namespace freestand::study

@@ -27,6 +27,7 @@
 #include "study/kernel_number.hpp"
 #include "study/known.hpp"
 #include "study/read_parts.hpp"
+#include "study/spread_jobs.hpp"
 #include "study/until.hpp"
 
 namespace freestand::study {
@@ -236,10 +237,12 @@ class Sweep {
   fragility::Result result_so_far(std::int64_t samples) {
     folder_.leave_if_asked();
     const SampleIntensity intensity(study_.fragility.im, evaluator_.summaries());
-    return analyse(world_, study_, evaluator_.motions().groups(), layout(samples).blocks(), layout(samples).block_size,
-                   [&](std::int64_t block) {
-                     return intensity.beside({evaluator_.columns(), finished_rows(samples, block)});
-                   });
+    return analyse(
+        world_, study_, evaluator_.motions().groups(), layout(samples).blocks(), layout(samples).block_size,
+        [&](std::int64_t block) {
+          return intensity.beside({evaluator_.columns(), finished_rows(samples, block)});
+        },
+        spread_jobs(world_, true, [this] { folder_.leave(); }));
   }
 
   // However quiet: who asked for a half width must know that it was not reached.

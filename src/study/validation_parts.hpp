@@ -22,7 +22,7 @@ std::unique_ptr<Prepared> prepare(const parallel::Communicator&, const Validatio
 std::unique_ptr<Prepared> prepare(const parallel::Communicator&, Validation, const ValidationRun&, int replays);
 
 // The model fitted to the calibration tests: where every number has its value and refit is false, at those values.
-measurement::ModelFit fitted(const Prepared&, bool refit, const measurement::Jobs&);
+measurement::ModelFit fitted(const Prepared&, bool refit, const Jobs&);
 
 // Errors of one role: root mean square and so on, as comparison.json says.
 struct RoleError {
@@ -34,7 +34,7 @@ RoleError role_error(const measurement::Bench&, const std::vector<measurement::T
 
 // All tests compared, spread over the ranks.
 std::vector<measurement::TestComparison> compare_tests(const measurement::Bench&, const measurement::ModelFit&,
-                                                       const measurement::Jobs&);
+                                                       const Jobs&);
 
 const char* error_unit(const measurement::Bench&);
 nlohmann::ordered_json ladder_json(const std::vector<LadderStep>&);

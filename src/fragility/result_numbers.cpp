@@ -1,0 +1,110 @@
+#include "fragility/result_numbers.hpp"
+
+#include <cstring>
+#include <type_traits>
+
+namespace freestand::fragility {
+namespace {
+
+template <class Value>
+constexpr bool plain = std::is_trivially_copyable_v<Value>;
+template <class Value>
+constexpr std::size_t length = (sizeof(Value) + sizeof(double) - 1) / sizeof(double);
+
+template <class Way, class Value>
+void go(Way& way, Value& value) {
+  if constexpr (plain<Value>)
+    way.take(value);
+  else
+    walk(way, value);
+}
+
+template <class Way, class... Values>
+void each(Way& way, Values&... values) {
+  (go(way, values), ...);
+}
+
+template <class Way, class Value>
+void walk(Way& way, std::vector<Value>& values) {
+  auto size = static_cast<double>(values.size());
+  way.take(size);
+  values.resize(static_cast<std::size_t>(size));
+  for (Value& value : values) go(way, value);
+}
+
+// Every member has its name here: a member that is added and forgotten does not compile.
+template <class Way>
+void walk(Way& way, Surface& s) {
+  auto& [probability, lower, upper, empirical, least, most, resampled] = s;
+  each(way, probability, lower, upper, empirical, least, most, resampled);
+}
+
+template <class Way>
+void walk(Way& way, AxisSurface& s) {
+  auto& [name, unit, edge, centre, probability, lower, upper, n] = s;
+  each(way, edge, centre, probability, lower, upper, n);
+}
+
+template <class Way>
+void walk(Way& way, Distribution& d) {
+  auto& [ln_edge, count] = d;
+  each(way, ln_edge, count);
+}
+
+template <class Way>
+void walk(Way& way, FragilityFunction& f) {
+  auto& [median, dispersion, median_se, dispersion_se, penalised, im_least, im_most, extrapolated, misfit, misfit_im,
+         misfit_p, off_by, adequate, grid, probability, lower, upper, resampled_median, resampled_dispersion] = f;
+  each(way, median, dispersion, median_se, dispersion_se, penalised, im_least, im_most, extrapolated, misfit, misfit_im,
+       misfit_p, off_by, adequate, grid, probability, lower, upper, resampled_median, resampled_dispersion);
+}
+
+template <class Way>
+void walk(Way& way, EdpResult& r) {
+  auto& [name, unit, symbol, binary, bins, capacity, surface, functions, distribution, axes, regressions] = r;
+  each(way, binary, bins, capacity, surface, functions, distribution, axes, regressions);
+}
+
+struct Out {
+  std::vector<double> numbers = {};
+
+  template <class Value>
+  void take(const Value& value) {
+    const std::size_t at = numbers.size();
+    numbers.resize(at + length<Value>, 0);
+    std::memcpy(numbers.data() + at, &value, sizeof value);
+  }
+};
+
+struct In {
+  const double* next;
+
+  template <class Value>
+  void take(Value& value) {
+    std::memcpy(&value, next, sizeof value);
+    next += length<Value>;
+  }
+};
+
+template <class Part>
+std::vector<double> written(Part part) {
+  Out out;
+  walk(out, part);
+  return std::move(out.numbers);
+}
+
+template <class Part>
+void read(const std::vector<double>& numbers, Part& part) {
+  In in{numbers.data()};
+  walk(in, part);
+}
+
+}  // namespace
+
+std::vector<double> numbers_of(EdpResult result) { return written(std::move(result)); }
+std::vector<double> numbers_of(FragilityFunction function) { return written(std::move(function)); }
+
+void from_numbers(const std::vector<double>& numbers, EdpResult& result) { read(numbers, result); }
+void from_numbers(const std::vector<double>& numbers, FragilityFunction& function) { read(numbers, function); }
+
+}  // namespace freestand::fragility
