@@ -81,7 +81,7 @@ struct In {
 
   template <class Value>
   void take(Value& value) {
-    std::memcpy(&value, next, sizeof value);
+    std::memcpy(static_cast<void*>(&value), next, sizeof value);
     next += length<Value>;
   }
 };

@@ -6,7 +6,7 @@
 
 #include "fragility/fit.hpp"
 #include "fragility/result_numbers.hpp"
-#include "statistics.hpp"
+#include "draws.hpp"
 
 namespace freestand::fragility {
 namespace {
