@@ -13,7 +13,7 @@
 namespace freestand::fragility {
 namespace {
 
-constexpr std::array grid{5, 6, 7, 8, 10, 12, 15, 20, 27, 40, 60, 100, 200, 400, 1000};
+constexpr std::array grid{5, 6, 7, 8, 10, 12, 15, 20, 27, 40, 60, 100, 200};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double kolmogorov_series(double x) {

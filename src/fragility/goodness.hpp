@@ -37,9 +37,9 @@ double kolmogorov_p(double s, double n);
 double kolmogorov_critical(double level, double n);
 
 // The null distributions of S and A^2 for a lognormal whose two parameters are estimated by maximum likelihood from the
-// same samples, by simulation: `repeats` samples of normal numbers for each n of a fixed grid up to 1000. Between the
+// same samples, by simulation: `repeats` samples of normal numbers for each n of a fixed grid up to 200. Between the
 // grid's n, p is interpolated in 1/sqrt(n) after the scaling below, which takes away nearly all dependence on n; beyond
-// 1000 the scaling alone is used.
+// 200 the scaling alone is used.
 //   S (sqrt(n) - 0.01 + 0.85/sqrt(n)),   A^2 (1 + 0.75/n + 2.25/n^2)      (Stephens, J. Am. Stat. Assoc. 69, 1974)
 // Simulated once for each n that is asked for, and kept. The same seed gives the same bits in any order of asking.
 // n >= 5, otherwise NaN. p is never 0: at least 1/(repeats + 1).
