@@ -22,9 +22,11 @@ std::vector<double> capacities_of(const FragilityPart& part, const edp::Edp& edp
 
 Answers::Answers(const FragilityPart& part, const std::vector<Column>& columns)
     : columns_{"outcome"}, outcome_(column_index(columns, "outcome")) {
+  const auto find = [&](const std::string& name) {
+    return std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == "edp_" + name; });
+  };
   for (const std::string& name : part.edp) {
-    const auto column =
-        std::find_if(columns.begin(), columns.end(), [&](const Column& c) { return c.name == "edp_" + name; });
+    const auto column = find(name);
     if (column == columns.end()) continue;
     const edp::Edp& edp = edp::find(name);
     columns_.push_back(column->name);
@@ -34,6 +36,13 @@ Answers::Answers(const FragilityPart& part, const std::vector<Column>& columns)
     answers_.push_back({.edp = name, .unit = edp.unit, .capacity = unknown, .yes_or_no = edp.binary});
     for (const double capacity : demands_.back().capacities)
       answers_.push_back({.edp = name, .unit = edp.unit, .capacity = capacity, .yes_or_no = true});
+  }
+  for (const DamagePart& state : part.damage) {
+    const auto column = find(state.name);
+    if (column == columns.end()) continue;
+    columns_.push_back(column->name);
+    demands_.push_back({static_cast<std::size_t>(column - columns.begin()), true, false, 0, {}});
+    answers_.push_back({.edp = state.name, .unit = "1", .capacity = unknown, .yes_or_no = true});
   }
 }
 

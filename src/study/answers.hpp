@@ -1,4 +1,5 @@
-// What the shares of variance are asked of: each demand and each P(EDP > C) of a study, read from rows of samples.
+// What the shares of variance are asked of: each demand, each P(EDP > C) and each damage state of a study, read from rows of
+// samples.
 #pragma once
 
 #include <span>
@@ -13,7 +14,7 @@ namespace freestand::study {
 class Answers {
  public:
   // Of each demand of the fragility block: ln of it, and whether it exceeds each capacity; of one that is yes or no, whether it
-  // happens. columns: of the rows; a demand that has none is left out.
+  // happens; of each damage state, whether it holds. columns: of the rows; a demand or state that has none is left out.
   Answers(const FragilityPart&, const std::vector<Column>& columns);
 
   const std::vector<decision::Answer>& answers() const { return answers_; }

@@ -41,8 +41,9 @@ enum Work : std::int64_t { keep, refit, sweep_anew };
 
 std::string kernel_text() { return fmt::format("{:08x}", kernel_number); }
 
-// Of a fingerprint, the first ones are of the study, the others of the contents of its records.
-constexpr std::size_t study_digits = 16;
+// A fingerprint: of the study, of the contents of its records, and the other intensities.
+constexpr std::size_t study_digits = 16, motion_digits = 16;
+std::string of_motions(const std::string& fingerprint) { return fingerprint.substr(study_digits, motion_digits); }
 
 // Of study and motions; the contents of records are read once for entries on the same floor.
 class Fingerprints {
@@ -50,7 +51,9 @@ class Fingerprints {
   std::string operator()(const CatalogueEntry& entry) {
     std::string& motions = motions_[entry.words.shaking + entry.study.folder.string()];
     if (motions.empty()) motions = load_motions(entry.study).fingerprint();
-    return fingerprint(entry.study) + motions;
+    std::string all = fingerprint(entry.study) + motions;
+    for (const IntensityPart& im : entry.others) all += "+" + short_name(im);
+    return all;
   }
 
  private:
@@ -90,8 +93,7 @@ Plan plan_of(const Catalogue& catalogue, const Database& before, const fs::path&
     }
     const auto swept = swept_study(entry_folder(folder, entry.words.id));
     const std::vector<Difference> differ = swept ? differences(entry.study, *swept) : std::vector<Difference>{};
-    const bool same_motions =
-        !row || row->fingerprint.substr(study_digits) == plan.fingerprints.back().substr(study_digits);
+    const bool same_motions = !row || of_motions(row->fingerprint) == of_motions(plan.fingerprints.back());
     if (swept && same_motions && std::all_of(differ.begin(), differ.end(), is_of_fragility)) {
       plan.work.push_back(refit);
       continue;
@@ -115,6 +117,13 @@ Plan plan_of(const Catalogue& catalogue, const Database& before, const fs::path&
 // The expanded study beside the samples, as `fit` goes by it.
 void write_study(const Study& study, const fs::path& folder) {
   io::write_text(study_path(folder), io::signed_text(expanded(study, folder)));
+}
+
+// The fit over another intensity than the first, inside the folder of the entry.
+fs::path intensity_folder(const fs::path& folder, const IntensityPart& im) {
+  std::string name = short_name(im);
+  std::replace(name.begin(), name.end(), ':', '_');
+  return folder / name;
 }
 
 void compute(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder,
@@ -158,7 +167,13 @@ void add_rows(Database& db, const CatalogueEntry& entry, const std::string& fing
     row.failed += result.outcome_counts[static_cast<std::size_t>(outcome)];
   row.motions = result.motions;
   db.confidence = result.confidence;
-  for (database::Curve& curve : curves_of(result, db.entries.size())) db.curves.push_back(std::move(curve));
+  const auto add = [&](const fragility::Result& found, const IntensityPart& im) {
+    for (database::Curve& curve : curves_of(found, db.entries.size(), short_name(im)))
+      db.curves.push_back(std::move(curve));
+  };
+  add(result, entry.study.fragility.im);
+  for (const IntensityPart& im : entry.others)
+    add(io::read_fragility(intensity_folder(folder, im) / "fragility.h5").result, im);
   db.entries.push_back(std::move(row));
 }
 

@@ -5,6 +5,7 @@
 //   samples: 4000                            # any key of a study: what an entry does not say itself
 //   motions: [...]                           # or floors: {ground: [...], third: [...]}, names of lists of motions
 //   frictions: {vinyl: {mu: 0.25}, ...}      # names, for entries without friction of their own
+//   intensities: [pga_g, {name: sa_g, period_s: 0.5}]   # else the one of `fragility`
 //   classes: [laboratory refrigerator, ...]  # if it is there, no other class may be named
 //   entries:
 //     - {id: fridge, class: laboratory refrigerator, block: {...}, friction: vinyl, floor: [ground, third], source: assumed}
@@ -26,9 +27,10 @@ namespace freestand::study {
 inline constexpr const char* catalogue_format = "freestand-catalogue/1";
 
 struct CatalogueEntry {
-  database::Entry words;  // and the numbers of its equipment; nothing of its samples yet
-  Study study;            // named by the entry's id
-  std::string place;      // "specimens.csv:7", for messages
+  database::Entry words;                   // and the numbers of its equipment; nothing of its samples yet
+  Study study;                             // named by the entry's id; its intensity is the first one
+  std::vector<IntensityPart> others = {};  // the other intensities that its curves are wanted over
+  std::string place;                       // "specimens.csv:7", for messages
 };
 
 struct Catalogue {

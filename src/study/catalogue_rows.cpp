@@ -52,11 +52,11 @@ std::vector<Word> words_of(const std::vector<Curve>& curves, std::string Curve::
 
 }  // namespace
 
-std::vector<Curve> curves_of(const Result& result, std::size_t entry) {
+std::vector<Curve> curves_of(const Result& result, std::size_t entry, const std::string& im) {
   std::vector<Curve> curves;
   for (const EdpResult& edp : result.edps)
     for (std::size_t k = 0; k < edp.capacity.size(); ++k) {
-      Curve curve{.entry = entry, .im = result.im_name, .demand = edp.name, .capacity = edp.capacity[k]};
+      Curve curve{.entry = entry, .im = im, .demand = edp.name, .capacity = edp.capacity[k]};
       take_function(edp.functions.at(k), curve);
       for (const fragility::BinFit& bin : edp.bins) curve.n += bin.n;
       curve.points = points_of(result, edp, k);
@@ -74,8 +74,10 @@ std::vector<Word> demand_words(const std::vector<Curve>& curves) {
 
 std::vector<Word> intensity_words(const std::vector<Curve>& curves) {
   return words_of(curves, &Curve::im, [](const std::string& name) {
-    const intensity::Measure& measure = intensity::find(name);
-    return Word{measure.name, measure.unit, measure.symbol, measure.summary, false};
+    const std::size_t colon = name.find(':');
+    const intensity::Measure& measure = intensity::find(name.substr(0, colon));
+    const std::string period = colon == std::string::npos ? "" : " at " + name.substr(colon + 1) + " s";
+    return Word{name, measure.unit, measure.symbol + period, measure.summary + period, false};
   });
 }
 

@@ -8,8 +8,8 @@
 
 namespace freestand::study {
 
-// Every demand at every capacity. entry: position in the database.
-std::vector<database::Curve> curves_of(const fragility::Result&, std::size_t entry);
+// Every demand at every capacity, over an intensity by its text, "sa_g:0.5". entry: position in the database.
+std::vector<database::Curve> curves_of(const fragility::Result&, std::size_t entry, const std::string& im);
 
 // The words of these demands and intensities, each once, out of the registries.
 std::vector<database::Word> demand_words(const std::vector<database::Curve>&);

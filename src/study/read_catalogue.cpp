@@ -18,8 +18,8 @@ constexpr std::size_t longest_id = 75;  // what other programs take
 // Of an entry, beside the keys of a study.
 constexpr const char* entry_keys[] = {"id", "class", "description", "source", "reference", "floor"};
 // Of the file, beside the keys of a study.
-constexpr const char* file_keys[] = {"format", "name",      "revision", "classes",
-                                     "floors", "frictions", "entries",  "table"};
+constexpr const char* file_keys[] = {"format",    "name",        "revision", "classes", "floors",
+                                     "frictions", "intensities", "entries",  "table"};
 
 template <class Keys>
 bool contains(const Keys& keys, const std::string& key) {
@@ -98,6 +98,15 @@ class Reader {
       file.problem("floors", "floors and motions are both given (a floor is a list of motions): remove one");
     if (!frictions_.empty() && file.has("friction"))
       file.problem("frictions", "friction and frictions are both given (which one counts?): remove one");
+    if (const YAML::Node* node = file.find("intensities")) {
+      if (!node->IsSequence() || node->size() == 0)
+        file.problem("intensities", "intensities is no list (each is an item): write [pga_g, pgv_mps]");
+      if (has(root_, "fragility") && root_["fragility"].IsMap() && has(root_["fragility"], "im"))
+        file.problem("intensities",
+                     "intensities and fragility.im are both given (the first of the one is the other): "
+                     "remove fragility.im");
+      wanted_ = *node;
+    }
     if (!file.has("entries") && !file.has("table"))
       file.problem("entries",
                    "entries is missing (there is nothing to sweep): add entries: [...] or table: specimens.csv");
@@ -142,6 +151,7 @@ class Reader {
       Problems found(path_.string());
       read_study_of(root, found, 1);
       problems_.add(found);
+      if (found.empty() && intensities_.empty()) read_intensities(root);
     }
     for (const auto& [name, friction] : frictions_) {
       YAML::Node root = YAML::Load("{block: {width_m: 1, height_m: 1}}");
@@ -149,6 +159,19 @@ class Reader {
       Problems found(path_.string());
       Section section(root, "", line_of(friction), found);
       read_model(section);
+      problems_.add(found);
+    }
+  }
+
+  // Each as a study reads its own.
+  void read_intensities(const YAML::Node& root) {
+    if (!wanted_.IsSequence()) return;
+    for (const YAML::Node& wanted : wanted_) {
+      YAML::Node one = YAML::Clone(root), fragility(YAML::NodeType::Map);
+      fragility.force_insert("im", wanted);
+      one["fragility"] = fragility;
+      Problems found(path_.string());
+      intensities_.push_back(read_study_of(one, found, line_of(wanted)).fragility.im);
       problems_.add(found);
     }
   }
@@ -311,8 +334,10 @@ class Reader {
     section.problems().add(found);
     if (!found.empty()) return;
     study.name = words.id;
+    if (!intensities_.empty()) study.fragility.im = intensities_.front();
     describe(study, words);
-    catalogue_.entries.push_back({std::move(words), std::move(study), place});
+    catalogue_.entries.push_back({std::move(words), std::move(study), place, {}});
+    if (!intensities_.empty()) catalogue_.entries.back().others.assign(intensities_.begin() + 1, intensities_.end());
   }
 
   const std::filesystem::path path_;
@@ -320,6 +345,8 @@ class Reader {
   Problems problems_;
   YAML::Node root_;
   Named floors_, frictions_;
+  YAML::Node wanted_;  // intensities
+  std::vector<IntensityPart> intensities_;
   bool closed_ = false;                     // classes are listed
   std::map<std::string, std::string> ids_;  // -> place
   Catalogue catalogue_;

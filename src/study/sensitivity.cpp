@@ -12,6 +12,7 @@
 #include "parallel/schedule.hpp"
 #include "parallel/step_display.hpp"
 #include "study/answers.hpp"
+#include "study/damage_states.hpp"
 #include "study/evaluator.hpp"
 #include "study/known.hpp"
 #include "study/sampled.hpp"
@@ -27,8 +28,9 @@ std::span<const double> row_of(const Table& table, std::size_t row) {
 }
 
 // The groups of motions need no more of the options.
-fragility::Options group_options(const io::SampleReader& reader) {
+fragility::Options group_options(const io::SampleReader& reader, const Study& study) {
   fragility::Options options;
+  options.scrambles = study.scrambles;
   options.motion_group = reader.motions().group;
   return options;
 }
@@ -41,10 +43,11 @@ class Shares {
         options_(options),
         reader_(samples_path(options.folder)),
         study_(analysed_study(options.folder, reader_)),
-        motions_(group_options(reader_)),
+        motions_(group_options(reader_, study_)),
         groups_(motions_),
         sampled_(sampled(study_, reader_.motions().names.size())),
-        answers_(study_.fragility, reader_.columns()) {
+        damage_(study_),
+        answers_(study_.fragility, with_damage(reader_.columns())) {
     if (sampled_.empty())
       throw Error(
           fmt::format("{} samples nothing (every number is fixed, and there is one motion): give a number of the "
@@ -87,6 +90,27 @@ class Shares {
     return groups_.of(motions_.group(static_cast<int>(motion), sample));
   }
 
+  // Rows and, behind them, their damage states.
+  std::vector<Column> with_damage(std::vector<Column> columns) const {
+    for (const DamagePart& state : study_.fragility.damage) columns.push_back({"edp_" + state.name, "1", state.when});
+    return columns;
+  }
+  Table with_damage(Table rows, std::int64_t first) const {
+    damage_.append(rows, static_cast<std::uint64_t>(first));
+    return rows;
+  }
+
+  // Columns of the file that the answers, and the conditions of the damage states, read.
+  std::vector<std::string> columns_read() const {
+    std::vector<std::string> names = answers_.columns();
+    for (const DamagePart& state : study_.fragility.damage) {
+      std::erase(names, "edp_" + state.name);
+      for (const std::string& demand : state.demands)
+        if (std::find(names.begin(), names.end(), "edp_" + demand) == names.end()) names.push_back("edp_" + demand);
+    }
+    return names;
+  }
+
   // The classes are those of the draws that this program makes; the samples must be made of them.
   void refuse_other_draws() const {
     const std::int64_t rows = std::min<std::int64_t>(reader_.rows(), 64);
@@ -109,17 +133,18 @@ class Shares {
   decision::ShareTally first_order(const std::vector<decision::Parameter>& parameters) const {
     decision::ShareTally tally(parameters, answers_.answers(), groups_);
     const io::BlockLayout layout{reader_.rows(), rows_at_once};
-    std::vector<std::string> names = answers_.columns();
+    std::vector<std::string> names = columns_read();
     names.emplace_back("motion");
     parallel::StepDisplay display(options_.quiet || !world_.is_root());
     std::vector<double> values;
     std::vector<int> of_class(sampled_.size());
     for (std::int64_t block = world_.rank(); block < layout.blocks(); block += world_.size()) {
-      const Table table = reader_.read(block * rows_at_once, layout.rows(block), names);
+      const std::int64_t first = block * rows_at_once;
+      const Table table = with_damage(reader_.read(first, layout.rows(block), names), first);
       const Answers answers(study_.fragility, table.columns);
       const std::size_t motion_column = column_index(table.columns, "motion");
       for (std::size_t i = 0; i < table.rows(); ++i) {
-        const auto sample = static_cast<std::uint64_t>(block * rows_at_once) + i;
+        const auto sample = static_cast<std::uint64_t>(first) + i;
         const auto motion = static_cast<std::size_t>(table.at(i, motion_column));
         answers.read(row_of(table, i), values);
         for (std::size_t p = 0; p < sampled_.size(); ++p) of_class[p] = sampled_[p].class_of(sample, motion);
@@ -159,7 +184,7 @@ class Shares {
   parallel::Counts add_pairs(std::size_t p, const Evaluator& evaluator, std::int64_t block,
                              const io::BlockLayout& layout, decision::TotalTally& total) const {
     const std::int64_t first = block * pairs_at_once, count = layout.rows(block);
-    const Table table = reader_.read(first, count);
+    const Table table = with_damage(reader_.read(first, count), first);
     Table again{evaluator.columns(), {}};
     parallel::Counts counts;
     for (const Outcome outcome :
@@ -168,6 +193,7 @@ class Shares {
       counts.overturned += outcome == Outcome::overturned;
       counts.failed += outcome > Outcome::overturned;
     }
+    again = with_damage(std::move(again), first);
     const Answers answers_again(study_.fragility, again.columns);
     const std::size_t motion = column_index(table.columns, "motion"),
                       motion_again = column_index(again.columns, "motion");
@@ -201,6 +227,7 @@ class Shares {
   const fragility::MotionGroups motions_;
   const decision::LeaveOutGroups groups_;
   const std::vector<Sampled> sampled_;
+  const DamageStates damage_;
   const Answers answers_;
 };
 

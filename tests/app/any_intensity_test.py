@@ -87,6 +87,39 @@ class AnyIntensity(InFolder):
             self.assertRegex(table, re.escape(im) + r" +[\d.]+")
         self.assertEqual(json.loads((self.out / "summary.json").read_text())["ranking"], ranking)  # on any number of ranks
 
+    def test_a_target_is_the_sweep_that_would_have_been_made(self):
+        """Of samples that are swept over a wide range of friction, those of a narrow one."""
+        target = "friction.mu_k={uniform: [0.2, 0.3]}"
+        first = self.fit("first", "--target", target, "--bins", "0.1,0.6,1.5")
+        self.assert_same(self.fit("three", "--target", target, "--bins", "0.1,0.6,1.5", ranks=3), first)
+        summary = json.loads((first / "summary.json").read_text())
+        self.assertTrue(any(re.search(r"target: \d+ % of the samples stay, so that friction.mu_k is \{uniform: \[0.2, 0.3\]\}", w) for w in summary["warnings"]))
+        self.assertLess(sum(summary["outcomes"].values()), 900)
+        own = study_over("report", samples=6000).replace("{lognormal: {median: 0.25, dispersion: 0.4}}", "{uniform: [0.2, 0.3]}").replace("bins: {count: 5}", "bins: {edges: [0.1, 0.6, 1.5]}")
+        self.succeed(["run", self.write("own.yaml", own), "-o", self.folder / "own", "--quiet"])
+        curves = []
+        for folder in (first, self.folder / "own"):
+            with h5py.File(folder / "fragility.h5") as file:
+                curves.append([file[f"edp/delta/surface/{name}"][()] for name in ("probability", "lower", "upper")])
+        (p, low, high), (q, other_low, other_high) = curves
+        self.assertTrue(((p - q) ** 2 <= ((high - low) ** 2 + (other_high - other_low) ** 2)).all(), (p, q))  # half widths of 95 %, doubled
+        self.fail_with(2, ["fit", self.out, "--target", "friction.mu_k={uniform: [2, 3]}", "-o", self.folder / "no"], "lie where nothing was swept")
+        self.assertFalse((self.folder / "no").exists())
+
+    def test_what_a_table_of_records_gives_is_an_intensity(self):
+        lines = "".join(f"{name}.csv,{0.1 * (number + 1):.1f},{5 + 0.3 * number}\n" for number, name in enumerate("abcdef"))
+        (self.folder / "records" / "INDEX.csv").write_text("file,pga_g,magnitude_mw\n" + lines)
+        study = study_over("report").replace("records/*.csv", "records/INDEX.csv")
+        out = self.folder / "table"
+        self.succeed(["run", self.write("table.yaml", study), "-o", out], 2)
+        self.succeed(["fit", out, "--im", "record.pga_g", "-o", self.folder / "by_table"])
+        with h5py.File(self.folder / "by_table" / "fragility.h5") as file:
+            self.assertEqual((file.attrs["im"], file.attrs["im_unit"]), ("record.pga_g", "g"))
+        ranked = json.loads((out / "summary.json").read_text())["ranking"]["demands"]["delta"]
+        self.assertIn("record.pga_g", [entry["im"] for entry in ranked])
+        self.assertEqual({left["on"] for left in ranked[0]["sufficiency"]}, {"record_pulse_period_s", "record_magnitude_mw"})
+        self.fail_with(2, ["fit", out, "--im", "record.pgv_mps", "-o", self.folder / "no"], "record.pgv_mps")
+
     def test_mistakes_are_told_and_make_no_folder(self):
         into = self.folder / "into"
         for words, *options in ((("intensity measure pgx is not known",), "--im", "pgx"),

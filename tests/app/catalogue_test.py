@@ -131,6 +131,21 @@ class Catalogue(InFolder):
         self.assertEqual(samples.stat().st_mtime_ns, before)
         self.assertEqual(sorted({row["capacity"] for row in self.rows("fragility.csv") if row["demand"] == "peak_slip_m"}), ["0.05", "0.1", "0.2"])
 
+    def test_more_intensities_need_no_new_samples(self):
+        self.build(FRIDGE)
+        samples = self.folder / "db" / "entries" / "fridge" / "samples.h5"
+        before = samples.stat().st_mtime_ns
+        text = (HEAD + FRIDGE).replace("im: pga_g, ", "").replace("entries:", "intensities: [pga_g, pgv_mps, {name: sa_g, period_s: 0.5}]\nentries:")
+        self.assertIn("0 computed, 1 fitted again", self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"]).stdout)
+        self.assertEqual(samples.stat().st_mtime_ns, before)
+        self.assertEqual({row["intensity"] for row in self.rows("fragility.csv")}, {"pga_g", "pgv_mps", "sa_g:0.5"})
+        self.succeed(["fit", self.folder / "db" / "entries" / "fridge", "--im", "pgv_mps", "-o", self.folder / "alone"])
+        with h5py.File(self.folder / "alone" / "fragility.h5") as file:
+            medians = [str(m) for m in file["edp/peak_slip_m/functions/median"][()]]
+        self.assertEqual([row["median"] for row in self.rows("fragility.csv") if (row["intensity"], row["demand"]) == ("pgv_mps", "peak_slip_m")], medians)
+        self.ask("--id", "fridge", "--im", "sa_g:0.5=0.6", "--demand", "overturned")
+        self.fail_with(2, ["catalogue", self.write("bad.yaml", text.replace("pgv_mps", "pgw_mps")), "-o", self.folder / "db"], "bad.yaml:7", "did you mean pgv_mps?")
+
     def test_a_run_that_was_killed_goes_on_to_the_same_bits(self):
         self.build(FRIDGE + GRIPPY + RACK, "whole")
         path = self.write("some.yaml", HEAD + FRIDGE + GRIPPY + RACK)

@@ -86,6 +86,18 @@ class Sensitivity(InFolder):
         for one in ln_delta["shares"].values():
             self.assertGreater(one["total"]["value"], one["share"]["value"] - 4 * (one["total"]["se"] + one["share"]["se"]))
 
+    def test_a_damage_state_has_the_shares_of_the_demand_that_it_asks_for(self):
+        path = self.out / "study.yaml"
+        text = path.read_text().replace("edp: [delta, overturned]", "edp: [delta, overturned, peak_slip_m]\n  damage:\n    gone: peak_slip_m > 0.1 or overturned")
+        self.assertIn("gone", text)
+        path.write_text(text)
+        self.succeed(["sensitivity", self.out, "--total", 256, "-o", self.folder / "s"], 2)
+        answers = json.loads((self.folder / "s/sensitivity.json").read_text())["answers"]
+        state, = (one for one in answers if one["edp"] == "gone")
+        demand, = (one for one in answers if (one["edp"], one.get("capacity")) == ("peak_slip_m", 0.1))
+        self.assertEqual(state["shares"], demand["shares"])
+        self.assertGreater(state["shares"]["motion.peak_acceleration_g"]["share"]["value"], 0.1)
+
     def test_mistakes(self):
         self.fail_with(2, ["sensitivity", self.out, "--total", 99999], "--total 99999 is more than the 3000 samples")
         self.fail_with(3, ["sensitivity", self.folder], "samples.h5")
