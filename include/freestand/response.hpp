@@ -1,6 +1,7 @@
 // What comes back from one integration.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct Response {
   Outcome outcome = Outcome::at_rest;
   double peak_slip_m = 0;  // max |u|, u = displacement of the base's midpoint relative to the floor; of a block that
                            // overturned without its fall (dynamics/overturned.hpp)
+  // max u and max -u, of a sample with Settings::slip_by_side; else nan.
+  double peak_slip_right_m = std::numeric_limits<double>::quiet_NaN();
+  double peak_slip_left_m = std::numeric_limits<double>::quiet_NaN();
   double residual_slip_m = 0;    // u at the end (signed)
   double slid_path_m = 0;        // integral of |slip speed of the contact|
   double peak_rotation_rad = 0;  // max |theta|

@@ -12,6 +12,7 @@ struct Settings {
   double tolerance = 1e-9;       // local error of the dimensionless state, one step
   double free_vibration_s = 60;  // integration goes on until the block is at rest, at most this long after the motion
   int event_limit = 100000;
+  bool slip_by_side = false;  // the peak slip to each side too; then every sample is computed alone
 };
 
 // Taylor integrator of the sweep. Never throws, never allocates unless `history` is given. What cannot be integrated (a

@@ -90,7 +90,7 @@ bool vertical_covered(const Specimen& specimen, const Shaking& shaking) {
 // its kernel asks for.
 bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings,
              BatchCase& c, std::optional<SpeedLaw>& law) {
-  if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1) return false;
+  if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1 || settings.slip_by_side) return false;
   if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = speed_law(Laws(specimen))))) return false;
   if (law && too_steep(*law, specimen, shaking)) return false;
   const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty();

@@ -36,6 +36,7 @@ BoucWenLife::BoucWenLife(const Setup& setup, const Settings& settings_, History*
       cursor(shaking, gravity, push),
       history_(history) {
   if (history_) history_->points.clear(), history_->events.clear();
+  if (settings.slip_by_side) response_.peak_slip_right_m = response_.peak_slip_left_m = 0;
   if (laws) law_state.sides = laws->initial_sides();
   if (laws && !laws->sound()) finish(Outcome::not_finite);
   if (cursor.motion_over() && push == 0 && !laws) finish(Outcome::moved);
@@ -76,7 +77,7 @@ void BoucWenLife::saturate() {
 void BoucWenLife::turn() {
   v = 0;
   direction = 0;
-  response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(displacement()));
+  observe_slip(displacement());
   if (simple()) observe_acceleration(contact.strength * gravity * zeta, 0);
   if (slides_) event(cursor.time(), Mode::slide, Mode::rest);
   if (++turns_ > 20L * settings.event_limit) finish(Outcome::step_limit);
@@ -102,8 +103,8 @@ bool BoucWenLife::settled() {
 void BoucWenLife::ring() {
   const RingOut out = ring_out(contact, std::abs(zeta));
   const double towards = zeta > 0 ? -1 : 1;
-  for (const double u : {slip + towards * out.reach_m, slip - towards * out.second_reach_m})
-    response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(u));
+  observe_slip(slip + towards * out.reach_m);
+  observe_slip(slip - towards * out.second_reach_m);
   slip += towards * out.slip_m;
   zeta = 0;
   finish(Outcome::moved);
@@ -163,8 +164,15 @@ void BoucWenLife::finish(Outcome failure) {
   if (finished_) return;
   finished_ = true;
   failure_ = failure;
-  response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(displacement()));
+  observe_slip(displacement());
   if (simple()) observe_acceleration(contact.strength * gravity * zeta, 0);
+}
+
+void BoucWenLife::observe_slip(double u) {
+  response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(u));
+  if (!settings.slip_by_side) return;
+  response_.peak_slip_right_m = std::fmax(response_.peak_slip_right_m, u);
+  response_.peak_slip_left_m = std::fmax(response_.peak_slip_left_m, -u);
 }
 
 Response BoucWenLife::result() {

@@ -56,6 +56,7 @@ class BoucWenLife {
   template <class Point>
   void record(double tau, Point&& point);  // point(t since now) -> HistoryPoint
   void observe_acceleration(double horizontal, double lift);
+  void observe_slip(double u);
   void add_path(double length) { response_.slid_path_m += length; }
   double path() const { return response_.slid_path_m; }
   void begin_slide(double time);

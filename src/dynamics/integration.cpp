@@ -43,6 +43,7 @@ Integration::Integration(const Setup& setup, const Settings& settings_, History*
       shaking(setup.shaking),
       settings(settings_),
       cursor(shaking, rig.g, rig.push),
+      peaks(settings.slip_by_side),
       recorder(history, rig),
       p_(setup.specimen.block.p_radps()) {
   if (!rig.laws) return;

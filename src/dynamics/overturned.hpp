@@ -11,7 +11,8 @@ namespace freestand::dynamics {
 // far the contact slid and the block flew, bound what counts as its slip [m].
 inline void leave_out_fall(Response& response, double half_base, double c, double h, double flown) {
   const double rocked = half_base * (1 - h / std::sqrt(h * h + c * c)), most = response.slid_path_m + flown + rocked;
-  if (response.peak_slip_m > most) response.peak_slip_m = most;
+  for (double* slip : {&response.peak_slip_m, &response.peak_slip_right_m, &response.peak_slip_left_m})
+    if (*slip > most) *slip = most;
 }
 
 }  // namespace freestand::dynamics

@@ -33,10 +33,14 @@ inline double midpoint_in_flight(const Rig& rig, double x, double theta) {
 
 class Peaks {
  public:
+  explicit Peaks(bool slip_by_side) {
+    if (slip_by_side) response_.peak_slip_right_m = response_.peak_slip_left_m = 0;
+  }
+
   template <int N>
   void observe(const Rig& rig, const State& state, const Arc<double, N>& arc, double tau) {
     if (state.mode != Mode::rest) {
-      response_.peak_slip_m = max_abs(midpoint(rig, state, arc), tau, response_.peak_slip_m);
+      observe_slip(midpoint(rig, state, arc), tau);
       if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
       if (state.sigma != 0) response_.slid_path_m += std::abs(arc.xi.at(tau) - arc.xi[0]);
     }
@@ -45,7 +49,7 @@ class Peaks {
 
   template <int N>
   void observe(const Rig& rig, const State& state, const LawArc<N>& arc, double tau) {
-    response_.peak_slip_m = max_abs(midpoint(rig, state, arc), tau, response_.peak_slip_m);
+    observe_slip(midpoint(rig, state, arc), tau);
     if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
     response_.slid_path_m += arc.path.at(tau) - arc.path[0];
     observe_acceleration(rig, arc.ax, arc.fy, tau);
@@ -74,6 +78,14 @@ class Peaks {
 
  private:
   template <int N>
+  void observe_slip(const Series<double, N>& u, double tau) {
+    response_.peak_slip_m = max_abs(u, tau, response_.peak_slip_m);
+    if (std::isnan(response_.peak_slip_right_m)) return;
+    response_.peak_slip_right_m = max_of(u, tau, response_.peak_slip_right_m);
+    response_.peak_slip_left_m = max_of(scaled(-1.0, u), tau, response_.peak_slip_left_m);
+  }
+
+  template <int N>
   void observe_flight(const Rig& rig, const Flight<double, N>& flight, double tau) {
     response_.peak_rotation_rad = max_abs(flight.theta, tau, response_.peak_rotation_rad);
     Series<double, N> u = flight.x;
@@ -87,7 +99,7 @@ class Peaks {
       u[k + 1] += d * cosine[k + 1] - rig.h * sine[k + 1];
     }
     u[0] = midpoint_in_flight(rig, flight.x[0], flight.theta[0]);
-    response_.peak_slip_m = max_abs(u, tau, response_.peak_slip_m);
+    observe_slip(u, tau);
   }
 
   // Total acceleration of the centre of mass, by the forces on it but gravity: (f_x - g sin(beta), f_y - g cos(beta)), beta

@@ -161,10 +161,14 @@ bool first_root(const double* c, int order, double h, ZeroTolerance zero, double
   return solve[order - first - 1](c + first, h, tau);
 }
 
-double max_abs(const double* c, int order, double h, double floor) {
+namespace {
+
+// The largest size(y) over [0, h], or floor. size: y itself, or |y|.
+template <class Size>
+double largest(const double* c, int order, double h, double floor, Size size) {
   std::array<double, max_root_order + 1> y{}, slope{};
   std::copy(c, c + order + 1, y.begin());
-  double peak = std::max({floor, std::abs(y[0]), std::abs(evaluate(c, order, h))});
+  double peak = std::max({floor, size(y[0]), size(evaluate(c, order, h))});
   // Walk from one stationary point to the next.
   for (int turn = 0; turn < order && h > 0; ++turn) {
     for (int k = 0; k < order; ++k) slope[k] = (k + 1) * y[k + 1];
@@ -176,9 +180,19 @@ double max_abs(const double* c, int order, double h, double floor) {
       for (int k = order - 1; k >= i; --k) y[k] += tau * y[k + 1];
     y[1] = 0;
     h -= tau;
-    peak = std::max(peak, std::abs(y[0]));
+    peak = std::max(peak, size(y[0]));
   }
   return peak;
+}
+
+}  // namespace
+
+double max_abs(const double* c, int order, double h, double floor) {
+  return largest(c, order, h, floor, [](double y) { return std::abs(y); });
+}
+
+double max_of(const double* c, int order, double h, double floor) {
+  return largest(c, order, h, floor, [](double y) { return y; });
 }
 
 }  // namespace freestand::dynamics::detail

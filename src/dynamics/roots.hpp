@@ -26,6 +26,7 @@ namespace detail {
 int sign_after(const double* c, int order, ZeroTolerance zero);
 bool first_root(const double* c, int order, double h, ZeroTolerance zero, double& tau);
 double max_abs(const double* c, int order, double h, double floor);
+double max_of(const double* c, int order, double h, double floor);
 
 // sum_{k > 0} |c[k]| h^k, even and odd powers apart, which is faster.
 template <int N>
@@ -62,6 +63,14 @@ double max_abs(const Series<double, N>& y, double h, double floor) {
   static_assert(N <= max_root_order);
   if ((y.c[0] < 0 ? -y.c[0] : y.c[0]) + detail::rest_of_bound<N>(y.c, h) <= floor) return floor;
   return detail::max_abs(y.c, N, h, floor);
+}
+
+// max(floor, max over [0, h] of y).
+template <int N>
+double max_of(const Series<double, N>& y, double h, double floor) {
+  static_assert(N <= max_root_order);
+  if (y.c[0] + detail::rest_of_bound<N>(y.c, h) <= floor) return floor;
+  return detail::max_of(y.c, N, h, floor);
 }
 
 }  // namespace freestand::dynamics

@@ -26,10 +26,12 @@ struct Edp {
   std::string symbol;   // as on an axis
   std::string summary;  // one line
   std::string source;
-  bool binary = false;   // 0 or 1: its mean is a probability, it takes no capacities
-  bool censored = true;  // without meaning once the block has overturned
+  bool binary = false;     // 0 or 1: its mean is a probability, it takes no capacities
+  bool censored = true;    // without meaning once the block has overturned
+  bool by_side = false;    // wants Settings::slip_by_side; else nan
   bool by_default = true;  // among those that a study takes which names none
-  double still = 0;  // at or below it (0.1 mm, a thousandth of alpha ...) the block stood still, as far as anyone can tell
+  double still =
+      0;  // at or below it (0.1 mm, a thousandth of alpha ...) the block stood still, as far as anyone can tell
   std::vector<double> default_capacities = {};  // where the study names none
   double (*value)(const Input&) = nullptr;
 };

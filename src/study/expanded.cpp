@@ -205,6 +205,7 @@ std::string samples_text(const Study& study) {
   else
     text += fmt::format("samples: {}\n", study.samples);
   text += fmt::format("design: {}\n", name(study.design));
+  if (study.slip_by_side) text += "slip_by_side: true\n";
   if (study.scrambles > 1) text += fmt::format("scrambles: {}\n", study.scrambles);
   text += fmt::format("block_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", study.block_size,
                       number_text(study.tolerance), number_text(study.free_vibration_s));

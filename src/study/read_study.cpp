@@ -66,6 +66,7 @@ void read_design(Section& file, Study& study) {
                  "scrambles are of a design (samples of monte_carlo are independent as they are): remove them, or take "
                  "sobol or latin_hypercube");
   study.samples = file.integer("samples", 0, 1, most_samples);
+  study.slip_by_side = file.flag("slip_by_side", false);
   read_until(file, study);
   if (!file.has("samples") && !file.has("until"))
     file.problem("samples",
@@ -103,6 +104,20 @@ void refuse_other_kind(Section& file, const char* wanted, const char* other, con
   problems.throw_if_any();
 }
 
+// Slip by side is computed where the study says so.
+void refuse_sides_that_are_not_followed(const Study& study, const Known& known, Section& file) {
+  if (study.slip_by_side) return;
+  std::vector<std::string> asked = study.fragility.edp;
+  for (const DamagePart& state : study.fragility.damage)
+    asked.insert(asked.end(), state.demands.begin(), state.demands.end());
+  for (const KnownEdp& edp : known.edps)
+    if (edp.by_side && std::find(asked.begin(), asked.end(), edp.name) != asked.end())
+      return file.problem("fragility",
+                          fmt::format("{} is followed only where the study says so (it takes several times "
+                                      "as long): add slip_by_side: true, and sweep with it",
+                                      edp.name));
+}
+
 // And what the tables of records bring: record.pga_g.
 Known with_numbers(Known known, const std::vector<MotionSource>& motions, Files look) {
   known.any_record = look == Files::ignore;
@@ -128,6 +143,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   // What the study draws is known only when its parts are sound.
   const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
   study.fragility = read_fragility(file, with_numbers(known, study.motions, look), choices);
+  refuse_sides_that_are_not_followed(study, known, file);
   if (problems.empty()) check_target(study, problems);
   file.finish();
   problems.throw_if_any();

@@ -303,6 +303,7 @@ Settings integration_settings(const Study& study) {
   Settings settings;
   settings.tolerance = study.tolerance;
   settings.free_vibration_s = study.free_vibration_s;
+  settings.slip_by_side = study.slip_by_side;
   return settings;
 }
 

@@ -181,6 +181,7 @@ struct Study {
       1;  // independent designs, from whose differences errors come where every sample is a motion of its own
   double tolerance = 1e-9;
   double free_vibration_s = 60;
+  bool slip_by_side = false;     // the peak slip to each side is computed too, in more time
   std::uint64_t block_size = 0;  // samples a work unit; default: samples/1000 as a power of two within 256 and 8192
   ModelPart model;
   std::vector<MotionSource> motions;
@@ -204,7 +205,8 @@ struct KnownEdp {
   bool binary = false;  // overturned: takes no capacities
   std::vector<double> default_capacities;
   bool by_default = true;
-  double still = 0;  // threshold where the study gives none
+  double still = 0;      // threshold where the study gives none
+  bool by_side = false;  // wants slip_by_side
 };
 struct KnownIntensity {
   std::string name;

@@ -330,6 +330,14 @@ TEST(StudyMistakes, AllAreReportedAtOnceWithTheirLines) {
   EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), 7) << found;
 }
 
+TEST(StudyMistakes, SlipBySideComesWithItsKey) {
+  for (const char* asked : {"edp: [peak_slip_right_m]", "edp: [delta], damage: {hits: \"peak_slip_right_m > 0.05\"}"}) {
+    const std::string text = block + friction + samples + motions + "fragility: {" + asked + "}\n";
+    EXPECT_THAT(problems(text), HasSubstr("some.yaml:5: peak_slip_right_m is followed only where the study says so"));
+    EXPECT_EQ(problems("slip_by_side: true\n" + text), "");
+  }
+}
+
 TEST(CaseMistakes, ACaseIsOneSample) {
   const std::string motion = "motion: {pulse: B, period_s: 0.5, peak_acceleration_g: 0.6}\n";
   EXPECT_EQ(case_problems(block + friction + motion), "");

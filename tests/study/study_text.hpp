@@ -9,7 +9,10 @@
 namespace freestand::study::test {
 
 inline Known known() {
-  return {.edps = {{"delta", false, {0.5, 1, 2}}, {"overturned", true, {}}, {"peak_slip_m", false, {}}},
+  return {.edps = {{"delta", false, {0.5, 1, 2}},
+                   {"overturned", true, {}},
+                   {"peak_slip_m", false, {}},
+                   {.name = "peak_slip_right_m", .by_default = false, .by_side = true}},
           .intensities = {{"report", "", 0}, {"pta_g", "", 0}, {"sa_g", "period_s", 1.0}}};
 }
 
