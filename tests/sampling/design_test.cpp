@@ -38,7 +38,9 @@ TEST(Design, ScramblesAreDesignsOfTheirOwn) {
       std::vector<std::vector<double>> u(scrambles);
       for (std::uint64_t i = 0; i < scrambles * points; ++i) u[i % scrambles].push_back(stream(i));
       for (const auto& one : u) EXPECT_TRUE(stratified(one)) << name;
-      if (design == Design::sobol) EXPECT_EQ(u[0], draws({design, 5, 0}, name, 0, points));
+      if (design == Design::sobol) {
+        EXPECT_EQ(u[0], draws({design, 5, 0}, name, 0, points));
+      }
       for (std::size_t a = 0; a < scrambles; ++a)
         for (std::size_t b = a + 1; b < scrambles; ++b) {
           double sum = 0;
@@ -224,7 +226,7 @@ TEST(Design, KnownNamesHaveFixedDimensions) {
 
 TEST(Design, AParameterThatIsDrawnAgainIsIndependentOfAllDesigns) {
   for (const Design design : every_design) {
-    const Plan plan{design, 5, 4096}, again{design, 5, 4096, {"friction.mu_k"}};
+    const Plan plan{design, 5, 4096}, again{design, 5, 4096, 1, {"friction.mu_k"}};
     const std::vector<double> first = draws(plan, "friction.mu_k", 0, 4096),
                               second = draws(again, "friction.mu_k", 0, 4096);
     EXPECT_EQ(draws(plan, "block.width_m", 0, 64), draws(again, "block.width_m", 0, 64));
