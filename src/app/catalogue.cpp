@@ -24,9 +24,9 @@ std::string counted(std::int64_t n, const char* what) { return n ? fmt::format("
 // What a catalogue is, without computing any of it.
 void show(const study::Catalogue& catalogue) {
   fmt::print("{}, revision {}: {} entries\n", catalogue.name, catalogue.revision, catalogue.entries.size());
-  for (const auto& [words, study, place] : catalogue.entries)
-    fmt::print("{:<32} {:<28} mu {:<6.4g} {:.4g} x {:.4g} m  {} samples  ({})\n", words.id, words.equipment, words.mu_k,
-               words.width_m, words.height_m, study.samples, place);
+  for (const study::CatalogueEntry& entry : catalogue.entries)
+    fmt::print("{:<32} {:<28} mu {:<6.4g} {:.4g} x {:.4g} m  {} samples  ({})\n", entry.words.id, entry.words.equipment,
+               entry.words.mu_k, entry.words.width_m, entry.words.height_m, entry.study.samples, entry.place);
 }
 
 Exit build(const Context& context, const Options& options) {

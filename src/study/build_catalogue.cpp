@@ -52,7 +52,7 @@ class Fingerprints {
     std::string& motions = motions_[entry.words.shaking + entry.study.folder.string()];
     if (motions.empty()) motions = load_motions(entry.study).fingerprint();
     std::string all = fingerprint(entry.study) + motions;
-    for (const IntensityPart& im : entry.others) all += "+" + short_name(im);
+    for (const IntensityPart& im : entry.others) (all += '+') += short_name(im);
     return all;
   }
 

@@ -29,8 +29,8 @@ inline constexpr const char* catalogue_format = "freestand-catalogue/1";
 struct CatalogueEntry {
   database::Entry words;                   // and the numbers of its equipment; nothing of its samples yet
   Study study;                             // named by the entry's id; its intensity is the first one
-  std::vector<IntensityPart> others = {};  // the other intensities that its curves are wanted over
   std::string place;                       // "specimens.csv:7", for messages
+  std::vector<IntensityPart> others = {};  // the other intensities that its curves are wanted over
 };
 
 struct Catalogue {

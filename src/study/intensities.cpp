@@ -1,6 +1,7 @@
 #include "study/intensities.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,23 @@ std::string interpolation_told(const IntensityPart& part, double period_s, const
       part.name, sampling::number_text(period_s), count, 100 * sum / count, 100 * largest);
 }
 
+// record.COLUMN of tables without that column.
+void refuse_columns_that_no_table_has(const std::string& name, const MotionSummaries& motions) {
+  const std::string prefix = "record.";
+  if (!name.starts_with(prefix)) return;
+  std::vector<std::string> columns;
+  for (const motion::MotionSummary& summary : motions)
+    for (const auto& [column, value] : summary.given) {
+      if (prefix + column == name) return;
+      if (std::find(columns.begin(), columns.end(), prefix + column) == columns.end())
+        columns.push_back(prefix + column);
+    }
+  throw Error(fmt::format(
+      "{} is not in the tables of records of this sweep ({}): name another intensity, or add the "
+      "column and sweep again",
+      name, columns.empty() ? "they give none" : "they give " + fmt::format("{}", fmt::join(columns, ", "))));
+}
+
 }  // namespace
 
 const std::vector<std::string>& SampleIntensity::columns() {
@@ -57,6 +75,7 @@ const std::vector<std::string>& SampleIntensity::columns() {
 
 SampleIntensity::SampleIntensity(const IntensityPart& part, const MotionSummaries& motions)
     : measure_(intensity::find(part.name)), parameter_(intensity::parameter_of(measure_, part.period_s)) {
+  refuse_columns_that_no_table_has(part.name, motions);
   for (const motion::MotionSummary& summary : motions) {
     if (!measure_.parameter) {
       motions_.push_back(summary);

@@ -17,7 +17,8 @@ namespace freestand::study {
 
 class Target {
  public:
-  // r of each cell of the draws' uniforms, which are many: the target is followed but for a share of max r / 2^16.
+  // r of each cell of the draws' uniforms, which are many. Within one the samples lie as they were swept: the target is
+  // followed but for a share of max r / 2^16.
   static constexpr std::size_t cells = 1 << 16;
 
   explicit Target(const Study&);
@@ -38,8 +39,6 @@ class Target {
     double share = 0;           // 1/max r
     double outside = 0;         // of the target, where nothing was swept
   };
-  static std::vector<double> ratios(const sampling::Distribution& swept, const sampling::Distribution& target);
-
   std::vector<Part> parts_;
   std::uint64_t seed_;
 };
