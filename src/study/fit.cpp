@@ -1,5 +1,7 @@
 #include "study/fit.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <nlohmann/json.hpp>
 
@@ -95,6 +97,13 @@ void check_fit(const FitOptions& options) {
   const EditedStudy edited =
       changed_study(swept, std::filesystem::exists(file) ? read_text(file) : swept, file, options.changes);
   SampleIntensity(edited.study.fragility.im, motion_summaries(reader.motions()));
+  const Target target(edited.study);
+  const double stay = target.kept_share() * static_cast<double>(reader.rows());
+  if (!target.empty() && stay < edited.study.fragility.minimum_samples)
+    throw Error(
+        fmt::format("the target leaves some {:.0f} of {} samples (a bin alone wants minimum_samples, {}): widen "
+                    "it, or sweep more",
+                    stay, reader.rows(), edited.study.fragility.minimum_samples));
 }
 
 FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOptions& options) {

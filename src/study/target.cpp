@@ -51,6 +51,27 @@ double outside(const Distribution& swept, const Distribution& target) {
   return cumulative(target, ends.lower) + (1 - cumulative(target, ends.upper));
 }
 
+// How much likelier the target is than the sweep: of each cell of the uniforms, or of each value of a list.
+std::vector<double> ratios(const Distribution& swept, const Distribution& target) {
+  std::vector<double> r;
+  if (const auto* list = std::get_if<Choice>(&swept)) {
+    for (const double value : list->values) {
+      const double there = weight_of(*list, value);
+      r.push_back(there > 0 ? weight_of(std::get<Choice>(target), value) / there : 0);
+    }
+    return r;
+  }
+  const sampling::Support ends = support(swept);
+  double below = cumulative(target, ends.lower);
+  for (std::size_t i = 1; i <= Target::cells; ++i) {
+    const double u = static_cast<double>(i) / Target::cells;
+    const double above = cumulative(target, i < Target::cells ? quantile(swept, u) : ends.upper);
+    r.push_back((above - below) * Target::cells);
+    below = above;
+  }
+  return r;
+}
+
 std::string wrong(const Quantity& target, const std::vector<Quantity>& all, double adequate) {
   const Quantity* swept = find(all, target.name);
   if (!swept) {
@@ -77,31 +98,18 @@ std::string wrong(const Quantity& target, const std::vector<Quantity>& all, doub
         "{:.1f} % of the target of {} lie where nothing was swept ({}; probabilities would be wrong by as "
         "much, and adequate is {}): cut it with min and max, or sweep more",
         100 * share, target.name, to_string(swept->value), adequate);
+  const std::vector<double> r = ratios(swept->value, target.value);
+  const double most = *std::max_element(r.begin(), r.end());
+  if (most > adequate * Target::cells && !std::holds_alternative<Choice>(swept->value))
+    return fmt::format(
+        "hardly any sample lies where the target of {} does (it was swept as {}; {:.2g} of a million would stay): "
+        "sweep "
+        "more there",
+        target.name, to_string(swept->value), 1e6 / most);
   return "";
 }
 
 }  // namespace
-
-std::vector<double> Target::ratios(const Distribution& swept, const Distribution& target) {
-  std::vector<double> r(cells);
-  if (const auto* list = std::get_if<Choice>(&swept)) {
-    for (std::size_t i = 0; i < list->values.size(); ++i) {
-      const double value = list->values[i], there = weight_of(*list, value);
-      r[i] = there > 0 ? weight_of(std::get<Choice>(target), value) / there : 0;
-    }
-    r.resize(list->values.size());
-    return r;
-  }
-  const auto edge = [](std::size_t i) { return static_cast<double>(i) / cells; };
-  const sampling::Support ends = support(swept);
-  double below = cumulative(target, ends.lower);
-  for (std::size_t i = 0; i < cells; ++i) {
-    const double above = cumulative(target, i + 1 < cells ? quantile(swept, edge(i + 1)) : ends.upper);
-    r[i] = (above - below) * cells;
-    below = above;
-  }
-  return r;
-}
 
 Target::Target(const Study& study) : seed_(study.seed) {
   const std::vector<Quantity> all = targetable(study);

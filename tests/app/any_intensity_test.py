@@ -103,7 +103,8 @@ class AnyIntensity(InFolder):
                 curves.append([file[f"edp/delta/surface/{name}"][()] for name in ("probability", "lower", "upper")])
         (p, low, high), (q, other_low, other_high) = curves
         self.assertTrue(((p - q) ** 2 <= ((high - low) ** 2 + (other_high - other_low) ** 2)).all(), (p, q))  # half widths of 95 %, doubled
-        self.fail_with(2, ["fit", self.out, "--target", "friction.mu_k={uniform: [2, 3]}", "-o", self.folder / "no"], "lie where nothing was swept")
+        self.fail_with(2, ["fit", self.out, "--target", "friction.mu_k={uniform: [2, 3]}", "-o", self.folder / "no"], "hardly any sample lies where the target")
+        self.fail_with(2, ["fit", self.out, "--target", "friction.mu_k={uniform: [0.7, 0.72]}", "-o", self.folder / "no"], "of 1500 samples", "minimum_samples")
         self.assertFalse((self.folder / "no").exists())
 
     def test_what_a_table_of_records_gives_is_an_intensity(self):
@@ -118,7 +119,8 @@ class AnyIntensity(InFolder):
         ranked = json.loads((out / "summary.json").read_text())["ranking"]["demands"]["delta"]
         self.assertIn("record.pga_g", [entry["im"] for entry in ranked])
         self.assertEqual({left["on"] for left in ranked[0]["sufficiency"]}, {"record_pulse_period_s", "record_magnitude_mw"})
-        self.fail_with(2, ["fit", out, "--im", "record.pgv_mps", "-o", self.folder / "no"], "record.pgv_mps")
+        self.fail_with(2, ["fit", out, "--im", "record.pgv_mps", "-o", self.folder / "no"], "record.pgv_mps is not in the tables", "they give record.pga_g, record.magnitude_mw")
+        self.assertFalse((self.folder / "no").exists())
 
     def test_mistakes_are_told_and_make_no_folder(self):
         into = self.folder / "into"

@@ -94,6 +94,8 @@ TEST(Target, WhatCannotBeMadeOfTheSamplesIsRefused) {
   };
   EXPECT_THAT(refused("{uniform: [0.1, 0.5]}", "friction.mu: {uniform: [0.4, 0.6]}"),
               HasSubstr("50.0 % of the target of friction.mu lie where nothing was swept"));
+  EXPECT_THAT(refused("{lognormal: {median: 0.3, dispersion: 0.2}}", "friction.mu: {uniform: [2, 3]}"),
+              HasSubstr("hardly any sample lies where the target of friction.mu does"));
   EXPECT_THAT(refused("0.3", "friction.mu: {uniform: [0.4, 0.6]}"), HasSubstr("friction.mu is 0.3 in every sample"));
   EXPECT_THAT(refused("{uniform: [0.1, 0.5]}", "friction.mu: 0.4"), HasSubstr("is one number"));
   EXPECT_THAT(refused("{uniform: [0.1, 0.5]}", "friction.mu: {choice: [0.4]}"), HasSubstr("do not meet"));
