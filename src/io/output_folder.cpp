@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <freestand/error.hpp>
 #include <algorithm>
+#include <freestand/error.hpp>
 #include <system_error>
 #include <vector>
 
@@ -54,10 +54,11 @@ std::string used_text(const fs::path& folder) {
   const std::vector<fs::path> blocks =
       fs::is_directory(folder / blocks_name, error) ? entries(folder / blocks_name) : std::vector<fs::path>{};
   const auto finished = std::count_if(blocks.begin(), blocks.end(), is_block);
-  if (swept || (finished == 0 && !fs::exists(folder / begun_name, error)))
-    return fmt::format("{} is not empty (results of another run would mix with this one's): name another folder, or "
-                       "add --overwrite{}",
-                       folder.string(), swept ? "; --resume adds what the same study has more" : "");
+  if (finished == 0 && !fs::exists(folder / begun_name, error))
+    return fmt::format(
+        "{} is not empty (results of another run would mix with this one's): name another folder, or "
+        "add --overwrite{}",
+        folder.string(), swept ? "; --resume adds what the same study has more" : "");
   const std::string thrown = finished == 0   ? "starts again"
                              : finished == 1 ? "throws 1 finished block away"
                                              : fmt::format("throws {} finished blocks away", finished);
@@ -84,8 +85,7 @@ void make_output_folder(const fs::path& folder, Existing existing, const std::ve
     throw Error(fmt::format("{} cannot take results (it is a file): name a folder", folder.string()));
   fs::create_directories(folder, error);
   check(error, "make folder", folder);
-  if (existing == Existing::refuse && is_used(folder))
-    throw Error(used_text(folder));
+  if (existing == Existing::refuse && is_used(folder)) throw Error(used_text(folder));
   refuse_others(folder, writes);
   if (existing == Existing::overwrite) refuse_others(folder, {std::begin(results), std::end(results)});
 }

@@ -21,15 +21,15 @@ namespace fs = std::filesystem;
 // the root, which speaks for all, goes first.
 constexpr double patience_of_root_s = 7, patience_of_others_s = 8;
 
-// The number of blocks; without any, more than any once samples.h5 is there.
+// What is finished, as a number that is another one when there is more: by the blocks, and by when samples.h5 was written.
 std::int64_t finished_in(const fs::path& folder) {
   std::error_code error;
-  if (!fs::exists(blocks_path(folder), error) && fs::exists(samples_path(folder), error))
-    return std::numeric_limits<std::int64_t>::max();
-  std::int64_t blocks = 0;
+  std::int64_t finished = 0;
+  if (fs::exists(samples_path(folder), error))
+    finished = fs::last_write_time(samples_path(folder), error).time_since_epoch().count();
   for (fs::directory_iterator i(blocks_path(folder), error), end; !error && i != end; i.increment(error))
-    blocks += i->path().filename().string().starts_with("block-");
-  return blocks;
+    finished += i->path().filename().string().starts_with("block-");
+  return finished;
 }
 
 fs::path note_path(const fs::path& folder) { return folder / io::begun_name; }

@@ -56,8 +56,12 @@ TEST(OutputFolder, AnInterruptedSweepIsToldAsThat) {
   EXPECT_THAT(refused(), HasSubstr("--resume goes on, --overwrite throws 1 finished block away"));
   put(scratch / "blocks/block-00000007.bin");
   EXPECT_THAT(refused(), HasSubstr("--resume goes on, --overwrite throws 2 finished blocks away"));
-  put(scratch / "samples.h5");  // nothing is left to go on with
-  EXPECT_THAT(refused(), AllOf(HasSubstr("name another folder"), testing::Not(HasSubstr("--resume"))));
+  put(scratch / "samples.h5");  // to which samples were being added
+  EXPECT_THAT(refused(), HasSubstr("--resume goes on, --overwrite throws 2 finished blocks away"));
+  std::filesystem::remove_all(scratch / "blocks");
+  std::filesystem::remove(scratch / begun_name);
+  EXPECT_THAT(refused(),
+              AllOf(HasSubstr("name another folder"), HasSubstr("--resume adds what the same study has more")));
 }
 
 TEST(OutputFolder, OverwriteRemovesResultsAndNothingElse) {

@@ -242,8 +242,10 @@ TEST(Configs, EveryKeyShowsTheDefaults) {
       "{a: 0.3, l_m: 0.05}}\nchain: {stiffness_npm: 4e5, strength_n: 2736}\nmotions:\n"
       "  - {pulse: [A, B], period_s: 0.5, peak_acceleration_g: {uniform: [0.1, 2]}}\n"
       "  - {records: records/*, scale_to: {pta_g: {uniform: [0.1, 2]}}}\nfragility:\n  axes: [friction.mu_k]\n"
-      "  damage:\n    blocked_door: peak_slip_m > 0.1 or overturned\n    leaves_table: {when: residual_slip_m > edge_m and "
-      "not overturned, parameters: {edge_m: {lognormal: {median: 0.05, dispersion: 0.4}}}}\n",
+      "  damage:\n    blocked_door: peak_slip_m > 0.1 or overturned\n    leaves_table: {when: residual_slip_m > edge_m "
+      "and "
+      "not overturned, parameters: {edge_m: {lognormal: {median: 0.05, dispersion: 0.4}}}}\n"
+      "  target: {friction.mu_k: {lognormal: {median: 0.2, dispersion: 0.2, min: 0.1, max: 0.3}}}\n",
       file, registries(), Files::ignore);
   EXPECT_THAT(shown.fragility.edp, testing::UnorderedElementsAreArray(least.fragility.edp));
   EXPECT_EQ(std::get<Fixed>(shown.model.friction.static_ratio.value().value).value, 1);

@@ -12,7 +12,7 @@ inline Known known() {
   return {.edps = {{"delta", false, {0.5, 1, 2}},
                    {"overturned", true, {}},
                    {"peak_slip_m", false, {}},
-                   {"peak_slip_right_m", false, {}, false, 0, true}},
+                   {"peak_slip_right_m", false, {0.1}, false, 0, true}},
           .intensities = {{"report", "", 0}, {"pta_g", "", 0}, {"sa_g", "period_s", 1.0}}};
 }
 
