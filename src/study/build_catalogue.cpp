@@ -147,6 +147,11 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
     summary = sweep(world, entry.study, {quiet, options.command}, run_folder);
   fit(world, run_folder,
       {.from = folder, .command = options.command, .quiet = true, .sweep = work == refit ? nullptr : &summary});
+  for (const IntensityPart& im : entry.others) {
+    RunFolder other(world, intensity_folder(folder, im), io::Existing::resume, "go on with the same command",
+                    {study_path("").string()});
+    fit(world, other, {.from = folder, .changes = {.im = short_name(im)}, .command = options.command, .quiet = true});
+  }
 }
 
 // What the folder of an entry holds, as rows of the database.

@@ -91,6 +91,7 @@ class Sensitivity(InFolder):
         text = path.read_text().replace("edp: [delta, overturned]", "edp: [delta, overturned, peak_slip_m]\n  damage:\n    gone: peak_slip_m > 0.1 or overturned")
         self.assertIn("gone", text)
         path.write_text(text)
+        self.succeed(["fit", self.out])
         self.succeed(["sensitivity", self.out, "--total", 256, "-o", self.folder / "s"], 2)
         answers = json.loads((self.folder / "s/sensitivity.json").read_text())["answers"]
         state, = (one for one in answers if one["edp"] == "gone")
