@@ -12,8 +12,8 @@ void Problems::add(int line, std::string text) {
   if (!told) entries_.push_back({line, std::move(text)});
 }
 
-void Problems::add(const Problems& more) {
-  for (const auto& [line, text] : more.entries_) add(line, text);
+void Problems::add(const Problems& more, int line) {
+  for (const Entry& entry : more.entries_) entries_.push_back({line > 0 ? line : entry.line, entry.text});
 }
 
 std::string Problems::text() const {

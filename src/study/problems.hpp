@@ -18,8 +18,8 @@ class Problems {
   // text: "problem (why): what to do". line: 1, 2 ...; 0 for what belongs to no line.
   void add(int line, std::string text);
 
-  // All of another's, whatever its file.
-  void add(const Problems& more);
+  // All of another's, whatever its file; at this line, where one is given.
+  void add(const Problems& more, int line = 0);
 
   bool empty() const { return entries_.empty(); }
   std::size_t count() const { return entries_.size(); }

@@ -172,7 +172,7 @@ class Reader {
       one["fragility"] = fragility;
       Problems found(path_.string());
       intensities_.push_back(read_study_of(one, found, line_of(wanted)).fragility.im);
-      problems_.add(found);
+      problems_.add(found, line_of(wanted));
     }
   }
 
