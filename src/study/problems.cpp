@@ -13,7 +13,7 @@ void Problems::add(int line, std::string text) {
 }
 
 void Problems::add(const Problems& more, int line) {
-  for (const Entry& entry : more.entries_) entries_.push_back({line > 0 ? line : entry.line, entry.text});
+  for (const auto& [there, text] : more.entries_) add(line > 0 ? line : there, text);
 }
 
 std::string Problems::text() const {
