@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/command.hpp"
@@ -34,13 +35,36 @@ void tell(const study::ExportSummary& summary, const std::string& format) {
   fmt::print("written: {}\n", fmt::join(files, ", "));
 }
 
+void tell(const study::DatabaseExport& done, const study::ExportRequest& request) {
+  double difference = 0;
+  for (const auto& [id, summary] : done.entries) {
+    std::vector<std::string> states;
+    for (const exports::LimitState& state : summary.model.states)
+      states.push_back(fmt::format("{} {}", state.name, exports::name(state.curve.form)));
+    fmt::print("{}: {}\n", id, fmt::join(states, ", "));
+    difference = std::max(difference, summary.difference);
+  }
+  if (!done.entries.empty())
+    fmt::print("{} entries in {}, read back as {} reads them: probabilities within {:.1e} of freestand's\n",
+               done.entries.size(), request.output.string(), request.format, difference);
+  if (!done.refused.empty())
+    throw Error(fmt::format("{} of {} entries are not exported:\n{}", done.refused.size(),
+                            done.refused.size() + done.entries.size(), fmt::join(done.refused, "\n")),
+                Exit::data);
+}
+
 Exit export_now(Options options, const Context& context) {
   exports::Request& what = options.request.what;
   what.counted = options.form == "counted";
   if (options.form == "lognormal") what.form = exports::Form::lognormal;
   if (options.form == "discrete" || what.counted) what.form = exports::Form::discrete;
   if (options.form == "parts") what.form = exports::Form::parts;
-  context.world.on_root([&] { tell(study::export_fragility(options.request), options.request.format); });
+  context.world.on_root([&] {
+    if (study::is_database(options.request.folder))
+      tell(study::export_database(options.request), options.request);
+    else
+      tell(study::export_fragility(options.request), options.request.format);
+  });
   return Exit::done;
 }
 
@@ -50,7 +74,9 @@ void add_export(CLI::App& parser, Work& work) {
   auto options = std::make_shared<Options>();
   study::ExportRequest& request = options->request;
   CLI::App* verb = parser.add_subcommand("export", "fragility in a format that others load, with certificate.json");
-  verb->add_option("folder", request.folder, "folder of results (with fragility.h5)")->required();
+  verb->add_option("folder", request.folder,
+                   "folder of results (with fragility.h5), or a database of a catalogue: all its entries")
+      ->required();
   verb->add_option("--format", request.format, "one of:" + formats_text())->required();
   verb->add_option("-o,--output", request.output, "file, or folder")->required();
   verb->add_option(

@@ -10,9 +10,11 @@
 #include "base/random.hpp"
 #include "exports/certificate.hpp"
 #include "exports/exporter.hpp"
+#include "io/database_file.hpp"
 #include "io/fragility_file.hpp"
 #include "io/own_files.hpp"
 #include "io/text_files.hpp"
+#include "study/build_catalogue.hpp"
 #include "study/study.hpp"
 
 namespace freestand::study {
@@ -125,6 +127,30 @@ Json origin(const ExportRequest& request, const io::Provenance& from) {
 }
 
 }  // namespace
+
+bool is_database(const fs::path& folder) { return fs::exists(folder / io::database_name); }
+
+DatabaseExport export_database(const ExportRequest& request) {
+  const exports::Format& format = exports::find(request.format);
+  if (request.output.has_extension())
+    throw Error(
+        fmt::format("{} cannot hold the entries of a database (each is a file of its own): name a folder, as {}",
+                    request.output.string(), request.output.stem().string()));
+  DatabaseExport done;
+  for (const database::Entry& entry : io::read_database(request.folder / io::database_name).entries) {
+    ExportRequest one = request;
+    one.folder = entry_folder(request.folder, entry.id);
+    one.output = request.output / entry.id;
+    if (!format.folder) one.output += fs::path(format.file).extension();
+    if (one.what.id.empty()) one.what.id = usual_id(entry.id);
+    try {
+      done.entries.emplace_back(entry.id, export_fragility(one));
+    } catch (const Error& error) {
+      done.refused.push_back(fmt::format("{}: {}", entry.id, error.what()));
+    }
+  }
+  return done;
+}
 
 ExportSummary export_fragility(const ExportRequest& request) {
   const exports::Format& format = exports::find(request.format);

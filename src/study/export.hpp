@@ -30,4 +30,13 @@ struct ExportSummary {
 // replaced (Exit::usage); results that cannot be used, a file that the target would read otherwise (Exit::data).
 ExportSummary export_fragility(const ExportRequest&);
 
+// Every entry of a database, each into a file of its name in the folder `output`, or a folder of its own where the format
+// wants one. An entry that cannot be exported stops no other.
+struct DatabaseExport {
+  std::vector<std::pair<std::string, ExportSummary>> entries;  // by id
+  std::vector<std::string> refused;                            // "fridge-vinyl: why"
+};
+bool is_database(const std::filesystem::path& folder);
+DatabaseExport export_database(const ExportRequest&);
+
 }  // namespace freestand::study

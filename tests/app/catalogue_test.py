@@ -146,6 +146,19 @@ class Catalogue(InFolder):
         self.ask("--id", "fridge", "--im", "sa_g:0.5=0.6", "--demand", "overturned")
         self.fail_with(2, ["catalogue", self.write("bad.yaml", text.replace("pgv_mps", "pgw_mps")), "-o", self.folder / "db"], "bad.yaml:7", "did you mean pgv_mps?")
 
+    def test_every_entry_is_exported_into_a_file_of_its_name(self):
+        self.build(FRIDGE + RACK)
+        db, ids = self.folder / "db", sorted(path.name for path in (self.folder / "db" / "entries").iterdir())
+        self.assertEqual(len(ids), 2)
+        self.assertIn("2 entries in", self.succeed(["export", db, "--format", "openquake", "-o", self.folder / "nrml"]).stdout)
+        self.assertEqual(sorted(path.name for path in (self.folder / "nrml").iterdir()), sorted([f"{one}.xml" for one in ids] + ["certificate.json"]))
+        self.assertEqual(sorted(json.loads((self.folder / "nrml" / "certificate.json").read_text())["files"]), [f"{one}.xml" for one in ids])
+        self.assertIn(ids[0], (self.folder / "nrml" / f"{ids[0]}.xml").read_text())
+        self.succeed(["export", db, "--format", "pelicun", "-o", self.folder / "pelicun"])
+        self.assertEqual(sorted(path.name for path in (self.folder / "pelicun").iterdir()), ids)
+        self.fail_with(2, ["export", db, "--format", "openquake", "-o", self.folder / "one.xml"], "name a folder")
+        self.fail_with(3, ["export", db, "--format", "openquake", "-o", self.folder / "nrml"], "2 of 2 entries are not exported", "--overwrite")
+
     def test_a_run_that_was_killed_goes_on_to_the_same_bits(self):
         self.build(FRIDGE + GRIPPY + RACK, "whole")
         path = self.write("some.yaml", HEAD + FRIDGE + GRIPPY + RACK)
