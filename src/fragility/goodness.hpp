@@ -45,7 +45,7 @@ double kolmogorov_critical(double level, double n);
 // n >= 5, otherwise NaN. p is never 0: at least 1/(repeats + 1).
 class EstimatedNull {
  public:
-  explicit EstimatedNull(std::uint64_t seed = 1, int repeats = 4000) : seed_(seed), repeats_(repeats) {}
+  explicit EstimatedNull(std::uint64_t seed = 1, int repeats = 10000) : seed_(seed), repeats_(repeats) {}
   double ks_p(double s, double n);
   double ad_p(double a2, double n);
   double ks_critical(double level, double n);

@@ -6,14 +6,9 @@
 namespace freestand::fragility {
 namespace {
 
-template <class Value>
-constexpr bool plain = std::is_trivially_copyable_v<Value>;
-template <class Value>
-constexpr std::size_t length = (sizeof(Value) + sizeof(double) - 1) / sizeof(double);
-
 template <class Way, class Value>
 void go(Way& way, Value& value) {
-  if constexpr (plain<Value>)
+  if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>)
     way.take(value);
   else
     walk(way, value);
@@ -33,6 +28,26 @@ void walk(Way& way, std::vector<Value>& values) {
 }
 
 // Every member has its name here: a member that is added and forgotten does not compile.
+template <class Way>
+void walk(Way& way, BinFit& b) {
+  auto& [n, n_still, n_over, n_moved, n_failed, motions, im_mean, p_still, p_still_lower, p_still_upper, p_over,
+         p_over_lower, p_over_upper, lambda, lambda_se, omega, omega_se, slope, p_never, mean, standard_deviation,
+         ks_statistic, ks_resolution, correlation, ks_p_textbook, ks_critical_textbook, ks_p_estimated,
+         ks_critical_estimated, ad_statistic, ad_p_estimated, off_by, fdr_rejected, status] = b;
+  each(way, n, n_still, n_over, n_moved, n_failed, motions, im_mean, p_still, p_still_lower, p_still_upper, p_over,
+       p_over_lower, p_over_upper, lambda, lambda_se, omega, omega_se, slope, p_never, mean, standard_deviation,
+       ks_statistic, ks_resolution, correlation, ks_p_textbook, ks_critical_textbook, ks_p_estimated,
+       ks_critical_estimated, ad_statistic, ad_p_estimated, off_by, fdr_rejected, status);
+}
+
+template <class Way>
+void walk(Way& way, Regressions& r) {
+  auto& [n, slope, slope_se, slope_r2, sd_slope, sd_slope_se, bin_mean_slope, bin_sd_slope, cloud_intercept,
+         cloud_slope, cloud_sd, cloud_r2, cloud_intercept_se, cloud_slope_se, cloud_sd_se] = r;
+  each(way, n, slope, slope_se, slope_r2, sd_slope, sd_slope_se, bin_mean_slope, bin_sd_slope, cloud_intercept,
+       cloud_slope, cloud_sd, cloud_r2, cloud_intercept_se, cloud_slope_se, cloud_sd_se);
+}
+
 template <class Way>
 void walk(Way& way, Surface& s) {
   auto& [probability, lower, upper, empirical, least, most, resampled] = s;
@@ -70,9 +85,8 @@ struct Out {
 
   template <class Value>
   void take(const Value& value) {
-    const std::size_t at = numbers.size();
-    numbers.resize(at + length<Value>, 0);
-    std::memcpy(numbers.data() + at, &value, sizeof value);
+    static_assert(sizeof value <= sizeof(double));
+    std::memcpy(&numbers.emplace_back(0), &value, sizeof value);
   }
 };
 
@@ -81,8 +95,7 @@ struct In {
 
   template <class Value>
   void take(Value& value) {
-    std::memcpy(static_cast<void*>(&value), next, sizeof value);
-    next += length<Value>;
+    std::memcpy(&value, next++, sizeof value);
   }
 };
 

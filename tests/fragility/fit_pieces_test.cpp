@@ -4,9 +4,9 @@
 #include <bit>
 #include <cmath>
 
+#include "fragility/draws.hpp"
 #include "fragility/fit.hpp"
 #include "fragility/result_numbers.hpp"
-#include "draws.hpp"
 
 namespace freestand::fragility {
 namespace {

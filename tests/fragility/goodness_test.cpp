@@ -64,7 +64,7 @@ PValues under_the_null(std::size_t n) {
 }
 
 // The distance from uniform of 2000 p values exceeds 0.0436 with probability 0.001; 0.012 more is left for the null
-// distributions, which are simulated themselves (4000 repeats) and interpolated between sample sizes (33, 150), or
+// distributions, which are simulated themselves (10,000 repeats) and interpolated between sample sizes (33, 150), or
 // scaled beyond the largest of them (1000).
 TEST(Goodness, EstimatedPValuesAreUniformTextbookOnesAreNot) {
   for (const std::size_t n : {12, 33, 150, 1000}) {
