@@ -154,8 +154,9 @@ class Catalogue(InFolder):
         self.assertEqual(sorted(path.name for path in (self.folder / "nrml").iterdir()), sorted([f"{one}.xml" for one in ids] + ["certificate.json"]))
         self.assertEqual(sorted(json.loads((self.folder / "nrml" / "certificate.json").read_text())["files"]), [f"{one}.xml" for one in ids])
         self.assertIn(ids[0], (self.folder / "nrml" / f"{ids[0]}.xml").read_text())
-        self.succeed(["export", db, "--format", "pelicun", "-o", self.folder / "pelicun"])
-        self.assertEqual(sorted(path.name for path in (self.folder / "pelicun").iterdir()), ids)
+        some = ["export", db, "--format", "pelicun", "--limit-state", "peak_slip_m:0.05", "--form", "lognormal", "-o", self.folder / "pelicun"]
+        self.fail_with(3, some, "1 of 2 entries are not exported", "rack: the lognormal of peak_slip_m > 0.05 m is not adequate")
+        self.assertEqual([path.name for path in (self.folder / "pelicun").iterdir()], ["fridge"])
         self.fail_with(2, ["export", db, "--format", "openquake", "-o", self.folder / "one.xml"], "name a folder")
         self.fail_with(3, ["export", db, "--format", "openquake", "-o", self.folder / "nrml"], "2 of 2 entries are not exported", "--overwrite")
 
