@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <freestand/error.hpp>
 
@@ -95,12 +96,14 @@ double ResponseSpectrum::at(double period) const {
   const std::size_t first = std::min(i < 2 ? 0 : i - 2, period_s.size() - std::min<std::size_t>(4, period_s.size()));
   const std::size_t end = std::min(first + 4, period_s.size());
   const double x = std::log(period);
+  std::array<double, 4> knot;
+  for (std::size_t k = first; k < end; ++k) knot[k - first] = std::log(period_s[k]);
   double sum = 0;
-  for (std::size_t j = first; j < end; ++j) {
+  for (std::size_t j = 0; j < end - first; ++j) {
     double weight = 1;
-    for (std::size_t k = first; k < end; ++k)
-      if (k != j) weight *= (x - std::log(period_s[k])) / (std::log(period_s[j]) - std::log(period_s[k]));
-    sum += weight * std::log(sa_mps2[j]);
+    for (std::size_t k = 0; k < end - first; ++k)
+      if (k != j) weight *= (x - knot[k]) / (knot[j] - knot[k]);
+    sum += weight * std::log(sa_mps2[first + j]);
   }
   return std::exp(sum);
 }
