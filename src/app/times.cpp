@@ -16,7 +16,8 @@ std::string short_duration(double seconds) {
 std::string times_text(const study::SweepSummary& sweep, double fit_s, int ranks) {
   std::vector<std::string> parts;
   if (sweep.computed > 0)
-    parts = {fmt::format("sweep {} ({:.0f} samples/s)", short_duration(sweep.compute_s), sweep.samples_per_s),
+    parts = {"motions and spectra " + short_duration(sweep.motions_s),
+             fmt::format("sweep {} ({:.0f} samples/s)", short_duration(sweep.compute_s), sweep.samples_per_s),
              "accuracy check " + short_duration(sweep.accuracy_s), "writing " + short_duration(sweep.write_s)};
   if (fit_s > 0) parts.push_back("fit " + short_duration(fit_s));
   return fmt::format("{} samples in {} on {} {}{}{}", sweep.samples, short_duration(sweep.wall_s + fit_s), ranks,

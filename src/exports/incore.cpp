@@ -45,6 +45,19 @@ constexpr Inventory inventories[] = {{"building", 3},     {"bridge", 4}, {"elect
 
 std::string usual_category(std::size_t states) { return states == 4 ? "electric_facility" : "building"; }
 
+// "--limit-state wall_hit --limit-state wall_hit=again_2 ...": as many as are wanted, out of those there are.
+std::string asked_for(const Model& model, std::size_t wanted) {
+  std::string text;
+  for (std::size_t i = 0; i < wanted; ++i) {
+    const LimitState& state = model.states[std::min(i, model.states.size() - 1)];
+    const std::string demand =
+        std::isnan(state.capacity) ? state.demand : fmt::format("{}:{}", state.demand, state.capacity);
+    text += fmt::format("{}--limit-state {}{}", i ? " " : "", demand,
+                        i < model.states.size() ? "" : fmt::format("=again_{}", i + 1));
+  }
+  return text;
+}
+
 void refuse(const Model& model) {
   demand_of(model.im);
   std::vector<std::string> known;
@@ -54,10 +67,9 @@ void refuse(const Model& model) {
     if (model.states.size() == inventory.states) return;
     throw Error(fmt::format(
         "IN-CORE takes exactly {} limit states for a {}, and these are {} (it has no way from {} to damage states): "
-        "choose "
-        "them with --limit-state, where the last may stand again under another name, as overturned=again, or name "
-        "another --asset-category",
-        inventory.states, inventory.name, model.states.size(), model.states.size()));
+        "choose them, where the last may stand again under other names ({}), or name another --asset-category",
+        inventory.states, inventory.name, model.states.size(), model.states.size(),
+        asked_for(model, inventory.states)));
   }
   throw Error(
       fmt::format("IN-CORE has no inventory {} (it knows, with their numbers of limit states: {}): name one with "

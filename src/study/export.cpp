@@ -116,8 +116,9 @@ void refuse_to_replace(const fs::path& file, const Json& certificate, bool overw
                             file.string()));
 }
 
-Json origin(const ExportRequest& request, const io::Provenance& from) {
+Json origin(const ExportRequest& request, const io::Provenance& from, double confidence) {
   return {{"results", request.folder.filename().string()},
+          {"confidence_of_bands", confidence},
           {"study", from.study_name},
           {"seed", from.seed},
           {"samples", from.samples},
@@ -188,7 +189,7 @@ ExportSummary export_fragility(const ExportRequest& request) {
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
     Json entry = i == 0 ? certified.json : Json{{"target", format.name}, {"belongs_to", files.front().name}};
-    entry["from"] = origin(request, from);
+    entry["from"] = origin(request, from, result.confidence);
     entry["hash"] = hash_of(files[i].text);
     certificate["files"][files[i].name] = entry;
   }

@@ -30,6 +30,7 @@ constexpr std::int64_t rows_at_once = 8192;
 nlohmann::ordered_json timing_json(const SweepSummary* sweep, double fit_s, int ranks) {
   nlohmann::ordered_json json{{"wall_s", fit_s + (sweep ? sweep->wall_s : 0)}};
   if (sweep) {
+    json["motions_s"] = sweep->motions_s;
     json["sweep_s"] = sweep->compute_s;
     json["accuracy_s"] = sweep->accuracy_s;
     json["write_s"] = sweep->write_s;
@@ -131,6 +132,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   const fragility::Result result = analyse(world, study, reader.motions().group, layout.blocks(), rows_at_once, rows_of,
                                            spread_jobs(world, options.quiet, [&] { into.leave(); }), &display);
   const Ranking ranking = rank_intensities(world, study, reader);
+  told.warnings = result.warnings;
   world.on_root([&] {
     const io::Provenance provenance = provenance_of(reader, study, options, world.size());
     io::write_fragility(folder / "fragility.h5", provenance, result);

@@ -175,9 +175,12 @@ void check_range(const Distribution& distribution, const Range& range, const std
   const std::string reach = std::isinf(end) ? fmt::format("its distribution has no {} end", low ? "lower" : "upper")
                                             : fmt::format("its distribution reaches {}", number_text(end));
   const bool cuttable = std::holds_alternative<Normal>(distribution) || std::holds_alternative<Lognormal>(distribution);
-  problems.add(
-      line, fmt::format("{} can take impossible values ({}, and {}): {}", where, reach, range.why,
-                        cuttable ? (low ? "cut it with min, or use lognormal" : "cut it with max") : "move that end"));
+  problems.add(line,
+               fmt::format("{} can take impossible values ({}, and {}): {}", where, reach, range.why,
+                           !cuttable                                         ? "move that end"
+                           : !low                                            ? "cut it with max"
+                           : std::holds_alternative<Lognormal>(distribution) ? "cut it with min"
+                                                                             : "cut it with min, or use lognormal"));
 }
 
 }  // namespace freestand::study

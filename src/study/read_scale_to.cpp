@@ -67,7 +67,8 @@ std::optional<Quantity> read_scale_to(Section& section, MotionSource& source) {
                                 scale_to.name(measure.name), known));
   source.scale_to =
       IntensityPart{measure.name, measure.parameter ? measure.parameter->name : "", read_parameter(scale_to, measure)};
-  const auto target = scale_to.quantity("motion", measure.name, target_range);
+  auto target = scale_to.quantity("motion", measure.name, target_range);
+  if (target) target->drawn_as = "motion.pta_g";  // the same shaking, whatever it is measured by
   scale_to.finish();
   return target;
 }

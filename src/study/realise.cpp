@@ -21,7 +21,7 @@ constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 // A number of the study with its stream of uniforms; drawn only when it is no fixed number.
 class Drawn {
  public:
-  Drawn(const Plan& plan, const Quantity& quantity) : value_(quantity.value), stream_(plan, quantity.name) {
+  Drawn(const Plan& plan, const Quantity& quantity) : value_(quantity.value), stream_(plan, quantity.stream()) {
     if (const auto* fixed = std::get_if<sampling::Fixed>(&value_)) number_ = fixed->value;
   }
   double operator()(std::uint64_t sample) const { return number_ ? *number_ : quantile(value_, stream_(sample)); }
@@ -44,13 +44,6 @@ Amplitude amplitude_of(const MotionSource& source) {
   if (name == "motion.peak_velocity_mps") return Amplitude::velocity_mps;
   if (name == "motion.pta_g") return Amplitude::pta_g;
   return source.scale_to ? Amplitude::intensity : Amplitude::factor;
-}
-
-// Its draws are those of an amplitude, whatever it is measured by.
-Quantity amplitude_drawn(const MotionSource& source) {
-  Quantity amplitude = *source.amplitude;
-  if (source.scale_to) amplitude.name = "motion.pta_g";
-  return amplitude;
 }
 
 // The intensity that a motion is scaled to.
@@ -86,7 +79,7 @@ struct Source {
   Source(const Plan& plan, const MotionSource& from, const MotionSet& motions, const std::vector<std::size_t>& items)
       : part(from),
         amplitude_kind(amplitude_of(from)),
-        amplitude(plan, amplitude_drawn(from)),
+        amplitude(plan, *from.amplitude),
         target(from, motions, items),
         period(drawn(plan, from.period)),
         item(plan, from.kind == MotionSource::Kind::pulses ? "motion.pulse" : "motion.record") {}

@@ -12,7 +12,7 @@ constexpr int classes = 32;
 
 // Class of a draw by its uniform.
 struct Classes {
-  Classes(const sampling::Plan& plan, const Quantity& quantity) : stream(plan, quantity.name) {
+  Classes(const sampling::Plan& plan, const Quantity& quantity) : stream(plan, quantity.stream()) {
     if (const auto* choice = std::get_if<sampling::Choice>(&quantity.value)) {
       items = choice->values.size();
       weights = choice->weights;
@@ -39,7 +39,7 @@ Sampled of_model(const Study& study, const Quantity& quantity) {
   one.parameter.unit = quantity.unit;
   one.parameter.classes = of.count();
   one.parameter.ordered = of.ordered();
-  one.streams = {quantity.name};
+  one.streams = {quantity.stream()};
   one.class_of = [of](std::uint64_t sample, std::size_t) { return of(sample); };
   return one;
 }
@@ -70,20 +70,24 @@ void add_of_motions(const Study& study, std::optional<Quantity> MotionSource::*n
                     std::vector<Sampled>& all) {
   Sampled found;
   found.parameter.classes = classes;
+  std::vector<std::string> names;
   std::string unit;
+  const auto add = [](std::vector<std::string>& list, const std::string& one) {
+    if (std::find(list.begin(), list.end(), one) == list.end()) list.push_back(one);
+  };
   auto of = std::make_shared<std::vector<std::optional<Classes>>>();
   for (const MotionSource& source : study.motions) {
     const std::optional<Quantity>& quantity = source.*number;
     of->emplace_back();
     if (!varies(quantity)) continue;
     of->back().emplace(study.plan(), *quantity);
-    if (std::find(found.streams.begin(), found.streams.end(), quantity->name) == found.streams.end())
-      found.streams.push_back(quantity->name);
+    add(found.streams, quantity->stream());
+    add(names, quantity->name);
     unit = quantity->unit;
   }
   if (found.streams.empty()) return;
-  const bool several = found.streams.size() > 1;
-  found.parameter.name = several ? name : found.streams.front();
+  const bool several = names.size() > 1;
+  found.parameter.name = several ? name : names.front();
   if (!several) found.parameter.unit = unit;
   if (of->size() == 1) {
     found.parameter.classes = of->front()->count();

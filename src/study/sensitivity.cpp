@@ -119,7 +119,7 @@ class Shares {
       std::string column = quantity.name;
       std::replace(column.begin(), column.end(), '.', '_');
       const Table table = reader_.read(0, rows, {column});
-      const sampling::Stream stream(study_.plan(), quantity.name);
+      const sampling::Stream stream(study_.plan(), quantity.stream());
       for (std::size_t i = 0; i < table.rows(); ++i)
         if (quantile(quantity.value, stream(i)) != table.at(i, 0))
           throw Error(

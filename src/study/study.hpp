@@ -27,7 +27,10 @@ struct Quantity {
   std::string name;
   std::string unit;
   sampling::Distribution value;
-  int line = 0;  // of the study file, for messages; 0: a default
+  int line = 0;               // of the study file, for messages; 0: a default
+  std::string drawn_as = {};  // the parameter whose draws it takes; empty: its own
+
+  const std::string& stream() const { return drawn_as.empty() ? name : drawn_as; }
 };
 
 // Either width and height, or slenderness alpha = atan(W/H) and size R = half the diagonal.

@@ -89,6 +89,7 @@ class Sweep {
   }
 
   SweepSummary run() {
+    summary_.motions_s = seconds_since(start_);
     take_stock();
     folder_.begin();
     std::int64_t samples = std::max(first_round(), earlier_.rows());

@@ -24,9 +24,9 @@ std::filesystem::path study_path(const std::filesystem::path& folder);  // the e
 struct SweepSummary {
   std::int64_t samples = 0;
   std::int64_t computed = 0;  // by this run; the others were there
-  // From the start to the end, and what of it went into integrating samples, into checking their accuracy and into
-  // writing samples.h5.
-  double wall_s = 0, compute_s = 0, accuracy_s = 0, write_s = 0;
+  // From the start to the end, and what of it went into reading motions with their spectra, into integrating samples, into
+  // checking their accuracy and into writing samples.h5.
+  double wall_s = 0, motions_s = 0, compute_s = 0, accuracy_s = 0, write_s = 0;
   double samples_per_s = 0;  // while integrating, all ranks together
 };
 

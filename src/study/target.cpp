@@ -114,8 +114,9 @@ std::string wrong(const Quantity& target, const std::vector<Quantity>& all, doub
 Target::Target(const Study& study) : seed_(study.seed) {
   const std::vector<Quantity> all = targetable(study);
   for (const Quantity& target : study.fragility.target) {
-    const Distribution& swept = find(all, target.name)->value;
-    Part part{sampling::Stream(study.plan(), target.name), swept, ratios(swept, target.value),
+    const Quantity& of = *find(all, target.name);
+    const Distribution& swept = of.value;
+    Part part{sampling::Stream(study.plan(), of.stream()), swept, ratios(swept, target.value),
               fmt::format("{} is {}", target.name, to_string(target.value))};
     part.outside = outside(swept, target.value);
     const double most = *std::max_element(part.stays.begin(), part.stays.end());

@@ -69,6 +69,37 @@ TEST(Sampled, ClassesAreThoseOfTheDraws) {
   for (std::size_t c = 0; c + 1 < 32; ++c) EXPECT_LT(highest[c], lowest[c + 1]);
 }
 
+// Motions that are scaled to an intensity draw it as any amplitude is drawn, whatever it is called.
+TEST(Sampled, ClassesOfAnIntensityThatMotionsAreScaledTo) {
+  for (const std::string im : {"pta_g", "pga_g", "pgv_mps"}) {
+    std::string scaled = text;
+    scaled.replace(scaled.find("  - {pulse: [A, B]"), std::string::npos,
+                   "  - {pulse: [A, B], period_s: {uniform: [0.3, 1.5]}, scale_to: {" + im +
+                       ": {log_uniform: [0.1, 2]}}}\nfragility: {edp: [overturned]}\n");
+    const Study study = parse(scaled);
+    Study changed = study;
+    const std::vector<Sampled> all = sampled(study, 2);
+    ASSERT_EQ(all[3].parameter.name, "motion." + im);
+    const Realiser realise(study, load_motions(study));
+    changed.redrawn = all[3].streams;
+    const Realiser again(changed, realise.motions());
+    std::vector<std::vector<double>> scale_of_class(32);
+    int kept = 0;
+    for (std::uint64_t i = 0; i < 1024; ++i) {
+      const Realisation sample = realise(i);
+      // Of one pulse type the factor is the intensity over a function of the period: PTA and PGA leave it out.
+      if (im != "pgv_mps")
+        scale_of_class[static_cast<std::size_t>(all[3].class_of(i, sample.motion))].push_back(sample.pta_g);
+      kept += again(i).pta_g == sample.pta_g;
+    }
+    EXPECT_LT(kept, 5) << im;
+    for (std::size_t c = 0; im != "pgv_mps" && c + 1 < 32; ++c)
+      EXPECT_LT(*std::max_element(scale_of_class[c].begin(), scale_of_class[c].end()),
+                *std::min_element(scale_of_class[c + 1].begin(), scale_of_class[c + 1].end()))
+          << im;
+  }
+}
+
 TEST(Sampled, OneThatIsDrawnAgainIsAnotherAndAllElseTheSame) {
   const Study study = parse(text);
   const Realiser before(study, load_motions(study));

@@ -68,6 +68,22 @@ TEST(Target, WhatStaysIsDistributedAsWanted) {
             1.95);
 }
 
+TEST(Target, OfAnIntensityThatTheMotionIsScaledTo) {
+  Study study = parse(block + friction + "samples: 20000\ndesign: monte_carlo\n" +
+                      "motions: [{pulse: B, period_s: 0.5, scale_to: {pga_g: {uniform: [0.1, 2]}}}]\n" +
+                      "fragility: {edp: [overturned], target: {motion.pga_g: {uniform: [0.5, 1]}}}\n");
+  const Target target(study);
+  const Realiser realise(study, load_motions(study));
+  int kept = 0;
+  for (std::uint64_t i = 0; i < study.samples; ++i) {
+    if (!target.keeps(i)) continue;
+    ++kept;
+    EXPECT_GT(realise(i).pta_g, 0.4999);  // to a cell of the draws
+    EXPECT_LT(realise(i).pta_g, 1.0001);
+  }
+  EXPECT_NEAR(kept, 20000 * 0.5 / 1.9, 4 * std::sqrt(20000 * 0.26 * 0.74));
+}
+
 TEST(Target, OfAListAndOfTheMotion) {
   const auto draws = kept(parse(swept("{choice: [0.2, 0.3, 0.4]}",
                                       "friction.mu: {choice: [0.4, 0.2], weights: [3, 1]}, "
