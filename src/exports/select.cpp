@@ -1,6 +1,7 @@
 #include "exports/select.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -146,6 +147,16 @@ void take_notes(Model& model, const Result& result, Form form, bool table) {
     if (!of_another_demand(warning, model, result)) model.notes.push_back(warning);
 }
 
+// Where nobody said what is wanted.
+void tell_what_is_left_out(Model& model, const Result& result) {
+  std::vector<std::string> left_out;
+  for (const EdpResult& edp : result.edps)
+    if (std::none_of(model.states.begin(), model.states.end(), [&](const auto& s) { return s.demand == edp.name; }))
+      left_out.push_back(edp.name);
+  if (!left_out.empty())
+    model.notes.push_back(fmt::format("left out: {} (--limit-state takes them)", fmt::join(left_out, ", ")));
+}
+
 // Gives all limit states that form, or says why not.
 Refusal take_form(Model& model, const Result& result, const std::vector<Wanted>& wanted, Form form, bool table) {
   for (std::size_t s = 0; s < wanted.size(); ++s) {
@@ -190,6 +201,7 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
     if (refusal.empty()) {
       take_notes(model, result, form, format.table);
       if (!passed_over.empty()) model.notes.push_back(passed_over);
+      if (request.states.empty()) tell_what_is_left_out(model, result);
       if (!format.note.empty()) model.notes.push_back(format.note);
       return model;
     }

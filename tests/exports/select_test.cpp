@@ -26,6 +26,16 @@ TEST(LimitStates, UsuallyAreTheFirstDemandAndOverturned) {
   EXPECT_TRUE(std::isnan(found.states[2].capacity));
 }
 
+TEST(LimitStates, DemandsThatNobodyNamedAreToldAsLeftOut) {
+  fragility::Result results = made_results();
+  results.edps.push_back(results.edps.front());
+  results.edps.back().name = "delta";
+  EXPECT_THAT(model("openquake", request(), results).notes,
+              testing::Contains("left out: delta (--limit-state takes them)"));
+  EXPECT_THAT(model("openquake", request({"peak_slip_m"}), results).notes,
+              testing::Not(testing::Contains(HasSubstr("left out"))));
+}
+
 TEST(LimitStates, AreChosenAndNamed) {
   const Model found = model("openquake", request({"peak_slip_m:0.2=hits", "overturned=falls"}));
   ASSERT_EQ(found.states.size(), 2u);
