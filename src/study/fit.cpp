@@ -118,7 +118,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   const io::SampleReader reader(samples_path(options.from));
   const auto [study, changed] = study_of(world, reader.provenance().study, options);
   const SampleIntensity intensity(study.fragility.im, motion_summaries(reader.motions()));
-  FitSummary told{reader.rows(), 0, described(study.fragility.im), changed, {}, ""};
+  FitSummary told{.samples = reader.rows(), .intensity = described(study.fragility.im), .changed = changed};
   if (!intensity.interpolation().empty()) told.notes.push_back(intensity.interpolation());
   if (const std::string target = Target(study).told(); !target.empty()) told.notes.push_back(target);
   const io::BlockLayout layout{reader.rows(), rows_at_once};
