@@ -24,11 +24,11 @@ struct FitOptions {
 struct FitSummary {
   std::int64_t samples = 0;
   double wall_s = 0;
-  std::string intensity;              // "sa_g at 0.5 s"
-  std::vector<std::string> changed;   // keys of the fragility block that were used otherwise than the sweep had them
-  std::vector<std::string> notes;     // what a user should be told
-  std::vector<std::string> warnings;  // of the statistics; on the root
-  std::string ranking;                // of the intensities: a line a demand, or the whole table; on the root
+  std::string intensity = {};              // "sa_g at 0.5 s"
+  std::vector<std::string> changed = {};   // keys of the fragility block that the sweep had otherwise
+  std::vector<std::string> notes = {};     // what a user should be told
+  std::vector<std::string> warnings = {};  // of the statistics; on the root
+  std::string ranking = {};                // of the intensities: a line a demand, or the whole table; on the root
 };
 
 // Throws what fit would throw of its samples, its study and the changes. By one process.
