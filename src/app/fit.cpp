@@ -23,12 +23,12 @@ void tell(const study::FitSummary& summary, const Options& options) {
   if (!summary.warnings.empty())
     fmt::print(
         "warning: {}{}\n", summary.warnings.front(),
-        summary.warnings.size() > 1 ? fmt::format("; and {} more in summary.json", summary.warnings.size() - 1) : "");
-  const std::string by =
-      summary.changed.empty()
-          ? "by the study as it was swept"
-          : fmt::format("by {}, changed since the sweep ({}{})", fmt::join(summary.changed, ", "),
-                        options.changes.any() ? "command line, or " : "", study::study_path(options.folder).string());
+        summary.warnings.size() > 1 ? fmt::format(" ({} more in summary.json)", summary.warnings.size() - 1) : "");
+  const std::string by = summary.changed.empty()
+                             ? "by the study as it was swept"
+                             : fmt::format("by {} of {}{}, changed since the sweep", fmt::join(summary.changed, ", "),
+                                           options.changes.any() ? "the command line or of " : "",
+                                           study::study_path(options.folder).string());
   fmt::print("{} samples fitted over {} in {}, {}; results in {}\n", summary.samples, summary.intensity,
              short_duration(summary.wall_s), by, options.into.empty() ? options.folder : options.into);
 }

@@ -61,7 +61,7 @@ class Fit(InFolder):
 
     def test_times_are_told_by_phase_and_in_total(self):
         self.sweep()
-        self.assertRegex(self.done.stdout, r"2000 samples in .* on 2 ranks: sweep .* \(\d+ samples/s\), accuracy check .*, "
+        self.assertRegex(self.done.stdout, r"2000 samples in .* on 2 ranks: motions and spectra .*, sweep .* \(\d+ samples/s\), accuracy check .*, "
                                            r"writing .*, fit .*; results in")
         timing = json.loads((self.out / "summary.json").read_text())["timing"]
         phases = [timing[key] for key in ("sweep_s", "accuracy_s", "write_s", "fit_s")]
