@@ -9,9 +9,10 @@ import support
 
 import make_decisions
 import numpy as np
-from freestand_post import designs, pictures, reading
+from freestand_post import designs, pictures, reading, style
 from freestand_post.command import read
 from freestand_post.report import page
+from pictures_test import overlaps
 
 STUDY = """name: statue
 seed: 1
@@ -78,6 +79,18 @@ class Differences(InFolder):
         found = self.sweeps(self.design("a", 2.0), self.design("b", 3.0, width=0.9))
         self.assertEqual(len([row for row in found.rows if row.what.startswith("dimensionless")]), len(found.sweeps[0].edps[0].capacity))
         self.assertTrue(all(abs(row.ratio[1][0] - 1.5) < 1e-9 for row in found.rows))
+
+
+class Legend(InFolder):
+    def test_every_row_of_the_legend_has_its_room(self):
+        """Five designs take two rows of short names, five rows of long ones."""
+        for mu in (0.3, "{lognormal: {median: 0.2, dispersion: 0.3}}"):
+            folders = [self.design(f"{i}{mu}"[:6], 2 + 0.2 * i, width=0.5 + 0.1 * i, mu=0.3 if i == 0 else mu) for i in range(5)]
+            (picture,) = pictures.draw(self.sweeps(*folders))
+            with self.subTest(mu):
+                self.assertEqual(overlaps(picture.figure), [])
+                style.take_headline(picture.figure)
+                self.assertEqual(overlaps(picture.figure), [])
 
 
 class Pages(InFolder):
