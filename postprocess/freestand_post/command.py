@@ -12,9 +12,10 @@ def _arguments(what, argv):
         "figures": "Draws every picture of a result folder into DIR/figures, as SVG and PNG.",
         "report": "Writes DIR/report.html, one self-contained page, from a result folder."}[what] + " Several folders: a "
         "validation, as compared, diagnosed and compared again, in the order of the ladder, and the sweeps before and after; or several "
-        "sweeps, which stand side by side; and what `freestand risk` found of them.")
+        "sweeps, which stand side by side; and what `freestand risk` found of them."
+        + (" Or one database of `freestand catalogue`, alone." if what == "report" else ""))
     parser.add_argument("folders", metavar="DIR", type=pathlib.Path, nargs="+",
-                        help="folder written by freestand run, fit, risk, simulate, compare or diagnose")
+                        help="folder written by freestand run, fit, risk, simulate, compare or diagnose" + (", or a database of catalogue" if what == "report" else ""))
     parser.add_argument("--history", metavar="DIR", type=pathlib.Path, help="folder of one freestand simulate, shown beside the sweep")
     parser.add_argument("-o", "--output", metavar="PATH", type=pathlib.Path,
                         help="where to write (default: figures or report.html in the last DIR)")

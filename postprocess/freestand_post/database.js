@@ -186,7 +186,7 @@
     for (const p of [0, 0.2, 0.4, 0.6, 0.8, 1]) drawing += `<text class="tick" x="${x(p)}" y="${height - BOTTOM + 19}" text-anchor="middle">${p}</text>`;
     drawing += `<text x="${x(0.5)}" y="${height - 8}" text-anchor="middle">${escape(`P(${event()}) at ${word.symbol} = ${text(im)}${unit(word)}`)}</text>`;
     const [first, final] = [rows[0], rows[rows.length - 1]];
-    const finding = rows.length > 1 ? `At ${word.symbol} = ${text(im)}${unit(word)} and μ = ${text(mu)}, P(${event()}) goes from ${share(final[1][0])} (${final[0]}) to ${share(first[1][0])} (${first[0]})` :
+    const finding = rows.length > 1 ? `At ${word.symbol} = ${text(im)}${unit(word)} and μ = ${text(mu)}, P(${event()}) ${share(final[1][0]) === share(first[1][0]) ? `is ${share(first[1][0])} for all ${rows.length} entries` : `goes from ${share(final[1][0])} (${final[0]}) to ${share(first[1][0])} (${first[0]})`}` :
       rows.length ? `Only ${rows[0][0]} has this friction on this floor` : "No entry was swept there: choose another intensity";
     show("classes", height, drawing, finding, "All entries with the chosen friction on the chosen floor, at the chosen intensity, with their bands; those of the chosen class in orange.", table);
   }
@@ -238,6 +238,18 @@
     show("references", height, drawing, finding, `Medians beside those of ${unique(entries.map((e) => e.reference_source)).join(", ")}. Choose another floor above to see what it changes.`, table);
   }
 
+  // A column that says nothing of any entry is left out; that none states it is told below.
+  function hideEmpty(body) {
+    const unstated = [];
+    [...body.parentElement.tHead.rows[0].cells].forEach((head, k) => {
+      const told = unique([...body.rows].map((row) => row.cells[k].textContent));
+      const none = told.length === 1 && ["", "–", "not stated"].includes(told[0]);
+      if (none && told[0] === "not stated") unstated.push(head.textContent);
+      [head, ...[...body.rows].map((row) => row.cells[k])].forEach((cell) => { cell.hidden = none; });
+    });
+    document.getElementById("unstated").textContent = unstated.length ? `Of no entry it is stated where ${unstated.join(" and ")}.` : "";
+  }
+
   function fillTable(chosen, shown) {
     const body = document.querySelector("#entries tbody");
     body.innerHTML = shown.map((e) => {
@@ -246,6 +258,7 @@
         `<td>${fitted ? `${text(c.median)} ± ${text(c.median_se, 2)}` : "–"}</td><td>${fitted ? `${text(c.dispersion)} ± ${text(c.dispersion_se, 2)}` : "–"}</td>` +
         `<td class="text">${c ? (c.family === "lognormal" ? `lognormal, off by at most ${text(c.off_by, 2)}` : "by its points") : ""}</td><td>${e.samples}</td><td>${e.version}</td><td class="text">${escape(e.description)}</td><td class="text">${escape(e.source)}</td></tr>`;
     }).join("");
+    hideEmpty(body);
     for (const row of body.rows) row.addEventListener("click", () => { picked = Number(row.dataset.at); form.elements.mu.value = data.entries[picked].mu_k; draw(); });
   }
 

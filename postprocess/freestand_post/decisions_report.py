@@ -1,5 +1,6 @@
 """What the pages say of decisions: annual risk, shares of variance, several designs side by side."""
 import math
+import pathlib
 
 from . import words
 from .designs import verdict
@@ -71,7 +72,53 @@ def designs(found, risk_results, figures):
             "headline": _headline(found), "figures": [figure for figure in figures if figure["section"] == "designs"],
             "differing": found.differing, "folders": [sweep.folder.resolve().name for sweep in found.sweeps], "im": found.im_symbol,
             "im_unit": words.UNITS.get(found.sweeps[0].im_unit, found.sweeps[0].im_unit), "level": words.level(found.level), "paired": found.paired,
-            "medians": _medians(found), "risks": risks(risk_results, figures, named=True), "provenance": _provenance(found)}
+            "rates": rates(found, risk_results), "medians": _medians(found), "risks": risks(risk_results, figures, named=True), "provenance": _provenance(found)}
+
+
+def rates(found, risk_results):
+    """Annual rates by design: (headline, columns, rows); the first design is that of the first risk. None where there is but one."""
+    if len(risk_results) < 2:
+        return None
+    tables = [{(row.edp, words.plain(row.capacity)): row for row in risk.rows} for risk in risk_results]
+    events = sorted(_events(risk_results[0]), key=lambda key: key[0] != "overturned")
+    labels = [_design(found, risk) for risk in risk_results]
+    rows = [{"design": words.capitalised(label), "cells": [_rate(table.get(key), tables[0][key]) for key in events]} for label, table in zip(labels, tables)]
+    return {"columns": [words.capitalised(tables[0][key].title) for key in events], "rows": rows, "level": words.level(risk_results[0].confidence),
+            "finding": _lowest(tables[0][events[0]].title, labels, [table[events[0]].rate if events[0] in table else (math.nan,) * 3 for table in tables]) if events else "",
+            "hazards": any(list(risk.hazard_rate) != list(risk_results[0].hazard_rate) or risk.im_symbol != risk_results[0].im_symbol for risk in risk_results)}
+
+
+def _events(risk):
+    """What happens or not, and of each other demand the middle capacity."""
+    for edp in dict.fromkeys(row.edp for row in risk.rows):
+        mine = [row for row in risk.rows if row.edp == edp]
+        yield edp, words.plain(mine[len(mine) // 2].capacity)
+
+
+def _design(found, risk):
+    """The label of the sweep that the rates are of."""
+    own = [label for sweep, label in zip(found.sweeps, found.labels) if sweep.folder.resolve().name == pathlib.Path(risk.sweep).name]
+    return own[0] if len(own) == 1 else f"{risk.study_name} ({risk.sweep})"
+
+
+def _rate(row, first):
+    if row is None or not math.isfinite(row.rate[0]):
+        return {"rate": "–", "band": "", "ratio": "–"}
+    ratio = row.rate[0] / first.rate[0] if first.rate[0] > 0 else math.nan
+    return {"rate": words.a_year(row.rate[0]), "band": _span(words.a_year, *row.rate[1:]), "ratio": words.number(ratio)}
+
+
+def _lowest(what, labels, found):
+    """Which design has the lowest rate, by what factor below the first, and from which ones its band does not part it."""
+    told = [i for i, rate in enumerate(found) if math.isfinite(rate[0])]
+    if len(told) < 2:
+        return ""
+    least = min(told, key=lambda i: found[i][0])
+    rate, first = found[least][0], found[0][0]
+    below = f", {words.number(first / rate)} times below {labels[0]}" if least and first > 0 and rate > 0 else ""
+    near = [labels[i] for i in told if i != least and not found[least][2] < found[i][1]]
+    return (f"{words.capitalised(labels[least])} has the lowest annual rate of “{what}”: {words.a_year(rate)}{below}"
+            + (f"; not parted by more than their bands from {words.listing(near)}" if near else ""))
 
 
 def _headline(found):

@@ -55,20 +55,28 @@ def _render(template, content):
 def _content(sweep, history, figures):
     edps = [edp.name for edp in sweep.continuous()] if sweep else []
     main = edps[0] if edps else ""
+    hero = _hero(sweep, main, figures)
     of = {name: [figure for figure in figures if figure["edp"] == name] for name in edps}
     return {
-        "title": _title(sweep, history), "headline": _headline(sweep, main) if sweep else _history_numbers(history),
-        "hero": next((figure for figure in of.get(main, []) if figure["name"].startswith("fragility")), None),
-        "demand": [figure for figure in of.get(main, []) if not figure["name"].startswith(("fragility", "goodness"))],
+        "title": _title(sweep, history), "headline": _headline(sweep, main, hero) if sweep else _history_numbers(history),
+        "hero": hero,
+        "demand": [figure for figure in of.get(main, []) if figure is not hero and not figure["name"].startswith("goodness")],
         "fit_figure": next((figure for figure in of.get(main, []) if figure["name"].startswith("goodness")), None),
         "other": [{"name": words.capitalised(words.demand_meaning(name)), "figures": of[name], "table": _fit_table(sweep, name)}
                   for name in edps[1:]],
-        "shared": [figure for figure in figures if not figure["edp"] and figure["section"] not in ("risk", "sensitivity")],
+        "shared": [figure for figure in figures if figure is not hero and not figure["edp"] and figure["section"] not in ("risk", "sensitivity")],
         "fit": _fit_table(sweep, main) if main else None,
         "outcomes": _outcomes(sweep) if sweep else [], "computed": _computed(sweep) if sweep else None,
         "draws": _draws(sweep) if sweep else [], "study": str(sweep.attributes.get("study", "")).strip() if sweep else "",
         "accuracy": _accuracy(sweep), "effects": _effects(sweep), "warnings": _warnings(sweep), "provenance": _provenance(sweep) if sweep else [],
     }
+
+
+def _hero(sweep, main, figures):
+    """The picture of the demand that the study names first; of the first one with capacities where that has none."""
+    lead = next(iter(sweep.summary.get("edps", {})), "") if sweep else ""
+    names = ["overturning" if lead == "overturned" else f"happening_{lead}", f"fragility_{lead}", f"fragility_{main}"]
+    return next((figure for name in names for figure in figures if figure["name"] == name), None)
 
 
 def _title(sweep, history):
@@ -84,13 +92,19 @@ def _figure(picture):
             "reading": subtitle, "svg": Markup(svg), "caption": picture.caption}
 
 
-def _headline(sweep, main):
+def _headline(sweep, main, hero):
     """The numbers at the top: (value, what)."""
     total = max(sweep.samples, 1)
     numbers = [(words.count(sweep.samples), "samples"),
                (words.percent(sweep.outcomes.get("moved", 0) / total), "moved and stood"),
                (words.percent(sweep.outcomes.get("overturned", 0) / total), "overturned")]
-    if main:
+    if hero and hero["name"] == "overturning":
+        numbers[1:] = numbers[:0:-1]
+    elif hero and hero["name"].startswith("happening"):
+        edp = next(edp for edp in sweep.edps if hero["name"] == f"happening_{edp.name}")
+        counted = np.nansum(edp.surface["empirical"][:, 0] * edp.bins["n"]) / max(np.nansum(edp.bins["n"]), 1)
+        numbers.insert(1, (words.percent(counted), words.happening(edp.name)))
+    elif main:
         edp = next(edp for edp in sweep.edps if edp.name == main)
         status, label = edp.bins["status"], edp.label
         fitted, failed = int((status == FITTED).sum()), int((status == REJECTED).sum())

@@ -179,15 +179,16 @@ def plain_log(axis, crowd=1):
 
 
 def legend_above(axes, **options):
-    """A legend over the first of a row of axes, above its title, that may be wider than it; a blank line over the title of the
-    last one keeps its room."""
+    """A legend over the first of a row of axes, above its title, that may be wider than it; blank lines over the title of the
+    last one, as many as the legend has rows, keep its room."""
     first, last = axes[0], axes[-1]
     titled = bool(first.get_title(loc="left"))
+    rows = math.ceil(len(first.get_legend_handles_labels()[1]) / options.get("ncol", 1))
     above = transforms.ScaledTranslation(0, (18 if titled else 4) / 72, first.figure.dpi_scale_trans)
     made = first.legend(frameon=False, loc="lower left", borderaxespad=0, fontsize=8.8, handlelength=1.4, columnspacing=1.4,
-                        handletextpad=0.5, bbox_to_anchor=(-0.005, 1.0), bbox_transform=first.transAxes + above, **options)
+                        handletextpad=0.5, labelspacing=0.2, bbox_to_anchor=(-0.005, 1.0), bbox_transform=first.transAxes + above, **options)
     if last is not first:
-        last.set_title("\u00a0\n" + last.get_title(loc="left") if titled else "\u00a0", weight="bold", pad=5)
+        last.set_title("\u00a0\n" * (rows if titled else rows - 1) + (last.get_title(loc="left") or "\u00a0"), weight="bold", pad=5)
         made.set_in_layout(False)
 
 

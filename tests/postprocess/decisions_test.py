@@ -9,9 +9,10 @@ import support
 
 import make_decisions
 import numpy as np
-from freestand_post import designs, pictures, reading
+from freestand_post import decisions_report, designs, pictures, reading, style
 from freestand_post.command import read
 from freestand_post.report import page
+from pictures_test import overlaps
 
 STUDY = """name: statue
 seed: 1
@@ -80,6 +81,26 @@ class Differences(InFolder):
         self.assertTrue(all(abs(row.ratio[1][0] - 1.5) < 1e-9 for row in found.rows))
 
 
+class Legend(InFolder):
+    def test_every_row_of_the_legend_has_its_room(self):
+        """Five designs take two rows of short names, five rows of long ones."""
+        style.apply()
+        for mu in (0.3, "{lognormal: {median: 0.2, dispersion: 0.3}}"):
+            folders = [self.design(f"{i}{mu}"[:6], 2 + 0.2 * i, width=0.5 + 0.1 * i, mu=0.3 if i == 0 else mu) for i in range(5)]
+            (picture,) = pictures.draw(self.sweeps(*folders))
+            with self.subTest(mu):
+                self.assertEqual(overlaps(picture.figure), [])
+                style.take_headline(picture.figure)
+                self.assertEqual(overlaps(picture.figure), [])
+
+
+class Rates(InFolder):
+    def test_the_lowest_rate_and_what_its_band_does_not_part(self):
+        found = [(1e-3, 8e-4, 1.2e-3), (2e-4, 1e-4, 3e-4), (2.5e-4, 2e-4, 4e-4)]
+        text = decisions_report._lowest("overturned", ["a", "b", "c"], found)
+        self.assertEqual(text, "B has the lowest annual rate of “overturned”: 2.0×10⁻⁴, 5.0 times below a; not parted by more than their bands from c")
+
+
 class Pages(InFolder):
     def text(self, *folders):
         return html.unescape(page(read(folders)))
@@ -88,7 +109,7 @@ class Pages(InFolder):
         folders = [self.design("a", 2.0), self.design("b", 3.0, width=0.9), make_decisions.make_risk(self.folder / "ra"),
                    make_decisions.make_risk(self.folder / "rb")]
         text = self.text(*folders)
-        for words in ("width 0.6\u00a0m", "width 0.9\u00a0m", "1.50 times as large", "block.width_m", "Annual risk: refrigerator (out)"):
+        for words in ("width 0.6\u00a0m", "width 0.9\u00a0m", "1.50 times as large", "block.width_m", "Annual risk: refrigerator (out)", "Annual rates by design", "has the lowest annual rate of"):
             self.assertIn(words, text)
         self.assertEqual(text.count("<svg"), 3)
         self.assertNotIn("nan", text.split("<body>")[1].split("<svg")[0])

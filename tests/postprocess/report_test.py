@@ -223,6 +223,7 @@ class MissingAndBroken(Temporary):
             self.assertEqual(support.run(program, "a", "--nothing").returncode, 2)
             self.assertEqual(support.run(program, "a", "b").returncode, 3)
             self.assertEqual(support.run(program, "--help").returncode, 0)
+        self.assertIn("database", support.run("report", "--help").stdout)
 
     @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
     def test_no_permission(self):

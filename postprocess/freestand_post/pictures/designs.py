@@ -7,6 +7,7 @@ from ..model import chosen_capacities
 from . import Picture
 
 order = 5
+LINE = 110  # letters that have room beside one another over the panels
 COLOURS = (style.BLUE, style.VERMILION, style.GREEN, style.PURPLE, style.ORANGE, style.SKY)
 CAPTION = ("Lines and bands: lognormal curves fitted over all intensities with {level} bands from resampled motions (dashed where one misses the "
            "counted shares by more than it may); points: share counted in each bin.")
@@ -61,7 +62,7 @@ def _picture(designs):
         ax.set(ylim=(0, 1.015), xlim=_view(designs), xlabel=words.with_unit(designs.im_symbol, designs.sweeps[0].im_unit))
         style.grid(ax)
     axes[0].set_ylabel("probability")
-    style.legend_above(axes, ncol=min(len(designs.labels), 3))
+    style.legend_above(axes, ncol=max(1, min(len(designs.labels), 3, LINE // (6 + max(map(len, designs.labels))))))
     finding = _finding(designs)
     level = words.level(designs.level)
     style.headline(fig, finding, ("Each sample has the same motion and draws in every design: differences are of pairs. " if designs.paired

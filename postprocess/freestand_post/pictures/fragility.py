@@ -95,7 +95,7 @@ def _finding(sweep, edp, which, symbol, im):
 
 
 def _beyond(edp, k):
-    return words.beyond(edp.name, edp.label, words.chosen(edp.capacity[k], edp.unit))
+    return words.beyond(edp.name, edp.label, words.chosen(edp.capacity[k], edp.unit)) + (" or overturn" if np.nansum(edp.bins["n_over"]) else "")
 
 
 def _height(edp, which):
