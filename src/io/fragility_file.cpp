@@ -216,6 +216,9 @@ void write_root(Group& root, const Provenance& provenance, const Result& result)
   write_provenance(root, fragility_format, provenance);
   root.attribute("im", result.im_name);
   root.attribute("im_unit", result.im_unit);
+  root.attribute("mix",
+                 "P(EDP > C) at an intensity is that of the specimens and motions which the study mixes there; "
+                 "fragility.target of the study gives another mix");
   root.attribute("confidence", result.confidence);
   root.attribute("resamples", result.resamples);
   std::vector<std::string> names;
