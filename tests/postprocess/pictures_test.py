@@ -11,6 +11,7 @@ from support import make_results
 import h5py
 import numpy as np
 from freestand_post import pictures, reading, style
+from freestand_post.pictures import surface
 from matplotlib.text import Text
 
 
@@ -83,6 +84,14 @@ class Pictures(unittest.TestCase):
                 self.assertNotIn("nan", picture.finding.lower().split())
                 self.assertTrue(picture.caption.endswith("."))
                 self.assertNotIn("{", picture.caption)
+
+    def test_a_surface_that_overturning_lifts_over_all_capacities_says_so(self):
+        sweep = mock.Mock(centre=np.array([0.2, 0.6]), im_unit="g")
+        edp = mock.Mock(unit="m", label="U")
+        edp.name = "peak_slip_m"
+        for over, words in ((0.7, "they overturn"), (0.3, "Nowhere do half")):
+            p = np.array([[0.1, 0.05], [over + 0.01, over]])
+            self.assertIn(words, surface._finding(sweep, edp, "U", "PGA", p, np.array([0.1, 0.2])))
 
     def test_outer_axes_are_named(self):
         for name, picture in self.drawn.items():

@@ -83,6 +83,8 @@ def _finding(sweep, edp, symbol, im, p, capacity):
         half, most = (crossing(-np.log(capacity), p[i], level) for level in (0.5, 0.9))  # p falls with capacity
         if np.isfinite(half):
             found.append((abs(i - 0.5 * p.shape[0]), sweep.centre[i], np.exp(-half), np.exp(-most)))
+    if not found and np.nanmax(p, initial=0) >= 0.5:
+        return f"Where half of the specimens exceed one of the capacities of {symbol} shown, half exceed them all: they overturn"
     if not found:
         return f"Nowhere do half of the specimens reach the capacities of {symbol} shown" if np.isfinite(p).any() else f"Too few samples for a surface of {symbol}"
     _, x, half, most = min(found)
