@@ -168,6 +168,8 @@ class Mixture {
   }
 
  private:
+  // Between its points a component of deviation d errs by at most 0.24 (step/d)^2/8 of its weight: by 0.3 % at a correlation
+  // of 0.9, where d = 0.3, and less below.
   static constexpr double width = 5, step = 0.1;
   static constexpr std::size_t points = 101;
   static double x_of(std::size_t i) { return -width + step * static_cast<double>(i); }

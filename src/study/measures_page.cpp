@@ -86,7 +86,8 @@ std::string page(const Edp& edp) {
   if (edp.censored) text += line("overturned", "it has no value then, and counts as above every capacity");
   text += line("fitted", edp.by_default ? "where a study names no demands, and where it names this one"
                                         : "where a study names it");
-  return text + line("source", edp.source) + line("study", fmt::format("fragility: {{edp: [{}]}}", edp.name)) +
+  return text + line("source", edp.source) +
+         line("study", fmt::format("{}fragility: {{edp: [{}]}}", edp.by_side ? "slip_by_side: true, " : "", edp.name)) +
          line("afterwards", fmt::format("freestand fit DIR --edp {} -o DIR2", edp.name));
 }
 
@@ -99,6 +100,7 @@ ordered_json json(const Edp& edp) {
           {"binary", edp.binary},
           {"censored", edp.censored},
           {"still", edp.still},
+          {"by_side", edp.by_side},
           {"by_default", edp.by_default},
           {"default_capacities", edp.default_capacities}};
 }
@@ -126,8 +128,8 @@ Catalogue intensities_catalogue() {
 Catalogue demands_catalogue() {
   return catalogue(
       demands(), "demand", "edp",
-      "`freestand edp NAME` tells more. A finished sweep holds all of them: `freestand fit DIR --edp NAME -o "
-      "DIR2`\nneeds no new one.\n");
+      "`freestand edp NAME` tells more. A finished sweep holds all of them, those by side where its study says "
+      "slip_by_side:\n`freestand fit DIR --edp NAME -o DIR2` needs no new one.\n");
 }
 
 }  // namespace freestand::study
