@@ -25,6 +25,7 @@
 
 #include <cmath>
 
+#include "dynamics/rotation.hpp"
 #include "dynamics/series.hpp"
 
 namespace freestand::dynamics {
@@ -58,9 +59,8 @@ struct Arc {
 
 template <class Real, int N>
 void start_arc(Arc<Real, N>& y, const Corner<Real>& body, Real theta, Real omega, Real xi, Real w) {
-  using std::cos;
-  using std::sin;
-  const Real sine = sin(theta), cosine = cos(theta);
+  const Rotation<Real> rotation = rotation_by(theta);
+  const Real sine = rotation.sine, cosine = rotation.cosine;
   y.theta[0] = theta;
   y.omega[0] = omega;
   y.xi[0] = xi;

@@ -69,11 +69,12 @@ void Integration::wait() {
   while (!cursor.motion_over()) {
     if (!recorder.wanted() && cursor.run_starts_here() && quiet(cursor.run_bound())) {
       cursor.next_run();
+      steps_ = 0;
       continue;
     }
     if (quiet(cursor.segment_bound())) {
       if (recorder.wanted()) recorder.rest(state, cursor.local<wait_order>(), cursor.time(), cursor.left());
-      cursor.next_segment();
+      next_segment();
       continue;
     }
     const auto floor = cursor.local<wait_order>();
@@ -100,7 +101,7 @@ void Integration::wait() {
     cursor.advance(found.tau);
     if (found.tau > 0) left_instant();
     if (found.any) return resolve(found.witness);
-    if (to_knot) cursor.next_segment();
+    if (to_knot) next_segment();
   }
 }
 
@@ -262,11 +263,9 @@ void Integration::stop_when_done() {
   for (const double value : values)
     if (!(std::abs(value) < beyond_all_bounds)) return stop(Outcome::not_finite);
   if (!peaks.finite()) return stop(Outcome::not_finite);
-  if (++steps_ % steps_watched == 0) {
-    const bool stands = cursor.segment() == watched_segment_ && (cursor.time() - watched_from_) * p_ < least_progress;
-    if (stands) return stop(Outcome::step_limit);
+  if (steps_++ % steps_watched == 0) {
+    if (steps_ > 1 && (cursor.time() - watched_from_) * p_ < least_progress) return stop(Outcome::step_limit);
     watched_from_ = cursor.time();
-    watched_segment_ = cursor.segment();
   }
   if (!cursor.motion_over()) return;
   const bool out_of_time = cursor.time() >= shaking.duration_s() + settings.free_vibration_s;

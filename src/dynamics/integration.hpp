@@ -19,7 +19,7 @@ inline bool admissible(const Setup& setup, const Settings& settings) {
 
 // The state at tau of a step.
 template <int N>
-void go_to(State& state, const Arc<double, N>& arc, double tau) {
+void go_to(const Rig&, State& state, const Arc<double, N>& arc, double tau) {
   state.theta = arc.theta.at(tau);
   state.omega = arc.omega.at(tau);
   state.xi = arc.xi.at(tau);
@@ -27,16 +27,16 @@ void go_to(State& state, const Arc<double, N>& arc, double tau) {
 }
 
 template <int N>
-void go_to(State& state, const LawArc<N>& arc, double tau) {
-  go_to(state, static_cast<const Arc<double, N>&>(arc), tau);
+void go_to(const Rig& rig, State& state, const LawArc<N>& arc, double tau) {
+  go_to(rig, state, static_cast<const Arc<double, N>&>(arc), tau);
   state.path = arc.path.at(tau);
   state.deflection = arc.deflection.at(tau);
   state.foot = state.sigma == 0 ? 0.0 : arc.foot.at(tau);
-  for (int i = 0; i < arc.state_count; ++i) state.states[i] = arc.states[i].at(tau);
+  for (int i = 0; i < rig.laws->states; ++i) state.states[static_cast<std::size_t>(i)] = arc.states[i].at(tau);
 }
 
 template <int N>
-void go_to(State& state, const Flight<double, N>& flight, double tau) {
+void go_to(const Rig&, State& state, const Flight<double, N>& flight, double tau) {
   state.theta = flight.theta.at(tau);
   state.omega = flight.omega.at(tau);
   state.x = flight.x.at(tau);
@@ -46,10 +46,10 @@ void go_to(State& state, const Flight<double, N>& flight, double tau) {
 }
 
 template <int N>
-void go_to(State& state, const LawFlight<N>& flight, double tau) {
-  go_to(state, static_cast<const Flight<double, N>&>(flight), tau);
+void go_to(const Rig& rig, State& state, const LawFlight<N>& flight, double tau) {
+  go_to(rig, state, static_cast<const Flight<double, N>&>(flight), tau);
   state.deflection = flight.deflection.at(tau);
-  for (int i = 0; i < flight.state_count; ++i) state.states[i] = flight.states[i].at(tau);
+  for (int i = 0; i < rig.laws->states; ++i) state.states[static_cast<std::size_t>(i)] = flight.states[i].at(tau);
 }
 
 class Integration {
@@ -65,6 +65,10 @@ class Integration {
   double left() const {
     return cursor.motion_over() ? std::fmax(shaking.duration_s() + settings.free_vibration_s - cursor.time(), 0.0)
                                 : cursor.left();
+  }
+  void next_segment() {
+    cursor.next_segment();
+    steps_ = 0;
   }
   // Time goes on: what was special about the last instant is over.
   void left_instant();
@@ -105,8 +109,7 @@ class Integration {
   double rest_since_ = 0;                 // [s]
   double took_off_from_ = 0, flown_ = 0;  // of the centre of mass, in the last flight and in all [m]
   double p_, watched_from_ = 0;
-  std::size_t watched_segment_ = 0;
-  int steps_ = 0;
+  int steps_ = 0;     // within this segment of the motion
   int resolved_ = 0;  // events, those that changed nothing included
   Outcome outcome_ = Outcome::moved;
 };

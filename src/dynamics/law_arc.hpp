@@ -18,28 +18,33 @@
 //               The corner is let go where the block without it would leave the floor: n = r_x T/k^2. There f_y need not vanish.
 #pragma once
 
+#include <type_traits>
+
 #include "dynamics/contact.hpp"
 #include "dynamics/equation.hpp"
 #include "dynamics/rig.hpp"
+#include "dynamics/rotation.hpp"
 #include "dynamics/wall.hpp"
 
 namespace freestand::dynamics {
 
-template <int N>
-struct LawArc : Arc<double, N> {
-  Series<double, N> ax;                       // absolute horizontal acceleration of the centre of mass [m/s2]
-  Series<double, N> moment;                   // T [m2/s2]
-  Series<double, N> limit_right, limit_left;  // largest |f_x| without slip, f_x to the right and to the left [m/s2]
-  Series<double, N> foot;                     // slip speed of the contact [m/s]
-  Series<double, N> path;                     // [m]
-  Series<double, N> deflection;               // of the legs [m]
-  Series<double, N> states[max_states];       // of the effects' own: `state_count` of them
-  int state_count;
-  Series<double, N> kink[max_kinks];  // arguments, positive on the present side
-  Series<double, N> pressed;          // f_y, or what of it decides whether the corner is let go [m/s2]
+// All members are numbers of one kind, in an order that lets the optional ones be left out at the end.
+template <int N, class Real = double>
+struct LawArc : Arc<Real, N> {
+  Series<Real, N> ax;                       // absolute horizontal acceleration of the centre of mass [m/s2]
+  Series<Real, N> moment;                   // T [m2/s2]
+  Series<Real, N> limit_right, limit_left;  // largest |f_x| without slip, f_x to the right and to the left [m/s2]
+  Series<Real, N> foot;                     // slip speed of the contact [m/s]
+  Series<Real, N> path;                     // [m]
+  Series<Real, N> deflection;               // of the legs [m]
+  Series<Real, N> pressed;                  // f_y, or what of it decides whether the corner is let go [m/s2]
+  Real versine;                             // 1 - cos(theta) at the start
   // With walls only.
-  Series<double, N> right_gap, left_gap;  // between the wall there and the edge next to it [m]
-  Series<double, N> wall_push;            // of the wall that the block leans on [m/s2]
+  Series<Real, N> right_gap, left_gap;  // between the wall there and the edge next to it [m]
+  Series<Real, N> wall_push;            // of the wall that the block leans on [m/s2]
+  // As many as the laws have.
+  Series<Real, N> states[max_states];  // of the effects' own
+  Series<Real, N> kink[max_kinks];     // arguments, positive on the present side
 };
 
 // Whether an equation that has the laws in it has a solution: friction that looks at its own normal force may have none.
@@ -54,38 +59,81 @@ bool has_forces(const Arc<double, N>&) {
   return true;
 }
 
-template <int N>
+// A block on one corner or on both, as the equations read it: one sample, or those of a pack.
+template <class Real>
+struct Standing {
+  Corner<Real> body;           // the corner that it stands on; the right one where it stands on both
+  Real half_base;              // B on the right corner, -B on the left one, 0 on both [m]
+  Real mu_k, mu_s;             // [1]
+  Real mass;                   // M [1]
+  Real leg_rate, leg_damping;  // W [rad/s], z [1]
+  Real pivot, sigma;           // as in State
+  Real theta, omega, xi, w, path, deflection, foot;
+  Real states[max_states];
+  Real time;  // [s]
+  ToWall<Real> right_wall, left_wall;
+};
+
+template <int N, class Real = double, class Numbers = OwnNumbers>
 class LawStep {
+  static constexpr bool single = std::is_same_v<Real, double>;
+
  public:
+  // One sample.
   LawStep(const Rig& rig, const State& state, double time, const Floor<double, N>& floor)
-      : rig_(rig),
-        laws_(*rig.laws),
-        state_(state),
-        floor_(floor),
-        turns_(state.pivot != 0),
-        leans_(turns_ && state.at_wall()),
-        pivot_(turns_ ? state.pivot : 1),
-        body_(rig.corner(pivot_)),
-        legs_(laws_.legs.frequency_radps > 0),
-        sides_(state.sides),
-        friction_sees_force_(turns_ && !leans_ && state.sigma != 0 && laws_.friction >= 0 &&
-                             laws_.tape.depends(laws_.friction, Input::normal)) {
-    start_arc(y_, body_, state.theta, state.omega, state.xi, state.w);
-    y_.path[0] = state.path;
-    y_.deflection[0] = state.deflection;
-    y_.state_count = laws_.states;
-    for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[0] = state.states[i];
-    for (int k = 0; k <= N; ++k) {
-      value(Input::t)[k] = k == 0 ? time : k == 1 ? 1.0 : 0.0;
-      value(Input::side)[k] = k == 0 ? state.pivot : 0.0;
-      value(Input::sigma)[k] = k == 0 ? state.sigma : 0.0;
-      y_.moment[k] = 0;
-    }
-    factor_ = Series<double, N>::zero();
-    if (laws_.friction < 0) factor_[0] = 1;
+      : LawStep(*rig.laws, standing_of(rig, state, time), OwnNumbers(rig.laws->tape, state.sides), state.pivot != 0,
+                state.sigma != 0, floor) {
+    rig_ = &rig;
+    state_ = &state;
+    leans_ = turns_ && state.at_wall();
+    friction_sees_force_ =
+        turns_ && !leans_ && slips_ && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::normal);
   }
 
-  const LawArc<N>& run() {
+  // Samples that have the laws' tape in common, and turn, or not, and slip, or not. Only where in_packs() says so.
+  LawStep(const Laws& laws, const Standing<Real>& at, const Numbers& numbers, bool turns, bool slips,
+          const Floor<Real, N>& floor)
+      : laws_(laws),
+        at_(at),
+        numbers_(numbers),
+        floor_(floor),
+        turns_(turns),
+        slips_(slips),
+        legs_(laws.legs.frequency_radps > 0),
+        whole_(laws.carried_mass == 1),
+        sees_place_(laws.reads(Input::u) || laws.reads(Input::v) || laws.walls.any()) {
+    const Rotation<Real> rotation = rotation_by(at.theta);
+    y_.versine = rotation.versine;
+    y_.theta[0] = at.theta;
+    y_.omega[0] = at.omega;
+    y_.xi[0] = at.xi;
+    y_.w[0] = at.w;
+    y_.rx[0] = at.body.h * rotation.sine - at.body.c * rotation.cosine;
+    y_.ry[0] = at.body.c * rotation.sine + at.body.h * rotation.cosine;
+    y_.path[0] = at.path;
+    y_.deflection[0] = at.deflection;
+    if (sees_place_) {
+      sine_[0] = rotation.sine;
+      cosine_[0] = rotation.cosine;
+    }
+    for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[0] = at.states[i];
+    if (laws_.reads(Input::t)) start(Input::t, at.time, 1.0);
+    if (laws_.reads(Input::side)) start(Input::side, at.pivot, 0.0);
+    if (laws_.reads(Input::sigma)) start(Input::sigma, at.sigma, 0.0);
+    if (whole_) inertia0_ = at.body.k2 + at.body.c * at.body.c + at.body.h * at.body.h;
+    if (laws_.moment < 0) y_.moment = Series<Real, N>::zero();
+    if (laws_.friction < 0) {
+      factor_ = Series<Real, N>::zero();
+      factor_[0] = Real(1.0);
+    }
+  }
+
+  // Whether the samples of a pack need nothing of what only a single one can do: solve an equation for a force or a speed that a law
+  // follows while it sets it, or turn kinks of a slip that is about to begin.
+  static bool in_packs(const Laws& laws, bool turns, bool slips);
+
+  const LawArc<N, Real>& run() {
+#pragma GCC unroll 16
     for (int k = 0; k < N; ++k) {
       kinematics(k);
       forces(k);
@@ -95,126 +143,197 @@ class LawStep {
     return y_;
   }
 
- private:
-  Series<double, N>& value(Input input, int offset = 0) { return values_[static_cast<int>(input) + offset]; }
+  // The accelerations alone, coefficient 0 of a step of order 1.
+  const LawArc<N, Real>& accelerations() {
+    kinematics(0);
+    forces(0);
+    integrate(0);
+    return y_;
+  }
 
-  void kinematics(int k) {
-    omega2_[k] = turns_ ? product(y_.omega, y_.omega, k) : 0.0;
-    y_.n[k] = turns_ ? floor_.g[k] - product(y_.ry, omega2_, k) : floor_.g[k];
-    y_.d[k] = 0;
-    Series<double, N>&u = value(Input::u), &v = value(Input::v);
-    u[k] = y_.xi[k];
-    v[k] = y_.w[k];
-    if (turns_) {
-      const double c = body_.c, h = body_.h, to_angle = 1 / (h * h + c * c), B = state_.pivot * rig_.half_base();
-      sine_[k] = (h * y_.rx[k] + c * y_.ry[k]) * to_angle;
-      cosine_[k] = (h * y_.ry[k] - c * y_.rx[k]) * to_angle;
-      const double half = std::sin(0.5 * state_.theta);
-      u[k] += B * (k == 0 ? 2 * half * half : -(h * y_.ry[k] - c * y_.rx[k]) * to_angle);
-      v[k] += B * product(sine_, y_.omega, k);
+ private:
+  static Standing<double> standing_of(const Rig& rig, const State& state, double time) {
+    const int pivot = state.pivot != 0 ? state.pivot : 1;
+    Standing<double> at{rig.corner(pivot),
+                        state.pivot * rig.half_base(),
+                        rig.mu_k,
+                        rig.mu_s,
+                        rig.laws->carried_mass,
+                        rig.laws->legs.frequency_radps,
+                        rig.laws->legs.damping,
+                        double(state.pivot),
+                        double(state.sigma),
+                        state.theta,
+                        state.omega,
+                        state.xi,
+                        state.w,
+                        state.path,
+                        state.deflection,
+                        state.foot,
+                        {},
+                        time,
+                        {},
+                        {}};
+    for (int i = 0; i < rig.laws->states; ++i) at.states[i] = state.states[static_cast<std::size_t>(i)];
+    for (const int side : {1, -1}) {
+      (side > 0 ? at.right_wall : at.left_wall) =
+          to_wall(rig, side, lever_over_corner(rig, pivot, side, touching_edge(state.pivot, side)));
     }
-    value(Input::theta)[k] = y_.theta[k];
-    value(Input::omega)[k] = y_.omega[k];
-    value(Input::path)[k] = y_.path[k];
+    return at;
+  }
+
+  Series<Real, N>& value(Input input, int offset = 0) { return values_[static_cast<int>(input) + offset]; }
+  void start(Input input, const Real& first, double second) {
+    value(input) = Series<Real, N>::zero();
+    value(input)[0] = first;
+    value(input)[1] = Real(second);
+  }
+
+  [[gnu::always_inline]] void kinematics(int k) {
+    y_.n[k] = floor_.g[k];
+    if (turns_) {
+      omega2_[k] = product(y_.omega, y_.omega, k);
+      y_.n[k] = y_.n[k] - product(y_.ry, omega2_, k);
+      rx_omega2_[k] = product(y_.rx, omega2_, k);
+    }
+    y_.d[k] = Real(0.0);
+    if (sees_place_) place(k);
+    if (laws_.reads(Input::theta)) value(Input::theta)[k] = y_.theta[k];
+    if (laws_.reads(Input::omega)) value(Input::omega)[k] = y_.omega[k];
+    if (laws_.reads(Input::path)) value(Input::path)[k] = y_.path[k];
     // Stages of a step that reaches over the end of a slip may ask for a speed below zero, where laws mean nothing. Under legs
     // it is the foot that slips: act() finds its speed.
-    if (!legs_) value(Input::speed)[k] = state_.sigma * state_.w < 0 ? 0.0 : state_.sigma * y_.w[k];
+    if (!legs_ && laws_.reads(Input::speed)) {
+      const Real speed = at_.sigma * y_.w[k];
+      value(Input::speed)[k] = numbers_.choose(at_.sigma * at_.w < Real(0.0), Real(0.0), speed);
+    }
     for (int i = 0; i < laws_.states; ++i) y_.states[i][k] = value(Input::state, i)[k];
   }
 
-  // On a corner laws may depend on the normal force, which depends on them.
-  void forces(int k) {
-    const double guess = y_.n[k] / standard_gravity_mps2;
-    if (k == 0 && friction_sees_force_) {
-      act(0, 0.0);
-      let_go_ = y_.n[0] < y_.rx[0] * y_.moment[0] / body_.k2;
+  // Where the middle of the base is, and how fast.
+  void place(int k) {
+    Series<Real, N>&u = value(Input::u), &v = value(Input::v);
+    u[k] = y_.xi[k];
+    v[k] = y_.w[k];
+    if (!turns_) return;
+    if (k > 0) {
+      const Real &c = at_.body.c, &h = at_.body.h, to_angle = Real(1.0) / (h * h + c * c);
+      sine_[k] = (h * y_.rx[k] + c * y_.ry[k]) * to_angle;
+      cosine_[k] = (h * y_.ry[k] - c * y_.rx[k]) * to_angle;
     }
-    if (let_go_)
-      act(k, 0.0);
-    else if (turns_ && laws_see_the_normal_force())
-      act(k, solved(k == 0, guess, [&](double normal) { return act(k, normal) - normal; }));
-    else
-      see_normal(k, act(k, guess));
+    u[k] = u[k] + at_.half_base * (k == 0 ? y_.versine : -cosine_[k]);
+    v[k] = v[k] + at_.half_base * product(sine_, y_.omega, k);
+  }
+
+  // On a corner laws may depend on the normal force, which depends on them.
+  [[gnu::always_inline]] void forces(int k) {
+    if constexpr (single) {
+      if (k == 0 && friction_sees_force_) {
+        act(0, 0.0);
+        let_go_ = y_.n[0] < y_.rx[0] * y_.moment[0] / at_.body.k2;
+      }
+      if (let_go_) return static_cast<void>(act(k, 0.0));
+      if (turns_ && laws_see_the_normal_force()) {
+        act(k, solved(k == 0, y_.n[k] / standard_gravity_mps2, [&](double normal) { return act(k, normal) - normal; }));
+        return;
+      }
+    }
+    const bool seen = laws_.reads(Input::normal);
+    const Real normal = act(k, seen ? y_.n[k] * Real(1 / standard_gravity_mps2) : Real(0.0));
+    if (seen) see_normal(k, normal);
   }
 
   // Stages of a step that reaches over a lift-off may ask for a floor that pulls, where laws mean nothing: they see no force
   // then, and a corner whose friction follows its force has none.
-  void see_normal(int k, double normal) {
-    Series<double, N>& seen = value(Input::normal);
+  void see_normal(int k, const Real& normal) {
+    Series<Real, N>& seen = value(Input::normal);
     if (k == 0)
-      seen[0] = normal < least_normal ? least_normal : normal;
+      seen[0] = numbers_.choose(normal < Real(least_normal), Real(least_normal), normal);
     else
-      seen[k] = seen[0] == least_normal ? 0.0 : normal;
+      seen[k] = numbers_.choose(seen[0] == Real(least_normal), Real(0.0), normal);
   }
 
-  bool laws_see_the_normal_force() const {
-    const auto looks = [&](int node) { return node >= 0 && laws_.tape.depends(node, Input::normal); };
-    return looks(laws_.force) || looks(laws_.moment) || (state_.sigma != 0 && looks(laws_.friction));
-  }
+  bool laws_see_the_normal_force() const { return laws_.sees_normal_force(slips_); }
 
   // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
-  double act(int k, double normal) {
-    see_normal(k, normal);
-    y_.fy[k] = standard_gravity_mps2 * normal;
-    laws_.tape.advance(input_count, laws_.forces_end, k, sides_, values_);
-    force_[k] = laws_.force < 0 ? 0.0 : values_[laws_.force][k];
+  [[gnu::always_inline]] Real act(int k, const Real& normal) {
+    if (laws_.reads(Input::normal)) see_normal(k, normal);
+    if constexpr (single) y_.fy[k] = standard_gravity_mps2 * normal;
+    if (laws_.forces_end > input_count) laws_.tape.advance(input_count, laws_.forces_end, k, numbers_, values_);
+    force_[k] = laws_.force < 0 ? Real(0.0) : values_[laws_.force][k];
     if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
-    if (state_.sigma == 0)
+    if (!slips_) {
       stuck(k);
-    else if (legs_ && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::speed))
-      slip_of_foot(k, solved(k == 0, k == 0 ? std::fmax(state_.sigma * state_.foot, 0.0) : 0.0,
-                             [&](double speed) { return slip_of_foot(k, speed) - speed; }));
-    else
-      slip_of_foot(k, value(Input::speed)[k]);
-    if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero * state_.doubt) y_.foot[0] = 0;
-    if (let_go_) y_.foot[k] = k == 0 ? (legs_ ? state_.foot : state_.w) : 0.0;  // it stands on nothing that would tell
-    return (friction_sees_force_ ? y_.n[k] - product(y_.rx, y_.alpha, k) : y_.fy[k]) / standard_gravity_mps2;
+    } else {
+      bool found = false;
+      if constexpr (single)
+        if (legs_ && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::speed)) {
+          slip_of_foot(k, solved(k == 0, k == 0 ? std::fmax(at_.sigma * at_.foot, 0.0) : 0.0,
+                                 [&](double speed) { return slip_of_foot(k, speed) - speed; }));
+          found = true;
+        }
+      if (!found) slip(k);
+    }
+    if constexpr (single) {
+      if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero * state_->doubt) y_.foot[0] = 0;
+      if (let_go_) y_.foot[k] = k == 0 ? (legs_ ? at_.foot : at_.w) : 0.0;  // it stands on nothing that would tell
+      if (friction_sees_force_) return (y_.n[k] - product(y_.rx, y_.alpha, k)) / standard_gravity_mps2;
+    }
+    return y_.fy[k] * Real(1 / standard_gravity_mps2);
   }
 
   // The slip at a speed of order k that the laws see; the speed that comes out.
-  double slip_of_foot(int k, double speed) {
+  Real slip_of_foot(int k, const Real& speed) {
     value(Input::speed)[k] = legs_ && (k == 0 ? speed : value(Input::speed)[0]) <= 0 ? 0.0 : speed;
+    slip(k);
+    return at_.sigma * y_.foot[k];
+  }
+  [[gnu::always_inline]] void slip(int k) {
     if (laws_.friction >= 0) factor_[k] = factor_from_tape(k);
     slipping(k);
-    return state_.sigma * y_.foot[k];
   }
 
   // theta'' D = numerator, D[0..k] known.
-  double quotient(double numerator, const Series<double, N>& d, int k) const {
-    for (int i = 1; i <= k; ++i) numerator -= d[i] * y_.alpha[k - i];
+  [[gnu::always_inline]] Real quotient(Real numerator, const Series<Real, N>& d, int k) const {
+#pragma GCC unroll 16
+    for (int i = 1; i <= k; ++i) numerator = numerator - d[i] * y_.alpha[k - i];
     return numerator / d[0];
   }
 
-  void stuck(int k) {
-    if (leans_) return lean_stuck(k);
-    const double M = laws_.carried_mass;
-    const double leg_force = legs_ ? -(square(W()) * y_.deflection[k] + 2 * z() * W() * y_.w[k]) : 0.0;
+  [[gnu::always_inline]] void stuck(int k) {
+    if constexpr (single)
+      if (leans_) return lean_stuck(k);
+    const Real leg_force = legs_ ? -(W2() * y_.deflection[k] + zW2() * y_.w[k]) : Real(0.0);
     if (!turns_) {
-      y_.alpha[k] = 0;
+      y_.alpha[k] = Real(0.0);
     } else {
-      const double moved = legs_ ? 0 : M;
-      inertia_[k] = product(y_.rx, y_.rx, k) + moved * product(y_.ry, y_.ry, k) + (k == 0 ? body_.k2 : 0.0);
-      const auto& ax0 = load_;  // M (a - r_x omega^2) - X, or f_x of the legs
-      load_[k] = legs_ ? leg_force : M * (floor_.a[k] - product(y_.rx, omega2_, k)) - force_[k];
-      y_.alpha[k] = quotient(product(y_.rx, y_.n, k) - product(y_.ry, ax0, k) + y_.moment[k], inertia_, k);
+      load_[k] = legs_ ? leg_force : of_mass(floor_.a[k] - rx_omega2_[k]) - force_[k];  // or f_x of the legs
+      const Real numerator = product(y_.rx, y_.n, k) - product(y_.ry, load_, k) + y_.moment[k];
+      if (whole_ && !legs_) {
+        y_.alpha[k] = numerator / inertia0_;
+      } else {
+        const Real moved = legs_ ? Real(0.0) : at_.mass;
+        inertia_[k] = product(y_.rx, y_.rx, k) + moved * product(y_.ry, y_.ry, k) + (k == 0 ? at_.body.k2 : Real(0.0));
+        y_.alpha[k] = quotient(numerator, inertia_, k);
+      }
     }
-    y_.fy[k] = y_.n[k] - (turns_ ? product(y_.rx, y_.alpha, k) : 0.0);
-    y_.fx[k] = legs_ ? leg_force : M * own_acceleration(k) - force_[k];
-    y_.ax[k] = (y_.fx[k] + force_[k]) / M;
-    acceleration_ = legs_ ? y_.ax[k] - own_acceleration(k) : 0.0;
-    y_.foot[k] = 0;
-    deflection_rate_ = legs_ ? y_.w[k] : 0.0;
+    y_.fy[k] = turns_ ? y_.n[k] - product(y_.rx, y_.alpha, k) : y_.n[k];
+    const Real own = own_acceleration(k);
+    y_.fx[k] = legs_ ? leg_force : of_mass(own) - force_[k];
+    y_.ax[k] = per_mass(y_.fx[k] + force_[k]);
+    acceleration_ = legs_ ? y_.ax[k] - own : Real(0.0);
+    y_.foot[k] = Real(0.0);
+    deflection_rate_ = legs_ ? y_.w[k] : Real(0.0);
   }
 
   // Height of the edge at the wall, over the floor and over the centre of mass, and what the wall would push if the block
   // did not turn and nothing rubbed.
   void reach(int k) {
-    const EdgeLever lever = lever_over_corner(rig_, pivot_, state_.wall, state_.edge);
+    const EdgeLever lever = lever_over_corner(*rig_, state_->pivot, state_->wall, state_->edge);
     edge_[k] = lever.height(sine_, cosine_, k);
     edge_rate_[k] = lever.height_rate(sine_, cosine_, y_.omega, k);
     over_centre_[k] = edge_[k] - y_.ry[k];
-    pushed_[k] =
-        laws_.carried_mass * (floor_.a[k] - product(y_.rx, omega2_, k) - product(edge_rate_, y_.omega, k)) - force_[k];
+    pushed_[k] = at_.mass * (floor_.a[k] - rx_omega2_[k] - product(edge_rate_, y_.omega, k)) - force_[k];
   }
 
   void lean_stuck(int k) {
@@ -225,7 +344,7 @@ class LawStep {
     y_.fx[k] = pushed_[k] - push;
     y_.ax[k] = floor_.a[k];
     acceleration_ = y_.foot[k] = deflection_rate_ = 0;
-    y_.wall_push[k] = -state_.wall * push;
+    y_.wall_push[k] = -state_->wall * push;
   }
 
   // After q and the friction factor are known to order k.
@@ -233,124 +352,142 @@ class LawStep {
     friction_[k] = sigma_mu * factor_[k];
     reach(k);
     pushed_[k] += product(friction_, y_.n, k);
-    const double M = laws_.carried_mass;
-    inertia_[k] = M * over_centre_[k] + product(friction_, y_.rx, k);
+    inertia_[k] = at_.mass * over_centre_[k] + product(friction_, y_.rx, k);
     y_.d[k] += product(over_centre_, inertia_, k);
     y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k] + product(over_centre_, pushed_, k), y_.d, k);
     wall_force_ = pushed_[k] - product(inertia_, y_.alpha, k);
-    y_.wall_push[k] = -state_.wall * wall_force_;
+    y_.wall_push[k] = -state_->wall * wall_force_;
   }
 
   // Acceleration of the centre of mass, the floor's included, that is not w'.
-  double own_acceleration(int k) const {
+  [[gnu::always_inline]] Real own_acceleration(int k) const {
     if (!turns_) return floor_.a[k];
-    return product(y_.ry, y_.alpha, k) - product(y_.rx, omega2_, k) + floor_.a[k];
+    return product(y_.ry, y_.alpha, k) - rx_omega2_[k] + floor_.a[k];
   }
 
-  void slipping(int k) {
+  [[gnu::always_inline]] void slipping(int k) {
     apply_factor(k);
-    const double M = laws_.carried_mass;
-    y_.ax[k] = (y_.fx[k] + force_[k] + wall_force_) / M;
+    y_.ax[k] = per_mass(y_.fx[k] + force_[k] + wall_force_);
     acceleration_ = y_.ax[k] - own_acceleration(k);
-    deflection_rate_ = legs_ ? (-y_.fx[k] - square(W()) * y_.deflection[k]) / (2 * z() * W()) : 0.0;
-    y_.foot[k] = y_.w[k] - deflection_rate_;
+    deflection_rate_ = legs_ ? (-y_.fx[k] - W2() * y_.deflection[k]) / zW2() : Real(0.0);
+    y_.foot[k] = legs_ ? y_.w[k] - deflection_rate_ : y_.w[k];
   }
 
   // Contact forces and theta'' for the factor F whose coefficient k is in factor_.
-  void apply_factor(int k) {
-    const double sigma_mu = state_.sigma * rig_.mu_k;
+  [[gnu::always_inline]] void apply_factor(int k) {
+    const Real sigma_mu = at_.sigma * at_.mu_k;
     if (!turns_) {
-      y_.alpha[k] = 0;
+      y_.alpha[k] = Real(0.0);
       y_.fy[k] = y_.n[k];
-    } else if (friction_sees_force_) {
-      y_.d[k] = k == 0 ? body_.k2 : 0.0;
+    } else if (single && friction_sees_force_) {
+      y_.d[k] = k == 0 ? at_.body.k2 : Real(0.0);
       friction_[k] = sigma_mu * product(factor_, y_.fy, k);
-      y_.alpha[k] = (product(y_.rx, y_.fy, k) + product(y_.ry, friction_, k) + y_.moment[k]) / body_.k2;
+      y_.alpha[k] = (product(y_.rx, y_.fy, k) + product(y_.ry, friction_, k) + y_.moment[k]) / at_.body.k2;
     } else {
-      q_[k] = y_.rx[k] + sigma_mu * product(factor_, y_.ry, k);
-      y_.d[k] = product(y_.rx, q_, k) + (k == 0 ? body_.k2 : 0.0);
-      if (leans_)
-        lean_slipping(k, sigma_mu);
-      else
-        y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k], y_.d, k);
+      q_[k] = y_.rx[k] + sigma_mu * with_factor(y_.ry, k);
+      y_.d[k] = product(y_.rx, q_, k) + (k == 0 ? at_.body.k2 : Real(0.0));
+      bool leans = false;
+      if constexpr (single)
+        if (leans_) lean_slipping(k, sigma_mu), leans = true;
+      if (!leans) y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k], y_.d, k);
       y_.fy[k] = y_.n[k] - product(y_.rx, y_.alpha, k);
     }
-    y_.fx[k] = -sigma_mu * product(factor_, y_.fy, k);
+    y_.fx[k] = -(sigma_mu * with_factor(y_.fy, k));
   }
 
-  double factor_from_tape(int k) {
-    laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, sides_, values_);
+  Real with_factor(const Series<Real, N>& x, int k) const { return laws_.friction < 0 ? x[k] : product(factor_, x, k); }
+
+  const Real& factor_from_tape(int k) {
+    laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, numbers_, values_);
     return values_[laws_.friction][k];
   }
 
-  void integrate(int k) {
-    value(Input::acceleration)[k] = y_.ax[k];
-    laws_.tape.advance(laws_.friction_end, laws_.tape.size(), k, sides_, values_);
-    const double over = 1.0 / (k + 1);
-    for (int i = 0; i < laws_.states; ++i)
-      value(Input::state, i)[k + 1] = values_[laws_.rate[static_cast<std::size_t>(i)]][k] * over;
-    y_.path[k + 1] = state_.sigma * y_.foot[k] * over;
+  [[gnu::always_inline]] void integrate(int k) {
+    const Real over(1.0 / (k + 1));
+    if (laws_.states > 0) {
+      value(Input::acceleration)[k] = y_.ax[k];
+      laws_.tape.advance(laws_.friction_end, laws_.tape.size(), k, numbers_, values_);
+      for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[k + 1] = values_[laws_.rate[i]][k] * over;
+    }
+    y_.path[k + 1] = at_.sigma * y_.foot[k] * over;
     y_.deflection[k + 1] = deflection_rate_ * over;
     if (turns_) return integrate_coefficient(y_, acceleration_, k);
-    y_.theta[k + 1] = y_.omega[k + 1] = y_.rx[k + 1] = y_.ry[k + 1] = 0;
+    y_.theta[k + 1] = y_.omega[k + 1] = y_.rx[k + 1] = y_.ry[k + 1] = Real(0.0);
     y_.xi[k + 1] = y_.w[k] * over;
     y_.w[k + 1] = acceleration_ * over;
   }
 
   void finish() {
     finish_arc(y_);
-    y_.ax[N] = y_.foot[N] = 0;
+    y_.ax[N] = y_.foot[N] = y_.moment[N] = Real(0.0);
     y_.pressed = y_.fy;
-    for (int k = 0; k < N && friction_sees_force_; ++k)
-      y_.pressed[k] = y_.n[k] - product(y_.rx, y_.moment, k) / body_.k2;
+    if constexpr (single)
+      for (int k = 0; k < N && friction_sees_force_; ++k)
+        y_.pressed[k] = y_.n[k] - product(y_.rx, y_.moment, k) / at_.body.k2;
     if (laws_.walls.any()) gaps();
     for (int i = 0; i < laws_.states; ++i) y_.states[i][N] = value(Input::state, i)[N];
-    y_.limit_right = limit(-1);
-    y_.limit_left = limit(+1);
+    limits();
     for (int j = 0; j < laws_.tape.kink_count(); ++j) {
       const auto& argument = values_[laws_.tape.kink_argument(j)];
-      const double side = sides_ >> j & 1U ? -1.0 : 1.0;
+      const Real side = numbers_.on_side(j, Real(1.0), Real(-1.0));
       for (int k = 0; k < N; ++k) y_.kink[j][k] = side * argument[k];
-      y_.kink[j][N] = 0;
-      if (state_.turned_kink == j) y_.kink[j][0] = 0;
-      if (laws_.tape.latched(j, sides_)) y_.kink[j] = Series<double, N>::zero();
+      y_.kink[j][N] = Real(0.0);
+      if constexpr (single) {
+        if (state_->turned_kink == j) y_.kink[j][0] = 0;
+        if (laws_.tape.latched(j, numbers_.sides())) y_.kink[j] = Series<double, N>::zero();
+      }
     }
   }
 
   void gaps() {
-    if (!turns_) sine_ = Series<double, N>::zero(), cosine_ = sine_, cosine_[0] = 1;
-    const double c = body_.c, h = body_.h, to_angle = 1 / (h * h + c * c);
-    if (turns_)
-      sine_[N] = (h * y_.rx[N] + c * y_.ry[N]) * to_angle, cosine_[N] = (h * y_.ry[N] - c * y_.rx[N]) * to_angle;
-    for (const int side : {1, -1}) {
-      const EdgeLever lever = lever_over_corner(rig_, pivot_, side, touching_edge(state_.pivot, side));
-      (side > 0 ? y_.right_gap : y_.left_gap) = clearance(laws_.walls.on(side), side, lever, y_.xi, sine_, cosine_);
+    if (!turns_) {
+      sine_ = cosine_ = Series<Real, N>::zero();
+      cosine_[0] = Real(1.0);
+    } else {
+      const Real &c = at_.body.c, &h = at_.body.h, to_angle = Real(1.0) / (h * h + c * c);
+      sine_[N] = (h * y_.rx[N] + c * y_.ry[N]) * to_angle;
+      cosine_[N] = (h * y_.ry[N] - c * y_.rx[N]) * to_angle;
     }
-    y_.wall_push[N] = 0;
+    y_.right_gap = clearance(at_.right_wall, 1.0, y_.xi, sine_, cosine_, y_.versine);
+    y_.left_gap = clearance(at_.left_wall, -1.0, y_.xi, sine_, cosine_, y_.versine);
+    y_.wall_push[N] = Real(0.0);
   }
 
-  // Largest friction against a slip in direction sigma that is about to begin.
-  Series<double, N> limit(int sigma) {
-    Series<double, N> result = Series<double, N>::zero();
-    if (state_.sigma != 0) return result;
-    value(Input::sigma)[0] = sigma;
-    value(Input::speed) = Series<double, N>::zero();
-    sides_ = sides_of_friction();
-    for (int k = 0; k < N; ++k) {
-      if (laws_.friction >= 0) factor_[k] = factor_from_tape(k);
-      result[k] = rig_.mu_s * product(factor_, y_.fy, k);
+  // Largest friction against a slip that is about to begin, to the left and to the right.
+  void limits() {
+    if (slips_) {
+      y_.limit_right = y_.limit_left = Series<Real, N>::zero();
+      return;
     }
+    if (laws_.friction < 0) {
+      y_.limit_right = y_.limit_left = scaled(at_.mu_s, y_.fy);
+      return;
+    }
+    if (laws_.reads(Input::speed)) value(Input::speed) = Series<Real, N>::zero();
+    y_.limit_right = limit(-1);
+    y_.limit_left = laws_.tape.depends(laws_.friction, Input::sigma) ? limit(+1) : y_.limit_right;
+  }
+
+  Series<Real, N> limit(int sigma) {
+    Series<Real, N> result;
+    if (laws_.reads(Input::sigma)) value(Input::sigma)[0] = Real(double(sigma));
+    if constexpr (single) numbers_.turn(sides_of_friction());
+    for (int k = 0; k < N; ++k) {
+      factor_[k] = factor_from_tape(k);
+      result[k] = at_.mu_s * product(factor_, y_.fy, k);
+    }
+    result[N] = Real(0.0);
     return result;
   }
 
   // On which side of its kinks the friction of that slip is: other kinks than those of forces, and other than the opposite
   // slip's.
   std::uint32_t sides_of_friction() {
-    std::uint32_t sides = sides_;
+    std::uint32_t sides = numbers_.sides();
     const Tape& tape = laws_.tape;
     for (int j = 0; j < tape.kink_count(); ++j) {
       const int node = tape.kink_node(j), argument = tape.kink_argument(j);
-      if (node < laws_.forces_end || node >= laws_.friction_end || j == state_.turned_kink) continue;
+      if (node < laws_.forces_end || node >= laws_.friction_end || j == state_->turned_kink) continue;
       if (!tape.depends(argument, Input::sigma) && !tape.depends(argument, Input::speed)) continue;
       tape.advance(laws_.forces_end, node, 0, sides, values_);
       sides = (sides & ~(1U << j)) | (values_[argument][0] < 0 ? 1U << j : 0U);
@@ -358,31 +495,34 @@ class LawStep {
     return sides;
   }
 
-  static double square(double x) { return x * x; }
-  double W() const { return laws_.legs.frequency_radps; }
-  double z() const { return laws_.legs.damping; }
+  Real of_mass(const Real& x) const { return whole_ ? x : at_.mass * x; }
+  Real per_mass(const Real& x) const { return whole_ ? x : x / at_.mass; }
+  Real W2() const { return at_.leg_rate * at_.leg_rate; }
+  Real zW2() const { return Real(2.0) * at_.leg_damping * at_.leg_rate; }
 
   static constexpr double foot_zero = 1e-10;  // [m/s]
   // [m g]; less than the round-off of a sum of forces, and more than what makes a power of it overflow.
   static constexpr double least_normal = 1e-18;
 
-  const Rig& rig_;
   const Laws& laws_;
-  const State& state_;
-  const Floor<double, N>& floor_;
-  bool turns_;  // on one corner
-  bool leans_;  // and an edge at a wall
-  int pivot_;
-  Corner<double> body_;
-  bool legs_;
-  std::uint32_t sides_;       // of the kinks
-  bool friction_sees_force_;  // on the corner that it slips on
-  bool let_go_ = false;       // that corner, by the floor
-  LawArc<N> y_;
-  Series<double, N> values_[max_nodes];
-  Series<double, N> omega2_, sine_, cosine_, force_, factor_, load_, inertia_, q_;
-  Series<double, N> edge_, edge_rate_, over_centre_, pushed_, friction_;  // leaning
-  double acceleration_ = 0, deflection_rate_ = 0, wall_force_ = 0;
+  const Standing<Real> at_;
+  Numbers numbers_;
+  const Floor<Real, N>& floor_;
+  const bool turns_, slips_, legs_;
+  const bool whole_;       // all of the mass moves with the block
+  const bool sees_place_;  // laws or walls look at where the block is
+  Real inertia0_;          // k^2 + r^2
+  LawArc<N, Real> y_;
+  Series<Real, N> values_[max_nodes];
+  Series<Real, N> omega2_, rx_omega2_, sine_, cosine_, force_, factor_, load_, inertia_, q_;
+  Real acceleration_ = Real(0.0), deflection_rate_ = Real(0.0), wall_force_ = Real(0.0);
+  // Of a single sample.
+  const Rig* rig_ = nullptr;
+  const State* state_ = nullptr;
+  bool leans_ = false;                                                  // an edge at a wall
+  bool friction_sees_force_ = false;                                    // on the corner that it slips on
+  bool let_go_ = false;                                                 // that corner, by the floor
+  Series<Real, N> edge_, edge_rate_, over_centre_, pushed_, friction_;  // leaning
 };
 
 }  // namespace freestand::dynamics

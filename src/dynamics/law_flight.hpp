@@ -17,7 +17,6 @@ struct LawFlight : Flight<double, N> {
   Series<double, N> ax;          // absolute horizontal acceleration of the centre of mass [m/s2]
   Series<double, N> deflection;  // of the legs, whose foot has no mass: no force, W^2 y + 2 z W y' = 0 [m]
   Series<double, N> states[max_states];
-  int state_count;
   Series<double, N> kink[max_kinks];
   Series<double, N> right_gap[2], left_gap[2];  // between the walls and the lower and upper edges next to them [m]
   Series<double, N> wall_push;                  // of the wall at which an edge stays [m/s2]
@@ -82,10 +81,11 @@ class PushInFlight {
 // How far the edges are from the walls.
 template <int N>
 void measure_gaps(const Rig& rig, LawFlight<N>& f, const Series<double, N>& sine, const Series<double, N>& cosine) {
+  const double versine = -less_than_one(sine[0], cosine[0]);
   for (const int side : {1, -1})
     for (const Edge edge : {Edge::lower, Edge::upper})
       (side > 0 ? f.right_gap : f.left_gap)[edge == Edge::upper] =
-          clearance(rig.laws->walls.on(side), side, lever_over_centre(rig, side, edge), f.x, sine, cosine);
+          clearance(to_wall(rig, side, lever_over_centre(rig, side, edge)), side, f.x, sine, cosine, versine);
 }
 
 // Arguments of the kinks that force and moment have; friction has none in flight.
@@ -142,7 +142,7 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     f.ax[k] = value(Input::acceleration)[k] = pull;
     laws.tape.advance(laws.friction_end, laws.tape.size(), k, state.sides, values);
     for (int i = 0; i < laws.states; ++i)
-      value(Input::state, i)[k + 1] = values[laws.rate[static_cast<std::size_t>(i)]][k] * over;
+      value(Input::state, i)[k + 1] = values[laws.rate[i]][k] * over;
     f.deflection[k + 1] = unload * f.deflection[k] * over;
     f.x[k + 1] = f.vx[k] * over;
     f.vx[k + 1] = (pull - floor.a[k]) * over;
@@ -157,7 +157,6 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
   f.gap_right = turning_gap(f, rig.right, h);
   f.gap_left = turning_gap(f, -rig.left, h);
   if (laws.walls.any()) measure_gaps(rig, f, sine, cosine);
-  f.state_count = laws.states;
   for (int i = 0; i < laws.states; ++i) f.states[i] = value(Input::state, i);
   kinks_in_flight(laws, state, values, f);
   return f;

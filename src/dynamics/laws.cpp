@@ -68,14 +68,18 @@ void Laws::record(const Specimen& specimen) {
   for (std::size_t i = 0; i < specimen.effects.size(); ++i) {
     const auto& [effect, parameters] = specimen.effects[i];
     for (const OwnState& own : effect->states) {
-      rate[static_cast<std::size_t>(state)] = own.rate(at[i], parameters).node;
-      relative_velocity[static_cast<std::size_t>(state++)] = own.relative_velocity;
+      rate[state] = own.rate(at[i], parameters).node;
+      relative_velocity[state++] = own.relative_velocity;
     }
     if (effect->carried_mass) carried_mass -= 1 - effect->carried_mass(parameters);
     if (effect->wall) effect->wall(walls, parameters);
     if (effect->legs) effect->legs(legs, parameters);
     if (effect->settling_s) settling_s = std::max(settling_s, effect->settling_s(parameters));
   }
+  for (int node = input_count; node < tape.size(); ++node) read_ |= tape.dependence(node);
+  for (const int node : {force, moment, friction})
+    if (node >= 0) read_ |= tape.dependence(node);
+  for (int i = 0; i < states; ++i) read_ |= tape.dependence(rate[i]);
 }
 
 bool Laws::uses(Input input) const {

@@ -26,8 +26,8 @@ struct Laws {
   int force = -1, moment = -1, friction = -1;
   int forces_end = input_count, friction_end = input_count;
   int states = 0;
-  std::array<int, max_states> rate{};
-  std::array<bool, max_states> relative_velocity{};
+  int rate[max_states] = {};
+  bool relative_velocity[max_states] = {};
   double carried_mass = 1;  // M
   Walls walls;
   Legs legs;
@@ -36,6 +36,13 @@ struct Laws {
   // States go on moving while the block rests.
   bool evolve_at_rest() const { return states > 0 || legs.frequency_radps > 0; }
   bool uses(Input input) const;
+  // Any node looks at it.
+  bool reads(Input input) const { return read_ >> static_cast<int>(input) & 1U; }
+  // Of a block on a corner, that slips or not: forces, moments or friction depend on the normal force, which depends on them.
+  bool sees_normal_force(bool slips) const {
+    const auto looks = [&](int node) { return node >= 0 && tape.depends(node, Input::normal); };
+    return looks(force) || looks(moment) || (slips && looks(friction));
+  }
   // The share of the normal force that friction may take changes while a contact is stuck.
   bool grip_changes() const;
   // On which side of their kinks the laws are when nothing has moved yet.
@@ -48,6 +55,8 @@ struct Laws {
  private:
   Laws() = default;
   void record(const Specimen& specimen);
+
+  std::uint32_t read_ = 0;  // inputs, one bit each
 };
 
 // Specimen and floor as the effects that are no part of the equations of motion leave them.

@@ -11,24 +11,39 @@
 
 namespace freestand::dynamics {
 
-// u(tau): displacement of the base's midpoint relative to the floor, u = xi + s B (1 - cos theta), B = (b_l + b_r)/2.
+// u(tau): displacement of the base's midpoint relative to the floor, u = xi + s B (1 - cos theta), B = (b_l + b_r)/2, by
+// cos theta = (h r_y - c r_x)/(h^2 + c^2). half_base: s B.
+template <int N, class Real>
+[[gnu::always_inline]] inline Series<Real, N> midpoint(const Corner<Real>& body, const Real& half_base,
+                                                       const Arc<Real, N>& arc, const Real& versine) {
+  Series<Real, N> u = arc.xi;
+  const Real lever = half_base / (body.h * body.h + body.c * body.c);
+#pragma GCC unroll 16
+  for (int k = 1; k <= N; ++k) u[k] = u[k] - lever * (body.h * arc.ry[k] - body.c * arc.rx[k]);
+  u[0] = u[0] + half_base * versine;
+  return u;
+}
 template <int N>
 Series<double, N> midpoint(const Rig& rig, const State& state, const Arc<double, N>& arc) {
-  Series<double, N> u = arc.xi;
-  if (state.pivot == 0) return u;
-  const double c = rig.offset(state.pivot);
-  const double lever =
-      state.pivot * rig.half_base() / (rig.h * rig.h + c * c);  // cos theta = (h r_y - c r_x)/(h^2 + c^2)
-  for (int k = 1; k <= N; ++k) u[k] -= lever * (rig.h * arc.ry[k] - c * arc.rx[k]);
-  const double half = std::sin(0.5 * state.theta);
-  u[0] += state.pivot * rig.half_base() * 2 * half * half;
-  return u;
+  if (state.pivot == 0) return arc.xi;
+  return midpoint(rig.corner(state.pivot), state.pivot * rig.half_base(), arc, rotation_by(state.theta).versine);
 }
 
 // The same in flight: u = x + d cos(theta) - h sin(theta) - d, d = (b_r - b_l)/2.
 inline double midpoint_in_flight(const Rig& rig, double x, double theta) {
   const double d = 0.5 * (rig.right - rig.left), half = std::sin(0.5 * theta);
   return x - rig.h * std::sin(theta) - d * 2 * half * half;
+}
+
+// Two squares, their sum, a root and its square round off by less than this: no new peak.
+inline constexpr double same_peak = 1 + 1e-15;
+
+template <class Real, int N>
+[[gnu::always_inline]] inline Series<Real, N> squared_length(const Series<Real, N>& x, const Series<Real, N>& y) {
+  Series<Real, N> square;
+#pragma GCC unroll 16
+  for (int k = 0; k <= N; ++k) square[k] = product(x, x, k) + product(y, y, k);
+  return square;
 }
 
 class Peaks {
@@ -106,19 +121,14 @@ class Peaks {
   // the tilt of the floor.
   template <int N>
   void observe_acceleration(const Rig& rig, Series<double, N> fx, Series<double, N> lift, double tau) {
-    double bound_x = 0, bound_y = 0;
     fx[0] -= rig.push;
     lift[0] -= rig.g;
-    for (int k = N; k >= 0; --k) {
-      bound_x = bound_x * tau + std::abs(fx[k]);
-      bound_y = bound_y * tau + std::abs(lift[k]);
-    }
-    const double peak = response_.peak_acceleration_mps2, bound2 = bound_x * bound_x + bound_y * bound_y;
-    if (bound2 <= peak * peak) return;
+    const double peak = response_.peak_acceleration_mps2, peak2 = peak * peak;
+    const double bound_x = size_of_rest<0>(fx, tau), bound_y = size_of_rest<0>(lift, tau);
+    const double bound2 = bound_x * bound_x + bound_y * bound_y;
+    if (bound2 <= peak2 * same_peak) return;
     if (!std::isfinite(bound2)) finite_ = false;
-    Series<double, N> square;
-    for (int k = 0; k <= N; ++k) square[k] = product(fx, fx, k) + product(lift, lift, k);
-    response_.peak_acceleration_mps2 = std::sqrt(max_abs(square, tau, peak * peak));
+    response_.peak_acceleration_mps2 = std::sqrt(max_abs(squared_length(fx, lift), tau, peak2));
   }
 
   Response response_;

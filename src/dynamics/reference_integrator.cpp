@@ -85,7 +85,7 @@ class ReferenceIntegrator {
       if (h > instant_ && !go(h)) return;
     }
     life_.cursor.advance(h);
-    if (to_knot) life_.cursor.next_segment();
+    if (to_knot) life_.next_segment();
   }
 
   // One leg of length h. False: an event, or a stationary point, ended it early; or an event was passed over, and the leg ends
@@ -292,13 +292,13 @@ class ReferenceIntegrator {
       with_flight_arc<2>(me.rig(), s, time, floor, [&](const auto& f) {
         const double rates[plain_size] = {f.theta[1], f.omega[1], f.x[1], f.vx[1], f.y[1], f.vy[1]};
         std::copy(rates, rates + plain_size, d);
-        law_rates(f, d + plain_size);
+        law_rates(f, me.states(), d + plain_size);
       });
     else
       with_contact_arc<2>(me.rig(), s, time, floor, [&](const auto& arc) {
         const double rates[plain_size] = {arc.theta[1], arc.omega[1], arc.xi[1], arc.w[1], 0, 0};
         std::copy(rates, rates + plain_size, d);
-        law_rates(arc, d + plain_size);
+        law_rates(arc, me.states(), d + plain_size);
       });
     const bool finite = std::all_of(d, d + state_size, [](double x) { return std::isfinite(x); });
     return finite ? 0 : -1;
@@ -307,18 +307,18 @@ class ReferenceIntegrator {
   // Rates of path, deflection and the effects' states; the plain block has none.
   static constexpr int law_size = state_size - plain_size;
   template <class Plain>
-  static void law_rates(const Plain&, double* d) {
+  static void law_rates(const Plain&, int, double* d) {
     std::fill(d, d + law_size, 0.0);
   }
-  static void law_rates(const LawArc<2>& arc, double* d) {
+  static void law_rates(const LawArc<2>& arc, int states, double* d) {
     d[0] = arc.path[1];
     d[1] = arc.deflection[1];
-    for (int i = 0; i < max_states; ++i) d[2 + i] = i < arc.state_count ? arc.states[i][1] : 0.0;
+    for (int i = 0; i < max_states; ++i) d[2 + i] = i < states ? arc.states[i][1] : 0.0;
   }
-  static void law_rates(const LawFlight<2>& flight, double* d) {
+  static void law_rates(const LawFlight<2>& flight, int states, double* d) {
     d[0] = 0;
     d[1] = flight.deflection[1];
-    for (int i = 0; i < max_states; ++i) d[2 + i] = i < flight.state_count ? flight.states[i][1] : 0.0;
+    for (int i = 0; i < max_states; ++i) d[2 + i] = i < states ? flight.states[i][1] : 0.0;
   }
 
   static int roots(double tau, N_Vector y, double* g, void* self) {
@@ -356,6 +356,7 @@ class ReferenceIntegrator {
   }
 
   const Rig& rig() const { return life_.rig; }
+  int states() const { return rig().laws ? rig().laws->states : 0; }
 
   bool touches_wall() const {
     if (!rig().laws) return false;
@@ -368,10 +369,10 @@ class ReferenceIntegrator {
 
   Integration life_;
   double longest_step_;
-  double round_off_;                         // of lengths [m]
-  double off_floor_ = 0.1 * round_off_;      // where a corner that takes off starts, as `off_wall_`
-  double instant_ = 1e-12 * longest_step_;   // shorter than ARKODE can tell from nothing [s]
-  double shortest_ = 1e-7 * longest_step_;   // of a step that is gone through again for an event that it passed over [s]
+  double round_off_;                        // of lengths [m]
+  double off_floor_ = 0.1 * round_off_;     // where a corner that takes off starts, as `off_wall_`
+  double instant_ = 1e-12 * longest_step_;  // shorter than ARKODE can tell from nothing [s]
+  double shortest_ = 1e-7 * longest_step_;  // of a step that is gone through again for an event that it passed over [s]
   double output_step_ = 0;
   double passed_over_s_ = 0;  // length of the step in which the last leg passed over an event
   double off_wall_ = 0;  // an edge at a wall starts its leg so far off it: ARKODE sees no root that a leg starts on [m]

@@ -27,20 +27,6 @@ int sign_after(const double* c, int order, ZeroTolerance zero);
 bool first_root(const double* c, int order, double h, ZeroTolerance zero, double& tau);
 double max_abs(const double* c, int order, double h, double floor);
 double max_of(const double* c, int order, double h, double floor);
-
-// sum_{k > 0} |c[k]| h^k, even and odd powers apart, which is faster.
-template <int N>
-double rest_of_bound(const double* c, double h) {
-  const auto size = [c](int k) { return c[k] < 0 ? -c[k] : c[k]; };
-  const double h2 = h * h;
-  double odd = 0, even = 0;
-  for (int k = N; k >= 1; --k)
-    if (k % 2 == 1)
-      odd = odd * h2 + size(k);
-    else
-      even = (even + size(k)) * h2;
-  return odd * h + even;
-}
 }  // namespace detail
 
 // Sign of the series just after its start: +1, -1, or 0 when all coefficients vanish within the tolerance.
@@ -53,7 +39,7 @@ int sign_after(const Series<double, N>& y, ZeroTolerance zero) {
 template <int N>
 bool first_root(const Series<double, N>& y, double h, ZeroTolerance zero, double& tau) {
   static_assert(N <= max_root_order);
-  if (y.c[0] > detail::rest_of_bound<N>(y.c, h)) return false;
+  if (surely_positive(y, h)) return false;
   return detail::first_root(y.c, N, h, zero, tau);
 }
 
@@ -61,7 +47,9 @@ bool first_root(const Series<double, N>& y, double h, ZeroTolerance zero, double
 template <int N>
 double max_abs(const Series<double, N>& y, double h, double floor) {
   static_assert(N <= max_root_order);
-  if ((y.c[0] < 0 ? -y.c[0] : y.c[0]) + detail::rest_of_bound<N>(y.c, h) <= floor) return floor;
+  if (surely_within(y, h, floor)) return floor;
+  if constexpr (N > 0)
+    if (surely_monotonic(y, h)) return std::fmax(floor, std::fmax(std::abs(y[0]), std::abs(y.at(h))));
   return detail::max_abs(y.c, N, h, floor);
 }
 
@@ -69,7 +57,9 @@ double max_abs(const Series<double, N>& y, double h, double floor) {
 template <int N>
 double max_of(const Series<double, N>& y, double h, double floor) {
   static_assert(N <= max_root_order);
-  if (y.c[0] + detail::rest_of_bound<N>(y.c, h) <= floor) return floor;
+  if (surely_within(y, h, floor)) return floor;
+  if constexpr (N > 0)
+    if (surely_monotonic(y, h)) return std::fmax(floor, std::fmax(y[0], y.at(h)));
   return detail::max_of(y.c, N, h, floor);
 }
 

@@ -5,6 +5,8 @@
 // Taylor step, its dense output, and the polynomials in which events are found. Real is double, or a pack of doubles.
 #pragma once
 
+#include <cmath>
+
 namespace freestand::dynamics {
 
 template <class Real, int N>
@@ -52,6 +54,47 @@ Series<Real, N> scaled(const Real& factor, const Series<Real, N>& y) {
   Series<Real, N> z;
   for (int k = 0; k <= N; ++k) z[k] = factor * y[k];
   return z;
+}
+
+// sum over k >= first of |c[k]| h^k.
+template <int first, class Real, int N>
+[[gnu::always_inline]] inline Real size_of_rest(const Series<Real, N>& y, const Real& h) {
+  using std::abs;
+  if constexpr (first > N) return Real(0.0);
+  Real sum = abs(y[N]);
+#pragma GCC unroll 16
+  for (int k = N - 1; k >= first; --k) sum = sum * h + abs(y[k]);
+#pragma GCC unroll 4
+  for (int k = 0; k < first; ++k) sum = sum * h;
+  return sum;
+}
+
+// y > 0 on all of [0, h] beyond doubt: its straight part outweighs the rest. For a pack, lane by lane.
+template <class Real, int N>
+[[gnu::always_inline]] inline auto surely_positive(const Series<Real, N>& y, const Real& h) {
+  using std::abs;
+  if constexpr (N == 0) {
+    return y[0] > Real(0.0);
+  } else {
+    const Real rise = y[1] * h, lowest = y[0] + Real(0.5) * (rise - abs(rise));
+    return lowest > size_of_rest<2>(y, h);
+  }
+}
+
+// |y| <= limit on all of [0, h] beyond doubt.
+template <class Real, int N>
+[[gnu::always_inline]] inline auto surely_within(const Series<Real, N>& y, const Real& h, const Real& limit) {
+  return size_of_rest<0>(y, h) <= limit;
+}
+
+// y rises, or falls, on all of [0, h] beyond doubt, or stays the same.
+template <class Real, int N>
+[[gnu::always_inline]] inline auto surely_monotonic(const Series<Real, N>& y, const Real& h) {
+  using std::abs;
+  Series<Real, N - 1> slope;
+#pragma GCC unroll 16
+  for (int k = 0; k < N; ++k) slope[k] = Real(k + 1.0) * y[k + 1];
+  return abs(slope[0]) >= size_of_rest<1>(slope, h);
 }
 
 // factor_a * a + factor_b * b.

@@ -3,7 +3,7 @@
 namespace freestand::dynamics {
 
 Tape::Tape() {
-  for (int i = 0; i < input_count; ++i) depends_[at(i)] = 1U << i;
+  for (int i = 0; i < input_count; ++i) depends_[i] = 1U << i;
 }
 
 Value Tape::append(Op op, int a, int b, double value, double shift) {
@@ -13,12 +13,12 @@ Value Tape::append(Op op, int a, int b, double value, double shift) {
   out_of_kinks_ |= kink && kink_count_ == max_kinks;
   if (overflow()) return {this, 0};
   const int node = size_++;
-  nodes_[at(node)] = {op, static_cast<std::int16_t>(a), static_cast<std::int16_t>(b), value, shift};
+  nodes_[node] = {op, static_cast<std::int16_t>(a), static_cast<std::int16_t>(b), value, shift};
   const bool binary = op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide;
-  depends_[at(node)] = op == Op::constant ? 0 : depends_[at(a)] | (binary ? depends_[at(b)] : 0);
+  depends_[node] = op == Op::constant ? 0 : depends_[a] | (binary ? depends_[b] : 0);
   if (kink) {
-    nodes_[at(node)].b = static_cast<std::int16_t>(kink_count_);
-    kinks_[at(kink_count_++)] = static_cast<std::int16_t>(node);
+    nodes_[node].b = static_cast<std::int16_t>(kink_count_);
+    kinks_[kink_count_++] = static_cast<std::int16_t>(node);
   }
   return {this, node};
 }
@@ -26,7 +26,7 @@ Value Tape::append(Op op, int a, int b, double value, double shift) {
 int Tape::find(Op op, int a, int b, double value, double shift) const {
   const bool unary = op != Op::add && op != Op::subtract && op != Op::multiply && op != Op::divide;
   for (int i = section_; i < size_; ++i) {
-    const Node& node = nodes_[at(i)];
+    const Node& node = nodes_[i];
     if (node.op == op && node.a == a && (unary || node.b == b) && node.value == value && node.shift == shift) return i;
   }
   return -1;

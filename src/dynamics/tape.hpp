@@ -11,7 +11,6 @@
 // and is still integrated to full order.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -82,34 +81,37 @@ class Tape {
   void begin_section() { section_ = size_; }
   // factor * x + shift; of constants and of other such values, again one node.
   Value affine(Value x, double factor, double shift);
-  const Node* node(Value x) const { return x.node < input_count ? nullptr : &nodes_[at(x.node)]; }
+  const Node* node(Value x) const { return x.node < input_count ? nullptr : &nodes_[x.node]; }
   Value append_circular(Op op, int a);  // sin or cos
 
   int size() const { return size_; }
   // Something found no room: the tape is of no use.
   bool overflow() const { return out_of_nodes_ || out_of_kinks_; }
   bool out_of_kinks() const { return out_of_kinks_; }
-  bool depends(int node, Input on) const { return depends_[at(node)] >> static_cast<int>(on) & 1U; }
-  std::uint32_t dependence(int node) const { return depends_[at(node)]; }
+  bool depends(int node, Input on) const { return depends_[node] >> static_cast<int>(on) & 1U; }
+  std::uint32_t dependence(int node) const { return depends_[node]; }
   int kink_count() const { return kink_count_; }
-  int kink_argument(int kink) const { return nodes_[at(kinks_[at(kink)])].a; }
-  int kink_node(int kink) const { return kinks_[at(kink)]; }
+  int kink_argument(int kink) const { return nodes_[kinks_[kink]].a; }
+  int kink_node(int kink) const { return kinks_[kink]; }
   bool latched(int kink, std::uint32_t sides) const {
-    return (sides >> kink & 1U) && nodes_[at(kinks_[at(kink)])].op == Op::latch;
+    return (sides >> kink & 1U) && nodes_[kinks_[kink]].op == Op::latch;
   }
 
-  // Coefficient k of nodes [from, to). values: one series per node, inputs filled to order k. sides: bit j set when
-  // kink j is on its negative side.
+  // Coefficient k of nodes [from, to). values: one series per node, inputs filled to order k. Numbers: those of one sample, or
+  // of the samples of a pack, whose tapes have the same nodes.
+  template <int N, class Real, class Numbers>
+  void advance(int from, int to, int k, const Numbers& numbers, Series<Real, N>* values) const;
+  // Of one sample. sides: bit j set when kink j is on its negative side.
   template <int N>
   void advance(int from, int to, int k, std::uint32_t sides, Series<double, N>* values) const;
 
  private:
   int find(Op op, int a, int b, double value, double shift) const;  // -1: none
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  std::array<Node, max_nodes> nodes_;
-  std::array<std::uint32_t, max_nodes> depends_;
-  std::array<std::int16_t, max_kinks> kinks_;
+  // Plain arrays, which the kernels of packs may read without a call.
+  Node nodes_[max_nodes];
+  std::uint32_t depends_[max_nodes];
+  std::int16_t kinks_[max_kinks];
   int size_ = input_count, section_ = input_count;
   int kink_count_ = 0;
   bool out_of_nodes_ = false, out_of_kinks_ = false;
@@ -147,19 +149,48 @@ Value pow(Value x, double exponent);
 Value pow(Value x, Value exponent);
 Value where(Value condition, Value yes, Value no);  // yes where condition > 0
 
+// The constants of one sample's tape, the sides of its kinks, and the functions that laws may use.
+class OwnNumbers {
+ public:
+  OwnNumbers(const Tape& tape, std::uint32_t sides) : tape_(tape), sides_(sides) {}
+  double value(int node) const { return tape_.node({nullptr, node})->value; }
+  double shift(int node) const { return tape_.node({nullptr, node})->shift; }
+  double on_side(int kink, double positive, double negative) const { return sides_ >> kink & 1U ? negative : positive; }
+  static double choose(bool which, double yes, double no) { return which ? yes : no; }
+  std::uint32_t sides() const { return sides_; }
+  void turn(std::uint32_t sides) { sides_ = sides; }
+  static double exp(double x) { return std::exp(x); }
+  static double log(double x) { return std::log(x); }
+  static double sqrt(double x) { return std::sqrt(x); }
+  static double sin(double x) { return std::sin(x); }
+  static double cos(double x) { return std::cos(x); }
+  static double pow(double x, double exponent) { return std::pow(x, exponent); }
+
+ private:
+  const Tape& tape_;
+  std::uint32_t sides_;
+};
+
 template <int N>
 void Tape::advance(int from, int to, int k, std::uint32_t sides, Series<double, N>* values) const {
+  advance(from, to, k, OwnNumbers(*this, sides), values);
+}
+
+template <int N, class Real, class Numbers>
+void Tape::advance(int from, int to, int k, const Numbers& numbers, Series<Real, N>* values) const {
+  const Real order(static_cast<double>(k)), over(1.0 / (k == 0 ? 1 : k));
   for (int i = from; i < to; ++i) {
-    const Node& node = nodes_[at(i)];
-    const Series<double, N>&x = values[node.a], &y = values[node.b];
-    Series<double, N>& z = values[i];
-    double sum = 0;
+    const Node& node = nodes_[i];
+    const Series<Real, N>&x = values[node.a], &y = values[node.b];
+    Series<Real, N>& z = values[i];
+    Real sum(0.0);
     switch (node.op) {
       case Op::constant:
-        z[k] = k == 0 ? node.value : 0.0;
+        z[k] = k == 0 ? numbers.value(i) : Real(0.0);
         break;
       case Op::affine:
-        z[k] = node.value * x[k] + (k == 0 ? node.shift : 0.0);
+        z[k] = numbers.value(i) * x[k];
+        if (k == 0) z[k] = z[k] + numbers.shift(i);
         break;
       case Op::add:
         z[k] = x[k] + y[k];
@@ -172,42 +203,43 @@ void Tape::advance(int from, int to, int k, std::uint32_t sides, Series<double, 
         break;
       case Op::divide:
         sum = x[k];
-        for (int j = 1; j <= k; ++j) sum -= y[j] * z[k - j];
+        for (int j = 1; j <= k; ++j) sum = sum - y[j] * z[k - j];
         z[k] = sum / y[0];
         break;
       case Op::exp:
-        for (int j = 1; j <= k; ++j) sum += j * x[j] * z[k - j];
-        z[k] = k == 0 ? std::exp(x[0]) : sum / k;
+        for (int j = 1; j <= k; ++j) sum = sum + Real(double(j)) * x[j] * z[k - j];
+        z[k] = k == 0 ? numbers.exp(x[0]) : sum * over;
         break;
       case Op::log:
-        for (int j = 1; j < k; ++j) sum += j * z[j] * x[k - j];
-        z[k] = k == 0 ? std::log(x[0]) : (x[k] - sum / k) / x[0];
+        for (int j = 1; j < k; ++j) sum = sum + Real(double(j)) * z[j] * x[k - j];
+        z[k] = k == 0 ? numbers.log(x[0]) : (x[k] - sum * over) / x[0];
         break;
       case Op::sqrt:
-        for (int j = 1; j < k; ++j) sum += z[j] * z[k - j];
-        z[k] = k == 0 ? std::sqrt(x[0]) : (x[k] - sum) / (2 * z[0]);
+        for (int j = 1; j < k; ++j) sum = sum + z[j] * z[k - j];
+        z[k] = k == 0 ? numbers.sqrt(x[0]) : (x[k] - sum) / (Real(2.0) * z[0]);
         break;
       case Op::power:
-        for (int j = 1; j <= k; ++j) sum += (j * node.value - (k - j)) * x[j] * z[k - j];
-        z[k] = k == 0 ? std::pow(x[0], node.value) : sum / (k * x[0]);
+        for (int j = 1; j <= k; ++j)
+          sum = sum + (Real(double(j)) * numbers.value(i) - Real(double(k - j))) * x[j] * z[k - j];
+        z[k] = k == 0 ? numbers.pow(x[0], numbers.value(i)) : sum / (order * x[0]);
         break;
       case Op::sin:
-        for (int j = 1; j <= k; ++j) sum += j * x[j] * y[k - j];
-        z[k] = k == 0 ? std::sin(x[0]) : sum / k;
+        for (int j = 1; j <= k; ++j) sum = sum + Real(double(j)) * x[j] * y[k - j];
+        z[k] = k == 0 ? numbers.sin(x[0]) : sum * over;
         break;
       case Op::cos:
-        for (int j = 1; j <= k; ++j) sum += j * x[j] * y[k - j];
-        z[k] = k == 0 ? std::cos(x[0]) : -sum / k;
+        for (int j = 1; j <= k; ++j) sum = sum + Real(double(j)) * x[j] * y[k - j];
+        z[k] = k == 0 ? numbers.cos(x[0]) : -(sum * over);
         break;
       case Op::abs:
-        z[k] = sides >> node.b & 1U ? -x[k] : x[k];
+        z[k] = numbers.on_side(node.b, x[k], -x[k]);
         break;
       case Op::positive:
-        z[k] = sides >> node.b & 1U ? 0.0 : x[k];
+        z[k] = numbers.on_side(node.b, x[k], Real(0.0));
         break;
       case Op::step:
       case Op::latch:
-        z[k] = k > 0 || (sides >> node.b & 1U) ? 0.0 : 1.0;
+        z[k] = k > 0 ? Real(0.0) : numbers.on_side(node.b, Real(1.0), Real(0.0));
         break;
     }
   }

@@ -36,18 +36,29 @@ inline EdgeLever lever_over_centre(const Rig& rig, int side, Edge edge) {
   return {-rig.offset(side), (edge == Edge::upper ? rig.top : 0.0) - rig.h};
 }
 
+// Distance from a wall's side, and the lever of an edge there.
+template <class Real>
+struct ToWall {
+  Real gap, across, up;  // [m]
+};
+inline ToWall<double> to_wall(const Rig& rig, int side, const EdgeLever& lever) {
+  return {rig.laws->walls.on(side).gap_m, lever.across, lever.up};
+}
+
 // cos(theta) - 1, to all digits: of a block that comes down it is all that keeps the edge at the floor off a wall.
 inline double less_than_one(double sine, double cosine) { return -sine * sine / (1 + cosine); }
 
-// Distance left between an edge and the wall on its side; x: displacement of the point that the lever is about.
-template <int N>
-Series<double, N> clearance(const Wall& wall, int side, const EdgeLever& lever, const Series<double, N>& x,
-                            const Series<double, N>& sine, const Series<double, N>& cosine) {
-  Series<double, N> gap;
-  for (int k = 0; k <= N; ++k)
-    gap[k] =
-        -side * (x[k] - lever.across * (k == 0 ? less_than_one(sine[0], cosine[0]) : cosine[k]) + lever.up * sine[k]);
-  gap[0] += wall.gap_m;
+// Distance left between an edge and the wall on its side; x: displacement of the point that the lever is about; versine: 1 -
+// cos(theta) at the start, to all its digits.
+template <int N, class Real>
+Series<Real, N> clearance(const ToWall<Real>& wall, double side, const Series<Real, N>& x, const Series<Real, N>& sine,
+                          const Series<Real, N>& cosine, const Real& versine) {
+  Series<Real, N> gap;
+  for (int k = 0; k <= N; ++k) {
+    const Real less = k == 0 ? -versine : cosine[k];
+    gap[k] = Real(-side) * (x[k] - wall.across * less + wall.up * sine[k]);
+  }
+  gap[0] = gap[0] + wall.gap;
   return gap;
 }
 
@@ -63,8 +74,7 @@ inline EdgeNow edge_now(const Rig& rig, const State& state, int side, Edge edge)
   const EdgeLever lever = flies ? lever_over_centre(rig, side, edge) : lever_over_corner(rig, pivot, side, edge);
   const double sine = std::sin(state.theta), cosine = std::cos(state.theta);
   const double height = lever.across * sine + lever.up * cosine;
-  const double x =
-      (flies ? state.x : state.xi) - lever.across * less_than_one(sine, cosine) + lever.up * sine;
+  const double x = (flies ? state.x : state.xi) - lever.across * less_than_one(sine, cosine) + lever.up * sine;
   const double v = (flies ? state.vx : state.w) + height * state.omega;
   return {rig.laws->walls.on(side).gap_m - side * x, height, side * v};
 }

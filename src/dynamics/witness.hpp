@@ -89,10 +89,12 @@ void for_each_witness(const Rig& rig, const State& state, const Arc<double, N>& 
 
 // Friction on the base. Of an upright block that is pressed against a wall friction takes what it can, and the wall, through
 // the centre of mass, the rest.
-template <int N>
-Series<double, N> friction_at_wall(bool right, bool left, const LawArc<N>& arc) {
-  if (right && arc.fx[0] < -arc.limit_left[0]) return scaled(-1.0, arc.limit_left);
-  if (left && arc.fx[0] > arc.limit_right[0]) return arc.limit_right;
+template <int N, class Real>
+Series<Real, N> friction_at_wall(bool right, bool left, const LawArc<N, Real>& arc) {
+  if constexpr (std::is_same_v<Real, double>) {
+    if (right && arc.fx[0] < -arc.limit_left[0]) return scaled(-1.0, arc.limit_left);
+    if (left && arc.fx[0] > arc.limit_right[0]) return arc.limit_right;
+  }
   return arc.fx;
 }
 
@@ -107,45 +109,78 @@ void visit_clearance(const Rig& rig, const State& state, int side, bool upper, c
   visit(clearance_witness(side, upper), left, ZeroTolerance{2, rig.force_zero * state.doubt});
 }
 
-// The same with laws: friction's limits differ by direction, a wall takes what presses against it, and kinks are watched.
+// Where the block stands, and what it takes to tip it.
+template <class Real>
+struct Stance {
+  bool turns, slips, can_slip, can_rock;
+  Real pivot, sigma;
+  Real right_arm, left_arm;  // of the corners, over the height of the centre of mass [1]
+  Real over_height;          // 1/h [1/m]
+};
+
+// Sides to which a wall that an upright block touches holds it: it neither slips nor tips that way.
+struct Held {
+  bool right = false, left = false;
+};
+
+// The inequalities of contact under laws, of one sample or of those of a pack: friction's limits differ by direction.
+//
+// Calls visit(Witness, const Series&).
+template <int N, class Real, class Visit>
+[[gnu::always_inline]] inline void visit_contact(const Stance<Real>& at, const Held& held, const LawArc<N, Real>& arc,
+                                                 Visit&& visit) {
+  const Real one(1.0), against(-1.0);
+  if (at.turns) {
+    visit(Witness::impact, scaled(at.pivot, arc.theta));
+    Series<Real, N> upright = scaled(-at.pivot, arc.theta);
+    upright[0] = upright[0] + Real(pi / 2);
+    visit(Witness::upright, upright);
+    if (at.slips) visit(Witness::regular, arc.d);
+    if (at.can_slip) visit(Witness::pressed, arc.pressed);
+  }
+  if (at.slips) {
+    visit(Witness::slipping, scaled(at.sigma, arc.foot));
+  } else if (at.can_slip) {
+    if (!held.left) visit(Witness::grip_right, combination(one, arc.limit_right, against, arc.fx));
+    if (!held.right) visit(Witness::grip_left, combination(one, arc.limit_left, one, arc.fx));
+  }
+  if (at.turns) return;
+  if (at.can_rock) {  // N_right (b_l + b_r) = b_l f_y - h f_x + T
+    const Series<Real, N> lean =
+        combination(against, friction_at_wall(held.right, held.left, arc), at.over_height, arc.moment);
+    if (!held.left) visit(Witness::flat_right, combination(at.left_arm, arc.fy, one, lean));
+    if (!held.right) visit(Witness::flat_left, combination(at.right_arm, arc.fy, against, lean));
+  }
+  // Two corners that push say so already.
+  if (!at.can_rock || held.right || held.left) visit(Witness::pressed, arc.fy);
+}
+
+// The same, a wall that takes what presses against it, and kinks.
 template <int N, class Visit>
 void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, Visit&& visit) {
   const double zero = rig.force_zero * state.doubt, turn_zero = rig.turn_zero * state.doubt;
-  const ZeroTolerance force{0, zero}, velocity{1, zero}, rotation{2, turn_zero};
-  const double s = state.pivot;
-  // A wall that an upright block touches holds it: it neither slips nor tips that way.
-  const bool right = state.pivot == 0 && touches_upright(rig, state, 1);
-  const bool left = state.pivot == 0 && touches_upright(rig, state, -1);
-  if (state.pivot != 0) {
-    visit(Witness::impact, scaled(s, arc.theta), rotation);
-    Series<double, N> upright = scaled(-s, arc.theta);
-    upright[0] += pi / 2;
-    visit(Witness::upright, upright, rotation);
-    if (state.sigma != 0) visit(Witness::regular, arc.d, ZeroTolerance{0, 0.0});
-    if (rig.can_slip) visit(Witness::pressed, arc.pressed, force);
-  }
-  if (state.sigma != 0) {
-    visit(Witness::slipping, scaled(double(state.sigma), arc.foot), velocity);
-  } else if (rig.can_slip) {
-    if (!left) visit(Witness::grip_right, combination(1.0, arc.limit_right, -1.0, arc.fx), force);
-    if (!right) visit(Witness::grip_left, combination(1.0, arc.limit_left, 1.0, arc.fx), force);
-  }
-  if (state.pivot == 0) {
-    if (rig.can_rock) {  // N_right (b_l + b_r) = b_l f_y - h f_x + T
-      Series<double, N> lean = combination(-1.0, friction_at_wall(right, left, arc), 1 / rig.h, arc.moment);
-      if (!left) visit(Witness::flat_right, combination(rig.left / rig.h, arc.fy, 1.0, lean), force);
-      if (!right) visit(Witness::flat_left, combination(rig.right / rig.h, arc.fy, -1.0, lean), force);
-    }
-    if (!rig.can_rock || right || left) visit(Witness::pressed, arc.fy, force);  // two corners that push say so already
-  }
-  const bool leans = state.pivot != 0 && state.at_wall();
+  const ZeroTolerance force{0, zero}, velocity{1, zero}, rotation{2, turn_zero}, nothing{0, 0.0};
+  const bool upright = state.pivot == 0;
+  const Stance<double> stance{!upright,          state.sigma != 0,    rig.can_slip,
+                              rig.can_rock,      double(state.pivot), double(state.sigma),
+                              rig.right / rig.h, rig.left / rig.h,    1 / rig.h};
+  const Held held{upright && touches_upright(rig, state, 1), upright && touches_upright(rig, state, -1)};
+  visit_contact(stance, held, arc, [&](Witness witness, const Series<double, N>& series) {
+    const bool turns = witness == Witness::impact || witness == Witness::upright;
+    visit(witness, series,
+          turns                          ? rotation
+          : witness == Witness::slipping ? velocity
+          : witness == Witness::regular  ? nothing
+                                         : force);
+  });
+  const bool leans = !upright && state.at_wall();
   if (leans) visit(Witness::leaning, arc.wall_push, force);
   for (const int side : sides(state))
-    if (rig.laws->walls.on(side).stands && !(leans && state.wall == side) && (state.pivot != 0 || state.sigma != 0))
+    if (rig.laws->walls.on(side).stands && !(leans && state.wall == side) && (!upright || state.sigma != 0))
       visit_clearance(rig, state, side, touching_edge(state.pivot, side) == Edge::upper,
                       side > 0 ? arc.right_gap : arc.left_gap, visit);
   for (int j = 0; j < rig.laws->tape.kink_count(); ++j)
-    if (j != state.held_kink) visit(kink_witness(j), arc.kink[j], ZeroTolerance{0, 0.0});
+    if (j != state.held_kink) visit(kink_witness(j), arc.kink[j], nothing);
 }
 
 template <int N, class Visit>
