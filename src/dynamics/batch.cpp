@@ -11,6 +11,7 @@
 #include "base/units.hpp"
 #include "dynamics/bouc_wen.hpp"
 #include "dynamics/integration.hpp"
+#include "dynamics/law_lanes.hpp"
 #include "dynamics/overturned.hpp"
 
 namespace freestand::dynamics {
@@ -270,8 +271,14 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
     }
     queues.compute(responses, single);
   }
-  for (const std::size_t i : single) responses[i] = respond(specimens[i], shakings[i], settings);
-  return single.size();
+  std::vector<std::size_t> under_laws, alone;
+  for (const std::size_t i : single) {
+    const bool lanes = kernels && goes_in_law_lanes(set_up(specimens[i], shakings[i]), settings);
+    (lanes ? under_laws : alone).push_back(i);
+  }
+  if (!under_laws.empty()) respond_in_law_lanes(*kernels, specimens, shakings, settings, under_laws, responses);
+  for (const std::size_t i : alone) responses[i] = respond(specimens[i], shakings[i], settings);
+  return alone.size();
 }
 
 }  // namespace freestand::dynamics

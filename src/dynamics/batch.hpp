@@ -10,6 +10,7 @@
 
 #include "base/motion_table.hpp"
 #include "dynamics/bouc_wen_contact.hpp"
+#include "dynamics/law_rows.hpp"
 #include "dynamics/speed_law.hpp"
 
 namespace freestand::dynamics {
@@ -41,6 +42,8 @@ struct BatchKernels {
   BatchKernel slide_rock_by_speed, slide_rock_by_speed_coarse;
   BatchKernel slide_rock_shaken, slide_rock_shaken_coarse;  // the floor shakes vertically
   BatchKernel bouc_wen;                                     // with kappa = 0
+  const LawMarch (*under_laws)[2];                          // [turns][slips]
+  int lanes;                                                // of a pack
 };
 
 // Those that respond_batch takes: the widest that this machine has, or what FREESTAND_ISA asks for if it has that. Null:

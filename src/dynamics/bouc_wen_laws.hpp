@@ -77,8 +77,7 @@ class BoucWenLawHold {
     value(Input::acceleration)[k] = -s * hold;
     laws_.tape.advance(laws_.friction_end, laws_.tape.size(), k, state_.sides, values_);
     if (k < N)
-      for (int i = 0; i < laws_.states; ++i)
-        value(Input::state, i)[k + 1] = values_[laws_.rate[i]][k] / (k + 1);
+      for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[k + 1] = values_[laws_.rate[i]][k] / (k + 1);
     return hold;
   }
 

@@ -33,6 +33,21 @@ void FloorCursor::next_segment() {
   offset_ = 0;
 }
 
+FloorCursor::Place FloorCursor::place() const {
+  return {knots_ + segment_ + 1,
+          horizontal_ + segment_ * stride_,
+          vertical_ ? vertical_ + segment_ * stride_ : nullptr,
+          start_,
+          offset_,
+          segments_ - segment_};
+}
+
+void FloorCursor::go_to(std::size_t segments_left, double start, double offset) {
+  segment_ = segments_ - segments_left;
+  start_ = start;
+  offset_ = offset;
+}
+
 void FloorCursor::next_run() {
   segment_ = std::min(segments_, segment_ + FloorMotion::run_length);
   start_ = knots_[segment_] * stretch_;

@@ -23,6 +23,15 @@ class FloorCursor {
   void next_segment();  // to the first instant of the next segment
   void next_run();      // to the first instant of the next run of segments
 
+  // The segment's coefficients, and those of a vertical channel or null.
+  struct Place {
+    const double *knot_at_end, *horizontal, *vertical;
+    double start, offset;  // [s]
+    std::size_t left;      // segments, the present one included
+  };
+  Place place() const;
+  void go_to(std::size_t segments_left, double start, double offset);
+
   // Bounds of the floor's accelerations [m/s2], over the present segment, or over the run that starts here.
   struct Bound {
     double a, v;

@@ -6,7 +6,6 @@
 
 namespace freestand::dynamics {
 namespace {
-constexpr double beyond_all_bounds = 1e6;  // [m], [rad] and per second: a law feeds the motion
 constexpr int steps_watched = 10000;
 constexpr double least_progress = 0.1;  // of them within one segment of the motion, times p: a law stands before
                                         // a place where it has no value
@@ -63,21 +62,28 @@ Rig::AtRest Integration::laws_at_rest() const {
 
 void Integration::wait() {
   const Rig::AtRest rest = laws_at_rest();
-  const auto quiet = [&](FloorCursor::Bound bound) {
-    return !peaks.may_exceed(bound.a, bound.v) && rig.stays_put(bound.a, bound.v, rest);
-  };
   while (!cursor.motion_over()) {
-    if (!recorder.wanted() && cursor.run_starts_here() && quiet(cursor.run_bound())) {
-      cursor.next_run();
-      steps_ = 0;
-      continue;
+    if (!recorder.wanted() && cursor.run_starts_here()) {
+      const FloorCursor::Bound run = cursor.run_bound();
+      if (!peaks.may_exceed(run.a, run.v) && rig.stays_put(run.a, run.v, rest)) {
+        cursor.next_run();
+        steps_ = 0;
+        continue;
+      }
     }
-    if (quiet(cursor.segment_bound())) {
-      if (recorder.wanted()) recorder.rest(state, cursor.local<wait_order>(), cursor.time(), cursor.left());
+    const FloorCursor::Bound bound = cursor.segment_bound();
+    const bool stays = rig.stays_put(bound.a, bound.v, rest);
+    if (stays && !recorder.wanted() && !peaks.may_exceed(bound.a, bound.v)) {
       next_segment();
       continue;
     }
     const auto floor = cursor.local<wait_order>();
+    if (stays) {
+      peaks.observe_rest(rig, floor, cursor.left());
+      if (recorder.wanted()) recorder.rest(state, floor, cursor.time(), cursor.left());
+      next_segment();
+      continue;
+    }
     Found found;
     bool to_knot = true;
     with_contact_arc<wait_order>(rig, state, cursor.time(), floor, [&](const auto& arc) {

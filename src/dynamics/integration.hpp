@@ -52,6 +52,8 @@ void go_to(const Rig& rig, State& state, const LawFlight<N>& flight, double tau)
   for (int i = 0; i < rig.laws->states; ++i) state.states[static_cast<std::size_t>(i)] = flight.states[i].at(tau);
 }
 
+inline constexpr double beyond_all_bounds = 1e6;  // [m], [rad] and per second: a law feeds the motion
+
 class Integration {
  public:
   Integration(const Setup& setup, const Settings& settings, History* history);
@@ -69,6 +71,12 @@ class Integration {
   void next_segment() {
     cursor.next_segment();
     steps_ = 0;
+  }
+  // Others have gone along the motion for it, from knot to knot.
+  void went_to(std::size_t segments_left, double start, double offset) {
+    cursor.go_to(segments_left, start, offset);
+    if (offset == 0) steps_ = 0;
+    state.doubt = 1;
   }
   // Time goes on: what was special about the last instant is over.
   void left_instant();

@@ -141,8 +141,7 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     wall.add(f, sine, cosine, floor.a, k, pull, turn);
     f.ax[k] = value(Input::acceleration)[k] = pull;
     laws.tape.advance(laws.friction_end, laws.tape.size(), k, state.sides, values);
-    for (int i = 0; i < laws.states; ++i)
-      value(Input::state, i)[k + 1] = values[laws.rate[i]][k] * over;
+    for (int i = 0; i < laws.states; ++i) value(Input::state, i)[k + 1] = values[laws.rate[i]][k] * over;
     f.deflection[k + 1] = unload * f.deflection[k] * over;
     f.x[k + 1] = f.vx[k] * over;
     f.vx[k + 1] = (pull - floor.a[k]) * over;

@@ -1,7 +1,7 @@
 // The laws at one instant, apart from any step: in a blow, at rest, and as a check of a series.
 #pragma once
 
-#include "dynamics/law_arc.hpp"
+#include "dynamics/law_step.hpp"
 
 namespace freestand::dynamics {
 

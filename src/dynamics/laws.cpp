@@ -1,6 +1,7 @@
 #include "dynamics/laws.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace freestand::dynamics {
@@ -93,6 +94,59 @@ bool Laws::grip_changes() const {
   for (const Input input : {Input::path, Input::side, Input::sigma, Input::speed})
     constant |= 1U << static_cast<int>(input);
   return friction >= 0 && (tape.dependence(friction) & ~constant) != 0;
+}
+
+bool Laws::straight() const {
+  for (int i = input_count; i < tape.size(); ++i) switch (tape.node({nullptr, i})->op) {
+      case Op::constant:
+      case Op::affine:
+      case Op::add:
+      case Op::subtract:
+      case Op::abs:
+      case Op::positive:
+      case Op::step:
+      case Op::latch:
+        break;
+      default:
+        return false;
+    }
+  return !uses(Input::normal);
+}
+
+bool Laws::in_packs(bool turns, bool slips) const {
+  if (turns && (sees_normal_force(slips) || (slips && friction >= 0 && tape.depends(friction, Input::normal))))
+    return false;
+  if (slips) return !(legs.frequency_radps > 0 && friction >= 0 && tape.depends(friction, Input::speed));
+  for (int j = 0; j < tape.kink_count(); ++j) {
+    const int node = tape.kink_node(j), argument = tape.kink_argument(j);
+    if (node < forces_end || node >= friction_end) continue;
+    if (tape.depends(argument, Input::sigma) || tape.depends(argument, Input::speed)) return false;
+  }
+  return true;
+}
+
+bool Laws::same_shape(const Laws& other) const {
+  const auto numbers = [](const Laws& laws) {
+    return std::array{laws.force,
+                      laws.moment,
+                      laws.friction,
+                      laws.forces_end,
+                      laws.friction_end,
+                      laws.states,
+                      laws.tape.size(),
+                      laws.walls.right.stands + 2 * laws.walls.left.stands,
+                      static_cast<int>(laws.legs.frequency_radps > 0),
+                      static_cast<int>(laws.carried_mass == 1)};
+  };
+  if (numbers(*this) != numbers(other)) return false;
+  if (!std::equal(rate, rate + states, other.rate) ||
+      !std::equal(relative_velocity, relative_velocity + states, other.relative_velocity))
+    return false;
+  for (int i = input_count; i < tape.size(); ++i) {
+    const Node &x = *tape.node({nullptr, i}), &y = *other.tape.node({nullptr, i});
+    if (x.op != y.op || x.a != y.a || x.b != y.b) return false;
+  }
+  return true;
 }
 
 std::uint32_t Laws::initial_sides() const {

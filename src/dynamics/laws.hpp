@@ -45,6 +45,14 @@ struct Laws {
   }
   // The share of the normal force that friction may take changes while a contact is stuck.
   bool grip_changes() const;
+  // Sums and multiples of what they look at, on either side of their kinks: they bend no series that the block does not bend
+  // itself, whose last terms tell what a step neglects.
+  bool straight() const;
+  // A pack can step along: nothing needs to be solved for a force or a speed that a law follows while it sets it, and no
+  // kinks turn with the direction of a slip that is about to begin.
+  bool in_packs(bool turns, bool slips) const;
+  // The two differ in numbers only.
+  bool same_shape(const Laws& other) const;
   // On which side of their kinks the laws are when nothing has moved yet.
   std::uint32_t initial_sides() const;
   // The same for the inputs in `values`, whose nodes are filled in; what has broken in `before` stays broken.

@@ -37,17 +37,19 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
   trial.released = trial.wall != 0 && at_wall == AtWall::released;
   if (sigma == 0) trial.foot = 0;
   settle_kinks(rig, trial, [&] { return LawStep<1>(rig, trial, cursor.time(), cursor.local<1>()).run(); });
-  const auto consistent = [&](const auto& arc) {
+  const auto verdict = [&](const auto& arc) {
     AllHold all;
     for_each_witness(rig, trial, arc, all);
     // A slip or a rotation that is to start must start: zero to all orders is the stuck mode's, not this one's.
-    const bool starts_slip =
-        sigma == 0 || sign_after(scaled(double(sigma), slip_speed(arc)), {1, rig.force_zero * state.doubt}) > 0;
-    const bool starts_turn =
-        pivot == 0 || sign_after(scaled(double(pivot), arc.theta), {2, rig.turn_zero * state.doubt}) > 0;
-    return has_forces(arc) && all.hold() && starts_slip && starts_turn;
+    if (sigma != 0) all.must_rise(scaled(double(sigma), slip_speed(arc)), {1, rig.force_zero * state.doubt});
+    if (pivot != 0) all.must_rise(scaled(double(pivot), arc.theta), {2, rig.turn_zero * state.doubt});
+    return !has_forces(arc) ? Verdict::fails : all.verdict();
   };
-  if (!with_contact_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) return false;
+  // A few terms mostly tell.
+  Verdict found = with_contact_arc<3>(rig, trial, cursor.time(), cursor.local<3>(), verdict);
+  if (found == Verdict::holds_so_far || found == Verdict::has_not_begun)
+    found = with_contact_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), verdict);
+  if (found == Verdict::fails || found == Verdict::has_not_begun) return false;
   state = trial;
   return true;
 }
@@ -57,7 +59,7 @@ bool flies(const Rig& rig, const FloorCursor& cursor, State& state) {
   const auto consistent = [&](const auto& flight) {
     AllHold all;
     for_each_witness(rig, trial, flight, all);
-    return all.hold();
+    return all.verdict() != Verdict::fails;
   };
   for (const bool released : {true, false}) {
     if (!released && trial.wall == 0) return false;

@@ -1,7 +1,8 @@
 # The kernels of whole blocks, once per instruction set. A portable build (x86-64-v2) holds three and picks at run time.
 function(freestand_kernels ISA)
   add_library(freestand_kernels_${ISA} OBJECT ${CMAKE_SOURCE_DIR}/src/dynamics/pack/kernels.cpp
-              ${CMAKE_SOURCE_DIR}/src/dynamics/pack/shaken_kernels.cpp)
+              ${CMAKE_SOURCE_DIR}/src/dynamics/pack/shaken_kernels.cpp
+              ${CMAKE_SOURCE_DIR}/src/dynamics/pack/law_kernels.cpp)
   target_include_directories(freestand_kernels_${ISA} PRIVATE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/include)
   target_compile_definitions(freestand_kernels_${ISA} PRIVATE FREESTAND_ISA=${ISA} FREESTAND_ISA_NAME="${ISA}")
   target_compile_options(freestand_kernels_${ISA} PRIVATE ${ARGN})

@@ -82,6 +82,12 @@ class Peaks {
     observe_acceleration(rig, flight.ax, Series<double, N>::zero(), tau);
   }
 
+  // At rest the block has the acceleration of the floor.
+  template <int N>
+  void observe_rest(const Rig& rig, const Floor<double, N>& floor, double tau) {
+    observe_acceleration(rig, floor.a, floor.g, tau);
+  }
+
   // Would a total acceleration within these bounds be a new peak?
   bool may_exceed(double a, double v) const {
     const double peak = response_.peak_acceleration_mps2;
@@ -89,6 +95,7 @@ class Peaks {
   }
 
   Response& response() { return response_; }
+  const Response& response() const { return response_; }
   bool finite() const { return finite_; }
 
  private:

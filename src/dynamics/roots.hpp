@@ -40,6 +40,8 @@ template <int N>
 bool first_root(const Series<double, N>& y, double h, ZeroTolerance zero, double& tau) {
   static_assert(N <= max_root_order);
   if (surely_positive(y, h)) return false;
+  if constexpr (N > 1)
+    if (zero.level > 0 && surely_rises_from_zero(y, h, zero.level == 1 ? zero.acceleration : 0.0)) return false;
   return detail::first_root(y.c, N, h, zero, tau);
 }
 

@@ -81,6 +81,15 @@ template <class Real, int N>
   }
 }
 
+// y[0] = 0 and y > 0 on all of (0, h] beyond doubt: y[1] is above `least`, >= 0.
+template <class Real, int N>
+[[gnu::always_inline]] inline auto surely_rises_from_zero(const Series<Real, N>& y, const Real& h, const Real& least) {
+  Series<Real, N - 1> over_tau;
+#pragma GCC unroll 16
+  for (int k = 0; k < N; ++k) over_tau[k] = y[k + 1];
+  return (y[0] == Real(0.0)) & (y[1] > least) & surely_positive(over_tau, h);
+}
+
 // |y| <= limit on all of [0, h] beyond doubt.
 template <class Real, int N>
 [[gnu::always_inline]] inline auto surely_within(const Series<Real, N>& y, const Real& h, const Real& limit) {

@@ -36,12 +36,18 @@ template <int N, class Real>
 // By so many tolerances the accelerations at the end of a step may miss those of its series.
 inline constexpr double defect_allowed = 10;
 
+// Steps are not halved below this, over the longest one.
+inline constexpr double shortest_step = 1e-6;
+
 // N: order of the steps on one corner. FlatN: order in which sliding is exact, degree of the motion + 2.
 template <int N, int FlatN>
 class TaylorIntegrator {
  public:
   TaylorIntegrator(const Setup& setup, const Settings& settings, History* history)
-      : life_(setup, settings, history), flat_exactly_(!life_.rig.laws), size_(setup.specimen.block) {}
+      : life_(setup, settings, history),
+        flat_exactly_(!life_.rig.laws),
+        straight_(life_.rig.laws && life_.rig.laws->straight()),
+        size_(setup.specimen.block) {}
 
   Response run() {
     while (goes_on()) step();
@@ -125,12 +131,15 @@ class TaylorIntegrator {
   // time, say) while later ones do not: the last term alone is no judge.
   template <int M>
   bool follows_laws(const State& before, const LawArc<M>& arc, const Floor<double, M>& floor, double tau) const {
+    const Laws& laws = *life_.rig.laws;
+    const bool grip_changes = before.sigma == 0 && laws.grip_changes();
+    if (straight_ && !grip_changes) return true;
     State end = before;
     go_to(life_.rig, end, arc, tau);
     const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
     LawStep<1> there_on(life_.rig, end, life_.cursor.time() + tau, there);
     const LawArc<1>& fresh = there_on.accelerations();
-    const double grip = grip_missed(life_.rig, end, life_.cursor.time() + tau, there, arc, tau);
+    const double grip = grip_changes ? grip_missed(life_.rig, end, life_.cursor.time() + tau, there, arc, tau) : 0.0;
     return missed_little(fresh.w[1], derivative(arc.w).at(tau), fresh.omega[1], derivative(arc.omega).at(tau), tau) &&
            grip * size_.over_speed * tau <= defect_allowed * life_.settings.tolerance;
   }
@@ -194,10 +203,9 @@ class TaylorIntegrator {
     return last * whole_power<N>(h) > tolerance ? std::pow(tolerance / last, 1.0 / N) : h;
   }
 
-  static constexpr double shortest_step = 1e-6;  // over the longest one
-
   Integration life_;
   bool flat_exactly_;  // steps of order FlatN are exact on both corners
+  bool straight_;      // laws
   Sizes size_;
 };
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "dynamics/contact.hpp"
-#include "dynamics/law_arc.hpp"
 #include "dynamics/law_flight.hpp"
+#include "dynamics/law_step.hpp"
 #include "dynamics/rig.hpp"
 #include "dynamics/roots.hpp"
 
@@ -285,17 +285,33 @@ class FirstEvent {
   Found found_;
 };
 
-// True when every witness of the mode is >= 0 just after the instant.
+// Whether every witness of a mode is >= 0 just after the instant. One whose known terms all vanish holds so far: further terms may
+// tell otherwise.
+enum class Verdict { fails, has_not_begun, holds_so_far, holds };
+
 class AllHold {
  public:
   template <int N>
   void operator()(Witness witness, const Series<double, N>& series, ZeroTolerance zero) {
-    if (!is_kink(witness)) hold_ = hold_ && sign_after(series, zero) >= 0;
+    if (is_kink(witness)) return;
+    const int sign = sign_after(series, zero);
+    fails_ = fails_ || sign < 0;
+    known_ = known_ && sign != 0;
   }
-  bool hold() const { return hold_; }
+  // What has to be > 0.
+  template <int N>
+  void must_rise(const Series<double, N>& series, ZeroTolerance zero) {
+    const int sign = sign_after(series, zero);
+    fails_ = fails_ || sign < 0;
+    begun_ = begun_ && sign > 0;
+  }
+  Verdict verdict() const {
+    if (fails_) return Verdict::fails;
+    return !begun_ ? Verdict::has_not_begun : known_ ? Verdict::holds : Verdict::holds_so_far;
+  }
 
  private:
-  bool hold_ = true;
+  bool fails_ = false, known_ = true, begun_ = true;
 };
 
 }  // namespace freestand::dynamics

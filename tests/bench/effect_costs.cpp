@@ -1,13 +1,14 @@
 // What each effect costs: the slide-rock samples of job P3 (jobs.hpp) with one effect of the catalogue, within its usual
 // range, in blocks as a sweep computes them, beside the same samples without it, in packs and one by one.
 //
-//   build/release/benchmark_effects [samples]
+//   build/release/benchmark_effects [samples [effect]]
 //
 // Processor time, medians of five runs in turns.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <string>
 
 #include "effects/effects.hpp"
 #include "jobs.hpp"
@@ -49,12 +50,13 @@ void run(Row& row, const std::vector<Shaking>& shakings) {
   row.microseconds.push_back(1e6 * seconds / static_cast<double>(shakings.size()));
 }
 
-void tell(std::size_t samples) {
+void tell(std::size_t samples, const std::string& only) {
   const auto records = benchmark_records(0.6);
   const Job job = benchmark_jobs(records, samples)[2];
   std::vector<Row> rows = {{"none, in packs", job.specimens, false, {}}, {"none, one by one", job.specimens, true, {}}};
   for (const dynamics::Effect& effect : effects::all())
-    rows.push_back({effect.name.c_str(), with(effect, job.specimens), false, {}});
+    if (only.empty() || effect.name == only)
+      rows.push_back({effect.name.c_str(), with(effect, job.specimens), false, {}});
   for (int i = 0; i < runs; ++i)
     for (Row& row : rows) run(row, job.shakings);
 
@@ -71,6 +73,6 @@ void tell(std::size_t samples) {
 }  // namespace freestand::bench
 
 int main(int argc, char** argv) {
-  freestand::bench::tell(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 960);
+  freestand::bench::tell(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 960, argc > 2 ? argv[2] : "");
   return 0;
 }

@@ -1,6 +1,7 @@
 // Compiled once per instruction set; everything in it has internal linkage but the one name that it gives out.
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/bouc_wen.hpp"
+#include "dynamics/pack/law_kernels.hpp"
 #include "dynamics/pack/rock.hpp"
 #include "dynamics/pack/shaken_kernels.hpp"
 #include "dynamics/pack/slide.hpp"
@@ -19,6 +20,8 @@ const BatchKernels kernels{FREESTAND_ISA_NAME,
                            slide_rock_samples<8, 8, BySpeed>,
                            slide_rock_shaken,
                            slide_rock_shaken_coarse,
-                           bouc_wen_samples};
+                           bouc_wen_samples,
+                           law_marches,
+                           pack_lanes};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA

@@ -26,6 +26,10 @@ inline double sin_outside(double x) {
   clear_upper_parts();
   return std::sin(x);
 }
+inline double cos_outside(double x) {
+  clear_upper_parts();
+  return std::cos(x);
+}
 inline double friction_factor_outside(const SpeedLaw& law, double speed) {
   clear_upper_parts();
   return friction_factor(law, speed);

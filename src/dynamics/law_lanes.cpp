@@ -1,0 +1,311 @@
+#include "dynamics/law_lanes.hpp"
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "dynamics/taylor_integrator.hpp"
+
+namespace freestand::dynamics {
+namespace {
+
+using Integrator = TaylorIntegrator<law_order, 3>;
+
+constexpr double no_motion[2] = {0, 0};
+
+// Samples of one mode, whose laws have the same shape.
+class Group {
+ public:
+  Group(const Integration& life, const Settings& settings) : laws_(*life.rig.laws), rows_(std::make_unique<LawRows>()) {
+    rows_->laws = &laws_;
+    rows_->turns = life.state.pivot != 0;
+    rows_->slips = life.state.sigma != 0;
+    rows_->can_slip = life.rig.can_slip;
+    rows_->can_rock = life.rig.can_rock;
+    rows_->slip_by_side = settings.slip_by_side;
+    rows_->tolerance = settings.tolerance;
+    for (int i = 0; i < law_slots; ++i) stand_still(i);
+  }
+
+  bool takes(const Integration& life) const {
+    return rows_->turns == (life.state.pivot != 0) && rows_->slips == (life.state.sigma != 0) &&
+           rows_->can_slip == life.rig.can_slip && rows_->can_rock == life.rig.can_rock &&
+           laws_.same_shape(*life.rig.laws);
+  }
+  int count() const { return rows_->lanes; }
+  int lane(int slot) const { return lane_[slot]; }
+  LawRows& rows() { return *rows_; }
+
+  void enter(int lane, Integrator& integrator) {
+    const int i = rows_->lanes++;
+    lane_[i] = lane;
+    write_tape(i, *integrator.life().rig.laws);
+    write(i, integrator);
+  }
+
+  // The sample as it is now; the numbers of its tape are there.
+  void write(int i, Integrator& integrator) {
+    const Integration& life = integrator.life();
+    const Rig& rig = life.rig;
+    const State& state = life.state;
+    const int pivot = state.pivot != 0 ? state.pivot : 1;
+    const Standing<double> at = LawStep<law_order>::standing_of(rig, state, life.cursor.time());
+    const Sizes& size = integrator.sizes();
+    const Response& peaks = life.peaks.response();
+    const FloorCursor::Place place = life.cursor.place();
+    const auto set = [&](Row row, double x) { rows_->row(row)[i] = x; };
+    set(Row::corner, rig.offset(pivot));
+    set(Row::height, rig.h);
+    set(Row::gyration2, rig.k2);
+    set(Row::half_base, at.half_base);
+    set(Row::mu_k, rig.mu_k);
+    set(Row::mu_s, rig.mu_s);
+    set(Row::mass, at.mass);
+    set(Row::leg_rate, at.leg_rate);
+    set(Row::leg_damping, at.leg_damping);
+    set(Row::pivot, at.pivot);
+    set(Row::sigma, at.sigma);
+    set(Row::theta, state.theta);
+    set(Row::omega, state.omega);
+    set(Row::xi, state.xi);
+    set(Row::w, state.w);
+    set(Row::path, state.path);
+    set(Row::deflection, state.deflection);
+    set(Row::foot, state.foot);
+    set(Row::right_gap, at.right_wall.gap);
+    set(Row::right_across, at.right_wall.across);
+    set(Row::right_up, at.right_wall.up);
+    set(Row::left_gap, at.left_wall.gap);
+    set(Row::left_across, at.left_wall.across);
+    set(Row::left_up, at.left_wall.up);
+    set(Row::right_arm, rig.right / rig.h);
+    set(Row::left_arm, rig.left / rig.h);
+    set(Row::over_height, 1 / rig.h);
+    set(Row::over_angle, size.over_angle);
+    set(Row::over_rotation, size.over_rotation);
+    set(Row::over_length, size.over_length);
+    set(Row::over_speed, size.over_speed);
+    set(Row::longest_step_s, size.longest_step_s);
+    set(Row::scale, life.shaking.scale);
+    set(Row::vertical_scale, place.vertical ? life.shaking.vertical_scale : 0.0);
+    set(Row::stretch, life.shaking.stretch);
+    set(Row::push, rig.push);
+    set(Row::gravity, rig.g);
+    set(Row::start, place.start);
+    set(Row::offset, place.offset);
+    set(Row::peak_slip, peaks.peak_slip_m);
+    set(Row::peak_slip_right, peaks.peak_slip_right_m);
+    set(Row::peak_slip_left, peaks.peak_slip_left_m);
+    set(Row::slid_path, peaks.slid_path_m);
+    set(Row::peak_rotation, peaks.peak_rotation_rad);
+    set(Row::peak_acceleration, peaks.peak_acceleration_mps2);
+    set(Row::force_zero, rig.force_zero);
+    set(Row::touching, touching(rig));
+    for (int k = 0; k < laws_.states; ++k) state_row(k)[i] = state.states[static_cast<std::size_t>(k)];
+    const Laws& laws = *rig.laws;
+    for (int kink = 0; kink < laws.tape.kink_count(); ++kink) {
+      rows_->side[kink][i] = state.sides >> kink & 1U ? -1 : 1;
+      rows_->turns_yet[kink][i] = !laws.tape.latched(kink, state.sides);
+    }
+    rows_->knot[i] = place.knot_at_end;
+    rows_->horizontal[i] = place.horizontal;
+    rows_->vertical[i] = place.vertical ? place.vertical : no_motion;
+    rows_->vertical_stride[i] = place.vertical ? 2 : 0;
+    rows_->segments[i] = static_cast<int>(place.left);
+  }
+
+  // Back to the text for single samples.
+  void read(int i, Integrator& integrator) {
+    Integration& life = integrator.life();
+    State& state = life.state;
+    const auto get = [&](Row row) { return rows_->row(row)[i]; };
+    state.theta = get(Row::theta);
+    state.omega = get(Row::omega);
+    state.xi = get(Row::xi);
+    state.w = get(Row::w);
+    state.path = get(Row::path);
+    state.deflection = get(Row::deflection);
+    state.foot = get(Row::foot);
+    for (int k = 0; k < laws_.states; ++k) state.states[static_cast<std::size_t>(k)] = state_row(k)[i];
+    life.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset));
+    Response& peaks = life.peaks.response();
+    peaks.peak_slip_m = get(Row::peak_slip);
+    peaks.peak_slip_right_m = get(Row::peak_slip_right);
+    peaks.peak_slip_left_m = get(Row::peak_slip_left);
+    peaks.slid_path_m = get(Row::slid_path);
+    peaks.peak_rotation_rad = get(Row::peak_rotation);
+    peaks.peak_acceleration_mps2 = get(Row::peak_acceleration);
+  }
+
+  // The last one takes its slot.
+  void remove(int i) {
+    const int last = --rows_->lanes;
+    if (i != last) take_place_of(last, i);
+    stand_still(last);
+  }
+
+ private:
+  double* state_row(int k) { return rows_->numbers[static_cast<int>(Row::state) + k]; }
+
+  void write_tape(int i, const Laws& laws) {
+    for (int node = input_count; node < laws.tape.size(); ++node) {
+      rows_->value[node][i] = laws.tape.node({nullptr, node})->value;
+      rows_->shift[node][i] = laws.tape.node({nullptr, node})->shift;
+    }
+  }
+
+  // An empty slot, which the packs read all the same.
+  void stand_still(int i) { rows_->knot[i] = rows_->horizontal[i] = rows_->vertical[i] = no_motion; }
+
+  void take_place_of(int last, int i) {
+    lane_[i] = lane_[last];
+    const auto move = [&](auto& row) { row[i] = row[last]; };
+    for (auto& row : rows_->numbers) move(row);
+    for (int node = input_count; node < laws_.tape.size(); ++node) move(rows_->value[node]), move(rows_->shift[node]);
+    for (int kink = 0; kink < laws_.tape.kink_count(); ++kink) move(rows_->side[kink]), move(rows_->turns_yet[kink]);
+    move(rows_->knot);
+    move(rows_->horizontal);
+    move(rows_->vertical);
+    move(rows_->vertical_stride);
+    move(rows_->segments);
+  }
+
+  const Laws laws_;
+  std::unique_ptr<LawRows> rows_;
+  int lane_[law_slots] = {};
+};
+
+// A lane may go along with others: nothing is special about this instant.
+bool can_march(const Integration& life) {
+  const State& s = life.state;
+  const bool contact = s.mode == Mode::slide || s.mode == Mode::rock || s.mode == Mode::slide_rock ||
+                       (s.mode == Mode::rest && !life.waits());
+  return contact && !life.cursor.motion_over() && s.wall == 0 && !s.released && s.doubt == 1 && s.turned_kink < 0 &&
+         s.held_kink < 0 && life.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
+}
+
+class Pool {
+ public:
+  Pool(const BatchKernels& kernels, std::span<const Specimen> specimens, std::span<const Shaking> shakings,
+       const Settings& settings, const std::vector<std::size_t>& which, std::span<Response> responses)
+      : kernels_(kernels),
+        specimens_(specimens),
+        shakings_(shakings),
+        settings_(settings),
+        which_(which),
+        responses_(responses),
+        series_(static_cast<std::size_t>(kernels.lanes)) {}
+
+  void run() {
+    for (int lane = 0; lane < law_slots; ++lane) refill(lane);
+    while (Group* group = fullest()) march(*group);
+  }
+
+ private:
+  struct Lane {
+    std::size_t sample = 0;
+    std::optional<Integrator> integrator = {};
+  };
+
+  Group* fullest() {
+    Group* best = nullptr;
+    for (Group& group : groups_)
+      if (group.count() > (best ? best->count() : 0)) best = &group;
+    return best;
+  }
+
+  void march(Group& group) {
+    LawRows& rows = group.rows();
+    const Stopped stopped =
+        kernels_.under_laws[rows.turns][rows.slips](rows, 0, reinterpret_cast<double*>(series_.data()));
+    // From the last one on, since the last one of the group takes the place of one that leaves.
+    for (int slot = kernels_.lanes; slot-- > 0;) {
+      const unsigned bit = 1U << slot;
+      if (!((stopped.before_step | stopped.at_end) & bit)) continue;
+      const int lane = group.lane(slot);
+      Integrator& integrator = *lanes_[lane].integrator;
+      group.read(slot, integrator);
+      if (integrator.goes_on() && (stopped.before_step & bit)) integrator.step_along(series_of(slot, integrator));
+      if (walks_on(integrator) && group.takes(integrator.life())) {
+        group.write(slot, integrator);
+        continue;
+      }
+      group.remove(slot);
+      place(lane);
+    }
+  }
+
+  const LawArc<law_order>& series_of(int slot, Integrator& integrator) {
+    LawArc<law_order>& arc = series_[static_cast<std::size_t>(slot)];
+    const Laws& laws = *integrator.life().rig.laws;
+    for (int kink = 0; kink < laws.tape.kink_count(); ++kink)
+      if (laws.tape.latched(kink, integrator.life().state.sides)) arc.kink[kink] = Series<double, law_order>::zero();
+    return arc;
+  }
+
+  // Step by step, until a group can take it. False: it has ended.
+  static bool walks_on(Integrator& integrator) {
+    while (integrator.goes_on()) {
+      if (can_march(integrator.life())) return true;
+      integrator.step();
+    }
+    return false;
+  }
+
+  void place(int lane) {
+    Integrator& integrator = *lanes_[lane].integrator;
+    if (walks_on(integrator))
+      group_of(integrator.life()).enter(lane, integrator);
+    else
+      finish(lane);
+  }
+
+  Group& group_of(const Integration& life) {
+    for (Group& group : groups_)
+      if (group.takes(life)) return group;
+    return groups_.emplace_back(life, settings_);
+  }
+
+  void finish(int lane) {
+    responses_[lanes_[lane].sample] = lanes_[lane].integrator->life().result();
+    refill(lane);
+  }
+
+  void refill(int lane) {
+    lanes_[lane].integrator.reset();
+    if (taken_ == which_.size()) return;
+    const std::size_t sample = which_[taken_++];
+    lanes_[lane].sample = sample;
+    lanes_[lane].integrator.emplace(set_up(specimens_[sample], shakings_[sample]), settings_, nullptr);
+    place(lane);
+  }
+
+  const BatchKernels& kernels_;
+  const std::span<const Specimen> specimens_;
+  const std::span<const Shaking> shakings_;
+  const Settings settings_;
+  const std::vector<std::size_t>& which_;
+  const std::span<Response> responses_;
+  std::size_t taken_ = 0;
+  std::vector<LawArc<law_order>> series_;  // of the lanes that stop
+  std::deque<Group> groups_;
+  Lane lanes_[law_slots];
+};
+
+}  // namespace
+
+bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
+  const auto has_legs = [](const EffectUse& use) { return static_cast<bool>(use.effect->legs); };
+  const auto& effects = setup.specimen.effects;
+  return setup.specimen.model != Model::bouc_wen && has_laws(setup.specimen) && setup.shaking.motion &&
+         setup.shaking.motion->degree == 1 && admissible(setup, settings) &&
+         std::none_of(effects.begin(), effects.end(), has_legs);
+}
+
+void respond_in_law_lanes(const BatchKernels& kernels, std::span<const Specimen> specimens,
+                          std::span<const Shaking> shakings, const Settings& settings,
+                          const std::vector<std::size_t>& which, std::span<Response> responses) {
+  std::make_unique<Pool>(kernels, specimens, shakings, settings, which, responses)->run();
+}
+
+}  // namespace freestand::dynamics

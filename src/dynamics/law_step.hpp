@@ -1,0 +1,503 @@
+// The equations of motion with effects: contact.hpp's, with the friction factor F, the added force X and moment T, the
+// share M of the mass that moves sideways with the block, legs, and states of the effects' own.
+//
+//   f_x = M (w' + r_y theta'' - r_x omega^2 + a) - X,   f_y = g' - r_x theta'' - r_y omega^2
+//   k^2 theta'' = r_x f_y - r_y f_x + T
+//
+//   rock        (k^2 + r_x^2 + M r_y^2) theta'' = r_x (g' - r_y omega^2) - r_y (M (a - r_x omega^2) - X) + T
+//   slide-rock  f_x = -sigma mu F f_y:  (k^2 + r_x q) theta'' = n q + T,  q = r_x + sigma mu F r_y,  n = g' - r_y omega^2
+//   on legs     w is the speed of the block's base, over the legs; the foot under them moves by w - y', y the deflection.
+//               stuck: y' = w and f_x = -(W^2 y + 2 z W w);  slipping: f_x = -sigma mu F f_y and y' follows from the legs.
+//               (k^2 + r_x^2) theta'' = r_x (g' - r_y omega^2) - r_y f_x + T when stuck
+//   then        w' = (f_x + X)/M - a - r_y theta'' + r_x omega^2
+//   leaning     an edge at height e stays at a wall, w + e omega = 0, whose push adds X_w to X and l X_w to T, l = e - r_y:
+//               stuck: nothing moves, e X_w = r_y (M a - X) - r_x g' - T;
+//               slipping: (k^2 + r_x q + l (M l + sigma mu F r_x)) theta'' = n q + T + l A,  X_w = A - (M l + sigma mu F r_x) theta'',
+//               A = M (a - r_x omega^2 - e' omega) - X + sigma mu F n
+//   F of f_y    slide-rock is an equation for f_y: f_y = n - r_x theta'', k^2 theta'' = r_x f_y + sigma mu F(f_y) r_y f_y + T.
+//               The corner is let go where the block without it would leave the floor: n = r_x T/k^2. There f_y need not vanish.
+#pragma once
+
+#include <type_traits>
+
+#include "dynamics/equation.hpp"
+#include "dynamics/law_arc.hpp"
+
+namespace freestand::dynamics {
+
+// Which mode samples are in: they turn about a corner, or not, and slip, or not.
+struct AnyKind {
+  bool turns_, slips_;
+  bool turns() const { return turns_; }
+  bool slips() const { return slips_; }
+};
+template <bool turning, bool slipping>
+struct Kind {
+  static constexpr bool turns() { return turning; }
+  static constexpr bool slips() { return slipping; }
+};
+
+template <int N, class Real = double, class Numbers = OwnNumbers, class Kind = AnyKind>
+class LawStep {
+  static constexpr bool single = std::is_same_v<Real, double>;
+
+ public:
+  static constexpr double foot_zero = 1e-10;  // a foot under legs that is slower does not slip [m/s]
+
+  // One sample.
+  LawStep(const Rig& rig, const State& state, double time, const Floor<double, N>& floor)
+      : LawStep(*rig.laws, own_, OwnNumbers(rig.laws->tape, state.sides), AnyKind{state.pivot != 0, state.sigma != 0},
+                floor) {
+    own_ = standing_of(rig, state, time);
+    rig_ = &rig;
+    state_ = &state;
+    leans_ = turns() && state.at_wall();
+    friction_sees_force_ =
+        turns() && !leans_ && slips() && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::normal);
+  }
+
+  static Standing<double> standing_of(const Rig& rig, const State& state, double time) {
+    const int pivot = state.pivot != 0 ? state.pivot : 1;
+    Standing<double> at{rig.corner(pivot),
+                        state.pivot * rig.half_base(),
+                        rig.mu_k,
+                        rig.mu_s,
+                        rig.laws->carried_mass,
+                        rig.laws->legs.frequency_radps,
+                        rig.laws->legs.damping,
+                        double(state.pivot),
+                        double(state.sigma),
+                        state.theta,
+                        state.omega,
+                        state.xi,
+                        state.w,
+                        state.path,
+                        state.deflection,
+                        state.foot,
+                        {},
+                        time,
+                        {},
+                        {}};
+    for (int i = 0; i < rig.laws->states; ++i) at.states[i] = state.states[static_cast<std::size_t>(i)];
+    for (const int side : {1, -1}) {
+      (side > 0 ? at.right_wall : at.left_wall) =
+          to_wall(rig, side, lever_over_corner(rig, pivot, side, touching_edge(state.pivot, side)));
+    }
+    return at;
+  }
+
+  // Samples of one kind that have the laws' tape in common, but for its numbers. Those for which Laws::in_packs() holds. `at` and
+  // `floor` are read anew by every run().
+  LawStep(const Laws& laws, const Standing<Real>& at, const Numbers& numbers, const Kind& kind,
+          const Floor<Real, N>& floor)
+      : laws_(laws),
+        at_(at),
+        numbers_(numbers),
+        floor_(floor),
+        kind_(kind),
+        legs_(laws.legs.frequency_radps > 0),
+        whole_(laws.carried_mass == 1),
+        sees_place_(laws.reads(Input::u) || laws.reads(Input::v) || laws.walls.any()) {
+    if (laws_.moment < 0) y_.moment = Series<Real, N>::zero();
+    if (laws_.friction < 0) {
+      factor_ = Series<Real, N>::zero();
+      factor_[0] = Real(1.0);
+    }
+  }
+  LawStep(const LawStep&) = delete;
+  LawStep& operator=(const LawStep&) = delete;
+
+  const LawArc<N, Real>& run() {
+    begin();
+#pragma GCC unroll 16
+    for (int k = 0; k < N; ++k) coefficient(k);
+    finish();
+    return y_;
+  }
+
+  // The accelerations alone: coefficients 1 of the speeds.
+  const LawArc<N, Real>& accelerations() {
+    begin();
+    coefficient(0);
+    return y_;
+  }
+
+ private:
+  bool turns() const { return kind_.turns(); }
+  bool slips() const { return kind_.slips(); }
+
+  void begin() {
+    const Corner<Real>& body = at_.body;
+    if (whole_) inertia0_ = body.k2 + body.c * body.c + body.h * body.h;
+    const Rotation<Real> rotation = rotation_by(at_.theta);
+    y_.versine = rotation.versine;
+    y_.theta[0] = at_.theta;
+    y_.omega[0] = at_.omega;
+    y_.xi[0] = at_.xi;
+    y_.w[0] = at_.w;
+    y_.rx[0] = body.h * rotation.sine - body.c * rotation.cosine;
+    y_.ry[0] = body.c * rotation.sine + body.h * rotation.cosine;
+    y_.path[0] = at_.path;
+    y_.deflection[0] = at_.deflection;
+    if (sees_place_) {
+      sine_[0] = rotation.sine;
+      cosine_[0] = rotation.cosine;
+    }
+    for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[0] = at_.states[i];
+    if (laws_.reads(Input::t)) start(Input::t, at_.time, 1.0);
+    if (laws_.reads(Input::side)) start(Input::side, at_.pivot, 0.0);
+    if (laws_.reads(Input::sigma)) start(Input::sigma, at_.sigma, 0.0);
+  }
+
+  [[gnu::always_inline]] void coefficient(int k) {
+    kinematics(k);
+    forces(k);
+    integrate(k);
+  }
+
+  Series<Real, N>& value(Input input, int offset = 0) { return values_[static_cast<int>(input) + offset]; }
+  void start(Input input, const Real& first, double second) {
+    value(input) = Series<Real, N>::zero();
+    value(input)[0] = first;
+    value(input)[1] = Real(second);
+  }
+
+  [[gnu::always_inline]] void kinematics(int k) {
+    y_.n[k] = floor_.g[k];
+    if (turns()) {
+      omega2_[k] = product(y_.omega, y_.omega, k);
+      y_.n[k] = y_.n[k] - product(y_.ry, omega2_, k);
+      rx_omega2_[k] = product(y_.rx, omega2_, k);
+    }
+    y_.d[k] = Real(0.0);
+    if (sees_place_) place(k);
+    if (laws_.reads(Input::theta)) value(Input::theta)[k] = y_.theta[k];
+    if (laws_.reads(Input::omega)) value(Input::omega)[k] = y_.omega[k];
+    if (laws_.reads(Input::path)) value(Input::path)[k] = y_.path[k];
+    // Stages of a step that reaches over the end of a slip may ask for a speed below zero, where laws mean nothing. Under legs
+    // it is the foot that slips: act() finds its speed.
+    if (!legs_ && laws_.reads(Input::speed)) {
+      const Real speed = at_.sigma * y_.w[k];
+      value(Input::speed)[k] = numbers_.choose(at_.sigma * at_.w < Real(0.0), Real(0.0), speed);
+    }
+    for (int i = 0; i < laws_.states; ++i) y_.states[i][k] = value(Input::state, i)[k];
+  }
+
+  // Where the middle of the base is, and how fast.
+  void place(int k) {
+    Series<Real, N>&u = value(Input::u), &v = value(Input::v);
+    u[k] = y_.xi[k];
+    v[k] = y_.w[k];
+    if (!turns()) return;
+    if (k > 0) {
+      const Real &c = at_.body.c, &h = at_.body.h, to_angle = Real(1.0) / (h * h + c * c);
+      sine_[k] = (h * y_.rx[k] + c * y_.ry[k]) * to_angle;
+      cosine_[k] = (h * y_.ry[k] - c * y_.rx[k]) * to_angle;
+    }
+    u[k] = u[k] + at_.half_base * (k == 0 ? y_.versine : -cosine_[k]);
+    v[k] = v[k] + at_.half_base * product(sine_, y_.omega, k);
+  }
+
+  // On a corner laws may depend on the normal force, which depends on them.
+  [[gnu::always_inline]] void forces(int k) {
+    if constexpr (single) {
+      if (k == 0 && friction_sees_force_) {
+        act(0, 0.0);
+        let_go_ = y_.n[0] < y_.rx[0] * y_.moment[0] / at_.body.k2;
+      }
+      if (let_go_) return static_cast<void>(act(k, 0.0));
+      if (turns() && laws_see_the_normal_force()) {
+        act(k, solved(k == 0, y_.n[k] / standard_gravity_mps2, [&](double normal) { return act(k, normal) - normal; }));
+        return;
+      }
+    }
+    const bool seen = laws_.reads(Input::normal);
+    const Real normal = act(k, seen ? y_.n[k] * Real(1 / standard_gravity_mps2) : Real(0.0));
+    if (seen) see_normal(k, normal);
+  }
+
+  // Stages of a step that reaches over a lift-off may ask for a floor that pulls, where laws mean nothing: they see no force
+  // then, and a corner whose friction follows its force has none.
+  void see_normal(int k, const Real& normal) {
+    Series<Real, N>& seen = value(Input::normal);
+    if (k == 0)
+      seen[0] = numbers_.choose(normal < Real(least_normal), Real(least_normal), normal);
+    else
+      seen[k] = numbers_.choose(seen[0] == Real(least_normal), Real(0.0), normal);
+  }
+
+  bool laws_see_the_normal_force() const { return laws_.sees_normal_force(slips()); }
+
+  // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
+  [[gnu::always_inline]] Real act(int k, const Real& normal) {
+    if (laws_.reads(Input::normal)) see_normal(k, normal);
+    if constexpr (single) y_.fy[k] = standard_gravity_mps2 * normal;
+    if (laws_.forces_end > input_count) laws_.tape.advance(input_count, laws_.forces_end, k, numbers_, values_);
+    force_[k] = laws_.force < 0 ? Real(0.0) : values_[laws_.force][k];
+    if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
+    if (!slips()) {
+      stuck(k);
+    } else {
+      bool found = false;
+      if constexpr (single)
+        if (legs_ && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::speed)) {
+          slip_of_foot(k, solved(k == 0, k == 0 ? std::fmax(at_.sigma * at_.foot, 0.0) : 0.0,
+                                 [&](double speed) { return slip_of_foot(k, speed) - speed; }));
+          found = true;
+        }
+      if (!found) slip(k);
+    }
+    if constexpr (single) {
+      if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero * state_->doubt) y_.foot[0] = 0;
+      if (let_go_) y_.foot[k] = k == 0 ? (legs_ ? at_.foot : at_.w) : 0.0;  // it stands on nothing that would tell
+      if (friction_sees_force_) return (y_.n[k] - product(y_.rx, y_.alpha, k)) / standard_gravity_mps2;
+    }
+    return y_.fy[k] * Real(1 / standard_gravity_mps2);
+  }
+
+  // The slip at a speed of order k that the laws see; the speed that comes out.
+  Real slip_of_foot(int k, const Real& speed) {
+    value(Input::speed)[k] = legs_ && (k == 0 ? speed : value(Input::speed)[0]) <= 0 ? 0.0 : speed;
+    slip(k);
+    return at_.sigma * y_.foot[k];
+  }
+  [[gnu::always_inline]] void slip(int k) {
+    if (laws_.friction >= 0) factor_[k] = factor_from_tape(k);
+    slipping(k);
+  }
+
+  // theta'' D = numerator, D[0..k] known.
+  [[gnu::always_inline]] Real quotient(Real numerator, const Series<Real, N>& d, int k) const {
+#pragma GCC unroll 16
+    for (int i = 1; i <= k; ++i) numerator = numerator - d[i] * y_.alpha[k - i];
+    return numerator / d[0];
+  }
+
+  [[gnu::always_inline]] void stuck(int k) {
+    if constexpr (single)
+      if (leans_) return lean_stuck(k);
+    const Real leg_force = legs_ ? -(W2() * y_.deflection[k] + zW2() * y_.w[k]) : Real(0.0);
+    if (!turns()) {
+      y_.alpha[k] = Real(0.0);
+    } else {
+      load_[k] = legs_ ? leg_force : of_mass(floor_.a[k] - rx_omega2_[k]) - force_[k];  // or f_x of the legs
+      const Real numerator = product(y_.rx, y_.n, k) - product(y_.ry, load_, k) + y_.moment[k];
+      if (whole_ && !legs_) {
+        y_.alpha[k] = numerator / inertia0_;
+      } else {
+        const Real moved = legs_ ? Real(0.0) : at_.mass;
+        inertia_[k] = product(y_.rx, y_.rx, k) + moved * product(y_.ry, y_.ry, k) + (k == 0 ? at_.body.k2 : Real(0.0));
+        y_.alpha[k] = quotient(numerator, inertia_, k);
+      }
+    }
+    y_.fy[k] = turns() ? y_.n[k] - product(y_.rx, y_.alpha, k) : y_.n[k];
+    const Real own = own_acceleration(k);
+    y_.fx[k] = legs_ ? leg_force : of_mass(own) - force_[k];
+    y_.ax[k] = per_mass(y_.fx[k] + force_[k]);
+    acceleration_ = legs_ ? y_.ax[k] - own : Real(0.0);
+    y_.foot[k] = Real(0.0);
+    deflection_rate_ = legs_ ? y_.w[k] : Real(0.0);
+  }
+
+  // Height of the edge at the wall, over the floor and over the centre of mass, and what the wall would push if the block
+  // did not turn and nothing rubbed.
+  void reach(int k) {
+    const EdgeLever lever = lever_over_corner(*rig_, state_->pivot, state_->wall, state_->edge);
+    edge_[k] = lever.height(sine_, cosine_, k);
+    edge_rate_[k] = lever.height_rate(sine_, cosine_, y_.omega, k);
+    over_centre_[k] = edge_[k] - y_.ry[k];
+    pushed_[k] = at_.mass * (floor_.a[k] - rx_omega2_[k] - product(edge_rate_, y_.omega, k)) - force_[k];
+  }
+
+  void lean_stuck(int k) {
+    reach(k);
+    const double push = (y_.ry[0] * pushed_[k] - y_.rx[0] * floor_.g[k] - y_.moment[k]) / edge_[0];
+    y_.alpha[k] = 0;
+    y_.fy[k] = y_.n[k];
+    y_.fx[k] = pushed_[k] - push;
+    y_.ax[k] = floor_.a[k];
+    acceleration_ = y_.foot[k] = deflection_rate_ = 0;
+    y_.wall_push[k] = -state_->wall * push;
+  }
+
+  // After q and the friction factor are known to order k.
+  void lean_slipping(int k, double sigma_mu) {
+    friction_[k] = sigma_mu * factor_[k];
+    reach(k);
+    pushed_[k] += product(friction_, y_.n, k);
+    inertia_[k] = at_.mass * over_centre_[k] + product(friction_, y_.rx, k);
+    y_.d[k] += product(over_centre_, inertia_, k);
+    y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k] + product(over_centre_, pushed_, k), y_.d, k);
+    wall_force_ = pushed_[k] - product(inertia_, y_.alpha, k);
+    y_.wall_push[k] = -state_->wall * wall_force_;
+  }
+
+  // Acceleration of the centre of mass, the floor's included, that is not w'.
+  [[gnu::always_inline]] Real own_acceleration(int k) const {
+    if (!turns()) return floor_.a[k];
+    return product(y_.ry, y_.alpha, k) - rx_omega2_[k] + floor_.a[k];
+  }
+
+  [[gnu::always_inline]] void slipping(int k) {
+    apply_factor(k);
+    y_.ax[k] = per_mass(y_.fx[k] + force_[k] + wall_force_);
+    acceleration_ = y_.ax[k] - own_acceleration(k);
+    deflection_rate_ = legs_ ? (-y_.fx[k] - W2() * y_.deflection[k]) / zW2() : Real(0.0);
+    y_.foot[k] = legs_ ? y_.w[k] - deflection_rate_ : y_.w[k];
+  }
+
+  // Contact forces and theta'' for the factor F whose coefficient k is in factor_.
+  [[gnu::always_inline]] void apply_factor(int k) {
+    const Real sigma_mu = at_.sigma * at_.mu_k;
+    if (!turns()) {
+      y_.alpha[k] = Real(0.0);
+      y_.fy[k] = y_.n[k];
+    } else if (single && friction_sees_force_) {
+      y_.d[k] = k == 0 ? at_.body.k2 : Real(0.0);
+      friction_[k] = sigma_mu * product(factor_, y_.fy, k);
+      y_.alpha[k] = (product(y_.rx, y_.fy, k) + product(y_.ry, friction_, k) + y_.moment[k]) / at_.body.k2;
+    } else {
+      q_[k] = y_.rx[k] + sigma_mu * with_factor(y_.ry, k);
+      y_.d[k] = product(y_.rx, q_, k) + (k == 0 ? at_.body.k2 : Real(0.0));
+      bool leans = false;
+      if constexpr (single)
+        if (leans_) lean_slipping(k, sigma_mu), leans = true;
+      if (!leans) y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k], y_.d, k);
+      y_.fy[k] = y_.n[k] - product(y_.rx, y_.alpha, k);
+    }
+    y_.fx[k] = -(sigma_mu * with_factor(y_.fy, k));
+  }
+
+  Real with_factor(const Series<Real, N>& x, int k) const { return laws_.friction < 0 ? x[k] : product(factor_, x, k); }
+
+  const Real& factor_from_tape(int k) {
+    laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, numbers_, values_);
+    return values_[laws_.friction][k];
+  }
+
+  [[gnu::always_inline]] void integrate(int k) {
+    const Real over(1.0 / (k + 1));
+    if (laws_.states > 0) {
+      value(Input::acceleration)[k] = y_.ax[k];
+      laws_.tape.advance(laws_.friction_end, laws_.tape.size(), k, numbers_, values_);
+      for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[k + 1] = values_[laws_.rate[i]][k] * over;
+    }
+    y_.path[k + 1] = at_.sigma * y_.foot[k] * over;
+    y_.deflection[k + 1] = deflection_rate_ * over;
+    if (turns()) return integrate_coefficient(y_, acceleration_, k);
+    y_.theta[k + 1] = y_.omega[k + 1] = y_.rx[k + 1] = y_.ry[k + 1] = Real(0.0);
+    y_.xi[k + 1] = y_.w[k] * over;
+    y_.w[k + 1] = acceleration_ * over;
+  }
+
+  void finish() {
+    finish_arc(y_);
+    y_.ax[N] = y_.foot[N] = y_.moment[N] = Real(0.0);
+    y_.pressed = y_.fy;
+    if constexpr (single)
+      for (int k = 0; k < N && friction_sees_force_; ++k)
+        y_.pressed[k] = y_.n[k] - product(y_.rx, y_.moment, k) / at_.body.k2;
+    if (laws_.walls.any()) gaps();
+    for (int i = 0; i < laws_.states; ++i) y_.states[i][N] = value(Input::state, i)[N];
+    limits();
+    for (int j = 0; j < laws_.tape.kink_count(); ++j) {
+      const auto& argument = values_[laws_.tape.kink_argument(j)];
+      const Real side = numbers_.on_side(j, Real(1.0), Real(-1.0));
+      for (int k = 0; k < N; ++k) y_.kink[j][k] = side * argument[k];
+      y_.kink[j][N] = Real(0.0);
+      if constexpr (single) {
+        if (state_->turned_kink == j) y_.kink[j][0] = 0;
+        if (laws_.tape.latched(j, numbers_.sides())) y_.kink[j] = Series<double, N>::zero();
+      }
+    }
+  }
+
+  void gaps() {
+    if (!turns()) {
+      sine_ = cosine_ = Series<Real, N>::zero();
+      cosine_[0] = Real(1.0);
+    } else {
+      const Real &c = at_.body.c, &h = at_.body.h, to_angle = Real(1.0) / (h * h + c * c);
+      sine_[N] = (h * y_.rx[N] + c * y_.ry[N]) * to_angle;
+      cosine_[N] = (h * y_.ry[N] - c * y_.rx[N]) * to_angle;
+    }
+    y_.right_gap = clearance(at_.right_wall, 1.0, y_.xi, sine_, cosine_, y_.versine);
+    y_.left_gap = clearance(at_.left_wall, -1.0, y_.xi, sine_, cosine_, y_.versine);
+    y_.wall_push[N] = Real(0.0);
+  }
+
+  // Largest friction against a slip that is about to begin, to the left and to the right.
+  void limits() {
+    if (slips()) {
+      y_.limit_right = y_.limit_left = Series<Real, N>::zero();
+      return;
+    }
+    if (laws_.friction < 0) {
+      y_.limit_right = y_.limit_left = scaled(at_.mu_s, y_.fy);
+      return;
+    }
+    if (laws_.reads(Input::speed)) value(Input::speed) = Series<Real, N>::zero();
+    y_.limit_right = limit(-1);
+    y_.limit_left = laws_.tape.depends(laws_.friction, Input::sigma) ? limit(+1) : y_.limit_right;
+  }
+
+  Series<Real, N> limit(int sigma) {
+    Series<Real, N> result;
+    if (laws_.reads(Input::sigma)) value(Input::sigma)[0] = Real(double(sigma));
+    if constexpr (single) numbers_.turn(sides_of_friction());
+    for (int k = 0; k < N; ++k) {
+      factor_[k] = factor_from_tape(k);
+      result[k] = at_.mu_s * product(factor_, y_.fy, k);
+    }
+    result[N] = Real(0.0);
+    return result;
+  }
+
+  // On which side of its kinks the friction of that slip is: other kinks than those of forces, and other than the opposite
+  // slip's.
+  std::uint32_t sides_of_friction() {
+    std::uint32_t sides = numbers_.sides();
+    const Tape& tape = laws_.tape;
+    for (int j = 0; j < tape.kink_count(); ++j) {
+      const int node = tape.kink_node(j), argument = tape.kink_argument(j);
+      if (node < laws_.forces_end || node >= laws_.friction_end || j == state_->turned_kink) continue;
+      if (!tape.depends(argument, Input::sigma) && !tape.depends(argument, Input::speed)) continue;
+      tape.advance(laws_.forces_end, node, 0, sides, values_);
+      sides = (sides & ~(1U << j)) | (values_[argument][0] < 0 ? 1U << j : 0U);
+    }
+    return sides;
+  }
+
+  Real of_mass(const Real& x) const { return whole_ ? x : at_.mass * x; }
+  Real per_mass(const Real& x) const { return whole_ ? x : x / at_.mass; }
+  Real W2() const { return at_.leg_rate * at_.leg_rate; }
+  Real zW2() const { return Real(2.0) * at_.leg_damping * at_.leg_rate; }
+
+  // [m g]; less than the round-off of a sum of forces, and more than what makes a power of it overflow.
+  static constexpr double least_normal = 1e-18;
+
+  const Laws& laws_;
+  const Standing<Real>& at_;
+  Numbers numbers_;
+  const Floor<Real, N>& floor_;
+  const Kind kind_;
+  const bool legs_;
+  const bool whole_;       // all of the mass moves with the block
+  const bool sees_place_;  // laws or walls look at where the block is
+  Real inertia0_;          // k^2 + r^2
+  LawArc<N, Real> y_;
+  Series<Real, N> values_[max_nodes];
+  Series<Real, N> omega2_, rx_omega2_, sine_, cosine_, force_, factor_, load_, inertia_, q_;
+  Real acceleration_ = Real(0.0), deflection_rate_ = Real(0.0), wall_force_ = Real(0.0);
+  // Of a single sample.
+  struct None {};
+  [[no_unique_address]] std::conditional_t<single, Standing<double>, None> own_;
+  const Rig* rig_ = nullptr;
+  const State* state_ = nullptr;
+  bool leans_ = false;                                                  // an edge at a wall
+  bool friction_sees_force_ = false;                                    // on the corner that it slips on
+  bool let_go_ = false;                                                 // that corner, by the floor
+  Series<Real, N> edge_, edge_rate_, over_centre_, pushed_, friction_;  // leaning
+};
+
+}  // namespace freestand::dynamics

@@ -1,0 +1,386 @@
+// Samples under laws, a pack of them at once, from knot to knot of their motions while nothing happens: no event that is not
+// excluded beyond doubt, a step that is as long as the segment, and extremes that are at its ends or no new ones. The same steps,
+// with the same decisions and the same bits, as taylor_integrator.hpp goes one by one.
+#pragma once
+
+#include "base/pack.hpp"
+#include "dynamics/law_rows.hpp"
+#include "dynamics/law_step.hpp"
+#include "dynamics/pack/outside.hpp"
+#include "dynamics/peaks.hpp"
+#include "dynamics/taylor_integrator.hpp"
+#include "dynamics/witness.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+// The numbers of the tapes of a pack.
+class LaneNumbers {
+ public:
+  LaneNumbers(const LawRows& rows, int first) : rows_(rows), first_(first) {}
+  Pack value(int node) const { return load(rows_.value[node] + first_); }
+  Pack shift(int node) const { return load(rows_.shift[node] + first_); }
+  Pack on_side(int kink, const Pack& positive, const Pack& negative) const {
+    return freestand::choose(load(rows_.side[kink] + first_) > Pack(0.0), positive, negative);
+  }
+  static Pack choose(const PackMask& mask, const Pack& yes, const Pack& no) { return freestand::choose(mask, yes, no); }
+  static Pack exp(const Pack& x) { return each(x, exp_outside); }
+  static Pack log(const Pack& x) { return each(x, log_outside); }
+  static Pack sqrt(const Pack& x) { return xsimd::sqrt(x); }
+  static Pack sin(const Pack& x) { return each(x, sin_outside); }
+  static Pack cos(const Pack& x) { return each(x, cos_outside); }
+  static Pack pow(const Pack& x, const Pack& exponent) {
+    alignas(64) double at[pack_lanes], to[pack_lanes];
+    store(at, x);
+    store(to, exponent);
+    for (int l = 0; l < pack_lanes; ++l) at[l] = pow_outside(at[l], to[l]);
+    return load(at);
+  }
+
+ private:
+  static Pack each(const Pack& x, double (*function)(double)) {
+    alignas(64) double at[pack_lanes];
+    store(at, x);
+    for (double& one : at) one = function(one);
+    return load(at);
+  }
+
+  const LawRows& rows_;
+  int first_;
+};
+
+template <bool turning, bool slipping>
+class LawMarchOf {
+  using Step = LawStep<law_order, Pack, LaneNumbers, Kind<turning, slipping>>;
+  using Arc = LawArc<law_order, Pack>;
+  template <int N>
+  using End = LawStep<N, Pack, LaneNumbers, Kind<turning, slipping>>;
+
+ public:
+  LawMarchOf(LawRows& rows, int first)
+      : rows_(rows),
+        laws_(*rows.laws),
+        first_(first),
+        straight_(laws_.straight()),
+        grip_changes_(!slipping && laws_.grip_changes()),
+        numbers_(rows, first),
+        floor_{Series<Pack, law_order>::zero(), Series<Pack, law_order>::zero()},
+        there_{Series<Pack, 1>::zero(), Series<Pack, 1>::zero()},
+        step_(laws_, here_, numbers_, {}, floor_),
+        end_(laws_, to_, numbers_, {}, there_),
+        stance_{turning,
+                slipping,
+                rows.can_slip,
+                rows.can_rock,
+                number(Row::pivot),
+                number(Row::sigma),
+                number(Row::right_arm),
+                number(Row::left_arm),
+                number(Row::over_height)} {
+    load_constants(here_);
+    load_constants(to_);
+    load_state();
+  }
+
+  // Goes on until half of the lanes have stopped.
+  Stopped run(double* series) {
+    const int here = rows_.lanes - first_ < pack_lanes ? rows_.lanes - first_ : pack_lanes;
+    unsigned going = (1U << here) - 1;
+    Stopped stopped{0, 0};
+    for (int left = here; 2 * left > here;) {
+      set_floor();
+      const Arc& arc = step_.run();
+      PackMask sure = nothing_happens(arc);
+      sure = sure & follows_laws(arc);
+      sure = sure & sees_extremes(arc);
+      const unsigned free = bits(sure) & going, stop = going & ~free;
+      for (unsigned open = stop; open; open &= open - 1) tell(arc, __builtin_ctz(open), series);
+      const unsigned at_end = go_on(free);
+      stopped.before_step |= stop;
+      stopped.at_end |= at_end;
+      going = free & ~at_end;
+      left = __builtin_popcount(going);
+    }
+    save();
+    return stopped;
+  }
+
+ private:
+  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)] + first_); }
+  void keep(Row row, const Pack& x) { store(rows_.numbers[static_cast<int>(row)] + first_, x); }
+  static Row state_row(int i) { return static_cast<Row>(static_cast<int>(Row::state) + i); }
+
+  void load_constants(Standing<Pack>& at) {
+    at.body = {number(Row::corner), number(Row::height), number(Row::gyration2)};
+    at.half_base = number(Row::half_base);
+    at.mu_k = number(Row::mu_k);
+    at.mu_s = number(Row::mu_s);
+    at.mass = number(Row::mass);
+    at.leg_rate = number(Row::leg_rate);
+    at.leg_damping = number(Row::leg_damping);
+    at.pivot = number(Row::pivot);
+    at.sigma = number(Row::sigma);
+    at.right_wall = {number(Row::right_gap), number(Row::right_across), number(Row::right_up)};
+    at.left_wall = {number(Row::left_gap), number(Row::left_across), number(Row::left_up)};
+  }
+
+  void load_state() {
+    here_.theta = number(Row::theta);
+    here_.omega = number(Row::omega);
+    here_.xi = number(Row::xi);
+    here_.w = number(Row::w);
+    here_.path = number(Row::path);
+    here_.deflection = number(Row::deflection);
+    here_.foot = number(Row::foot);
+    for (int i = 0; i < laws_.states; ++i) here_.states[i] = number(state_row(i));
+    start_ = number(Row::start);
+    offset_ = number(Row::offset);
+    here_.time = start_ + offset_;
+    slip_ = number(Row::peak_slip);
+    slip_right_ = number(Row::peak_slip_right);
+    slip_left_ = number(Row::peak_slip_left);
+    slid_ = number(Row::slid_path);
+    rotation_ = number(Row::peak_rotation);
+    acceleration_ = number(Row::peak_acceleration);
+  }
+
+  void save() {
+    const Standing<Pack>& at = here_;
+    keep(Row::theta, at.theta);
+    keep(Row::omega, at.omega);
+    keep(Row::xi, at.xi);
+    keep(Row::w, at.w);
+    keep(Row::path, at.path);
+    keep(Row::deflection, at.deflection);
+    keep(Row::foot, at.foot);
+    for (int i = 0; i < laws_.states; ++i) keep(state_row(i), at.states[i]);
+    keep(Row::start, start_);
+    keep(Row::offset, offset_);
+    keep(Row::peak_slip, slip_);
+    keep(Row::peak_slip_right, slip_right_);
+    keep(Row::peak_slip_left, slip_left_);
+    keep(Row::slid_path, slid_);
+    keep(Row::peak_rotation, rotation_);
+    keep(Row::peak_acceleration, acceleration_);
+  }
+
+  // As FloorCursor::local and left().
+  void set_floor() {
+    alignas(64) double knot[pack_lanes], a0[pack_lanes], a1[pack_lanes], g0[pack_lanes], g1[pack_lanes];
+    for (int l = 0; l < pack_lanes; ++l) {
+      const int i = first_ + l;
+      knot[l] = rows_.knot[i][0];
+      a0[l] = rows_.horizontal[i][0];
+      a1[l] = rows_.horizontal[i][1];
+      g0[l] = rows_.vertical[i][0];
+      g1[l] = rows_.vertical[i][1];
+    }
+    const Pack stretch = number(Row::stretch), by = offset_ / stretch, zero(0.0);
+    const Pack scale = number(Row::scale), vertical = number(Row::vertical_scale);
+    floor_.a[0] = zero + scale * (load(a0) + by * load(a1)) + number(Row::push);
+    floor_.a[1] = zero + scale / stretch * load(a1);
+    floor_.g[0] = zero + vertical * (load(g0) + by * load(g1)) + number(Row::gravity);
+    floor_.g[1] = zero + vertical / stretch * load(g1);
+    next_ = load(knot) * stretch;
+    h_ = next_ - start_ - offset_;
+  }
+
+  // The segment can be gone in one step, and no witness can turn within it.
+  PackMask nothing_happens(const Arc& arc) const {
+    const Pack longest = number(Row::longest_step_s), tolerance(rows_.tolerance);
+    PackMask sure = (h_ <= longest) & (h_ > Pack(shortest_step) * longest);
+    const Pack power = whole_power<law_order>(h_);
+    const auto neglects = [&](const Series<Pack, law_order>& y, Row over) {
+      return xsimd::abs(y[law_order]) * number(over) * power <= tolerance;
+    };
+    sure = sure & neglects(arc.xi, Row::over_length) & neglects(arc.w, Row::over_speed) &
+           neglects(arc.path, Row::over_length);
+    if (turning) sure = sure & neglects(arc.theta, Row::over_angle) & neglects(arc.omega, Row::over_rotation);
+    if (laws_.legs.frequency_radps > 0) {
+      sure = sure & neglects(arc.deflection, Row::over_length);
+      if (slipping) sure = sure & (xsimd::abs(arc.foot[0]) >= Pack(Step::foot_zero));
+    }
+    for (int i = 0; i < laws_.states; ++i)
+      sure = sure & neglects(arc.states[i], laws_.relative_velocity[i] ? Row::over_speed : Row::over_length);
+    visit_contact(stance_, {}, arc, [&](Witness witness, const Series<Pack, law_order>& y) {
+      PackMask positive = surely_positive(y, h_);
+      if (witness == Witness::impact) positive = positive | surely_rises_from_zero(y, h_, Pack(0.0));
+      if (witness == Witness::slipping) positive = positive | surely_rises_from_zero(y, h_, number(Row::force_zero));
+      sure = sure & positive;
+    });
+    if (laws_.walls.any()) sure = sure & clear_of_walls(arc);
+    for (int j = 0; j < laws_.tape.kink_count(); ++j)
+      sure = sure & (surely_positive(arc.kink[j], h_) | (load(rows_.turns_yet[j] + first_) == Pack(0.0)));
+    return sure;
+  }
+
+  PackMask clear_of_walls(const Arc& arc) const {
+    PackMask clear = Pack(0.0) == Pack(0.0);
+    const Pack touching = number(Row::touching);
+    for (const int side : {1, -1}) {
+      if (!laws_.walls.on(side).stands) continue;
+      const Series<Pack, law_order>& gap = side > 0 ? arc.right_gap : arc.left_gap;
+      if (!turning) clear = clear & (gap[0] > touching);
+      if (turning || slipping) clear = clear & surely_positive(gap, h_);
+    }
+    return clear;
+  }
+
+  // Leaves in end_ the state at the end of the step.
+  PackMask follows_laws(const Arc& arc) {
+    Standing<Pack>& to = to_;
+    const Pack bound(beyond_all_bounds);
+    to.theta = turning ? arc.theta.at(h_) : Pack(0.0);
+    to.omega = turning ? arc.omega.at(h_) : Pack(0.0);
+    to.xi = arc.xi.at(h_);
+    to.w = arc.w.at(h_);
+    to.path = arc.path.at(h_);
+    to.deflection = arc.deflection.at(h_);
+    to.foot = slipping ? arc.foot.at(h_) : Pack(0.0);
+    for (int i = 0; i < laws_.states; ++i) to.states[i] = arc.states[i].at(h_);
+    to.time = here_.time + h_;
+    PackMask follows = (xsimd::abs(to.theta) < bound) & (xsimd::abs(to.omega) < bound) & (xsimd::abs(to.xi) < bound) &
+                       (xsimd::abs(to.w) < bound);
+    if (straight_ && !grip_changes_) return follows;
+    there_.a[0] = floor_.a.at(h_);
+    there_.g[0] = floor_.g.at(h_);
+    const LawArc<1, Pack>& fresh = grip_changes_ ? end_.run() : end_.accelerations();
+    const Pack allowed(defect_allowed * rows_.tolerance);
+    const auto little = [&](const Pack& missed, Row over) { return xsimd::abs(missed) * number(over) * h_ <= allowed; };
+    follows = follows & little(fresh.w[1] - derivative(arc.w).at(h_), Row::over_speed);
+    if (turning) follows = follows & little(fresh.omega[1] - derivative(arc.omega).at(h_), Row::over_rotation);
+    if (grip_changes_)
+      follows = follows & little(fresh.limit_right[0] - arc.limit_right.at(h_), Row::over_speed) &
+                little(fresh.limit_left[0] - arc.limit_left.at(h_), Row::over_speed);
+    return follows;
+  }
+
+  // max_abs and max_of, where the extreme is at an end of the step or is no new one.
+  static PackMask extreme(const Series<Pack, law_order>& y, const Pack& h, const Pack& first, const Pack& last,
+                          const Pack& before, Pack& after) {
+    const PackMask within = surely_within(y, h, before);
+    after = freestand::choose(within, before, xsimd::max(before, xsimd::max(first, last)));
+    return within | surely_monotonic(y, h);
+  }
+  PackMask largest(const Series<Pack, law_order>& y, const Pack& before, Pack& after) const {
+    const PackMask within = surely_within(y, h_, before);
+    after = before;
+    if (bits(within) == all_lanes) return within;
+    return extreme(y, h_, xsimd::abs(y[0]), xsimd::abs(y.at(h_)), before, after);
+  }
+
+  // As Peaks::observe.
+  PackMask sees_extremes(const Arc& arc) {
+    const Standing<Pack>& at = here_;
+    const Series<Pack, law_order> u = turning ? midpoint(at.body, at.half_base, arc, arc.versine) : arc.xi;
+    PackMask seen = largest(u, slip_, new_slip_);
+    if (rows_.slip_by_side) {
+      const Pack last = u.at(h_);
+      seen = seen & extreme(u, h_, u[0], last, slip_right_, new_slip_right_) &
+             extreme(u, h_, -u[0], -last, slip_left_, new_slip_left_);
+    }
+    new_rotation_ = rotation_;
+    if (turning) seen = seen & largest(arc.theta, rotation_, new_rotation_);
+    new_slid_ = slid_ + (to_.path - arc.path[0]);
+    return seen & sees_acceleration(arc);
+  }
+
+  PackMask sees_acceleration(const Arc& arc) {
+    Series<Pack, law_order> x = arc.ax, y = arc.fy;
+    x[0] = x[0] - number(Row::push);
+    y[0] = y[0] - number(Row::gravity);
+    const Pack peak2 = acceleration_ * acceleration_;
+    const Pack bound_x = size_of_rest<0>(x, h_), bound_y = size_of_rest<0>(y, h_);
+    const Pack bound2 = bound_x * bound_x + bound_y * bound_y;
+    const PackMask within = bound2 <= peak2 * Pack(same_peak);
+    new_acceleration_ = acceleration_;
+    if (bits(within) == all_lanes) return within;
+    const Series<Pack, law_order> square = squared_length(x, y);
+    Pack peak;
+    const PackMask seen = largest(square, peak2, peak);
+    new_acceleration_ = freestand::choose(within, acceleration_, xsimd::sqrt(peak));
+    return within | (seen & (bound2 < Pack(largest_number)));
+  }
+
+  // Those that are free go to the next knot; bit l: lane l has none.
+  unsigned go_on(unsigned free) {
+    alignas(64) double mask[pack_lanes];
+    unsigned at_end = 0;
+    for (int l = 0; l < pack_lanes; ++l) {
+      const bool goes = free >> l & 1U;
+      const int i = first_ + l;
+      mask[l] = goes;
+      rows_.knot[i] += goes;
+      rows_.horizontal[i] += 2 * goes;
+      rows_.vertical[i] += rows_.vertical_stride[i] * goes;
+      rows_.segments[i] -= goes;
+      at_end |= unsigned{goes && rows_.segments[i] == 0} << l;
+    }
+    const PackMask goes = load(mask) > Pack(0.0);
+    const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
+    Standing<Pack>& at = here_;
+    const Standing<Pack>& to = to_;
+    move(at.theta, to.theta);
+    move(at.omega, to.omega);
+    move(at.xi, to.xi);
+    move(at.w, to.w);
+    move(at.path, to.path);
+    move(at.deflection, to.deflection);
+    move(at.foot, to.foot);
+    for (int i = 0; i < laws_.states; ++i) move(at.states[i], to.states[i]);
+    move(start_, next_);
+    move(offset_, Pack(0.0));
+    at.time = start_ + offset_;
+    move(slip_, new_slip_);
+    if (rows_.slip_by_side) {
+      move(slip_right_, new_slip_right_);
+      move(slip_left_, new_slip_left_);
+    }
+    move(slid_, new_slid_);
+    move(rotation_, new_rotation_);
+    move(acceleration_, new_acceleration_);
+    return at_end;
+  }
+
+  // The series of one lane.
+  void tell(const Arc& arc, int lane, double* series) const {
+    using Numbers = LawArcNumbers<law_order>;
+    const double* from = reinterpret_cast<const double*>(&arc) + lane;
+    double* to = series + lane * Numbers::all;
+    const auto copy = [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) to[i] = from[i * pack_lanes];
+    };
+    copy(0, Numbers::walls);
+    if (laws_.walls.any()) copy(Numbers::walls, Numbers::states);
+    copy(Numbers::states, Numbers::states + laws_.states * Numbers::series);
+    copy(Numbers::kinks, Numbers::kinks + laws_.tape.kink_count() * Numbers::series);
+  }
+
+  static constexpr unsigned all_lanes = (1U << pack_lanes) - 1;
+  static constexpr double largest_number = 1.7976931348623157e308;
+
+  LawRows& rows_;
+  const Laws& laws_;
+  const int first_;
+  const bool straight_, grip_changes_;
+  const LaneNumbers numbers_;
+  Pack start_, offset_, next_, h_;
+  Pack slip_, slip_right_, slip_left_, slid_, rotation_, acceleration_;
+  Pack new_slip_, new_slip_right_, new_slip_left_, new_slid_, new_rotation_, new_acceleration_;
+  Standing<Pack> here_, to_;
+  Floor<Pack, law_order> floor_;
+  Floor<Pack, 1> there_;
+  Step step_;
+  End<1> end_;
+  const Stance<Pack> stance_;
+};
+
+template <bool turning, bool slipping>
+Stopped law_march(LawRows& rows, int first, double* series) {
+  const Stopped stopped = LawMarchOf<turning, slipping>(rows, first).run(series);
+  clear_upper_parts();
+  return stopped;
+}
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
