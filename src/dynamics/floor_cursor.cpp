@@ -79,6 +79,11 @@ FloorCursor::Bound FloorCursor::run_bound() const {
 
 // sum_k coefficients[k] (x + offset / stretch)^k in powers of tau = stretch * x.
 void FloorCursor::shift(const double* coefficients, double scale, double* out, int order) const {
+  if (degree_ == 1 && order >= 1) {  // of records
+    out[0] += scale * (coefficients[0] + offset_ / stretch_ * coefficients[1]);
+    out[1] += scale / stretch_ * coefficients[1];
+    return;
+  }
   const int top = std::min(degree_, order);
   double c[max_floor_degree + 1];
   std::copy(coefficients, coefficients + degree_ + 1, c);

@@ -225,7 +225,7 @@ class Pool {
       const int lane = group.lane(slot);
       Integrator& integrator = *lanes_[lane].integrator;
       group.read(slot, integrator);
-      if (integrator.goes_on() && (stopped.before_step & bit)) integrator.step_along(series_of(slot, integrator));
+      if (stopped.before_step & bit) integrator.step_along(series_of(slot, integrator));
       if (walks_on(integrator) && group.takes(integrator.life())) {
         group.write(slot, integrator);
         continue;
@@ -297,7 +297,8 @@ class Pool {
 bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
   const auto has_legs = [](const EffectUse& use) { return static_cast<bool>(use.effect->legs); };
   const auto& effects = setup.specimen.effects;
-  return setup.specimen.model != Model::bouc_wen && has_laws(setup.specimen) && setup.shaking.motion &&
+  return setup.specimen.model != Model::bouc_wen && (has_laws(setup.specimen) || setup.floor.push_mps2 != 0) &&
+         setup.shaking.motion &&
          setup.shaking.motion->degree == 1 && admissible(setup, settings) &&
          std::none_of(effects.begin(), effects.end(), has_legs);
 }

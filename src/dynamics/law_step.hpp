@@ -79,10 +79,10 @@ class LawStep {
                         {},
                         {}};
     for (int i = 0; i < rig.laws->states; ++i) at.states[i] = state.states[static_cast<std::size_t>(i)];
-    for (const int side : {1, -1}) {
+    if (!rig.laws->walls.any()) return at;
+    for (const int side : {1, -1})
       (side > 0 ? at.right_wall : at.left_wall) =
           to_wall(rig, side, lever_over_corner(rig, pivot, side, touching_edge(state.pivot, side)));
-    }
     return at;
   }
 

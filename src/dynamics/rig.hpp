@@ -21,7 +21,7 @@ struct Rig {
   Impact impact;
   double g;                  // gravity across the floor [m/s2]
   double push;               // gravity along the floor [m/s2]
-  std::optional<Laws> laws;  // of effects within the equations of motion
+  std::optional<Laws> laws;  // of effects within the equations of motion; on a tilted floor too, where they may be none
   // Thresholds, all scaled by the block.
   double force_zero;     // accelerations smaller than this are round-off [m/s2]
   double turn_zero;      // angular accelerations smaller than this are round-off [rad/s2]
@@ -49,7 +49,7 @@ struct Rig {
         rest_height(settings.tolerance * specimen.block.size_m()),
         told_rotation(1e-3 * specimen.block.alpha_rad()),
         told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()) {
-    if (has_laws(specimen)) laws.emplace(specimen);
+    if (has_laws(specimen) || push != 0) laws.emplace(specimen);
   }
 
   // What laws that do not change while the block rests do to it: the largest force and moment, the least friction factor.

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
-#include "dynamics/law_arc.hpp"
+#include "dynamics/law_step.hpp"
 #include "dynamics/laws_by_hand.hpp"
 #include "support/floor_motions.hpp"
 #include "support/solvers.hpp"
