@@ -152,12 +152,10 @@ struct Flight {
 
 template <class Real, int N>
 Series<Real, N> corner_gap(const Flight<Real, N>& f, const Real& c, const Real& h) {
-  using std::cos;
-  using std::sin;
   Series<Real, N> rx, ry, gap;
-  const Real sine = sin(f.theta[0]), cosine = cos(f.theta[0]);
-  rx[0] = h * sine - c * cosine;
-  ry[0] = c * sine + h * cosine;
+  const Rotation<Real> rotation = rotation_by(f.theta[0]);
+  rx[0] = h * rotation.sine - c * rotation.cosine;
+  ry[0] = c * rotation.sine + h * rotation.cosine;
   gap[0] = f.y[0] - ry[0];
   for (int k = 0; k < N; ++k) {
     const Real one_over = Real(1.0 / (k + 1));

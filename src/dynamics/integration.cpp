@@ -16,7 +16,8 @@ constexpr int wait_order = max_floor_degree + 1;  // witnesses at rest are the f
 double centre_speed(const Rig& rig, const State& state) {
   if (state.mode == Mode::flight) return state.vx;
   const int pivot = state.pivot == 0 ? 1 : state.pivot;
-  const double lever = rig.offset(pivot) * std::sin(state.theta) + rig.h * std::cos(state.theta);
+  const Rotation<double> rotation = rotation_by(state.theta);
+  const double lever = rig.offset(pivot) * rotation.sine + rig.h * rotation.cosine;
   return state.w + lever * state.omega;
 }
 }  // namespace
@@ -290,11 +291,10 @@ bool Integration::leans_for_good() const {
 
 double Integration::slip() const {
   if (state.mode == Mode::flight) return midpoint_in_flight(rig, state.x, state.theta);
-  const double half = std::sin(0.5 * state.theta);
   const int side = (state.theta > 0) - (state.theta < 0);
   // Legs come back upright under a block that rests.
   const double sway = state.mode == Mode::rest ? state.deflection : 0;
-  return state.xi - sway + side * rig.half_base() * 2 * half * half;
+  return state.xi - sway + side * rig.half_base() * rotation_by(state.theta).versine;
 }
 
 Response Integration::result() {

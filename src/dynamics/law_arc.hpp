@@ -47,19 +47,4 @@ bool has_forces(const Arc<double, N>&) {
   return true;
 }
 
-// A block on one corner or on both, as the equations read it: one sample, or those of a pack.
-template <class Real>
-struct Standing {
-  Corner<Real> body;           // the corner that it stands on; the right one where it stands on both
-  Real half_base;              // B on the right corner, -B on the left one, 0 on both [m]
-  Real mu_k, mu_s;             // [1]
-  Real mass;                   // M [1]
-  Real leg_rate, leg_damping;  // W [rad/s], z [1]
-  Real pivot, sigma;           // as in State
-  Real theta, omega, xi, w, path, deflection, foot;
-  Real states[max_states];
-  Real time;  // [s]
-  ToWall<Real> right_wall, left_wall;
-};
-
 }  // namespace freestand::dynamics

@@ -26,9 +26,9 @@ struct LawFlight : Flight<double, N> {
 template <int N>
 Series<double, N> turning_gap(const LawFlight<N>& f, double c, double h) {
   Series<double, N> rx, ry, gap;
-  const double sine = std::sin(f.theta[0]), cosine = std::cos(f.theta[0]);
-  rx[0] = h * sine - c * cosine;
-  ry[0] = c * sine + h * cosine;
+  const Rotation<double> rotation = rotation_by(f.theta[0]);
+  rx[0] = h * rotation.sine - c * rotation.cosine;
+  ry[0] = c * rotation.sine + h * rotation.cosine;
   gap[0] = f.y[0] - ry[0];
   for (int k = 0; k < N; ++k) {
     const double over = 1.0 / (k + 1);
@@ -81,7 +81,7 @@ class PushInFlight {
 // How far the edges are from the walls.
 template <int N>
 void measure_gaps(const Rig& rig, LawFlight<N>& f, const Series<double, N>& sine, const Series<double, N>& cosine) {
-  const double versine = -less_than_one(sine[0], cosine[0]);
+  const double versine = rotation_by(f.theta[0]).versine;
   for (const int side : {1, -1})
     for (const Edge edge : {Edge::lower, Edge::upper})
       (side > 0 ? f.right_gap : f.left_gap)[edge == Edge::upper] =
@@ -126,8 +126,9 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
   f.deflection[0] = state.deflection;
   const Legs& legs = laws.legs;
   const double unload = legs.frequency_radps > 0 ? -legs.frequency_radps / (2 * legs.damping) : 0.0;
-  sine[0] = std::sin(state.theta);
-  cosine[0] = std::cos(state.theta);
+  const Rotation<double> rotation = rotation_by(state.theta);
+  sine[0] = rotation.sine;
+  cosine[0] = rotation.cosine;
 
   for (int k = 0; k < N; ++k) {
     const double over = 1.0 / (k + 1), one = k == 0 ? 1.0 : 0.0;

@@ -49,7 +49,7 @@ class Group {
     const Rig& rig = life.rig;
     const State& state = life.state;
     const int pivot = state.pivot != 0 ? state.pivot : 1;
-    const Standing<double> at = LawStep<law_order>::standing_of(rig, state, life.cursor.time());
+    const Standing<double> at = standing_of(rig, state, life.cursor.time());
     const Sizes& size = integrator.sizes();
     const Response& peaks = life.peaks.response();
     const FloorCursor::Place place = life.cursor.place();
@@ -298,8 +298,7 @@ bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
   const auto has_legs = [](const EffectUse& use) { return static_cast<bool>(use.effect->legs); };
   const auto& effects = setup.specimen.effects;
   return setup.specimen.model != Model::bouc_wen && (has_laws(setup.specimen) || setup.floor.push_mps2 != 0) &&
-         setup.shaking.motion &&
-         setup.shaking.motion->degree == 1 && admissible(setup, settings) &&
+         setup.shaking.motion && setup.shaking.motion->degree == 1 && admissible(setup, settings) &&
          std::none_of(effects.begin(), effects.end(), has_legs);
 }
 

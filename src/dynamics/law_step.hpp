@@ -22,20 +22,10 @@
 
 #include "dynamics/equation.hpp"
 #include "dynamics/law_arc.hpp"
+#include "dynamics/leaning.hpp"
+#include "dynamics/standing.hpp"
 
 namespace freestand::dynamics {
-
-// Which mode samples are in: they turn about a corner, or not, and slip, or not.
-struct AnyKind {
-  bool turns_, slips_;
-  bool turns() const { return turns_; }
-  bool slips() const { return slips_; }
-};
-template <bool turning, bool slipping>
-struct Kind {
-  static constexpr bool turns() { return turning; }
-  static constexpr bool slips() { return slipping; }
-};
 
 template <int N, class Real = double, class Numbers = OwnNumbers, class Kind = AnyKind>
 class LawStep {
@@ -52,38 +42,9 @@ class LawStep {
     rig_ = &rig;
     state_ = &state;
     leans_ = turns() && state.at_wall();
+    if (leans_) leaning_.lever = lever_over_corner(rig, state.pivot, state.wall, state.edge);
     friction_sees_force_ =
         turns() && !leans_ && slips() && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::normal);
-  }
-
-  static Standing<double> standing_of(const Rig& rig, const State& state, double time) {
-    const int pivot = state.pivot != 0 ? state.pivot : 1;
-    Standing<double> at{rig.corner(pivot),
-                        state.pivot * rig.half_base(),
-                        rig.mu_k,
-                        rig.mu_s,
-                        rig.laws->carried_mass,
-                        rig.laws->legs.frequency_radps,
-                        rig.laws->legs.damping,
-                        double(state.pivot),
-                        double(state.sigma),
-                        state.theta,
-                        state.omega,
-                        state.xi,
-                        state.w,
-                        state.path,
-                        state.deflection,
-                        state.foot,
-                        {},
-                        time,
-                        {},
-                        {}};
-    for (int i = 0; i < rig.laws->states; ++i) at.states[i] = state.states[static_cast<std::size_t>(i)];
-    if (!rig.laws->walls.any()) return at;
-    for (const int side : {1, -1})
-      (side > 0 ? at.right_wall : at.left_wall) =
-          to_wall(rig, side, lever_over_corner(rig, pivot, side, touching_edge(state.pivot, side)));
-    return at;
   }
 
   // Samples of one kind that have the laws' tape in common, but for its numbers. Those for which Laws::in_packs() holds. `at` and
@@ -299,22 +260,18 @@ class LawStep {
     deflection_rate_ = legs_ ? y_.w[k] : Real(0.0);
   }
 
-  // Height of the edge at the wall, over the floor and over the centre of mass, and what the wall would push if the block
-  // did not turn and nothing rubbed.
+  // What the wall would push if the block did not turn and nothing rubbed.
   void reach(int k) {
-    const EdgeLever lever = lever_over_corner(*rig_, state_->pivot, state_->wall, state_->edge);
-    edge_[k] = lever.height(sine_, cosine_, k);
-    edge_rate_[k] = lever.height_rate(sine_, cosine_, y_.omega, k);
-    over_centre_[k] = edge_[k] - y_.ry[k];
-    pushed_[k] = at_.mass * (floor_.a[k] - rx_omega2_[k] - product(edge_rate_, y_.omega, k)) - force_[k];
+    leaning_.reach(k, sine_, cosine_, y_, at_.mass * (floor_.a[k] - rx_omega2_[k]) - force_[k], at_.mass);
   }
 
   void lean_stuck(int k) {
     reach(k);
-    const double push = (y_.ry[0] * pushed_[k] - y_.rx[0] * floor_.g[k] - y_.moment[k]) / edge_[0];
+    const double pushed = leaning_.pushed[k];
+    const double push = (y_.ry[0] * pushed - y_.rx[0] * floor_.g[k] - y_.moment[k]) / leaning_.height[0];
     y_.alpha[k] = 0;
     y_.fy[k] = y_.n[k];
-    y_.fx[k] = pushed_[k] - push;
+    y_.fx[k] = pushed - push;
     y_.ax[k] = floor_.a[k];
     acceleration_ = y_.foot[k] = deflection_rate_ = 0;
     y_.wall_push[k] = -state_->wall * push;
@@ -322,13 +279,14 @@ class LawStep {
 
   // After q and the friction factor are known to order k.
   void lean_slipping(int k, double sigma_mu) {
+    auto& [lever, height, height_rate, over_centre, pushed, inertia] = leaning_;
     friction_[k] = sigma_mu * factor_[k];
     reach(k);
-    pushed_[k] += product(friction_, y_.n, k);
-    inertia_[k] = at_.mass * over_centre_[k] + product(friction_, y_.rx, k);
-    y_.d[k] += product(over_centre_, inertia_, k);
-    y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k] + product(over_centre_, pushed_, k), y_.d, k);
-    wall_force_ = pushed_[k] - product(inertia_, y_.alpha, k);
+    pushed[k] += product(friction_, y_.n, k);
+    inertia[k] = at_.mass * over_centre[k] + product(friction_, y_.rx, k);
+    y_.d[k] += product(over_centre, inertia, k);
+    y_.alpha[k] = quotient(product(y_.n, q_, k) + y_.moment[k] + product(over_centre, pushed, k), y_.d, k);
+    wall_force_ = pushed[k] - product(inertia, y_.alpha, k);
     y_.wall_push[k] = -state_->wall * wall_force_;
   }
 
@@ -444,28 +402,13 @@ class LawStep {
   Series<Real, N> limit(int sigma) {
     Series<Real, N> result;
     if (laws_.reads(Input::sigma)) value(Input::sigma)[0] = Real(double(sigma));
-    if constexpr (single) numbers_.turn(sides_of_friction());
+    if constexpr (single) numbers_.turn(laws_.sides_of_slip(numbers_.sides(), state_->turned_kink, values_));
     for (int k = 0; k < N; ++k) {
       factor_[k] = factor_from_tape(k);
       result[k] = at_.mu_s * product(factor_, y_.fy, k);
     }
     result[N] = Real(0.0);
     return result;
-  }
-
-  // On which side of its kinks the friction of that slip is: other kinks than those of forces, and other than the opposite
-  // slip's.
-  std::uint32_t sides_of_friction() {
-    std::uint32_t sides = numbers_.sides();
-    const Tape& tape = laws_.tape;
-    for (int j = 0; j < tape.kink_count(); ++j) {
-      const int node = tape.kink_node(j), argument = tape.kink_argument(j);
-      if (node < laws_.forces_end || node >= laws_.friction_end || j == state_->turned_kink) continue;
-      if (!tape.depends(argument, Input::sigma) && !tape.depends(argument, Input::speed)) continue;
-      tape.advance(laws_.forces_end, node, 0, sides, values_);
-      sides = (sides & ~(1U << j)) | (values_[argument][0] < 0 ? 1U << j : 0U);
-    }
-    return sides;
   }
 
   Real of_mass(const Real& x) const { return whole_ ? x : at_.mass * x; }
@@ -494,10 +437,11 @@ class LawStep {
   [[no_unique_address]] std::conditional_t<single, Standing<double>, None> own_;
   const Rig* rig_ = nullptr;
   const State* state_ = nullptr;
-  bool leans_ = false;                                                  // an edge at a wall
-  bool friction_sees_force_ = false;                                    // on the corner that it slips on
-  bool let_go_ = false;                                                 // that corner, by the floor
-  Series<Real, N> edge_, edge_rate_, over_centre_, pushed_, friction_;  // leaning
+  bool leans_ = false;                // an edge at a wall
+  bool friction_sees_force_ = false;  // on the corner that it slips on
+  bool let_go_ = false;               // that corner, by the floor
+  Series<Real, N> friction_;
+  [[no_unique_address]] std::conditional_t<single, Leaning<N>, None> leaning_;
 };
 
 }  // namespace freestand::dynamics

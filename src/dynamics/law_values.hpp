@@ -34,9 +34,10 @@ inline LawValues law_values(const Rig& rig, const State& state, double time, int
   Series<double, 0> values[max_nodes];
   for (int i = 0; i < input_count; ++i) values[i][0] = 0;
   const auto set = [&](Input input, double x) { values[static_cast<int>(input)][0] = x; };
-  const double B = state.pivot * rig.half_base(), half = std::sin(0.5 * state.theta);
-  set(Input::u, state.xi + B * 2 * half * half);
-  set(Input::v, state.w + B * std::sin(state.theta) * state.omega);
+  const double B = state.pivot * rig.half_base();
+  const Rotation<double> rotation = rotation_by(state.theta);
+  set(Input::u, state.xi + B * rotation.versine);
+  set(Input::v, state.w + B * rotation.sine * state.omega);
   set(Input::theta, state.theta);
   set(Input::omega, state.omega);
   set(Input::t, time);

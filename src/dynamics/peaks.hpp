@@ -31,8 +31,9 @@ Series<double, N> midpoint(const Rig& rig, const State& state, const Arc<double,
 
 // The same in flight: u = x + d cos(theta) - h sin(theta) - d, d = (b_r - b_l)/2.
 inline double midpoint_in_flight(const Rig& rig, double x, double theta) {
-  const double d = 0.5 * (rig.right - rig.left), half = std::sin(0.5 * theta);
-  return x - rig.h * std::sin(theta) - d * 2 * half * half;
+  const double d = 0.5 * (rig.right - rig.left);
+  const Rotation<double> rotation = rotation_by(theta);
+  return x - rig.h * rotation.sine - d * rotation.versine;
 }
 
 // Two squares, their sum, a root and its square round off by less than this: no new peak.
@@ -113,8 +114,9 @@ class Peaks {
     Series<double, N> u = flight.x;
     const double d = 0.5 * (rig.right - rig.left);
     Series<double, N> sine = Series<double, N>::zero(), cosine = sine;
-    sine[0] = std::sin(flight.theta[0]);
-    cosine[0] = std::cos(flight.theta[0]);
+    const Rotation<double> rotation = rotation_by(flight.theta[0]);
+    sine[0] = rotation.sine;
+    cosine[0] = rotation.cosine;
     for (int k = 0; k < N; ++k) {
       sine[k + 1] = product(cosine, flight.omega, k) / (k + 1);
       cosine[k + 1] = -product(sine, flight.omega, k) / (k + 1);

@@ -45,9 +45,6 @@ inline ToWall<double> to_wall(const Rig& rig, int side, const EdgeLever& lever) 
   return {rig.laws->walls.on(side).gap_m, lever.across, lever.up};
 }
 
-// cos(theta) - 1, to all digits: of a block that comes down it is all that keeps the edge at the floor off a wall.
-inline double less_than_one(double sine, double cosine) { return -sine * sine / (1 + cosine); }
-
 // Distance left between an edge and the wall on its side; x: displacement of the point that the lever is about; versine: 1 -
 // cos(theta) at the start, to all its digits.
 template <int N, class Real>
@@ -72,9 +69,9 @@ inline EdgeNow edge_now(const Rig& rig, const State& state, int side, Edge edge)
   const bool flies = state.mode == Mode::flight;
   const int pivot = state.pivot == 0 ? side : state.pivot;
   const EdgeLever lever = flies ? lever_over_centre(rig, side, edge) : lever_over_corner(rig, pivot, side, edge);
-  const double sine = std::sin(state.theta), cosine = std::cos(state.theta);
-  const double height = lever.across * sine + lever.up * cosine;
-  const double x = (flies ? state.x : state.xi) - lever.across * less_than_one(sine, cosine) + lever.up * sine;
+  const Rotation<double> rotation = rotation_by(state.theta);
+  const double height = lever.across * rotation.sine + lever.up * rotation.cosine;
+  const double x = (flies ? state.x : state.xi) + lever.across * rotation.versine + lever.up * rotation.sine;
   const double v = (flies ? state.vx : state.w) + height * state.omega;
   return {rig.laws->walls.on(side).gap_m - side * x, height, side * v};
 }
