@@ -316,8 +316,7 @@ class ReferenceIntegrator {
     for (int i = 0; i < max_states; ++i) d[2 + i] = i < states ? arc.states[i][1] : 0.0;
   }
   static void law_rates(const LawFlight<2>& flight, int states, double* d) {
-    d[0] = 0;
-    d[1] = flight.deflection[1];
+    d[0] = 0, d[1] = flight.deflection[1];
     for (int i = 0; i < max_states; ++i) d[2 + i] = i < states ? flight.states[i][1] : 0.0;
   }
 

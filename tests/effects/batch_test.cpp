@@ -4,7 +4,8 @@
 #include <set>
 
 #include "effects/effect_fixture.hpp"
-#include "support/keyed_random.hpp"
+#include "effects/mixture.hpp"
+#include "support/isa.hpp"
 
 namespace freestand::test {
 namespace {
@@ -45,12 +46,15 @@ Samples samples_with(const effects::Effect& effect, Model model, std::size_t cou
   return samples;
 }
 
+bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
 bool same_bits(const Response& a, const Response& b) {
-  return a.outcome == b.outcome && a.peak_slip_m == b.peak_slip_m && a.residual_slip_m == b.residual_slip_m &&
-         a.slid_path_m == b.slid_path_m && a.peak_rotation_rad == b.peak_rotation_rad &&
-         a.residual_rotation_rad == b.residual_rotation_rad && a.peak_acceleration_mps2 == b.peak_acceleration_mps2 &&
-         a.connection_failed == b.connection_failed && a.impacts == b.impacts && a.events == b.events &&
-         a.end_time_s == b.end_time_s;
+  return same(a.peak_slip_right_m, b.peak_slip_right_m) && same(a.peak_slip_left_m, b.peak_slip_left_m) &&
+         a.wall_hits == b.wall_hits && a.wall_speed_mps == b.wall_speed_mps && a.outcome == b.outcome &&
+         a.peak_slip_m == b.peak_slip_m && a.residual_slip_m == b.residual_slip_m && a.slid_path_m == b.slid_path_m &&
+         a.peak_rotation_rad == b.peak_rotation_rad && a.residual_rotation_rad == b.residual_rotation_rad &&
+         a.peak_acceleration_mps2 == b.peak_acceleration_mps2 && a.connection_failed == b.connection_failed &&
+         a.impacts == b.impacts && a.events == b.events && a.end_time_s == b.end_time_s;
 }
 
 TEST(CatalogueInBlocks, EachSampleIsAnsweredAsAlone) {
@@ -80,10 +84,57 @@ TEST(CatalogueInBlocks, EachSampleIsAnsweredAsAlone) {
       EXPECT_LE(sensitive, static_cast<int>(count) / 10) << effect.name;
       std::printf("%s: %d of 40 with the effect have the bits of single samples, %d of all are sensitive\n",
                   effect.name.c_str(), bits, sensitive);
+      std::vector<Specimen> with;
+      std::vector<Shaking> shakings;
+      for (std::size_t i = 0; i < count; ++i)
+        if (!samples.specimens[i].effects.empty()) {
+          with.push_back(samples.specimens[i]);
+          shakings.push_back(samples.shakings[i]);
+        }
+      if (!in_packs.count(effect.name) && dynamics::batch_kernels()) {
+        const std::size_t expected = effect.name == "flexible_legs" ? with.size() : 0;
+        EXPECT_EQ(dynamics::respond_and_count(with, shakings, {}, block), expected) << effect.name;
+      }
       if (in_packs.count(effect.name)) {
         EXPECT_LE(bits, 15) << effect.name << " is computed alone";  // some rest, and are the same either way
       }
     }
+}
+
+// Laws together, one after the other in one pool: lanes of different tapes, sides of kinks and modes, with vertical shaking; and the
+// slip to each side.
+TEST(MixturesInBlocks, HaveTheBitsOfSingleSamplesWithAnyInstructionSet) {
+  CaseFamily family;
+  family.seed = 93;
+  family.one_model = 0;
+  family.duration_low_s = 3;
+  family.duration_high_s = 6;
+  constexpr std::size_t count = 300;
+  const Settings settings{.slip_by_side = true};
+  Samples samples;
+  std::vector<Response> alone;
+  for (std::size_t i = 0; i < count; ++i) {
+    KeyedRandom random(94, i);
+    samples.cases.push_back(random_case(family, i));
+    samples.specimens.push_back(samples.cases.back().specimen);
+    samples.shakings.push_back(samples.cases.back().shaking);
+    Specimen& specimen = samples.specimens.back();
+    specimen.model = i % 3 == 0 ? Model::slide : Model::slide_rock;
+    specimen.effects = mixture(random, specimen.model);
+    alone.push_back(respond(specimen, samples.shakings.back(), settings));
+  }
+  for (const char* name : {"v2", "v3", "v4"}) {
+    const Isa isa(name);
+    if (!isa.there()) {
+      std::printf("%s is not here\n", name);
+      continue;
+    }
+    std::vector<Response> block(count);
+    const std::size_t one_by_one = dynamics::respond_and_count(samples.specimens, samples.shakings, settings, block);
+    EXPECT_LT(one_by_one, count / 2) << name;
+    for (std::size_t i = 0; i < count; ++i)
+      EXPECT_TRUE(same_bits(block[i], alone[i])) << name << ' ' << i << ' ' << samples.cases[i].text();
+  }
 }
 
 }  // namespace

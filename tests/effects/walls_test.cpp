@@ -103,8 +103,8 @@ TEST_P(Wall, ALadderOnIceKeepsItsEnergy) {
   double least = 1e9, most = -1e9;
   int leaning = 0;
   for (const HistoryPoint& at : r.points) {
-    const bool at_the_wall = at.time_s > melts_s && at.mode == Mode::slide_rock &&
-                             std::abs(farthest(ladder, at, 1) - gap) < 1e-8;
+    const bool at_the_wall =
+        at.time_s > melts_s && at.mode == Mode::slide_rock && std::abs(farthest(ladder, at, 1) - gap) < 1e-8;
     if (!at_the_wall) continue;
     ++leaning;
     least = std::min(least, energy(at));
