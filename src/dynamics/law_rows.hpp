@@ -6,7 +6,7 @@
 
 namespace freestand::dynamics {
 
-inline constexpr int law_slots = 64;
+inline constexpr int law_slots = 32;
 inline constexpr int law_order = 7;
 
 enum class Row : int {
