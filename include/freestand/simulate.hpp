@@ -12,7 +12,7 @@ struct Settings {
   double tolerance = 1e-9;       // local error of the dimensionless state, one step
   double free_vibration_s = 60;  // integration goes on until the block is at rest, at most this long after the motion
   int event_limit = 100000;
-  bool slip_by_side = false;  // the peak slip to each side too; then every sample is computed alone
+  bool slip_by_side = false;  // the peak slip to each side too; then only samples with laws go in packs
 };
 
 // Taylor integrator of the sweep. Never throws, never allocates unless `history` is given. What cannot be integrated (a
@@ -24,7 +24,7 @@ Response respond(const Specimen&, const Shaking&, const Settings& = {}, History*
 // one by one. The answer to a sample depends on that sample alone, to the bit, and is the same with any instruction set.
 // All spans are equally long. Packs keep the tolerance as well as single samples do: at 1e-9 the median error of a peak is
 // below 1e-12 of it, below 1e-9 where friction follows the speed and with Bouc-Wen's contact. The latter go one by one at
-// tolerances below 1e-10, all samples below 1e-13.
+// tolerances below 1e-10, others below 1e-13. Records under the other effects have the very bits of single samples.
 void respond_batch(std::span<const Specimen>, std::span<const Shaking>, const Settings&, std::span<Response>);
 
 // Event-driven reference on SUNDIALS ARKODE (explicit Runge-Kutta, order 5) with root finding; stops at every knot of
