@@ -3,13 +3,16 @@
 
 #include <vector>
 
-namespace freestand::decision {
+namespace freestand::fragility {
 
 struct Estimate {
   double value = 0;  // NaN throughout: not known
   double se = 0;
   double lower = 0, upper = 0;  // at the confidence asked for
 };
+
+// Of G estimates that leave out one group each: (G - 1)/G sum (left out - their mean)^2.
+double jackknife_variance(const std::vector<double>& left_out);
 
 // The estimates that leave out one group each, by stratum (records among themselves, pulses among themselves).
 using LeftOut = std::vector<std::vector<double>>;
@@ -29,4 +32,4 @@ Estimate jackknife_share(double whole, const LeftOut& left_out, double confidenc
 // which hardly does.
 Estimate jackknife_share(double whole, const LeftOut& left_out, double confidence, double of_a_class);
 
-}  // namespace freestand::decision
+}  // namespace freestand::fragility
