@@ -135,6 +135,7 @@ Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs) {
   result.motions = static_cast<int>(std::count(there.begin(), there.end(), true));
 
   const Resampling resampling(tally.groups(), there, options.resamples, options.seed);
+  result.left_out_records = resampling.left_out_records();
   fit_pieces(tally, resampling, null, jobs, result);
   result.covariance = covariance(tally);
   result.warnings = warnings(tally, result);

@@ -62,4 +62,29 @@ Estimate jackknife_share(double whole, const LeftOut& left_out, double confidenc
   return result;
 }
 
+Interval jackknife_of_positive(double whole, LeftOut left_out, double confidence) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  double variance = 0, variance_of_it = 0, most = 0;
+  for (std::vector<double>& stratum : left_out) {
+    if (stratum.size() < 2) continue;
+    const double groups = static_cast<double>(stratum.size());
+    for (double& one : stratum) one = one > 0 ? std::log(one) : nan;
+    const double mean = std::accumulate(stratum.begin(), stratum.end(), 0.0) / groups;
+    double second = 0, fourth = 0;
+    for (const double one : stratum) {
+      second += std::pow(one - mean, 2) / groups;
+      fourth += std::pow(one - mean, 4) / groups;
+    }
+    variance += jackknife_variance(stratum);
+    variance_of_it += (groups - 1) * (groups - 1) / groups * (fourth - second * second);
+    most += groups - 1;
+  }
+  if (most == 0 || !(whole > 0) || std::isnan(variance)) return {nan, nan};
+  if (variance == 0) return {whole, whole};
+  const double freedom =
+      2 * variance * variance < most * variance_of_it ? 2 * variance * variance / variance_of_it : most;
+  const double reach = gsl_cdf_tdist_Qinv((1 - confidence) / 2, freedom) * std::sqrt(variance);
+  return {whole * std::exp(-reach), whole * std::exp(reach)};
+}
+
 }  // namespace freestand::fragility

@@ -69,6 +69,7 @@ struct Surface {
   std::vector<double>
       resampled;  // [resample, im, capacity], `probability` from resampled motions: for bands of what is
                   // computed from several points
+  std::vector<double> left_out;  // [left out, im, capacity], `probability` without a group of motions
 };
 
 // P(EDP > C) over IM x a second axis, from counts, with band from resampled motions. All [im, axis, capacity] but n
@@ -123,6 +124,7 @@ struct FragilityFunction {
   std::vector<double> probability, lower, upper;  // [grid], band from resampled motions
   std::vector<double> resampled_median,
       resampled_dispersion;  // [resample], of the same resampled motions for each curve
+  std::vector<double> left_out_median, left_out_dispersion;  // [left out], without a group of motions
 };
 
 struct EdpResult {
@@ -154,6 +156,7 @@ struct Result {
   std::int64_t samples = 0;                                  // all, = sum of outcome_counts
   std::int64_t outside_im = 0;                               // sound samples whose IM is in no bin (or not a number)
   int motions = 0;                                           // groups of motions that have samples
+  int left_out_records = 0;  // of the groups that are left out in turn the first ones, which are of records
   std::vector<EdpResult> edps;
   FragilityFunction overturning;
   Covariance covariance;
