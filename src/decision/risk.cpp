@@ -86,15 +86,16 @@ class ByCounts {
 
   // Rows that no resample changes (nothing above was counted, say) are known to their own bands, which hold the exact binomial limits;
   // what these allow adds as independent errors do.
-  Rate banded(const Result& result, const EdpResult& edp) const {
+  Rate banded(const Result& result, const EdpResult& edp) {
     const std::vector<double> weight = weights();
     const std::vector<double> resampled = rates(weight, edp.surface.resampled, edp),
                               left_out = rates(weight, edp.surface.left_out, edp);
     double below = 0, above = 0;
     for (std::size_t i = 0; i < at_.size(); ++i) {
       if (!same(i, edp.surface.resampled, edp)) continue;
-      below += std::pow(weight[i] * (table_.probability[i] - edp.surface.lower[at_[i]]), 2);
-      above += std::pow(weight[i] * (edp.surface.upper[at_[i]] - table_.probability[i]), 2);
+      const fragility::Interval limits = rising_limits(i, edp);
+      below += std::pow(weight[i] * (table_.probability[i] - limits.lower), 2);
+      above += std::pow(weight[i] * (limits.upper - table_.probability[i]), 2);
     }
     Rate found = decision::banded(rate(weight), left_out, resampled, result);
     if (std::isnan(found.lower)) return found;
@@ -104,8 +105,22 @@ class ByCounts {
   }
 
   double at_end() const { return table_.probability.back(); }
+  bool bounded_by_others() const { return bounded_by_others_; }
 
  private:
+  // Of a row in which nothing was counted: its upper limit, or that of a row at a higher intensity where it is less. Of one in which all
+  // was counted the lower limit alike.
+  fragility::Interval rising_limits(std::size_t i, const EdpResult& edp) {
+    const double own_lower = edp.surface.lower[at_[i]], own_upper = edp.surface.upper[at_[i]];
+    fragility::Interval limits{own_lower, own_upper};
+    if (table_.probability[i] == 0)
+      for (std::size_t j = i; j < at_.size(); ++j) limits.upper = std::min(limits.upper, edp.surface.upper[at_[j]]);
+    if (table_.probability[i] == 1)
+      for (std::size_t j = 0; j <= i; ++j) limits.lower = std::max(limits.lower, edp.surface.lower[at_[j]]);
+    bounded_by_others_ = bounded_by_others_ || limits.lower > own_lower || limits.upper < own_upper;
+    return limits;
+  }
+
   // Of each resample, or of each group left out: `again` is [of them, im, capacity].
   std::vector<double> rates(const std::vector<double>& weight, const std::vector<double>& again,
                             const EdpResult& edp) const {
@@ -125,6 +140,7 @@ class ByCounts {
   const HazardCurve& hazard_;
   TabulatedFragility table_;
   std::vector<std::size_t> at_;  // points of the surface
+  bool bounded_by_others_ = false;
 };
 
 // Motions of which nothing exceeded have no curve: they count as no rate.
@@ -183,6 +199,11 @@ class Row {
       row_.why = fmt::format("the fitted curve is off the counted shares by up to {:.2g}", f_.off_by);
     else
       row_.why = "no bin has enough samples";
+    if (row_.recommended == By::counts && counts_.bounded_by_others())
+      row_.why +=
+          "; where no sample exceeds it the upper limit of P is the least of those there and at higher intensities "
+          "(and "
+          "where all do the lower limit alike), since P is taken not to fall as the intensity rises";
   }
 
   void outside() {
@@ -229,7 +250,7 @@ class Row {
   const Risk& risk_;
   const FragilityFunction& f_;
   const ByFunction function_;
-  const ByCounts counts_;
+  ByCounts counts_;
   const EdpResult& edp_;
   RiskRow row_;
 };
