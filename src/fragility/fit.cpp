@@ -120,6 +120,8 @@ Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs) {
   Result result;
   result.im_name = options.im_name;
   result.im_unit = options.im_unit;
+  result.im_period_s = options.im_period_s;
+  result.im_damping = options.im_damping;
   result.im_edge = options.im_edge;
   result.confidence = options.confidence;
   result.resamples = options.resamples;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <freestand/response.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,8 +68,8 @@ struct Surface {
   std::vector<double> probability, lower, upper, empirical;
   std::vector<double> least, most;  // of `empirical`, had every sample that failed stayed below, or lain above
   std::vector<double>
-      resampled;  // [resample, im, capacity], `probability` from resampled motions: for bands of what is
-                  // computed from several points
+      resampled;                 // [resample, im, capacity], `probability` from resampled motions: for bands of what is
+                                 // computed from several points
   std::vector<double> left_out;  // [left out, im, capacity], `probability` without a group of motions
 };
 
@@ -123,7 +124,7 @@ struct FragilityFunction {
   std::vector<double> grid;                       // IM, from the first positive edge to the last
   std::vector<double> probability, lower, upper;  // [grid], band from resampled motions
   std::vector<double> resampled_median,
-      resampled_dispersion;  // [resample], of the same resampled motions for each curve
+      resampled_dispersion;                                  // [resample], of the same resampled motions for each curve
   std::vector<double> left_out_median, left_out_dispersion;  // [left out], without a group of motions
 };
 
@@ -148,8 +149,9 @@ struct Covariance {
 
 struct Result {
   std::string im_name, im_unit;
-  std::vector<double> im_edge;  // n + 1
-  std::vector<double> im;       // n: where a bin stands, the mean IM of its samples (its middle where it has none)
+  std::optional<double> im_period_s = {}, im_damping = {};  // of the oscillator of a spectral intensity
+  std::vector<double> im_edge;                              // n + 1
+  std::vector<double> im;  // n: where a bin stands, the mean IM of its samples (its middle where it has none)
   double confidence = 0.95;
   int resamples = 0;                                         // of the motions
   std::array<std::int64_t, outcome_count> outcome_counts{};  // in the order of Outcome

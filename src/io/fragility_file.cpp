@@ -203,12 +203,19 @@ void write_edp(Group& parent, const Result& result, const EdpResult& edp) {
   for (const AxisSurface& axis : edp.axes) write_axis(axes, result, edp, axis);
 }
 
+// Of which intensity the curves are: its name and unit, and period and damping where they are part of it.
+void write_intensity(Group& group, const Result& result) {
+  group.attribute("im", result.im_name);
+  group.attribute("im_unit", result.im_unit);
+  if (result.im_period_s) group.attribute("im_period_s", *result.im_period_s);
+  if (result.im_damping) group.attribute("im_damping", *result.im_damping);
+}
+
 // One curve: its numbers are attributes.
 void write_overturning(Group& root, const Result& result) {
   const fragility::FragilityFunction& curve = result.overturning;
   Group group = root.make_group("overturning");
-  group.attribute("im", result.im_name);
-  group.attribute("im_unit", result.im_unit);
+  write_intensity(group, result);
   for (const FunctionField& field : function_fields()) group.attribute(field.name, field.value(curve));
   const Dataset grid = coordinate(group, "grid", curve.grid, result.im_unit, result.im_name);
   group.put("probability", curve.probability).attach(0, grid).describe("1", "P(overturning)");
@@ -251,8 +258,7 @@ void write_covariance(Group& root, const Result& result) {
 
 void write_root(Group& root, const Provenance& provenance, const Result& result) {
   write_provenance(root, fragility_format, provenance);
-  root.attribute("im", result.im_name);
-  root.attribute("im_unit", result.im_unit);
+  write_intensity(root, result);
   root.attribute("mix",
                  "P(EDP > C) at an intensity is that of the specimens and motions which the study mixes there; "
                  "fragility.target of the study gives another mix");

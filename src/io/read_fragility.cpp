@@ -117,6 +117,8 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
   Result& result = read.result;
   result.im_name = root.text_attribute("im");
   result.im_unit = root.text_attribute("im_unit");
+  if (root.has_attribute("im_period_s")) result.im_period_s = root.real_attribute("im_period_s");
+  if (root.has_attribute("im_damping")) result.im_damping = root.real_attribute("im_damping");
   result.confidence = root.real_attribute("confidence");
   result.resamples = static_cast<int>(root.integer_attribute("resamples"));
   const std::vector<std::int64_t> outcomes = root.integers_attribute("outcome_counts");

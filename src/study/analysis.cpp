@@ -80,6 +80,8 @@ fragility::Options laid_out(const Study& study, const Table& first, const std::v
   fragility::Options options;
   options.im_name = measure.name;
   options.im_unit = measure.unit;
+  if (measure.parameter) options.im_period_s = intensity::parameter_of(measure, part.im.period_s);
+  options.im_damping = measure.damping;
   options.im_edge = edges("fragility.bins", part.bins, column(first, "im_" + measure.name, target));
   for (const std::string& name : part.edp) options.edps.push_back(edp_options(part, name));
   for (fragility::EdpOptions& state : DamageStates(study).edps()) options.edps.push_back(std::move(state));
