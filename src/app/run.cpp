@@ -8,6 +8,7 @@
 #include "parallel/progress.hpp"
 #include "study/fit.hpp"
 #include "study/known.hpp"
+#include "study/realise.hpp"
 #include "study/sweep.hpp"
 
 namespace freestand::app {
@@ -27,6 +28,8 @@ study::Study read(const Context& context, const std::string& file) {
 
 Exit check(const Context& context, const Options& options) {
   const study::Study study = read(context, options.study);
+  // Records that cannot be read are told as the sweep would tell them.
+  context.world.on_root([&] { study::load_motions(study); });
   if (context.world.is_root()) fmt::print("{}", study::expanded(study, ""));
   return Exit::done;
 }
@@ -71,7 +74,8 @@ void add(CLI::App& parser, Work& work, const std::string& name, const std::strin
   CLI::App* verb = parser.add_subcommand(name, what);
   verb->add_option("study", options->study, "study file")->required();
   verb->add_option("-o,--output", options->folder, "folder for the results");
-  verb->add_flag("--check", options->check, "check the study, print it with all defaults written out, and stop");
+  verb->add_flag("--check", options->check,
+                 "check the study and the records that it names, print it with all defaults written out, and stop");
   auto* overwrite = verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder");
   verb->add_flag("--resume", options->resume, "go on with a sweep that was stopped or killed")->excludes(overwrite);
   verb->add_flag("--quiet", options->quiet, "no progress");

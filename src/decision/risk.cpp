@@ -9,6 +9,7 @@
 
 #include "decision/annual_rate.hpp"
 #include "fragility/intervals.hpp"
+#include "fragility/jackknife.hpp"
 
 namespace freestand::decision {
 namespace {
@@ -36,6 +37,17 @@ struct ByFunction {
     return annual_rate(hazard, f, range) + tail;
   }
 };
+
+// The band of a rate: by leaving out groups of motions; where one of them makes all of it, or none can be left out, from resampled motions.
+Rate banded(double value, const std::vector<double>& left_out, const std::vector<double>& resampled,
+            const Result& result) {
+  const auto border = left_out.begin() + std::min<std::ptrdiff_t>(result.left_out_records, std::ssize(left_out));
+  fragility::Interval band = fragility::jackknife_of_positive(
+      value, {{left_out.begin(), border}, {border, left_out.end()}}, result.confidence);
+  if (std::isnan(band.lower))
+    band = fragility::percentile_interval(resampled, value, result.confidence, result.motions);
+  return {value, band.lower, band.upper};
+}
 
 // The same of the counted shares of the bins: P from one bin's mean to the next, the last bin's share above the sweep, nothing below it.
 class ByCounts {
@@ -74,53 +86,75 @@ class ByCounts {
 
   // Rows that no resample changes (nothing above was counted, say) are known to their own bands, which hold the exact binomial limits;
   // what these allow adds as independent errors do.
-  Rate banded(const Result& result, const EdpResult& edp) const {
+  Rate banded(const Result& result, const EdpResult& edp) {
     const std::vector<double> weight = weights();
-    Rate found{rate(weight), unknown, unknown};
-    const std::size_t size = edp.surface.probability.size(),
-                      resamples = size == 0 ? 0 : edp.surface.resampled.size() / size;
-    std::vector<double> again(resamples, 0);
+    const std::vector<double> resampled = rates(weight, edp.surface.resampled, edp),
+                              left_out = rates(weight, edp.surface.left_out, edp);
     double below = 0, above = 0;
     for (std::size_t i = 0; i < at_.size(); ++i) {
-      bool same = true;
-      for (std::size_t r = 0; r < resamples; ++r) {
-        const double p = edp.surface.resampled[r * size + at_[i]];
-        again[r] += weight[i] * p;
-        same = same && p == table_.probability[i];
-      }
-      if (!same) continue;
-      below += std::pow(weight[i] * (table_.probability[i] - edp.surface.lower[at_[i]]), 2);
-      above += std::pow(weight[i] * (edp.surface.upper[at_[i]] - table_.probability[i]), 2);
+      if (!same(i, edp.surface.resampled, edp)) continue;
+      const fragility::Interval limits = rising_limits(i, edp);
+      below += std::pow(weight[i] * (table_.probability[i] - limits.lower), 2);
+      above += std::pow(weight[i] * (limits.upper - table_.probability[i]), 2);
     }
-    const fragility::Interval band =
-        fragility::percentile_interval(again, found.value, result.confidence, result.motions);
-    if (std::isnan(band.lower)) return found;
-    found.lower = std::max(0.0, band.lower - std::sqrt(below));
-    found.upper = std::min(hazard_.annual_rate.front(), band.upper + std::sqrt(above));
+    Rate found = decision::banded(rate(weight), left_out, resampled, result);
+    if (std::isnan(found.lower)) return found;
+    found.lower = std::max(0.0, found.lower - std::sqrt(below));
+    found.upper = std::min(hazard_.annual_rate.front(), found.upper + std::sqrt(above));
     return found;
   }
 
   double at_end() const { return table_.probability.back(); }
+  bool bounded_by_others() const { return bounded_by_others_; }
 
  private:
+  // Of a row in which nothing was counted: its upper limit, or that of a row at a higher intensity where it is less. Of one in which all
+  // was counted the lower limit alike.
+  fragility::Interval rising_limits(std::size_t i, const EdpResult& edp) {
+    const double own_lower = edp.surface.lower[at_[i]], own_upper = edp.surface.upper[at_[i]];
+    fragility::Interval limits{own_lower, own_upper};
+    if (table_.probability[i] == 0)
+      for (std::size_t j = i; j < at_.size(); ++j) limits.upper = std::min(limits.upper, edp.surface.upper[at_[j]]);
+    if (table_.probability[i] == 1)
+      for (std::size_t j = 0; j <= i; ++j) limits.lower = std::max(limits.lower, edp.surface.lower[at_[j]]);
+    bounded_by_others_ = bounded_by_others_ || limits.lower > own_lower || limits.upper < own_upper;
+    return limits;
+  }
+
+  // Of each resample, or of each group left out: `again` is [of them, im, capacity].
+  std::vector<double> rates(const std::vector<double>& weight, const std::vector<double>& again,
+                            const EdpResult& edp) const {
+    const std::size_t size = edp.surface.probability.size();
+    std::vector<double> found(size == 0 ? 0 : again.size() / size, 0);
+    for (std::size_t r = 0; r < found.size(); ++r)
+      for (std::size_t i = 0; i < at_.size(); ++i) found[r] += weight[i] * again[r * size + at_[i]];
+    return found;
+  }
+  bool same(std::size_t i, const std::vector<double>& again, const EdpResult& edp) const {
+    const std::size_t size = edp.surface.probability.size();
+    for (std::size_t at = at_[i]; at < again.size(); at += size)
+      if (again[at] != table_.probability[i]) return false;
+    return true;
+  }
+
   const HazardCurve& hazard_;
   TabulatedFragility table_;
   std::vector<std::size_t> at_;  // points of the surface
+  bool bounded_by_others_ = false;
 };
 
-// Resamples in which nothing exceeded have no curve: they count as no rate.
+// Motions of which nothing exceeded have no curve: they count as no rate.
 Rate banded(const Result& result, const FragilityFunction& f, const ByFunction& by) {
-  Rate found{by.rate({f.median, f.dispersion}), unknown, unknown};
-  std::vector<double> again;
-  for (std::size_t r = 0; r < f.resampled_median.size(); ++r) {
-    const double rate = by.rate({f.resampled_median[r], f.resampled_dispersion[r]});
-    again.push_back(std::isfinite(rate) ? rate : 0);
-  }
-  const fragility::Interval band =
-      fragility::percentile_interval(again, found.value, result.confidence, result.motions);
-  found.lower = band.lower;
-  found.upper = band.upper;
-  return found;
+  const auto rates = [&](const std::vector<double>& median, const std::vector<double>& dispersion) {
+    std::vector<double> found;
+    for (std::size_t i = 0; i < median.size(); ++i) {
+      const double rate = by.rate({median[i], dispersion[i]});
+      found.push_back(std::isfinite(rate) ? rate : 0);
+    }
+    return found;
+  };
+  return banded(by.rate({f.median, f.dispersion}), rates(f.left_out_median, f.left_out_dispersion),
+                rates(f.resampled_median, f.resampled_dispersion), result);
 }
 
 // One demand and one capacity.
@@ -165,6 +199,11 @@ class Row {
       row_.why = fmt::format("the fitted curve is off the counted shares by up to {:.2g}", f_.off_by);
     else
       row_.why = "no bin has enough samples";
+    if (row_.recommended == By::counts && counts_.bounded_by_others())
+      row_.why +=
+          "; where no sample exceeds it the upper limit of P is the least of those there and at higher intensities "
+          "(and "
+          "where all do the lower limit alike), since P is taken not to fall as the intensity rises";
   }
 
   void outside() {
@@ -211,7 +250,7 @@ class Row {
   const Risk& risk_;
   const FragilityFunction& f_;
   const ByFunction function_;
-  const ByCounts counts_;
+  ByCounts counts_;
   const EdpResult& edp_;
   RiskRow row_;
 };

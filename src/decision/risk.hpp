@@ -10,8 +10,21 @@
 
 namespace freestand::decision {
 
-// A rate and its band from resampled motions: the curve of each resample is integrated by itself, since a band of a sum is no sum of
-// bands. NaN: not known.
+// A rate and its band, by leaving out groups of motions: the curve without each is integrated by itself, since a band of a sum is no sum
+// of bands. A rate scatters askew and the fewer motions make it the worse its error is known, so the interval is laid in ln rate with
+// Student's t and as many degrees of freedom as the left out rates show (jackknife_of_positive). Where one group makes all of the rate
+// the percentiles of resampled motions stand in. NaN: not known.
+//
+// By counts the exact binomial limits of bins in which nothing was counted come on top. There the least upper limit of the bin and of
+// those at higher intensities is taken: P is taken not to fall as the intensity rises. That holds here, where the intensity is one of
+// the floor's motion (PGA, PGV, Sa) and the specimens and motions are the same at each; over the report's PTA/(mu g) - 1 it need not,
+// and surfaces keep each bin's own limits.
+//
+// Measured by simulation, bands of nominal 90 %, 25 samples a record, half to two thirds of the variance between records, hazard slopes 1.5
+// and 2.5, 1500 repeats each (error 0.008; tests/decision/risk_test.cpp): by the function they hold the truth in 0.90 to 0.91 of the cases
+// with 40 records and in 0.86 to 0.88 with 14, where too few are left to show how askew the rate scatters; by counts in 0.93 to 0.97
+// with 40 and 0.90 to 0.95 with 14, never with the truth above the band: limits of bins in which nothing was counted are one-sided, and
+// where such intensities come often they alone make the upper limit.
 struct Rate {
   double value = fragility::unknown, lower = fragility::unknown, upper = fragility::unknown;
 };

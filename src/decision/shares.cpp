@@ -25,7 +25,8 @@ int joined(const Parameter& parameter, double samples) {
 
 }  // namespace
 
-ShareTally::ShareTally(std::vector<Parameter> parameters, std::vector<Answer> answers, const LeaveOutGroups& groups)
+ShareTally::ShareTally(std::vector<Parameter> parameters, std::vector<Answer> answers,
+                       const fragility::LeaveOutGroups& groups)
     : parameters_(std::move(parameters)), answers_(std::move(answers)), groups_(groups) {
   for (const Answer& answer : answers_) {
     of_answer_.push_back(width_);
@@ -138,7 +139,7 @@ ShareRow ShareTally::row(std::size_t answer, double confidence) const {
   row.variance = all.n > 0 ? all.squares / all.n - row.mean * row.mean : nan;
 
   const auto left_out_of = [&](const Shares& shares) {
-    LeftOut left_out(2);
+    fragility::LeftOut left_out(2);
     for (std::size_t g = 0; g < of_group.size(); ++g)
       if (of_group[g].n > 0)
         left_out[static_cast<std::size_t>(groups_.stratum(static_cast<int>(g)))].push_back(shares.without[g]);
@@ -147,11 +148,11 @@ ShareRow ShareTally::row(std::size_t answer, double confidence) const {
   Shares together{0, std::vector<double>(of_group.size(), 0), 0};
   for (std::size_t p = 0; p < parameters_.size(); ++p) {
     const Shares one = shares(p, answer, of_group);
-    row.share.push_back(jackknife_share(one.whole, left_out_of(one), confidence, all.n / one.classes));
+    row.share.push_back(fragility::jackknife_share(one.whole, left_out_of(one), confidence, all.n / one.classes));
     together.whole += one.whole;
     for (std::size_t g = 0; g < of_group.size(); ++g) together.without[g] += one.without[g];
   }
-  row.together = jackknife_share(together.whole, left_out_of(together), confidence);
+  row.together = fragility::jackknife_share(together.whole, left_out_of(together), confidence);
   return row;
 }
 

@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "decision/groups.hpp"
-#include "decision/jackknife.hpp"
+#include "fragility/jackknife.hpp"
+#include "fragility/leave_out_groups.hpp"
 
 namespace freestand::decision {
 
@@ -38,10 +38,10 @@ struct Answer {
 };
 
 struct ShareRow {
-  std::vector<Estimate> share;  // [parameter]
-  Estimate together;            // of each alone, summed; what is missing to 1 is due to parameters that act together
-  std::int64_t samples = 0;     // with this answer
-  int motions = 0;              // groups of motions that these have (at most 64 of records and 64 of others)
+  std::vector<fragility::Estimate> share;  // [parameter]
+  fragility::Estimate together;  // of each alone, summed; what is missing to 1 is due to parameters that act together
+  std::int64_t samples = 0;      // with this answer
+  int motions = 0;               // groups of motions that these have (at most 64 of records and 64 of others)
   double mean = 0, variance = 0;
 };
 
@@ -49,7 +49,7 @@ struct ShareRow {
 // tallies of the same shape may be added element by element. |values| < 2^10, up to 2^30 samples.
 class ShareTally {
  public:
-  ShareTally(std::vector<Parameter> parameters, std::vector<Answer> answers, const LeaveOutGroups& groups);
+  ShareTally(std::vector<Parameter> parameters, std::vector<Answer> answers, const fragility::LeaveOutGroups& groups);
 
   // of_class: [parameter], 0 ... classes - 1, or `classes` where a sample has none (the period of a record). value: [answer], NaN:
   // not known for this sample, as the slip of what overturned.
@@ -74,7 +74,7 @@ class ShareTally {
 
   std::vector<Parameter> parameters_;
   std::vector<Answer> answers_;
-  LeaveOutGroups groups_;
+  fragility::LeaveOutGroups groups_;
   std::size_t width_ = 0;               // words of a cell
   std::vector<std::size_t> of_answer_;  // offset in a cell
   std::vector<std::size_t> first_;      // cell of class 0 and group 0 of each parameter

@@ -15,7 +15,7 @@ constexpr std::size_t first_side = 0, other_side = 1, sides = 2;
 
 }  // namespace
 
-TotalTally::TotalTally(std::size_t parameters, std::vector<Answer> answers, const LeaveOutGroups& groups)
+TotalTally::TotalTally(std::size_t parameters, std::vector<Answer> answers, const fragility::LeaveOutGroups& groups)
     : answers_(std::move(answers)),
       groups_(groups),
       words_(parameters * answers_.size() * static_cast<std::size_t>(groups_.count()) * sides * words_of_sums, 0) {}
@@ -57,7 +57,7 @@ TotalShare TotalTally::share(std::size_t parameter, std::size_t answer, double c
     const Sums one = read(place(parameter, answer, g, first_side));
     all = {all.n + one.n, all.differences + one.differences, all.sum + one.sum, all.squares + one.squares};
   }
-  LeftOut left_out(2);
+  fragility::LeftOut left_out(2);
   for (std::size_t g = 0; g < groups; ++g) {
     Sums rest = all;
     for (const std::size_t side : {first_side, other_side}) {
@@ -66,7 +66,7 @@ TotalShare TotalTally::share(std::size_t parameter, std::size_t answer, double c
     }
     if (rest.n < all.n) left_out[static_cast<std::size_t>(groups_.stratum(static_cast<int>(g)))].push_back(of(rest));
   }
-  return {jackknife_share(of(all), left_out, confidence), static_cast<std::int64_t>(all.n)};
+  return {fragility::jackknife_share(of(all), left_out, confidence), static_cast<std::int64_t>(all.n)};
 }
 
 }  // namespace freestand::decision

@@ -11,21 +11,21 @@
 #include <span>
 #include <vector>
 
-#include "decision/groups.hpp"
-#include "decision/jackknife.hpp"
 #include "decision/shares.hpp"
+#include "fragility/jackknife.hpp"
+#include "fragility/leave_out_groups.hpp"
 
 namespace freestand::decision {
 
 struct TotalShare {
-  Estimate share;
+  fragility::Estimate share;
   std::int64_t pairs = 0;
 };
 
 // Sums as in ShareTally: integers, any order.
 class TotalTally {
  public:
-  TotalTally(std::size_t parameters, std::vector<Answer> answers, const LeaveOutGroups& groups);
+  TotalTally(std::size_t parameters, std::vector<Answer> answers, const fragility::LeaveOutGroups& groups);
 
   // The answers of a sample, and those with `parameter` drawn again; NaN in either: no pair.
   void add(std::size_t parameter, int group, int group_again, std::span<const double> value,
@@ -43,7 +43,7 @@ class TotalTally {
   std::size_t place(std::size_t parameter, std::size_t answer, std::size_t group, std::size_t side) const;
 
   std::vector<Answer> answers_;
-  LeaveOutGroups groups_;
+  fragility::LeaveOutGroups groups_;
   std::vector<std::int64_t> words_;
 };
 

@@ -26,7 +26,14 @@ std::vector<double> intensities(const Model& model) {
   return values;
 }
 
-Json state_json(const LimitState& state, const Largest& largest) {
+// Where the sweep ends: above it a lognormal is an extrapolation, and of other curves nothing is known.
+double beyond_sweep_from(const Model& model, const Curve& curve) {
+  if (curve.form == Form::discrete) return curve.points.back().im;
+  if (curve.form == Form::parts) return curve.parts.back().im;
+  return model.im_most;
+}
+
+Json state_json(const Model& model, const LimitState& state, const Largest& largest) {
   return {{"name", state.name},
           {"demand", state.demand},
           {"capacity", state.capacity},
@@ -41,6 +48,7 @@ Json state_json(const LimitState& state, const Largest& largest) {
           {"lognormal_adequate", state.fitted.adequate},
           {"largest_difference", largest.difference},
           {"at", largest.at},
+          {"beyond_sweep_from", beyond_sweep_from(model, state.curve)},
           {"largest_difference_from_surface", state.off_surface},
           {"surface_at", state.off_surface_at},
           {"pooled_by", state.pooled}};
@@ -66,7 +74,7 @@ Certified certify(const Model& model, const Format& format, const std::filesyste
         largest = {std::isnan(difference) ? 1 : difference, im};
     }
     certified.difference = std::max(certified.difference, largest.difference);
-    states.push_back(state_json(state, largest));
+    states.push_back(state_json(model, state, largest));
   }
   certified.allowed = wanted_difference + back.rounds_by;
   certified.json = {{"target", format.name},
@@ -79,6 +87,7 @@ Certified certify(const Model& model, const Format& format, const std::filesyste
                     {"im", model.im.name},
                     {"im_unit", model.im.unit},
                     {"unit_in_file", back.unit},
+                    {"bands_in_file", format.bands},
                     {"im_from", intensities(model).front()},
                     {"im_to", intensities(model).back()},
                     {"limit_states", states},

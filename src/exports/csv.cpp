@@ -50,6 +50,7 @@ const Register here{{.name = "csv",
                      .file = "fragility.csv",
                      .forms = {Form::discrete},
                      .table = true,
+                     .bands = true,
                      .write = write}};
 
 }  // namespace

@@ -31,7 +31,10 @@ struct Format {
   std::vector<Form> forms;  // that the target can hold, best first
   bool table = false;  // holds results as they are: nothing is pooled, limit states may cross, any intensity will do
   bool last_only = false;  // holds the most severe limit state alone
+  bool bands = false;      // its files hold the bands of the probabilities too, not the best estimate alone
   std::string note = {};   // a plain sentence that goes with every file of it
+  // Plain sentences on what it makes of these curves.
+  std::vector<std::string> (*notes_on)(const Model&) = nullptr;
   // What stands for --asset-category where nothing was said; none: "".
   std::string (*usual_category)(std::size_t states) = nullptr;
   // Refuses, with an Error, what the target cannot express.

@@ -139,6 +139,19 @@ std::string words(const Model& model) {
   return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
+std::vector<std::string> notes_on(const Model& model) {
+  std::vector<std::string> notes;
+  for (const LimitState& state : model.states) {
+    const std::vector<Point>& points = state.curve.points;
+    if (state.curve.form != Form::discrete || strictly_rising(points).back().im <= points.back().im) continue;
+    notes.push_back(fmt::format(
+        "{}: from {:.4g} {} on the curve is beyond the sweep; pelicun wants probability 1 at its end, which "
+        "therefore stands at {:.4g} {}, where nothing is known",
+        state.name, points.back().im, model.im.unit, far_away * points.back().im, model.im.unit));
+  }
+  return notes;
+}
+
 std::vector<File> write(const Model& model, const std::string& name) {
   return {{name, table(model)}, {"fragility.json", words(model)}};
 }
@@ -149,6 +162,7 @@ const Register here{
      .file = "fragility.csv",
      .folder = true,
      .forms = {Form::lognormal, Form::discrete},
+     .notes_on = notes_on,
      .refuse = refuse,
      .write = write}};
 

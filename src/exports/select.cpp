@@ -203,6 +203,13 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
       if (!passed_over.empty()) model.notes.push_back(passed_over);
       if (request.states.empty()) tell_what_is_left_out(model, result);
       if (!format.note.empty()) model.notes.push_back(format.note);
+      if (!format.bands)
+        model.notes.push_back(fmt::format(
+            "{} files hold the best estimate alone: the bands ({:.3g} % confidence) have no place there, and "
+            "are in fragility.h5 and in --format csv",
+            format.name, 100 * result.confidence));
+      if (format.notes_on)
+        for (std::string& note : format.notes_on(model)) model.notes.push_back(std::move(note));
       return model;
     }
     passed_over +=

@@ -120,6 +120,8 @@ Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs) {
   Result result;
   result.im_name = options.im_name;
   result.im_unit = options.im_unit;
+  result.im_period_s = options.im_period_s;
+  result.im_damping = options.im_damping;
   result.im_edge = options.im_edge;
   result.confidence = options.confidence;
   result.resamples = options.resamples;
@@ -135,6 +137,7 @@ Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs) {
   result.motions = static_cast<int>(std::count(there.begin(), there.end(), true));
 
   const Resampling resampling(tally.groups(), there, options.resamples, options.seed);
+  result.left_out_records = resampling.left_out_records();
   fit_pieces(tally, resampling, null, jobs, result);
   result.covariance = covariance(tally);
   result.warnings = warnings(tally, result);

@@ -131,6 +131,9 @@ class Resampled {
     motions_ = static_cast<int>(std::count(there.begin(), there.end(), true));
     for (Eigen::Index r = 0; r < n_.rows(); ++r)
       shapes_.emplace_back(points_of(cells.im, n_.row(r), above_.row(r)), shape.fit);
+    const Eigen::MatrixXd n = resampling.totals_left_out(cells.n), above = resampling.totals_left_out(cells.above);
+    for (Eigen::Index i = 0; i < n.rows(); ++i)
+      left_out_.push_back(fit_probit(points_of(cells.im, n.row(i), above.row(i)), shape.fit));
   }
 
   void errors(FragilityFunction& curve) const {
@@ -143,6 +146,10 @@ class Resampled {
     curve.dispersion_se = standard_error(dispersion, motions_);
     curve.resampled_median = std::move(median);
     curve.resampled_dispersion = std::move(dispersion);
+    for (const ProbitFit& fit : left_out_) {
+      curve.left_out_median.push_back(fit.median);
+      curve.left_out_dispersion.push_back(fit.dispersion);
+    }
   }
 
   void band(FragilityFunction& curve) const {
@@ -187,6 +194,7 @@ class Resampled {
   Eigen::MatrixXd n_, above_;  // [resample, cell]
   int motions_ = 0;
   std::vector<Shape> shapes_;  // [resample]
+  std::vector<ProbitFit> left_out_;
 };
 
 FragilityFunction function_of(const Tally& tally, const Cells& cells, const Resampling& resampling) {

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/random.hpp"
+#include "fragility/leave_out_groups.hpp"
 
 namespace freestand::fragility {
 namespace {
@@ -46,6 +47,7 @@ int MotionGroups::group(int motion, std::uint64_t sample) const {
 Resampling::Resampling(const MotionGroups& groups, const std::vector<bool>& has_samples, int resamples,
                        std::uint64_t seed)
     : weight_(Eigen::MatrixXd::Zero(resamples, groups.count())) {
+  leave_out(groups, has_samples);
   const std::uint64_t stream = random::stable_hash("fragility/motions");
   const int borders[] = {0, groups.record_groups(), groups.count()};
   for (int stratum = 0; stratum < 2; ++stratum) {
@@ -59,6 +61,35 @@ Resampling::Resampling(const MotionGroups& groups, const std::vector<bool>& has_
         weight_(r, there[static_cast<std::size_t>(u * static_cast<double>(there.size()))]) += 1;
       }
   }
+}
+
+void Resampling::leave_out(const MotionGroups& groups, const std::vector<bool>& has_samples) {
+  const LeaveOutGroups together(groups);
+  std::vector<Eigen::Index> members(static_cast<std::size_t>(together.count()), 0);
+  Eigen::Index in_stratum[2] = {0, 0};
+  const auto of = [&](int g) { return static_cast<std::size_t>(together.of(g)); };
+  const auto there = [&](int g) { return has_samples[static_cast<std::size_t>(g)]; };
+  for (int g = 0; g < groups.count(); ++g)
+    if (there(g)) {
+      ++members[of(g)];
+      ++in_stratum[together.stratum(together.of(g))];
+    }
+  std::vector<Eigen::RowVectorXd> rows;
+  for (int out = 0; out < together.count(); ++out) {
+    const int stratum = together.stratum(out);
+    const Eigen::Index all = in_stratum[stratum], gone = members[static_cast<std::size_t>(out)];
+    if (gone == 0 || gone == all) continue;
+    const double others = static_cast<double>(all) / static_cast<double>(all - gone);
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(groups.count());
+    for (int g = 0; g < groups.count(); ++g) {
+      const int part = together.of(g);
+      if (there(g)) row(g) = part == out ? 0 : together.stratum(part) == stratum ? others : 1;
+    }
+    rows.push_back(std::move(row));
+    if (stratum == 0) ++left_out_records_;
+  }
+  left_out_.resize(static_cast<Eigen::Index>(rows.size()), groups.count());
+  for (std::size_t i = 0; i < rows.size(); ++i) left_out_.row(static_cast<Eigen::Index>(i)) = rows[i];
 }
 
 }  // namespace freestand::fragility

@@ -44,8 +44,18 @@ class Resampling {
   // Quantities counted by group, [group, quantity] -> their totals in each resample, [resample, quantity].
   Eigen::MatrixXd totals(const Eigen::MatrixXd& by_group) const { return weight_ * by_group; }
 
+  // The same with groups left out in turn (LeaveOutGroups, those that have samples), [left out, quantity]; the others of its stratum
+  // count more instead, so that the mix of the study is kept. The first left_out_records() of them are records.
+  Eigen::MatrixXd totals_left_out(const Eigen::MatrixXd& by_group) const { return left_out_ * by_group; }
+  int left_out() const { return static_cast<int>(left_out_.rows()); }
+  int left_out_records() const { return left_out_records_; }
+
  private:
-  Eigen::MatrixXd weight_;  // [resample, group]
+  void leave_out(const MotionGroups& groups, const std::vector<bool>& has_samples);
+
+  Eigen::MatrixXd weight_;    // [resample, group]
+  Eigen::MatrixXd left_out_;  // [left out, group]
+  int left_out_records_ = 0;
 };
 
 }  // namespace freestand::fragility

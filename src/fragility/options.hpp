@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ inline constexpr int least_minimum_samples = 2;  // a fit needs two
 struct Options {
   std::string im_name;  // as in the column im_<name>
   std::string im_unit = "1";
+  std::optional<double> im_period_s = {}, im_damping = {};  // of the oscillator of a spectral intensity
   std::vector<double> im_edge;  // increasing, at least two: bin i holds im_edge[i] <= IM < im_edge[i + 1]; the last
                                 // edge belongs to the last bin
   bool open_ends =

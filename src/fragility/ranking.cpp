@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "fragility/jackknife.hpp"
 #include "fragility/normal.hpp"
 #include "fragility/probit.hpp"
 
@@ -14,7 +15,8 @@ namespace {
 
 using Tally = RankingTally;
 
-constexpr int least_folds = 5, least_moved = 30, least_hits = 10, least_motions = 4;
+constexpr std::size_t least_folds = 5;
+constexpr int least_moved = 30, least_hits = 10, least_motions = 4;
 
 // Sums of x, y over a set of samples, as reals.
 struct Sums {
@@ -51,16 +53,11 @@ struct Jackknifed {
 
 // Standard error of what `of` makes of the figures.
 template <class Of>
-double jackknife_error(std::size_t folds, const Of& of) {
+double error_of(std::size_t folds, const Of& of) {
   std::vector<double> values;
   for (std::size_t f = 0; f < folds; ++f)
     if (const double value = of(f); std::isfinite(value)) values.push_back(value);
-  const auto n = static_cast<double>(values.size());
-  if (n < least_folds) return unknown;
-  double mean = 0, squares = 0;
-  for (const double value : values) mean += value / n;
-  for (const double value : values) squares += (value - mean) * (value - mean);
-  return std::sqrt((n - 1) / n * squares);
+  return values.size() < least_folds ? unknown : std::sqrt(jackknife_variance(values));
 }
 
 std::vector<Sums> sums_by_fold(const Tally& tally, std::size_t e, std::size_t k) {
@@ -243,9 +240,9 @@ void order(RankedDemand& demand, std::vector<Jackknifed> figures) {
   for (const std::size_t i : place) {
     RankedIm& im = sorted.emplace_back(std::move(demand.ims[i]));
     im.value = figures[i].all;
-    im.value_se = jackknife_error(figures[i].without.size(), [&](std::size_t f) { return figures[i].without[f]; });
+    im.value_se = error_of(figures[i].without.size(), [&](std::size_t f) { return figures[i].without[f]; });
     im.behind = better * (figures[i].all - best.all) + 0.0;  // no -0
-    im.behind_se = i == place.front() ? 0 : jackknife_error(figures[i].without.size(), [&](std::size_t f) {
+    im.behind_se = i == place.front() ? 0 : error_of(figures[i].without.size(), [&](std::size_t f) {
       return figures[i].without[f] - best.without[f];
     });
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <freestand/response.hpp>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,8 +68,9 @@ struct Surface {
   std::vector<double> probability, lower, upper, empirical;
   std::vector<double> least, most;  // of `empirical`, had every sample that failed stayed below, or lain above
   std::vector<double>
-      resampled;  // [resample, im, capacity], `probability` from resampled motions: for bands of what is
-                  // computed from several points
+      resampled;                 // [resample, im, capacity], `probability` from resampled motions: for bands of what is
+                                 // computed from several points
+  std::vector<double> left_out;  // [left out, im, capacity], `probability` without a group of motions
 };
 
 // P(EDP > C) over IM x a second axis, from counts, with band from resampled motions. All [im, axis, capacity] but n
@@ -122,7 +124,8 @@ struct FragilityFunction {
   std::vector<double> grid;                       // IM, from the first positive edge to the last
   std::vector<double> probability, lower, upper;  // [grid], band from resampled motions
   std::vector<double> resampled_median,
-      resampled_dispersion;  // [resample], of the same resampled motions for each curve
+      resampled_dispersion;                                  // [resample], of the same resampled motions for each curve
+  std::vector<double> left_out_median, left_out_dispersion;  // [left out], without a group of motions
 };
 
 struct EdpResult {
@@ -146,14 +149,16 @@ struct Covariance {
 
 struct Result {
   std::string im_name, im_unit;
-  std::vector<double> im_edge;  // n + 1
-  std::vector<double> im;       // n: where a bin stands, the mean IM of its samples (its middle where it has none)
+  std::optional<double> im_period_s = {}, im_damping = {};  // of the oscillator of a spectral intensity
+  std::vector<double> im_edge;                              // n + 1
+  std::vector<double> im;  // n: where a bin stands, the mean IM of its samples (its middle where it has none)
   double confidence = 0.95;
   int resamples = 0;                                         // of the motions
   std::array<std::int64_t, outcome_count> outcome_counts{};  // in the order of Outcome
   std::int64_t samples = 0;                                  // all, = sum of outcome_counts
   std::int64_t outside_im = 0;                               // sound samples whose IM is in no bin (or not a number)
   int motions = 0;                                           // groups of motions that have samples
+  int left_out_records = 0;  // of the groups that are left out in turn the first ones, which are of records
   std::vector<EdpResult> edps;
   FragilityFunction overturning;
   Covariance covariance;

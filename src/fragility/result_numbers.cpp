@@ -50,8 +50,8 @@ void walk(Way& way, Regressions& r) {
 
 template <class Way>
 void walk(Way& way, Surface& s) {
-  auto& [probability, lower, upper, empirical, least, most, resampled] = s;
-  each(way, probability, lower, upper, empirical, least, most, resampled);
+  auto& [probability, lower, upper, empirical, least, most, resampled, left_out] = s;
+  each(way, probability, lower, upper, empirical, least, most, resampled, left_out);
 }
 
 template <class Way>
@@ -69,9 +69,11 @@ void walk(Way& way, Distribution& d) {
 template <class Way>
 void walk(Way& way, FragilityFunction& f) {
   auto& [median, dispersion, median_se, dispersion_se, penalised, im_least, im_most, extrapolated, misfit, misfit_im,
-         misfit_p, off_by, adequate, grid, probability, lower, upper, resampled_median, resampled_dispersion] = f;
+         misfit_p, off_by, adequate, grid, probability, lower, upper, resampled_median, resampled_dispersion,
+         left_out_median, left_out_dispersion] = f;
   each(way, median, dispersion, median_se, dispersion_se, penalised, im_least, im_most, extrapolated, misfit, misfit_im,
-       misfit_p, off_by, adequate, grid, probability, lower, upper, resampled_median, resampled_dispersion);
+       misfit_p, off_by, adequate, grid, probability, lower, upper, resampled_median, resampled_dispersion,
+       left_out_median, left_out_dispersion);
 }
 
 template <class Way>

@@ -40,6 +40,7 @@ struct Measure {
   std::string summary;  // one line
   std::string source;
   std::optional<Parameter> parameter = {};
+  std::optional<double> damping = {};              // of its oscillator, of critical
   std::function<double(const Input&)> value = {};  // undefined ones (no friction in PTA/(mu_k g) - 1) are +inf
   bool proportional = false;                       // to the scale of the motion: a motion can be scaled to it
   bool spectral = false;                           // reads the spectrum

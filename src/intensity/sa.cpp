@@ -2,6 +2,7 @@
 
 #include "base/units.hpp"
 #include "intensity/intensity.hpp"
+#include "motion/spectrum.hpp"
 
 namespace freestand::intensity {
 
@@ -12,6 +13,7 @@ const Register sa{{
     .summary = "pseudo-spectral acceleration of a 5 % damped oscillator of period T",
     .source = "w^2 max |u|, closed form for piecewise polynomial floor motion",
     .parameter = Parameter{"period_s", 1.0},
+    .damping = motion::usual_damping,
     .value =
         [](const Input& in) {
           return std::abs(in.scale) * motion::spectral_acceleration_mps2(in.motion, in.parameter, in.stretch) /

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "io/bin_fields.hpp"
@@ -60,6 +61,15 @@ Dataset resample_numbers(Group& group, const Result& result) {
   return resample;
 }
 
+// Of what was found without a group of motions; absent where fewer than two can be left out.
+Dataset left_out_numbers(Group& group, std::size_t count) {
+  std::vector<std::int64_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  Dataset left_out = group.put("left_out", numbers);
+  left_out.scale("left_out").describe("", "number of the group of motions that is left out, those of records first");
+  return left_out;
+}
+
 void write_surface(Group& parent, const Result& result, const EdpResult& edp) {
   Group group = parent.make_group("surface");
   const Dataset im = im_of(group, result), capacity = capacity_of(group, edp);
@@ -79,6 +89,13 @@ void write_surface(Group& parent, const Result& result, const EdpResult& edp) {
       .attach(1, im)
       .attach(2, capacity)
       .describe("1", "probability from each resampled set of motions");
+  const std::size_t left_out = edp.surface.left_out.size() / edp.surface.probability.size();
+  if (left_out == 0) return;
+  group.put("probability_left_out", edp.surface.left_out, {left_out, shape[0], shape[1]})
+      .attach(0, left_out_numbers(group, left_out))
+      .attach(1, im)
+      .attach(2, capacity)
+      .describe("1", "probability without each group of motions");
 }
 
 void write_distribution(Group& parent, const Result& result, const EdpResult& edp) {
@@ -151,6 +168,18 @@ void write_functions(Group& parent, const Result& result, const EdpResult& edp) 
       [&](Curve c) { return per_resample(c.resampled_median, result); });
   put("resampled_dispersion", resample, "1", "dispersion of each resampled set of motions",
       [&](Curve c) { return per_resample(c.resampled_dispersion, result); });
+  std::size_t left_out = 0;
+  for (Curve curve : edp.functions) left_out = std::max(left_out, curve.left_out_median.size());
+  if (left_out == 0) return;
+  const Dataset out = left_out_numbers(group, left_out);
+  const auto full = [left_out](std::vector<double> values) {
+    values.resize(left_out, fragility::unknown);
+    return values;
+  };
+  put("left_out_median", out, result.im_unit, "median without each group of motions",
+      [&](Curve c) { return full(c.left_out_median); });
+  put("left_out_dispersion", out, "1", "dispersion without each group of motions",
+      [&](Curve c) { return full(c.left_out_dispersion); });
 }
 
 void write_regressions(Group& group, const fragility::Regressions& found) {
@@ -174,12 +203,19 @@ void write_edp(Group& parent, const Result& result, const EdpResult& edp) {
   for (const AxisSurface& axis : edp.axes) write_axis(axes, result, edp, axis);
 }
 
+// Of which intensity the curves are: its name and unit, and period and damping where they are part of it.
+void write_intensity(Group& group, const Result& result) {
+  group.attribute("im", result.im_name);
+  group.attribute("im_unit", result.im_unit);
+  if (result.im_period_s) group.attribute("im_period_s", *result.im_period_s);
+  if (result.im_damping) group.attribute("im_damping", *result.im_damping);
+}
+
 // One curve: its numbers are attributes.
 void write_overturning(Group& root, const Result& result) {
   const fragility::FragilityFunction& curve = result.overturning;
   Group group = root.make_group("overturning");
-  group.attribute("im", result.im_name);
-  group.attribute("im_unit", result.im_unit);
+  write_intensity(group, result);
   for (const FunctionField& field : function_fields()) group.attribute(field.name, field.value(curve));
   const Dataset grid = coordinate(group, "grid", curve.grid, result.im_unit, result.im_name);
   group.put("probability", curve.probability).attach(0, grid).describe("1", "P(overturning)");
@@ -192,6 +228,14 @@ void write_overturning(Group& root, const Result& result) {
   group.put("resampled_dispersion", per_resample(curve.resampled_dispersion, result))
       .attach(0, resample)
       .describe("1", "dispersion of each resampled set of motions");
+  if (curve.left_out_median.empty()) return;
+  const Dataset out = left_out_numbers(group, curve.left_out_median.size());
+  group.put("left_out_median", curve.left_out_median)
+      .attach(0, out)
+      .describe(result.im_unit, "median without each group of motions");
+  group.put("left_out_dispersion", curve.left_out_dispersion)
+      .attach(0, out)
+      .describe("1", "dispersion without each group of motions");
 }
 
 // [im, edp, other]; the two are the same list of demands.
@@ -214,8 +258,7 @@ void write_covariance(Group& root, const Result& result) {
 
 void write_root(Group& root, const Provenance& provenance, const Result& result) {
   write_provenance(root, fragility_format, provenance);
-  root.attribute("im", result.im_name);
-  root.attribute("im_unit", result.im_unit);
+  write_intensity(root, result);
   root.attribute("mix",
                  "P(EDP > C) at an intensity is that of the specimens and motions which the study mixes there; "
                  "fragility.target of the study gives another mix");
@@ -228,6 +271,7 @@ void write_root(Group& root, const Provenance& provenance, const Result& result)
                  std::vector<std::int64_t>(result.outcome_counts.begin(), result.outcome_counts.end()));
   root.attribute("outside_im", result.outside_im);
   root.attribute("motions", result.motions);
+  root.attribute("left_out_records", result.left_out_records);
   root.attribute("warnings", result.warnings);
 }
 

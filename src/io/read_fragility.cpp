@@ -43,6 +43,10 @@ void read_curves(const Group& group, std::vector<FragilityFunction>& curves) {
   read_curve(group, &FragilityFunction::upper, "upper", curves);
   read_curve(group, &FragilityFunction::resampled_median, "resampled_median", curves);
   read_curve(group, &FragilityFunction::resampled_dispersion, "resampled_dispersion", curves);
+  if (group.has("left_out_median")) {
+    read_curve(group, &FragilityFunction::left_out_median, "left_out_median", curves);
+    read_curve(group, &FragilityFunction::left_out_dispersion, "left_out_dispersion", curves);
+  }
   for (FragilityFunction& curve : curves) curve.grid = values(group, "grid");
 }
 
@@ -84,7 +88,8 @@ EdpResult read_edp(const Group& group, const std::string& name, std::size_t bins
                  values(surface, "empirical"),
                  values(surface, "least"),
                  values(surface, "most"),
-                 surface.has("resampled") ? values(surface, "resampled") : std::vector<double>{}};
+                 surface.has("resampled") ? values(surface, "resampled") : std::vector<double>{},
+                 surface.has("probability_left_out") ? values(surface, "probability_left_out") : std::vector<double>{}};
   if (group.has("functions")) read_functions(group.open_group("functions"), edp);
   if (group.has("distribution")) {
     const Group distribution = group.open_group("distribution");
@@ -112,6 +117,8 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
   Result& result = read.result;
   result.im_name = root.text_attribute("im");
   result.im_unit = root.text_attribute("im_unit");
+  if (root.has_attribute("im_period_s")) result.im_period_s = root.real_attribute("im_period_s");
+  if (root.has_attribute("im_damping")) result.im_damping = root.real_attribute("im_damping");
   result.confidence = root.real_attribute("confidence");
   result.resamples = static_cast<int>(root.integer_attribute("resamples"));
   const std::vector<std::int64_t> outcomes = root.integers_attribute("outcome_counts");
@@ -121,6 +128,8 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
   }
   result.outside_im = root.integer_attribute("outside_im");
   result.motions = static_cast<int>(root.integer_attribute("motions"));
+  if (root.has_attribute("left_out_records"))
+    result.left_out_records = static_cast<int>(root.integer_attribute("left_out_records"));
   result.warnings = root.texts_attribute("warnings");
   const Group im = root.open_group("im");
   result.im_edge = values(im, "edge");

@@ -15,14 +15,16 @@ struct FourierSpectrum {
 };
 FourierSpectrum fourier_spectrum(const FloorMotion& motion, double step_s, double padding = 1);
 
+inline constexpr double usual_damping = 0.05;  // of critical
+
 // Largest |u| [m] of u'' + 2 z w u' + w^2 u = -a(t), w = 2 pi / period, from rest, the free vibration afterwards
 // included. Exact to rounding: each segment of the motion is solved in closed form, peaks between the knots too. Needs
 // period_s > 0 and 0 <= damping < 1, else throws Error.
-double spectral_displacement_m(const FloorMotion& motion, double period_s, double damping = 0.05);
+double spectral_displacement_m(const FloorMotion& motion, double period_s, double damping = usual_damping);
 
 // Pseudo-acceleration w^2 |u| [m/s2] and pseudo-velocity w |u| [m/s].
-double spectral_acceleration_mps2(const FloorMotion& motion, double period_s, double damping = 0.05);
-double spectral_velocity_mps(const FloorMotion& motion, double period_s, double damping = 0.05);
+double spectral_acceleration_mps2(const FloorMotion& motion, double period_s, double damping = usual_damping);
+double spectral_velocity_mps(const FloorMotion& motion, double period_s, double damping = usual_damping);
 
 // Housner's intensity [m]: integral of the pseudo-velocity over periods 0.1 to 2.5 s, 5 % damping (Housner 1952);
 // trapezoids of 0.02 s. Of a motion, or of any spectrum Sa [m/s2] over periods [s].

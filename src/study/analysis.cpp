@@ -14,7 +14,6 @@
 #include "study/damage_states.hpp"
 #include "study/intensities.hpp"
 #include "study/realise.hpp"
-#include "study/target.hpp"
 
 namespace freestand::study {
 namespace {
@@ -73,13 +72,15 @@ Table first_rows(std::int64_t blocks, const ReadTable& read) {
 
 }  // namespace
 
-fragility::Options laid_out(const Study& study, const Table& first, const std::vector<int>& motion_group) {
+fragility::Options laid_out(const Study& study, const Target& target, const Table& first,
+                            const std::vector<int>& motion_group) {
   const FragilityPart& part = study.fragility;
-  const Target target(study);
   const intensity::Measure& measure = intensity::find(part.im.name);
   fragility::Options options;
   options.im_name = measure.name;
   options.im_unit = measure.unit;
+  if (measure.parameter) options.im_period_s = intensity::parameter_of(measure, part.im.period_s);
+  options.im_damping = measure.damping;
   options.im_edge = edges("fragility.bins", part.bins, column(first, "im_" + measure.name, target));
   for (const std::string& name : part.edp) options.edps.push_back(edp_options(part, name));
   for (fragility::EdpOptions& state : DamageStates(study).edps()) options.edps.push_back(std::move(state));
@@ -101,21 +102,20 @@ fragility::Options laid_out(const Study& study, const Table& first, const std::v
   return options;
 }
 
-fragility::Options fragility_options(const Study& study, Table first, const std::vector<int>& motion_group) {
-  fragility::Tally pilot(laid_out(study, first, motion_group));
+fragility::Options fragility_options(const Study& study, const Target& target, Table first,
+                                     const std::vector<int>& motion_group) {
+  fragility::Tally pilot(laid_out(study, target, first, motion_group));
   DamageStates(study).append(first, 0);
-  const Target target(study);
   pilot.add(first, 0, keeping(target));
   return fragility::with_pilot(pilot);
 }
 
-fragility::Result analyse(const parallel::Communicator& world, const Study& study, const std::vector<int>& motion_group,
-                          std::int64_t blocks, std::int64_t block_size, const ReadTable& read, const Jobs& jobs,
-                          parallel::StepDisplay* display) {
-  const fragility::Options options = fragility_options(study, first_rows(blocks, read), motion_group);
+fragility::Result analyse(const parallel::Communicator& world, const Study& study, const Target& target,
+                          const std::vector<int>& motion_group, std::int64_t blocks, std::int64_t block_size,
+                          const ReadTable& read, const Jobs& jobs, parallel::StepDisplay* display) {
+  const fragility::Options options = fragility_options(study, target, first_rows(blocks, read), motion_group);
   fragility::Tally tally(options);
   const DamageStates damage(study);
-  const Target target(study);
   for (std::int64_t block = world.rank(); block < blocks; block += world.size()) {
     const auto first = static_cast<std::uint64_t>(block * block_size);
     Table rows = read(block);

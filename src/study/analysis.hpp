@@ -13,6 +13,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/step_display.hpp"
 #include "study/study.hpp"
+#include "study/target.hpp"
 
 namespace freestand::study {
 
@@ -20,12 +21,13 @@ namespace freestand::study {
 // neither on the number of ranks nor, beyond that, on the number of samples.
 inline constexpr std::int64_t bin_layout_samples = 4096;
 
-// What the study asks of the statistics. first: the first samples' rows, at least bin_layout_samples or all there are.
+// What the study asks of the statistics. The target is the study's, whose tables are large: it is built once for all that needs it.
+// first: the first samples' rows, at least bin_layout_samples or all there are.
 // motion_group: one entry a motion (fragility::Options). Throws Error when no intensity lies above zero.
-fragility::Options fragility_options(const Study&, Table first, const std::vector<int>& motion_group);
+fragility::Options fragility_options(const Study&, const Target&, Table first, const std::vector<int>& motion_group);
 
 // The same before anything has responded: of `first` the draws and the intensity are read alone.
-fragility::Options laid_out(const Study&, const Table& first, const std::vector<int>& motion_group);
+fragility::Options laid_out(const Study&, const Target&, const Table& first, const std::vector<int>& motion_group);
 
 // Rows of one block, with the column im_NAME beside them (intensities.hpp).
 using ReadTable = std::function<Table(std::int64_t block)>;
@@ -33,9 +35,9 @@ using ReadTable = std::function<Table(std::int64_t block)>;
 // Tallies the blocks, of block_size samples each but the last, dealt to the ranks, and analyses them. The result stands
 // on the root, the others get an empty one. The same to the bit on any number of ranks. jobs: spreads the fits over the
 // ranks. display: of the root, told how far the reading is; null: none. Collective.
-fragility::Result analyse(const parallel::Communicator&, const Study&, const std::vector<int>& motion_group,
-                          std::int64_t blocks, std::int64_t block_size, const ReadTable&, const Jobs&,
-                          parallel::StepDisplay* display = nullptr);
+fragility::Result analyse(const parallel::Communicator&, const Study&, const Target&,
+                          const std::vector<int>& motion_group, std::int64_t blocks, std::int64_t block_size,
+                          const ReadTable&, const Jobs&, parallel::StepDisplay* display = nullptr);
 
 // Names of the columns of samples.h5 that it and the intensity read.
 std::vector<std::string> analysed_columns(const FragilityPart&);

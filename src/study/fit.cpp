@@ -120,7 +120,8 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   const SampleIntensity intensity(study.fragility.im, motion_summaries(reader.motions()));
   FitSummary told{.samples = reader.rows(), .intensity = described(study.fragility.im), .changed = changed};
   if (!intensity.interpolation().empty()) told.notes.push_back(intensity.interpolation());
-  if (const std::string target = Target(study).told(); !target.empty()) told.notes.push_back(target);
+  const Target target(study);
+  if (!target.empty()) told.notes.push_back(target.told());
   const io::BlockLayout layout{reader.rows(), rows_at_once};
   into.begin();
   into.leave_if_asked();
@@ -129,9 +130,9 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     return intensity.beside(reader.read(block * rows_at_once, layout.rows(block), columns));
   };
   parallel::StepDisplay display(options.quiet || !world.is_root());
-  const fragility::Result result = analyse(world, study, reader.motions().group, layout.blocks(), rows_at_once, rows_of,
-                                           spread_jobs(world, options.quiet, [&] { into.leave(); }), &display);
-  const Ranking ranking = rank_intensities(world, study, reader);
+  const fragility::Result result = analyse(world, study, target, reader.motions().group, layout.blocks(), rows_at_once,
+                                           rows_of, spread_jobs(world, options.quiet, [&] { into.leave(); }), &display);
+  const Ranking ranking = rank_intensities(world, study, target, reader);
   told.warnings = result.warnings;
   world.on_root([&] {
     const io::Provenance provenance = provenance_of(reader, study, options, world.size());

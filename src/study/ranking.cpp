@@ -12,7 +12,6 @@
 #include "study/fragility_changes.hpp"
 #include "study/intensities.hpp"
 #include "study/motion_summaries.hpp"
-#include "study/target.hpp"
 
 namespace freestand::study {
 namespace {
@@ -97,9 +96,9 @@ fragility::RankingOptions options_of(const Study& study, const std::vector<Inten
 // Adds the rows of one block to the tally.
 class Counter {
  public:
-  Counter(fragility::RankingTally& tally, const Study& study, const std::vector<IntensityPart>& parts,
+  Counter(fragility::RankingTally& tally, const Target& target, const std::vector<IntensityPart>& parts,
           const MotionSummaries& summaries)
-      : tally_(tally), target_(study) {
+      : tally_(tally), target_(target) {
     for (const IntensityPart& part : parts) intensities_.emplace_back(part, summaries);
   }
 
@@ -134,7 +133,7 @@ class Counter {
 
  private:
   fragility::RankingTally& tally_;
-  const Target target_;
+  const Target& target_;
   std::vector<SampleIntensity> intensities_;
 };
 
@@ -179,12 +178,13 @@ std::string table(const RankedDemand& demand) {
 
 }  // namespace
 
-Ranking rank_intensities(const parallel::Communicator& world, const Study& study, const io::SampleReader& reader) {
+Ranking rank_intensities(const parallel::Communicator& world, const Study& study, const Target& target,
+                         const io::SampleReader& reader) {
   const MotionSummaries summaries = quick(motion_summaries(reader.motions()));
   const std::vector<IntensityPart> parts = candidates(study, summaries);
   const fragility::RankingOptions options = options_of(study, parts, reader.motions(), summaries);
   fragility::RankingTally tally(options);
-  Counter counter(tally, study, parts, summaries);
+  Counter counter(tally, target, parts, summaries);
   const io::BlockLayout layout{std::min(reader.rows(), most_ranked_samples), rows_at_once};
   for (std::int64_t block = world.rank(); block < layout.blocks(); block += world.size())
     counter.add(reader.read(block * rows_at_once, layout.rows(block), counter.columns()), block * rows_at_once);

@@ -9,6 +9,7 @@
 #include "io/samples_file.hpp"
 #include "parallel/communicator.hpp"
 #include "study/study.hpp"
+#include "study/target.hpp"
 
 namespace freestand::study {
 
@@ -23,7 +24,7 @@ struct Ranking {
 
 // Every intensity of the catalogue once, spectral accelerations at usual periods and at the study's. On the root, the
 // others get an empty one; the same to the bit on any number of ranks. Collective.
-Ranking rank_intensities(const parallel::Communicator&, const Study&, const io::SampleReader&);
+Ranking rank_intensities(const parallel::Communicator&, const Study&, const Target&, const io::SampleReader&);
 
 nlohmann::ordered_json ranking_json(const Ranking&);
 std::string ranking_csv(const Ranking&);

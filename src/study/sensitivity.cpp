@@ -225,7 +225,7 @@ class Shares {
   const io::SampleReader reader_;
   const Study study_;
   const fragility::MotionGroups motions_;
-  const decision::LeaveOutGroups groups_;
+  const fragility::LeaveOutGroups groups_;
   const std::vector<Sampled> sampled_;
   const DamageStates damage_;
   const Answers answers_;

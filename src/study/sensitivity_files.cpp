@@ -15,11 +15,11 @@ using Json = nlohmann::ordered_json;
 
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
-Json estimate_json(const decision::Estimate& estimate) {
+Json estimate_json(const fragility::Estimate& estimate) {
   return {{"value", estimate.value}, {"se", estimate.se}, {"lower", estimate.lower}, {"upper", estimate.upper}};
 }
 
-std::string cells(const decision::Estimate& estimate) {
+std::string cells(const fragility::Estimate& estimate) {
   return fmt::format("{},{},{},{}", cell(estimate.value), cell(estimate.se), cell(estimate.lower),
                      cell(estimate.upper));
 }

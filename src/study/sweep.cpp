@@ -134,7 +134,7 @@ class Sweep {
     world_.on_root([&] {
       const auto first = static_cast<std::size_t>(std::min(total(), bin_layout_samples));
       const SampleIntensity intensity(study_.fragility.im, evaluator_.summaries());
-      laid_out(study_, intensity.beside(evaluator_.draws(first)), evaluator_.motions().groups());
+      laid_out(study_, Target(study_), intensity.beside(evaluator_.draws(first)), evaluator_.motions().groups());
     });
   }
 
@@ -239,7 +239,8 @@ class Sweep {
     folder_.leave_if_asked();
     const SampleIntensity intensity(study_.fragility.im, evaluator_.summaries());
     return analyse(
-        world_, study_, evaluator_.motions().groups(), layout(samples).blocks(), layout(samples).block_size,
+        world_, study_, Target(study_), evaluator_.motions().groups(), layout(samples).blocks(),
+        layout(samples).block_size,
         [&](std::int64_t block) {
           return intensity.beside({evaluator_.columns(), finished_rows(samples, block)});
         },

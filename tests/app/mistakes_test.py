@@ -40,6 +40,15 @@ class Mistakes(InFolder):
         again = self.write("again.yaml", done.stdout)
         self.assertEqual(self.succeed(["run", "--check", again]).stdout, done.stdout)
 
+    def test_check_reads_the_records_that_the_study_names(self):
+        self.write("bad.csv", "time_s,floor_acceleration_mps2\n0,0\n0.01,1\n0.02,1x\n0.03,0\n")
+        self.write("badder.csv", "time_s,floor_acceleration_mps2\n0,0\n0.01,\n")
+        study = self.write("study.yaml", with_records("bad*.csv"))
+        checked = self.fail_with(3, ["run", "--check", study], "bad.csv:4", "badder.csv:3", ranks=2)
+        self.assertEqual(checked.stdout, "")
+        swept = self.fail_with(3, ["run", study, "-o", self.folder / "out"], "bad.csv:4", ranks=2)
+        self.assertEqual(checked.stderr, swept.stderr)
+
     def test_negative_size_and_impossible_friction(self):
         self.check(study_text().replace("uniform: [0.5, 0.9]", "uniform: [-0.5, 0.9]"), "width_m")
         self.check(study_text().replace("static_ratio: 1.2", "static_ratio: 0.8"), "static_ratio")

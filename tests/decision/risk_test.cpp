@@ -1,10 +1,13 @@
 // Rates of whole fragility results: which one is recommended, what is refused, and whether their bands hold the truth.
 #include "decision/risk.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gsl/gsl_cdf.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <freestand/error.hpp>
 
 #include "base/random.hpp"
@@ -68,24 +71,89 @@ struct Sweep {
   }
 };
 
-TEST(Risk, BandsHoldTheTruthWhereRecordsAreShared) {
-  const Sweep sweep;
-  const double k = 2.5, k0 = 1e-3;
-  const HazardCurve hazard = power_law(k0, k, 1e-3, 50);
-  const double truth = k0 * std::pow(sweep.median, -k) * std::exp(0.5 * std::pow(k * sweep.dispersion(), 2));
-  int by_function = 0, by_counts = 0;
-  constexpr int repeats = 250;
-  for (int repeat = 0; repeat < repeats; ++repeat) {
-    const Risk found = risk(sweep.fit(static_cast<std::uint64_t>(repeat + 1), 120), hazard);
-    const auto holds = [&](const Rate& rate) { return rate.lower <= truth && truth <= rate.upper; };
-    by_function += holds(found.rows[0].by_function);
-    by_counts += holds(found.rows[0].by_counts);
+// How often bands of nominal 90 % miss the truth k0 median^-k exp(k^2 dispersion^2/2), which lies below or above them.
+struct Misses {
+  int below = 0, above = 0, repeats = 0;
+  void count(const Rate& rate, double truth) {
+    below += truth < rate.lower;
+    above += truth > rate.upper;
+    ++repeats;
   }
-  RecordProperty("coverage_by_function", std::to_string(by_function / static_cast<double>(repeats)));
-  RecordProperty("coverage_by_counts", std::to_string(by_counts / static_cast<double>(repeats)));
-  // 250 repeats know a coverage of 0.90 to 0.019.
-  EXPECT_NEAR(by_function / static_cast<double>(repeats), 0.90, 0.05);
-  EXPECT_GT(by_counts / static_cast<double>(repeats), 0.80);
+  double coverage() const { return 1 - (below + above) / static_cast<double>(repeats); }
+};
+
+std::string text(const Misses& m) {
+  return fmt::format("{:.3f} (truth below in {} of {}, above in {})", m.coverage(), m.below, m.repeats, m.above);
+}
+
+struct BandCase {
+  int records;
+  double median;
+  int repeats;
+};
+
+class RiskBands : public testing::TestWithParam<BandCase> {};
+
+// Wanted of 90 % intervals with shared records: 87 to 93 %. Fourteen records are too few for that at the steeper hazard (risk.hpp);
+// there two standard deviations of so many repeats are granted. By counts the exact limits of bins in which nothing was counted make
+// the bands wider than asked. FREESTAND_REPEATS for more.
+TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
+  const BandCase& at = GetParam();
+  Sweep sweep;
+  sweep.records = at.records;
+  sweep.median = at.median;
+  const char* asked = std::getenv("FREESTAND_REPEATS");
+  const int repeats = asked ? std::atoi(asked) : at.repeats;
+  const double granted = at.records < 40 ? 2 * std::sqrt(0.87 * 0.13 / repeats) : 0;
+  const double k0 = 1e-3, slopes[] = {1.5, 2.5};
+  Misses by_function[2], by_counts[2];
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    const fragility::Result result = sweep.fit(static_cast<std::uint64_t>(repeat + 1), 2);
+    for (int i = 0; i < 2; ++i) {
+      const double k = slopes[i];
+      const double truth = k0 * std::pow(sweep.median, -k) * std::exp(0.5 * std::pow(k * sweep.dispersion(), 2));
+      const Risk found = risk(result, power_law(k0, k, 1e-3, 50));
+      by_function[i].count(found.rows[0].by_function, truth);
+      by_counts[i].count(found.rows[0].by_counts, truth);
+    }
+  }
+  for (int i = 0; i < 2; ++i) {
+    RecordProperty(fmt::format("by_function_{}", i), text(by_function[i]));
+    RecordProperty(fmt::format("by_counts_{}", i), text(by_counts[i]));
+    EXPECT_GE(by_function[i].coverage(), 0.87 - granted) << slopes[i] << ": " << text(by_function[i]);
+    EXPECT_LE(by_function[i].coverage(), 0.93 + granted) << slopes[i] << ": " << text(by_function[i]);
+    EXPECT_GE(by_counts[i].coverage(), 0.87 - granted) << slopes[i] << ": " << text(by_counts[i]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, RiskBands,
+                         testing::Values(BandCase{40, 0.6, 450}, BandCase{40, 1.5, 450}, BandCase{14, 0.6, 250},
+                                         BandCase{14, 1.5, 250}),
+                         [](const auto& info) { return fmt::format("{}Records{}", info.param.records, info.index); });
+
+// An upper limit of the lowest bin that says nothing (few motions, none of which overturned there) is replaced by that of a higher one.
+TEST(Risk, WhereNothingWasCountedTheLimitsOfHigherIntensitiesHold) {
+  Sweep sweep;
+  sweep.records = 14;
+  sweep.floor = 0;
+  fragility::Result result = sweep.fit(3, 50);
+  fragility::EdpResult& edp = result.edps[0];
+  ASSERT_EQ(edp.surface.probability[0], 0);
+  edp.functions.clear();  // by counts
+  const HazardCurve hazard = power_law(1e-3, 2, 0.01, 20);
+  edp.surface.upper[0] = 0.9;
+  const RiskRow wide = risk(result, hazard).rows.at(0);
+  edp.surface.upper[0] = *std::min_element(edp.surface.upper.begin(), edp.surface.upper.end());
+  const RiskRow narrow = risk(result, hazard).rows.at(0);
+  EXPECT_DOUBLE_EQ(wide.by_counts.upper, narrow.by_counts.upper);
+  EXPECT_THAT(wide.why, HasSubstr("taken not to fall"));
+  // A bin in which some were counted does not go by its own limits, but by what leaving motions out shows.
+  std::size_t some = 0;
+  for (std::size_t i = 0; i < edp.surface.probability.size(); ++i)
+    if (edp.surface.probability[i] > 0 && edp.surface.probability[i] < 1) some = i;
+  ASSERT_GT(some, 0u);
+  edp.surface.upper[some] = 1;
+  EXPECT_EQ(risk(result, hazard).rows.at(0).by_counts.upper, narrow.by_counts.upper);
 }
 
 TEST(Risk, AnAdequateCurveIsRecommendedAndAgreesWithTheCounts) {

@@ -14,6 +14,9 @@
 namespace freestand::decision {
 namespace {
 
+using fragility::Estimate;
+using fragility::LeaveOutGroups;
+
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 const Answer ln_demand{.edp = "y", .capacity = nan};
 

@@ -32,6 +32,11 @@ TEST(Certificate, EveryFormatInEveryFormIsReadAsItIsHeld) {
       }
       EXPECT_EQ(certified.json["limit_states"].size(), held.states.size());
       EXPECT_EQ(certified.json["im_to"], 1.9);
+      EXPECT_EQ(certified.json["limit_states"][0]["beyond_sweep_from"], form == Form::lognormal ? 1.9 : 1.6);
+      // The table alone holds bands; of the others it is said.
+      EXPECT_EQ(certified.json["bands_in_file"], format.name == "csv");
+      EXPECT_EQ(certified.json["notes"].dump().find("best estimate alone") == std::string::npos, format.name == "csv")
+          << format.name;
     }
 }
 

@@ -49,6 +49,13 @@ TEST(Pelicun, AMultilinearCapacityRisesStrictlyFromZeroToOne) {
               HasSubstr(",\"0.1,0.3,0.6,1,1.6,1600000|0,0.1,0.100001,0.3,0.6,1\","));
 }
 
+TEST(Pelicun, SaysFromWhereACurveIsBeyondTheSweep) {
+  EXPECT_THAT(discrete({0, 0, 0.1, 0.3, 0.6}).notes,
+              testing::Contains(HasSubstr("falls: from 1.6 g on the curve is beyond the sweep")));
+  // A curve that reached 1 within the sweep ends there.
+  EXPECT_THAT(discrete({0, 0.25, 1, 1, 1}).notes, testing::Not(testing::Contains(HasSubstr("beyond the sweep"))));
+}
+
 TEST(Pelicun, RefusesWhatItCannotHold) {
   const auto why = [](const Model& model) { return error_of([&] { find("pelicun").refuse(model); }); };
   Model bad = model("pelicun");

@@ -35,6 +35,7 @@ fragility::EdpResult continuous_edp() {
   edp.surface.empirical = {0, 0, 0, 0, fragility::unknown, 0.5};
   edp.surface.least = edp.surface.most = edp.surface.empirical;
   for (int i = 0; i < 12; ++i) edp.surface.resampled.push_back(i / 16.0);  // [2, 3, 2]
+  for (int i = 0; i < 18; ++i) edp.surface.left_out.push_back(i / 32.0);   // [3, 3, 2]
   edp.distribution = {{-1, 0, 1}, {1, 2, 3, 4, 5, 6}};
   edp.axes = {
       {"friction_mu_k", "1", {0, 1, 2}, {0.5, 1.5}, {}, std::vector<double>(12, 1), std::vector<double>(12, 2), {}}};
@@ -51,6 +52,8 @@ fragility::EdpResult continuous_edp() {
     curve.upper = {1, 1, 1};
     curve.resampled_median = {1, 2};
     curve.resampled_dispersion = {0.5, median};
+    curve.left_out_median = {1, median, 3};
+    curve.left_out_dispersion = {0.25, 0.5, 0.75};
     edp.functions.push_back(curve);
   }
   return edp;
@@ -65,6 +68,7 @@ fragility::Result example() {
   result.outcome_counts = {1, 2, 3, 4, 5, 6};
   result.samples = 21;
   result.resamples = 2;
+  result.left_out_records = 2;
   fragility::EdpResult binary;
   binary.name = "overturned";
   binary.unit = "1";
@@ -89,6 +93,8 @@ fragility::Result example() {
   result.overturning.upper = {1, 1};
   result.overturning.resampled_median = {1, 1.5};
   result.overturning.resampled_dispersion = {0.5, 0.75};
+  result.overturning.left_out_median = {1, 1.25, 1.5};
+  result.overturning.left_out_dispersion = {0.5, 0.625, 0.75};
   result.warnings = {"one thing.", "another thing."};
   return result;
 }
@@ -132,6 +138,8 @@ void expect_same(const std::vector<fragility::FragilityFunction>& a,
     EXPECT_EQ(a[i].upper, b[i].upper);
     EXPECT_EQ(a[i].resampled_median, b[i].resampled_median);
     EXPECT_EQ(a[i].resampled_dispersion, b[i].resampled_dispersion);
+    EXPECT_EQ(a[i].left_out_median, b[i].left_out_median);
+    EXPECT_EQ(a[i].left_out_dispersion, b[i].left_out_dispersion);
   }
 }
 
@@ -145,11 +153,33 @@ TEST(FragilityFile, ReadsBackAsItWasWritten) {
   EXPECT_EQ(fragility_summary(from, result).dump(), fragility_summary(provenance(), written).dump());
   EXPECT_EQ(result.im_edge, written.im_edge);
   EXPECT_EQ(result.edps[0].surface.resampled, written.edps[0].surface.resampled);
+  EXPECT_EQ(result.edps[0].surface.left_out, written.edps[0].surface.left_out);
+  EXPECT_EQ(result.left_out_records, 2);
   EXPECT_EQ(result.edps[0].distribution.count, written.edps[0].distribution.count);
   EXPECT_EQ(result.edps[0].axes[0].probability, written.edps[0].axes[0].probability);
   EXPECT_EQ(result.edps[0].axes[0].n, written.edps[0].axes[0].n);
   expect_same(result.edps[0].functions, written.edps[0].functions);
   expect_same({result.overturning}, {written.overturning});
+}
+
+// Sa is no intensity without its period; PGA has none.
+TEST(FragilityFile, ASpectralIntensityCarriesItsPeriodAndDamping) {
+  const test::Scratch scratch("fragility");
+  fragility::Result sa = example();
+  sa.im_name = "sa_g";
+  sa.im_period_s = 0.75;
+  sa.im_damping = 0.05;
+  write_fragility(scratch / "sa.h5", provenance(), sa);
+  const h5::Group root = h5::File::open(scratch / "sa.h5").root();
+  for (const h5::Group& group : {root.open_group("overturning"), h5::File::open(scratch / "sa.h5").root()}) {
+    EXPECT_EQ(group.real_attribute("im_period_s"), 0.75);
+    EXPECT_EQ(group.real_attribute("im_damping"), 0.05);
+  }
+  EXPECT_EQ(read_fragility(scratch / "sa.h5").result.im_period_s, 0.75);
+  EXPECT_EQ(read_fragility(scratch / "sa.h5").result.im_damping, 0.05);
+  const fragility::Result pga = read_fragility(write_example(scratch)).result;
+  EXPECT_FALSE(pga.im_period_s || pga.im_damping);
+  EXPECT_FALSE(h5::File::open(scratch / "fragility.h5").root().has_attribute("im_period_s"));
 }
 
 TEST(FragilityFile, AnotherFileIsRefused) {

@@ -37,7 +37,8 @@ fragility::EdpResult delta(const std::string& more) {
       parse_study(test::block + test::friction + test::motions + "samples: 640\nfragility: {edp: [delta], " +
                       "bins: {edges: [0, 1, 2, 3, 4]}, " + more + "}\n",
                   "some.yaml", registries());
-  const fragility::Result result = analyse({}, study, {0}, 1, samples, [](std::int64_t) { return rows(); }, run_here);
+  const fragility::Result result = analyse(
+      {}, study, Target(study), {0}, 1, samples, [](std::int64_t) { return rows(); }, run_here);
   return result.edps.at(0);
 }
 

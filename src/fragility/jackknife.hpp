@@ -3,13 +3,18 @@
 
 #include <vector>
 
-namespace freestand::decision {
+#include "fragility/intervals.hpp"
+
+namespace freestand::fragility {
 
 struct Estimate {
   double value = 0;  // NaN throughout: not known
   double se = 0;
   double lower = 0, upper = 0;  // at the confidence asked for
 };
+
+// Of G estimates that leave out one group each: (G - 1)/G sum (left out - their mean)^2.
+double jackknife_variance(const std::vector<double>& left_out);
 
 // The estimates that leave out one group each, by stratum (records among themselves, pulses among themselves).
 using LeftOut = std::vector<std::vector<double>>;
@@ -29,4 +34,12 @@ Estimate jackknife_share(double whole, const LeftOut& left_out, double confidenc
 // which hardly does.
 Estimate jackknife_share(double whole, const LeftOut& left_out, double confidence, double of_a_class);
 
-}  // namespace freestand::decision
+// Interval of a positive number that scatters as a lognormal does (a rate), about `whole` and laid in its logarithm:
+//   ln whole -+ t_f se,   se^2 = sum_s V_s,   V_s = (G_s - 1)/G_s sum_g (ln left out - mean)^2
+//   f = 2 (sum_s V_s)^2/sum_s var(V_s),   at most sum_s (G_s - 1)      (F. E. Satterthwaite, Biometrics Bulletin 2, 1946)
+//   var(V_s) = (G_s - 1)^2/G_s (m4 - m2^2)
+// with m2 and m4 the central moments of the logarithms in the stratum: where few groups make most of the number, se is known worse than
+// from as many normal ones. NaN where no stratum has two groups, or where whole or one left out is not above 0 (or not known).
+Interval jackknife_of_positive(double whole, LeftOut left_out, double confidence);
+
+}  // namespace freestand::fragility

@@ -1,4 +1,4 @@
-#include "decision/jackknife.hpp"
+#include "fragility/jackknife.hpp"
 
 #include <gsl/gsl_cdf.h>
 
@@ -7,7 +7,15 @@
 #include <limits>
 #include <numeric>
 
-namespace freestand::decision {
+namespace freestand::fragility {
+
+double jackknife_variance(const std::vector<double>& left_out) {
+  const double groups = static_cast<double>(left_out.size());
+  const double mean = std::accumulate(left_out.begin(), left_out.end(), 0.0) / groups;
+  double squares = 0;
+  for (const double one : left_out) squares += (one - mean) * (one - mean);
+  return (groups - 1) / groups * squares;
+}
 
 Estimate jackknife(double whole, const LeftOut& left_out, double confidence) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -17,10 +25,8 @@ Estimate jackknife(double whole, const LeftOut& left_out, double confidence) {
     if (stratum.size() < 2) continue;
     const double groups = static_cast<double>(stratum.size());
     const double mean = std::accumulate(stratum.begin(), stratum.end(), 0.0) / groups;
-    double squares = 0;
-    for (const double one : stratum) squares += (one - mean) * (one - mean);
     result.value += (groups - 1) * (whole - mean);
-    variance += (groups - 1) / groups * squares;
+    variance += jackknife_variance(stratum);
     freedom += groups - 1;
   }
   if (freedom == 0 || std::isnan(result.value)) return result;
@@ -56,4 +62,29 @@ Estimate jackknife_share(double whole, const LeftOut& left_out, double confidenc
   return result;
 }
 
-}  // namespace freestand::decision
+Interval jackknife_of_positive(double whole, LeftOut left_out, double confidence) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  double variance = 0, variance_of_it = 0, most = 0;
+  for (std::vector<double>& stratum : left_out) {
+    if (stratum.size() < 2) continue;
+    const double groups = static_cast<double>(stratum.size());
+    for (double& one : stratum) one = one > 0 ? std::log(one) : nan;
+    const double mean = std::accumulate(stratum.begin(), stratum.end(), 0.0) / groups;
+    double second = 0, fourth = 0;
+    for (const double one : stratum) {
+      second += std::pow(one - mean, 2) / groups;
+      fourth += std::pow(one - mean, 4) / groups;
+    }
+    variance += jackknife_variance(stratum);
+    variance_of_it += (groups - 1) * (groups - 1) / groups * (fourth - second * second);
+    most += groups - 1;
+  }
+  if (most == 0 || !(whole > 0) || std::isnan(variance)) return {nan, nan};
+  if (variance == 0) return {whole, whole};
+  const double freedom =
+      2 * variance * variance < most * variance_of_it ? 2 * variance * variance / variance_of_it : most;
+  const double reach = gsl_cdf_tdist_Qinv((1 - confidence) / 2, freedom) * std::sqrt(variance);
+  return {whole * std::exp(-reach), whole * std::exp(reach)};
+}
+
+}  // namespace freestand::fragility

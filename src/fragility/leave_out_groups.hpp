@@ -5,7 +5,7 @@
 
 #include "fragility/groups.hpp"
 
-namespace freestand::decision {
+namespace freestand::fragility {
 
 // The groups of motions of a fragility analysis, at most 64 a stratum (records, whole ones to a group; pulses): as many are
 // enough for an error known to 9 % (1/sqrt(2 * 63)), and memory stays bounded.
@@ -13,7 +13,7 @@ class LeaveOutGroups {
  public:
   static constexpr int most_of_a_stratum = 64;
 
-  explicit LeaveOutGroups(const fragility::MotionGroups& motions);
+  explicit LeaveOutGroups(const MotionGroups& motions);
 
   int count() const { return records_ + others_; }
   int of(int motion_group) const;  // of a group of MotionGroups
@@ -23,4 +23,4 @@ class LeaveOutGroups {
   int record_groups_, records_, others_;
 };
 
-}  // namespace freestand::decision
+}  // namespace freestand::fragility
