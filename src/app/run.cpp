@@ -13,7 +13,7 @@
 namespace freestand::app {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string study;
   std::string folder;
   bool check = false, overwrite = false, resume = false, quiet = false;
@@ -25,7 +25,7 @@ study::Study read(const Context& context, const std::string& file) {
   return study::read_study(file, study::registries());
 }
 
-Exit check(const Context& context, const Options& options) {
+Exit check(const Context& context, const RunOptions& options) {
   const study::Study study = read(context, options.study);
   if (context.world.is_root()) fmt::print("{}", study::expanded(study, ""));
   return Exit::done;
@@ -44,7 +44,7 @@ study::SweepSummary sweep(const Context& context, const study::Study& study, con
   }
 }
 
-Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit) {
+Exit sweep_and_fit(const Context& context, const RunOptions& options, bool with_fit) {
   if (options.check) return check(context, options);
   if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DIR");
   const study::Study study = read(context, options.study);
@@ -67,7 +67,7 @@ Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit
 }
 
 void add(CLI::App& parser, Work& work, const std::string& name, const std::string& what, bool with_fit) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   CLI::App* verb = parser.add_subcommand(name, what);
   verb->add_option("study", options->study, "study file")->required();
   verb->add_option("-o,--output", options->folder, "folder for the results");
