@@ -11,7 +11,7 @@
 #include "base/random.hpp"
 #include "decision/total_shares.hpp"
 
-namespace freestand::decision {
+namespace freestand::decision::shares_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -215,4 +215,4 @@ TEST(TotalShares, OfTheMotionItselfWithItsError) {
 }
 
 }  // namespace
-}  // namespace freestand::decision
+}  // namespace freestand::decision::shares_test
