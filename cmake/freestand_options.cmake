@@ -1,6 +1,7 @@
 # Language, warnings, numerics and sanitizers: the same for every target.
 option(FREESTAND_TESTS "build the tests" ON)
 option(FREESTAND_BENCHMARKS "build the benchmark of the kernel (needs Google Benchmark and Boost)" OFF)
+option(FREESTAND_BATCHES "compile the sources of a target in batches: a third of the work for a whole build" ON)
 option(FREESTAND_WERROR "warnings are errors" OFF)
 set(FREESTAND_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
 set(FREESTAND_ARCH "x86-64-v2" CACHE STRING "instruction set, as -march= takes it")
@@ -33,3 +34,11 @@ find_program(FREESTAND_CCACHE ccache)
 if(FREESTAND_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER ${FREESTAND_CCACHE})
 endif()
+
+# freestand_batches(TARGET SIZE): up to SIZE sources of the target are compiled as one, so that the headers that they share
+# are read once. Names in their anonymous namespaces must differ. Small files want large batches.
+function(freestand_batches TARGET SIZE)
+  if(FREESTAND_BATCHES)
+    set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${SIZE})
+  endif()
+endfunction()

@@ -11,13 +11,13 @@
 namespace freestand::app {
 namespace {
 
-struct Options : ValidationOptions {
+struct AddOptions : ValidationOptions {
   std::string effect;
 };
 
 std::string text(double error) { return std::isfinite(error) ? freestand::three_digits(error) : "-"; }
 
-void tell(const std::string& file, const std::string& content) {
+void tell_added(const std::string& file, const std::string& content) {
   const study::Validation v = study::parse_validation(content, file);
   fmt::print("{:<28} {:>12} {:>12} {:>12}\n", "model", "calibration", "held out", "noise floor");
   for (const auto& step : v.ladder)
@@ -28,20 +28,20 @@ void tell(const std::string& file, const std::string& content) {
   fmt::print("study in {}\n", file);
 }
 
-void check_target(const std::filesystem::path& target, const Options& options) {
+void check_target(const std::filesystem::path& target, const AddOptions& options) {
   if (std::filesystem::exists(target) && !options.overwrite)
     throw Error(
         fmt::format("{} exists already (it would be lost): choose another name, or give --overwrite", options.output));
   io::refuse_others(target.parent_path(), {target.filename().string()});
 }
 
-Exit add(const Context& context, const Options& options) {
+Exit add(const Context& context, const AddOptions& options) {
   const std::filesystem::path target = options.output;
   context.world.on_root([&] { check_target(target, options); });
   const std::string text = study::add(context.world, options.run(context), options.effect, target.parent_path());
   context.world.on_root([&] {
     io::write_text(target, io::signed_text("# " + context.command_line + "\n" + text));
-    if (!options.quiet) tell(options.output, text);
+    if (!options.quiet) tell_added(options.output, text);
   });
   return Exit::done;
 }
@@ -49,7 +49,7 @@ Exit add(const Context& context, const Options& options) {
 }  // namespace
 
 void add_add(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<AddOptions>();
   CLI::App* verb =
       parser.add_subcommand("add", "the study with one more effect in it, fitted, and the ladder of errors");
   add_options(*verb, *options, "study to be written", "replace the file if freestand wrote it");

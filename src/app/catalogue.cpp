@@ -14,7 +14,7 @@
 namespace freestand::app {
 namespace {
 
-struct Options {
+struct CatalogueOptions {
   std::string catalogue, folder;
   bool check = false, redo = false, resume = false, quiet = false;
 };
@@ -29,7 +29,7 @@ void show(const study::Catalogue& catalogue) {
                entry.words.mu_k, entry.words.width_m, entry.words.height_m, entry.study.samples, entry.place);
 }
 
-Exit build(const Context& context, const Options& options) {
+Exit build(const Context& context, const CatalogueOptions& options) {
   const study::Known known = study::registries();
   context.world.on_root([&] { study::read_catalogue(options.catalogue, known); });
   const study::Catalogue catalogue = study::read_catalogue(options.catalogue, known);
@@ -53,7 +53,7 @@ Exit build(const Context& context, const Options& options) {
 }  // namespace
 
 void add_catalogue(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CatalogueOptions>();
   CLI::App* verb =
       parser.add_subcommand("catalogue", "many entries of equipment into one database, which is gone on with");
   verb->add_option("catalogue", options->catalogue, "catalogue file")->required();

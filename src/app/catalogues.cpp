@@ -10,7 +10,7 @@ namespace freestand::app {
 namespace {
 
 void add(CLI::App& parser, Work& work, const std::string& verb_name, const std::string& what,
-         const study::Catalogue& catalogue) {
+         const study::MeasurePages& catalogue) {
   auto name = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
   CLI::App* verb = parser.add_subcommand(verb_name, what);

@@ -65,7 +65,7 @@ void tell_tests(const Json& json) {
   }
 }
 
-void tell(const Json& json, const std::string& folder) {
+void tell_comparison(const Json& json, const std::string& folder) {
   tell_tests(json);
   for (const auto& p : json["parameters"])
     fmt::print("{} = {:.5g} {}{}\n", p["name"].get<std::string>(), p["value"].get<double>(),
@@ -90,7 +90,7 @@ Exit compare(const Context& context, const ValidationOptions& options) {
   context.world.on_root([&, &json = json, &fitted = fitted] {
     io::write_text(folder / "comparison.json", io::json_text(json));
     io::write_text(folder / "fitted.yaml", io::signed_text("# " + context.command_line + "\n" + fitted));
-    if (!options.quiet) tell(json, folder.string());
+    if (!options.quiet) tell_comparison(json, folder.string());
   });
   return Exit::done;
 }

@@ -34,7 +34,7 @@ std::string why(const Json& json) {
   return "";
 }
 
-void tell(const Json& json, const std::string& file) {
+void tell_diagnosis(const Json& json, const std::string& file) {
   const bool histories = json["error_unit"] == "noise units";
   fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11}\n", "error (" + json["error_unit"].get<std::string>() + ")",
              "calibration", "left out", "", histories ? "floor noise" : "");
@@ -61,7 +61,7 @@ Exit diagnose(const Context& context, const ValidationOptions& options) {
   const Json json = study::diagnose(context.world, options.run(context));
   context.world.on_root([&] {
     io::write_text(folder / "diagnosis.json", io::json_text(json));
-    if (!options.quiet) tell(json, (folder / "diagnosis.json").string());
+    if (!options.quiet) tell_diagnosis(json, (folder / "diagnosis.json").string());
   });
   return Exit::done;
 }

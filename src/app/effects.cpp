@@ -25,7 +25,7 @@ std::string json_of_all() {
   return all.dump(2) + "\n";
 }
 
-void tell(const std::string& name, bool json) {
+void tell_effects(const std::string& name, bool json) {
   if (name.empty())
     fmt::print("{}", json ? json_of_all() : study::effects_list());
   else if (json)
@@ -44,7 +44,7 @@ void add_effects(CLI::App& parser, Work& work) {
   verb->add_flag("--json", *json, "for programs");
   verb->callback([name, json, &work] {
     work = [name, json](const Context& context) {
-      context.world.on_root([&] { tell(*name, *json); });
+      context.world.on_root([&] { tell_effects(*name, *json); });
       return Exit::done;
     };
   });

@@ -11,7 +11,7 @@
 namespace freestand::app {
 namespace {
 
-struct Options {
+struct ExportOptions {
   study::ExportRequest request;
   std::string form = "auto";
 };
@@ -53,7 +53,7 @@ void tell(const study::DatabaseExport& done, const study::ExportRequest& request
                 Exit::data);
 }
 
-Exit export_now(Options options, const Context& context) {
+Exit export_now(ExportOptions options, const Context& context) {
   exports::Request& what = options.request.what;
   what.counted = options.form == "counted";
   if (options.form == "lognormal") what.form = exports::Form::lognormal;
@@ -71,7 +71,7 @@ Exit export_now(Options options, const Context& context) {
 }  // namespace
 
 void add_export(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExportOptions>();
   study::ExportRequest& request = options->request;
   CLI::App* verb = parser.add_subcommand("export", "fragility in a format that others load, with certificate.json");
   verb->add_option("folder", request.folder,

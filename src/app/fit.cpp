@@ -11,13 +11,13 @@
 namespace freestand::app {
 namespace {
 
-struct Options {
+struct FitOptions {
   std::string folder, into;
   study::FragilityChanges changes;
   bool overwrite = false, quiet = false, rank = false;
 };
 
-void tell(const study::FitSummary& summary, const Options& options) {
+void tell(const study::FitSummary& summary, const FitOptions& options) {
   for (const std::string& note : summary.notes) fmt::print("{}\n", note);
   fmt::print("{}", summary.ranking);
   if (!summary.warnings.empty())
@@ -34,7 +34,7 @@ void tell(const study::FitSummary& summary, const Options& options) {
 }
 
 // Else a folder would be made for nothing.
-void check(const Options& options) {
+void check(const FitOptions& options) {
   const std::string& folder = options.folder;
   const auto samples = study::samples_path(folder);
   if (!std::filesystem::exists(samples) && std::filesystem::exists(std::filesystem::path(folder) / "fragility.h5"))
@@ -45,7 +45,7 @@ void check(const Options& options) {
   study::check_fit({.from = folder, .changes = options.changes});
 }
 
-Exit run(const Context& context, const Options& options) {
+Exit run(const Context& context, const FitOptions& options) {
   context.world.on_root([&] { check(options); });
   const bool here = options.into.empty();
   study::RunFolder into(context.world, here ? options.folder : options.into,
@@ -66,7 +66,7 @@ Exit run(const Context& context, const Options& options) {
 }  // namespace
 
 void add_fit(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<FitOptions>();
   CLI::App* verb = parser.add_subcommand(
       "fit", "the second half of run: samples.h5 -> fragility.h5, tables, summary; over any intensity");
   verb->add_option("folder", options->folder, "folder of a sweep")->required();

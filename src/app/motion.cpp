@@ -15,7 +15,7 @@
 namespace freestand::app {
 namespace {
 
-struct Options {
+struct MotionOptions {
   std::vector<std::string> files;
   std::string unit, channel, convert;
   double dt_s = 0;
@@ -63,7 +63,7 @@ std::string floor_csv(const FloorMotion& motion) {
   return text;
 }
 
-void convert(const FloorMotion& motion, const Options& options) {
+void convert(const FloorMotion& motion, const MotionOptions& options) {
   const std::filesystem::path target = options.convert;
   if (std::filesystem::exists(target) && !std::filesystem::is_regular_file(target))
     throw Error(target.string() + " is no plain file (it would be replaced by one): give the name of a file");
@@ -72,7 +72,7 @@ void convert(const FloorMotion& motion, const Options& options) {
   io::write_text(target, floor_csv(motion));
 }
 
-Exit show(const Options& options) {
+Exit show(const MotionOptions& options) {
   if (!options.convert.empty() && options.files.size() != 1)
     throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
                 "): convert them one by one");
@@ -93,7 +93,7 @@ Exit show(const Options& options) {
 }  // namespace
 
 void add_motion(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MotionOptions>();
   CLI::App* verb = parser.add_subcommand("motion", "what is in a record: step, peaks, spectrum, identified pulse");
   verb->add_option("files", options->files, "records")->required();
   verb->add_option("--dt", options->dt_s, "time step in s, for plain columns")->check(CLI::PositiveNumber);

@@ -11,7 +11,7 @@
 namespace freestand::app {
 namespace {
 
-struct Options {
+struct QueryOptions {
   std::string database, id, equipment, floor, friction, im, demand;
   double mu = database::unknown, height_m = database::unknown, width_m = database::unknown;
   double capacity = database::unknown;
@@ -22,7 +22,7 @@ std::optional<std::string> given(const std::string& text) { return text.empty() 
 std::optional<double> given(double value) { return std::isnan(value) ? std::nullopt : std::optional(value); }
 
 // "pga_g=0.4": name and value; a name alone asks for the curve.
-void read_intensity(const Options& options, database::Question& question) {
+void read_intensity(const QueryOptions& options, database::Question& question) {
   const std::size_t equals = options.im.find('=');
   question.im = options.im.substr(0, equals);
   if (equals == std::string::npos) return;
@@ -38,7 +38,7 @@ void read_intensity(const Options& options, database::Question& question) {
                             options.im, question.im));
 }
 
-database::Question question_of(const Options& options) {
+database::Question question_of(const QueryOptions& options) {
   database::Question question;
   question.id = given(options.id);
   question.equipment = given(options.equipment);
@@ -53,7 +53,7 @@ database::Question question_of(const Options& options) {
   return question;
 }
 
-void tell(const Options& options) {
+void tell(const QueryOptions& options) {
   std::filesystem::path file = options.database;
   if (std::filesystem::is_directory(file)) file /= io::database_name;
   if (!std::filesystem::exists(file))
@@ -79,7 +79,7 @@ void tell(const Options& options) {
 }  // namespace
 
 void add_query(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<QueryOptions>();
   CLI::App* verb = parser.add_subcommand("query", "what a database holds; probabilities and curves out of it");
   verb->add_option("database", options->database, "folder of a database, or its HDF5 file")->required();
   verb->add_option("--class", options->equipment, "class of equipment");

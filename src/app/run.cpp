@@ -14,7 +14,7 @@
 namespace freestand::app {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string study;
   std::string folder;
   bool check = false, overwrite = false, resume = false, quiet = false;
@@ -26,7 +26,7 @@ study::Study read(const Context& context, const std::string& file) {
   return study::read_study(file, study::registries());
 }
 
-Exit check(const Context& context, const Options& options) {
+Exit check(const Context& context, const RunOptions& options) {
   const study::Study study = read(context, options.study);
   // Records that cannot be read are told as the sweep would tell them.
   context.world.on_root([&] { study::load_motions(study); });
@@ -47,7 +47,7 @@ study::SweepSummary sweep(const Context& context, const study::Study& study, con
   }
 }
 
-Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit) {
+Exit sweep_and_fit(const Context& context, const RunOptions& options, bool with_fit) {
   if (options.check) return check(context, options);
   if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DIR");
   const study::Study study = read(context, options.study);
@@ -70,7 +70,7 @@ Exit sweep_and_fit(const Context& context, const Options& options, bool with_fit
 }
 
 void add(CLI::App& parser, Work& work, const std::string& name, const std::string& what, bool with_fit) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   CLI::App* verb = parser.add_subcommand(name, what);
   verb->add_option("study", options->study, "study file")->required();
   verb->add_option("-o,--output", options->folder, "folder for the results");

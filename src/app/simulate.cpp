@@ -14,12 +14,12 @@
 namespace freestand::app {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string file, folder;
   bool overwrite = false, reference = false;
 };
 
-Exit simulate(const Options& options) {
+Exit simulate(const SimulateOptions& options) {
   const study::Case c = study::read_case(options.file);
   const std::filesystem::path folder = options.folder;
   io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse, {"case.yaml"});
@@ -46,7 +46,7 @@ Exit simulate(const Options& options) {
 }  // namespace
 
 void add_simulate(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SimulateOptions>();
   CLI::App* verb = parser.add_subcommand("simulate", "one sample: history.csv, summary.json");
   verb->add_option("case", options->file, "case file")->required();
   verb->add_option("-o,--output", options->folder, "folder for the results")->required();

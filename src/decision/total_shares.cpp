@@ -6,8 +6,8 @@
 namespace freestand::decision {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double scale = 1 << 20;
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+constexpr double sum_scale = 1 << 20;
 constexpr std::size_t words_of_sums = 4;
 
 // Of pairs by the group of the sample; of those by the group of the redrawn one, where that is another.
@@ -30,8 +30,8 @@ void TotalTally::add(std::size_t parameter, int group, int group_again, std::spa
   for (std::size_t a = 0; a < answers_.size(); ++a) {
     const double y = value[a], z = again[a];
     if (std::isnan(y) || std::isnan(z)) continue;
-    const std::int64_t sums[] = {1, std::llround((y - z) * (y - z) * scale), std::llround((y + z) * scale),
-                                 std::llround((y * y + z * z) * scale)};
+    const std::int64_t sums[] = {1, std::llround((y - z) * (y - z) * sum_scale), std::llround((y + z) * sum_scale),
+                                 std::llround((y * y + z * z) * sum_scale)};
     for (std::size_t i = 0; i < words_of_sums; ++i) {
       words_[place(parameter, a, static_cast<std::size_t>(group), first_side) + i] += sums[i];
       if (group_again != group)
@@ -42,14 +42,14 @@ void TotalTally::add(std::size_t parameter, int group, int group_again, std::spa
 
 TotalTally::Sums TotalTally::read(std::size_t at) const {
   const auto number = [&](std::size_t i) { return static_cast<double>(words_[at + i]); };
-  return {number(0), number(1) / scale, number(2) / scale, number(3) / scale};
+  return {number(0), number(1) / sum_scale, number(2) / sum_scale, number(3) / sum_scale};
 }
 
 TotalShare TotalTally::share(std::size_t parameter, std::size_t answer, double confidence) const {
   const auto of = [](const Sums& sums) {
     const double values = 2 * sums.n, mean = sums.sum / values;
     const double variance = sums.squares / values - mean * mean;
-    return sums.n < 2 || !(variance > 0) ? nan : sums.differences / values / variance;
+    return sums.n < 2 || !(variance > 0) ? undefined : sums.differences / values / variance;
   };
   const auto groups = static_cast<std::size_t>(groups_.count());
   Sums all;

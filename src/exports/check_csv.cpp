@@ -6,7 +6,7 @@
 #include "exports/csv_rows.hpp"
 #include "exports/exporter.hpp"
 
-namespace freestand::exports {
+namespace freestand::exports::check_csv {
 namespace {
 
 struct Lines {
@@ -48,4 +48,4 @@ ReadBack open(const std::filesystem::path& file, const Intensity& im) {
 const RegisterCheck here{{.name = "csv", .open = open}};
 
 }  // namespace
-}  // namespace freestand::exports
+}  // namespace freestand::exports::check_csv

@@ -12,7 +12,7 @@
 #include "base/durable_file.hpp"
 #include "exports/exporter.hpp"
 
-namespace freestand::exports {
+namespace freestand::exports::check_incore {
 namespace {
 
 using Json = nlohmann::json;
@@ -142,4 +142,4 @@ ReadBack open(const std::filesystem::path& file, const Intensity& im) {
 const RegisterCheck here{{.name = "incore", .open = open}};
 
 }  // namespace
-}  // namespace freestand::exports
+}  // namespace freestand::exports::check_incore

@@ -13,7 +13,7 @@
 #include "exports/csv_rows.hpp"
 #include "exports/exporter.hpp"
 
-namespace freestand::exports {
+namespace freestand::exports::check_pelicun {
 namespace {
 
 void require(bool holds, const std::filesystem::path& file, const std::string& rule) {
@@ -148,4 +148,4 @@ ReadBack open(const std::filesystem::path& file, const Intensity& im) {
 const RegisterCheck here{{.name = "pelicun", .open = open}};
 
 }  // namespace
-}  // namespace freestand::exports
+}  // namespace freestand::exports::check_pelicun

@@ -5,7 +5,7 @@
 
 #include "exports/exporter.hpp"
 
-namespace freestand::exports {
+namespace freestand::exports::csv {
 namespace {
 
 std::string cell(const std::string& text) {
@@ -54,4 +54,4 @@ const Register here{{.name = "csv",
                      .write = write}};
 
 }  // namespace
-}  // namespace freestand::exports
+}  // namespace freestand::exports::csv

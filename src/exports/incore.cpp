@@ -12,7 +12,7 @@
 
 #include "exports/exporter.hpp"
 
-namespace freestand::exports {
+namespace freestand::exports::incore {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -147,4 +147,4 @@ const Register here{
      .write = write}};
 
 }  // namespace
-}  // namespace freestand::exports
+}  // namespace freestand::exports::incore

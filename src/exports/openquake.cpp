@@ -13,7 +13,7 @@
 #include "exports/exporter.hpp"
 #include "exports/openquake_names.hpp"
 
-namespace freestand::exports {
+namespace freestand::exports::openquake {
 namespace {
 
 // OpenQuake replaces a limit of 0 by this one, as it takes logarithms of levels.
@@ -80,4 +80,4 @@ const Register here{{.name = "openquake",
                      .write = write}};
 
 }  // namespace
-}  // namespace freestand::exports
+}  // namespace freestand::exports::openquake

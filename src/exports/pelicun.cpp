@@ -15,7 +15,7 @@
 #include "base/shown_text.hpp"
 #include "exports/exporter.hpp"
 
-namespace freestand::exports {
+namespace freestand::exports::pelicun {
 namespace {
 
 // pelicun wants 1 at the end, which a sweep need not have reached: a line so long to there that at twice the highest
@@ -167,4 +167,4 @@ const Register here{
      .write = write}};
 
 }  // namespace
-}  // namespace freestand::exports
+}  // namespace freestand::exports::pelicun

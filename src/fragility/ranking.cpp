@@ -13,8 +13,6 @@
 namespace freestand::fragility {
 namespace {
 
-using Tally = RankingTally;
-
 constexpr std::size_t least_folds = 5;
 constexpr int least_moved = 30, least_hits = 10, least_motions = 4;
 
@@ -60,18 +58,18 @@ double error_of(std::size_t folds, const Of& of) {
   return values.size() < least_folds ? unknown : std::sqrt(jackknife_variance(values));
 }
 
-std::vector<Sums> sums_by_fold(const Tally& tally, std::size_t e, std::size_t k) {
-  std::vector<Sums> folds(Tally::folds);
-  std::vector<ExactSum> x(Tally::folds), y(Tally::folds);
+std::vector<Sums> sums_by_fold(const RankingTally& tally, std::size_t e, std::size_t k) {
+  std::vector<Sums> folds(RankingTally::folds);
+  std::vector<ExactSum> x(RankingTally::folds), y(RankingTally::folds);
   for (std::size_t unit = 0; unit < tally.units(); ++unit) {
-    const Tally::First& first = tally.first(e, k, unit);
+    const RankingTally::First& first = tally.first(e, k, unit);
     const std::size_t fold = tally.fold_of_unit(unit);
     folds[fold].n += static_cast<double>(first.n);
     x[fold].add(first.x);
     y[fold].add(first.y);
   }
-  for (std::size_t f = 0; f < Tally::folds; ++f) {
-    const Tally::Second& second = tally.second(e, k, f);
+  for (std::size_t f = 0; f < RankingTally::folds; ++f) {
+    const RankingTally::Second& second = tally.second(e, k, f);
     folds[f] = {folds[f].n, x[f].value(), y[f].value(), second.xx.value(), second.xy.value(), second.yy.value()};
   }
   return folds;
@@ -83,7 +81,7 @@ struct Efficiency {
   Jackknifed scatter;
 };
 
-Efficiency efficiency(const Tally& tally, std::size_t e, std::size_t k) {
+Efficiency efficiency(const RankingTally& tally, std::size_t e, std::size_t k) {
   const std::vector<Sums> folds = sums_by_fold(tally, e, k);
   Sums all;
   for (const Sums& fold : folds) all.add(fold, 1);
@@ -116,7 +114,7 @@ Sufficiency slope_test(const std::string& property, const std::vector<double>& z
 }
 
 // Of records: the mean remainder of each group over the group's mean property.
-Sufficiency of_records(const Tally& tally, const MotionProperty& property, std::size_t e, std::size_t k,
+Sufficiency of_records(const RankingTally& tally, const MotionProperty& property, std::size_t e, std::size_t k,
                        const Line& line) {
   std::vector<double> sum(tally.record_units(), 0), known(tally.record_units(), 0);
   for (std::size_t motion = 0; motion < property.value.size(); ++motion) {
@@ -127,7 +125,7 @@ Sufficiency of_records(const Tally& tally, const MotionProperty& property, std::
   }
   std::vector<double> z, remainder;
   for (std::size_t unit = 0; unit < tally.record_units(); ++unit) {
-    const Tally::First& first = tally.first(e, k, unit);
+    const RankingTally::First& first = tally.first(e, k, unit);
     if (known[unit] == 0 || first.n == 0) continue;
     z.push_back(sum[unit] / known[unit]);
     remainder.push_back((first.y.value() - line.slope * first.x.value()) / static_cast<double>(first.n) -
@@ -137,9 +135,9 @@ Sufficiency of_records(const Tally& tally, const MotionProperty& property, std::
 }
 
 // Of pulses, where each sample is a motion: from the sums alone.
-Sufficiency of_pulses(const Tally& tally, const MotionProperty& property, std::size_t e, std::size_t k,
+Sufficiency of_pulses(const RankingTally& tally, const MotionProperty& property, std::size_t e, std::size_t k,
                       const Line& line) {
-  const Tally::WithPeriod& w = tally.with_period(e, k);
+  const RankingTally::WithPeriod& w = tally.with_period(e, k);
   const auto n = static_cast<double>(w.n);
   Sufficiency result{property.name, static_cast<int>(std::min<std::int64_t>(w.n, 2'000'000'000))};
   if (w.n < least_motions) return result;
@@ -193,12 +191,12 @@ struct Parting {
   Jackknifed explained;
 };
 
-Parting parting(const Tally& tally, std::size_t e, std::size_t k) {
+Parting parting(const RankingTally& tally, std::size_t e, std::size_t k) {
   const auto points_without = [&](std::optional<std::size_t> left_out) {
     std::vector<ProbitPoint> points;
-    for (std::size_t i = 0; i < Tally::cells; ++i) {
-      ProbitPoint point{Tally::im_of_cell(i), 0, 0};
-      for (std::size_t f = 0; f < Tally::folds; ++f) {
+    for (std::size_t i = 0; i < RankingTally::cells; ++i) {
+      ProbitPoint point{RankingTally::im_of_cell(i), 0, 0};
+      for (std::size_t f = 0; f < RankingTally::folds; ++f) {
         if (left_out == f) continue;
         point.n += static_cast<double>(tally.cell(e, k, f, i).n);
         point.hits += static_cast<double>(tally.cell(e, k, f, i).hits);
@@ -217,9 +215,9 @@ Parting parting(const Tally& tally, std::size_t e, std::size_t k) {
   ProbitFit start;
   result.parts = parts(all);
   result.explained.all = deviance_explained(all, start);
-  for (std::size_t f = 0; f < Tally::folds; ++f) {
+  for (std::size_t f = 0; f < RankingTally::folds; ++f) {
     bool there = false;
-    for (std::size_t i = 0; i < Tally::cells; ++i) there = there || tally.cell(e, k, f, i).n > 0;
+    for (std::size_t i = 0; i < RankingTally::cells; ++i) there = there || tally.cell(e, k, f, i).n > 0;
     ProbitFit near = start;
     result.explained.without.push_back(there ? deviance_explained(points_without(f), near) : unknown);
   }

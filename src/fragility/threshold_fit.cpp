@@ -10,7 +10,7 @@
 namespace freestand::fragility {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 // Halves [low, high] until f, which is positive at low and negative at high, changes sign within round-off.
 template <class Function>
@@ -40,13 +40,13 @@ TruncatedNormal fit_truncated(double c, double first, double second) {
   // With h = phi/(1 - Phi) at z the mean of y - c is omega (h - z), that of its square omega^2 (1 - z (h - z)); their
   // ratio rises from 1 at z = -inf to 2 at z = inf.
   const double wanted = second / (first * first);
-  if (!(wanted > 1) || !(wanted < 2)) return {nan, nan};
+  if (!(wanted > 1) || !(wanted < 2)) return {undefined, undefined};
   const auto ratio = [](double z) {
     const double rest = normal_hazard(z) - z;
     return (1 - z * rest) / (rest * rest);
   };
   constexpr double farthest = 20;  // beyond it the tail is exponential to a 400th
-  if (wanted >= ratio(farthest)) return {nan, nan};
+  if (wanted >= ratio(farthest)) return {undefined, undefined};
   const double least = -1 / std::sqrt(wanted - 1) - 1;
   const double z = root(least, farthest, [&](double x) { return wanted - ratio(x); });
   const double deviation = first / (normal_hazard(z) - z);
@@ -56,12 +56,12 @@ TruncatedNormal fit_truncated(double c, double first, double second) {
 ThresholdFit fit_above(double moved, double sum_ln, double sum_ln2, double still, double threshold) {
   const double share = still / (still + moved);
   const LognormalFit plain = fit_lognormal(moved, sum_ln, sum_ln2);
-  if (!(plain.omega > 0)) return {nan, nan, share, nan};
+  if (!(plain.omega > 0)) return {undefined, undefined, share, undefined};
   if (!(threshold > 0)) return {plain.lambda, plain.omega, share, 0};
   const double mean = sum_ln / moved, square = sum_ln2 / moved;
   const double c = std::log(threshold), first = mean - c, second = square - 2 * c * mean + c * c;
   const auto [lambda, omega] = fit_truncated(c, first, second);
-  if (std::isnan(omega)) return {nan, nan, share, nan};
+  if (std::isnan(omega)) return {undefined, undefined, share, undefined};
   const double below = normal_cdf((c - lambda) / omega);
   if (share >= below) return {lambda, omega, (share - below) / (1 - below), below};
   return censored(moved, first, second, still, c);

@@ -57,21 +57,21 @@ constexpr BinField fields[] = {
   {"status", true, one, "0 fitted, 1 too few samples, 2 fails goodness of fit, 3 counts only", get<BinFit, &BinFit::status>, set<BinFit, &BinFit::status>},
 };
 
-using Curve = fragility::FragilityFunction;
+using Fitted = fragility::FragilityFunction;
 constexpr FunctionField of_function[] = {
-  {"median", true, "IM at which half lie above", get<Curve, &Curve::median>, set<Curve, &Curve::median>},
-  {"dispersion", false, "of ln IM", get<Curve, &Curve::dispersion>, set<Curve, &Curve::dispersion>},
-  {"median_se", true, "standard error of the median, from resampled motions", get<Curve, &Curve::median_se>, set<Curve, &Curve::median_se>},
-  {"dispersion_se", false, "standard error of the dispersion, from resampled motions", get<Curve, &Curve::dispersion_se>, set<Curve, &Curve::dispersion_se>},
-  {"penalised", false, "1: the outcomes separate, the estimate is a penalised one", get<Curve, &Curve::penalised>, set<Curve, &Curve::penalised>},
-  {"im_least", true, "lowest IM swept", get<Curve, &Curve::im_least>, set<Curve, &Curve::im_least>},
-  {"im_most", true, "highest IM swept", get<Curve, &Curve::im_most>, set<Curve, &Curve::im_most>},
-  {"extrapolated", false, "1: the median lies outside of what was swept", get<Curve, &Curve::extrapolated>, set<Curve, &Curve::extrapolated>},
-  {"misfit", false, "largest difference to the counted share of a bin", get<Curve, &Curve::misfit>, set<Curve, &Curve::misfit>},
-  {"misfit_im", true, "mean IM of that bin", get<Curve, &Curve::misfit_im>, set<Curve, &Curve::misfit_im>},
-  {"misfit_p", false, "chance of a larger misfit if the curve were true, from resampled motions", get<Curve, &Curve::misfit_p>, set<Curve, &Curve::misfit_p>},
-  {"off_by", false, "upper bound of the difference to the true shares", get<Curve, &Curve::off_by>, set<Curve, &Curve::off_by>},
-  {"adequate", false, "1: the misfit is chance, or too small to matter", get<Curve, &Curve::adequate>, set<Curve, &Curve::adequate>},
+  {"median", true, "IM at which half lie above", get<Fitted, &Fitted::median>, set<Fitted, &Fitted::median>},
+  {"dispersion", false, "of ln IM", get<Fitted, &Fitted::dispersion>, set<Fitted, &Fitted::dispersion>},
+  {"median_se", true, "standard error of the median, from resampled motions", get<Fitted, &Fitted::median_se>, set<Fitted, &Fitted::median_se>},
+  {"dispersion_se", false, "standard error of the dispersion, from resampled motions", get<Fitted, &Fitted::dispersion_se>, set<Fitted, &Fitted::dispersion_se>},
+  {"penalised", false, "1: the outcomes separate, the estimate is a penalised one", get<Fitted, &Fitted::penalised>, set<Fitted, &Fitted::penalised>},
+  {"im_least", true, "lowest IM swept", get<Fitted, &Fitted::im_least>, set<Fitted, &Fitted::im_least>},
+  {"im_most", true, "highest IM swept", get<Fitted, &Fitted::im_most>, set<Fitted, &Fitted::im_most>},
+  {"extrapolated", false, "1: the median lies outside of what was swept", get<Fitted, &Fitted::extrapolated>, set<Fitted, &Fitted::extrapolated>},
+  {"misfit", false, "largest difference to the counted share of a bin", get<Fitted, &Fitted::misfit>, set<Fitted, &Fitted::misfit>},
+  {"misfit_im", true, "mean IM of that bin", get<Fitted, &Fitted::misfit_im>, set<Fitted, &Fitted::misfit_im>},
+  {"misfit_p", false, "chance of a larger misfit if the curve were true, from resampled motions", get<Fitted, &Fitted::misfit_p>, set<Fitted, &Fitted::misfit_p>},
+  {"off_by", false, "upper bound of the difference to the true shares", get<Fitted, &Fitted::off_by>, set<Fitted, &Fitted::off_by>},
+  {"adequate", false, "1: the misfit is chance, or too small to matter", get<Fitted, &Fitted::adequate>, set<Fitted, &Fitted::adequate>},
 };
 // clang-format on
 

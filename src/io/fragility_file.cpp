@@ -46,7 +46,7 @@ void write_bins(Group& group, const Dataset& im, const EdpResult& edp) {
   }
 }
 
-struct Curve {
+struct Shown {
   const char* name;
   const std::vector<double>* values;
   const char* description;
@@ -74,13 +74,13 @@ void write_surface(Group& parent, const Result& result, const EdpResult& edp) {
   Group group = parent.make_group("surface");
   const Dataset im = im_of(group, result), capacity = capacity_of(group, edp);
   const h5::Dimensions shape{edp.bins.size(), edp.capacity.size()};
-  for (const Curve& curve :
-       {Curve{"probability", &edp.surface.probability, "P(EDP > capacity), fit or counts by status"},
-        Curve{"lower", &edp.surface.lower, "lower end of the band, from resampled motions"},
-        Curve{"upper", &edp.surface.upper, "upper end of the band, from resampled motions"},
-        Curve{"empirical", &edp.surface.empirical, "fraction of samples above, overturned included"},
-        Curve{"least", &edp.surface.least, "the same, had every sample that failed stayed below"},
-        Curve{"most", &edp.surface.most, "the same, had every sample that failed lain above"}})
+  for (const Shown& curve :
+       {Shown{"probability", &edp.surface.probability, "P(EDP > capacity), fit or counts by status"},
+        Shown{"lower", &edp.surface.lower, "lower end of the band, from resampled motions"},
+        Shown{"upper", &edp.surface.upper, "upper end of the band, from resampled motions"},
+        Shown{"empirical", &edp.surface.empirical, "fraction of samples above, overturned included"},
+        Shown{"least", &edp.surface.least, "the same, had every sample that failed stayed below"},
+        Shown{"most", &edp.surface.most, "the same, had every sample that failed lain above"}})
     group.put(curve.name, *curve.values, shape).attach(0, im).attach(1, capacity).describe("1", curve.description);
   if (edp.surface.resampled.empty()) return;
   const Dataset resample = resample_numbers(group, result);
@@ -121,9 +121,9 @@ void write_axis(Group& parent, const Result& result, const EdpResult& edp, const
   const Dataset centre = coordinate(group, "centre", axis.centre, axis.unit, axis.name);
   const h5::Dimensions cells{edp.bins.size(), axis.centre.size()};
   const h5::Dimensions shape{cells[0], cells[1], edp.capacity.size()};
-  for (const Curve& curve : {Curve{"probability", &axis.probability, "P(EDP > capacity), from counts"},
-                             Curve{"lower", &axis.lower, "lower end of the band, from resampled motions"},
-                             Curve{"upper", &axis.upper, "upper end of the band, from resampled motions"}}) {
+  for (const Shown& curve : {Shown{"probability", &axis.probability, "P(EDP > capacity), from counts"},
+                             Shown{"lower", &axis.lower, "lower end of the band, from resampled motions"},
+                             Shown{"upper", &axis.upper, "upper end of the band, from resampled motions"}}) {
     Dataset dataset = group.put(curve.name, *curve.values, shape);
     dataset.attach(0, im).attach(1, centre).attach(2, capacity).describe("1", curve.description);
   }

@@ -9,9 +9,9 @@
 namespace freestand::measurement {
 namespace {
 
-constexpr double room = 0.35;      // in ln(width)
-constexpr double rounding = 0.01;  // share of outcomes that two ways of computing may tell differently
-constexpr std::size_t looks = 3;   // points of the effect's range beside its ends
+constexpr double screen_room = 0.35;  // in ln(width)
+constexpr double rounding = 0.01;     // share of outcomes that two ways of computing may tell differently
+constexpr std::size_t looks = 3;      // points of the effect's range beside its ends
 
 std::vector<std::size_t> unsure_tests(const Bench& bench, const ModelFit& fit, std::size_t count) {
   const auto tests = tests_of(bench.data(), Role::calibration);
@@ -32,8 +32,8 @@ std::vector<std::size_t> unsure_tests(const Bench& bench, const ModelFit& fit, s
 Places coarse_places(const ModelFit& fit) {
   const double middle = placement_middle(fit.model, fit.x), scatter = placement_scatter(fit.model, fit.x);
   if (scatter <= 0 && placement_number(fit.model) < 0) return places_about(middle, scatter);
-  const double reach = room + 2 * scatter;
-  return places_between(middle - reach, middle + reach, 2 * place_step(scatter > 0 ? scatter : room / 5));
+  const double reach = screen_room + 2 * scatter;
+  return places_between(middle - reach, middle + reach, 2 * place_step(scatter > 0 ? scatter : screen_room / 5));
 }
 
 // A table of so many tests, with the points of the model without the effect.

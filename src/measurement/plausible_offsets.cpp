@@ -14,7 +14,7 @@ struct Part {
   double mean = 0, scatter = 0;
 };
 
-Part part(std::span<const double> samples) {
+Part part_of(std::span<const double> samples) {
   const auto n = static_cast<double>(samples.size());
   Part p;
   for (const double s : samples) p.mean += s / n;
@@ -47,7 +47,7 @@ double start_offset(const Bench& bench, std::size_t i, Channel channel) {
 double floor_offset_mps2(const std::vector<double>& floor) {
   const std::size_t n = std::max<std::size_t>(floor.size() / 20, 10);
   if (floor.size() < 4 * n) return 0;
-  const Part before = part({floor.data(), n}), after = part({floor.data() + floor.size() - n, n});
+  const Part before = part_of({floor.data(), n}), after = part_of({floor.data() + floor.size() - n, n});
   const double least = std::min(std::abs(before.mean), std::abs(after.mean));
   const bool steady = least > 3 * std::max(before.scatter, after.scatter) && before.mean * after.mean > 0 &&
                       least > 0.5 * std::max(std::abs(before.mean), std::abs(after.mean));

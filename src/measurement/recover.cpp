@@ -17,11 +17,11 @@ namespace {
 constexpr double window_s = 0.06;               // half window of the smoothing
 constexpr double slip_window_s = window_s / 3;  // of that which finds the slips
 constexpr double least_time_s = 4 * window_s;   // two windows that share no sample
-constexpr std::size_t bins = 12;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t recovered_bins = 12;
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 // An instant of a slip, what friction was recovered there, and what the shown model gives.
-struct Sample {
+struct SlipSample {
   Sliding at;
   double gravity_mps2, mu, force_mps2, law;
   double step_s;  // for which it stands: a test counts for as long as it slips, whatever its rate
@@ -29,24 +29,24 @@ struct Sample {
 };
 
 // What friction may depend on.
-struct Variable {
+struct SlipVariable {
   const char *name, *unit;
   double Sliding::*of_slip;
 };
-constexpr std::array<Variable, 6> variables = {{{"speed_mps", "m/s", &Sliding::speed_mps},
-                                                {"path_m", "m", &Sliding::path_m},
-                                                {"direction", "1", &Sliding::sigma},
-                                                {"position_m", "m", &Sliding::position_m},
-                                                {"normal_g", "g", &Sliding::vertical_mps2},
-                                                {"time_s", "s", &Sliding::time_s}}};
+constexpr std::array<SlipVariable, 6> slip_variables = {{{"speed_mps", "m/s", &Sliding::speed_mps},
+                                                         {"path_m", "m", &Sliding::path_m},
+                                                         {"direction", "1", &Sliding::sigma},
+                                                         {"position_m", "m", &Sliding::position_m},
+                                                         {"normal_g", "g", &Sliding::vertical_mps2},
+                                                         {"time_s", "s", &Sliding::time_s}}};
 
-double value(const Sample& sample, const Variable& variable) {
+double value(const SlipSample& sample, const SlipVariable& variable) {
   const bool normal = variable.of_slip == &Sliding::vertical_mps2;
   return normal ? sample.gravity_mps2 / standard_gravity_mps2 : sample.at.*variable.of_slip;
 }
 
 void sample_slip(const Test& test, const std::vector<double>& floor, const Slip& slip, double mu_k,
-                 const SlidingLaw& shown, double& path, std::vector<Sample>& samples) {
+                 const SlidingLaw& shown, double& path, std::vector<SlipSample>& samples) {
   const std::size_t n = slip.to - slip.from, half = half_window_samples(window_s, test.dt_s);
   const std::vector<double> part(test.slip_m.begin() + static_cast<long>(slip.from),
                                  test.slip_m.begin() + static_cast<long>(slip.to));
@@ -70,11 +70,11 @@ void sample_slip(const Test& test, const std::vector<double>& floor, const Slip&
 }
 
 // So that about as much time falls into each bin.
-std::vector<double> edges(const std::vector<Sample>& samples, const Variable& variable) {
+std::vector<double> edges(const std::vector<SlipSample>& samples, const SlipVariable& variable) {
   if (variable.of_slip == &Sliding::sigma) return {-2, 0, 2};
   std::vector<std::pair<double, double>> values;  // and the time that each stands for
   double whole = 0, passed = 0;
-  for (const Sample& s : samples) {
+  for (const SlipSample& s : samples) {
     values.push_back({value(s, variable), s.step_s});
     whole += s.step_s;
   }
@@ -82,8 +82,8 @@ std::vector<double> edges(const std::vector<Sample>& samples, const Variable& va
   std::vector<double> edge = {values.front().first};
   for (const auto& [here, time] : values) {
     passed += time;
-    const auto wanted = static_cast<double>(edge.size()) / bins;
-    if (edge.size() < bins && passed >= wanted * whole && here > edge.back() + 1e-12) edge.push_back(here);
+    const auto wanted = static_cast<double>(edge.size()) / recovered_bins;
+    if (edge.size() < recovered_bins && passed >= wanted * whole && here > edge.back() + 1e-12) edge.push_back(here);
   }
   const double last = values.back().first;
   if (last > edge.back() + 1e-12) edge.push_back(last);
@@ -95,16 +95,16 @@ std::vector<double> edges(const std::vector<Sample>& samples, const Variable& va
 struct Mean {
   double time = 0, sum = 0, square = 0;
   void add(double x, double t) { time += t, sum += t * x, square += t * x * x; }
-  double mean() const { return time > 0 ? sum / time : nan; }
+  double mean() const { return time > 0 ? sum / time : undefined; }
   // n: how many samples it is of.
   double deviation(double n) const {
-    if (n < 2) return time > 0 ? 0 : nan;
+    if (n < 2) return time > 0 ? 0 : undefined;
     return std::sqrt(std::max(0.0, square / time - mean() * mean()) * n / (n - 1));
   }
 };
 
 // Does the shown law change with this variable alone? Tried at some samples with the values of some others.
-bool follows(const std::vector<Sample>& samples, const Variable& variable) {
+bool follows(const std::vector<SlipSample>& samples, const SlipVariable& variable) {
   const std::size_t step = std::max<std::size_t>(1, samples.size() / 16);
   for (std::size_t i = 0; i < samples.size(); i += step) {
     Sliding at = samples[i].at;
@@ -119,19 +119,19 @@ bool follows(const std::vector<Sample>& samples, const Variable& variable) {
   return false;
 }
 
-RecoveredTable table(const std::vector<Sample>& samples, const Variable& variable) {
+RecoveredTable table(const std::vector<SlipSample>& samples, const SlipVariable& variable) {
   RecoveredTable t;
   t.variable = variable.name;
   t.unit = variable.unit;
   t.edge = edges(samples, variable);
   t.law_follows = follows(samples, variable);
   Mean all;
-  for (const Sample& s : samples) all.add(s.mu, s.step_s);
+  for (const SlipSample& s : samples) all.add(s.mu, s.step_s);
   double between = 0;
   for (std::size_t b = 0; b + 1 < t.edge.size(); ++b) {
     Mean mu, force, law, centre;
     double n = 0;
-    for (const Sample& s : samples) {
+    for (const SlipSample& s : samples) {
       const double at = value(s, variable);
       if (at < t.edge[b] || at >= t.edge[b + 1]) continue;
       ++n;
@@ -160,7 +160,7 @@ RecoveredTable table(const std::vector<Sample>& samples, const Variable& variabl
 }  // namespace
 
 Recovered recover(const Bench& bench, double mu_k, const ModelSpec& shown, std::span<const double> x) {
-  std::vector<Sample> samples;
+  std::vector<SlipSample> samples;
   std::vector<SlidingLaw> laws;
   Mean noise_square;
   const std::vector<std::size_t> tests = tests_of(bench.data(), Role::calibration);
@@ -183,11 +183,11 @@ Recovered recover(const Bench& bench, double mu_k, const ModelSpec& shown, std::
   Recovered out;
   out.samples = samples.size();
   Mean mu;
-  for (const Sample& s : samples) mu.add(s.mu, s.step_s);
+  for (const SlipSample& s : samples) mu.add(s.mu, s.step_s);
   if (mu.time < least_time_s) return out;
   out.mean_mu = mu.mean();
   out.sample_noise_mu = std::sqrt(noise_square.mean());
-  for (const Variable& variable : variables) out.tables.push_back(table(samples, variable));
+  for (const SlipVariable& variable : slip_variables) out.tables.push_back(table(samples, variable));
   return out;
 }
 

@@ -10,7 +10,7 @@
 namespace freestand::measurement {
 namespace {
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_score = std::numeric_limits<double>::quiet_NaN();
 constexpr double ln_ratio_limit = 3;
 constexpr double stride_s = 1;
 constexpr double moving = 8;  // in the noise of a channel
@@ -99,7 +99,7 @@ TestError peak_error(const Bench& bench, std::size_t i, const Prediction& predic
     error.relative = std::max(error.relative, missed);
     square += std::pow((pair.model - pair.measured) / pair.noise, 2) / n;
   }
-  error.noise_units = std::isfinite(square) ? std::sqrt(square) : unknown;
+  error.noise_units = std::isfinite(square) ? std::sqrt(square) : no_score;
   return error;
 }
 
@@ -142,8 +142,8 @@ bool moves(const Bench& bench, std::size_t i) {
 TestError outcome_error(const Test& test, double probability) {
   const double y = test.peaks.overturned.value_or(false) ? 1 : 0;
   return {.score = (probability - y) * (probability - y),
-          .noise_units = unknown,
-          .relative = unknown,
+          .noise_units = no_score,
+          .relative = no_score,
           .probability = probability};
 }
 

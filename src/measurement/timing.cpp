@@ -9,7 +9,7 @@
 namespace freestand::measurement {
 namespace {
 
-constexpr double half_window_s = 0.04;
+constexpr double timing_half_window_s = 0.04;
 
 struct Variance {
   double n = 0, sum = 0, square = 0;
@@ -27,10 +27,10 @@ bool Timing::wrong() const { return (mirrored || std::abs(late_steps) > 1) && ju
 Timing slip_timing(const Bench& bench, std::size_t i, int most_steps) {
   const Test& test = bench.test(i);
   if (test.slip_m.empty() || test.dt_s <= 0) return {};
-  const std::size_t half = half_window_samples(half_window_s, test.dt_s);
-  const Smooth block = smooth(test.slip_m, test.dt_s, half_window_s);
-  const std::vector<double> floor = smooth(floor_displacement(test), test.dt_s, half_window_s).second;
-  const double least = 5 * bench.noise(Channel::slip) * rate_noise(test.dt_s, half_window_s);
+  const std::size_t half = half_window_samples(timing_half_window_s, test.dt_s);
+  const Smooth block = smooth(test.slip_m, test.dt_s, timing_half_window_s);
+  const std::vector<double> floor = smooth(floor_displacement(test), test.dt_s, timing_half_window_s).second;
+  const double least = 5 * bench.noise(Channel::slip) * rate_noise(test.dt_s, timing_half_window_s);
   const auto found = slips(test, block, least, bench.noise(Channel::rotation));
   const auto n = static_cast<int>(floor.size());
 

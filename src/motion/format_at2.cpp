@@ -7,7 +7,7 @@
 #include "motion/component.hpp"
 #include "motion/record_format.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::format_at2 {
 namespace {
 
 constexpr std::size_t header_lines = 12;  // at most
@@ -85,4 +85,4 @@ const RegisteredFormat here{{.name = "at2",
                              .is_vertical = is_vertical}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::format_at2

@@ -7,7 +7,7 @@
 #include "motion/record_channels.hpp"
 #include "motion/record_format.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::format_cosmos_v2 {
 namespace {
 
 constexpr std::string_view data_mark = "acceleration pts", real_mark = "real-header values", channel_mark = "sta chan";
@@ -72,4 +72,4 @@ const RegisteredFormat here{{.name = "cosmos_v2",
                              .read = read}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::format_cosmos_v2

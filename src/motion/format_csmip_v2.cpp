@@ -6,7 +6,7 @@
 #include "motion/record_channels.hpp"
 #include "motion/record_format.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::format_csmip_v2 {
 namespace {
 
 constexpr std::string_view block_mark = "points of accel data", step_mark = "spaced at", unit_mark = " in ";
@@ -63,4 +63,4 @@ const RegisteredFormat here{{.name = "csmip_v2",
                              .read = read}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::format_csmip_v2

@@ -4,7 +4,7 @@
 #include "base/shown_text.hpp"
 #include "motion/record_format.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::format_esm {
 namespace {
 
 // Line and value of a key of the header.
@@ -52,4 +52,4 @@ const RegisteredFormat here{{.name = "esm",
                              .is_vertical = is_vertical}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::format_esm

@@ -7,7 +7,7 @@
 #include "base/shown_text.hpp"
 #include "motion/record_format.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::format_floor_csv {
 namespace {
 
 constexpr std::string_view time_name = "time_s", horizontal_name = "floor_acceleration_mps2",
@@ -60,4 +60,4 @@ const RegisteredFormat here{{.name = "floor_csv",
                              .is_vertical = [](const RecordText&) { return std::optional<bool>(false); }}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::format_floor_csv

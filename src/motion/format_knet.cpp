@@ -9,7 +9,7 @@
 #include "motion/component.hpp"
 #include "motion/record_format.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::format_knet {
 namespace {
 
 constexpr std::size_t header_lines = 17, value_column = 18;
@@ -68,4 +68,4 @@ const RegisteredFormat here{{.name = "knet",
                              .is_vertical = is_vertical}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::format_knet

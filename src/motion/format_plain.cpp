@@ -4,7 +4,7 @@
 
 #include "motion/record_format.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::format_plain {
 namespace {
 
 bool is_comment(std::string_view line) {
@@ -55,4 +55,4 @@ const RegisteredFormat here{{.name = "plain",
                              .read = read}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::format_plain

@@ -8,7 +8,7 @@
 #include "motion/component.hpp"
 #include "motion/record_format.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::format_smc {
 namespace {
 
 constexpr std::size_t text_lines = 11, integers = 48, reals = 50, integer_width = 10, real_width = 15, value_width = 10;
@@ -54,4 +54,4 @@ const RegisteredFormat here{{.name = "smc",
                              .is_vertical = is_vertical}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::format_smc

@@ -5,7 +5,7 @@
 #include "base/units.hpp"
 #include "motion/pulse_family.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::pulse_a {
 namespace {
 
 Pulse make(int) {
@@ -26,4 +26,4 @@ Pulse make(int) {
 const RegisteredPulse here{{.name = "A", .aliases = {"sine", "one_sine"}, .make = make}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::pulse_a

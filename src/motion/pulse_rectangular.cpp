@@ -2,7 +2,7 @@
 // 1) [KM05 5.10]. The floor keeps the velocity a_p T afterwards.
 #include "motion/pulse_family.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::pulse_rectangular {
 namespace {
 
 Pulse make(int) {
@@ -24,4 +24,4 @@ Pulse make(int) {
 const RegisteredPulse here{{.name = "rectangular", .make = make}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::pulse_rectangular

@@ -8,7 +8,7 @@
 #include "base/units.hpp"
 #include "motion/pulse_family.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::pulse_ricker {
 namespace {
 
 constexpr double half_duration = 2;
@@ -36,4 +36,4 @@ Pulse make(int) {
 const RegisteredPulse here{{.name = "ricker", .aliases = {"ricker_symmetric"}, .make = make}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::pulse_ricker

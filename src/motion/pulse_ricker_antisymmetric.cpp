@@ -8,7 +8,7 @@
 #include "base/units.hpp"
 #include "motion/pulse_family.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::pulse_ricker_antisymmetric {
 namespace {
 
 constexpr double half_duration = 2.5;
@@ -36,4 +36,4 @@ Pulse make(int) {
 const RegisteredPulse here{{.name = "ricker_antisymmetric", .make = make}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::pulse_ricker_antisymmetric

@@ -1,7 +1,7 @@
 // Square wave: a = a_p for half a period, then -a_p for the other half. The floor ends at rest, displaced.
 #include "motion/pulse_family.hpp"
 
-namespace freestand::motion {
+namespace freestand::motion::pulse_square {
 namespace {
 
 Pulse make(int) {
@@ -24,4 +24,4 @@ Pulse make(int) {
 const RegisteredPulse here{{.name = "square", .make = make}};
 
 }  // namespace
-}  // namespace freestand::motion
+}  // namespace freestand::motion::pulse_square

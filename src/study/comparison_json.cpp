@@ -17,12 +17,6 @@ constexpr std::size_t most_points = 2000;
 const char* const roles[] = {"calibration", "holdout"};
 const char* const kinds[] = {"history", "peaks", "outcome"};
 
-Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double v : values) list.push_back(number_or_null(v));
-  return list;
-}
-
 // Measured and predicted peaks, of what was measured.
 Json peaks_json(const Test& test, const Response& r) {
   Json list = Json::array();
@@ -118,12 +112,12 @@ Json tables_json(const std::vector<ErrorTable>& tables) {
     list.push_back({{"variable", t.variable},
                     {"unit", t.unit},
                     {"label", t.label},
-                    {"edge", numbers(t.edge)},
-                    {"centre", numbers(t.centre)},
-                    {"count", numbers(t.count)},
-                    {"error_noise_units", numbers(t.noise_units)},
-                    {"growth_noise_units", numbers(t.growth)},
-                    {"bias_noise_units", numbers(t.bias)}});
+                    {"edge", numbers_or_null(t.edge)},
+                    {"centre", numbers_or_null(t.centre)},
+                    {"count", numbers_or_null(t.count)},
+                    {"error_noise_units", numbers_or_null(t.noise_units)},
+                    {"growth_noise_units", numbers_or_null(t.growth)},
+                    {"bias_noise_units", numbers_or_null(t.bias)}});
   return list;
 }
 

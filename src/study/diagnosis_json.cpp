@@ -21,12 +21,6 @@ namespace {
 using namespace measurement;
 using Json = nlohmann::ordered_json;
 
-Json numbers(const std::vector<double>& values) {
-  Json list = Json::array();
-  for (const double v : values) list.push_back(number_or_null(v));
-  return list;
-}
-
 std::string label(const Candidate& c) { return fmt::format("{}", fmt::join(c.effects, "+")); }
 
 Json candidate_json(const Bench& bench, const Candidate& c) {
@@ -71,18 +65,18 @@ Json recovered_json(const Bench& bench, const Diagnosis& d, const Candidate& sho
     json["tables"].push_back(
         {{"variable", t.variable},
          {"unit", t.unit},
-         {"edge", numbers(t.edge)},
-         {"centre", numbers(t.centre)},
-         {"count", numbers(t.count)},
-         {"mu", numbers(t.mu)},
-         {"mu_deviation", numbers(t.mu_deviation)},
-         {"mu_lower", numbers(t.mu_lower)},
-         {"mu_upper", numbers(t.mu_upper)},
-         {"force_mps2", numbers(t.force_mps2)},
-         {"force_lower_mps2", numbers(t.force_lower_mps2)},
-         {"force_upper_mps2", numbers(t.force_upper_mps2)},
+         {"edge", numbers_or_null(t.edge)},
+         {"centre", numbers_or_null(t.centre)},
+         {"count", numbers_or_null(t.count)},
+         {"mu", numbers_or_null(t.mu)},
+         {"mu_deviation", numbers_or_null(t.mu_deviation)},
+         {"mu_lower", numbers_or_null(t.mu_lower)},
+         {"mu_upper", numbers_or_null(t.mu_upper)},
+         {"force_mps2", numbers_or_null(t.force_mps2)},
+         {"force_lower_mps2", numbers_or_null(t.force_lower_mps2)},
+         {"force_upper_mps2", numbers_or_null(t.force_upper_mps2)},
          {"share_explained", number_or_null(t.share_explained)},
-         {"law", {{"effects", shown.effects}, {"mu", numbers(t.law)}, {"follows", t.law_follows}}}});
+         {"law", {{"effects", shown.effects}, {"mu", numbers_or_null(t.law)}, {"follows", t.law_follows}}}});
   }
   return json;
 }
@@ -97,7 +91,7 @@ Json outcome_suggestion_json(const Bench& bench, const Diagnosis& d, const Jobs&
           {"motion", {{"test", s.test}, {"scale", s.scale}}},
           {"specimen", nullptr},
           {"separation_noise_units", nullptr},
-          {"probabilities", numbers(s.probability)},
+          {"probabilities", numbers_or_null(s.probability)},
           {"repeats", s.repeats},
           {"sentence", s.sentence}};
 }

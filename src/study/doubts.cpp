@@ -16,13 +16,13 @@ constexpr double longest_m = 50, steepest_rad = 1.2, roughest = 2, longest_perio
 // Two thirds of a lognormal's values span a factor of e^(2 dispersion): here 100, which no dimension or coefficient does.
 constexpr double widest_dispersion = 2.3;
 
-double median(const Quantity& quantity) { return sampling::quantile(quantity.value, 0.5); }
+double usual(const Quantity& quantity) { return sampling::quantile(quantity.value, 0.5); }
 
 class Doubter {
  public:
   void ask(const std::optional<Quantity>& quantity, double largest, const char* question) {
     if (!quantity) return;
-    const double value = median(*quantity);
+    const double value = usual(*quantity);
     if (std::abs(value) > largest) said.push_back(fmt::format("{} is {:.4g}: {}", quantity->name, value, question));
   }
   void ask_dispersion(const std::optional<Quantity>& quantity) {
@@ -99,9 +99,9 @@ std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& 
                         "shaking reaches {:.3g} m/s without it; is its zero right?",
                         motion.name, offset.acceleration_mps2, offset.leaving_mps, offset.shaking_mps));
       const double peak_g = (*motions.entries)[entry].peak_mps2 / standard_gravity_mps2;
-      if (as_it_is && peak_g * std::abs(median(*source.amplitude)) > strongest_g)
+      if (as_it_is && peak_g * std::abs(usual(*source.amplitude)) > strongest_g)
         said.push_back(fmt::format("the floor of {} reaches {:.3g} g: is its unit right?", motion.name,
-                                   peak_g * std::abs(median(*source.amplitude))));
+                                   peak_g * std::abs(usual(*source.amplitude))));
     }
   }
   return said;

@@ -13,13 +13,13 @@
 namespace freestand::study {
 namespace {
 
-constexpr const char* origin = "command line";
+constexpr const char* said_by = "command line";
 
 YAML::Node loaded(const std::string& text, const std::string& option) {
   try {
     return YAML::Load(text);
   } catch (const YAML::Exception& why) {
-    throw Error(fmt::format("{}: {} {} cannot be read ({}): see freestand fit --help", origin, option, text, why.msg));
+    throw Error(fmt::format("{}: {} {} cannot be read ({}): see freestand fit --help", said_by, option, text, why.msg));
   }
 }
 
@@ -35,7 +35,7 @@ YAML::Node intensity_node(const std::string& text) {
     for (const intensity::Measure* one : intensity::all())
       if (one->parameter) with.push_back(one->name);
     throw Error(
-        fmt::format("{}: --im {} has a number (only {} takes one): write --im {}", origin, text, joined(with), name));
+        fmt::format("{}: --im {} has a number (only {} takes one): write --im {}", said_by, text, joined(with), name));
   }
   YAML::Node node;
   node["name"] = name;
@@ -76,7 +76,7 @@ void change_capacities(YAML::Node fragility, const FragilityChanges& changes) {
       throw Error(
           fmt::format("{}: --capacities {} names no demand (whose capacities are these?): write --capacities "
                       "peak_slip_m=0.05,0.1",
-                      origin, text));
+                      said_by, text));
     const std::string edp = text.substr(0, equals);
     capacities[edp] = list_of(text.substr(equals + 1), "--capacities");
     still.remove(edp);
@@ -92,15 +92,15 @@ void change_target(YAML::Node fragility, const std::vector<std::string>& target)
       throw Error(
           fmt::format("{}: --target {} gives nothing to a number (how is it distributed?): write --target "
                       "\"friction.mu_k={{lognormal: {{median: 0.3, dispersion: 0.2}}}}\"",
-                      origin, text));
+                      said_by, text));
     fragility["target"][text.substr(0, equals)] = loaded(text.substr(equals + 1), "--target");
   }
 }
 
 // What is wrong is in no line of a file.
 std::string without_lines(const std::string& text) {
-  static const std::regex line(std::string("^") + origin + ":[0-9]+:", std::regex::multiline);
-  return std::regex_replace(text, line, std::string(origin) + ":");
+  static const std::regex line(std::string("^") + said_by + ":[0-9]+:", std::regex::multiline);
+  return std::regex_replace(text, line, std::string(said_by) + ":");
 }
 
 }  // namespace
@@ -120,7 +120,7 @@ Study with_changes(const Study& study, const FragilityChanges& changes) {
   YAML::Emitter out;
   out << root;
   try {
-    Study changed = parse_stored(out.c_str(), origin);
+    Study changed = parse_stored(out.c_str(), said_by);
     changed.folder = study.folder;
     return changed;
   } catch (const Error& error) {

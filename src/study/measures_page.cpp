@@ -106,7 +106,7 @@ ordered_json json(const Edp& edp) {
 }
 
 template <class Entry>
-Catalogue catalogue(std::vector<const Entry*> all, const char* kind, const char* verb, const std::string& note) {
+MeasurePages catalogue(std::vector<const Entry*> all, const char* kind, const char* verb, const std::string& note) {
   return {[=](const std::string& name) { return name.empty() ? list(all, note) : page(named(all, name, kind, verb)); },
           [=](const std::string& name) {
             if (!name.empty()) return json(named(all, name, kind, verb)).dump(2) + "\n";
@@ -118,14 +118,14 @@ Catalogue catalogue(std::vector<const Entry*> all, const char* kind, const char*
 
 }  // namespace
 
-Catalogue intensities_catalogue() {
+MeasurePages intensities_catalogue() {
   return catalogue(
       intensity::all(), "intensity", "im",
       "`freestand im NAME` tells more. A finished sweep holds all of them: `freestand fit DIR --im NAME -o "
       "DIR2`\nneeds no new one.\n");
 }
 
-Catalogue demands_catalogue() {
+MeasurePages demands_catalogue() {
   return catalogue(
       demands(), "demand", "edp",
       "`freestand edp NAME` tells more. A finished sweep holds all of them, those by side where its study says "

@@ -6,12 +6,12 @@
 
 namespace freestand::study {
 
-struct Catalogue {
+struct MeasurePages {
   // Of one of them, or the list of all for an empty name. Throw Error for a name that there is not.
-  std::function<std::string(const std::string& name)> page, json;
+  std::function<std::string(const std::string&name)> page, json;
 };
 
-Catalogue intensities_catalogue();
-Catalogue demands_catalogue();
+MeasurePages intensities_catalogue();
+MeasurePages demands_catalogue();
 
 }  // namespace freestand::study

@@ -20,7 +20,7 @@ using fragility::RankedDemand;
 using fragility::RankedIm;
 using nlohmann::ordered_json;
 
-constexpr std::int64_t rows_at_once = 2048;
+constexpr std::int64_t rows_of_a_block = 2048;
 constexpr double usual_periods_s[] = {0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.5, 2, 3};
 
 bool same(const IntensityPart& a, const IntensityPart& b) { return a.name == b.name && a.period_s == b.period_s; }
@@ -137,7 +137,7 @@ class Counter {
   std::vector<SampleIntensity> intensities_;
 };
 
-ordered_json number(double x) { return std::isfinite(x) ? ordered_json(x) : ordered_json(); }
+ordered_json number_json(double x) { return std::isfinite(x) ? ordered_json(x) : ordered_json(); }
 
 std::string cell(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : ""; }
 
@@ -185,9 +185,9 @@ Ranking rank_intensities(const parallel::Communicator& world, const Study& study
   const fragility::RankingOptions options = options_of(study, parts, reader.motions(), summaries);
   fragility::RankingTally tally(options);
   Counter counter(tally, target, parts, summaries);
-  const io::BlockLayout layout{std::min(reader.rows(), most_ranked_samples), rows_at_once};
+  const io::BlockLayout layout{std::min(reader.rows(), most_ranked_samples), rows_of_a_block};
   for (std::int64_t block = world.rank(); block < layout.blocks(); block += world.size())
-    counter.add(reader.read(block * rows_at_once, layout.rows(block), counter.columns()), block * rows_at_once);
+    counter.add(reader.read(block * rows_of_a_block, layout.rows(block), counter.columns()), block * rows_of_a_block);
   parallel::Words words = tally.words();
   world.sum_in_place(words);
   if (!world.is_root()) return {};
@@ -200,21 +200,21 @@ ordered_json ranking_json(const Ranking& ranking) {
     ordered_json ims = ordered_json::array();
     for (const RankedIm& im : demand.ims) {
       const char* figure = demand.binary ? "deviance_explained" : "scatter";
-      ordered_json entry = {{"im", im.im}, {"samples", im.samples}, {figure, number(im.value)}};
-      entry[std::string(figure) + "_se"] = number(im.value_se);
-      entry["behind_best"] = number(im.behind);
-      entry["behind_best_se"] = number(im.behind_se);
+      ordered_json entry = {{"im", im.im}, {"samples", im.samples}, {figure, number_json(im.value)}};
+      entry[std::string(figure) + "_se"] = number_json(im.value_se);
+      entry["behind_best"] = number_json(im.behind);
+      entry["behind_best_se"] = number_json(im.behind_se);
       if (demand.binary) {
-        entry["parts_pairs"] = number(im.parts);
+        entry["parts_pairs"] = number_json(im.parts);
       } else {
-        entry["slope"] = number(im.slope);
+        entry["slope"] = number_json(im.slope);
         entry["sufficiency"] = ordered_json::array();
         for (const auto& s : im.sufficiency)
           entry["sufficiency"].push_back({{"on", s.property},
                                           {"motions", s.motions},
-                                          {"slope", number(s.slope)},
-                                          {"slope_se", number(s.slope_se)},
-                                          {"p", number(s.p)}});
+                                          {"slope", number_json(s.slope)},
+                                          {"slope_se", number_json(s.slope_se)},
+                                          {"p", number_json(s.p)}});
       }
       ims.push_back(std::move(entry));
     }

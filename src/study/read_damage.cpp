@@ -24,9 +24,9 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
 // Words of logic and functions of conditions, which a parameter cannot be called.
 const std::vector<std::string> taken = {"and", "or", "not", "min", "max", "abs", "exp", "log", "sqrt", "sum", "avg"};
 
-class Reader {
+class DamageReader {
  public:
-  Reader(Section& section, const Known& known) : section_(section) {
+  DamageReader(Section& section, const Known& known) : section_(section) {
     for (const KnownEdp& edp : known.edps) {
       demands_.push_back(edp.name);
       names_.push_back({edp.name, edp.binary});
@@ -135,7 +135,7 @@ DamagePart read_state(Section& damage, const std::string& name) {
 }  // namespace
 
 void read_damage(Section& section, const Known& known, FragilityPart& fragility) {
-  Reader reader(section, known);
+  DamageReader reader(section, known);
   std::vector<DamagePart> states = std::move(fragility.damage);  // of capacities that are distributions
   fragility.damage.clear();
   if (const YAML::Node* node = section.find("damage")) {

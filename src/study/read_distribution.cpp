@@ -11,7 +11,8 @@ namespace {
 
 using namespace sampling;
 
-const std::vector<std::string> kinds = {"uniform", "log_uniform", "normal", "lognormal", "triangular", "choice"};
+const std::vector<std::string> kinds_of_distribution = {"uniform",   "log_uniform", "normal",
+                                                        "lognormal", "triangular",  "choice"};
 
 // The n numbers of `key`, or nothing and a problem.
 std::optional<std::vector<double>> exactly(Section& section, const std::string& key, std::size_t n, const char* form) {
@@ -79,7 +80,7 @@ std::optional<Distribution> read_mapping(const YAML::Node& node, const std::stri
                                          Problems& problems) {
   Section section(node, where, line, problems);
   std::string found;
-  for (const auto& kind : kinds)
+  for (const auto& kind : kinds_of_distribution)
     if (section.has(kind)) {
       if (!found.empty()) {
         problems.add(
@@ -92,9 +93,10 @@ std::optional<Distribution> read_mapping(const YAML::Node& node, const std::stri
   if (found.empty()) {
     const std::string first = node.size() ? node.begin()->first.Scalar() : "";
     problems.add(line, fmt::format("{} has no known distribution ({}): use one of {}", where,
-                                   nearest(first, kinds).empty() ? "found " + (first.empty() ? "nothing" : shown(first))
-                                                                 : hint(first, kinds),
-                                   joined(kinds)));
+                                   nearest(first, kinds_of_distribution).empty()
+                                       ? "found " + (first.empty() ? "nothing" : shown(first))
+                                       : hint(first, kinds_of_distribution),
+                                   joined(kinds_of_distribution)));
     return {};
   }
   if (!section.find(found)) return {};

@@ -12,7 +12,7 @@ namespace {
 using sampling::number_text;
 using sampling::support;
 
-constexpr Range size_range = {.lower = 0, .why = "a size must be above zero"};
+constexpr Range above_zero = {.lower = 0, .why = "a size must be above zero"};
 constexpr Range slenderness_range = {.lower = 0, .upper = pi / 2, .why = "a slenderness lies between 0 and pi/2"};
 constexpr Range exponent_range = {.lower = 1,
                                   .upper = 100,
@@ -38,10 +38,10 @@ BlockPart read_block(Section& file) {
     return block;
   }
   Section section(*node, "block", file.line("block"), file.problems());
-  block.width = section.quantity("block", "width_m", size_range);
-  block.height = section.quantity("block", "height_m", size_range);
+  block.width = section.quantity("block", "width_m", above_zero);
+  block.height = section.quantity("block", "height_m", above_zero);
   block.slenderness = section.quantity("block", "slenderness_rad", slenderness_range);
-  block.size = section.quantity("block", "size_m", size_range);
+  block.size = section.quantity("block", "size_m", above_zero);
   block.mass = section.quantity("block", "mass_kg", {.lower = 0, .why = "a mass must be above zero"}, 1);
   section.finish();
   if (!node->IsMap()) return block;
@@ -127,7 +127,7 @@ std::optional<BoucWenPart> read_bouc_wen(Section& file, Model model) {
   }
   Section section(*node, "bouc_wen", file.line("bouc_wen"), file.problems());
   BoucWenPart part;
-  part.yield_displacement = section.quantity("bouc_wen", "yield_displacement_m", size_range, 1);
+  part.yield_displacement = section.quantity("bouc_wen", "yield_displacement_m", above_zero, 1);
   part.exponent = section.quantity("bouc_wen", "exponent", exponent_range, 1);
   part.gamma = section.quantity("bouc_wen", "gamma", range::positive, 0.5);
   part.beta = section.quantity("bouc_wen", "beta", range::any, 0.5);
@@ -175,7 +175,7 @@ std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
   chain.slack = section.quantity("chain", "slack_m", range::not_negative, 0);
   chain.stiffness = section.quantity("chain", "stiffness_npm", range::positive, 0);
   chain.strength = section.quantity("chain", "strength_n", range::positive, 0);
-  chain.height = section.quantity("chain", "height_m", size_range);
+  chain.height = section.quantity("chain", "height_m", above_zero);
   if (const std::string without = knows_no_walls(model); without.empty())
     chain.wall_gap = section.quantity("chain", "wall_gap_m", range::not_negative, 0);
   else if (section.has("wall_gap_m"))

@@ -47,12 +47,12 @@ Amplitude amplitude_of(const MotionSource& source) {
 }
 
 // The intensity that a motion is scaled to.
-struct Target {
+struct ScaleTarget {
   const intensity::Measure* measure = nullptr;
   double parameter = 0;
   std::vector<motion::MotionSummary> summaries;  // of the items of the source
 
-  Target(const MotionSource& source, const MotionSet& motions, const std::vector<std::size_t>& items) {
+  ScaleTarget(const MotionSource& source, const MotionSet& motions, const std::vector<std::size_t>& items) {
     if (amplitude_of(source) != Amplitude::intensity) return;
     measure = &intensity::find(source.scale_to->name);
     parameter = intensity::parameter_of(*measure, source.scale_to->period_s);
@@ -87,7 +87,7 @@ struct Source {
   MotionSource part;
   Amplitude amplitude_kind;
   Drawn amplitude;
-  Target target;
+  ScaleTarget target;
   std::optional<Drawn> period;
   Stream item;
 };

@@ -93,10 +93,10 @@ Json row_json(const decision::RiskRow& row, const std::vector<double>& years) {
   return json;
 }
 
-std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+std::string rate_cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 std::string cells(const decision::Rate& rate) {
-  return fmt::format("{},{},{}", cell(rate.value), cell(rate.lower), cell(rate.upper));
+  return fmt::format("{},{},{}", rate_cell(rate.value), rate_cell(rate.lower), rate_cell(rate.upper));
 }
 
 }  // namespace
@@ -150,12 +150,12 @@ std::string risk_csv(const RiskAnswer& answer, const RiskOptions& options) {
       "outside_hazard,median_im\n";
   for (const decision::RiskRow& row : answer.risk.rows) {
     const decision::Rate told = row.refused.empty() ? row.rate() : decision::Rate{};
-    text += fmt::format("{},{},{},{}", row.edp, row.unit, cell(row.capacity), cells(told));
+    text += fmt::format("{},{},{},{}", row.edp, row.unit, rate_cell(row.capacity), cells(told));
     for (const double n : options.years)
       for (const double rate : {told.value, told.lower, told.upper})
-        text += fmt::format(",{}", cell(decision::probability_in_years(rate, n)));
+        text += fmt::format(",{}", rate_cell(decision::probability_in_years(rate, n)));
     text += fmt::format(",{},{},{},{},{},{}\n", name(row.recommended), cells(row.by_function), cells(row.by_counts),
-                        cell(row.outside_sweep), cell(row.outside_hazard), cell(row.median_im));
+                        rate_cell(row.outside_sweep), rate_cell(row.outside_hazard), rate_cell(row.median_im));
   }
   return text;
 }

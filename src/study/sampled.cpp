@@ -30,7 +30,7 @@ struct Classes {
   std::vector<double> weights;
 };
 
-bool varies(const std::optional<Quantity>& quantity) { return quantity && !is_fixed(quantity->value); }
+bool is_drawn(const std::optional<Quantity>& quantity) { return quantity && !is_fixed(quantity->value); }
 
 Sampled of_model(const Study& study, const Quantity& quantity) {
   const Classes of(study.plan(), quantity);
@@ -79,7 +79,7 @@ void add_of_motions(const Study& study, std::optional<Quantity> MotionSource::*n
   for (const MotionSource& source : study.motions) {
     const std::optional<Quantity>& quantity = source.*number;
     of->emplace_back();
-    if (!varies(quantity)) continue;
+    if (!is_drawn(quantity)) continue;
     of->back().emplace(study.plan(), *quantity);
     add(found.streams, quantity->stream());
     add(names, quantity->name);

@@ -21,7 +21,7 @@
 namespace freestand::study {
 namespace {
 
-constexpr std::int64_t rows_at_once = 8192, pairs_at_once = 1024;
+constexpr std::int64_t rows_in_a_block = 8192, pairs_at_once = 1024;
 
 std::span<const double> row_of(const Table& table, std::size_t row) {
   return std::span(table.values).subspan(row * table.columns.size(), table.columns.size());
@@ -132,14 +132,14 @@ class Shares {
 
   decision::ShareTally first_order(const std::vector<decision::Parameter>& parameters) const {
     decision::ShareTally tally(parameters, answers_.answers(), groups_);
-    const io::BlockLayout layout{reader_.rows(), rows_at_once};
+    const io::BlockLayout layout{reader_.rows(), rows_in_a_block};
     std::vector<std::string> names = columns_read();
     names.emplace_back("motion");
     parallel::StepDisplay display(options_.quiet || !world_.is_root());
     std::vector<double> values;
     std::vector<int> of_class(sampled_.size());
     for (std::int64_t block = world_.rank(); block < layout.blocks(); block += world_.size()) {
-      const std::int64_t first = block * rows_at_once;
+      const std::int64_t first = block * rows_in_a_block;
       const Table table = with_damage(reader_.read(first, layout.rows(block), names), first);
       const Answers answers(study_.fragility, table.columns);
       const std::size_t motion_column = column_index(table.columns, "motion");

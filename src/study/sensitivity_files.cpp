@@ -13,15 +13,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+std::string number_cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 Json estimate_json(const fragility::Estimate& estimate) {
   return {{"value", estimate.value}, {"se", estimate.se}, {"lower", estimate.lower}, {"upper", estimate.upper}};
 }
 
-std::string cells(const fragility::Estimate& estimate) {
-  return fmt::format("{},{},{},{}", cell(estimate.value), cell(estimate.se), cell(estimate.lower),
-                     cell(estimate.upper));
+std::string estimate_cells(const fragility::Estimate& estimate) {
+  return fmt::format("{},{},{},{}", number_cell(estimate.value), number_cell(estimate.se), number_cell(estimate.lower),
+                     number_cell(estimate.upper));
 }
 
 // What the answer is, as one word: for readers of the files.
@@ -75,10 +75,10 @@ std::string sensitivity_csv(const Sensitivity& found) {
     for (std::size_t p = 0; p < found.rows[a].share.size(); ++p) {
       const decision::Answer& answer = found.answers[a];
       const bool total = !found.totals[a].empty();
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", answer.edp, kind(answer), cell(answer.capacity),
-                          answer.unit, found.parameters[p].name, cells(found.rows[a].share[p]),
-                          total ? cells(found.totals[a][p].share) : ",,,", found.rows[a].samples, found.rows[a].motions,
-                          total ? fmt::format("{}", found.totals[a][p].pairs) : "");
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", answer.edp, kind(answer), number_cell(answer.capacity),
+                          answer.unit, found.parameters[p].name, estimate_cells(found.rows[a].share[p]),
+                          total ? estimate_cells(found.totals[a][p].share) : ",,,", found.rows[a].samples,
+                          found.rows[a].motions, total ? fmt::format("{}", found.totals[a][p].pairs) : "");
     }
   return text;
 }

@@ -19,7 +19,7 @@ namespace {
 
 using namespace measurement;
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 // The first few.
 std::string listed(const std::vector<std::string>& ids) {
@@ -102,6 +102,12 @@ nlohmann::ordered_json number_or_null(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json numbers_or_null(const std::vector<double>& values) {
+  auto list = nlohmann::ordered_json::array();
+  for (const double v : values) list.push_back(number_or_null(v));
+  return list;
+}
+
 std::optional<Interval> interval_of(const ModelFit& fit, std::size_t i) {
   if (i >= fit.intervals.size()) return {};
   const auto [lower, upper] = fit.intervals[i];
@@ -176,7 +182,7 @@ ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
     evaluate(bench, {&fit}, jobs);
     for (const Calibrated& c : p.validation.calibrated)
       fit.intervals.push_back(c.interval.size() == 2 ? Interval{c.interval[0], c.interval[1]}
-                                                     : Interval{unknown, unknown});
+                                                     : Interval{not_known, not_known});
     return fit;
   }
   if (tests_of(p.data, Role::calibration).empty())

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "measurement/model_fit.hpp"
 #include "study/validation.hpp"
@@ -44,6 +45,7 @@ void add_provenance(nlohmann::ordered_json& document, const parallel::Communicat
 
 // null where it is not finite.
 nlohmann::ordered_json number_or_null(double value);
+nlohmann::ordered_json numbers_or_null(const std::vector<double>& values);
 
 // The interval of the i-th number: as wide as the tests leave it open, or none; and then why.
 std::optional<measurement::Interval> interval_of(const measurement::ModelFit&, std::size_t i);

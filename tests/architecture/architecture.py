@@ -43,7 +43,7 @@ def modules(root):
     found = {}
     for body in re.findall(r"freestand_module\(([^)]*)\)", text):
         words = body.split()
-        found[words[0]] = Module(words[0], frozenset(words[1:]) - {"LINKS", "REGISTRY"}, "REGISTRY" in words)
+        found[words[0]] = Module(words[0], frozenset(words[1:]) - {"LINKS", "REGISTRY", "ALONE"}, "REGISTRY" in words)
     for body in re.findall(r"freestand_program\(([^)]*)\)", text):
         words = body.split()
         folder = pathlib.PurePosixPath(words[1]).name

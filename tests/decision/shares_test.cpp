@@ -11,7 +11,7 @@
 #include "base/random.hpp"
 #include "decision/total_shares.hpp"
 
-namespace freestand::decision {
+namespace freestand::decision::shares_test {
 namespace {
 
 using fragility::Estimate;
@@ -218,4 +218,4 @@ TEST(TotalShares, OfTheMotionItselfWithItsError) {
 }
 
 }  // namespace
-}  // namespace freestand::decision
+}  // namespace freestand::decision::shares_test

@@ -14,7 +14,7 @@
 #include "support/bouc_wen_cases.hpp"
 #include "support/isa.hpp"
 
-namespace freestand::test {
+namespace freestand::test::bouc_wen_batch_test {
 namespace {
 
 struct Samples {
@@ -162,4 +162,4 @@ TEST(BoucWenBatch, TheRestIsComputedOneByOne) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::bouc_wen_batch_test

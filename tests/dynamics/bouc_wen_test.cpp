@@ -13,7 +13,7 @@
 #include "support/floor_motions.hpp"
 #include "support/solvers.hpp"
 
-namespace freestand::test {
+namespace freestand::test::bouc_wen_test {
 namespace {
 
 constexpr double g = standard_gravity_mps2, inch = 0.0254;
@@ -335,4 +335,4 @@ TEST_P(BoucWen, NoFrictionNoShakingAndAFlatPush) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::bouc_wen_test

@@ -11,7 +11,7 @@
 #include "support/floor_motions.hpp"
 #include "support/random_cases.hpp"
 
-namespace freestand::test {
+namespace freestand::test::contact_stepper_test {
 namespace {
 
 constexpr double g = standard_gravity_mps2;
@@ -167,4 +167,4 @@ TEST(ContactStepper, ErrorFallsAtLeastInStepWithTheStep) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::contact_stepper_test

@@ -12,7 +12,7 @@
 #include "support/random_cases.hpp"
 #include "support/solvers.hpp"
 
-namespace freestand::test {
+namespace freestand::test::failure_test {
 namespace {
 
 constexpr double g = standard_gravity_mps2;
@@ -279,4 +279,4 @@ TEST_P(Failure, FlightAndLanding) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::failure_test

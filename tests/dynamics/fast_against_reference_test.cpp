@@ -14,7 +14,7 @@
 #include "support/random_cases.hpp"
 #include "support/solvers.hpp"
 
-namespace freestand::test {
+namespace freestand::test::fast_against_reference_test {
 namespace {
 
 constexpr double tolerance = 1e-7;
@@ -140,4 +140,4 @@ TEST(FastAgainstReference, StrongVerticalShaking) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::fast_against_reference_test

@@ -16,7 +16,7 @@
 #include "support/random_cases.hpp"
 #include "support/solvers.hpp"
 
-namespace freestand::test {
+namespace freestand::test::fast_against_stepper_test {
 namespace {
 
 constexpr double step_s = 1e-5, coarse_step_s = 1e-3 / 59, output_s = 1e-3, margin = 6, fanned_out = 1e-4, least = 1e-6;
@@ -146,4 +146,4 @@ TEST(FastAgainstStepper, FlightAndLanding) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::fast_against_stepper_test

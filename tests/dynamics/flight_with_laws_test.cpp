@@ -8,7 +8,7 @@
 #include "support/floor_motions.hpp"
 #include "support/solvers.hpp"
 
-namespace freestand::test {
+namespace freestand::test::flight_with_laws_test {
 namespace {
 
 constexpr double g = standard_gravity_mps2;
@@ -108,4 +108,4 @@ TEST_P(FlightWithLaws, ABlockThatOnlySlidesFliesWithoutTurning) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::flight_with_laws_test

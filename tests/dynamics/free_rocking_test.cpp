@@ -9,7 +9,7 @@
 #include "support/rocking.hpp"
 #include "support/solvers.hpp"
 
-namespace freestand::test {
+namespace freestand::test::free_rocking_test {
 namespace {
 
 constexpr double g = standard_gravity_mps2;
@@ -231,4 +231,4 @@ TEST_P(FreeRocking, AStockyBlockLandsFlat) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::free_rocking_test

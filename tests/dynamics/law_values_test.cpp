@@ -9,7 +9,7 @@
 #include "support/floor_motions.hpp"
 #include "support/solvers.hpp"
 
-namespace freestand::test {
+namespace freestand::test::law_values_test {
 namespace {
 
 using dynamics::At;
@@ -101,8 +101,7 @@ TEST_P(LawValues, ACaseForEachDirectionHoldsAtRest) {
   const FloorMotion motion = staircase({0.4, 0.5, 0.4, 0.5}, {-1.75, 0.0, 1.75, 0.0});  // mu g = 1.96
   for (const double asymmetry : {-0.2, 0.2}) {
     const auto smooth = friction_law([=](const At& at) { return 1.0 + asymmetry * at.sigma; });
-    const auto by_case = friction_law(
-        [=](const At& at) { return (1 - asymmetry) + step(at.sigma) * (2 * asymmetry); });
+    const auto by_case = friction_law([=](const At& at) { return (1 - asymmetry) + step(at.sigma) * (2 * asymmetry); });
     for (const Model model : {Model::slide, Model::slide_rock}) {
       const Response expected = GetParam()(block(model, {smooth}), {&motion});
       const Response found = GetParam()(block(model, {by_case}), {&motion});
@@ -146,4 +145,4 @@ TEST_P(LawValues, ManyKnotsAreNoStandstill) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::law_values_test

@@ -10,7 +10,7 @@
 #include "support/rocking.hpp"
 #include "support/solvers.hpp"
 
-namespace freestand::test {
+namespace freestand::test::overturning_spectrum_test {
 namespace {
 
 constexpr double g = standard_gravity_mps2, p = 1.25, alpha = 0.16;
@@ -116,4 +116,4 @@ TEST(OverturningSpectrum, CellByCell) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::overturning_spectrum_test

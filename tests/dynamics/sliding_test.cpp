@@ -8,7 +8,7 @@
 #include "support/keyed_random.hpp"
 #include "support/solvers.hpp"
 
-namespace freestand::test {
+namespace freestand::test::sliding_test {
 namespace {
 
 constexpr double g = standard_gravity_mps2;
@@ -194,4 +194,4 @@ TEST_P(Onset, RocksAsSoonAsTheThresholdIsPassed) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::sliding_test

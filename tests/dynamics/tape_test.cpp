@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-namespace freestand::dynamics {
+namespace freestand::dynamics::tape_test {
 namespace {
 
 constexpr int N = 8;
@@ -97,4 +97,4 @@ TEST(Tape, OverflowIsToldAndHarmless) {
 }
 
 }  // namespace
-}  // namespace freestand::dynamics
+}  // namespace freestand::dynamics::tape_test

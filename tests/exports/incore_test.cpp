@@ -1,7 +1,7 @@
 // A fragility set for IN-CORE by hand, and its rules.
 #include "made_results.hpp"
 
-namespace freestand::exports::test {
+namespace freestand::exports::test::incore_test {
 namespace {
 
 using testing::AllOf;
@@ -93,4 +93,4 @@ TEST(InCoreCheck, HoldsFilesToTheRules) {
 }
 
 }  // namespace
-}  // namespace freestand::exports::test
+}  // namespace freestand::exports::test::incore_test

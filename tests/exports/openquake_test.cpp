@@ -1,7 +1,7 @@
 // NRML by hand: what is written, what OpenQuake makes of it, which rules are held.
 #include "made_results.hpp"
 
-namespace freestand::exports::test {
+namespace freestand::exports::test::openquake_test {
 namespace {
 
 using testing::AllOf;
@@ -163,4 +163,4 @@ TEST(OpenQuakeVulnerability, TakesTheMostSevereLimitState) {
 }
 
 }  // namespace
-}  // namespace freestand::exports::test
+}  // namespace freestand::exports::test::openquake_test

@@ -2,7 +2,7 @@
 #include "exports/csv_rows.hpp"
 #include "made_results.hpp"
 
-namespace freestand::exports::test {
+namespace freestand::exports::test::pelicun_test {
 namespace {
 
 using testing::AllOf;
@@ -124,4 +124,4 @@ TEST(CsvTable, ReadsQuotedCells) {
 }
 
 }  // namespace
-}  // namespace freestand::exports::test
+}  // namespace freestand::exports::test::pelicun_test

@@ -7,7 +7,7 @@
 
 #include "base/random.hpp"
 
-namespace freestand::fragility {
+namespace freestand::fragility::ranking_test {
 namespace {
 
 // Standard normal numbers by counter.
@@ -170,4 +170,4 @@ TEST(Ranking, WithoutWhatItNeedsThereIsNone) {
 }
 
 }  // namespace
-}  // namespace freestand::fragility
+}  // namespace freestand::fragility::ranking_test

@@ -8,7 +8,7 @@
 #include "fragility/draws.hpp"
 #include "fragility/goodness.hpp"
 
-namespace freestand::fragility {
+namespace freestand::fragility::regression_test {
 namespace {
 
 TEST(Regression, ThroughTheOriginByHand) {
@@ -83,4 +83,4 @@ TEST(Regression, NullDistributionIsReproducible) {
 }
 
 }  // namespace
-}  // namespace freestand::fragility
+}  // namespace freestand::fragility::regression_test

@@ -15,7 +15,7 @@
 #include "fragility/validate.hpp"
 #include "support/keyed_random.hpp"
 
-namespace freestand::fragility {
+namespace freestand::fragility::tally_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -310,4 +310,4 @@ TEST(Bins, IndexAtTheEdges) {
 }
 
 }  // namespace
-}  // namespace freestand::fragility
+}  // namespace freestand::fragility::tally_test

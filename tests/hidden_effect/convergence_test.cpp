@@ -8,7 +8,7 @@
 #include "hidden_effect/default_effects.hpp"
 #include "hidden_effect/make_set.hpp"
 
-namespace freestand::test {
+namespace freestand::test::convergence_test {
 namespace {
 
 double distance(const TruthHistory& a, const TruthHistory& b) {
@@ -42,4 +42,4 @@ INSTANTIATE_TEST_SUITE_P(HiddenEffect, Convergence,
                          test_name);
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::convergence_test

@@ -7,21 +7,21 @@
 namespace freestand::test {
 namespace {
 
-constexpr double step_s = 2.5e-4;  // coarse: these errors are looked at, not compared
+constexpr double coarse_step_s = 2.5e-4;  // coarse: these errors are looked at, not compared
 
-double squared(double x) { return x * x; }
+double square_of(double x) { return x * x; }
 
 double mean_square(const MadeSet& set, const TruthHistory& history, const std::vector<double>& slip_m,
                    const std::vector<double>& rotation_rad) {
   double sum = 0;
-  for (std::size_t i = 0; i < slip_m.size(); ++i) sum += squared((history.slip_m[i] - slip_m[i]) / set.slip_noise_m);
+  for (std::size_t i = 0; i < slip_m.size(); ++i) sum += square_of((history.slip_m[i] - slip_m[i]) / set.slip_noise_m);
   if (set.drawn.habit == Habit::slides) return sum / static_cast<double>(slip_m.size());
   for (std::size_t i = 0; i < rotation_rad.size(); ++i)
-    sum += squared((history.rotation_rad[i] - rotation_rad[i]) / set.rotation_noise_rad);
+    sum += square_of((history.rotation_rad[i] - rotation_rad[i]) / set.rotation_noise_rad);
   return sum / static_cast<double>(slip_m.size() + rotation_rad.size());
 }
 
-bool in_catalogue(const std::string& effect) {
+bool is_in_catalogue(const std::string& effect) {
   const auto& all = catalogue_effects();
   return std::find(all.begin(), all.end(), effect) != all.end();
 }
@@ -29,7 +29,7 @@ bool in_catalogue(const std::string& effect) {
 double squared_error(const MadeSet& set, const Truth& model) {
   double sum = 0;
   for (const MadeTest& test : set.tests)
-    sum += mean_square(set, simulate(model, test.floor, step_s), test.truth.slip_m, test.truth.rotation_rad);
+    sum += mean_square(set, simulate(model, test.floor, coarse_step_s), test.truth.slip_m, test.truth.rotation_rad);
   return sum / static_cast<double>(set.tests.size());
 }
 
@@ -64,7 +64,7 @@ double weakest_error(const MadeSet& set) {
     std::vector<TruthEffect> others = hidden;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     least = std::min(least, error_with(set, others));
-    if (!in_catalogue(hidden[i].name))
+    if (!is_in_catalogue(hidden[i].name))
       for (double ratio = 1.1; ratio < 2; ratio += 0.1) {
         std::vector<TruthEffect> stand_in = others;
         stand_in.push_back({"static_friction", {{"ratio", ratio}}});

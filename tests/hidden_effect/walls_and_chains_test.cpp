@@ -7,7 +7,7 @@
 #include "base/units.hpp"
 #include "hidden_effect/generator.hpp"
 
-namespace freestand::test {
+namespace freestand::test::walls_and_chains_test {
 namespace {
 
 constexpr double g = standard_gravity_mps2, dt_s = 0.005;
@@ -160,4 +160,4 @@ TEST(Chains, HoldASlidingBlockAsASpringDoesUntilTheyBreak) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::walls_and_chains_test

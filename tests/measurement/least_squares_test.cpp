@@ -11,7 +11,7 @@
 #include "measurement/findings.hpp"
 #include "measurement/made_tests.hpp"
 
-namespace freestand::measurement {
+namespace freestand::measurement::least_squares_test {
 namespace {
 
 Specimen cabinet(double mu) {
@@ -229,4 +229,4 @@ TEST(Settle, AWrongModelDoesNotHideBehindTheFloorsNoise) {
 }
 
 }  // namespace
-}  // namespace freestand::measurement
+}  // namespace freestand::measurement::least_squares_test

@@ -8,7 +8,7 @@
 #include "effects/effects.hpp"
 #include "measurement/made_tests.hpp"
 
-namespace freestand::measurement {
+namespace freestand::measurement::recover_test {
 namespace {
 
 Specimen cabinet(double mu, std::vector<EffectUse> effects = {}) {
@@ -97,4 +97,4 @@ TEST(Recover, ATestOfManySamplesWeighsNoMoreThanOneOfFew) {
 }
 
 }  // namespace
-}  // namespace freestand::measurement
+}  // namespace freestand::measurement::recover_test

@@ -7,7 +7,7 @@
 #include "measurement/plausible.hpp"
 #include "measurement/quality.hpp"
 
-namespace freestand::measurement {
+namespace freestand::measurement::timing_test {
 namespace {
 
 using testing::Contains;
@@ -218,4 +218,4 @@ TEST(Quality, ACutOffPeakIsNoRoundedOne) {
 }
 
 }  // namespace
-}  // namespace freestand::measurement
+}  // namespace freestand::measurement::timing_test

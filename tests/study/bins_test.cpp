@@ -41,10 +41,12 @@ TEST(Bins, AWidthThatMakesMoreBinsThanCanBeHeldOrFilledIsAMistakeOfTheStudy) {
   EXPECT_EQ(of_width(0.001, 5000), 1000U);
   EXPECT_EQ(of_width(0.01, 3), 100U);
   EXPECT_EQ(of_width(0.005, 200), 200U);
-  EXPECT_THAT(test::error_text(Exit::usage, [&] { of_width(0.0009, 5000); }), testing::HasSubstr("1000 are held"));
-  EXPECT_THAT(test::error_text(Exit::usage, [&] { of_width(0.005, 199); }),
+  EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { of_width(0.0009, 5000); }),
+              testing::HasSubstr("1000 are held"));
+  EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { of_width(0.005, 199); }),
               testing::HasSubstr("199 samples do not fill so many): choose a width of at least 0.01"));
-  EXPECT_THAT(test::error_text(Exit::usage, [&] { of_width(1e-300, 3); }), testing::HasSubstr("a width of 1e-300"));
+  EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { of_width(1e-300, 3); }),
+              testing::HasSubstr("a width of 1e-300"));
 }
 
 TEST(Bins, EqualCountPutsAsManyIntoEach) {

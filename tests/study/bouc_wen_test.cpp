@@ -12,7 +12,7 @@
 #include "study_text.hpp"
 #include "support/data.hpp"
 
-namespace freestand::study {
+namespace freestand::study::bouc_wen_test {
 namespace {
 
 using namespace test;
@@ -94,4 +94,4 @@ TEST(BoucWenStudy, CasesTakeNoDistributions) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::bouc_wen_test

@@ -11,7 +11,7 @@
 #include "study/known.hpp"
 #include "study_text.hpp"
 
-namespace freestand::study {
+namespace freestand::study::damage_states_test {
 namespace {
 
 const double nan = std::nan("");
@@ -102,4 +102,4 @@ TEST(DamageStates, StandInTheExpandedStudyAndChangeNoSample) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::damage_states_test

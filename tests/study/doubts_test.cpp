@@ -6,7 +6,7 @@
 
 #include "study_text.hpp"
 
-namespace freestand::study {
+namespace freestand::study::doubts_test {
 namespace {
 
 using namespace test;
@@ -75,4 +75,4 @@ TEST(Doubts, TheWallBehindAChain) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::doubts_test

@@ -6,7 +6,7 @@
 #include "study/known.hpp"
 #include "study/study_text.hpp"
 
-namespace freestand::study {
+namespace freestand::study::edited_study_test {
 namespace {
 
 const std::string sound = "name: one\n" + test::block + "friction: {mu_k: {uniform: [0.1, 0.3]}}\n" + test::motions +
@@ -40,7 +40,8 @@ TEST(EditedStudy, KeysOfTheFragilityBlockAreUsed) {
   EXPECT_THAT(edited.changed, testing::ElementsAre("fragility.bins", "fragility.capacities", "fragility.confidence"));
   EXPECT_EQ(edited.study.fragility.confidence, 0.9);
   EXPECT_THAT(edited.study.fragility.bins.edges, testing::ElementsAre(0, 1, 2));
-  EXPECT_THAT(edited_study(swept(), sound + "  im: pga_g\n", "study.yaml").changed, testing::ElementsAre("fragility.im"));
+  EXPECT_THAT(edited_study(swept(), sound + "  im: pga_g\n", "study.yaml").changed,
+              testing::ElementsAre("fragility.im"));
   const EditedStudy without = edited_study(swept(), changed(sound, "[friction.mu_k]", "[]"), "study.yaml");
   EXPECT_THAT(without.changed, testing::ElementsAre("fragility.axes"));
   EXPECT_TRUE(without.study.fragility.axes.empty());
@@ -64,4 +65,4 @@ TEST(EditedStudy, MistakesAreToldAsOfAnyStudy) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::edited_study_test

@@ -6,7 +6,7 @@
 
 #include "study_text.hpp"
 
-namespace freestand::study {
+namespace freestand::study::mistakes_test {
 namespace {
 
 using namespace test;
@@ -185,7 +185,8 @@ TEST(StudyMistakes, InMotions) {
 TEST(StudyMistakes, InFragility) {
   expect_each({
       {with_fragility("{edp: [delta], im: pta}"), "5", "pta is not known (did you mean pta_g?)"},
-      {with_fragility("{edp: [delta], im: {name: sa_g, period_s: 1e-9}}"), "5", "a stiffer oscillator only follows the floor"},
+      {with_fragility("{edp: [delta], im: {name: sa_g, period_s: 1e-9}}"), "5",
+       "a stiffer oscillator only follows the floor"},
       {with_fragility("{edp: [delta], im: {name: pta_g, period_s: 1}}"), "5", "unknown key period_s"},
       {with_fragility("{edp: [dleta]}"), "5",
        "dleta is not known (did you mean delta?): name some of delta, overturned"},
@@ -245,7 +246,8 @@ TEST(StudyMistakes, InDamageStates) {
       {state("{when: delta > 1, wen: 2}"), "5", "unknown key wen"},
       {with_fragility("{edp: [delta], damage: {overturned: delta > 1}}"), "5", "has the name of a demand"},
       {with_fragility("{edp: [delta], damage: {a-b: delta > 1}}"), "5", "is no plain word"},
-      {with_fragility("{edp: [delta], capacities: {delta: [1, {lognormal: {median: 1}}]}}"), "5", "dispersion is missing"},
+      {with_fragility("{edp: [delta], capacities: {delta: [1, {lognormal: {median: 1}}]}}"), "5",
+       "dispersion is missing"},
       {with_fragility("{edp: [delta], capacities: {delta: [{normal: {mean: 1, standard_deviation: 1}}]}}"), "5",
        "must be above zero"},
   });
@@ -276,8 +278,9 @@ TEST(StudyMistakes, InTheSweep) {
 
 TEST(StudyMistakes, ACaseIsNoStudy) {
   const std::string motion = "motion: {pulse: B, period_s: 0.5, peak_acceleration_g: 0.6}\n";
-  EXPECT_EQ(problems(block + friction + motion),
-            "folder/some.yaml:3: this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it");
+  EXPECT_EQ(
+      problems(block + friction + motion),
+      "folder/some.yaml:3: this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it");
   EXPECT_EQ(case_problems(sound),
             "one.yaml:3: this is a study (it has `motions`; a case has `motion`): `freestand run` takes it");
 }
@@ -301,7 +304,8 @@ TEST(StudyMistakes, WhatIsOftenWrongWithAFileIsToldInWords) {
        "motions has 3 items of one key each (the keys of one item stand in braces): write [{pulse: ..., period_s: ..., "
        "peak_acceleration_g: ...}]"},
       {sound + "effects: [name: rate_weakening, drop: 0.4, speed_mps: 0.1]\n", "6", "effects has 3 items of one key"},
-      {with_fragility("{edp: [delta], axes: [name: friction.mu, bins: {count: 3}]}"), "5", "axes has 2 items of one key"},
+      {with_fragility("{edp: [delta], axes: [name: friction.mu, bins: {count: 3}]}"), "5",
+       "axes has 2 items of one key"},
       {sound + std::string("\x89HDF\r\n\x1a\n\0\0", 10), "8", "no text but a binary file"},
       {std::string("\0\1", 2), "1", "no text but a binary file (its byte 1 is 0x00)"},
   });
@@ -355,4 +359,4 @@ TEST(CaseMistakes, ACaseIsOneSample) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::mistakes_test

@@ -18,7 +18,7 @@
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
-namespace freestand::study {
+namespace freestand::study::realise_test {
 namespace {
 
 using namespace test;
@@ -204,8 +204,8 @@ TEST_F(Records, ATableSaysWhatBelongsTogetherAndBringsItsNumbers) {
   const MotionSet motions = load_motions(study(
       "{records: records/INDEX.csv}, {records: records/two.csv}, {pulse: A, period_s: 1, peak_acceleration_g: 1}, "
       "{records: records/a.csv, group: northridge}"));
-  EXPECT_THAT(motions.names(), testing::ElementsAre("records/c.csv", "records/b.csv", "records/a.csv", "records/b.csv", "A",
-                                                    "records/a.csv"));
+  EXPECT_THAT(motions.names(), testing::ElementsAre("records/c.csv", "records/b.csv", "records/a.csv", "records/b.csv",
+                                                    "A", "records/a.csv"));
   // A record that stands in a group is in it wherever it stands.
   EXPECT_THAT(motions.groups(), testing::ElementsAre(0, 0, 2, 0, -1, 2));
   EXPECT_DOUBLE_EQ((*motions.entries)[0].peak_mps2, standard_gravity_mps2);
@@ -241,8 +241,8 @@ TEST_F(Records, WhatATableSaysOtherwiseThanTheFileIsRefusedWithItsRow) {
 // The guests' own table: suites in folders, events by name, vertical components in rows of their own.
 TEST(RealRecords, TheTableOfThemIsRead) {
   FREESTAND_NEEDS_RECORDS();
-  const std::string text = block + friction + samples + fragility +
-                           "motions: [{records: INDEX.csv, group: event, unit: g, dt_s: 0.01}]\n";
+  const std::string text =
+      block + friction + samples + fragility + "motions: [{records: INDEX.csv, group: event, unit: g, dt_s: 0.01}]\n";
   const auto read = [&](const std::string& more) {
     return parse_study(text + more, freestand::test::records_dir() / "s.yaml", known()).motions.at(0);
   };
@@ -320,4 +320,4 @@ TEST(Configs, QuickstartDrawsSoundSamples) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::realise_test

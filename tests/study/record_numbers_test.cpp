@@ -13,7 +13,7 @@
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
-namespace freestand::study {
+namespace freestand::study::record_numbers_test {
 namespace {
 
 using namespace test;
@@ -64,4 +64,4 @@ TEST_F(RecordNumbers, OnlyThoseOfTheTableAreKnown) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::record_numbers_test

@@ -13,7 +13,7 @@ namespace freestand::study {
 namespace {
 
 namespace fs = std::filesystem;
-using test::error_text;
+using freestand::test::error_text;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -34,7 +34,7 @@ class RunFolderTest : public testing::Test {
     return error_text(expected, [&] { folder.leave_if_asked(); });
   }
 
-  test::Scratch scratch_{"run"};
+  freestand::test::Scratch scratch_{"run"};
 };
 
 TEST_F(RunFolderTest, AStopIsResumable) {

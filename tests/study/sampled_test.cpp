@@ -8,7 +8,7 @@
 #include "study/realise.hpp"
 #include "study_text.hpp"
 
-namespace freestand::study {
+namespace freestand::study::sampled_test {
 namespace {
 
 using namespace test;
@@ -126,4 +126,4 @@ TEST(Sampled, OneThatIsDrawnAgainIsAnotherAndAllElseTheSame) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::sampled_test

@@ -13,7 +13,7 @@
 #include "study_text.hpp"
 #include "support/scratch.hpp"
 
-namespace freestand::study {
+namespace freestand::study::scale_to_test {
 namespace {
 
 using namespace test;
@@ -100,4 +100,4 @@ TEST_F(ScaleTo, DrawsAreThoseOfAnAmplitude) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::scale_to_test

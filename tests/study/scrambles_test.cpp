@@ -10,7 +10,7 @@
 #include "sampling/distribution.hpp"
 #include "study_text.hpp"
 
-namespace freestand::study {
+namespace freestand::study::scrambles_test {
 namespace {
 
 using namespace test;
@@ -77,4 +77,4 @@ TEST(Scrambles, AreReadAndWrittenOut) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::scrambles_test

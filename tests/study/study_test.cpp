@@ -14,7 +14,7 @@
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
-namespace freestand::study {
+namespace freestand::study::study_test {
 namespace {
 
 using namespace test;
@@ -257,4 +257,4 @@ TEST(Configs, EveryKeyShowsTheDefaults) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::study_test

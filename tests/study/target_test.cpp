@@ -10,7 +10,7 @@
 #include "study/realise.hpp"
 #include "study_text.hpp"
 
-namespace freestand::study {
+namespace freestand::study::target_test {
 namespace {
 
 using namespace test;
@@ -122,4 +122,4 @@ TEST(Target, WhatCannotBeMadeOfTheSamplesIsRefused) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::target_test

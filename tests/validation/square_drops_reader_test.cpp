@@ -8,7 +8,7 @@
 
 #include "support/square_drops.hpp"
 
-namespace freestand::test {
+namespace freestand::test::square_drops_reader_test {
 namespace {
 
 constexpr double g = 9.80665, h = drop_half_side_m;
@@ -108,4 +108,4 @@ TEST(SquareDropsReader, AFlatBlockGivesNothing) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::square_drops_reader_test

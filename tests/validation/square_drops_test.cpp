@@ -14,7 +14,7 @@
 #include "support/medians.hpp"
 #include "validation/measured_drops.hpp"
 
-namespace freestand::test {
+namespace freestand::test::square_drops_test {
 namespace {
 
 constexpr double g = 9.80665, h = drop_half_side_m, k2 = drop_gyration2_m2;
@@ -161,4 +161,4 @@ TEST(SquareDrops, FlightIsBallistic) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::square_drops_test

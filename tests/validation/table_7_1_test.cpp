@@ -35,7 +35,7 @@
 #include "support/data.hpp"
 #include "support/keyed_random.hpp"
 
-namespace freestand::test {
+namespace freestand::test::table_7_1_test {
 namespace {
 
 constexpr double inch = 0.0254, length_scale = 1.0 / 4, time_scale = 1.0 / 2;
@@ -342,4 +342,4 @@ TEST_F(Table7_1, FormaNearlyAlwaysStandsOnItsWideSide) {
 }
 
 }  // namespace
-}  // namespace freestand::test
+}  // namespace freestand::test::table_7_1_test
