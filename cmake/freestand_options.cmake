@@ -40,5 +40,6 @@ endif()
 function(freestand_batches TARGET SIZE)
   if(FREESTAND_BATCHES)
     set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${SIZE})
+    target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)  # takes each file of a batch for a header
   endif()
 endfunction()

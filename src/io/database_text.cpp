@@ -17,13 +17,13 @@ using database::Entry;
 using database::Point;
 using database::Word;
 
-std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
-std::string cell(std::int64_t value) { return fmt::format("{}", value); }
-std::string cell(const std::string& text) { return text; }
+std::string value_text(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+std::string value_text(std::int64_t value) { return fmt::format("{}", value); }
+std::string value_text(const std::string& text) { return text; }
 
 template <class Row>
-std::string cell(const DatabaseColumn<Row>& column, const Row& row) {
-  return std::visit([&](auto member) { return cell(row.*member); }, column.member);
+std::string value_text(const DatabaseColumn<Row>& column, const Row& row) {
+  return std::visit([&](auto member) { return value_text(row.*member); }, column.member);
 }
 
 nlohmann::ordered_json words(const std::vector<Word>& all) {
@@ -49,7 +49,7 @@ std::string entries_csv(const Database& db) {
   for (const Entry& entry : db.entries) {
     text += entry.id;
     for (const auto& column : entry_columns())
-      if (!column.is_text()) text += fmt::format(",{}", cell(column, entry));
+      if (!column.is_text()) text += fmt::format(",{}", value_text(column, entry));
     text += "\n";
   }
   return text;
@@ -59,7 +59,7 @@ std::string curves_csv(const Database& db) {
   std::string text = "id" + header(curve_columns(), false);
   for (const Curve& curve : db.curves) {
     text += db.entries[curve.entry].id;
-    for (const auto& column : curve_columns()) text += fmt::format(",{}", cell(column, curve));
+    for (const auto& column : curve_columns()) text += fmt::format(",{}", value_text(column, curve));
     text += "\n";
   }
   return text;
@@ -69,8 +69,9 @@ std::string points_csv(const Database& db) {
   std::string text = "id,intensity,demand,capacity" + header(point_columns(), false);
   for (const Curve& curve : db.curves)
     for (const Point& point : curve.points) {
-      text += fmt::format("{},{},{},{}", db.entries[curve.entry].id, curve.im, curve.demand, cell(curve.capacity));
-      for (const auto& column : point_columns()) text += fmt::format(",{}", cell(column, point));
+      text +=
+          fmt::format("{},{},{},{}", db.entries[curve.entry].id, curve.im, curve.demand, value_text(curve.capacity));
+      for (const auto& column : point_columns()) text += fmt::format(",{}", value_text(column, point));
       text += "\n";
     }
   return text;
@@ -94,7 +95,7 @@ std::string words_json(const Database& db) {
   for (const Entry& entry : db.entries) {
     nlohmann::ordered_json& one = json["entries"][entry.id];
     for (const auto& column : entry_columns())
-      if (column.is_text() && column.name != std::string_view("id")) one[column.name] = cell(column, entry);
+      if (column.is_text() && column.name != std::string_view("id")) one[column.name] = value_text(column, entry);
   }
   return json_text(json);
 }

@@ -29,7 +29,7 @@ void remove_file(const fs::path& path) {
   check(error, "remove", path);
 }
 
-std::vector<fs::path> entries(const fs::path& folder) {
+std::vector<fs::path> paths_in(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> paths;
   for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) paths.push_back(i->path());
@@ -43,7 +43,7 @@ bool is_block(const fs::path& path) {
 }
 
 bool is_used(const fs::path& folder) {
-  const std::vector<fs::path> all = entries(folder);
+  const std::vector<fs::path> all = paths_in(folder);
   return std::any_of(all.begin(), all.end(), [](const fs::path& path) { return path.filename() != lock_name; });
 }
 
@@ -52,7 +52,7 @@ std::string used_text(const fs::path& folder) {
   std::error_code error;
   const bool swept = fs::exists(folder / "samples.h5", error);
   const std::vector<fs::path> blocks =
-      fs::is_directory(folder / blocks_name, error) ? entries(folder / blocks_name) : std::vector<fs::path>{};
+      fs::is_directory(folder / blocks_name, error) ? paths_in(folder / blocks_name) : std::vector<fs::path>{};
   const auto finished = std::count_if(blocks.begin(), blocks.end(), is_block);
   if (finished == 0 && !fs::exists(folder / begun_name, error))
     return fmt::format(
@@ -72,7 +72,7 @@ void remove_results(const fs::path& folder) {
   const fs::path blocks = folder / blocks_name;
   std::error_code error;
   if (!fs::is_directory(blocks, error)) return;
-  for (const fs::path& path : entries(blocks))
+  for (const fs::path& path : paths_in(blocks))
     if (is_aside_name(path) || is_block(path)) remove_file(path);
   if (fs::is_empty(blocks, error)) remove_file(blocks);
 }
@@ -99,7 +99,7 @@ void prepare_output_folder(const fs::path& folder, Existing existing, const std:
 }
 
 void remove_leftovers(const fs::path& folder) {
-  for (const fs::path& path : entries(folder))
+  for (const fs::path& path : paths_in(folder))
     if (is_aside_name(path)) remove_file(path);
 }
 
