@@ -23,9 +23,8 @@ def texts(figure):
         drawn.append(self)
         return draw(self, renderer, *arguments, **options)
 
-    figure.draw_without_rendering()  # settles the layout
     with mock.patch.object(Text, "draw", record):
-        figure.draw_without_rendering()
+        figure.draw_without_rendering()  # lays it out, once, as savefig does
     renderer = figure.canvas.get_renderer()
     for text in drawn:
         if text.get_text().strip() and text.get_visible() and text.get_rotation() in (0, 90):
