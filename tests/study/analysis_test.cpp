@@ -8,7 +8,7 @@
 #include "study/known.hpp"
 #include "study/study_text.hpp"
 
-namespace freestand::study {
+namespace freestand::study::analysis_test {
 namespace {
 
 constexpr std::int64_t in_bin = 200, in_last = 40, samples = 3 * in_bin + in_last;
@@ -84,4 +84,4 @@ TEST(Analysis, ConfidenceAndResamplesReachTheBands) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::analysis_test

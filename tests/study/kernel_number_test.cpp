@@ -13,7 +13,7 @@
 #include "study/known.hpp"
 #include "support/scratch.hpp"
 
-namespace freestand::study {
+namespace freestand::study::kernel_number_test {
 namespace {
 
 const std::string block = "block: {width_m: {uniform: [0.45, 0.7]}, height_m: {uniform: [1.5, 2.2]}, mass_kg: 200}\n";
@@ -95,4 +95,4 @@ TEST(KernelNumber, IsThatOfTheNumbersThisProgramGives) {
 }
 
 }  // namespace
-}  // namespace freestand::study
+}  // namespace freestand::study::kernel_number_test
