@@ -200,7 +200,9 @@ class TaylorIntegrator {
   template <class Arc>
   double length_of_step(const Arc& arc) const {
     const double h = whole_step(), last = last_term(arc), tolerance = life_.settings.tolerance;
-    return last * whole_power<N>(h) > tolerance ? std::pow(tolerance / last, 1.0 / N) : h;
+    if (!(last * whole_power<N>(h) > tolerance)) return h;
+    const double longest = size_.longest_step_s;  // in its terms the answer at half the scale has the same bits
+    return longest * std::pow(tolerance / (last * whole_power<N>(longest)), 1.0 / N);
   }
 
   Integration life_;
