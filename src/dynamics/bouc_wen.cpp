@@ -106,7 +106,7 @@ class BoucWenIntegrator {
     int first = -1;
     for (int j = 0; j < life_.laws->tape.kink_count(); ++j) {
       double at = tau;
-      if (j != life_.law_state.held_kink && first_root(hold.kink(j), tau, {0, 0.0}, at) && (first < 0 || at < tau))
+      if (life_.law_state.watches(j) && first_root(hold.kink(j), tau, {0, 0.0}, at) && (first < 0 || at < tau))
         first = j, tau = at;
     }
     return first;

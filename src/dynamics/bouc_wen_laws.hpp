@@ -11,27 +11,15 @@
 
 #include "base/units.hpp"
 #include "dynamics/bouc_wen_contact.hpp"
+#include "dynamics/kinks.hpp"
 #include "dynamics/laws.hpp"
 
 namespace freestand::dynamics {
 
 // What the laws bring along.
-struct BoucWenLawState {
+struct BoucWenLawState : Kinks {
   std::array<double, max_states> states{};
-  std::uint32_t sides = 0;  // bit j: kink j is on its negative side
-  int turned_kink = -1;     // the kink that was met at this instant
-  int held_kink = -1;       // one that would turn back at once: it is left alone for a step
-  int side = 0;             // sgn(zeta), or where zeta is about to go
-
-  void left_instant() { turned_kink = held_kink = -1; }
-  // A kink that turns twice at one instant is left as it is until the next step.
-  void turn_kink(int kink) {
-    if (turned_kink == kink)
-      held_kink = kink;
-    else
-      sides ^= 1U << kink;
-    turned_kink = kink;
-  }
+  int side = 0;  // sgn(zeta), or where zeta is about to go
 };
 
 // Where a step starts.
@@ -83,11 +71,11 @@ class BoucWenLawHold {
 
   // Argument of a kink, positive on its present side; call it after fill().
   Series<double, N> kink(int j) const {
-    if (laws_.tape.latched(j, state_.sides)) return Series<double, N>::zero();
-    const double side = state_.sides >> j & 1U ? -1.0 : 1.0;
-    Series<double, N> argument = scaled(side, values_[laws_.tape.kink_argument(j)]);
+    Series<double, N> argument = values_[laws_.tape.kink_argument(j)];
+    if (!laws_.tape.turns(j, state_.sides, argument[0])) return Series<double, N>::zero();
+    argument = scaled(state_.sides >> j & 1U ? -1.0 : 1.0, argument);
     argument[N] = 0;
-    if (state_.turned_kink == j) argument[0] = 0;
+    if (state_.has_met(j)) argument[0] = 0;
     return argument;
   }
 

@@ -124,7 +124,7 @@ void BoucWenLife::arrive(const BoucWenArc<N>& arc, const Floor<double, N>& floor
   }
   if (phase == ContactPhase::yielding || phase == ContactPhase::returning) q = contact.q(zeta);
   cursor.advance(tau);
-  if (tau > 0) law_state.left_instant();
+  if (tau > 0) law_state.left_kinks();
   check();
 }
 

@@ -217,7 +217,7 @@ class Reference {
     life_.zeta = y[z] / strongest_;
     life_.slip = y[u] - law_.yield_displacement_m * y[z];
     for (int i = 0; i < max_states; ++i) life_.law_state.states[static_cast<std::size_t>(i)] = y[own + i];
-    if (tau > before) life_.law_state.left_instant();
+    if (tau > before) life_.law_state.left_kinks();
     const double half = life_.contact.sliding;
     if (side_ == sigma_ && earlier <= half && std::abs(life_.zeta) > half)
       life_.begin_slide(life_.cursor.time() + 0.5 * (before + tau));
@@ -289,7 +289,7 @@ class Reference {
   // The argument of kink j, positive on its present side.
   double kink(int j, double tau, const double* y) const {
     double argument = 1;
-    if (life_.laws && j < life_.laws->tape.kink_count() && j != life_.law_state.held_kink &&
+    if (life_.laws && j < life_.laws->tape.kink_count() && life_.law_state.watches(j) &&
         !life_.laws->tape.latched(j, life_.law_state.sides))
       with_laws(tau, y, [&](double, const auto& laws) { argument = laws.kink_now(j); });
     return argument;

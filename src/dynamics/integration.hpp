@@ -78,8 +78,8 @@ class Integration {
     if (offset == 0) steps_ = 0;
     state.doubt = 1;
   }
-  // Time goes on: what was special about the last instant is over.
-  void left_instant();
+  // Time went on by tau: what was special about the last instant is over.
+  void left_instant(double tau);
   // Applies an event: sets what the event makes exact, strikes or lands where corners meet the floor, chooses the next
   // mode.
   void resolve(Witness witness);
@@ -99,7 +99,6 @@ class Integration {
 
  private:
   double slip() const;
-  void turn_kink(int kink);
   bool meet_wall(int side, Edge edge);
   bool meet_walls_too();
   bool is_next_to(Edge edge, int side) const;

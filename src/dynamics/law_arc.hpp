@@ -19,6 +19,7 @@ struct LawArc : Arc<Real, N> {
   Series<Real, N> deflection;               // of the legs [m]
   Series<Real, N> pressed;                  // f_y, or what of it decides whether the corner is let go [m/s2]
   Real versine;                             // 1 - cos(theta) at the start
+  Real friction;                            // F at the start of a slip, else 1
   // With walls only.
   Series<Real, N> right_gap, left_gap;  // between the wall there and the edge next to it [m]
   Series<Real, N> wall_push;            // of the wall that the block leans on [m/s2]
@@ -30,20 +31,25 @@ struct LawArc : Arc<Real, N> {
 // How many numbers there are in a LawArc up to its walls, its states and its kinks; a LawArc of a pack holds as many packs.
 template <int N>
 struct LawArcNumbers {
-  static constexpr int series = N + 1, walls = 19 * series + 1, states = walls + 3 * series,
+  static constexpr int series = N + 1, walls = 19 * series + 2, states = walls + 3 * series,
                        kinks = states + max_states * series, all = kinks + max_kinks * series;
   static_assert(sizeof(LawArc<N>) == all * sizeof(double));
 };
 
-// Whether an equation that has the laws in it has a solution: friction that looks at its own normal force may have none.
+// Whether an equation that has the laws in it has a solution: friction that looks at its own normal force may have none, and
+// what would push the slip on is none.
 template <int N>
 bool has_forces(const LawArc<N>& arc) {
   double sum = 0;
   for (int k = 0; k < N; ++k) sum += arc.fx[k] + arc.fy[k] + arc.alpha[k] + arc.foot[k];
-  return std::isfinite(sum);
+  return std::isfinite(sum) && arc.friction >= 0;
 }
 template <int N>
 bool has_forces(const Arc<double, N>&) {
+  return true;
+}
+template <int N>
+bool has_forces(const Flight<double, N>&) {
   return true;
 }
 

@@ -180,8 +180,8 @@ bool can_march(const Integration& life) {
   const State& s = life.state;
   const bool contact = s.mode == Mode::slide || s.mode == Mode::rock || s.mode == Mode::slide_rock ||
                        (s.mode == Mode::rest && !life.waits());
-  return contact && !life.cursor.motion_over() && s.wall == 0 && !s.released && s.doubt == 1 && s.turned_kink < 0 &&
-         s.held_kink < 0 && life.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
+  return contact && !life.cursor.motion_over() && s.wall == 0 && !s.released && s.doubt == 1 && !s.turned &&
+         life.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
 }
 
 class Pool {
@@ -239,7 +239,8 @@ class Pool {
     LawArc<law_order>& arc = series_[static_cast<std::size_t>(slot)];
     const Laws& laws = *integrator.life().rig.laws;
     for (int kink = 0; kink < laws.tape.kink_count(); ++kink)
-      if (laws.tape.latched(kink, integrator.life().state.sides)) arc.kink[kink] = Series<double, law_order>::zero();
+      if (!laws.tape.turns(kink, integrator.life().state.sides, arc.kink[kink][0]))
+        arc.kink[kink] = Series<double, law_order>::zero();
     return arc;
   }
 

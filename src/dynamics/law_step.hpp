@@ -285,6 +285,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   void finish() {
     finish_arc(y_);
     y_.ax[N] = y_.foot[N] = y_.moment[N] = Real(0.0);
+    y_.friction = slips() ? factor_[0] : Real(1.0);
     y_.pressed = y_.fy;
     if constexpr (single)
       for (int k = 0; k < N && friction_sees_force_; ++k)
@@ -298,8 +299,8 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
       for (int k = 0; k < N; ++k) y_.kink[j][k] = side * argument[k];
       y_.kink[j][N] = Real(0.0);
       if constexpr (single) {
-        if (state_->turned_kink == j) y_.kink[j][0] = 0;
-        if (laws_.tape.latched(j, numbers_.sides())) y_.kink[j] = Series<double, N>::zero();
+        if (state_->has_met(j)) y_.kink[j][0] = 0;
+        if (!laws_.tape.turns(j, numbers_.sides(), argument[0])) y_.kink[j] = Series<double, N>::zero();
       }
     }
   }
@@ -322,7 +323,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   Series<Real, N> limit(int sigma) {
     Series<Real, N> result;
     if (laws_.reads(Input::sigma)) value(Input::sigma)[0] = Real(double(sigma));
-    if constexpr (single) numbers_.turn(laws_.sides_of_slip(numbers_.sides(), state_->turned_kink, values_));
+    if constexpr (single) numbers_.turn(laws_.sides_of_slip(numbers_.sides(), state_->turned, values_));
     for (int k = 0; k < N; ++k) {
       factor_[k] = factor_from_tape(k);
       result[k] = at_.mu_s * product(factor_, y_.fy, k);

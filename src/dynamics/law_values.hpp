@@ -26,7 +26,7 @@ double grip_missed(const Rig&, const State&, double, const Floor<double, 1>&, co
 struct LawValues {
   double force = 0, moment = 0, factor = 1;
   std::uint32_t sides = 0;  // of the kinks
-  bool finite() const { return std::isfinite(force) && std::isfinite(moment) && std::isfinite(factor); }
+  bool finite() const { return std::isfinite(force) && std::isfinite(moment) && std::isfinite(factor) && factor >= 0; }
 };
 
 inline LawValues law_values(const Rig& rig, const State& state, double time, int sigma) {

@@ -106,6 +106,7 @@ bool Laws::straight() const {
       case Op::positive:
       case Op::step:
       case Op::latch:
+      case Op::select:
         break;
       default:
         return false;
@@ -144,7 +145,7 @@ bool Laws::same_shape(const Laws& other) const {
     return false;
   for (int i = input_count; i < tape.size(); ++i) {
     const Node &x = *tape.node({nullptr, i}), &y = *other.tape.node({nullptr, i});
-    if (x.op != y.op || x.a != y.a || x.b != y.b) return false;
+    if (x.op != y.op || x.a != y.a || x.b != y.b || x.kink != y.kink) return false;
   }
   return true;
 }

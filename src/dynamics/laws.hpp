@@ -58,12 +58,12 @@ struct Laws {
   // The same for the inputs in `values`, whose nodes are filled in; what has broken in `before` stays broken.
   std::uint32_t sides_at(Series<double, 0>* values, std::uint32_t before) const;
   // The same for the friction of a slip that is about to begin: other sides than those of forces, and than the opposite slip's.
-  // turned: a kink that was met at this instant stays.
+  // turned: kinks that were met at this instant stay.
   template <int N>
-  std::uint32_t sides_of_slip(std::uint32_t sides, int turned, Series<double, N>* values) const {
+  std::uint32_t sides_of_slip(std::uint32_t sides, std::uint32_t turned, Series<double, N>* values) const {
     for (int j = 0; j < tape.kink_count(); ++j) {
       const int node = tape.kink_node(j), argument = tape.kink_argument(j);
-      if (node < forces_end || node >= friction_end || j == turned) continue;
+      if (node < forces_end || node >= friction_end || (turned >> j & 1U)) continue;
       if (!tape.depends(argument, Input::sigma) && !tape.depends(argument, Input::speed)) continue;
       tape.advance(forces_end, node, 0, sides, values);
       sides = (sides & ~(1U << j)) | (values[argument][0] < 0 ? 1U << j : 0U);

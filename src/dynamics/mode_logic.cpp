@@ -135,7 +135,8 @@ bool choose_mode(const Rig& rig, const FloorCursor& cursor, State& state) {
   const bool both_down = !aloft && state.theta == 0 && state.omega == 0;
   if (both_down) state.pivot = 0;
   // The instant of an event is known to the tolerance of the step only, and close to Painleve's paradox its error is
-  // amplified: where no mode stands, what counts as zero is widened before the paradox is declared.
+  // amplified: where no mode stands, what counts as zero is widened before the paradox is declared, up to what a step may miss
+  // in its accelerations: 1e4 force_zero is 1e-7 g, a hundred tolerances.
   for (state.doubt = 1; state.doubt <= 1e4; state.doubt *= 100) {
     if (aloft) {
       if (flies(rig, cursor, state)) return true;

@@ -62,9 +62,13 @@ class ReferenceIntegrator {
   bool resolve_if_violated() {
     FirstEvent now(0);
     const auto floor = life_.cursor.local<judge_order>();
-    with_arc(floor, [&](const auto& arc) { for_each_witness(life_.rig, life_.state, arc, now); });
-    if (now.found().any) life_.resolve(now.found().witness);
-    return now.found().any;
+    bool forces = true;
+    with_arc(floor, [&](const auto& arc) {
+      forces = has_forces(arc);
+      for_each_witness(life_.rig, life_.state, arc, now);
+    });
+    if (now.found().any || !forces) life_.resolve(forces ? now.found().witness : Witness::regular);
+    return now.found().any || !forces;
   }
 
   // What no longer holds at the end of a step, by more than round-off of metres, seconds and radians; null: nothing.
@@ -169,7 +173,7 @@ class ReferenceIntegrator {
   // The state at the end of a step.
   void arrive(const State& from, double tau) {
     life_.state = read(y_.get());
-    life_.left_instant();
+    life_.left_instant(tau);
     if (life_.rig.laws)
       life_.peaks.response().slid_path_m += life_.state.path - from.path;
     else if (from.sigma != 0)

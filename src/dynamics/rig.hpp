@@ -9,6 +9,7 @@
 
 #include "base/units.hpp"
 #include "dynamics/contact.hpp"
+#include "dynamics/kinks.hpp"
 #include "dynamics/laws.hpp"
 
 namespace freestand::dynamics {
@@ -28,6 +29,7 @@ struct Rig {
   double rest_rotation;  // a hop of less than this rotation ends the rocking [rad]
   double rest_height;    // a rebound from a wall slower than a fall from this height stays at the wall [m]
   double told_rotation;  // an impact after a rotation of less than this is not counted [rad]
+  double instant_s;      // what is closer together happens at once: events are located no better [s]
   double told_speed;     // nor a blow of a wall that comes slower than this [m/s]
 
   Rig(const Specimen& specimen, const Settings& settings, const FloorInput& floor = {})
@@ -43,11 +45,15 @@ struct Rig {
         impact(specimen.impact),
         g(standard_gravity_mps2 * floor.gravity_factor),
         push(floor.push_mps2),
+        // An event is located to about 1e-14 s, within which floors and laws change accelerations by less than 1e3 g/s.
         force_zero(1e-11 * g),
         turn_zero(force_zero / specimen.block.size_m()),
         rest_rotation(settings.tolerance),
         rest_height(settings.tolerance * specimen.block.size_m()),
+        // Rows of hops and of rebounds have no last one. What is counted ends at a thousandth of what overturns the block; no
+        // motion depends on it.
         told_rotation(1e-3 * specimen.block.alpha_rad()),
+        instant_s(1e-14 / specimen.block.p_radps()),
         told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()) {
     if (has_laws(specimen) || push != 0) laws.emplace(specimen);
   }
@@ -89,7 +95,7 @@ inline Edge touching_edge(int pivot, int side) {
 
 // Where the block is. `pivot`: +1 right corner, -1 left corner, 0 both or none. `sigma`: direction of slip, 0 when
 // stuck.
-struct State {
+struct State : Kinks {
   Mode mode = Mode::rest;
   int pivot = 0;
   int sigma = 0;
@@ -104,9 +110,6 @@ struct State {
   double deflection = 0;  // of the legs [m]
   double foot = 0;        // slip speed of the contact under the legs [m/s]
   std::array<double, max_states> states{};
-  std::uint32_t sides = 0;  // bit j: kink j is on its negative side
-  int turned_kink = -1;     // the kink that was met at this instant
-  int held_kink = -1;       // one that would turn back at once: it is left alone for a step
   // An edge of the side face stays at the wall on that side (+1, -1; 0: none does), and which. One that is `released` leaves
   // the wall at this very instant. An upright block on the floor touches a wall by its displacement alone.
   int wall = 0;

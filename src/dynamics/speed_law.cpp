@@ -64,8 +64,8 @@ std::optional<SpeedLaw> speed_law(const Laws& laws) {
     const bool used = node.op == Op::constant || (from(node.a) >= 0 && (!binary(node.op) || from(node.b) >= 0));
     if (!used || !has_packs(node.op) || law.count == speed_law_nodes) return {};
     const int a = node.op == Op::constant ? 0 : from(node.a), b = binary(node.op) ? from(node.b) : 0;
-    law.nodes[law.count] = {node.op, static_cast<std::int16_t>(a), static_cast<std::int16_t>(b), node.value,
-                            node.shift};
+    law.nodes[law.count] = {node.op, static_cast<std::int16_t>(a), static_cast<std::int16_t>(b), node.value, node.shift,
+                            -1};
     place[static_cast<std::size_t>(i)] = ++law.count;
   }
   law = without_unused(law);

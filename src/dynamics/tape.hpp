@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "dynamics/series.hpp"
 
@@ -54,15 +55,21 @@ enum class Op : std::uint8_t {
   abs,
   positive,
   step,
-  latch
+  latch,
+  select
 };
 
 struct Node {
   Op op;
   std::int16_t a, b;  // operands; power: exponent in `value`; sin and cos: b is the partner
   double value;       // of a constant; of an exponent; affine: value * a + shift
-  double shift;
+  double shift;       // sqrt and power: slope of the line that stands for them next to zero
+  std::int16_t kink;  // on whose sides it differs; -1: none
 };
+
+// A root or a power of less than this is taken for a straight line, on either side of zero: integration knows lengths, speeds and
+// angles of order one to about that, and from exactly zero no such series starts.
+inline constexpr double zero_of_roots = 1e-10;
 
 class Tape;
 
@@ -77,11 +84,13 @@ class Tape {
   Value input(Input which, int offset = 0) { return {this, static_cast<int>(which) + offset}; }
   Value constant(double value) { return append(Op::constant, 0, 0, value); }
   // What is there already in this section is not recorded again: one kink, then, for a law that two hooks use.
-  Value append(Op op, int a, int b, double value = 0, double shift = 0);
+  Value append(Op op, int a, int b, double value = 0, double shift = 0, int kink = -1);
   void begin_section() { section_ = size_; }
   // factor * x + shift; of constants and of other such values, again one node.
   Value affine(Value x, double factor, double shift);
   const Node* node(Value x) const { return x.node < input_count ? nullptr : &nodes_[x.node]; }
+  // The kink at which x changes its sign.
+  int kink_at(Value x) { return nodes_[append(Op::step, x.node, 0).node].kink; }
   Value append_circular(Op op, int a);  // sin or cos
 
   int size() const { return size_; }
@@ -97,6 +106,11 @@ class Tape {
     return (sides >> kink & 1U) && nodes_[kinks_[kink]].op == Op::latch;
   }
 
+  // Whether the kink can turn: what has broken cannot, nor what looks at no number (on a branch that is not taken).
+  bool turns(int kink, std::uint32_t sides, double argument) const {
+    return !latched(kink, sides) && argument == argument;
+  }
+
   // Coefficient k of nodes [from, to). values: one series per node, inputs filled to order k. Numbers: those of one sample, or
   // of the samples of a pack, whose tapes have the same nodes.
   template <int N, class Real, class Numbers>
@@ -106,7 +120,21 @@ class Tape {
   void advance(int from, int to, int k, std::uint32_t sides, Series<double, N>* values) const;
 
  private:
-  int find(Op op, int a, int b, double value, double shift) const;  // -1: none
+  int find(const Node& node) const;  // -1: none
+
+  // Zero; what is no number stays none, on whichever side of a kink.
+  template <class Real, class Numbers>
+  static Real zero_of(const Real& x, const Numbers& numbers) {
+    return numbers.choose(x == x, Real(0.0), x);
+  }
+  // Coefficient k of a root or a power of x at node i: `power`, or next to zero the line, and no number below.
+  template <int N, class Real, class Numbers>
+  Real next_to_zero(int i, int k, const Series<Real, N>& x, const Real& power, const Numbers& numbers) const {
+    Real line = numbers.shift(i) * x[k];
+    if (k == 0)
+      line = numbers.choose(x[0] < Real(-zero_of_roots), Real(std::numeric_limits<double>::quiet_NaN()), line);
+    return numbers.on_side(nodes_[i].kink, power, line);
+  }
 
   // Plain arrays, which the kernels of packs may read without a call.
   Node nodes_[max_nodes];
@@ -217,11 +245,13 @@ void Tape::advance(int from, int to, int k, const Numbers& numbers, Series<Real,
       case Op::sqrt:
         for (int j = 1; j < k; ++j) sum = sum + z[j] * z[k - j];
         z[k] = k == 0 ? numbers.sqrt(x[0]) : (x[k] - sum) / (Real(2.0) * z[0]);
+        z[k] = next_to_zero(i, k, x, z[k], numbers);
         break;
       case Op::power:
         for (int j = 1; j <= k; ++j)
           sum = sum + (Real(double(j)) * numbers.value(i) - Real(double(k - j))) * x[j] * z[k - j];
         z[k] = k == 0 ? numbers.pow(x[0], numbers.value(i)) : sum / (order * x[0]);
+        z[k] = next_to_zero(i, k, x, z[k], numbers);
         break;
       case Op::sin:
         for (int j = 1; j <= k; ++j) sum = sum + Real(double(j)) * x[j] * y[k - j];
@@ -232,14 +262,17 @@ void Tape::advance(int from, int to, int k, const Numbers& numbers, Series<Real,
         z[k] = k == 0 ? numbers.cos(x[0]) : -(sum * over);
         break;
       case Op::abs:
-        z[k] = numbers.on_side(node.b, x[k], -x[k]);
+        z[k] = numbers.on_side(node.kink, x[k], -x[k]);
         break;
       case Op::positive:
-        z[k] = numbers.on_side(node.b, x[k], Real(0.0));
+        z[k] = numbers.on_side(node.kink, x[k], k == 0 ? zero_of(x[0], numbers) : Real(0.0));
         break;
       case Op::step:
       case Op::latch:
-        z[k] = k > 0 ? Real(0.0) : numbers.on_side(node.b, Real(1.0), Real(0.0));
+        z[k] = k > 0 ? Real(0.0) : numbers.on_side(node.kink, Real(1.0), Real(0.0)) + zero_of(x[0], numbers);
+        break;
+      case Op::select:
+        z[k] = numbers.on_side(node.kink, x[k], y[k]);
         break;
     }
   }

@@ -98,6 +98,18 @@ Series<Real, N> friction_at_wall(bool right, bool left, const LawArc<N, Real>& a
   return arc.fx;
 }
 
+// First terms that later ones outweigh within an instant are the round-off of a place where the argument is zero.
+template <int N>
+Series<double, N> past_instant(Series<double, N> y, double instant_s) {
+  for (int k = 0; k < N; ++k) {
+    double rest = 0;
+    for (int j = N; j > k; --j) rest = (rest + std::abs(y[j])) * instant_s;
+    if (!(std::abs(y[k]) <= rest)) break;
+    y[k] = 0;
+  }
+  return y;
+}
+
 // What is at a wall comes no nearer; what leaves it at this instant has no speed either.
 template <int N, class Visit>
 void visit_clearance(const Rig& rig, const State& state, int side, bool upper, const Series<double, N>& gap,
@@ -180,7 +192,7 @@ void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, 
       visit_clearance(rig, state, side, touching_edge(state.pivot, side) == Edge::upper,
                       side > 0 ? arc.right_gap : arc.left_gap, visit);
   for (int j = 0; j < rig.laws->tape.kink_count(); ++j)
-    if (j != state.held_kink) visit(kink_witness(j), arc.kink[j], nothing);
+    if (state.watches(j)) visit(kink_witness(j), past_instant(arc.kink[j], rig.instant_s), nothing);
 }
 
 template <int N, class Visit>
@@ -205,7 +217,7 @@ void for_each_witness(const Rig& rig, const State& state, const LawFlight<N>& fl
         visit_clearance(rig, state, side, upper, (side > 0 ? flight.right_gap : flight.left_gap)[upper], visit);
     }
   for (int j = 0; j < rig.laws->tape.kink_count(); ++j)
-    if (j != state.held_kink) visit(kink_witness(j), flight.kink[j], ZeroTolerance{0, 0.0});
+    if (state.watches(j)) visit(kink_witness(j), past_instant(flight.kink[j], rig.instant_s), ZeroTolerance{0, 0.0});
 }
 
 // Series of the state's mode, one corner or two down.

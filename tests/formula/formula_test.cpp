@@ -62,6 +62,8 @@ TEST(Formula, ComputesWhatItSays) {
       {"(u > v) + 2*(u < v)", 1},
       {"if(v > 0, 5, 7)", 7},
       {"if(u > 0, if(v > 0, 1, 2), 3)", 2},
+      {"if(u > 1, sqrt(u - 1), 7)", 7},
+      {"sqrt(u - u) + (v - v)^0.3", 0},
       {"g + mu", standard_gravity_mps2 + 0.25},
       {" ( ( u ) ) ", u},
   };

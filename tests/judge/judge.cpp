@@ -116,7 +116,8 @@ std::string difference_at_the_end(const Evidence& e, const Answer& a) {
   const bool rattled = std::any_of(h.deeds.begin(), h.deeds.end(), [](unsigned deed) {
     return (deed & (struck_by_lower_edge | struck_by_upper_edge)) != 0;
   });
-  if (!rattled && std::abs(r.peak_acceleration_mps2 - h.peak_acceleration_mps2) > unseen_mps2 + margin * e.own_acceleration_mps2)
+  if (!rattled &&
+      std::abs(r.peak_acceleration_mps2 - h.peak_acceleration_mps2) > unseen_mps2 + margin * e.own_acceleration_mps2)
     return fmt::format("{}: peak acceleration {:.4f} against {:.4f} m/s2, own {:.1e}", a.who, r.peak_acceleration_mps2,
                        h.peak_acceleration_mps2, e.own_acceleration_mps2);
   return "";

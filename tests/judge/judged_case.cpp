@@ -201,10 +201,28 @@ std::string JudgedCase::text() const {
   return line;
 }
 
-JudgedCase judged_case(std::uint64_t seed, std::uint64_t number) {
+namespace {
+
+// A pair comes in another setting each time that its turn comes.
+Recipe recipe_of(std::uint64_t number) {
   static const std::vector<Recipe> all = recipes();
+  Recipe recipe = all[number % all.size()];
+  if (recipe.effects.size() < 2) return recipe;
+  const auto next = [&] {
+    recipe.setting = static_cast<Setting>((static_cast<int>(recipe.setting) + 1) % setting_count);
+  };
+  for (std::uint64_t turns = number / all.size(); turns > 0; --turns) {
+    next();
+    while (!possible(recipe)) next();
+  }
+  return recipe;
+}
+
+}  // namespace
+
+JudgedCase judged_case(std::uint64_t seed, std::uint64_t number) {
   KeyedRandom random(seed, number);
-  JudgedCase result{seed, number, all[number % all.size()], {}, {}};
+  JudgedCase result{seed, number, recipe_of(number), {}, {}};
   const auto& about = result.recipe.effects;
   const bool chained = std::find(about.begin(), about.end(), "chain") != about.end();
   result.truth = draw_block(random, draw_model(random, result.recipe), chained);

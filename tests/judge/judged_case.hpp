@@ -41,7 +41,7 @@ struct JudgedCase {
   std::string text() const;  // one line that describes the case, for messages
 };
 
-// Number `number` is of recipe number mod recipes().size().
+// Number `number` is of recipe number mod recipes().size(), a pair in the next setting each time that its turn comes.
 JudgedCase judged_case(std::uint64_t seed, std::uint64_t number);
 
 }  // namespace freestand::test

@@ -45,6 +45,13 @@ std::vector<std::string> studies() {
       texts.push_back(block + friction + fmt::format("effects: [{{name: {}}}]\n", effect) + motions);
   }
   texts.push_back(block + friction + "effects: [{name: vertical_shaking, scale: 0.7}]\n" + records);
+  // Thrown up, with what acts in flight, and several laws together.
+  for (const char* more : {"", ", {name: centering_spring, frequency_hz: 0.8}", ", {name: floor_tilt, angle_rad: 0.05}",
+                           ", {name: wall_impact, gap_m: 0.02, restitution: 0.4}",
+                           ", {name: viscous_drag, rate_per_s: 0.5}, {name: friction_wear, ratio: 0.6, path_m: 0.1}, "
+                           "{name: slack_tether, slack_m: 0.01, frequency_hz: 3, rate_per_s: 2}"})
+    texts.push_back(block + friction + fmt::format("effects: [{{name: vertical_shaking, scale: 6}}{}]\n", more) +
+                    records);
   for (const char* design : {"monte_carlo", "latin_hypercube"})
     texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   return texts;
@@ -72,7 +79,8 @@ std::uint64_t hash_of(const Evaluator& evaluator, std::uint64_t hash) {
     const bool old_demand = column == "edp_peak_slip_m" || column == "edp_residual_slip_m" || column == "edp_delta" ||
                             column == "edp_slid_path_m" || column == "edp_peak_rotation_over_alpha" ||
                             column == "edp_peak_acceleration_g" || column == "edp_impacts" ||
-                            column == "edp_overturned" || column == "edp_connection_failed";
+                            column == "edp_overturned" || column == "edp_connection_failed" ||
+                            column == "edp_wall_hit" || column == "edp_wall_speed_mps";
     if (column.starts_with("edp_") && !old_demand) continue;
     const auto bits = std::isnan(values[i]) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(values[i]);
     hash = random::mix(hash ^ bits);

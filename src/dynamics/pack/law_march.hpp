@@ -200,6 +200,7 @@ class LawMarchOf {
       sure = sure & neglects(arc.deflection, Row::over_length);
       if (slipping) sure = sure & (xsimd::abs(arc.foot[0]) >= Pack(Step::foot_zero));
     }
+    if (slipping && laws_.friction >= 0) sure = sure & (arc.friction >= Pack(0.0));
     for (int i = 0; i < laws_.states; ++i)
       sure = sure & neglects(arc.states[i], laws_.relative_velocity[i] ? Row::over_speed : Row::over_length);
     visit_contact(stance_, {}, arc, [&](Witness witness, const Series<Pack, law_order>& y) {
