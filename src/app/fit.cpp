@@ -19,11 +19,7 @@ struct FitOptions {
 
 void tell(const study::FitSummary& summary, const FitOptions& options) {
   for (const std::string& note : summary.notes) fmt::print("{}\n", note);
-  fmt::print("{}", summary.ranking);
-  if (!summary.warnings.empty())
-    fmt::print(
-        "warning: {}{}\n", summary.warnings.front(),
-        summary.warnings.size() > 1 ? fmt::format(" ({} more in summary.json)", summary.warnings.size() - 1) : "");
+  fmt::print("{}{}", summary.ranking, warnings_text(summary, options.into.empty() ? options.folder : options.into));
   const std::string by = summary.changed.empty()
                              ? "by the study as it was swept"
                              : fmt::format("by {} of {}{}, changed since the sweep", fmt::join(summary.changed, ", "),

@@ -63,7 +63,7 @@ Exit sweep_and_fit(const Context& context, const RunOptions& options, bool with_
         context.world, folder,
         {.from = options.folder, .command = context.command_line, .quiet = options.quiet, .sweep = &summary});
   if (context.world.is_root() && !options.quiet)
-    parallel::tell(fmt::format("{}{}; results in {}\n", fitted.ranking,
+    parallel::tell(fmt::format("{}{}{}; results in {}\n", fitted.ranking, warnings_text(fitted, options.folder),
                                times_text(summary, fitted.wall_s, context.world.size()), options.folder),
                    stdout);
   return Exit::done;

@@ -24,4 +24,11 @@ std::string times_text(const study::SweepSummary& sweep, double fit_s, int ranks
                      ranks == 1 ? "rank" : "ranks", parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
+std::string warnings_text(const study::FitSummary& fit, const std::string& folder) {
+  if (fit.warnings.empty()) return "";
+  const std::string where = (std::filesystem::path(folder) / "summary.json").string();
+  return fmt::format("warning: {} ({}{})\n", fit.warnings.front(),
+                     fit.warnings.size() > 1 ? fmt::format("{} more in ", fit.warnings.size() - 1) : "", where);
+}
+
 }  // namespace freestand::app

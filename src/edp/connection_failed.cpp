@@ -10,6 +10,7 @@ const Register connection_failed{{
     .source = "[KM05 ch. 9]",
     .binary = true,
     .censored = false,
+    .wants = Wants::chain,
     .by_default = false,
     .value = [](const Input& in) { return in.response.connection_failed ? 1.0 : 0.0; },
 }};

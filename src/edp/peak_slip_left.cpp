@@ -9,7 +9,7 @@ const Register peak_slip_left{{
     .summary =
         "largest displacement of the middle of the base to the left, relative to the floor; wants slip_by_side: true",
     .source = "[KM05 ch. 5], by side",
-    .by_side = true,
+    .wants = Wants::sides,
     .by_default = false,
     .still = 1e-4,
     .default_capacities = {0.05, 0.1, 0.2, 0.4},

@@ -10,6 +10,7 @@ const Register wall_hit{{
     .source = "effect wall_impact, and the wall behind a chain",
     .binary = true,
     .censored = false,
+    .wants = Wants::wall,
     .by_default = false,
     .value = [](const Input& in) { return in.response.wall_hits > 0 ? 1.0 : 0.0; },
 }};

@@ -9,6 +9,7 @@ const Register wall_speed{{
     .summary = "largest speed at which an edge of the block struck a wall; 0 where none did",
     .source = "effect wall_impact, and the wall behind a chain",
     .censored = false,
+    .wants = Wants::wall,
     .by_default = false,
     .default_capacities = {0.1, 0.2, 0.4, 0.8},
     .value = [](const Input& in) { return in.response.wall_speed_mps; },

@@ -107,7 +107,7 @@ class Decision {
       const double gain = histories_ ? best->misfit - c.misfit : best->fit.mean_left_out() - c.fit.mean_left_out();
       const bool simpler = c.effects.size() < best->effects.size() || (c.practical && !best->practical);
       const bool harder = c.effects.size() > best->effects.size() || (!c.practical && best->practical);
-      if (harder ? parted(*best, c) : simpler ? !parted(c, *best) : gain > 0) best = &c;
+      if (harder ? worse(*best, c) : simpler ? !worse(c, *best) : gain > 0) best = &c;
     }
     return best;
   }
@@ -118,13 +118,15 @@ class Decision {
     return a.misfit - b.misfit > chance_misfit + 0.5 * left;
   }
 
-  // Is a worse than b by more than chance? The misfit knows the noise only as it is stated; so of two histories' models
-  // that both are at the noise, tests left out must say it too, test by test, and never may their table say the contrary.
-  bool parted(const Candidate& a, const Candidate& b) const {
+  // Is a worse than b? The misfit knows the noise only as it is stated; so of two histories' models that both are at the
+  // noise, tests left out must say it too, test by test, and never may their table say the contrary.
+  bool worse(const Candidate& a, const Candidate& b) const {
     if (!histories_) return worse_left_out(a, b);
     return misfits_more(a, b) && pooled_left_out(a) > pooled_left_out(b) &&
            (a.explained > std::max(at_noise, 1.1 * b.explained) || worse_left_out(a, b));
   }
+  // And so much that b may be named without a: beyond the paired error of the tests left out, at the noise or not.
+  bool parted(const Candidate& a, const Candidate& b) const { return worse(a, b) && worse_left_out(a, b); }
   double samples() const { return total(d_.samples); }
 
   void mark_rivals(const Candidate& best) {
@@ -137,7 +139,7 @@ class Decision {
   // Also by the plain error: a base that strayed after one test that the floor's noise had turned elsewhere looks worse to
   // the covariance of its own replays than it is. And by more than its own replays stray.
   bool better_than_base(const Candidate& best) const {
-    return parted(d_.base, best) && (!histories_ || gain_beyond_strays(best) > chance_misfit);
+    return worse(d_.base, best) && (!histories_ || gain_beyond_strays(best) > chance_misfit);
   }
 
   double gain_beyond_strays(const Candidate& best) const {
@@ -158,12 +160,12 @@ class Decision {
     return beyond <= at_noise * at_noise * samples();
   }
 
-  // A pair that holds a rival single effect is no rival of its own.
+  // A pair that holds a rival single effect, which is enough, is no rival of its own.
   void drop_needless() {
     for (Candidate& c : d_.candidates) {
       if (!c.rival || c.effects.size() < 2) continue;
       for (const Candidate& single : d_.candidates)
-        if (single.rival && single.effects.size() == 1 &&
+        if (single.rival && single.effects.size() == 1 && good_enough(single) &&
             std::find(c.effects.begin(), c.effects.end(), single.effects[0]) != c.effects.end())
           c.rival = false;
     }
@@ -193,8 +195,8 @@ class Decision {
                       joined(told)));
     else
       say(
-          fmt::format("{} brings the left-out error from {} to {}; every other effect leaves more than noise explains, "
-                      "or misses the tests left out by more, beyond chance{}",
+          fmt::format("{} brings the left-out error from {} to {}; every other effect of those fitted to the end "
+                      "misses the tests left out by more, beyond chance{}",
                       joined(best.effects), three_digits(pooled_left_out(d_.base)), three_digits(pooled_left_out(best)),
                       but_for(best)));
     return &best;

@@ -6,14 +6,14 @@
 //      best few with every other. Where even these leave an error above the noise, singles and all pairs are fitted
 //      once more by strides (strides.hpp).
 //   3. Histories: models are compared by their misfit G = r^T C^-1 r of the tests left out (judge.hpp), where a wrong
-//      model shows as some tens and more, and chance as a few; and two that are both at the noise, as peaks and outcomes
-//      always, by paired differences of the left-out scores with their standard error.
+//      model shows as some tens and more, and chance as a few; and two effects, as peaks and outcomes always, by paired
+//      differences of the left-out scores with their standard error.
 //
 // Tests that say only whether the specimen overturned go their own way (diagnose_outcomes.hpp).
 //
 //   none       no model beats the base by more than chance
-//   missing    one does and is at the noise, and every rival is above it or worse by more than chance
-//   ambiguous  rivals at the noise cannot be told apart
+//   missing    one does and is at the noise, and every rival misses the tests left out by more, beyond chance
+//   ambiguous  one does and is at the noise, and rivals cannot be told from it
 //   unknown    the base is worse than the noise and so is everything else; or the data are wrong (Reason)
 //
 // A rival that needs a parameter far from where its effect is met (three times beyond the catalogue's range) to imitate

@@ -137,9 +137,9 @@ std::vector<std::string> accuracy_warnings(const nlohmann::ordered_json& accurac
     const double error = edp["p95_error"], scale = edp["median_demand"];
     if (error > error_to_warn_of * scale)
       warnings.push_back(
-          fmt::format("{}: one sample in twenty changes by more than {:.2g} {} under a tighter tolerance "
+          fmt::format("{}: one sample in twenty changes by more than {:.2g}{} under a tighter tolerance "
                       "(the median demand is {:.2g}): lower `tolerance`, or take the sample as chaotic",
-                      name, error, edp["unit"].get<std::string>(), scale));
+                      name, error, edp["unit"] == "1" ? "" : " " + edp["unit"].get<std::string>(), scale));
   }
   const double share = accuracy["flip_share"];
   if (share > flips_to_warn_of)

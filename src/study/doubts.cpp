@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/units.hpp"
+#include "formula/formula.hpp"
 #include "motion/offset.hpp"
 #include "study/problems.hpp"
 
@@ -35,6 +39,56 @@ class Doubter {
   }
   std::vector<std::string> said;
 };
+
+// u v theta omega t path normal side sigma speed, as formulas look at them.
+using Place = std::array<double, 10>;
+enum Coordinate : std::size_t { u, v, theta, t = 4, path, normal, sigma = 8, speed };
+
+// Where a block may well come.
+std::vector<Place> places() {
+  std::vector<Place> all;
+  for (const double at_u : {0.0, 0.1, -0.1, 0.3, -0.3, 1.0, -1.0})
+    for (const double at_v : {0.0, 0.2, -0.2, 2.0, -2.0})
+      for (const double at_theta : {0.0, 0.1, -0.1})
+        for (const double at_t : {0.0, 20.0})
+          for (const double slid : {0.0, 1.0}) all.push_back({at_u, at_v, at_theta, 0, at_t, slid, 1, 0, 0, 0});
+  return all;
+}
+
+// A formula of friction that falls below zero, at the usual numbers: where, with no more coordinates than it takes.
+void ask_of_formula(const EffectPart& part, double mu, Doubter& doubter) {
+  if (part.friction.empty()) return;
+  std::vector<std::string> names;
+  std::vector<double> numbers;
+  for (const Quantity& q : part.parameters) {
+    names.push_back(q.name.substr(q.name.rfind('.') + 1));
+    numbers.push_back(usual(q));
+  }
+  const formula::Formula law(part.friction, names);
+  const auto friction = [&](Place at) {
+    at[path] = std::max(at[path], std::abs(at[u]));
+    at[speed] = std::abs(at[v]);
+    at[sigma] = at[v] < 0 ? -1 : 1;
+    return law.value(at, mu, numbers);
+  };
+  const std::vector<Place> all = places();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Place& at) { return friction(at) < 0; });
+  if (found == all.end()) return;
+  Place at = *found;
+  std::string where;
+  for (const auto& [which, text] :
+       {std::pair{u, "u = {} m"}, std::pair{v, "v = {} m/s"}, std::pair{theta, "theta = {} rad"},
+        std::pair{t, "t = {} s"}, std::pair{path, "path = {} m"}}) {
+    const double value = std::exchange(at[which], 0);
+    if (value == 0 || friction(at) < 0) continue;
+    at[which] = value;
+    where += (where.empty() ? " at " : ", ") + fmt::format(fmt::runtime(text), value);
+  }
+  doubter.said.push_back(
+      fmt::format("friction of effect {} is {:.3g}{}, and pushes the block on there: is it ever "
+                  "there? max(0, ...) keeps it from that",
+                  part.name, friction(at), where));
+}
 
 void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
   doubter.ask(source.period, longest_period_s, "is it in seconds?");
@@ -72,6 +126,8 @@ std::vector<std::string> doubts(const Study& study) {
   const FrictionPart& friction = study.model.friction;
   for (const auto& mu : {friction.mu, friction.mu_k, friction.mu_s})
     doubter.ask(mu, roughest, "is it a friction coefficient?");
+  for (const EffectPart& effect : study.model.effects)
+    ask_of_formula(effect, usual(friction.mu ? *friction.mu : *friction.mu_k), doubter);
   const bool shaken = shakes_vertically(study.model);
   for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, doubter);

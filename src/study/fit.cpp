@@ -79,9 +79,9 @@ nlohmann::ordered_json summary_of(const Study& study, const io::Provenance& prov
   nlohmann::ordered_json summary = io::fragility_summary(provenance, result);
   if (study.fragility.im.period_s) summary["im_" + study.fragility.im.parameter] = *study.fragility.im.period_s;
   summary["accuracy"] = nlohmann::ordered_json::parse(provenance.accuracy);
+  summary["warnings"] = told.warnings;
   for (const auto& doubt : nlohmann::json::parse(provenance.doubts))
     summary["warnings"].push_back(doubt.get<std::string>());
-  for (const auto& warning : accuracy_warnings(summary["accuracy"])) summary["warnings"].push_back(warning);
   for (const std::string& note : told.notes) summary["warnings"].push_back(note);
   tell_until(study, result, summary);
   summary["motion_entries"] = study.motions.size();
@@ -136,6 +136,8 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   told.warnings = result.warnings;
   world.on_root([&] {
     const io::Provenance provenance = provenance_of(reader, study, options, world.size());
+    for (const auto& warning : accuracy_warnings(nlohmann::json::parse(provenance.accuracy)))
+      told.warnings.push_back(warning);
     io::write_fragility(folder / "fragility.h5", provenance, result);
     io::write_text(folder / "bins.csv", io::bins_csv(result));
     io::write_text(folder / "surface.csv", io::surface_csv(result));

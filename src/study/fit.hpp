@@ -27,7 +27,7 @@ struct FitSummary {
   std::string intensity = {};              // "sa_g at 0.5 s"
   std::vector<std::string> changed = {};   // keys of the fragility block that the sweep had otherwise
   std::vector<std::string> notes = {};     // what a user should be told
-  std::vector<std::string> warnings = {};  // of the statistics; on the root
+  std::vector<std::string> warnings = {};  // of the statistics and their accuracy; on the root
   std::string ranking = {};                // of the intensities: a line a demand, or the whole table; on the root
 };
 

@@ -8,7 +8,7 @@ namespace freestand::study {
 Known registries() {
   Known known;
   for (const auto& edp : edp::all())
-    known.edps.push_back({edp.name, edp.binary, edp.default_capacities, edp.by_default, edp.still, edp.by_side});
+    known.edps.push_back({edp.name, edp.binary, edp.default_capacities, edp.by_default, edp.still, edp.wants});
   for (const auto* measure : intensity::all()) {
     KnownIntensity intensity{measure->name, "", 0};
     if (measure->parameter) {

@@ -71,6 +71,13 @@ ordered_json json(const Measure& im) {
   return json;
 }
 
+// What stands beside the demand in a study.
+const char* needed(edp::Wants wants) {
+  constexpr const char* keys[] = {"", "slip_by_side: true, ", "effects: [{name: wall_impact, gap_m: 0.05}], ",
+                                  "chain: {stiffness_npm: 36000, strength_n: 2700}, "};
+  return keys[static_cast<int>(wants)];
+}
+
 std::string page(const Edp& edp) {
   std::string text =
       fmt::format("{}: {}\n", edp.name, edp.summary) + line("symbol", edp.symbol) + line("unit", edp.unit);
@@ -87,7 +94,7 @@ std::string page(const Edp& edp) {
   text += line("fitted", edp.by_default ? "where a study names no demands, and where it names this one"
                                         : "where a study names it");
   return text + line("source", edp.source) +
-         line("study", fmt::format("{}fragility: {{edp: [{}]}}", edp.by_side ? "slip_by_side: true, " : "", edp.name)) +
+         line("study", fmt::format("{}fragility: {{edp: [{}]}}", needed(edp.wants), edp.name)) +
          line("afterwards", fmt::format("freestand fit DIR --edp {} -o DIR2", edp.name));
 }
 
@@ -100,7 +107,7 @@ ordered_json json(const Edp& edp) {
           {"binary", edp.binary},
           {"censored", edp.censored},
           {"still", edp.still},
-          {"by_side", edp.by_side},
+          {"by_side", edp.wants == edp::Wants::sides},
           {"by_default", edp.by_default},
           {"default_capacities", edp.default_capacities}};
 }

@@ -12,8 +12,8 @@ void Problems::add(int line, std::string text) {
   if (!told) entries_.push_back({line, std::move(text)});
 }
 
-void Problems::add(const Problems& more, int line) {
-  for (const auto& [there, text] : more.entries_) add(line > 0 ? line : there, text);
+void Problems::add(const Problems& more, int line, int end) {
+  for (const auto& [there, text] : more.entries_) add(line > 0 && there < end ? line : there, text);
 }
 
 std::string Problems::text() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <freestand/error.hpp>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,8 @@ class Problems {
   // text: "problem (why): what to do". line: 1, 2 ...; 0 for what belongs to no line.
   void add(int line, std::string text);
 
-  // All of another's, whatever its file; at this line, where one is given.
-  void add(const Problems& more, int line = 0);
+  // All of another's, whatever its file; at this line, where one is given, those that stand on a line before `end`.
+  void add(const Problems& more, int line = 0, int end = std::numeric_limits<int>::max());
 
   bool empty() const { return entries_.empty(); }
   std::size_t count() const { return entries_.size(); }

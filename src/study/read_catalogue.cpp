@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -133,8 +134,12 @@ class Reader {
     return named;
   }
 
-  // The common parts with some block, so that what is wrong with them is told once, and as theirs.
+  // The common parts with some block, so that what is wrong with them is told once, and as theirs. Walls and chains may
+  // come with the entries.
   void check_common() {
+    Known known = known_;
+    for (KnownEdp& edp : known.edps)
+      if (edp.wants == edp::Wants::wall || edp.wants == edp::Wants::chain) edp.wants = edp::Wants::nothing;
     Named floors = floors_;
     if (floors.empty()) floors.emplace_back("", YAML::Node());
     for (const auto& [name, motions] : floors) {
@@ -149,7 +154,7 @@ class Reader {
           "{uniform: [1, 2]}}, friction: {mu: {uniform: [0.1, 0.2]}}}");
       take(root, rest, std::initializer_list<std::string>{});
       Problems found(path_.string());
-      read_study_of(root, found, 1);
+      read_study_of(root, found, 1, known);
       problems_.add(found);
       if (found.empty() && intensities_.empty()) read_intensities(root);
     }
@@ -171,15 +176,15 @@ class Reader {
       fragility.force_insert("im", wanted);
       one["fragility"] = fragility;
       Problems found(path_.string());
-      intensities_.push_back(read_study_of(one, found, line_of(wanted)).fragility.im);
+      intensities_.push_back(read_study_of(one, found, line_of(wanted), known_).fragility.im);
       problems_.add(found, line_of(wanted));
     }
   }
 
   // Relative paths start where those of the catalogue do, wherever an entry stands.
-  Study read_study_of(const YAML::Node& root, Problems& problems, int line) {
+  Study read_study_of(const YAML::Node& root, Problems& problems, int line, const Known& known) {
     try {
-      return read_sweep(root, path_, known_, Files::look, problems, line);
+      return read_sweep(root, path_, known, Files::look, problems, line);
     } catch (const Error& error) {
       if (problems.empty()) throw;
       return {};
@@ -321,7 +326,7 @@ class Reader {
     take(root, node, entry_keys);
     take(root, root_, file_keys);
     Problems found(path.string());
-    Study study = read_study_of(root, found, section.line());
+    Study study = read_study_of(root, found, section.line(), known_);
     words.id += variant.suffix;
     words.floor = variant.floor;
     words.friction = variant.friction;
@@ -331,7 +336,8 @@ class Reader {
     const std::string place = fmt::format("{}:{}", path.string(), section.line());
     if (const auto [first, fresh] = ids_.try_emplace(words.id, place); !fresh)
       section.problem("id", fmt::format("id {} stands twice (first at {}): rename one", words.id, first->second));
-    section.problems().add(found);
+    // What an entry makes wrong of the common parts, which are sound, is its own.
+    section.problems().add(found, section.line(), path == path_ ? section.line() : std::numeric_limits<int>::max());
     if (!found.empty()) return;
     study.name = words.id;
     if (!intensities_.empty()) study.fragility.im = intensities_.front();

@@ -26,7 +26,7 @@ const std::vector<std::string> taken = {"and", "or", "not", "min", "max", "abs",
 
 class DamageReader {
  public:
-  DamageReader(Section& section, const Known& known) : section_(section) {
+  DamageReader(Section& section, const Known& known) : section_(section), known_(known) {
     for (const KnownEdp& edp : known.edps) {
       demands_.push_back(edp.name);
       names_.push_back({edp.name, edp.binary});
@@ -62,7 +62,11 @@ class DamageReader {
     try {
       const formula::Condition condition(part.when, names);
       for (const std::size_t used : condition.uses())
-        if (used < demands_.size()) part.demands.push_back(demands_[used]);
+        if (used < demands_.size()) {
+          part.demands.push_back(demands_[used]);
+          if (const std::string& refusal = known_.edps[used].refusal; !refusal.empty())
+            problem(part, fmt::format("damage state {}: {}", part.name, refusal));
+        }
       for (std::size_t i = demands_.size(); i < names.size(); ++i)
         if (!holds_place(condition.uses(), i))
           problem(part, fmt::format("parameter {} of damage state {} stands nowhere in its condition (it would change "
@@ -102,6 +106,7 @@ class DamageReader {
   }
 
   Section& section_;
+  const Known& known_;
   std::vector<std::string> demands_;
   std::vector<formula::Condition::Name> names_;
 };

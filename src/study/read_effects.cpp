@@ -84,7 +84,8 @@ void check_values(Section& section, const EffectPart& part, const std::vector<st
     if (text.empty()) continue;
     const formula::Formula law(text, names);
     for (const auto& state : states) {
-      const std::string where = fmt::format("at u = {} m, v = {} m/s", state[0], state[1]);
+      const std::string where =
+          fmt::format("at u = {} m, v = {} m/s, t = {} s, path = {} m", state[0], state[1], state[4], state[5]);
       const double low = law.value(state, 0.05, parameters), high = law.value(state, 1, parameters);
       if (!std::isfinite(low) && !std::isfinite(high))
         return section.problem(key, fmt::format("{} of effect {} is {} {} (a law must give a finite number from rest "
@@ -167,13 +168,18 @@ void check_company(Section& section, const EffectPart& part, const std::vector<E
   const auto excluded = [](const Effect& effect, const std::string& name) {
     return std::find(effect.excludes.begin(), effect.excludes.end(), name) != effect.excludes.end();
   };
+  const bool other_wall = part.effect->wall && model == Model::rock;
   if (excluded(*part.effect, in_model))
-    section.problem("name", fmt::format("effect {} does not go with model {} (it has nothing to act on there): remove "
-                                        "it, or choose another model",
-                                        part.name, in_model));
+    section.problem("name", fmt::format("effect {} does not go with model {} ({}): remove it, or choose another model",
+                                        part.name, in_model,
+                                        other_wall ? "the only wall there is the one behind a chain, chain.wall_gap_m"
+                                                   : "it has nothing to act on there"));
   for (const EffectPart& other : others) {
     if (other.name == part.name)
-      section.problem("name", fmt::format("effect {} stands twice (it acts once): remove one", part.name));
+      section.problem("name", fmt::format("effect {} stands twice (it acts once{}): remove one", part.name,
+                                          part.effect->wall ? "; the wall behind a chain, chain.wall_gap_m, may be a "
+                                                              "second one, on the side that `side` is not"
+                                                            : ""));
     else if (excluded(*part.effect, other.name) || excluded(*other.effect, part.name))
       section.problem("name", fmt::format("effects {} and {} exclude each other (their laws cannot act together): "
                                           "remove one",

@@ -110,6 +110,8 @@ std::vector<std::string> read_edps(Section& section, const Known& known) {
       section.problem("edp", unknown_edp(known, name));
     else if (std::find(edps.begin(), edps.end(), name) != edps.end())
       section.problem("edp", fmt::format("{} names {} twice (once is enough): remove one", section.name("edp"), name));
+    else if (const std::string& refusal = find_edp(known, name)->refusal; !refusal.empty())
+      section.problem("edp", fmt::format("{}: {}", section.name("edp"), refusal));
     else
       edps.push_back(name);
   }

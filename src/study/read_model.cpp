@@ -178,7 +178,7 @@ std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
   chain.height = section.quantity("chain", "height_m", above_zero);
   if (const std::string without = knows_no_walls(model); without.empty())
     chain.wall_gap = section.quantity("chain", "wall_gap_m", range::not_negative, 0);
-  else if (section.has("wall_gap_m"))
+  else if (section.find("wall_gap_m"))
     section.problem("wall_gap_m",
                     "chain.wall_gap_m does not go with " + without + " (which meets no walls): remove it");
   chain.side = section.choice("side", {"right", "left"}, 0) == 0 ? 1 : -1;

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
+#include "dynamics/effect.hpp"
 #include "fragility/options.hpp"
 #include "study/accuracy.hpp"
 #include "study/calibrate_keys.hpp"
@@ -104,24 +106,31 @@ void refuse_other_kind(Section& file, const char* wanted, const char* other, con
   problems.throw_if_any();
 }
 
-// Slip by side is computed where the study says so.
-void refuse_sides_that_are_not_followed(const Study& study, const Known& known, Section& file) {
-  if (study.slip_by_side) return;
-  std::vector<std::string> asked = study.fragility.edp;
-  for (const DamagePart& state : study.fragility.damage)
-    asked.insert(asked.end(), state.demands.begin(), state.demands.end());
-  for (const KnownEdp& edp : known.edps)
-    if (edp.by_side && std::find(asked.begin(), asked.end(), edp.name) != asked.end())
-      return file.problem("fragility",
-                          fmt::format("{} is followed only where the study says so (it takes several times "
-                                      "as long): add slip_by_side: true, and sweep with it",
-                                      edp.name));
+// Why a study has no values of a demand; "" where it has.
+std::string refusal(const KnownEdp& edp, const Study& study) {
+  const auto& [effects, chain] = std::tie(study.model.effects, study.model.chain);
+  const bool wall = (chain && chain->wall_gap) || std::any_of(effects.begin(), effects.end(),
+                                                              [](const auto& part) { return bool(part.effect->wall); });
+  if (edp.wants == edp::Wants::sides && !study.slip_by_side)
+    return edp.name +
+           " is followed only where the study says so (it takes several times as long): add slip_by_side: true, and "
+           "sweep with it";
+  if (edp.wants == edp::Wants::wall && !wall)
+    return edp.name +
+           " would be 0 for every sample (no wall stands in this study): remove it, or add the effect "
+           "wall_impact or a chain, and sweep with it";
+  if (edp.wants == edp::Wants::chain && !chain)
+    return edp.name +
+           " would be 0 for every sample (no chain holds the block of this study): remove it, or add chain, "
+           "and sweep with it";
+  return "";
 }
 
-// And what the tables of records bring: record.pga_g.
-Known with_numbers(Known known, const std::vector<MotionSource>& motions, Files look) {
+// What a study may name: its demands, and also what the tables of records bring (record.pga_g).
+Known known_of(const Study& study, Known known, Files look) {
   known.any_record = look == Files::ignore;
-  for (const MotionSource& source : motions)
+  for (KnownEdp& edp : known.edps) edp.refusal = refusal(edp, study);
+  for (const MotionSource& source : study.motions)
     for (const motion::RecordNumber& number : source.numbers)
       known.intensities.push_back({"record." + number.name, "", 0});
   return known;
@@ -142,8 +151,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   study.motions = read_motions(file, study.folder, look, shakes_vertically(study.model));
   // What the study draws is known only when its parts are sound.
   const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
-  study.fragility = read_fragility(file, with_numbers(known, study.motions, look), choices);
-  refuse_sides_that_are_not_followed(study, known, file);
+  study.fragility = read_fragility(file, known_of(study, known, look), choices);
   if (problems.empty()) check_target(study, problems);
   file.finish();
   problems.throw_if_any();

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "edp/edp.hpp"
 #include "motion/record_table.hpp"
 #include "sampling/design.hpp"
 #include "sampling/distribution.hpp"
@@ -208,8 +209,9 @@ struct KnownEdp {
   bool binary = false;  // overturned: takes no capacities
   std::vector<double> default_capacities;
   bool by_default = true;
-  double still = 0;      // threshold where the study gives none
-  bool by_side = false;  // wants slip_by_side
+  double still = 0;  // threshold where the study gives none
+  edp::Wants wants = edp::Wants::nothing;
+  std::string refusal = {};  // what is said where this study has not what it wants
 };
 struct KnownIntensity {
   std::string name;

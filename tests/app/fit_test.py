@@ -59,6 +59,13 @@ class Fit(InFolder):
             self.assertEqual(sorted({(float(r["im"]), float(r["im_lower"]), float(r["im_upper"])) for r in rows}),
                              sorted(zip(centre, edge[:-1], edge[1:])))
 
+    def test_run_tells_what_its_fit_warns_of(self):
+        failing = self.write("study.yaml", study_text(samples=300) + 'effects: [{name: dead, force: "sqrt(3 - t - 10*speed)"}]\n')
+        told = self.succeed(["run", failing, "-o", self.folder / "out"]).stdout
+        warning = next(line for line in told.splitlines() if line.startswith("warning: "))
+        self.assertRegex(warning, r"of 300 samples ended as not_finite .* \(\d+ more in .*out/summary.json\)")
+        self.assertIn(warning, self.succeed(["fit", self.folder / "out"]).stdout)
+
     def test_times_are_told_by_phase_and_in_total(self):
         self.sweep()
         self.assertRegex(self.done.stdout, r"2000 samples in .* on 2 ranks: motions and spectra .*, sweep .* \(\d+ samples/s\), accuracy check .*, "

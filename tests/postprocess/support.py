@@ -1,7 +1,10 @@
 """What the tests of postprocess share: the packages (or a skip that says so), invented results, and the two programs."""
 import contextlib
+import html
 import io
+import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -26,6 +29,34 @@ from freestand_post import command  # noqa: E402
 
 _kept = tempfile.TemporaryDirectory()
 _made = {}
+
+# In each window: the tables that scroll in their place, by their first head; and what else is wider than it, with text of
+# pictures (groups of paths, which have the id of their text) that lies beyond the picture's edge.
+MEASURE = """<script>onload = () => { document.title = JSON.stringify([...document.querySelectorAll('iframe')].map((frame) => {
+  const page = frame.contentDocument;
+  page.querySelectorAll('details').forEach((d) => { d.open = true; });
+  const wider = (what) => [...page.querySelectorAll(what)].filter((e) => e.scrollWidth > e.clientWidth + 1);
+  const beyond = (text, edge) => text.width > 0 && (text.left < edge.left - 1 || text.right > edge.right + 1 || text.top < edge.top - 1 ||
+                                                    text.bottom > edge.bottom + 1);
+  const cut = [...page.querySelectorAll('svg')].flatMap((svg) => [...svg.querySelectorAll('text, g[id*=text_]')].filter(
+    (text) => beyond(text.getBoundingClientRect(), svg.getBoundingClientRect())));
+  return [frame.contentWindow.innerWidth, wider('.wide').map((e) => e.querySelector('th').textContent),
+          [...wider('html, .picture'), ...cut].map((e) => e.id || e.tagName)];
+})); };</script>"""
+
+
+def cut_off(test, text):
+    """{width: (tables that scroll, what is cut off)} of the page in windows as wide as a laptop and a telephone. Skips without a browser."""
+    browser = shutil.which("chromium") or shutil.which("google-chrome")
+    if not browser:
+        test.skipTest("no chromium is installed")
+    frames = "".join(f'<iframe style="border: 0; width: {width}px; height: 900px" srcdoc="{html.escape(text)}"></iframe>' for width in (1300, 420))
+    page = pathlib.Path(_kept.name) / "frames.html"
+    page.write_text(f"<title></title>{frames}{MEASURE}", encoding="utf-8")
+    shown = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--window-size=1400,1000", "--dump-dom", page.as_uri()],
+                           capture_output=True, text=True, timeout=200).stdout
+    title = html.unescape(re.search("<title>(.*?)</title>", shown, re.S).group(1))
+    return {width: (tables, cut) for width, tables, cut in json.loads(title)}
 
 
 def sweep():

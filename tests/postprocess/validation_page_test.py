@@ -96,6 +96,7 @@ class ThePage(Temporary):
             for row in re.findall(r"<tr.*?</tr>", body, re.S):
                 self.assertRegex(row, r"<tr[^>]*><td class=\"text\">")
                 self.assertEqual(row.count("<td"), row.count("data-label=") + 1, row)
+        self.assertEqual(support.cut_off(self, text), {1300: ([], []), 420: ([], [])})
 
     def test_peaks_and_outcomes(self):
         page, _ = self.page(make.peaks(self.folder / "peaks"))

@@ -88,6 +88,9 @@ TEST(Accuracy, ALooseToleranceFlipsOutcomesAndSaysSo) {
   EXPECT_THAT(accuracy_warnings(json), testing::Contains(HasSubstr("lower `tolerance`")));
   EXPECT_TRUE(accuracy_warnings(accuracy_json(checked(slender(""), 200))).empty());
   EXPECT_TRUE(accuracy_warnings(nlohmann::ordered_json::object()).empty());
+  EXPECT_THAT(accuracy_warnings({{"edps", {{"impacts", {{"unit", "1"}, {"p95_error", 2}, {"median_demand", 8}}}}},
+                                 {"flip_share", 0}}),
+              testing::ElementsAre(HasSubstr("changes by more than 2 under")));
 }
 
 }  // namespace

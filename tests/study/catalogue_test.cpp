@@ -179,6 +179,21 @@ TEST_F(CatalogueTest, MistakesOfTheFileAreToldByTheirLine) {
   EXPECT_EQ(std::count(both.begin(), both.end(), '\n'), 1) << both;
 }
 
+TEST_F(CatalogueTest, DemandsThatAnEntryCannotHaveAreToldAtIt) {
+  std::string asked = common;
+  asked.replace(asked.find("overturned"), 10, "connection_failed");
+  const std::string chained =
+      "entries:\n"
+      "  - {id: a, class: x, block: {width_m: 1, height_m: 2, mass_kg: 90}, friction: {mu: 0.2}, "
+      "chain: {stiffness_npm: 1e4, strength_n: 200}}\n";
+  EXPECT_EQ(read(asked + chained).entries.size(), 1U);
+  EXPECT_THAT(
+      refusal(asked + chained + "  - {id: b, class: x, block: {width_m: 1, height_m: 2}, friction: {mu: 0.2}}\n"),
+      HasSubstr("some.yaml:7: fragility.edp: connection_failed would be 0"));
+  write("t.csv", "id,class,width_m,height_m,mu\nb,x,1,2,0.2\n");
+  EXPECT_THAT(refusal(asked + "table: t.csv\n"), HasSubstr("t.csv:2: fragility.edp: connection_failed would be 0"));
+}
+
 TEST_F(CatalogueTest, ClassesAreAClosedListWhereTheyAreListed) {
   EXPECT_THAT(refusal(common + "classes: [refrigerator]\n" + two),
               AllOf(HasSubstr("class server rack is not among `classes`"), HasSubstr("some.yaml:8: ")));

@@ -62,6 +62,25 @@ TEST(Doubts, RecordsInAnotherUnit) {
   EXPECT_THAT(doubts(study, set(5, 9)), testing::Contains(HasSubstr("the time step of some.csv is 5 s")));
 }
 
+// Friction that falls below zero somewhere that the block may never reach.
+TEST(Doubts, FrictionBelowZeroWhereABlockMayCome) {
+  const auto with = [](const std::string& law) {
+    return doubts(parse(block + friction + motions + rest + "effects: [{name: patch, friction: \"" + law +
+                        "\", parameters: {a: {uniform: [0.5, 1.5]}}}]\n"));
+  };
+  EXPECT_THAT(with("mu*(1 - a*exp(-u^2))/(1 + a)"), IsEmpty());
+  EXPECT_THAT(
+      with("mu*(1 - 2*a*u)"),
+      ElementsAre("friction of effect patch is -0.25 at u = 1 m, and pushes the block on there: is it ever there? "
+                  "max(0, ...) keeps it from that"));
+  EXPECT_THAT(with("mu*(a - 0.2*sigma*v^2)"), IsEmpty());
+  EXPECT_THAT(with("mu*(a - 0.3*speed^2)"), ElementsAre(HasSubstr("is -0.05 at v = 2 m/s,")));
+  EXPECT_THAT(with("mu*(a + 0.3*v)*(a - 20*theta^2)"), IsEmpty());
+  EXPECT_THAT(with("mu*(a + 11*theta)"), ElementsAre(HasSubstr("at theta = -0.1 rad,")));
+  EXPECT_THAT(with("mu*(a - 0.1*t)"), ElementsAre(HasSubstr("at t = 20 s,")));
+  EXPECT_THAT(with("mu*(a - 2*path)"), ElementsAre(HasSubstr("at path = 1 m,")));
+}
+
 // A wall stands behind every chain; where nobody says how far away it is, the block is told to touch it.
 TEST(Doubts, TheWallBehindAChain) {
   const auto chained = [](const std::string& more) {

@@ -158,6 +158,7 @@ TEST_F(Changes, MistakesAreToldAsInAStudy) {
   EXPECT_THAT(refused({.bins = "1,0.5"}), HasSubstr("does not increase"));
   EXPECT_THAT(refused({.bins = "{count: 5"}), HasSubstr("--bins {count: 5 cannot be read"));
   EXPECT_THAT(refused({.edp = {"slip"}}), HasSubstr("demand parameter slip is not known"));
+  EXPECT_THAT(refused({.edp = {"wall_hit"}}), HasSubstr("command line: fragility.edp: wall_hit would be 0"));
   EXPECT_THAT(refused({.capacities = {"0.1,0.2"}}), HasSubstr("names no demand"));
   EXPECT_THAT(refused({.capacities = {"peak_slip_m=0.1"}}), HasSubstr("peak_slip_m"));
 }

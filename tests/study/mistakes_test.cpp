@@ -113,6 +113,15 @@ TEST(StudyMistakes, InFrictionModelImpactAndEffects) {
        "friction of effect seam is infinite at u = 0 m, v = 0 m/s"},
       {sound + "effects:\n  - {name: seam, force: \"log(-1 - speed)\"}\n", "7", "force of effect seam is no number"},
       {sound + "effects:\n  - {name: seam, friction: \"-mu\"}\n", "7", "below zero it would push the block on"},
+      {sound + "effects:\n  - {name: seam, friction: \"mu*sqrt(0.5 - t)\"}\n", "7",
+       "is no number at u = 0.01 m, v = 0.2 m/s, t = 1 s"},
+      {sound + "model: rock\neffects:\n  - {name: wall_impact, gap_m: 0.1}\n", "8",
+       "the only wall there is the one behind a chain"},
+      {sound + "effects:\n  - {name: wall_impact, gap_m: 0.1}\n  - {name: wall_impact, gap_m: -0.1}\n", "8",
+       "the wall behind a chain, chain.wall_gap_m, may be a second one"},
+      {sound + "model: bouc_wen\nbouc_wen: {yield_displacement_m: 0.001, exponent: 2}\n"
+               "chain: {stiffness_npm: 1e4, strength_n: 2736, wall_gap_m: 0.1}\n",
+       "8", "chain.wall_gap_m does not go with model bouc_wen"},
       {sound + "effects: vertical_shaking\n", "6", "effects is no list"},
       {sound + "effects:\n  - {name: rate_weakning, drop: 0.4}\n", "7", "did you mean rate_weakening?"},
       {sound + "effects:\n  - {name: rate_weakening, drop: 0.4}\n", "7", "effects[0].speed_mps is missing"},
@@ -334,12 +343,32 @@ TEST(StudyMistakes, AllAreReportedAtOnceWithTheirLines) {
   EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), 7) << found;
 }
 
-TEST(StudyMistakes, SlipBySideComesWithItsKey) {
-  for (const char* asked : {"edp: [peak_slip_right_m]", "edp: [delta], damage: {hits: \"peak_slip_right_m > 0.05\"}"}) {
-    const std::string text = block + friction + samples + motions + "fragility: {" + asked + "}\n";
-    EXPECT_THAT(problems(text), HasSubstr("some.yaml:5: peak_slip_right_m is followed only where the study says so"));
-    EXPECT_EQ(problems("slip_by_side: true\n" + text), "");
+// Else they would be 0 for every sample, within a narrow band.
+TEST(StudyMistakes, DemandsComeWithWhatMakesThem) {
+  const std::string wall = "effects: [{name: wall_impact, gap_m: 0.1}]\n",
+                    chain = "chain: {stiffness_npm: 1e4, strength_n: 2736}\n";
+  struct Demand {
+    std::string name, condition, says;
+    std::vector<std::string> made_by;
+  };
+  for (const Demand& demand :
+       {Demand{"peak_slip_right_m", "peak_slip_right_m > 0.05", "followed only where", {"slip_by_side: true\n"}},
+        Demand{"wall_hit", "wall_hit", "0 for every sample (no wall stands in this study)", {wall, chain}},
+        Demand{"connection_failed", "connection_failed", "0 for every sample (no chain holds", {chain}}}) {
+    const std::string sound = block + friction + samples + motions + "fragility:\n  im: report\n  edp: [delta";
+    const std::string named = sound + ", " + demand.name + "]\n",
+                      in_damage = sound + "]\n  damage: {hits: \"" + demand.condition + "\"}\n";
+    EXPECT_THAT(problems(named), HasSubstr("some.yaml:7: fragility.edp: " + demand.name + " "));
+    EXPECT_THAT(problems(in_damage), HasSubstr("some.yaml:8: damage state hits: " + demand.name + " "));
+    for (const std::string& text : {named, in_damage}) {
+      EXPECT_THAT(problems(text), HasSubstr(demand.says));
+      for (const std::string& made : demand.made_by) EXPECT_EQ(problems(made + text), "");
+    }
   }
+  EXPECT_THAT(
+      problems(block + friction + samples + motions + chain +
+               "model: bouc_wen\nbouc_wen: {yield_displacement_m: 0.001, exponent: 2}\nfragility: {edp: [wall_hit]}\n"),
+      HasSubstr("no wall stands in this study"));
 }
 
 TEST(CaseMistakes, ACaseIsOneSample) {

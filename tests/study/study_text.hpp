@@ -12,7 +12,9 @@ inline Known known() {
   return {.edps = {{"delta", false, {0.5, 1, 2}},
                    {"overturned", true, {}},
                    {"peak_slip_m", false, {}},
-                   {"peak_slip_right_m", false, {0.1}, false, 0, true}},
+                   {"peak_slip_right_m", false, {0.1}, false, 0, edp::Wants::sides},
+                   {"wall_hit", true, {}, false, 0, edp::Wants::wall},
+                   {"connection_failed", true, {}, false, 0, edp::Wants::chain}},
           .intensities = {{"report", "", 0}, {"pta_g", "", 0}, {"sa_g", "period_s", 1.0}}};
 }
 
