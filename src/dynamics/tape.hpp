@@ -67,9 +67,9 @@ struct Node {
   std::int16_t kink;  // on whose sides it differs; -1: none
 };
 
-// A root or a power of less than this is taken for a straight line, on either side of zero: integration knows lengths, speeds and
-// angles of order one to about that, and from exactly zero no such series starts.
-inline constexpr double zero_of_roots = 1e-10;
+// Roots and powers of less than this are taken for a straight line, on either side of zero, from where no series of them starts.
+// It is many times what a step may miss in a speed (1e-9 times p and the block's size): such a speed has a sign.
+inline constexpr double zero_of_roots = 1e-7;
 
 class Tape;
 
