@@ -225,7 +225,7 @@ Database assemble(const Catalogue& catalogue, const Plan& plan, const Database& 
   for (const database::Entry& entry : db.entries)
     if (std::find(db.classes.begin(), db.classes.end(), entry.equipment) == db.classes.end())
       db.classes.push_back(entry.equipment);
-  db.demands = demand_words(db.curves);
+  db.demands = demand_words(db);
   db.intensities = intensity_words(db.curves);
   return db;
 }

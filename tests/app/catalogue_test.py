@@ -146,6 +146,26 @@ class Catalogue(InFolder):
         self.ask("--id", "fridge", "--im", "sa_g:0.5=0.6", "--demand", "overturned")
         self.fail_with(2, ["catalogue", self.write("bad.yaml", text.replace("pgv_mps", "pgw_mps")), "-o", self.folder / "db"], "bad.yaml:7", "did you mean pgv_mps?")
 
+    def test_damage_states_and_drawn_capacities_are_demands_of_the_database(self):
+        text = (HEAD + FRIDGE).replace("[0.05, 0.2]", "[0.05, {lognormal: {median: 0.1, dispersion: 0.3}}]")
+        text = text.replace("resamples: 20}", "resamples: 20, damage: {blocked_door: 'residual_slip_m > 0.08 or overturned'}}").replace("peak_slip_m, overturned]", "peak_slip_m, residual_slip_m, overturned]")
+        command = lambda text: ["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"]
+        self.succeed(command(text))
+        words = json.loads((self.folder / "db" / "words.json").read_text())["demands"]
+        self.assertEqual(words["blocked_door"]["unit"], "1")
+        self.assertEqual(words["blocked_door"]["summary"], "residual_slip_m > 0.08 or overturned")
+        drawn = words["peak_slip_m_over_capacity_1"]["summary"]
+        self.assertIn("peak_slip_m > capacity", drawn)
+        self.assertIn("lognormal: {median: 0.1, dispersion: 0.3}", drawn)
+        for demand in ("blocked_door", "peak_slip_m_over_capacity_1"):
+            answer = self.ask("--id", "fridge", "--im", "pga_g=0.6", "--demand", demand)["answers"][0]
+            self.assertTrue(0 <= answer["lower"][0] <= answer["probability"][0] <= answer["upper"][0] <= 1)
+        # Entries that a later revision does not name keep the words of their states; one name for two conditions tells both.
+        self.succeed(command(text.replace(FRIDGE, RACK).replace("0.08", "0.12")))
+        self.assertEqual(json.loads((self.folder / "db" / "words.json").read_text())["demands"]["blocked_door"]["summary"],
+                         "residual_slip_m > 0.08 or overturned (fridge); residual_slip_m > 0.12 or overturned (rack)")
+        self.assertIn("blocked_door", self.succeed(["query", self.folder / "db"]).stdout)
+
     def test_every_entry_is_exported_into_a_file_of_its_name(self):
         self.build(FRIDGE + RACK)
         db, ids = self.folder / "db", sorted(path.name for path in (self.folder / "db" / "entries").iterdir())
