@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "edp/edp.hpp"
+#include "fragility/fragility_function.hpp"
 #include "intensity/intensity.hpp"
 #include "sampling/distribution.hpp"
 #include "study/study.hpp"
@@ -43,7 +44,9 @@ void take_function(const fragility::FragilityFunction& function, Curve& curve) {
   curve.misfit_im = function.misfit_im;
   curve.misfit_p = function.misfit_p;
   curve.off_by = function.off_by;
-  if (function.adequate && std::isfinite(function.median)) curve.family = database::lognormal_family;
+  if (!std::isfinite(function.median)) return;
+  if (function.adequate) curve.family = database::lognormal_family;
+  if (not_refuted(function)) curve.family = database::not_refuted_family;
 }
 
 template <class Find>
