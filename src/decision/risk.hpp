@@ -63,7 +63,8 @@ inline constexpr double outside_to_warn_of = 0.05, outside_to_refuse = 0.5;
 
 // Every demand and capacity of the result. The fitted function is recommended where it is adequate (FragilityFunction) and its rate is that
 // of the counts, as far as leaving motions out of both can tell; the counts elsewhere. "Adequate" is a difference of probabilities: where
-// these stay small it says nothing of a rate. The hazard must be over the result's intensity. Throws Error (Exit::usage) where sweep and hazard curve share no intensity.
+// these stay small it says nothing of a rate. The hazard must be over the result's intensity. Throws Error (Exit::usage) where sweep and hazard
+// curve share no intensity.
 Risk risk(const fragility::Result&, const HazardCurve&);
 
 // "peak_slip_m > 0.1 m", "overturned"
