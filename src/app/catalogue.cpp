@@ -9,6 +9,7 @@
 #include "io/database_file.hpp"
 #include "parallel/progress.hpp"
 #include "study/build_catalogue.hpp"
+#include "study/export.hpp"
 #include "study/known.hpp"
 
 namespace freestand::app {
@@ -29,6 +30,13 @@ void show(const study::Catalogue& catalogue) {
                entry.words.mu_k, entry.words.width_m, entry.words.height_m, entry.study.samples, entry.place);
 }
 
+// What cannot be exported stops no database.
+void tell(const study::DatabaseExport& done, bool quiet) {
+  if (quiet) return;
+  fmt::print("{} entries over {} in {}\n", done.entries.size(), done.im, done.output.string());
+  for (const std::string& refused : done.refused) fmt::print("  not exported: {}\n", refused);
+}
+
 Exit build(const Context& context, const CatalogueOptions& options) {
   const study::Known known = study::registries();
   context.world.on_root([&] { study::read_catalogue(options.catalogue, known); });
@@ -47,6 +55,10 @@ Exit build(const Context& context, const CatalogueOptions& options) {
                                short_duration(summary.wall_s), context.world.size(),
                                context.world.size() == 1 ? "rank" : "ranks", options.folder),
                    stdout);
+  context.world.on_root([&] {
+    for (const study::DatabaseExport& done : study::export_beside(options.folder, catalogue.exports))
+      tell(done, options.quiet);
+  });
   return Exit::done;
 }
 

@@ -42,11 +42,17 @@ void tell(const study::DatabaseExport& done, const study::ExportRequest& request
     for (const exports::LimitState& state : summary.model.states)
       states.push_back(fmt::format("{} {}", state.name, exports::name(state.curve.form)));
     fmt::print("{}: {}\n", id, fmt::join(states, ", "));
+    for (const std::string& note : summary.model.notes)
+      if (note.find("never happened") != std::string::npos) fmt::print("  * {}\n", note);
     difference = std::max(difference, summary.difference);
   }
+  if (!done.other_ims.empty())
+    fmt::print("over {}, one of {} intensities (--im takes {} too)\n", done.im, done.other_ims.size() + 1,
+               fmt::join(done.other_ims, ", "));
   if (!done.entries.empty())
     fmt::print("{} entries in {}, read back as {} reads them: probabilities within {:.1e} of freestand's\n",
-               done.entries.size(), request.output.string(), request.format, difference);
+               done.entries.size(), done.files.empty() ? request.output.string() : done.files.front().string(),
+               request.format, difference);
   if (!done.refused.empty())
     throw Error(fmt::format("{} of {} entries are not exported:\n{}", done.refused.size(),
                             done.refused.size() + done.entries.size(), fmt::join(done.refused, "\n")),
@@ -75,12 +81,14 @@ void add_export(CLI::App& parser, Work& work) {
   study::ExportRequest& request = options->request;
   CLI::App* verb = parser.add_subcommand("export", "fragility in a format that others load, with certificate.json");
   verb->add_option("folder", request.folder,
-                   "folder of results (with fragility.h5), or a database of a catalogue: all its entries")
+                   "folder of results (with fragility.h5), or a database of a catalogue: all its entries, in one file "
+                   "where the format "
+                   "has that")
       ->required();
-  verb->add_option("--format", request.format, "one of:" + formats_text())->required();
+  verb->add_option("--format,--to", request.format, "one of:" + formats_text())->required();
   verb->add_option("-o,--output", request.output, "file, or folder")->required();
   verb->add_option(
-          "--limit-state", request.what.states,
+          "--limit-state,--demand", request.what.states,
           "DEMAND:CAPACITY, or DEMAND for all its capacities, each with =NAME behind it if wanted; least severe "
           "first; repeat it (usual: the first demand with capacities, then overturned)")
       ->allow_extra_args(false);
@@ -95,6 +103,10 @@ void add_export(CLI::App& parser, Work& work) {
                    "OpenQuake's assetCategory, IN-CORE's inventory type");
   verb->add_option("--loss-category", request.what.loss_category, "OpenQuake's lossCategory (usual: contents)");
   verb->add_option("--mu", request.mu, "turns the intensity of the report into PTA, where all samples have this mu");
+  verb->add_option("--period", request.period_s,
+                   "period in s of record.sa_g, which the table of records does not tell");
+  verb->add_option("--im", request.im, "intensity of a database that has several, as sa_g:0.5 (usual: its first one)");
+  verb->add_flag("--each", request.each, "of a database: a file of its own for each entry, named by its id");
   verb->add_flag("--skip-empty", request.what.skip_empty, "leave out bins with too few samples");
   verb->add_flag("--overwrite", request.overwrite, "replace files that freestand exported before");
   verb->callback(

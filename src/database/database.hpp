@@ -19,9 +19,11 @@ struct Word {
   bool binary = false;  // a demand that happens or not, and takes no capacity
 };
 
-// How a curve is to be read: by its lognormal, where that is off by little, or by its points.
+// How a curve is to be read: by its lognormal, where off_by is small; by its points, where that is not so, or where a lognormal is merely
+// not refuted: too few motions tell whether it is off by little.
 inline constexpr const char* lognormal_family = "lognormal";
 inline constexpr const char* points_family = "points";
+inline constexpr const char* not_refuted_family = "not_refuted";
 
 // One piece of equipment on one floor. Its numbers are what was given, or the median where that is a distribution.
 struct Entry {

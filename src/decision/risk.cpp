@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <freestand/error.hpp>
-#include <numeric>
 
 #include "decision/annual_rate.hpp"
-#include "fragility/intervals.hpp"
+#include "decision/by_counts.hpp"
 #include "fragility/jackknife.hpp"
 
 namespace freestand::decision {
@@ -38,111 +37,6 @@ struct ByFunction {
   }
 };
 
-// The band of a rate: by leaving out groups of motions; where one of them makes all of it, or none can be left out, from resampled motions.
-Rate banded(double value, const std::vector<double>& left_out, const std::vector<double>& resampled,
-            const Result& result) {
-  const auto border = left_out.begin() + std::min<std::ptrdiff_t>(result.left_out_records, std::ssize(left_out));
-  fragility::Interval band = fragility::jackknife_of_positive(
-      value, {{left_out.begin(), border}, {border, left_out.end()}}, result.confidence);
-  if (std::isnan(band.lower))
-    band = fragility::percentile_interval(resampled, value, result.confidence, result.motions);
-  return {value, band.lower, band.upper};
-}
-
-// The same of the counted shares of the bins: P from one bin's mean to the next, the last bin's share above the sweep, nothing below it.
-class ByCounts {
- public:
-  ByCounts(const HazardCurve& hazard, const Result& result, const EdpResult& edp, std::size_t c, const Range& swept)
-      : hazard_(hazard) {
-    const std::size_t capacities = edp.capacity.size();
-    for (std::size_t i = 0; i < result.im.size(); ++i) {
-      const double p = edp.surface.probability[i * capacities + c];
-      if (!std::isfinite(p) || !(result.im[i] > 0)) continue;
-      at_.push_back(i * capacities + c);
-      table_.im.push_back(result.im[i]);
-      table_.probability.push_back(p);
-    }
-    table_.known = {swept.from, std::numeric_limits<double>::infinity()};
-  }
-
-  bool empty() const { return table_.im.empty(); }
-
-  std::vector<double> weights(const Range& range = {}) const {
-    std::vector<double> weight = rate_weights(hazard_, table_, range);
-    if (!(range.to > hazard_.last())) return weight;
-    const auto next = static_cast<std::size_t>(std::upper_bound(table_.im.begin(), table_.im.end(), hazard_.last()) -
-                                               table_.im.begin());
-    const std::size_t low = next == 0 ? 0 : next - 1, high = std::min(next, table_.im.size() - 1);
-    const double share =
-        low == high ? 0 : std::log(hazard_.last() / table_.im[low]) / std::log(table_.im[high] / table_.im[low]);
-    weight[low] += (1 - share) * hazard_.annual_rate.back();
-    weight[high] += share * hazard_.annual_rate.back();
-    return weight;
-  }
-
-  double rate(const std::vector<double>& weight) const {
-    return std::inner_product(weight.begin(), weight.end(), table_.probability.begin(), 0.0);
-  }
-
-  // Rows that no resample changes (nothing above was counted, say) are known to their own bands, which hold the exact binomial limits;
-  // what these allow adds as independent errors do.
-  Rate banded(const Result& result, const EdpResult& edp) {
-    const std::vector<double> weight = weights();
-    const std::vector<double> resampled = rates(weight, edp.surface.resampled, edp),
-                              left_out = rates(weight, edp.surface.left_out, edp);
-    double below = 0, above = 0;
-    for (std::size_t i = 0; i < at_.size(); ++i) {
-      if (!same(i, edp.surface.resampled, edp)) continue;
-      const fragility::Interval limits = rising_limits(i, edp);
-      below += std::pow(weight[i] * (table_.probability[i] - limits.lower), 2);
-      above += std::pow(weight[i] * (limits.upper - table_.probability[i]), 2);
-    }
-    Rate found = decision::banded(rate(weight), left_out, resampled, result);
-    if (std::isnan(found.lower)) return found;
-    found.lower = std::max(0.0, found.lower - std::sqrt(below));
-    found.upper = std::min(hazard_.annual_rate.front(), found.upper + std::sqrt(above));
-    return found;
-  }
-
-  double at_end() const { return table_.probability.back(); }
-  bool bounded_by_others() const { return bounded_by_others_; }
-
- private:
-  // Of a row in which nothing was counted: its upper limit, or that of a row at a higher intensity where it is less. Of one in which all
-  // was counted the lower limit alike.
-  fragility::Interval rising_limits(std::size_t i, const EdpResult& edp) {
-    const double own_lower = edp.surface.lower[at_[i]], own_upper = edp.surface.upper[at_[i]];
-    fragility::Interval limits{own_lower, own_upper};
-    if (table_.probability[i] == 0)
-      for (std::size_t j = i; j < at_.size(); ++j) limits.upper = std::min(limits.upper, edp.surface.upper[at_[j]]);
-    if (table_.probability[i] == 1)
-      for (std::size_t j = 0; j <= i; ++j) limits.lower = std::max(limits.lower, edp.surface.lower[at_[j]]);
-    bounded_by_others_ = bounded_by_others_ || limits.lower > own_lower || limits.upper < own_upper;
-    return limits;
-  }
-
-  // Of each resample, or of each group left out: `again` is [of them, im, capacity].
-  std::vector<double> rates(const std::vector<double>& weight, const std::vector<double>& again,
-                            const EdpResult& edp) const {
-    const std::size_t size = edp.surface.probability.size();
-    std::vector<double> found(size == 0 ? 0 : again.size() / size, 0);
-    for (std::size_t r = 0; r < found.size(); ++r)
-      for (std::size_t i = 0; i < at_.size(); ++i) found[r] += weight[i] * again[r * size + at_[i]];
-    return found;
-  }
-  bool same(std::size_t i, const std::vector<double>& again, const EdpResult& edp) const {
-    const std::size_t size = edp.surface.probability.size();
-    for (std::size_t at = at_[i]; at < again.size(); at += size)
-      if (again[at] != table_.probability[i]) return false;
-    return true;
-  }
-
-  const HazardCurve& hazard_;
-  TabulatedFragility table_;
-  std::vector<std::size_t> at_;  // points of the surface
-  bool bounded_by_others_ = false;
-};
-
 // Motions of which nothing exceeded have no curve: they count as no rate.
 Rate banded(const Result& result, const FragilityFunction& f, const ByFunction& by) {
   const auto rates = [&](const std::vector<double>& median, const std::vector<double>& dispersion) {
@@ -153,8 +47,8 @@ Rate banded(const Result& result, const FragilityFunction& f, const ByFunction& 
     }
     return found;
   };
-  return banded(by.rate({f.median, f.dispersion}), rates(f.left_out_median, f.left_out_dispersion),
-                rates(f.resampled_median, f.resampled_dispersion), result);
+  return decision::banded(by.rate({f.median, f.dispersion}), rates(f.left_out_median, f.left_out_dispersion),
+                          rates(f.resampled_median, f.resampled_dispersion), result);
 }
 
 // One demand and one capacity.
@@ -176,7 +70,7 @@ class Row {
 
   RiskRow operator()() {
     row_.by_function = banded(result_, f_, function_);
-    if (!counts_.empty()) row_.by_counts = counts_.banded(result_, edp_);
+    if (!counts_.empty()) row_.by_counts = counts_.banded();
     recommend();
     outside();
     if (row_.refused.empty() && row_.rate().value > 0) split();
@@ -186,19 +80,48 @@ class Row {
  private:
   LognormalFragility fragility() const { return {f_.median, f_.dispersion}; }
 
+  // Does the curve give the rate that was counted? The difference of the two, both over the bins, is chance by leaving out motions from
+  // both, or a twentieth, which does not reach the first of the two digits that a rate is told in.
+  bool rates_agree() const {
+    if (counts_.empty()) return true;
+    const double counted = row_.by_counts.value, curve = counts_.rate_of(fragility());
+    if (std::fabs(counted - curve) <= outside_to_warn_of * counted) return true;
+    std::vector<double> difference = counts_.rates_left_out();
+    if (difference.size() != f_.left_out_median.size()) return false;
+    bool positive = counted > 0 && curve > 0;
+    std::vector<double> ratio;
+    for (std::size_t g = 0; g < difference.size(); ++g) {
+      const double rate = counts_.rate_of({f_.left_out_median[g], f_.left_out_dispersion[g]});
+      ratio.push_back(std::log(difference[g] / rate));
+      positive = positive && std::isfinite(ratio.back());
+      difference[g] -= std::isfinite(rate) ? rate : 0;
+    }
+    const fragility::Estimate found =
+        positive ? fragility::jackknife(std::log(counted / curve), by_stratum(ratio, result_), result_.confidence)
+                 : fragility::jackknife(counted - curve, by_stratum(difference, result_), result_.confidence);
+    return found.lower <= 0 && found.upper >= 0;
+  }
+
   void recommend() {
     const bool function = std::isfinite(row_.by_function.value), counts = std::isfinite(row_.by_counts.value);
-    row_.recommended = function && (f_.adequate || !counts) ? By::function : By::counts;
+    const bool agree = function && f_.adequate && rates_agree();
+    row_.recommended = function && (agree || !counts) ? By::function : By::counts;
     if (!function && !counts)
       row_.refused = "no bin has enough samples, and no curve could be fitted";
     else if (!function)
       row_.why = "no curve could be fitted (nothing exceeds, everything does, or it does not grow with the intensity)";
-    else if (f_.adequate)
-      row_.why = fmt::format("the fitted curve is adequate: off the counted shares by at most {:.2g}", f_.off_by);
-    else if (counts)
-      row_.why = fmt::format("the fitted curve is off the counted shares by up to {:.2g}", f_.off_by);
-    else
+    else if (agree)
+      row_.why = fmt::format(
+          "the fitted curve is adequate: off the counted shares by at most {:.2g}, and its rate is theirs", f_.off_by);
+    else if (!counts)
       row_.why = "no bin has enough samples";
+    else if (f_.adequate) {
+      row_.why = fmt::format(
+          "the fitted curve is off the counted shares by at most {:.2g}, but its rate is not that of the counts",
+          f_.off_by);
+      row_.rates_differ = true;
+    } else
+      row_.why = fmt::format("the fitted curve may be off the counted shares by up to {:.2g}", f_.off_by);
     if (row_.recommended == By::counts && counts_.bounded_by_others())
       row_.why +=
           "; where no sample exceeds it the upper limit of P is the least of those there and at higher intensities "
@@ -208,7 +131,7 @@ class Row {
 
   void outside() {
     const double rate = row_.rate().value, end = hazard_.annual_rate.back();
-    const bool function = std::isfinite(row_.by_function.value);
+    const bool function = row_.recommended == By::function;
     if (!(rate > 0)) return;
     const double start = std::min(hazard_.first(), risk_.im_least) / 100;
     const HazardCurve longer = begun_earlier(hazard_, start);
@@ -219,10 +142,11 @@ class Row {
       if (hazard_.last() > risk_.im_most) beyond += function_.rate(fragility(), {risk_.im_most, Range{}.to});
       missing = annual_rate(longer, fragility(), before) + end * (1 - fragility()(hazard_.last()));
     } else {
-      beyond = hazard_.last() > risk_.im_most ? hazard_.rate(risk_.im_most) * (1 - counts_.at_end()) : 0;
-      missing = end * (1 - counts_.at_end());
+      beyond = counts_.rate_below(hazard_, {0, risk_.im_least});
+      if (hazard_.last() > risk_.im_most) beyond += hazard_.rate(risk_.im_most) * (1 - counts_.at_end());
+      missing = counts_.rate_below(longer, before) + end * (1 - counts_.at_end());
     }
-    row_.outside_sweep = beyond / (row_.recommended == By::function ? rate : rate + beyond);
+    row_.outside_sweep = beyond / (function ? rate : rate + beyond);
     row_.outside_hazard = missing / (rate + missing);
     for (const auto& [share, what] : {std::pair(row_.outside_sweep, "outside of the sweep"),
                                       std::pair(row_.outside_hazard, "outside of the hazard curve")})
@@ -299,6 +223,12 @@ Risk risk(const Result& result, const HazardCurve& hazard) {
       found.warnings.push_back(fmt::format(
           "{}: no sample exceeds it; as far as the sweep reaches, up to {:.3g} {}, the rate is at most {:.2g} a year",
           title(row), found.im_most, found.im_unit, row.rate().upper));
+  for (const RiskRow& row : found.rows)
+    if (row.rates_differ && row.refused.empty())
+      found.warnings.push_back(
+          fmt::format("{}: the fitted curve is off by little in probability, but gives {:.2g} a year where the counts "
+                      "give {:.2g}, more than chance explains: the counts are taken",
+                      title(row), row.by_function.value, row.by_counts.value));
   warn(found, hazard, &RiskRow::outside_sweep,
        "much of the rate comes from a fragility that is extrapolated beyond the sweep");
   warn(found, hazard, &RiskRow::outside_hazard,

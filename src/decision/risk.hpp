@@ -36,7 +36,8 @@ struct RiskRow {
   double capacity = fragility::unknown;  // NaN: the demand is yes or no
   Rate by_function, by_counts;
   By recommended = By::function;
-  std::string why;  // the recommended one is
+  std::string why;            // the recommended one is
+  bool rates_differ = false;  // the function is adequate in probability, but its rate is not that of the counts
   // Of the rate: what extrapolated fragility gives for intensities outside of the sweep; what may come from intensities outside of the
   // hazard curve (above its end at most as many events as it has there; below its start by its slope there).
   double outside_sweep = fragility::unknown, outside_hazard = fragility::unknown;
@@ -60,8 +61,10 @@ struct Risk {
 // nothing was computed, it is warned of. If more than half may, most of the number would be a guess: it is refused.
 inline constexpr double outside_to_warn_of = 0.05, outside_to_refuse = 0.5;
 
-// Every demand and capacity of the result. The fitted function is recommended where it is adequate (FragilityFunction), the counts
-// elsewhere. The hazard must be over the result's intensity. Throws Error (Exit::usage) where sweep and hazard curve share no intensity.
+// Every demand and capacity of the result. The fitted function is recommended where it is adequate (FragilityFunction) and its rate is that
+// of the counts, as far as leaving motions out of both can tell; the counts elsewhere. "Adequate" is a difference of probabilities: where
+// these stay small it says nothing of a rate. The hazard must be over the result's intensity. Throws Error (Exit::usage) where sweep and hazard
+// curve share no intensity.
 Risk risk(const fragility::Result&, const HazardCurve&);
 
 // "peak_slip_m > 0.1 m", "overturned"

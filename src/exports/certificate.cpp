@@ -46,6 +46,7 @@ Json state_json(const Model& model, const LimitState& state, const Largest& larg
           {"dispersion_se", state.fitted.dispersion_se},
           {"lognormal_off_by", state.fitted.off_by},
           {"lognormal_adequate", state.fitted.adequate},
+          {"lognormal_not_refuted", state.fitted.not_refuted},
           {"largest_difference", largest.difference},
           {"at", largest.at},
           {"beyond_sweep_from", beyond_sweep_from(model, state.curve)},
@@ -56,9 +57,10 @@ Json state_json(const Model& model, const LimitState& state, const Largest& larg
 
 }  // namespace
 
-Certified certify(const Model& model, const Format& format, const std::filesystem::path& file) {
-  const ReadBack back = check_of(format.name).open(file, model.im);
-  Certified certified;
+namespace {
+
+Certified certified(const Model& model, const Format& format, const std::filesystem::path& file, const ReadBack& back) {
+  Certified found;
   Json states = Json::array();
   for (std::size_t s = 0; s < model.states.size(); ++s) {
     const LimitState& state = model.states[s];
@@ -73,26 +75,60 @@ Certified certify(const Model& model, const Format& format, const std::filesyste
       if (!(difference < largest.difference) || std::isnan(largest.at))
         largest = {std::isnan(difference) ? 1 : difference, im};
     }
-    certified.difference = std::max(certified.difference, largest.difference);
+    found.difference = std::max(found.difference, largest.difference);
     states.push_back(state_json(model, state, largest));
   }
-  certified.allowed = wanted_difference + back.rounds_by;
-  certified.json = {{"target", format.name},
-                    {"id", model.id},
-                    {"largest_difference", certified.difference},
-                    {"wanted_below", wanted_difference},
-                    {"rounding", back.rounding.empty() ? "none" : back.rounding},
-                    {"rounding_at_most", back.rounds_by},
-                    {"intensities", checked_intensities},
-                    {"im", model.im.name},
-                    {"im_unit", model.im.unit},
-                    {"unit_in_file", back.unit},
-                    {"bands_in_file", format.bands},
-                    {"im_from", intensities(model).front()},
-                    {"im_to", intensities(model).back()},
-                    {"limit_states", states},
-                    {"notes", model.notes}};
-  return certified;
+  found.allowed = wanted_difference + back.rounds_by;
+  found.json = {{"target", format.name},
+                {"id", model.id},
+                {"largest_difference", found.difference},
+                {"wanted_below", wanted_difference},
+                {"rounding", back.rounding.empty() ? "none" : back.rounding},
+                {"rounding_at_most", back.rounds_by},
+                {"intensities", checked_intensities},
+                {"im", model.im.name},
+                {"im_unit", model.im.unit},
+                {"unit_in_file", back.unit},
+                {"bands_in_file", format.bands},
+                {"im_from", intensities(model).front()},
+                {"im_to", intensities(model).back()},
+                {"limit_states", states},
+                {"notes", model.notes}};
+  return found;
+}
+
+}  // namespace
+
+Certified certify(const Model& model, const Format& format, const std::filesystem::path& file) {
+  return certified(model, format, file, check_of(format.name).open(file, model.im));
+}
+
+Certified certify(const Collection& all, const Format& format, const std::filesystem::path& file) {
+  Certified whole;
+  Json functions;
+  std::string rounding = "none";
+  double rounds_by = 0;
+  bool faulty = false;
+  for (const Model& model : all.models) {
+    const Certified one = certified(model, format, file, check_of(format.name).open_one(file, model.im, model.id));
+    functions[model.id] = one.json;
+    faulty = faulty || one.difference > one.allowed;
+    whole.difference = std::max(whole.difference, one.difference);
+    if (one.json["rounding"] != "none") rounding = one.json["rounding"];
+    rounds_by = std::max(rounds_by, one.allowed - wanted_difference);
+  }
+  whole.allowed = faulty ? 0 : wanted_difference + rounds_by;  // one that is off by more than its own is off
+  whole.json = {{"target", format.name},
+                {"id", all.id},
+                {"largest_difference", whole.difference},
+                {"wanted_below", wanted_difference},
+                {"rounding", rounding},
+                {"rounding_at_most", rounds_by},
+                {"im", all.models.front().im.name},
+                {"im_unit", all.models.front().im.unit},
+                {"bands_in_file", format.bands},
+                {"functions", functions}};
+  return whole;
 }
 
 }  // namespace freestand::exports

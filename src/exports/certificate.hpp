@@ -22,5 +22,7 @@ struct Certified {
 // Reads the written file back, evaluates the target's own formula at 50 intensities from near 0 to the highest swept.
 // Throws Error (Exit::data) where a rule of the target is broken.
 Certified certify(const Model&, const Format&, const std::filesystem::path& file);
+// The same of a file that holds many, each by its own id; "functions" has what is said of each.
+Certified certify(const Collection&, const Format&, const std::filesystem::path& file);
 
 }  // namespace freestand::exports

@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <regex>
+#include <set>
 #include <sstream>
 
 namespace freestand::exports {
@@ -179,15 +180,23 @@ Discrete discrete(const pugi::xml_node& function, const std::vector<std::string>
   return found;
 }
 
-ReadBack open(const std::filesystem::path& file, const Intensity& im) {
+// The function of that id, or the only one: id "".
+ReadBack open_one(const std::filesystem::path& file, const Intensity& im, const std::string& id) {
   pugi::xml_document document;
   require(static_cast<bool>(document.load_file(file.c_str())), file, "it is XML");
   const pugi::xml_node fragility = model(document, file, "fragilityModel");
-  const pugi::xml_node states = fragility.first_child().next_sibling(), function = states.next_sibling();
+  const pugi::xml_node states = fragility.first_child().next_sibling();
+  pugi::xml_node function = states.next_sibling();
   const std::vector<std::string> names = state_names(states, file);
-  require(std::strcmp(function.name(), "fragilityFunction") == 0 && *function.attribute("id").value() != '\0' &&
-              !function.next_sibling(),
-          file, "one fragilityFunction with an id stands behind limitStates");
+  std::set<std::string> ids;
+  for (pugi::xml_node one = function; one; one = one.next_sibling()) {
+    require(std::strcmp(one.name(), "fragilityFunction") == 0 && *one.attribute("id").value() != '\0' &&
+                ids.insert(one.attribute("id").value()).second,
+            file, "fragilityFunctions, each with an id of its own, stand behind limitStates");
+    if (id == one.attribute("id").value()) function = one;
+  }
+  require(id.empty() ? ids.size() == 1 : ids.contains(id), file,
+          id.empty() ? "it holds one function" : "it holds the function " + id);
   require(std::strcmp(function.first_child().name(), "imls") == 0, file, "imls are first in a function");
   const Unit unit = unit_of(function.first_child().attribute("imt").value(), im, file);
   ReadBack back{names, {}, unit.text, "", 0};
@@ -201,7 +210,9 @@ ReadBack open(const std::filesystem::path& file, const Intensity& im) {
   return back;
 }
 
-const RegisterCheck here{{.name = "openquake", .open = open}};
+ReadBack open(const std::filesystem::path& file, const Intensity& im) { return open_one(file, im, ""); }
+
+const RegisterCheck here{{.name = "openquake", .open = open, .open_one = open_one}};
 
 }  // namespace
 }  // namespace freestand::exports

@@ -42,8 +42,8 @@ double in_si(const std::string& unit) {
 }
 
 // The demand that an intensity of freestand is, and its unit in SI.
-void require_demand(const CsvTable& table, const Intensity& im, const std::filesystem::path& file) {
-  const std::string type = table.text(0, "Demand-Type"), unit = table.text(0, "Demand-Unit");
+void require_demand(const CsvTable& table, std::size_t row, const Intensity& im, const std::filesystem::path& file) {
+  const std::string type = table.text(row, "Demand-Type"), unit = table.text(row, "Demand-Unit");
   const bool fits = im.unit == "g"
                         ? (type == "Peak Floor Acceleration" || type.starts_with("Spectral Acceleration|")) &&
                               (unit == "g" || unit == "mps2")
@@ -53,8 +53,8 @@ void require_demand(const CsvTable& table, const Intensity& im, const std::files
   require(fits, file, type + " in " + unit + " is the demand that was fitted");
   if (const std::size_t bar = type.find('|'); bar != std::string::npos)
     require(std::stod(type.substr(bar + 1)) == im.period_s, file, "the period is the one that was fitted");
-  require(table.text(0, "Incomplete") == "0" && table.text(0, "Demand-Offset") == "0" &&
-              table.text(0, "Demand-Directional") == "1",
+  require(table.text(row, "Incomplete") == "0" && table.text(row, "Demand-Offset") == "0" &&
+              table.text(row, "Demand-Directional") == "1",
           file, "it is complete, at its own floor, in its own direction");
 }
 
@@ -97,10 +97,11 @@ Capacity multilinear(const std::string& cell, double unit, const std::filesystem
 }
 
 // The keys of the library, and no others.
-void require_words(const std::filesystem::path& file, const std::string& id, std::size_t states) {
+void require_words(const std::filesystem::path& file, const std::string& id, std::size_t states,
+                   std::size_t components) {
   const auto all = nlohmann::json::parse(read_whole(file), nullptr, false);
-  require(all.is_object() && all.size() == 2 && all.contains(id) && all.contains("_GeneralInformation"), file,
-          "it holds _GeneralInformation and the words of this component");
+  require(all.is_object() && all.size() == 1 + components && all.contains(id) && all.contains("_GeneralInformation"),
+          file, "it holds _GeneralInformation and the words of this component");
   for (const char* key : {"ShortName", "Description", "Version", "ComponentGroups"})
     require(all["_GeneralInformation"].contains(key), file, std::string("_GeneralInformation has ") + key);
   const auto& words = all[id];
@@ -114,29 +115,38 @@ void require_words(const std::filesystem::path& file, const std::string& id, std
   require(words["LimitStates"].size() == states, file, "each limit state has its words");
 }
 
-ReadBack open(const std::filesystem::path& file, const Intensity& im) {
+// The component of that id, or the only one: "".
+ReadBack open_one(const std::filesystem::path& file, const Intensity& im, const std::string& wanted) {
   const CsvTable table(file);
-  require(table.rows() == 1, file, "it holds one component");
-  require_demand(table, im, file);
-  const std::string id = table.text(0, "ID");
+  require(!wanted.empty() || table.rows() == 1, file, "it holds one component");
+  std::size_t row = wanted.empty() ? 0 : table.rows();
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    if (!wanted.empty() && table.text(i, "ID") == wanted) {
+      require(row == table.rows(), file, "the component " + wanted + " stands there once");
+      row = i;
+    }
+  require(row < table.rows(), file, "it holds the component " + wanted);
+  require_demand(table, row, im, file);
+  const std::string id = table.text(row, "ID");
   require(!id.empty() && id.find('-') == std::string::npos, file, "the id holds no -");
-  const double unit = in_si(table.text(0, "Demand-Unit"));
+  const double unit = in_si(table.text(row, "Demand-Unit"));
   std::vector<Capacity> capacities;
   for (int s = 1; table.has(fmt::format("LS{}-Family", s)); ++s) {
     const auto column = [&](const char* name) { return fmt::format("LS{}-{}", s, name); };
-    const std::string family = table.text(0, column("Family"));
-    require(table.text(0, column("DamageStateWeights")).empty(), file, "a limit state has one damage state");
+    const std::string family = table.text(row, column("Family"));
+    if (family.empty() && !capacities.empty()) break;  // others have more
+    require(table.text(row, column("DamageStateWeights")).empty(), file, "a limit state has one damage state");
     if (family == "lognormal")
       capacities.push_back(
-          {true, table.number(0, column("Theta_0")) * unit, table.number(0, column("Theta_1")), {}, {}});
+          {true, table.number(row, column("Theta_0")) * unit, table.number(row, column("Theta_1")), {}, {}});
     else if (family == "multilinear_CDF")
-      capacities.push_back(multilinear(table.text(0, column("Theta_0")), unit, file));
+      capacities.push_back(multilinear(table.text(row, column("Theta_0")), unit, file));
     else
       require(false, file, family + " is a family");
   }
-  require_words(file.parent_path() / "fragility.json", id, capacities.size());
+  require_words(file.parent_path() / "fragility.json", id, capacities.size(), table.rows());
   const double own = im.unit == "g" ? 9.80665 : 1;
-  ReadBack back{{}, {}, table.text(0, "Demand-Unit"), "", 0};
+  ReadBack back{{}, {}, table.text(row, "Demand-Unit"), "", 0};
   for (const Capacity& capacity : capacities) {
     back.rounds_by = std::max(back.rounds_by, capacity.rounds_by());
     if (!capacity.lognormal) back.rounding = "pelicun writes the numbers of a multilinear_CDF again with six digits";
@@ -145,7 +155,9 @@ ReadBack open(const std::filesystem::path& file, const Intensity& im) {
   return back;
 }
 
-const RegisterCheck here{{.name = "pelicun", .open = open}};
+ReadBack open(const std::filesystem::path& file, const Intensity& im) { return open_one(file, im, ""); }
+
+const RegisterCheck here{{.name = "pelicun", .open = open, .open_one = open_one}};
 
 }  // namespace
 }  // namespace freestand::exports::check_pelicun

@@ -28,7 +28,10 @@ std::string rows(const Model& model, const LimitState& state) {
   const std::string head = fmt::format("{},{},{},{},{},{}", state.name, cell(state.demand), cell(state.capacity),
                                        state.unit, name_of(model.im), model.im.unit);
   const std::string tail = fmt::format("{},{},{},{},{},{}", cell(f.median), cell(f.median_se), cell(f.dispersion),
-                                       cell(f.dispersion_se), cell(f.off_by), f.adequate ? "yes" : "no");
+                                       cell(f.dispersion_se), cell(f.off_by),
+                                       f.adequate      ? "yes"
+                                       : f.not_refuted ? "not refuted"
+                                                       : "no");
   std::string text;
   for (const Bin& bin : state.bins)
     text += fmt::format("{},{},{},{},{},{},{},{}\n", head, cell(bin.im), cell(bin.probability), cell(bin.lower),

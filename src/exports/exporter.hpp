@@ -23,6 +23,12 @@ struct File {
   std::string name, text;
 };
 
+// Many models over one intensity that go into one file.
+struct Collection {
+  std::string id, description;
+  std::vector<Model> models;
+};
+
 struct Format {
   std::string name;         // of --format
   std::string summary;      // one line
@@ -30,9 +36,10 @@ struct Format {
   bool folder = false;      // several files that belong together: -o must name a folder
   std::vector<Form> forms;  // that the target can hold, best first
   bool table = false;  // holds results as they are: nothing is pooled, limit states may cross, any intensity will do
-  bool last_only = false;  // holds the most severe limit state alone
-  bool bands = false;      // its files hold the bands of the probabilities too, not the best estimate alone
-  std::string note = {};   // a plain sentence that goes with every file of it
+  bool one_list_of_states = false;  // files of many have the same limit states for all
+  bool last_only = false;           // holds the most severe limit state alone
+  bool bands = false;               // its files hold the bands of the probabilities too, not the best estimate alone
+  std::string note = {};            // a plain sentence that goes with every file of it
   // Plain sentences on what it makes of these curves.
   std::vector<std::string> (*notes_on)(const Model&) = nullptr;
   // What stands for --asset-category where nothing was said; none: "".
@@ -41,6 +48,8 @@ struct Format {
   void (*refuse)(const Model&) = nullptr;
   // The files; the first is named `name`.
   std::vector<File> (*write)(const Model&, const std::string& name) = nullptr;
+  // The same of many models in files that hold them all, each under its id; none: each is a file of its own.
+  std::vector<File> (*write_all)(const Collection&, const std::string& name) = nullptr;
 };
 
 // A written file as its target reads it: limit states by name, and what it makes of an intensity in freestand's unit.
@@ -56,6 +65,8 @@ struct Check {
   std::string name;
   // Reads the files from their folder; throws Error (Exit::data) where they break a rule of the target.
   ReadBack (*open)(const std::filesystem::path& file, const Intensity& im) = nullptr;
+  // That of one id, of files that hold many; none where the format has no such files.
+  ReadBack (*open_one)(const std::filesystem::path& file, const Intensity& im, const std::string& id) = nullptr;
 };
 
 const std::vector<Format>& all();

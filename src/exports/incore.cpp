@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "exports/exporter.hpp"
+#include "exports/ground.hpp"
 
 namespace freestand::exports::incore {
 namespace {
@@ -24,14 +25,14 @@ struct Demand {
 };
 
 Demand demand_of(const Intensity& im) {
-  if (im.name == "pga_g" || im.name == "pta_g") return {"PGA", "PGA", "g", 1};
-  if (im.name == "pgv_mps") return {"PGV", "PGV", "cm/s", 100};
-  if (im.name == "pgd_m") return {"PGD", "PGD", "m", 1};
-  if (im.name == "sa_g") return {fmt::format("{:#} SA", im.period_s), "SA", "g", 1};
+  const std::string name = ground_name(im);
+  if (name == "pga_g" || name == "pta_g") return {"PGA", "PGA", "g", 1};
+  if (name == "pgv_mps") return {"PGV", "PGV", "cm/s", 100};
+  if (name == "pgd_m") return {"PGD", "PGD", "m", 1};
+  if (name == "sa_g") return {fmt::format("{:#} SA", im.period_s), "SA", "g", 1};
   throw Error(
-      fmt::format("IN-CORE has no demand for the intensity {} (it knows PGA, PGV, PGD and SA): fit the sweep over "
-                  "pga_g, pgv_mps, pgd_m or sa_g, and export that",
-                  im.name));
+      fmt::format("IN-CORE has no demand for the intensity {} (it knows PGA, PGV, PGD and SA of the ground): {}",
+                  im.name, fit_over_the_ground));
 }
 
 // How many limit states IN-CORE turns into damage states, by the kind of thing in its inventory.
@@ -45,11 +46,13 @@ constexpr Inventory inventories[] = {{"building", 3},     {"bridge", 4}, {"elect
 
 std::string usual_category(std::size_t states) { return states == 4 ? "electric_facility" : "building"; }
 
-// "--limit-state wall_hit --limit-state wall_hit=again_2 ...": as many as are wanted, out of those there are.
+// "--limit-state wall_hit --limit-state wall_hit=again_2 ...": as many as are wanted, out of those there are; the last of them, the most
+// severe, is always one.
 std::string asked_for(const Model& model, std::size_t wanted) {
   std::string text;
   for (std::size_t i = 0; i < wanted; ++i) {
-    const LimitState& state = model.states[std::min(i, model.states.size() - 1)];
+    const LimitState& state =
+        model.states[i + 1 == wanted ? model.states.size() - 1 : std::min(i, model.states.size() - 1)];
     const std::string demand =
         std::isnan(state.capacity) ? state.demand : fmt::format("{}:{}", state.demand, state.capacity);
     text += fmt::format("{}--limit-state {}{}", i ? " " : "", demand,
@@ -67,8 +70,10 @@ void refuse(const Model& model) {
     if (model.states.size() == inventory.states) return;
     throw Error(fmt::format(
         "IN-CORE takes exactly {} limit states for a {}, and these are {} (it has no way from {} to damage states): "
-        "choose them, where the last may stand again under other names ({}), or name another --asset-category",
+        "choose {} ({}), or name another --asset-category",
         inventory.states, inventory.name, model.states.size(), model.states.size(),
+        model.states.size() > inventory.states ? fmt::format("{} of them, the most severe among them", inventory.states)
+                                               : std::string("them, where the last may stand again under other names"),
         asked_for(model, inventory.states)));
   }
   throw Error(
@@ -139,9 +144,7 @@ const Register here{
      .summary = "a fragility set for IN-CORE: lognormals, levels, or the three parts as they are",
      .file = "fragility.json",
      .forms = {Form::lognormal, Form::parts, Form::discrete},
-     .note = "the intensity is that of the motion under the equipment, IN-CORE's that of the ground: they are the "
-             "same where the equipment stands on the ground, or where the sweep was fitted over an intensity of the "
-             "ground",
+     .notes_on = [](const Model& model) -> std::vector<std::string> { return {of_the_ground(model.im, "IN-CORE")}; },
      .usual_category = usual_category,
      .refuse = refuse,
      .write = write}};

@@ -29,8 +29,8 @@ struct Bin {
 // The fragility function behind a limit state, NaN where there is none.
 struct Fitted {
   double median = unknown, median_se = unknown, dispersion = unknown, dispersion_se = unknown;
-  double off_by = unknown;  // bound on |fitted - counted|
-  bool adequate = false, extrapolated = false;
+  double off_by = unknown;                                           // bound on |fitted - counted|
+  bool adequate = false, not_refuted = false, extrapolated = false;  // not_refuted: nor known to be off by little
 };
 
 struct LimitState {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <freestand/error.hpp>
 
 #include "exports/exporter.hpp"
 #include "exports/openquake_names.hpp"
@@ -53,31 +54,55 @@ std::string discrete(const Model& model, const openquake::Imt& imt) {
   return text;
 }
 
-std::vector<File> write(const Model& model, const std::string& name) {
+std::string function_of(const Model& model) {
   const openquake::Imt imt = openquake::imt_of(model.im);
   const bool lognormal = model.states.front().curve.form == Form::lognormal;
+  return fmt::format("    <fragilityFunction id=\"{}\" format=\"{}\"{}>\n{}    </fragilityFunction>\n", model.id,
+                     lognormal ? "continuous" : "discrete", lognormal ? " shape=\"logncdf\"" : "",
+                     lognormal ? continuous(model, imt) : discrete(model, imt));
+}
+
+// One list of limit states stands for all functions of a model.
+std::vector<std::string> states_of(const Collection& all) {
   std::vector<std::string> names;
-  for (const LimitState& state : model.states) names.push_back(state.name);
-  const std::string head = fmt::format("    <description>{}</description>\n    <limitStates>{}</limitStates>\n",
-                                       openquake::escaped(model.description), fmt::join(names, " "));
-  const std::string function =
-      fmt::format("    <fragilityFunction id=\"{}\" format=\"{}\"{}>\n{}    </fragilityFunction>\n", model.id,
-                  lognormal ? "continuous" : "discrete", lognormal ? " shape=\"logncdf\"" : "",
-                  lognormal ? continuous(model, imt) : discrete(model, imt));
-  return {{name, openquake::document(fmt::format(
-                     "  <fragilityModel id=\"{}\" assetCategory=\"{}\" lossCategory=\"{}\">\n{}{}  </fragilityModel>\n",
-                     model.id, openquake::escaped(model.asset_category), openquake::escaped(model.loss_category), head,
-                     function))}};
+  for (const LimitState& state : all.models.front().states) names.push_back(state.name);
+  for (const Model& model : all.models) {
+    std::vector<std::string> own;
+    for (const LimitState& state : model.states) own.push_back(state.name);
+    if (own != names)
+      throw Error(fmt::format(
+          "{} has the limit states {} and {} has {} (all functions of an OpenQuake model have the same): name "
+          "those that all entries have with --limit-state, or add --each for a file of each",
+          all.models.front().id, fmt::join(names, ", "), model.id, fmt::join(own, ", ")));
+  }
+  return names;
+}
+
+std::vector<File> write_all(const Collection& all, const std::string& name) {
+  const Model& first = all.models.front();
+  std::string body = fmt::format("    <description>{}</description>\n    <limitStates>{}</limitStates>\n",
+                                 openquake::escaped(all.description), fmt::join(states_of(all), " "));
+  for (const Model& model : all.models) body += function_of(model);
+  return {
+      {name, openquake::document(fmt::format(
+                 "  <fragilityModel id=\"{}\" assetCategory=\"{}\" lossCategory=\"{}\">\n{}  </fragilityModel>\n",
+                 all.id, openquake::escaped(first.asset_category), openquake::escaped(first.loss_category), body))}};
+}
+
+std::vector<File> write(const Model& model, const std::string& name) {
+  return write_all({model.id, model.description, {model}}, name);
 }
 
 const Register here{{.name = "openquake",
                      .summary = "fragility for OpenQuake, NRML 0.5: lognormal or by levels",
                      .file = "fragility.xml",
                      .forms = {Form::lognormal, Form::discrete},
-                     .note = openquake::of_the_ground,
+                     .one_list_of_states = true,
+                     .notes_on = openquake::notes_on,
                      .usual_category = [](std::size_t) -> std::string { return "buildings"; },
                      .refuse = openquake::refuse,
-                     .write = write}};
+                     .write = write,
+                     .write_all = write_all}};
 
 }  // namespace
 }  // namespace freestand::exports::openquake

@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "base/shown_text.hpp"
+#include "exports/ground.hpp"
 
 namespace freestand::exports::openquake {
 namespace {
@@ -33,15 +34,18 @@ void refine(const Curve& curve, double a, double b, int depth, std::vector<doubl
 }  // namespace
 
 Imt imt_of(const Intensity& im) {
-  if (im.name == "pga_g" || im.name == "pta_g") return {"PGA", 1};
-  if (im.name == "pgv_mps") return {"PGV", 100};
-  if (im.name == "pgd_m") return {"PGD", 100};
-  if (im.name == "sa_g") return {fmt::format("SA({:#})", im.period_s), 1};
-  throw Error(fmt::format(
-      "OpenQuake has no name for the intensity {} (it knows PGA, PGV, PGD and SA of the ground, none of a floor "
-      "or of a block): fit the sweep over pga_g, pgv_mps, pgd_m or sa_g, and export that",
-      im.name));
+  const std::string name = ground_name(im);
+  if (name == "pga_g" || name == "pta_g") return {"PGA", 1};
+  if (name == "pgv_mps") return {"PGV", 100};
+  if (name == "pgd_m") return {"PGD", 100};
+  if (name == "sa_g") return {fmt::format("SA({:#})", im.period_s), 1};
+  throw Error(
+      fmt::format("OpenQuake has no name for the intensity {} (it knows PGA, PGV, PGD and SA of the ground, none of a "
+                  "floor or of a block): {}",
+                  im.name, fit_over_the_ground));
 }
+
+std::vector<std::string> notes_on(const Model& model) { return {of_the_ground(model.im, "OpenQuake")}; }
 
 void refuse(const Model& model) {
   imt_of(model.im);

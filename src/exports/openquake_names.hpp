@@ -8,10 +8,8 @@
 
 namespace freestand::exports::openquake {
 
-inline constexpr const char* of_the_ground =
-    "the intensity is that of the motion under the equipment, OpenQuake's that of the ground: they are the same where "
-    "the "
-    "equipment stands on the ground, or where the sweep was fitted over an intensity of the ground";
+// The sentence on whose motion the intensity is.
+std::vector<std::string> notes_on(const Model&);
 
 // OpenQuake's name of an intensity, and how much one of freestand's unit is in OpenQuake's (g, cm/s, cm).
 struct Imt {

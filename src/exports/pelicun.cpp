@@ -31,6 +31,12 @@ Demand demand_of(const Intensity& im) {
   if (im.name == "pgv_mps") return {"Peak Floor Velocity", "mps"};
   if (im.name == "pgd_m") return {"Peak Floor Displacement", "m"};
   if (im.name == "sa_g") return {fmt::format("Spectral Acceleration|{}", im.period_s), "g"};
+  if (im.name.starts_with("record."))
+    throw Error(fmt::format(
+        "pelicun has no demand for {} (its demands are those of the floor on which a component stands, not of the "
+        "ground under the building): fit the sweep over pga_g, pgv_mps or pgd_m, which are those of the floor's "
+        "motion, and export that",
+        im.name));
   throw Error(
       fmt::format("pelicun has no demand for the intensity {} (it knows peak floor acceleration, velocity and "
                   "displacement, and spectral acceleration): fit the sweep over pga_g, pgv_mps, pgd_m or sa_g, "
@@ -103,20 +109,27 @@ std::string multilinear(const Curve& curve) {
   return fmt::format("\"{}|{}\"", fmt::join(x, ","), fmt::join(y, ","));
 }
 
-std::string table(const Model& model) {
-  const Demand demand = demand_of(model.im);
-  std::string head = "ID,Incomplete,Demand-Type,Demand-Unit,Demand-Offset,Demand-Directional";
-  std::string row = fmt::format("{},0,{},{},0,1", model.id, demand.type, demand.unit);
-  for (std::size_t s = 0; s < model.states.size(); ++s) {
-    head += fmt::format(",LS{0}-Family,LS{0}-Theta_0,LS{0}-Theta_1,LS{0}-DamageStateWeights", s + 1);
-    const Curve& curve = model.states[s].curve;
-    row += curve.form == Form::lognormal ? fmt::format(",lognormal,{},{},", curve.median, curve.dispersion)
-                                         : fmt::format(",multilinear_CDF,{},,", multilinear(curve));
+// One row a component; one with fewer limit states than others leaves the rest of its cells empty.
+std::string table(const std::vector<Model>& models) {
+  std::size_t most = 0;
+  for (const Model& model : models) most = std::max(most, model.states.size());
+  std::string text = "ID,Incomplete,Demand-Type,Demand-Unit,Demand-Offset,Demand-Directional";
+  for (std::size_t s = 0; s < most; ++s)
+    text += fmt::format(",LS{0}-Family,LS{0}-Theta_0,LS{0}-Theta_1,LS{0}-DamageStateWeights", s + 1);
+  text += "\n";
+  for (const Model& model : models) {
+    const Demand demand = demand_of(model.im);
+    text += fmt::format("{},0,{},{},0,1", model.id, demand.type, demand.unit);
+    for (const LimitState& state : model.states)
+      text += state.curve.form == Form::lognormal
+                  ? fmt::format(",lognormal,{},{},", state.curve.median, state.curve.dispersion)
+                  : fmt::format(",multilinear_CDF,{},,", multilinear(state.curve));
+    text += std::string(4 * (most - model.states.size()), ',') + "\n";
   }
-  return fmt::format("{}\n{}\n", head, row);
+  return text;
 }
 
-std::string words(const Model& model) {
+nlohmann::ordered_json words(const Model& model) {
   nlohmann::ordered_json states;
   for (std::size_t s = 0; s < model.states.size(); ++s) {
     const LimitState& state = model.states[s];
@@ -126,16 +139,21 @@ std::string words(const Model& model) {
     states[fmt::format("LS{}", s + 1)][fmt::format("DS{}", s + 1)] = {
         {"Description", fmt::format("{}: {}", state.name, what)}, {"RepairAction", "n/a"}};
   }
-  nlohmann::ordered_json all;
-  all["_GeneralInformation"] = {{"ShortName", model.id},
-                                {"Description", model.description},
+  return {{"Description", model.description},
+          {"Comments", fmt::format("{}", fmt::join(model.notes, "\n"))},
+          {"SuggestedComponentBlockSize", "1 EA"},
+          {"RoundUpToIntegerQuantity", "True"},
+          {"LimitStates", states}};
+}
+
+std::string words(const Collection& collection) {
+  nlohmann::ordered_json all, groups = nlohmann::ordered_json::array();
+  for (const Model& model : collection.models) groups.push_back(model.id);
+  all["_GeneralInformation"] = {{"ShortName", collection.id},
+                                {"Description", collection.description},
                                 {"Version", "1"},
-                                {"ComponentGroups", nlohmann::ordered_json::array({model.id})}};
-  all[model.id] = {{"Description", model.description},
-                   {"Comments", fmt::format("{}", fmt::join(model.notes, "\n"))},
-                   {"SuggestedComponentBlockSize", "1 EA"},
-                   {"RoundUpToIntegerQuantity", "True"},
-                   {"LimitStates", states}};
+                                {"ComponentGroups", groups}};
+  for (const Model& model : collection.models) all[model.id] = words(model);
   return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -152,8 +170,12 @@ std::vector<std::string> notes_on(const Model& model) {
   return notes;
 }
 
+std::vector<File> write_all(const Collection& all, const std::string& name) {
+  return {{name, table(all.models)}, {"fragility.json", words(all)}};
+}
+
 std::vector<File> write(const Model& model, const std::string& name) {
-  return {{name, table(model)}, {"fragility.json", words(model)}};
+  return write_all({model.id, model.description, {model}}, name);
 }
 
 const Register here{
@@ -164,7 +186,8 @@ const Register here{
      .forms = {Form::lognormal, Form::discrete},
      .notes_on = notes_on,
      .refuse = refuse,
-     .write = write}};
+     .write = write,
+     .write_all = write_all}};
 
 }  // namespace
 }  // namespace freestand::exports::pelicun

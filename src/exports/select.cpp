@@ -8,6 +8,7 @@
 #include <freestand/error.hpp>
 
 #include "exports/forms.hpp"
+#include "fragility/fragility_function.hpp"
 
 namespace freestand::exports {
 namespace {
@@ -18,7 +19,7 @@ using fragility::Result;
 Fitted fitted_of(const Wanted& wanted) {
   if (wanted.capacity >= wanted.edp->functions.size()) return {};
   const fragility::FragilityFunction& f = wanted.edp->functions[wanted.capacity];
-  return {f.median, f.median_se, f.dispersion, f.dispersion_se, f.off_by, f.adequate, f.extrapolated};
+  return {f.median, f.median_se, f.dispersion, f.dispersion_se, f.off_by, f.adequate, not_refuted(f), f.extrapolated};
 }
 
 // The rows of the surface. Empty ones are left out or refused.
@@ -148,13 +149,45 @@ void take_notes(Model& model, const Result& result, Form form, bool table) {
 }
 
 // Where nobody said what is wanted.
-void tell_what_is_left_out(Model& model, const Result& result) {
+void tell_what_is_left_out(Model& model, const Result& result, const std::vector<std::string>& told) {
   std::vector<std::string> left_out;
   for (const EdpResult& edp : result.edps)
-    if (std::none_of(model.states.begin(), model.states.end(), [&](const auto& s) { return s.demand == edp.name; }))
+    if (std::none_of(model.states.begin(), model.states.end(), [&](const auto& s) { return s.demand == edp.name; }) &&
+        std::none_of(told.begin(), told.end(), [&](const auto& name) { return name.starts_with(edp.name); }))
       left_out.push_back(edp.name);
   if (!left_out.empty())
     model.notes.push_back(fmt::format("left out: {} (--limit-state takes them)", fmt::join(left_out, ", ")));
+}
+
+bool never_happened(const LimitState& state) {
+  return std::all_of(state.bins.begin(), state.bins.end(), [](const Bin& bin) { return bin.counted == 0; });
+}
+
+// Of states that nobody asked for those that never happened are left out: of them it is known that they need more than was swept, and no
+// more. If that is all of them, none is.
+std::vector<std::string> leave_out_what_never_happened(Model& model, std::vector<Wanted>& wanted) {
+  std::vector<std::string> names;
+  if (std::all_of(model.states.begin(), model.states.end(), never_happened)) return names;
+  for (std::size_t s = model.states.size(); s-- > 0;)
+    if (never_happened(model.states[s])) {
+      names.insert(names.begin(), model.states[s].name);
+      model.states.erase(model.states.begin() + static_cast<std::ptrdiff_t>(s));
+      wanted.erase(wanted.begin() + static_cast<std::ptrdiff_t>(s));
+    }
+  return names;
+}
+
+// Those that were left out, and those that stay as zeros.
+void tell_what_never_happened(Model& model, const std::vector<std::string>& left_out) {
+  const std::string unit = model.im.unit == "1" ? "" : " " + model.im.unit;
+  if (!left_out.empty())
+    model.notes.push_back(
+        fmt::format("left out: {} never happened up to {:.4g}{} (--limit-state takes it all the same)",
+                    fmt::join(left_out, ", "), model.im_most, unit));
+  for (const LimitState& state : model.states)
+    if (never_happened(state))
+      model.notes.push_back(fmt::format("{} never happened up to {:.4g}{}: its probability is 0 throughout", state.name,
+                                        model.im_most, unit));
 }
 
 // Gives all limit states that form, or says why not.
@@ -190,6 +223,8 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
   Model fresh{request.id, request.description, request.asset_category, request.loss_category, im, unknown, unknown, {},
               {}};
   for (const Wanted& one : wanted) fresh.states.push_back(state_of(result, im, one, request, format.table));
+  std::vector<std::string> left_out;
+  if (request.states.empty() && !format.table) left_out = leave_out_what_never_happened(fresh, wanted);
   if (fresh.asset_category.empty() && format.usual_category)
     fresh.asset_category = format.usual_category(fresh.states.size());
   take_range(fresh, wanted);
@@ -201,7 +236,8 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
     if (refusal.empty()) {
       take_notes(model, result, form, format.table);
       if (!passed_over.empty()) model.notes.push_back(passed_over);
-      if (request.states.empty()) tell_what_is_left_out(model, result);
+      if (!format.table) tell_what_never_happened(model, left_out);
+      if (request.states.empty()) tell_what_is_left_out(model, result, left_out);
       if (!format.note.empty()) model.notes.push_back(format.note);
       if (!format.bands)
         model.notes.push_back(fmt::format(

@@ -184,7 +184,7 @@ class Resampled {
     const auto larger = scatter.end() - std::lower_bound(scatter.begin(), scatter.end(), size);
     curve.misfit_p = (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(scatter.size()));
     curve.off_by = size + sorted_quantile(scatter, tally_.options().confidence);
-    curve.adequate = curve.misfit_p > test_level || curve.off_by <= tally_.options().adequate;
+    curve.adequate = curve.off_by <= tally_.options().adequate;
   }
 
  private:
@@ -220,6 +220,8 @@ FragilityFunction function_of(const Tally& tally, const Cells& cells, const Resa
 }
 
 }  // namespace
+
+bool not_refuted(const FragilityFunction& curve) { return !curve.adequate && curve.misfit_p > test_level; }
 
 FragilityFunction overturning_function(const Tally& tally, const Resampling& resampling) {
   return function_of(tally,

@@ -13,4 +13,7 @@ FragilityFunction overturning_function(const Tally& tally, const Resampling& res
 FragilityFunction fragility_function(const Tally& tally, std::size_t edp, std::size_t capacity,
                                      const Resampling& resampling);
 
+// Its misfit is chance, but it may be off by more than Options::adequate: too few motions to tell. It does not stand for the counts.
+bool not_refuted(const FragilityFunction&);
+
 }  // namespace freestand::fragility

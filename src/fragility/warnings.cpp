@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fragility/fragility_function.hpp"
+#include "fragility/goodness.hpp"
+
 namespace freestand::fragility {
 namespace {
 
@@ -63,7 +66,7 @@ void about_bins(const EdpResult& edp, const Options& options, std::vector<std::s
   if (failed > 0)
     out.push_back(
         fmt::format("{}: samples failed in {} of {} bins, up to {:.2g} of a bin; the columns least and most of "
-                    "the surface tell what they could change.",
+                    "surface.csv tell what they could change.",
                     edp.name, failed, edp.bins.size(), most_failed));
   if (adequate > 0)
     out.push_back(
@@ -78,6 +81,47 @@ void about_bins(const EdpResult& edp, const Options& options, std::vector<std::s
                     options.empirical_fallback ? "these rows are the empirical ones" : "these rows are still the fit"));
 }
 
+// "slip > 0.1 m (0.62), slip > 0.5 m (145)" of the capacities that are meant; "" of none.
+template <class Meant, class Number>
+std::string capacities(const EdpResult& edp, const Meant& meant, const Number& number) {
+  std::string text;
+  for (std::size_t c = 0; c < edp.functions.size(); ++c) {
+    if (!meant(edp.functions[c])) continue;
+    const std::string what =
+        edp.binary ? "it" : fmt::format("{} > {}{}", edp.name, edp.capacity[c], edp.unit == "1" ? "" : " " + edp.unit);
+    text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", what, number(edp.functions[c]));
+  }
+  return text;
+}
+
+// The fitted curves of one demand over all bins, by capacity.
+void about_functions(const EdpResult& edp, const Options& options, std::vector<std::string>& out) {
+  const auto median = [](const FragilityFunction& f) { return fmt::format("{:.3g}", f.median); };
+  const auto off_by = [](const FragilityFunction& f) { return fmt::format("by {:.2f}", f.off_by); };
+  const auto told = [&](const std::string& concerned, const std::string& sentence) {
+    if (!concerned.empty())
+      out.push_back(fmt::format("{}: {}", edp.name, fmt::format(fmt::runtime(sentence), concerned)));
+  };
+  if (edp.functions.empty()) return;
+  told(capacities(
+           edp, [](const FragilityFunction& f) { return f.extrapolated; }, median),
+       fmt::format(
+           "the median of the fitted curve lies outside the intensities swept, {:.3g} to {:.3g}, for {{}}: it is an "
+           "extrapolation.",
+           edp.functions[0].im_least, edp.functions[0].im_most));
+  told(capacities(
+           edp, [](const FragilityFunction& f) { return !f.adequate && f.misfit_p <= test_level; }, off_by),
+       "one lognormal curve is too simple, and may be off the true shares, for {}.");
+  told(capacities(edp, not_refuted, off_by),
+       fmt::format(
+           "the fitted curve is not refuted, but may be off the true shares by more than {:g}, for {{}}: exports and "
+           "risks take the counts; more motions would tell.",
+           options.adequate));
+  told(capacities(
+           edp, [](const FragilityFunction& f) { return f.penalised && !std::isnan(f.median); }, median),
+       "one intensity parts all samples above from all below: the fitted curve is a penalised estimate for {}.");
+}
+
 void about_overturning(const Tally& tally, const Result& result, std::vector<std::string>& out) {
   const std::int64_t over = tally.count_of(Outcome::overturned);
   if (over == 0) return;
@@ -87,7 +131,12 @@ void about_overturning(const Tally& tally, const Result& result, std::vector<std
         "The median of the overturning curve ({:.3g}) lies outside the intensities swept, {:.3g} to {:.3g}: "
         "it is an extrapolation.",
         curve.median, curve.im_least, curve.im_most));
-  if (!std::isnan(curve.misfit_p) && !curve.adequate)
+  if (not_refuted(curve))
+    out.push_back(
+        fmt::format("The overturning curve is not refuted, but may be off the true shares by {:.2f}: exports and risks "
+                    "take the counts; more motions would tell.",
+                    curve.off_by));
+  if (!std::isnan(curve.misfit_p) && !curve.adequate && !not_refuted(curve))
     out.push_back(fmt::format(
         "The overturning curve misses the counted shares by up to {:.2f}, at an IM of {:.3g} (p = {:.2g}): one "
         "lognormal curve is too simple, and may be off by {:.2f}.",
@@ -109,6 +158,8 @@ std::vector<std::string> warnings(const Tally& tally, const Result& result) {
   about_outcomes(tally, result, out);
   about_motions(tally, result, out);
   for (const EdpResult& edp : result.edps) about_bins(edp, tally.options(), out);
+  for (const EdpResult& edp : result.edps)
+    if (edp.name != "overturned") about_functions(edp, tally.options(), out);
   about_overturning(tally, result, out);
   return out;
 }

@@ -51,7 +51,7 @@ constexpr DatabaseColumn<Curve> curves[] = {
   {"n", "1", "samples", &Curve::n},
   {"im_least", "1", "least intensity swept", &Curve::im_least},
   {"im_most", "1", "greatest intensity swept", &Curve::im_most},
-  {"family", "", "lognormal: its median and dispersion are off by little; points: the points are to be used", &Curve::family},
+  {"family", "", "how it is to be read: lognormal, by median and dispersion; points and not_refuted, by its points", &Curve::family},
   {"median", "1", "intensity at which the lognormal is 1/2", &Curve::median},
   {"dispersion", "1", "standard deviation of ln IM", &Curve::dispersion},
   {"median_se", "1", "standard error of the median, from resampled motions", &Curve::median_se},

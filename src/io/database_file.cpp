@@ -126,7 +126,8 @@ void write_database(const std::filesystem::path& path, const Database& db) {
   root.attribute("revision", db.revision);
   root.attribute("confidence", db.confidence);
   root.put("classes", db.classes);
-  root.put("families", std::vector<std::string>{database::lognormal_family, database::points_family});
+  root.put("families",
+           std::vector<std::string>{database::lognormal_family, database::not_refuted_family, database::points_family});
   write_words(root, "intensities", db.intensities);
   write_words(root, "demands", db.demands);
   write_tables(root, db);

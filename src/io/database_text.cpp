@@ -80,8 +80,11 @@ std::string points_csv(const Database& db) {
 std::string words_json(const Database& db) {
   nlohmann::ordered_json json{{"format", words_format}, {"name", db.name}, {"revision", db.revision}};
   json["classes"] = db.classes;
-  json["families"] = {{database::lognormal_family, "the lognormal of median and dispersion is off by little"},
-                      {database::points_family, "the points of the curve are to be used"}};
+  json["families"] = {
+      {database::lognormal_family, "the lognormal of median and dispersion is off by at most off_by, which is small"},
+      {database::not_refuted_family,
+       "the points of the curve are to be used: the lognormal is not refuted, but may be off by off_by"},
+      {database::points_family, "the points of the curve are to be used"}};
   json["intensities"] = words(db.intensities);
   json["demands"] = words(db.demands);
   nlohmann::ordered_json columns;

@@ -1,4 +1,5 @@
-// surface.csv: every point of every surface, over the intensity alone and over second axes.
+// surface.csv: every point of every surface, over the intensity alone and over second axes; least and most: what `empirical` would be if
+// all samples that failed had stayed below, or lain above.
 #include <fmt/format.h>
 
 #include "io/csv_cell.hpp"
@@ -23,9 +24,11 @@ std::string over_intensity(const Result& result, const EdpResult& edp) {
   for (std::size_t i = 0; i < edp.bins.size(); ++i)
     for (std::size_t k = 0; k < edp.capacity.size(); ++k) {
       const std::size_t at = i * edp.capacity.size() + k;
-      text += fmt::format("{},{},,,,,,{},{},{},{},{},{}\n", row_start(result, edp, i), cell(edp.capacity[k]),
+      const auto bound = [at](const std::vector<double>& values) { return values.empty() ? "" : cell(values[at]); };
+      text += fmt::format("{},{},,,,,,{},{},{},{},{},{},{},{}\n", row_start(result, edp, i), cell(edp.capacity[k]),
                           edp.bins[i].n, cell(edp.surface.probability[at]), cell(edp.surface.lower[at]),
-                          cell(edp.surface.upper[at]), cell(edp.surface.empirical[at]), name(edp.bins[i].status));
+                          cell(edp.surface.upper[at]), cell(edp.surface.empirical[at]), name(edp.bins[i].status),
+                          bound(edp.surface.least), bound(edp.surface.most));
     }
   return text;
 }
@@ -38,7 +41,7 @@ std::string over_axis(const Result& result, const EdpResult& edp, const AxisSurf
       for (std::size_t k = 0; k < edp.capacity.size(); ++k) {
         const std::size_t at_cell = i * axis.centre.size() + j, at = at_cell * edp.capacity.size() + k;
         const std::string probability = cell(axis.probability[at]);
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", row_start(result, edp, i),
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},,\n", row_start(result, edp, i),
                             cell(edp.capacity[k]), cell(axis.name), cell(axis.unit), cell(axis.centre[j]),
                             cell(axis.edge[j]), cell(axis.edge[j + 1]), axis.n[at_cell], probability,
                             cell(axis.lower[at]), cell(axis.upper[at]), probability,
@@ -52,7 +55,7 @@ std::string over_axis(const Result& result, const EdpResult& edp, const AxisSurf
 std::string surface_csv(const Result& result) {
   std::string text =
       "im_name,im_unit,im,im_lower,im_upper,edp,unit,capacity,axis,axis_unit,axis_value,axis_lower,axis_upper,n,"
-      "probability,lower,upper,empirical,status\n";
+      "probability,lower,upper,empirical,status,least,most\n";
   for (const EdpResult& edp : result.edps) {
     text += over_intensity(result, edp);
     for (const AxisSurface& axis : edp.axes) text += over_axis(result, edp, axis);

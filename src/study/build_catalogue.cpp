@@ -119,13 +119,6 @@ void write_study(const Study& study, const fs::path& folder) {
   io::write_text(study_path(folder), io::signed_text(expanded(study, folder)));
 }
 
-// The fit over another intensity than the first, inside the folder of the entry.
-fs::path intensity_folder(const fs::path& folder, const IntensityPart& im) {
-  std::string name = short_name(im);
-  std::replace(name.begin(), name.end(), ':', '_');
-  return folder / name;
-}
-
 void compute(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder,
              const CatalogueOptions& options) {
   const bool quiet = options.quiet || entry.study.samples < many_samples;
@@ -148,8 +141,8 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
   fit(world, run_folder,
       {.from = folder, .command = options.command, .quiet = true, .sweep = work == refit ? nullptr : &summary});
   for (const IntensityPart& im : entry.others) {
-    RunFolder other(world, intensity_folder(folder, im), io::Existing::resume, "go on with the same command",
-                    {study_path("").string()});
+    RunFolder other(world, intensity_folder(folder, short_name(im)), io::Existing::resume,
+                    "go on with the same command", {study_path("").string()});
     fit(world, other, {.from = folder, .changes = {.im = short_name(im)}, .command = options.command, .quiet = true});
   }
 }
@@ -178,7 +171,7 @@ void add_rows(Database& db, const CatalogueEntry& entry, const std::string& fing
   };
   add(result, entry.study.fragility.im);
   for (const IntensityPart& im : entry.others)
-    add(io::read_fragility(intensity_folder(folder, im) / "fragility.h5").result, im);
+    add(io::read_fragility(intensity_folder(folder, short_name(im)) / "fragility.h5").result, im);
   db.entries.push_back(std::move(row));
 }
 
@@ -225,7 +218,7 @@ Database assemble(const Catalogue& catalogue, const Plan& plan, const Database& 
   for (const database::Entry& entry : db.entries)
     if (std::find(db.classes.begin(), db.classes.end(), entry.equipment) == db.classes.end())
       db.classes.push_back(entry.equipment);
-  db.demands = demand_words(db.curves);
+  db.demands = demand_words(db);
   db.intensities = intensity_words(db.curves);
   return db;
 }
@@ -249,6 +242,20 @@ Database database_before(const fs::path& folder) {
 }
 
 }  // namespace
+
+void refuse_database(const fs::path& folder) {
+  if (!fs::exists(folder / io::database_name)) return;
+  const Database db = io::read_database(folder / io::database_name);
+  const std::string first = db.entries.empty() ? "ID" : db.entries.front().id;
+  throw Error(fmt::format("{} is a database of {} entries (this takes one sweep): give the folder of an entry, as {}",
+                          folder.string(), db.entries.size(), entry_folder(folder, first).string()));
+}
+
+fs::path intensity_folder(const fs::path& folder, const std::string& im) {
+  std::string name = im;
+  std::replace(name.begin(), name.end(), ':', '_');
+  return folder / name;
+}
 
 fs::path entry_folder(const fs::path& folder, const std::string& id) { return folder / "entries" / id; }
 

@@ -10,6 +10,12 @@
 
 namespace freestand::study {
 
+// For verbs that take one sweep: throws Error (Exit::usage) that names an entry's folder where the folder is a database.
+void refuse_database(const std::filesystem::path& folder);
+
+// Of an entry: where its fit over another intensity than its first lies, by the text of that intensity.
+std::filesystem::path intensity_folder(const std::filesystem::path& entry_folder, const std::string& im);
+
 struct CatalogueOptions {
   bool redo = false;   // entries whose study has changed are computed anew
   bool quiet = false;  // no progress

@@ -6,6 +6,7 @@
 //   motions: [...]                           # or floors: {ground: [...], third: [...]}, names of lists of motions
 //   frictions: {vinyl: {mu: 0.25}, ...}      # names, for entries without friction of their own
 //   intensities: [pga_g, {name: sa_g, period_s: 0.5}]   # else the one of `fragility`
+//   exports: [openquake, csv]                # written beside the database, each into a folder of its name
 //   classes: [laboratory refrigerator, ...]  # if it is there, no other class may be named
 //   entries:
 //     - {id: fridge, class: laboratory refrigerator, block: {...}, friction: vinyl, floor: [ground, third], source: assumed}
@@ -35,6 +36,7 @@ struct CatalogueEntry {
 
 struct Catalogue {
   std::string name, revision;
+  std::vector<std::string> exports;  // formats
   std::vector<std::string> classes;  // in the order of the file, or of their first entry
   std::vector<CatalogueEntry> entries;
 };

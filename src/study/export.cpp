@@ -1,10 +1,7 @@
-#include "study/export.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 #include <freestand/error.hpp>
-#include <nlohmann/json.hpp>
 
 #include "base/durable_file.hpp"
 #include "base/random.hpp"
@@ -14,7 +11,7 @@
 #include "io/fragility_file.hpp"
 #include "io/own_files.hpp"
 #include "io/text_files.hpp"
-#include "study/build_catalogue.hpp"
+#include "study/export_parts.hpp"
 #include "study/study.hpp"
 
 namespace freestand::study {
@@ -61,7 +58,21 @@ fragility::Result convertible(fragility::Result result, const Study& study, cons
   return exports::as_pta(std::move(result), *mu);
 }
 
-// Letters and digits in place of all else, so that any target takes it.
+exports::Intensity intensity_of(const fragility::Result& result, const ExportRequest& request) {
+  if (!request.period_s) return {result.im_name, result.im_unit, result.im_period_s.value_or(exports::unknown)};
+  if (result.im_name != "record.sa_g")
+    throw Error(fmt::format(
+        "--period {} is not for these results (they are over {}{}; it says that of record.sa_g): leave it out",
+        *request.period_s, result.im_name, result.im_period_s ? fmt::format(" at {} s", *result.im_period_s) : ""));
+  if (!(*request.period_s > 0) || !std::isfinite(*request.period_s))
+    throw Error(fmt::format("--period {} is no period (it is above zero): give it in s", *request.period_s));
+  return {result.im_name, result.im_unit, *request.period_s};
+}
+
+}  // namespace
+
+namespace export_parts {
+
 std::string usual_id(const std::string& study_name) {
   std::string id;
   for (const char c : study_name.empty() ? "freestand" : study_name)
@@ -69,16 +80,20 @@ std::string usual_id(const std::string& study_name) {
   return id.substr(0, 60);
 }
 
+}  // namespace export_parts
+
+namespace {
+
 std::string usual_description(const io::Provenance& from, const fragility::Result& result) {
   return fmt::format("{}: {} samples, {} motions, over {}; freestand {}", from.study_name, result.samples,
                      result.motions, result.im_name, from.version);
 }
 
-struct Places {
-  fs::path folder;
-  std::string name;
-};
-Places places(const ExportRequest& request, const exports::Format& format) {
+}  // namespace
+
+namespace export_parts {
+
+ExportPlace place(const ExportRequest& request, const exports::Format& format) {
   const bool is_folder = fs::is_directory(request.output) || request.output.extension().empty();
   if (is_folder) return {request.output, format.file};
   if (format.folder)
@@ -90,6 +105,10 @@ Places places(const ExportRequest& request, const exports::Format& format) {
                             fs::path(request.output).replace_extension(fs::path(format.file).extension()).string()));
   return {request.output.parent_path(), request.output.filename().string()};
 }
+
+}  // namespace export_parts
+
+namespace {
 
 std::string hash_of(const std::string& text) { return fmt::format("{:016x}", random::stable_hash(text)); }
 
@@ -129,32 +148,9 @@ Json origin(const ExportRequest& request, const io::Provenance& from, double con
 
 }  // namespace
 
-bool is_database(const fs::path& folder) { return fs::exists(folder / io::database_name); }
+namespace export_parts {
 
-DatabaseExport export_database(const ExportRequest& request) {
-  const exports::Format& format = exports::find(request.format);
-  if (request.output.has_extension())
-    throw Error(
-        fmt::format("{} cannot hold the entries of a database (each is a file of its own): name a folder, as {}",
-                    request.output.string(), request.output.stem().string()));
-  DatabaseExport done;
-  for (const database::Entry& entry : io::read_database(request.folder / io::database_name).entries) {
-    ExportRequest one = request;
-    one.folder = entry_folder(request.folder, entry.id);
-    one.output = request.output / entry.id;
-    if (!format.folder) one.output += fs::path(format.file).extension();
-    if (one.what.id.empty()) one.what.id = usual_id(entry.id);
-    try {
-      done.entries.emplace_back(entry.id, export_fragility(one));
-    } catch (const Error& error) {
-      done.refused.push_back(fmt::format("{}: {}", entry.id, error.what()));
-    }
-  }
-  return done;
-}
-
-ExportSummary export_fragility(const ExportRequest& request) {
-  const exports::Format& format = exports::find(request.format);
+ReadyModel ready_model(const ExportRequest& request, const exports::Format& format) {
   const fs::path source = request.folder / "fragility.h5";
   const auto [from, found] = io::read_fragility(source);
   const Study study = parse_stored(from.study, source);
@@ -162,39 +158,61 @@ ExportSummary export_fragility(const ExportRequest& request) {
   exports::Request what = request.what;
   if (what.id.empty()) what.id = usual_id(from.study_name);
   if (what.description.empty()) what.description = usual_description(from, result);
-  const exports::Intensity im{result.im_name, result.im_unit, study.fragility.im.period_s.value_or(exports::unknown)};
-  ExportSummary summary;
-  summary.model = exports::select(result, im, what, format);
-  exports::Model& model = summary.model;
+  ReadyModel found_model{exports::select(result, intensity_of(result, request), what, format), {}};
+  exports::Model& model = found_model.model;
   if (request.mu) model.notes.push_back(fmt::format("PTA = {} g (1 + IM) of the report", *request.mu));
   if (format.refuse) format.refuse(model);
+  found_model.origin = origin(request, from, result.confidence);
+  return found_model;
+}
 
-  const Places to = places(request, format);
-  const std::vector<exports::File> files = format.write(model, to.name);
+exports::Certified put_files(const ExportRequest& request, const exports::Format& format, const ExportPlace& to,
+                             const std::vector<exports::File>& files, const Json& origin, const Certify& certify,
+                             std::vector<fs::path>& written) {
   Json certificate = certificate_in(to.folder);
   for (const exports::File& file : files) refuse_to_replace(to.folder / file.name, certificate, request.overwrite);
   if (!to.folder.empty()) fs::create_directories(to.folder);
   for (const exports::File& file : files) {
     write_durably(to.folder / file.name, file.text);
-    summary.files.push_back(to.folder / file.name);
+    written.push_back(to.folder / file.name);
   }
-  const exports::Certified certified = exports::certify(model, format, summary.files.front());
+  exports::Certified certified = certify(written.front());
   if (certified.difference > certified.allowed) {
-    for (const fs::path& file : summary.files) fs::remove(file);
+    for (const fs::path& file : written) fs::remove(file);
     throw Error(
         fmt::format("{} would be read with probabilities that are off by {:.3g} (more than {:.3g}, which is a fault of "
                     "freestand): tell its makers; nothing was exported",
-                    summary.files.front().string(), certified.difference, certified.allowed),
+                    written.front().string(), certified.difference, certified.allowed),
         Exit::data);
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
     Json entry = i == 0 ? certified.json : Json{{"target", format.name}, {"belongs_to", files.front().name}};
-    entry["from"] = origin(request, from, result.confidence);
+    entry["from"] = origin;
     entry["hash"] = hash_of(files[i].text);
     certificate["files"][files[i].name] = entry;
   }
   write_durably(to.folder / certificate_name, io::json_text(certificate));
-  summary.files.push_back(to.folder / certificate_name);
+  written.push_back(to.folder / certificate_name);
+  return certified;
+}
+
+}  // namespace export_parts
+
+ExportSummary export_fragility(const ExportRequest& request) {
+  using namespace export_parts;
+  const exports::Format& format = exports::find(request.format);
+  if (!request.im.empty())
+    throw Error(fmt::format(
+        "--im {0} is for a database ({1} is one sweep, over one intensity): fit it over that one (freestand "
+        "fit {1} --im {0} -o FOLDER), and export FOLDER",
+        request.im, request.folder.string()));
+  const ReadyModel from = ready_model(request, format);
+  const ExportPlace to = place(request, format);
+  ExportSummary summary;
+  summary.model = from.model;
+  const exports::Certified certified = put_files(
+      request, format, to, format.write(from.model, to.name), from.origin,
+      [&](const fs::path& file) { return exports::certify(from.model, format, file); }, summary.files);
   summary.difference = certified.difference;
   summary.rounding = certified.json["rounding"];
   return summary;

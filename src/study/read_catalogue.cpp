@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 #include <map>
 #include <set>
 
 #include "base/shown_text.hpp"
+#include "exports/exporter.hpp"
 #include "study/catalogue.hpp"
 #include "study/paths.hpp"
 #include "study/read_parts.hpp"
@@ -20,7 +22,7 @@ constexpr std::size_t longest_id = 75;  // what other programs take
 constexpr const char* entry_keys[] = {"id", "class", "description", "source", "reference", "floor"};
 // Of the file, beside the keys of a study.
 constexpr const char* file_keys[] = {"format",    "name",        "revision", "classes", "floors",
-                                     "frictions", "intensities", "entries",  "table"};
+                                     "frictions", "intensities", "entries",  "table",   "exports"};
 
 template <class Keys>
 bool contains(const Keys& keys, const std::string& key) {
@@ -93,6 +95,7 @@ class Reader {
         catalogue_.classes = names->values;
       closed_ = true;
     }
+    if (const YAML::Node* node = file.find("exports")) read_exports(*node, file);
     floors_ = read_named(file, "floors");
     frictions_ = read_named(file, "frictions");
     if (!floors_.empty() && file.has("motions"))
@@ -111,6 +114,18 @@ class Reader {
     if (!file.has("entries") && !file.has("table"))
       file.problem("entries",
                    "entries is missing (there is nothing to sweep): add entries: [...] or table: specimens.csv");
+  }
+
+  void read_exports(const YAML::Node& node, Section& file) {
+    const auto names = read_names(node, "exports", file.line("exports"), problems_);
+    std::vector<std::string> known;
+    for (const exports::Format& format : exports::all()) known.push_back(format.name);
+    for (const std::string& name : names ? names->values : std::vector<std::string>{})
+      if (contains(known, name))
+        catalogue_.exports.push_back(name);
+      else
+        file.problem("exports",
+                     fmt::format("exports names {} (formats are {}): correct it", shown(name), joined(known)));
   }
 
   Named read_named(Section& file, const char* key) {
@@ -241,7 +256,7 @@ class Reader {
     if (closed_)
       section.problem("class", fmt::format("class {} is not among `classes` ({}): choose one of {}, or add it there",
                                            shown(name), hint(name, catalogue_.classes), joined(catalogue_.classes)));
-    else if (const std::string near = nearest(name, catalogue_.classes);
+    else if (const std::string near = nearest(name, classes_of_other_words(name));
              !near.empty() && edit_distance(name, near) <= 2)
       section.problem("class",
                       fmt::format("class {} is nearly {} (one of them is a slip?): write it alike, or list both "
@@ -249,6 +264,17 @@ class Reader {
                                   shown(name), near));
     else
       catalogue_.classes.push_back(name);
+  }
+
+  // Names that differ in digits only are two of a kind (kind_1, kind_2), no slip.
+  std::vector<std::string> classes_of_other_words(const std::string& name) const {
+    const auto words = [](std::string text) {
+      std::erase_if(text, [](unsigned char c) { return std::isdigit(c); });
+      return text;
+    };
+    std::vector<std::string> others = catalogue_.classes;
+    std::erase_if(others, [&](const std::string& other) { return words(other) == words(name); });
+    return others;
   }
 
   void read_reference(const YAML::Node& node, int line, database::Entry& words, Problems& problems) {

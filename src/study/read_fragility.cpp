@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/shown_text.hpp"
 #include "fragility/options.hpp"
 #include "study/read_parts.hpp"
 
@@ -92,6 +93,13 @@ const KnownEdp* find_edp(const Known& known, const std::string& name) {
 std::string unknown_edp(const Known& known, const std::string& name) {
   std::vector<std::string> names;
   for (const auto& edp : known.edps) names.push_back(edp.name);
+  if (name.find_first_of("<>=") != std::string::npos || name.find(" or ") != std::string::npos ||
+      name.find(" and ") != std::string::npos)
+    return fmt::format(
+        "{} is a condition, not a demand (demands are numbers with names: {}): give it a name under `damage:` of "
+        "`fragility` in "
+        "the study, as damage: {{falls: \"{}\"}}",
+        shown(name), joined(names), shown(name));
   return fmt::format("demand parameter {} is not known ({}): name some of {}", name,
                      nearest(name, names).empty() ? "nothing like it is there" : hint(name, names), joined(names));
 }

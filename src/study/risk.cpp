@@ -12,6 +12,7 @@
 #include "io/fragility_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/text_files.hpp"
+#include "study/build_catalogue.hpp"
 #include "study/read_parts.hpp"
 
 namespace freestand::study {
@@ -20,17 +21,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 using decision::By;
 
+const std::string of_records = "record.";
+
 // Intensities that have a unit are something of the motion alone, and have hazard curves; so may one that came with the records.
 std::vector<std::string> measures(const fragility::Result& swept) {
   std::vector<std::string> names;
   for (const intensity::Measure* measure : intensity::all())
     if (measure->unit != "1") names.push_back(measure->name);
+  for (const char* of_ground : {"pga_g", "pgv_mps", "pgd_m", "sa_g"}) names.push_back(of_records + of_ground);
   if (std::find(names.begin(), names.end(), swept.im_name) == names.end() && swept.im_unit != "1")
     names.push_back(swept.im_name);
   return names;
 }
 
 io::FragilityFile fragility_of(const std::filesystem::path& folder) {
+  refuse_database(folder);
   const std::filesystem::path file = folder / "fragility.h5";
   if (!std::filesystem::exists(file))
     throw Error(fmt::format(
@@ -57,11 +62,22 @@ double period_of(const io::FragilityFile& fragility, const RiskOptions& options,
 void refuse_another_intensity(const decision::HazardCurve& hazard, const fragility::Result& swept,
                               const RiskOptions& options) {
   if (hazard.measure == swept.im_name) return;
+  if (swept.im_name == of_records + hazard.measure)
+    throw Error(fmt::format(
+        "{0}:1: the curve is over {1}, but {2} was fitted over {3} (the {1} of the motion under the equipment is "
+        "another one, on "
+        "a floor): where the curve is of the ground, as that of the table of records is, name its column {3}",
+        options.hazard.string(), hazard.measure, options.folder.string(), swept.im_name));
   throw Error(fmt::format(
       "{}:1: the curve is over {}, but {} was fitted over {}: fit the sweep over {} (freestand fit {} --im {} -o "
-      "FOLDER){}",
+      "FOLDER){}{}",
       options.hazard.string(), hazard.measure, options.folder.string(), swept.im_name, hazard.measure,
       options.folder.string(), hazard.measure,
+      hazard.measure.starts_with(of_records) ? ""
+                                             : fmt::format(", or, for equipment on a floor of a building and a curve "
+                                                           "of the ground, over {0}{1} out of the table of "
+                                                           "records, with the curve's column called {0}{1}",
+                                                           of_records, hazard.measure),
       swept.im_unit == "1" ? "" : fmt::format(", or give a curve over {}", swept.im_name)));
 }
 

@@ -12,6 +12,7 @@
 #include "parallel/schedule.hpp"
 #include "parallel/step_display.hpp"
 #include "study/answers.hpp"
+#include "study/build_catalogue.hpp"
 #include "study/damage_states.hpp"
 #include "study/evaluator.hpp"
 #include "study/known.hpp"
@@ -35,13 +36,18 @@ fragility::Options group_options(const io::SampleReader& reader, const Study& st
   return options;
 }
 
+const std::filesystem::path& swept_folder(const std::filesystem::path& folder) {
+  refuse_database(folder);
+  return folder;
+}
+
 // A finished sweep, and how its samples are told apart.
 class Shares {
  public:
   Shares(const parallel::Communicator& world, const SensitivityOptions& options)
       : world_(world),
         options_(options),
-        reader_(samples_path(options.folder)),
+        reader_(samples_path(swept_folder(options.folder))),
         study_(analysed_study(options.folder, reader_)),
         motions_(group_options(reader_, study_)),
         groups_(motions_),

@@ -119,6 +119,16 @@ class AnyIntensity(InFolder):
         ranked = json.loads((out / "summary.json").read_text())["ranking"]["demands"]["delta"]
         self.assertIn("record.pga_g", [entry["im"] for entry in ranked])
         self.assertEqual({left["on"] for left in ranked[0]["sufficiency"]}, {"record_pulse_period_s", "record_magnitude_mw"})
+        # On a floor it is the ground's: for targets that know the ground's alone, and for hazard curves.
+        by_table = self.folder / "by_table"
+        self.succeed(["export", by_table, "--format", "openquake", "--form", "counted", "--limit-state", "delta:1", "--skip-empty", "-o", self.folder / "ground.xml"])
+        self.assertIn('imt="PGA"', (self.folder / "ground.xml").read_text())
+        self.fail_with(2, ["export", by_table, "--format", "pelicun", "-o", self.folder / "floor"], "those of the floor on which a component stands")
+        self.fail_with(2, ["export", by_table, "--format", "openquake", "--period", "0.5", "-o", self.folder / "no.xml"], "over record.pga_g", "leave it out")
+        curve = self.write("hazard.csv", "pga_g,annual_rate\n0.05,0.01\n0.3,0.002\n1,0.0001\n")
+        self.fail_with(2, ["risk", by_table, "--hazard", curve, "-o", self.folder / "no"], "name its column record.pga_g")
+        self.fail_with(2, ["risk", out, "--hazard", curve, "-o", self.folder / "no"], "--im pga_g", "over record.pga_g")
+        self.succeed(["risk", by_table, "--hazard", self.write("ground.csv", curve.read_text().replace("pga_g", "record.pga_g")), "-o", self.folder / "risk"])
         self.fail_with(2, ["fit", out, "--im", "record.pgv_mps", "-o", self.folder / "no"], "record.pgv_mps is not in the tables", "they give record.pga_g, record.magnitude_mw")
         self.assertFalse((self.folder / "no").exists())
 

@@ -51,6 +51,11 @@ TEST(InCore, WantsAsManyLimitStatesAsItsInventoryHas) {
   EXPECT_EQ(why({"peak_slip_m", "overturned", "overturned=again"}, ""), "");
   EXPECT_THAT(why({}, "electric_facility"), AllOf(HasSubstr("exactly 4 limit states"), HasSubstr("these are 3")));
   EXPECT_THAT(why({"overturned"}, "building"), AllOf(HasSubstr("exactly 3"), HasSubstr("overturned=again")));
+  // Of more than are wanted the last one stays: nothing is more severe than to fall over.
+  EXPECT_THAT(
+      why({"peak_slip_m:0.05", "peak_slip_m:0.05=b", "peak_slip_m:0.2", "overturned"}, "building"),
+      AllOf(HasSubstr("these are 4"),
+            HasSubstr("--limit-state peak_slip_m:0.05 --limit-state peak_slip_m:0.05 --limit-state overturned)")));
   EXPECT_THAT(why({}, "fridge"), AllOf(HasSubstr("no inventory fridge"), HasSubstr("electric_facility 4")));
 }
 

@@ -34,6 +34,7 @@ inline fragility::FragilityFunction function(double median, double dispersion, b
   f.im_least = 0.05;
   f.im_most = 1.9;
   f.off_by = adequate ? 0.03 : 0.12;
+  f.misfit_p = adequate ? 0.4 : 0.01;
   f.adequate = adequate;
   return f;
 }

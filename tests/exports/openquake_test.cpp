@@ -44,6 +44,28 @@ TEST(OpenQuake, VelocityGoesOutInCentimetresPerSecondAndSpectraByPeriod) {
   EXPECT_THAT(text(model("openquake", request(), made_results(), {"sa_g", "g", 1.0})), HasSubstr("imt=\"SA(1.0)\""));
 }
 
+// Equipment on an upper storey: the ground's intensity stands in the table of records.
+TEST(OpenQuake, IntensitiesOfTheGroundFromATableGoOutAsTheGroundIs) {
+  for (const auto& [im, name] : {std::pair(Intensity{"record.pga_g", "g"}, "imt=\"PGA\""),
+                                 std::pair(Intensity{"record.pgv_mps", "m/s"}, "imt=\"PGV\""),
+                                 std::pair(Intensity{"record.pgd_m", "m"}, "imt=\"PGD\""),
+                                 std::pair(Intensity{"record.sa_g", "g", 0.5}, "imt=\"SA(0.5)\"")}) {
+    const Model made = model("openquake", request(), made_results(), im);
+    EXPECT_THAT(text(made), HasSubstr(name));
+    EXPECT_THAT(made.notes, testing::Contains(HasSubstr("what the table of records gives")));
+  }
+  const auto refusal = [](const Intensity& im) {
+    try {
+      text(model("openquake", request(), made_results(), im));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refusal({"record.sa_g", "g"}), HasSubstr("add --period"));
+  EXPECT_THAT(refusal({"record.magnitude_mw", "1"}), HasSubstr("record.pga_g"));
+}
+
 // The very text of a user's file, read by the check, with values from tables of the normal distribution.
 const std::string continuous = R"(<nrml xmlns="http://openquake.org/xmlns/nrml/0.5">
   <fragilityModel id="m" assetCategory="buildings" lossCategory="contents">

@@ -36,6 +36,20 @@ TEST(LimitStates, DemandsThatNobodyNamedAreToldAsLeftOut) {
               testing::Not(testing::Contains(HasSubstr("left out"))));
 }
 
+TEST(LimitStates, ThatNeverHappenedAreLeftOutWhereNobodyAskedForThem) {
+  fragility::Result results = made_results();
+  for (std::size_t b = 0; b < std::size(bins); ++b) set_surface(results.edps[1], b, 0);
+  const Model usual = model("pelicun", request(), results);
+  ASSERT_EQ(usual.states.size(), 2u);
+  EXPECT_THAT(usual.notes, testing::Contains(HasSubstr("left out: overturned never happened up to 1.9 g")));
+  EXPECT_THAT(usual.notes, testing::Not(testing::Contains(HasSubstr("left out: overturned (--limit-state"))));
+  Request asked = request({"peak_slip_m:0.05", "overturned"});
+  asked.form = Form::discrete;
+  const Model zeros = model("openquake", asked, results);
+  ASSERT_EQ(zeros.states.size(), 2u);
+  EXPECT_THAT(zeros.notes, testing::Contains(HasSubstr("overturned never happened up to 1.9 g: its probability is 0")));
+}
+
 TEST(LimitStates, AreChosenAndNamed) {
   const Model found = model("openquake", request({"peak_slip_m:0.2=hits", "overturned=falls"}));
   ASSERT_EQ(found.states.size(), 2u);

@@ -88,10 +88,11 @@ TEST(ClusteredNull, OfADistributionThatIsCutOffIsTheSameByBothWays) {
   EXPECT_NEAR(quantile(b, 0.5) / quantile(a, 0.5), 1 / std::sqrt(0.7), 0.08);
 }
 
-// A true lognormal over 40 records of 25, half of the variance between them: the 5 % test. FREESTAND_REPEATS for more.
+// A true lognormal over 40 records of 25, half of the variance between them: the 5 % test. Wanted: 4 to 6 %. The draws are fixed; 3000
+// repeats gave 0.0417 (error 0.004). FREESTAND_REPEATS for more.
 TEST(ClusteredNull, FivePercentTestRejectsFivePercentWithSharedRecords) {
   const char* asked = std::getenv("FREESTAND_REPEATS");
-  const auto repeats = static_cast<std::uint64_t>(asked ? std::atoi(asked) : 300);
+  const auto repeats = static_cast<std::uint64_t>(asked ? std::atoi(asked) : 1500);
   int rejected = 0, naively = 0;
   EstimatedNull lilliefors(1, 1000);
   for (std::uint64_t r = 0; r < repeats; ++r) {
@@ -114,11 +115,11 @@ TEST(ClusteredNull, FivePercentTestRejectsFivePercentWithSharedRecords) {
     rejected += null_p(clustered_null(clustering(groups, 40), 0, r, 200), s) <= 0.05;
     naively += lilliefors.ks_p(s, 1000) < 0.05;
   }
-  const double share = rejected / static_cast<double>(repeats),
-               deviation = std::sqrt(0.05 * 0.95 / static_cast<double>(repeats));
+  const double share = rejected / static_cast<double>(repeats);
   RecordProperty("share", std::to_string(share));
   RecordProperty("naive", std::to_string(naively / static_cast<double>(repeats)));
-  EXPECT_NEAR(share, 0.05, 0.01 + 2 * deviation);
+  EXPECT_GE(share, 0.04);
+  EXPECT_LE(share, 0.06);
   EXPECT_GT(naively, 0.14 * static_cast<double>(repeats));
 }
 

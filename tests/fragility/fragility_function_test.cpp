@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "fragility/draws.hpp"
+#include "fragility/fit.hpp"
 #include "fragility/probit.hpp"
 
 namespace freestand::fragility {
@@ -221,6 +222,18 @@ TEST(FragilityFunction, MisfitOfATrueCurveIsRarelyCalledOne) {
   EXPECT_LE(rejected, 20);
 }
 
+// Forty motions cannot tell the true shares to 0.05: that a test does not refute the curve is no proof that it may stand for them.
+TEST(FragilityFunction, WhatIsMerelyNotRefutedIsNotAdequate) {
+  int not_refuted_ones = 0;
+  for (std::uint64_t r = 0; r < 20; ++r) {
+    const FragilityFunction curve = true_curve(true, r);
+    EXPECT_EQ(curve.adequate, curve.off_by <= Options{}.adequate);
+    EXPECT_EQ(not_refuted(curve), !curve.adequate && curve.misfit_p > 0.05);
+    not_refuted_ones += not_refuted(curve);
+  }
+  EXPECT_GE(not_refuted_ones, 15);
+}
+
 // Half of the samples fall at 0.4 and half never: no lognormal rises to one half and stays there.
 TEST(FragilityFunction, MisfitIsFoundWhereOneCurveIsTooSimple) {
   int rejected = 0;
@@ -301,6 +314,33 @@ TEST(FragilityFunction, MedianBeyondWhatWasSweptIsAnExtrapolation) {
   EXPECT_LT(beyond.im_least, 0.05);
   EXPECT_GT(beyond.im_most, 1.95);
   EXPECT_LT(beyond.im_most, 2);
+}
+
+// Beyond the largest demands seen a median is a guess, of whatever demand and capacity.
+TEST(FragilityFunction, WarningsNameCapacitiesWhoseMediansLieBeyondWhatWasSwept) {
+  Options options;
+  options.im_name = "pga";
+  options.im_edge = {0.1, 0.5, 1, 2};
+  options.edps = {{"slip", "m", "", false, 0, {0.05, 0.6, 1}}};
+  options.resamples = 50;
+  Tally tally(options);
+  for (std::uint64_t i = 0; i < 20000; ++i) {
+    const double im = 0.1 * std::exp(std::log(20.0) * test::uniform(i, 620));
+    const double slip = 0.1 * std::pow(im, 1.5) * std::exp(0.6 * test::normal(i, 621));
+    tally.add({i, im, 0, Outcome::moved, {&slip, 1}, {}});
+  }
+  const Result result = fit(tally);
+  // (C/0.1)^(1/1.5): 0.63, 3.3 and 4.6.
+  const auto& functions = result.edps[0].functions;
+  EXPECT_FALSE(functions[0].extrapolated);
+  EXPECT_TRUE(functions[1].extrapolated && functions[2].extrapolated);
+  std::string told;
+  for (const std::string& warning : result.warnings)
+    if (warning.find("outside the intensities swept") != std::string::npos) told += warning;
+  EXPECT_NE(told.find("slip: "), std::string::npos) << told;
+  EXPECT_NE(told.find("slip > 0.6 m"), std::string::npos) << told;
+  EXPECT_NE(told.find("slip > 1 m"), std::string::npos) << told;
+  EXPECT_EQ(told.find("slip > 0.05 m"), std::string::npos) << told;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "fragility/draws.hpp"
 #include "fragility/goodness.hpp"
+#include "fragility/groups.hpp"
 
 namespace freestand::fragility::regression_test {
 namespace {
@@ -61,6 +62,50 @@ TEST(Regression, SumsOfATallyGiveTheSameAsTheSamples) {
   EXPECT_NEAR(found.cloud_slope, cloud.slope, 1e-8);
   EXPECT_NEAR(found.cloud_sd, cloud.sd, 1e-8);
   EXPECT_NEAR(found.cloud_r2, cloud.r2, 1e-8);
+}
+
+// Samples of 40 records, each with a level of its own: over many sweeps each coefficient scatters by what its standard error says. Records
+// differ in their slope too, so samples that are counted as independent would scatter far less.
+TEST(Regression, StandardErrorsAreTheScatterOverSweepsWithSharedRecords) {
+  constexpr int records = 40, each = 25, repeats = 150;
+  Options o = options();
+  o.resamples = 100;
+  for (int r = 0; r < records; ++r) o.motion_group.push_back(r);
+  const std::vector<std::pair<double Regressions::*, double Regressions::*>> told{
+      {&Regressions::slope, &Regressions::slope_se},
+      {&Regressions::sd_slope, &Regressions::sd_slope_se},
+      {&Regressions::cloud_intercept, &Regressions::cloud_intercept_se},
+      {&Regressions::cloud_slope, &Regressions::cloud_slope_se},
+      {&Regressions::cloud_sd, &Regressions::cloud_sd_se}};
+  std::vector<double> sum(told.size()), square(told.size()), variance(told.size());
+  for (std::uint64_t repeat = 0; repeat < repeats; ++repeat) {
+    o.seed = repeat + 1;
+    Tally tally(o);
+    const std::uint64_t stream = 7000 + 10 * repeat;
+    std::uint64_t i = 0;
+    for (std::uint64_t r = 0; r < records; ++r) {
+      const double level = 0.4 * test::normal(r, stream), steeper = 0.3 * test::normal(r, stream + 1);
+      for (int k = 0; k < each; ++k, ++i) {
+        const double im = 0.2 + 1.8 * test::uniform(i, stream + 2);
+        const double slip = 0.1 * std::pow(im, 1.2 + steeper) * std::exp(level + 0.4 * test::normal(i, stream + 3));
+        tally.add({i, im, static_cast<int>(r), Outcome::moved, {&slip, 1}, {}});
+      }
+    }
+    const Resampling resampling(tally.groups(), tally.groups_with_samples(), o.resamples, o.seed);
+    const Regressions found = regressions(tally, 0, resampling, std::vector<BinFit>{});
+    for (std::size_t c = 0; c < told.size(); ++c) {
+      const double value = found.*told[c].first, se = found.*told[c].second;
+      sum[c] += value / repeats;
+      square[c] += value * value / repeats;
+      variance[c] += se * se / repeats;
+    }
+  }
+  for (std::size_t c = 0; c < told.size(); ++c) {
+    const double ratio = std::sqrt(variance[c] / (square[c] - sum[c] * sum[c]));
+    RecordProperty("coefficient_" + std::to_string(c), std::to_string(ratio));
+    // The scatter of 150 is known to 1/sqrt(300) = 0.06: three times that.
+    EXPECT_NEAR(ratio, 1, 0.18) << c;
+  }
 }
 
 TEST(Regression, LineThroughTheBins) {

@@ -234,13 +234,13 @@ TEST(BinsCsv, HasOneRowPerEdpAndBin) {
 TEST(SurfaceCsv, HasOneRowPerPointAndNamesWhatItIsOver) {
   const auto table = table_of(surface_csv(example()));
   ASSERT_EQ(table.size(), 1u + 3 * 2 + 3 * 2 * 2 + 3);
-  EXPECT_EQ(table[0],
-            (std::vector<std::string>{"im_name", "im_unit", "im", "im_lower", "im_upper", "edp", "unit", "capacity",
-                                      "axis", "axis_unit", "axis_value", "axis_lower", "axis_upper", "n", "probability",
-                                      "lower", "upper", "empirical", "status"}));
+  EXPECT_EQ(table[0], (std::vector<std::string>{
+                          "im_name",     "im_unit", "im",        "im_lower",   "im_upper",   "edp",        "unit",
+                          "capacity",    "axis",    "axis_unit", "axis_value", "axis_lower", "axis_upper", "n",
+                          "probability", "lower",   "upper",     "empirical",  "status",     "least",      "most"}));
   for (const auto& row : table) EXPECT_EQ(row.size(), table[0].size());
-  EXPECT_EQ(table[4], (std::vector<std::string>{"pga", "g", "1.25", "1", "2", "delta", "m", "2", "", "", "", "", "",
-                                                "101", "1.125", "8", "9", "0", "rejected"}));
+  EXPECT_EQ(table[4], (std::vector<std::string>{"pga", "g", "1.25", "1",     "2", "delta", "m", "2",        "",  "", "",
+                                                "",    "",  "101",  "1.125", "8", "9",     "0", "rejected", "0", "0"}));
   EXPECT_EQ(cell_of(table, 5, "empirical"), "");
   EXPECT_EQ(cell_of(table, 5, "status"), "too_few");
   EXPECT_EQ(cell_of(table, 21, "edp"), "overturned");
@@ -252,8 +252,9 @@ TEST(SurfaceCsv, HoldsTheSecondAxes) {
   fragility::Result result = example();
   result.edps[0].axes[0].probability[11] = fragility::unknown;
   const auto table = table_of(surface_csv(result));
-  EXPECT_EQ(table[17], (std::vector<std::string>{"pga", "g", "3", "2", "4", "delta", "m", "0.5", "friction_mu_k", "1",
-                                                 "1.5", "1", "2", "5", "10", "1", "2", "10", "counts_only"}));
+  EXPECT_EQ(table[17], (std::vector<std::string>{"pga", "g", "3", "2", "4",  "delta", "m", "0.5", "friction_mu_k", "1",
+                                                 "1.5", "1", "2", "5", "10", "1",     "2", "10",  "counts_only",   "",
+                                                 ""}));
   EXPECT_EQ(cell_of(table, 18, "capacity"), "2");
   EXPECT_EQ(cell_of(table, 18, "probability"), "");
   EXPECT_EQ(cell_of(table, 18, "status"), "too_few");

@@ -54,7 +54,7 @@ def make_database(folder):
     with h5py.File(folder / "database.h5", "w") as root:
         root.attrs.update({"format": "freestand-catalogue/1", "name": "things & shelves", "revision": "1", "confidence": 0.95})
         root.create_dataset("classes", data=["display case", "bookcase"], dtype=TEXT)
-        root.create_dataset("families", data=["lognormal", "points"], dtype=TEXT)
+        root.create_dataset("families", data=["lognormal", "not_refuted", "points"], dtype=TEXT)
         _write(root.create_group("intensities"), [{"name": "pgv_mps", "unit": "m/s", "symbol": "PGV", "summary": "peak velocity", "binary": 0}])
         _write(root.create_group("demands"), [{"name": "overturned", "unit": "1", "symbol": "", "summary": "it fell", "binary": 1},
                                               {"name": "peak_slip_m", "unit": "m", "symbol": "U", "summary": "largest slip", "binary": 0}])

@@ -10,8 +10,8 @@ from support import make_results
 
 import h5py
 import numpy as np
-from freestand_post import pictures, reading, style
-from freestand_post.pictures import surface
+from freestand_post import pictures, reading, style, words
+from freestand_post.pictures import intensities, surface
 from matplotlib.text import Text
 
 
@@ -88,9 +88,9 @@ class Pictures(unittest.TestCase):
         sweep = mock.Mock(centre=np.array([0.2, 0.6]), im_unit="g")
         edp = mock.Mock(unit="m", label="U")
         edp.name = "peak_slip_m"
-        for over, words in ((0.7, "they overturn"), (0.3, "Nowhere do half")):
+        for over, said in ((0.7, "they overturn"), (0.3, "Nowhere do half")):
             p = np.array([[0.1, 0.05], [over + 0.01, over]])
-            self.assertIn(words, surface._finding(sweep, edp, "U", "PGA", p, np.array([0.1, 0.2])))
+            self.assertIn(said, surface._finding(sweep, edp, "U", "PGA", p, np.array([0.1, 0.2])))
 
     def test_outer_axes_are_named(self):
         for name, picture in self.drawn.items():
@@ -110,6 +110,34 @@ class Pictures(unittest.TestCase):
         for k in range(4):
             wanted = sweep.edps[0].surface["probability"][:, k]
             self.assertTrue(any(len(y) == len(wanted) and np.array_equal(y, wanted, equal_nan=True) for y in lines), k)
+
+    def test_intensities_stand_in_their_order_with_the_best_ones_filled(self):
+        def row(im, value, se, behind, p=0.5, key="scatter"):
+            return {"im": im, key: value, f"{key}_se": se, "behind_best": behind, "behind_best_se": 0.02, "sufficiency": [{"on": "record_pulse_period_s", "p": p}]}
+
+        sweep = reading.read_sweep(support.sweep())
+        own = sweep.im_name
+        slip = [row("pgv_mps", 0.4, 0.02, 0), row("housner_m", 0.43, 0.03, 0.03, p=0.001), row(own, 0.7, 0.05, 0.3), row("pgd_m", None, None, None)]
+        falls = [row("pgv_mps", 0.5, 0.02, 0, key="deviance_explained"), row(own, 0.2, 0.02, 0.3, key="deviance_explained")]
+        overturned = mock.Mock(kind="binary", label="overturned")
+        overturned.name = "overturned"
+        sweep.edps[:] = [sweep.edps[0], overturned]
+        sweep.summary["ranking"] = {"demands": {sweep.edps[0].name: slip, "overturned": falls}}
+        (picture,) = intensities.pictures(sweep)
+        left, right = picture.figure.axes
+        self.assertEqual(overlaps(picture.figure), [])
+        points = [line for line in left.get_lines() if line.get_marker() == "o"]
+        marks = {(float(line.get_xdata()[0]), float(line.get_ydata()[0])): line for line in points if line.get_markersize() == 6}
+        self.assertEqual(sorted(marks), [(0.4, 0), (0.43, -1), (0.7, -2)])  # what is not known has no point
+        filled = {at: line.get_markerfacecolor() != "white" for at, line in marks.items()}
+        self.assertEqual(filled, {(0.4, 0): True, (0.43, -1): True, (0.7, -2): False})
+        rings = [(float(line.get_xdata()[0]), float(line.get_ydata()[0])) for line in points if line.get_markersize() == 12]
+        self.assertEqual(rings, [(0.43, -1)])
+        bold = [label.get_text() for label in left.get_yticklabels() if label.get_weight() == "bold"]
+        self.assertEqual(bold, [words.intensity(own)])
+        self.assertGreater(right.get_xlim()[0], right.get_xlim()[1])  # the best at the left in both
+        self.assertIn("0.4", picture.finding)
+        self.assertIn(words.intensity("pgv_mps"), picture.finding)
 
     def test_half_is_where_the_title_says(self):
         sweep = reading.read_sweep(support.sweep())

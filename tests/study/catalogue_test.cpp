@@ -203,6 +203,13 @@ TEST_F(CatalogueTest, ClassesAreAClosedListWhereTheyAreListed) {
               HasSubstr("class refrigerater is nearly refrigerator"));
 }
 
+TEST_F(CatalogueTest, ClassesThatDifferInDigitsAreTwo) {
+  const std::string rest = ", block: {width_m: 1, height_m: 2}, friction: {mu: 0.2}}\n";
+  const std::string kinds = "entries:\n  - {id: a, class: kind_1" + rest + "  - {id: b, class: kind_2" + rest;
+  EXPECT_EQ(read(common + kinds).classes, (std::vector<std::string>{"kind_1", "kind_2"}));
+  EXPECT_THAT(refusal(common + kinds + "  - {id: c, class: kynd_2" + rest), HasSubstr("class kynd_2 is nearly kind_"));
+}
+
 TEST_F(CatalogueTest, AReferenceIsWhole) {
   const std::string entry =
       "entries:\n  - {id: a, class: x, block: {width_m: 1, height_m: 2}, friction: {mu: 0.2}, reference: ";
