@@ -165,7 +165,10 @@ std::vector<DatabaseExport> export_beside(const fs::path& database, const std::v
   const Database db = io::read_database(database / io::database_name);
   for (const std::string& format : formats)
     for (const database::Word& im : db.intensities) {
-      ExportRequest request{.folder = database, .output = database / "exports" / format, .format = format};
+      ExportRequest request;
+      request.folder = database;
+      request.output = database / "exports" / format;
+      request.format = format;
       if (db.intensities.size() > 1) request.output = intensity_folder(request.output, im.name);
       request.overwrite = true;
       request.im = im.name;
