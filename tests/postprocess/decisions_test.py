@@ -3,13 +3,14 @@
 import html
 import pathlib
 import tempfile
+import types
 import unittest
 
 import support
 
 import make_decisions
 import numpy as np
-from freestand_post import decisions_report, designs, pictures, reading, style
+from freestand_post import decisions_report, designs, halved, pictures, reading, style
 from freestand_post.command import read
 from freestand_post.report import page
 from pictures_test import overlaps
@@ -101,6 +102,33 @@ class Rates(InFolder):
         self.assertEqual(text, "B has the lowest annual rate of “overturned”: 2.0×10⁻⁴, 5.0 times below a; not parted by more than their bands from c")
 
 
+class Halved(unittest.TestCase):
+    """Rates that fall as the width to the power -4 halve at 2^(1/4) of it."""
+
+    def sentences(self, widths, rate, band=1.2):
+        row = lambda value: types.SimpleNamespace(title="overturned", rate=(value, value / band, value * band))
+        tables = [{"overturned": row(rate(float(width)))} for width in widths]
+        found = types.SimpleNamespace(differing=[("block.width_m", list(widths))])
+        return halved.halving(found, ["overturned"], tables)
+
+    def test_the_width_that_halves_the_rate(self):
+        (text,) = self.sentences(["0.6", "0.7", "0.9"], lambda width: width**-4)
+        self.assertIn(f"{0.6 * 2**0.25:.2f}\u00a0m", text)
+        # The band of the others, on a line from the first one's rate: ln 2 falls to ln 2 - 4 ln(0.7/0.6) - ln 1.2 where the low end lies.
+        drop = 4 * np.log(0.7 / 0.6) + np.log(1.2)
+        self.assertIn(f"({0.6 * (0.7 / 0.6)**(np.log(2) / drop):.2f} to {0.6 * (2 * 1.2)**0.25:.2f})", text)
+        self.assertIn("of width 0.6\u00a0m", text)
+
+    def test_where_no_design_goes_so_far_it_says_so(self):
+        (text,) = self.sentences(["0.6", "0.65"], lambda width: width**-4)
+        self.assertTrue(text.startswith("No width from 0.6\u00a0m to 0.65\u00a0m halves"), text)
+
+    def test_where_the_designs_differ_in_more_nothing_is_said(self):
+        row = types.SimpleNamespace(title="overturned", rate=(1.0, 0.9, 1.1))
+        for differing in ([("block.width_m", ["1", "2"]), ("friction.mu_k", ["0.3", "0.4"])], [("chain", ["with", "without"])]):
+            self.assertEqual(halved.halving(types.SimpleNamespace(differing=differing), ["e"], [{"e": row}, {"e": row}]), [])
+
+
 class Pages(InFolder):
     def text(self, *folders):
         return html.unescape(page(read(folders)))
@@ -109,7 +137,8 @@ class Pages(InFolder):
         folders = [self.design("a", 2.0), self.design("b", 3.0, width=0.9), make_decisions.make_risk(self.folder / "ra"),
                    make_decisions.make_risk(self.folder / "rb")]
         text = self.text(*folders)
-        for words in ("width 0.6\u00a0m", "width 0.9\u00a0m", "1.50 times as large", "block.width_m", "Annual risk: refrigerator (out)", "Annual rates by design", "has the lowest annual rate of"):
+        for words in ("width 0.6\u00a0m", "width 0.9\u00a0m", "1.50 times as large", "block.width_m", "Annual risk: refrigerator (out)", "Annual rates by design", "has the lowest annual rate of",
+                      "No width from 0.6\u00a0m to 0.9\u00a0m halves the annual rate of"):
             self.assertIn(words, text)
         self.assertEqual(text.count("<svg"), 3)
         self.assertNotIn("nan", text.split("<body>")[1].split("<svg")[0])

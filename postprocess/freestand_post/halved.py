@@ -1,0 +1,51 @@
+"""The value of the one number in which designs differ that halves the annual rate of the first: "the base width that halves it"."""
+import math
+
+import numpy as np
+
+from . import words
+
+
+def halving(found, events, tables):
+    """A sentence for each event that has one; found: Designs, tables: rows of the annual rates by design, in the order of the designs."""
+    if len(found.differing) != 1:
+        return []
+    key, texts = found.differing[0]
+    try:
+        value = np.array([float(text) for text in texts])
+    except ValueError:
+        return []
+    if len(tables) != value.size or len(set(value)) < value.size or not (value > 0).all():
+        return []
+    return [sentence for event in events if (sentence := _sentence(key, value, event, tables))]
+
+
+def _sentence(key, value, event, tables):
+    rates = np.array([table[event].rate if event in table else (math.nan,) * 3 for table in tables])
+    if not (rates[:, 0] > 0).all():
+        return ""
+    name, unit = words.sampled(key), words.split_unit(key)[1]
+    wanted = 0.5 * rates[0, 0]
+    what = f"the annual rate of “{tables[0][event].title}” of {name} {words.chosen(value[0], unit)}"
+    at = _crossing(value, rates[:, 0], wanted)
+    if math.isnan(at):
+        least, most = words.chosen(value.min(), unit), words.chosen(value.max(), unit)
+        return f"No {name} from {least} to {most} halves {what}."
+    # The band of the other designs' rates, whose first one is what is halved.
+    ends = [_crossing(value, np.where(np.arange(value.size) == 0, rates[:, 0], rates[:, side]), wanted) for side in (1, 2)]
+    band = ""
+    if all(math.isfinite(end) for end in ends):
+        band = f" ({words.number(min(ends))} to {words.number(max(ends))})"
+    elif any(math.isfinite(end) for end in ends):
+        band = " (its band reaches beyond the designs)"
+    return f"{words.capitalised(name)} {words.quantity(at, unit)}{band} halves {what}: read between the designs, ln rate over ln {name}."
+
+
+def _crossing(value, rate, wanted):
+    """Nearest to the first design, where ln rate over ln value, straight between designs, comes to what is wanted; nan: nowhere."""
+    if not (rate > 0).all():
+        return math.nan
+    order = np.argsort(value)
+    x, y = np.log(value[order]), np.log(rate[order] / wanted)
+    found = [x[i] + (x[i + 1] - x[i]) * y[i] / (y[i] - y[i + 1]) for i in range(x.size - 1) if y[i] != y[i + 1] and y[i] * y[i + 1] <= 0]
+    return math.exp(min(found, key=lambda at: abs(at - math.log(value[0])))) if found else math.nan
