@@ -223,13 +223,7 @@ class ReferenceIntegrator {
 
   void record(double h) {
     const double start = life_.cursor.time();
-    if (life_.state.mode == Mode::flight)
-      with_flight_arc<judge_order>(life_.rig, life_.state, start, floor_,
-                                   [&](const auto& arc) { life_.recorder.record(life_.state, arc, floor_, start, h); });
-    else
-      with_contact_arc<judge_order>(life_.rig, life_.state, start, floor_, [&](const auto& arc) {
-        life_.recorder.record(life_.state, arc, floor_, start, h);
-      });
+    with_arc(floor_, [&](const auto& arc) { life_.recorder.record(life_.state, arc, floor_, start, h); });
   }
 
   // Calls use(arc) with the series of the state's mode, of its order in the floor given.
