@@ -35,7 +35,7 @@ TEST(Judge, AgreesWithTheKernelOnEveryEffectInEveryMode) {
   for (const auto& [gap, count] : known) std::printf("excused, %d: %s\n", count, gap.c_str());
   int excused = 0;
   for (const auto& [gap, count] : known) excused += count;
-  EXPECT_LT(excused, 0.01 * static_cast<double>(tally.total().cases));
+  EXPECT_LE(excused, 1);  // they may not grow
   EXPECT_THAT(tally.empty_cells(), testing::IsEmpty());
   EXPECT_GT(tally.total().compared, tally.total().samples * 9 / 10);
 }
