@@ -86,7 +86,8 @@ def rates(found, risk_results):
     rows = [{"design": words.capitalised(label), "cells": [_rate(table.get(key), tables[0][key]) for key in events]} for label, table in zip(labels, tables)]
     return {"columns": [words.capitalised(tables[0][key].title) for key in events], "rows": rows, "level": words.level(risk_results[0].confidence),
             "finding": _lowest(tables[0][events[0]].title, labels, [table[events[0]].rate if events[0] in table else (math.nan,) * 3 for table in tables]) if events else "",
-            "halved": halving(found, events, tables), "hazards": any(list(risk.hazard_rate) != list(risk_results[0].hazard_rate) or risk.im_symbol != risk_results[0].im_symbol for risk in risk_results)}
+            "halved": halving(found, labels, events, tables),
+            "hazards": any(list(risk.hazard_rate) != list(risk_results[0].hazard_rate) or risk.im_symbol != risk_results[0].im_symbol for risk in risk_results)}
 
 
 def _events(risk):

@@ -6,16 +6,16 @@ import numpy as np
 from . import words
 
 
-def halving(found, events, tables):
-    """A sentence for each event that has one; found: Designs, tables: rows of the annual rates by design, in the order of the designs."""
-    if len(found.differing) != 1:
+def halving(found, labels, events, tables):
+    """A sentence for each event that has one. found: Designs; tables: the rows of each risk, labels: the designs that they are of."""
+    if len(found.differing) != 1 or sorted(labels) != sorted(found.labels):
         return []
     key, texts = found.differing[0]
     try:
-        value = np.array([float(text) for text in texts])
+        value = np.array([float(texts[found.labels.index(label)]) for label in labels])
     except ValueError:
         return []
-    if len(tables) != value.size or len(set(value)) < value.size or not (value > 0).all():
+    if len(set(value)) < value.size or not (value > 0).all():
         return []
     return [sentence for event in events if (sentence := _sentence(key, value, event, tables))]
 

@@ -186,7 +186,7 @@ TEST(Risk, AnAdequateCurveIsRecommendedAndAgreesWithTheCounts) {
 
 TEST(Risk, ACurveThatMissesTheCountsIsNot) {
   Sweep sweep;
-  sweep.records = 400;  // off by less than 0.05 at most
+  sweep.records = 200;
   sweep.per_record = 50;
   sweep.floor = 0.3;
   const RiskRow row = risk(sweep.fit(3, 200), power_law(1e-3, 2, 0.06, 20)).rows.at(0);
@@ -202,7 +202,7 @@ TEST(Risk, ACurveThatMissesTheCountsIsNot) {
 // far too wide, and its tail below the hazard curve is not the counts'.
 TEST(Risk, WhereTheCountsAreTakenTheyAlsoSayWhatIsOutside) {
   Sweep sweep;
-  sweep.records = 400;  // off by less than 0.05 at most
+  sweep.records = 200;
   sweep.median = 0.3;
   sweep.between = sweep.within = 0.1;
   sweep.ceiling = 0.5;
@@ -225,7 +225,7 @@ TEST(Risk, WhereTheCountsAreTakenTheyAlsoSayWhatIsOutside) {
 // Everything is off by less than 0.05 where P stays below 0.04; the rate, which comes from there, may be off by a factor.
 TEST(Risk, ACurveThatIsOffByLittleIsNotRecommendedWhereItsRateIsAnother) {
   Sweep sweep;
-  sweep.records = 400;  // off by less than 0.05 at most
+  sweep.records = 200;
   sweep.per_record = 200;
   sweep.between = sweep.within = 0.1;
   sweep.ceiling = 0.036;

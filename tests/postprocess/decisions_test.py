@@ -108,8 +108,8 @@ class Halved(unittest.TestCase):
     def sentences(self, widths, rate, band=1.2):
         row = lambda value: types.SimpleNamespace(title="overturned", rate=(value, value / band, value * band))
         tables = [{"overturned": row(rate(float(width)))} for width in widths]
-        found = types.SimpleNamespace(differing=[("block.width_m", list(widths))])
-        return halved.halving(found, ["overturned"], tables)
+        found = types.SimpleNamespace(differing=[("block.width_m", list(widths))], labels=list(widths))
+        return halved.halving(found, found.labels, ["overturned"], tables)
 
     def test_the_width_that_halves_the_rate(self):
         (text,) = self.sentences(["0.6", "0.7", "0.9"], lambda width: width**-4)
@@ -126,7 +126,8 @@ class Halved(unittest.TestCase):
     def test_where_the_designs_differ_in_more_nothing_is_said(self):
         row = types.SimpleNamespace(title="overturned", rate=(1.0, 0.9, 1.1))
         for differing in ([("block.width_m", ["1", "2"]), ("friction.mu_k", ["0.3", "0.4"])], [("chain", ["with", "without"])]):
-            self.assertEqual(halved.halving(types.SimpleNamespace(differing=differing), ["e"], [{"e": row}, {"e": row}]), [])
+            found = types.SimpleNamespace(differing=differing, labels=["a", "b"])
+            self.assertEqual(halved.halving(found, found.labels, ["e"], [{"e": row}, {"e": row}]), [])
 
 
 class Pages(InFolder):
@@ -137,11 +138,22 @@ class Pages(InFolder):
         folders = [self.design("a", 2.0), self.design("b", 3.0, width=0.9), make_decisions.make_risk(self.folder / "ra"),
                    make_decisions.make_risk(self.folder / "rb")]
         text = self.text(*folders)
-        for words in ("width 0.6\u00a0m", "width 0.9\u00a0m", "1.50 times as large", "block.width_m", "Annual risk: refrigerator (out)", "Annual rates by design", "has the lowest annual rate of",
-                      "No width from 0.6\u00a0m to 0.9\u00a0m halves the annual rate of"):
+        for words in ("width 0.6\u00a0m", "width 0.9\u00a0m", "1.50 times as large", "block.width_m", "Annual risk: refrigerator (out)", "Annual rates by design", "has the lowest annual rate of"):
             self.assertIn(words, text)
         self.assertEqual(text.count("<svg"), 3)
         self.assertNotIn("nan", text.split("<body>")[1].split("<svg")[0])
+
+    def test_the_width_that_halves_a_rate_is_that_of_the_designs_which_the_risks_are_of(self):
+        """In whatever order they are given; of risks that are of other sweeps nothing is said."""
+        designs_ = [self.design("a", 2.0), self.design("b", 3.0, width=0.9)]
+        def risk(folder, sweep, times=1):
+            return make_decisions.make_risk(self.folder / folder, sweep=sweep, times=times)
+        self.assertIn("No width from 0.6\u00a0m to 0.9\u00a0m halves the annual rate of", self.text(*designs_, risk("r1", "a"), risk("r2", "b")))
+        half = self.text(*designs_, risk("r3", "b", 0.25), risk("r4", "a"))
+        # 16 times less at 1.5 times the width: half at 1.5^(1/4) of it.
+        self.assertIn(f"Width {0.6 * 1.5**0.25:.2f}\u00a0m", self.text(*designs_, risk("r5", "a"), risk("r6", "b", 0.0625)))
+        self.assertIn("No width from 0.6\u00a0m to 0.9\u00a0m halves the annual rate of “overturned” of width 0.9\u00a0m", half)
+        self.assertNotIn("halves", self.text(*designs_, risk("r7", "out"), risk("r8", "out")))
 
     def test_other_intensities_do_not_fit_into_one_axis(self):
         import h5py

@@ -54,15 +54,15 @@ def row(edp, capacity, rate, share, **more):
             "median_im": 0.4, "share_by_im": share, **more}
 
 
-def make_risk(folder, name="refrigerator"):
+def make_risk(folder, name="refrigerator", sweep="out", times=1):
     folder.mkdir(parents=True)
     edge = np.geomspace(0.05, 3, 25)
     share = np.diff(stats.norm.cdf(np.log(edge / 0.4) / 0.5)).tolist()
-    rows = [row("peak_slip_m", 0.05, 1.2e-2, share), row("peak_slip_m", 0.2, 2.3e-3, share, recommended="counts"),
+    rows = [row("peak_slip_m", 0.05, 1.2e-2 * times, share), row("peak_slip_m", 0.2, 2.3e-3 * times, share, recommended="counts"),
             row("peak_slip_m", 0.8, None, [], refused="71 % of the rate would come from intensities outside of the sweep"),
-            row("overturned", None, 3.1e-4, share)]
+            row("overturned", None, 3.1e-4 * times, share)]
     (folder / "risk.json").write_text(json.dumps({
-        "format": "freestand-risk/1", "sweep": "out", "study_name": name, "command": "", "im": "pga_g", "im_unit": "g", "period_s": None,
+        "format": "freestand-risk/1", "sweep": sweep, "study_name": name, "command": "", "im": "pga_g", "im_unit": "g", "period_s": None,
         "confidence": 0.95, "hazard": {"im": [0.05, 3], "annual_rate": [0.1, 1e-5]}, "swept": [0.1, 2], "years": [50, 475],
         "im_edge": edge.tolist(), "demands": rows, "warnings": ["much of the rate comes from afar: peak_slip_m > 0.8 m (71 %)"]}))
     return folder
