@@ -46,14 +46,19 @@ def compare(sweeps):
     if len({sweep.folder.resolve() for sweep in sweeps}) < len(sweeps):
         raise Problem("a sweep is given twice (it cannot stand beside itself): name each folder once", USAGE)
     for sweep in sweeps[1:]:
-        if (sweep.im, sweep.im_unit) != (first.im, first.im_unit):
-            raise Problem(f"{first.folder} was fitted over {first.im} and {sweep.folder} over {sweep.im}: they do not fit into one axis; fit "
-                          f"both over the same (freestand fit DIR --im {first.im} -o DIR2)", USAGE)
+        if (sweep.im_name, sweep.im_unit) != (first.im_name, first.im_unit):
+            raise Problem(f"{first.folder} was fitted over {first.im_name} and {sweep.folder} over {sweep.im_name}: several designs do not fit into "
+                          f"one axis so; fit both over the same (freestand fit DIR --im {first.im_name} -o DIR2)", USAGE)
     differing = _differing([_flat(sweep) for sweep in sweeps])
     paired = all(_motions(sweep) == _motions(first) for sweep in sweeps)
     level = float(first.attributes.get("confidence", 0.95))
-    rows = [Row(what, curves, [_ratio(curves[0], curve, paired, level) for curve in curves]) for what, curves in _curves(sweeps)]
+    rows = [Row(what, each, [_ratio(each[0], curve, paired, level) for curve in each]) for what, each in curves(sweeps)]
     return Designs(sweeps, _labels(sweeps, differing), differing, rows, paired, level)
+
+
+def same_study(sweeps):
+    """Are they of one design? What was computed of it, and how it was analysed, may differ."""
+    return not _differing([_flat(sweep) for sweep in sweeps])
 
 
 def _motions(sweep):
@@ -143,7 +148,7 @@ def _part(key, value):
     return f"{name} {value}" + (f"\u00a0{unit}" if unit else "")
 
 
-def _curves(sweeps):
+def curves(sweeps):
     """(what, [curve of each]): overturning, then each demand and capacity that all hold."""
     if all(sweep.overturning for sweep in sweeps):
         yield "overturning", [sweep.overturning for sweep in sweeps]

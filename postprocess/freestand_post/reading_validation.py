@@ -19,6 +19,7 @@ class Channel:
     model: np.ndarray
     residual: np.ndarray
     spread: np.ndarray       # standard deviation that the floor's noise makes
+    band: tuple              # lower, upper: where 90 of 100 readings are predicted; empty: not known
 
 
 @dataclass
@@ -61,6 +62,8 @@ class Comparison:
     histories: list
     tables: dict             # calibration, holdout -> [Table]
     ladder: list             # of dict
+    draws: dict              # name -> values, row by row; empty: none
+    friction_scatter: float  # standard deviation of ln(friction) from test to test
 
 
 @dataclass
@@ -80,6 +83,8 @@ class Diagnosis:
     base_mu: float
     recovered: list          # of Table
     suggestion: dict         # empty where nothing is suggested
+    chances: list            # of dict: question, about, p, simulations
+    proposal: dict           # a law of no catalogue, after the verdict unknown; empty: none
 
     @property
     def best(self):
@@ -185,13 +190,15 @@ def _history(node):
     for name in CHANNELS:
         found = node.node(name)
         if found:
+            band = found.node("band")
             channels.append(Channel(name, found.number("noise"), *(found.numbers(key, time.size) for key in
-                                                                   ("measured", "model", "residual", "spread"))))
+                                                                   ("measured", "model", "residual", "spread")),
+                                    tuple(band.numbers(end, time.size) for end in ("lower", "upper")) if band else ()))
     return MeasuredHistory(node.text("id"), node.text("role"), time, node.numbers("floor_acceleration_mps2", time.size), channels)
 
 
 def _test(node):
-    row = node.row("error_noise_units error_relative error_explained error_expected score overturned_probability floor_peak_g",
+    row = node.row("error_noise_units error_relative error_floor_noise_allowed error_expected score overturned_probability floor_peak_g",
                    "id role kind outcome source")
     row["overturned_measured"] = node.value.get("overturned_measured")
     row["peaks"] = {peak.text("name"): (peak.number("measured"), peak.number("model")) for peak in node.nodes("peaks")}
@@ -207,25 +214,41 @@ def _ladder(root):
 
 
 def read_comparison(folder):
-    root = _root(folder, COMPARISON, "freestand-comparison/1")
+    root = _root(folder, COMPARISON, "freestand-comparison/2")
     tests = [_test(node) for node in root.nodes("tests", needed=True)]
     parameters = []
     for node in root.nodes("parameters"):
         parameters.append(node.row("value lower upper", "name unit", "calibrated") | {"interval": node.interval("interval")})
     ratio, tables = root.node("peak_ratio"), root.node("error_tables")
-    columns = "error_noise_units growth_noise_units bias_noise_units"
+    columns = "error_noise_units growth_noise_units growth_slip_m growth_rotation_rad bias_noise_units"
     return Comparison(
         pathlib.Path(folder), root.value, _name(root, folder), root.texts("effects"), root.text("error_unit", "noise units"),
         root.texts("findings"), tests, _role(root.node("calibration")), _role(root.node("holdout")), parameters,
         ratio.row("count ratio bias_ln scatter_ln") if ratio else {}, [_history(node) for node in root.nodes("histories")],
         {role: [_table(node, columns) for node in tables.nodes(role)] if tables else [] for role in ("calibration", "holdout")},
-        _ladder(root))
+        _ladder(root), _draws(root, folder), _scatter(root.node("posterior")))
+
+
+def _scatter(posterior):
+    return posterior.number("friction_scatter") if posterior else 0.0
+
+
+def _draws(root, folder):
+    """The table of joint draws beside the comparison, where it is there."""
+    posterior = root.node("posterior")
+    file = pathlib.Path(folder) / posterior.text("table") if posterior and posterior.text("table") else None
+    if not file or not file.is_file():
+        return {}
+    lines = [line.split(",") for line in file.read_text(encoding="utf-8").splitlines() if line and not line.startswith("#")]
+    try:
+        return {name: np.array([float(line[k]) for line in lines[1:]]) for k, name in enumerate(lines[0])}
+    except (ValueError, IndexError):
+        raise Problem(f"{file} is no table of numbers (it is damaged): compare again") from None
 
 
 def _candidate(node):
-    row = node.row("error_calibration error_left_out error_left_out_se error_explained delta_bic difference difference_se",
-                   "effect", "rival visible")
-    row["practical"] = node.value.get("practical") is not False
+    row = node.row("error_calibration error_left_out error_left_out_se error_left_out_floor_noise_allowed delta_bic", "effect", "as_good_as_best visible")
+    row["numbers_as_met_in_practice"] = node.value.get("numbers_as_met_in_practice") is not False
     row["left_out_refitted"] = node.value.get("left_out_refitted") is not False
     row["effects"] = node.texts("effects") or [part for part in row["effect"].split("+") if part]
     parameters = node.node("parameters")
@@ -238,11 +261,18 @@ def _candidate(node):
     return row
 
 
+def _proposal(node):
+    if not node:
+        return {}
+    law = f"friction: {node.text('friction')}" if node.text("friction") else f"force per mass: {node.text('force')}"
+    return _candidate(node) | {"law": law, "variable": node.text("variable")}
+
+
 def read_diagnosis(folder):
-    root = _root(folder, DIAGNOSIS, "freestand-diagnosis/1")
+    root = _root(folder, DIAGNOSIS, "freestand-diagnosis/2")
     verdict = root.text("verdict")
-    if verdict not in ("none", "missing", "ambiguous", "unknown"):
-        root.wrong("verdict", "one of none, missing, ambiguous, unknown")
+    if verdict not in ("none", "missing", "ambiguous", "unknown", "bad_data"):
+        root.wrong("verdict", "one of none, missing, ambiguous, unknown, bad_data")
     base, recovered, suggestion = root.node("base"), root.node("recovered_force"), root.node("suggested_motion")
     columns = "mu mu_deviation mu_lower mu_upper"
     suggested = {}
@@ -256,7 +286,8 @@ def read_diagnosis(folder):
         root.text("error_unit", "noise units"), root.texts("sentences"), root.texts("findings"), _candidate(base) if base else {},
         [_candidate(node) for node in root.nodes("candidates", needed=True)], root.number("noise_floor"),
         recovered.number("base_mu") if recovered else np.nan,
-        [_table(node, columns) for node in recovered.nodes("tables")] if recovered else [], suggested)
+        [_table(node, columns) for node in recovered.nodes("tables")] if recovered else [], suggested,
+        [node.row("p simulations", "question about") for node in root.nodes("tests_of_chance")], _proposal(root.node("proposed_law")))
 
 
 def _name(root, folder):

@@ -7,7 +7,7 @@ import jinja2
 import numpy as np
 from markupsafe import Markup
 
-from . import decisions_report, pictures, style, validation, validation_report, words
+from . import decisions_report, over_intensities, pictures, style, validation, validation_report, words
 from .designs import Designs
 from .model import kept_fits
 from .pictures.coverage import classes, swept
@@ -29,6 +29,8 @@ def page(results):
         return _render("validation.html", validation_report.content(results[0], figures))
     if isinstance(results[0], Designs):
         return _render("designs.html", decisions_report.designs(results[0], [r for r in results if isinstance(r, Risk)], figures))
+    if isinstance(results[0], over_intensities.Intensities):
+        return _render("intensities.html", over_intensities.content(results[0], figures, decisions_report.risks(results, figures, named=True)))
     sweep = next((result for result in results if isinstance(result, Sweep)), None)
     history = next((result for result in results if isinstance(result, History)), None)
     content = _content(sweep, history, figures) if sweep or history else decisions_report.alone(results)

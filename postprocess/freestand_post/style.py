@@ -1,8 +1,12 @@
 """The look of every picture: colours, type, and the few helpers that keep labels apart."""
 import io
+import logging
 import math
 import re
 import warnings
+
+# What matplotlib says of its list of fonts on a machine's first day is nothing to a user of these programs.
+logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
 
 import matplotlib
 import numpy as np

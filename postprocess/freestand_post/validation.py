@@ -69,13 +69,24 @@ class Validation:
             kept.append(row | {"step": f"+ {effect(row['step'])}" if row["step"] != "base" else "base", "model": model_name(held)})
         return kept if len(kept) > len(shown) else shown
 
+    def noise_floors(self):
+        """Least and greatest of the noise floors on the page: (nan, nan) where none is known."""
+        known = [diagnosis.noise_floor for diagnosis in self.diagnoses]
+        known += [of.get("error_expected", math.nan) for comparison in self.comparisons for of in (comparison.calibration, comparison.holdout)]
+        known = [floor for floor in known if math.isfinite(floor)]
+        return (min(known), max(known)) if known else (math.nan, math.nan)
+
     def after_found(self):
         """Whether the last comparison has an effect that the first lacks."""
         return len(self.comparisons) > 1 and bool(set(self.last.effects) - set(self.first.effects))
 
 
+# What the laboratory may state wrongly: candidates beside the effects.
+FAULTS = {"width_as_stated": "the stated width", "floor_gain_as_stated": "the gain of the floor's accelerometer"}
+
+
 def effect(name):
-    return name.replace("_", " ").replace("+", " + ")
+    return FAULTS.get(name) or name.replace("_", " ").replace("+", " + ")
 
 
 def effects(names, last=" and "):
@@ -101,6 +112,8 @@ def error(value, unit=""):
 
 def parameter(name):
     """"effects.static_friction.ratio" -> "static friction: ratio", "friction.mu" -> "friction: μ"."""
+    if name.startswith("laboratory."):
+        return f"{FAULTS.get(name.removeprefix('laboratory.'), name)}: factor"
     parts = name.removeprefix("effects.").split(".")
     last = words.split_unit(parts[-1])[0].removesuffix("_per")
     last = {"mu": "μ", "mu_k": "μk", "mu_s": "μs"}.get(last, last.replace("_", " "))

@@ -7,7 +7,7 @@ from . import validation_tables as tables
 from .pictures import before_after, outcomes
 
 FANNED_OUT = 5  # noise units that the floor's noise makes, beyond which a test tells little; as in the findings of `compare`
-SECTIONS = ("ladder", "ranking", "recovered", "worst", "where", "peaks", "outcomes", "before_after", "sweep", "history")
+SECTIONS = ("ladder", "ranking", "recovered", "worst", "where", "peaks", "outcomes", "before_after", "sweep", "history", "draws")
 
 
 def content(results, figures):
@@ -23,7 +23,7 @@ def content(results, figures):
     return {
         "title": _title(results), "lead": _lead(results), "headline": _headline(results), "hero": hero, "of": of,
         "sentences": _sentences(results), "suggestion": _suggestion(results), "tests": tables.tests(results),
-        "parameters": tables.parameters(results), "candidates": tables.candidates(results), "sweep_note": before_after.mismatch(results),
+        "parameters": tables.parameters(results), "candidates": tables.candidates(results), "chances": tables.chances(results), "proposal": tables.proposal(results), "sweep_note": before_after.mismatch(results),
         "candidates_text": f"All {words.plural(len(results.diagnosis.candidates), 'candidate')}" if results.diagnosis else "",
         "fitted_model": _fitted_model(results), "provenance": _provenance(results),
     }
@@ -87,6 +87,7 @@ def _headline(results):
     if diagnosis:
         best = diagnosis.best
         found.append((diagnosis.base.get("error_left_out", math.nan), "base model, on tests left out of the fit"))
+        best = diagnosis.proposal or best
         name = validation.effect(best.get("effect", ""))
         chance = diagnosis.verdict == "none" or diagnosis.reason == "none_helps"
         found.append((best.get("error_left_out", math.nan), f"best candidate, {name}: better by no more than chance"
@@ -102,9 +103,20 @@ def _headline(results):
                 found.append((comparison.calibration.get("error", math.nan), f"{unit}on calibration tests{_of(results, k)}"))
     if last:
         found.append((last.holdout.get("error", math.nan), f"on held-out tests, which no fit has seen{_of(results, -1)}"))
-    floor = diagnosis.noise_floor if diagnosis else last.calibration.get("error_expected", math.nan)
-    found.append((floor, "what chance alone would make" if results.unit == "Brier" else "noise floor: what noise alone would make"))
-    return [(validation.error(value), what) for value, what in found if math.isfinite(value)]
+    return [(validation.error(value), what) for value, what in found if math.isfinite(value)] + _noise_floor(results)
+
+
+def _noise_floor(results):
+    """One number, or why there are more."""
+    if results.unit == "Brier":
+        value = results.diagnosis.noise_floor if results.diagnosis else results.last.calibration.get("error_expected", math.nan)
+        return [(validation.error(value), "what chance alone would make")] if math.isfinite(value) else []
+    low, high = map(validation.error, results.noise_floors())
+    if low == "–":
+        return []
+    what = "noise floor: what noise alone would make"
+    return [(low, what)] if low == high else \
+        [(f"{low} to {high}", f"{what}, which models and tests answer differently")]
 
 
 def _of(results, k):
@@ -162,7 +174,7 @@ def _suggestion(results):
             rows.append((label, value if isinstance(value, str) else words.quantity(value, unit)))
     if found["specimen"]:
         rows.append(("specimen", found["specimen"]))
-    if math.isfinite(found["separation_noise_units"]):
+    if math.isfinite(found["separation_noise_units"]) and "noise units" in found["sentence"]:
         rows.append(("parts them by", f"{validation.error(found['separation_noise_units'])} noise units"))
     return {"between": validation.effects(found["between"]), "sentence": words.capitalised(found["sentence"]), "rows": rows}
 

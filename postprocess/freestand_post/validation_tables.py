@@ -1,5 +1,6 @@
 """The tables on the page of a validation: tests, fitted numbers, candidates."""
 import math
+import pathlib
 
 import numpy as np
 
@@ -26,7 +27,7 @@ def tests(results):
         found = [tests.get(test["id"]) for tests in earlier]
         row = {"id": test["id"], "role": ROLES.get(test["role"], test["role"]),
                "relative": words.percent(test["error_relative"]) if math.isfinite(test["error_relative"]) else "–",
-               "explained": test["error_explained"], "expected": test["error_expected"],
+               "explained": test["error_floor_noise_allowed"], "expected": test["error_expected"],
                "errors": [other["error_noise_units"] if other else math.nan for other in found],
                "peaks": [_peak(test, found, name) for name in quantities], "measured": "", "probabilities": [], "far": _far(test)}
         if test["kind"] == "outcome" or isinstance(test["overturned_measured"], bool):
@@ -49,7 +50,7 @@ def _peak(test, found, name):
 
 def _far(test):
     if test["kind"] == "history":
-        value = test["error_explained"] if math.isfinite(test["error_explained"]) else test["error_noise_units"]
+        value = test["error_floor_noise_allowed"] if math.isfinite(test["error_floor_noise_allowed"]) else test["error_noise_units"]
         return value > FAR * np.nan_to_num(test["error_expected"], nan=1.0)
     if test["kind"] == "outcome":
         return isinstance(test["overturned_measured"], bool) and (test["overturned_probability"] > 0.5) != test["overturned_measured"]
@@ -96,10 +97,43 @@ def candidates(results):
     for row in ([base] if base else []) + results.diagnosis.candidates:
         values = [_parameter(entry) for entry in row["parameters"]]
         rows.append({"name": validation.effect(row["effect"]) or "base model", "visible": row["visible"],
-                     "rival": row["rival"] and row is not base, "calibration": row["error_calibration"], "left_out": row["error_left_out"], "se": row["error_left_out_se"],
+                     "rival": row["as_good_as_best"] and row is not base, "calibration": row["error_calibration"], "left_out": row["error_left_out"], "se": row["error_left_out_se"],
                      "delta_bic": words.count(row["delta_bic"]).replace("-", "−") if math.isfinite(row["delta_bic"]) else "–",
                      "values": "; ".join(_short(value) for value in values)})
     return rows
+
+
+def proposal(results):
+    """The law that is proposed after the verdict unknown: its formula, its numbers, and how it is added."""
+    found = results.diagnosis.proposal if results.diagnosis else {}
+    if not found:
+        return {}
+    return {"law": found["law"], "rows": [_parameter(row) for row in found["parameters"]],
+            "error": validation.error(found["error_left_out"]), "base": validation.error(results.diagnosis.base.get("error_left_out", math.nan)),
+            "command": f"freestand add {pathlib.Path(results.diagnosis.raw.get('study') or 'STUDY.yaml').name} "
+                       f"{results.diagnosis.folder.name}/proposed_law.yaml -o WITH_LAW.yaml"}
+
+
+def chances(results):
+    """How likely chance is to do what the verdict rests on."""
+    if not results.diagnosis:
+        return []
+    return [{"question": _question(row), "p": words.number(row["p"], 2) if row["p"] * row["simulations"] > 1.5 else
+             f"less than {words.number(1 / max(row['simulations'], 1), 1)}", "sets": words.count(row["simulations"])}
+            for row in results.diagnosis.chances]
+
+
+def _question(row):
+    if row["question"] == "does an effect help":
+        return f"that the best of {row['about']} gains as much where nothing is missing"
+    if row["question"] == "is it enough":
+        return f"that {_named(row['about'])} leaves as much where it is the truth"
+    best, _, rival = row["about"].partition(" before ")
+    return f"that {_named(best)} leads {_named(rival)} by as much where {_named(rival)} is the truth"
+
+
+def _named(effects):
+    return words.listing(validation.effect(name) for name in effects.split(" and "))
 
 
 def _short(value):

@@ -6,16 +6,28 @@ from . import validation, words
 WITHDRAWN = "data"  # reason of a verdict that was withdrawn: the measurements look wrong
 
 
+def faults(diagnosis):
+    """What the laboratory states wrongly, of what the verdict speaks of."""
+    return [validation.FAULTS[row["effect"]] for row in diagnosis.candidates if row["as_good_as_best"] and row["effect"] in validation.FAULTS]
+
+
 def title(diagnosis, was=False):
     """What the page is called. was: the model has the effect by now."""
     several, named = len(diagnosis.effects) > 1, validation.effects(diagnosis.effects)
     if diagnosis.verdict == "missing":
         verb = ("were" if was else "are") if several else ("was" if was else "is")
         return f"the missing effect{'s' * several} {verb} {named}"
+    if diagnosis.verdict == "ambiguous" and faults(diagnosis):
+        return f"the missing effect is {named}, or {words.listing(faults(diagnosis), 'or')} is off"
     if diagnosis.verdict == "ambiguous":
         return f"the missing effect is {validation.effects(diagnosis.effects, ' or ')}, and these tests cannot tell which"
+    if diagnosis.verdict == "bad_data" and faults(diagnosis):
+        return f"no effect is needed: {words.listing(faults(diagnosis), 'or')} is off"
     if diagnosis.verdict == "none":
         return "these tests show no missing effect"
+    if diagnosis.proposal:
+        return (f"no effect of the catalogue explains it; {validation.effect(diagnosis.proposal['effect'])}, a law of no catalogue, "
+                f"leaves {_error(diagnosis.proposal)} of {_error(diagnosis.base)}")
     return {WITHDRAWN: "no verdict, since the measurements look wrong in a sign, a time or a unit",
             "none_helps": "the model misses more than noise explains, and no effect of the catalogue lowers that by more than chance",
             "none_suffices": "no effect of the catalogue explains all that the model misses"}.get(
@@ -26,7 +38,7 @@ def finding(diagnosis):
     """The same over the candidates, with the numbers of their rows."""
     best, base = diagnosis.best, _error(diagnosis.base)
     name = validation.effect(best.get("effect", ""))
-    if diagnosis.reason == WITHDRAWN:
+    if diagnosis.reason == WITHDRAWN and not faults(diagnosis):
         return "What each effect would leave, were the measurements right: none is named"
     if not best:
         return f"No candidate was fitted to the end; the base leaves {base} {diagnosis.unit}"
@@ -36,7 +48,7 @@ def finding(diagnosis):
     if diagnosis.verdict == "unknown":
         return (f"The best candidate, {name}, still misses the tests left out by {_error(best)} {diagnosis.unit}; the base leaves "
                 f"{base}{_others(diagnosis, [best])}")
-    rivals = [row for row in diagnosis.candidates if row["rival"]]
+    rivals = [row for row in diagnosis.candidates if row["as_good_as_best"]]
     if diagnosis.verdict == "ambiguous" and len(rivals) > 1:
         each = words.listing(f"{validation.effect(row['effect'])} ({_error(row)})" for row in rivals)
         return f"Chance does not part {each}; the base leaves {base} {diagnosis.unit}{_others(diagnosis, rivals)}"
@@ -52,7 +64,7 @@ def _others(diagnosis, named):
     rest = [row for row in diagnosis.candidates if row["visible"] and row["left_out_refitted"] and math.isfinite(row["error_left_out"])
             and all(row["effect"] != other["effect"] for other in named)]
     bar = min(row["error_left_out"] for row in named)
-    low = [row for row in rest if row["error_left_out"] <= bar or (not row["practical"] and row["error_left_out"] < 1.1 * bar)]
+    low = [row for row in rest if row["error_left_out"] <= bar or (not row["numbers_as_met_in_practice"] and row["error_left_out"] < 1.1 * bar)]
     parts = [f"{validation.effect(row['effect'])} leaves {_error(row)}{_against(row, named[0])}" for row in low]
     worse = [row["error_left_out"] for row in rest if row not in low]
     if worse:
@@ -62,11 +74,11 @@ def _others(diagnosis, named):
 
 def _against(row, best):
     """Why a row with the lesser error is not the best, as far as the row says."""
-    if not row["practical"]:
+    if not row["numbers_as_met_in_practice"]:
         return ", with numbers that are not met in practice"
     if len(row["effects"]) > len(best["effects"]):
         return ", with more effects"
-    if row["error_explained"] > best["error_explained"]:
-        return (f", but {validation.error(row['error_explained'])} against {validation.error(best['error_explained'])} where the "
+    if row["error_left_out_floor_noise_allowed"] > best["error_left_out_floor_noise_allowed"]:
+        return (f", but {validation.error(row['error_left_out_floor_noise_allowed'])} against {validation.error(best['error_left_out_floor_noise_allowed'])} where the "
                 "floor's noise is allowed for")
     return ", which chance does not part from it"

@@ -192,9 +192,9 @@ def plural(n, noun):
     return f"{count(n)} {noun}" + ("" if n == 1 else "s")
 
 
-def listing(items):
+def listing(items, last="and"):
     items = list(items)
-    return items[0] if len(items) == 1 else ", ".join(items[:-1]) + " and " + items[-1] if items else ""
+    return items[0] if len(items) == 1 else ", ".join(items[:-1]) + f" {last} " + items[-1] if items else ""
 
 
 def fixed(value, decimals):

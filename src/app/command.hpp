@@ -44,6 +44,7 @@ void add_edp(CLI::App& parser, Work& work);
 void add_compare(CLI::App& parser, Work& work);
 void add_diagnose(CLI::App& parser, Work& work);
 void add_add(CLI::App& parser, Work& work);
+void add_import(CLI::App& parser, Work& work);
 void add_catalogue(CLI::App& parser, Work& work);
 void add_query(CLI::App& parser, Work& work);
 void add_export(CLI::App& parser, Work& work);

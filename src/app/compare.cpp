@@ -8,6 +8,7 @@
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 #include "io/text_files.hpp"
+#include "study/posterior_tables.hpp"
 
 namespace freestand::app {
 namespace {
@@ -37,11 +38,11 @@ std::string noise_units(const Json& error) {
 
 void tell_tests(const Json& json) {
   const std::string unit = json["error_unit"].get<std::string>();
-  constexpr const char* row = "{:<12} {:<12} {:>12} {:>10} {:>10}\n";
+  constexpr const char* row = "{:<12} {:<12} {:>12} {:>12} {:>10}\n";
   if (unit == "Brier")
     fmt::print(row, "test", "role", "came out", "P(falls)", "Brier");
   else
-    fmt::print(row, "test", "role", unit, unit == "noise units" ? "expected" : "", "relative");
+    fmt::print(row, "test", "role", unit, unit == "noise units" ? "noise alone" : "", "relative");
   for (const auto& test : json["tests"]) {
     if (json["tests"].size() > 40) break;
     const auto id = test["id"].get<std::string>(), role = test["role"].get<std::string>();
@@ -84,13 +85,14 @@ Exit compare(const Context& context, const ValidationOptions& options) {
   const std::filesystem::path folder = options.output;
   context.world.on_root([&] {
     io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
-                              {"fitted.yaml"});
+                              {"fitted.yaml", study::posterior_table});
   });
-  const auto [json, fitted] = study::compare(context.world, options.run(context), folder);
-  context.world.on_root([&, &json = json, &fitted = fitted] {
-    io::write_text(folder / "comparison.json", io::json_text(json));
-    io::write_text(folder / "fitted.yaml", io::signed_text("# " + context.command_line + "\n" + fitted));
-    if (!options.quiet) tell_comparison(json, folder.string());
+  const study::Compared compared = study::compare(context.world, options.run(context), folder);
+  context.world.on_root([&] {
+    io::write_text(folder / "comparison.json", io::json_text(compared.json));
+    if (!compared.draws.empty()) io::write_text(folder / study::posterior_table, io::signed_text(compared.draws));
+    io::write_text(folder / "fitted.yaml", io::signed_text("# " + context.command_line + "\n" + compared.fitted));
+    if (!options.quiet) tell_comparison(compared.json, folder.string());
   });
   return Exit::done;
 }

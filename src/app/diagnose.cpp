@@ -20,15 +20,15 @@ void tell_row(const Json& c, const std::string& name) {
                              ? fmt::format("+- {:.2g}", c["error_left_out_se"].get<double>())
                              : "";
   fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11} {}\n", name, three_digits(c["error_calibration"]),
-             left_out ? three_digits(c["error_left_out"]) : "-", se, three_digits(c["error_explained"]),
-             c["rival"].get<bool>() ? "<" : "");
+             left_out ? three_digits(c["error_left_out"]) : "-", se,
+             three_digits(c["error_left_out_floor_noise_allowed"]), c["as_good_as_best"].get<bool>() ? "<" : "");
 }
 
 // Why the verdict names no effect, or more than one.
 std::string why(const Json& json) {
   if (json["verdict"] == "ambiguous") return " (these tests cannot tell them apart)";
   const std::string reason = json.contains("reason") && json["reason"].is_string() ? json["reason"] : "";
-  if (reason == "data") return " (withdrawn: the measurements look wrong)";
+  if (reason == "data") return " (no effect can be named: the measurements look wrong)";
   if (reason == "none_helps") return " (no effect of the catalogue lowers the error by more than chance)";
   if (reason == "none_suffices") return " (effects help, and the best of them leaves more than noise makes)";
   return "";
@@ -47,6 +47,10 @@ void tell_diagnosis(const Json& json, const std::string& file) {
   std::string effects;
   for (const auto& effect : json["effects"]) effects += " " + effect.get<std::string>();
   fmt::print("verdict: {}{}{}\n", json["verdict"].get<std::string>(), effects, why(json));
+  for (const auto& c : json["tests_of_chance"])
+    fmt::print("{:<26} {:<52} p {}{:.4f} ({} sets)\n", c["question"].get<std::string>(), c["about"].get<std::string>(),
+               c["p"].get<double>() * c["simulations"].get<double>() < 1 ? "< " : "", c["p"].get<double>(),
+               c["simulations"].get<int>());
   for (const char* list : {"sentences", "findings"})
     for (const auto& sentence : json[list]) fmt::print("* {}\n", sentence.get<std::string>());
   if (!json["suggested_motion"].is_null())
@@ -61,6 +65,8 @@ Exit diagnose(const Context& context, const ValidationOptions& options) {
   const Json json = study::diagnose(context.world, options.run(context));
   context.world.on_root([&] {
     io::write_text(folder / "diagnosis.json", io::json_text(json));
+    if (!json["proposed_law"].is_null())
+      io::write_text(folder / "proposed_law.yaml", json["proposed_law"]["entry"].get<std::string>());
     if (!options.quiet) tell_diagnosis(json, (folder / "diagnosis.json").string());
   });
   return Exit::done;

@@ -47,6 +47,7 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
   freestand::app::add_effects(parser, work);
   freestand::app::add_im(parser, work);
   freestand::app::add_edp(parser, work);
+  freestand::app::add_import(parser, work);
   freestand::app::add_compare(parser, work);
   freestand::app::add_diagnose(parser, work);
   freestand::app::add_add(parser, work);

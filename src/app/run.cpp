@@ -17,17 +17,21 @@ namespace {
 struct RunOptions {
   std::string study;
   std::string folder;
-  bool check = false, overwrite = false, resume = false, quiet = false;
+  bool check = false, overwrite = false, resume = false, quiet = false, best = false;
 };
 
 // Every rank reads the study; what is wrong with it is found on all of them alike and told once.
-study::Study read(const Context& context, const std::string& file) {
-  context.world.on_root([&] { study::read_study(file, study::registries()); });
-  return study::read_study(file, study::registries());
+study::Study read(const Context& context, const RunOptions& options) {
+  const auto read_it = [&] {
+    return study::read_study(options.study, study::registries(),
+                             options.best ? study::FittedAs::best : study::FittedAs::draws);
+  };
+  context.world.on_root(read_it);
+  return read_it();
 }
 
 Exit check(const Context& context, const RunOptions& options) {
-  const study::Study study = read(context, options.study);
+  const study::Study study = read(context, options);
   // Records that cannot be read are told as the sweep would tell them.
   context.world.on_root([&] { study::load_motions(study); });
   if (context.world.is_root()) fmt::print("{}", study::expanded(study, ""));
@@ -50,7 +54,7 @@ study::SweepSummary sweep(const Context& context, const study::Study& study, con
 Exit sweep_and_fit(const Context& context, const RunOptions& options, bool with_fit) {
   if (options.check) return check(context, options);
   if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DIR");
-  const study::Study study = read(context, options.study);
+  const study::Study study = read(context, options);
   study::RunFolder folder(context.world, options.folder,
                           options.resume      ? io::Existing::resume
                           : options.overwrite ? io::Existing::overwrite
@@ -76,6 +80,9 @@ void add(CLI::App& parser, Work& work, const std::string& name, const std::strin
   verb->add_option("-o,--output", options->folder, "folder for the results");
   verb->add_flag("--check", options->check,
                  "check the study and the records that it names, print it with all defaults written out, and stop");
+  verb->add_flag(
+      "--best", options->best,
+      "numbers that were fitted to measurements at their best values, not as the joint draws of fitted.yaml");
   auto* overwrite = verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder");
   verb->add_flag("--resume", options->resume, "go on with a sweep that was stopped or killed")->excludes(overwrite);
   verb->add_flag("--quiet", options->quiet, "no progress");

@@ -66,7 +66,7 @@ struct MotionTable {
   ShortRow run_levels;        // the largest of them over j = 16 r ... 16 r + 15
   double levels_to_one = 0;   // [s2/m]
 
-  double height(double velocity) const { return velocity * heights_to_one + height_zero; }
+  double height(double V) const { return V * heights_to_one + height_zero; }
   // Never falls where `size` rises.
   std::uint16_t level(double size) const {
     const double level = size * levels_to_one;

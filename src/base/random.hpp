@@ -6,7 +6,9 @@
 
 #include <Random123/philox.h>
 
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string_view>
 #include <utility>
 
@@ -42,6 +44,12 @@ constexpr double unit_interval(std::uint64_t word) { return static_cast<double>(
 // Uniform in the open interval (0, 1).
 inline double uniform(std::uint64_t seed, std::uint64_t counter, std::uint64_t stream) {
   return unit_interval(bits(seed, counter, stream).first);
+}
+
+// Standard normal, likewise (Box and Muller).
+inline double standard_normal(std::uint64_t seed, std::uint64_t counter, std::uint64_t stream) {
+  const auto [a, b] = bits(seed, counter, stream);
+  return std::sqrt(-2 * std::log(unit_interval(a))) * std::cos(2 * std::numbers::pi * unit_interval(b));
 }
 
 }  // namespace freestand::random

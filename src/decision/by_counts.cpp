@@ -23,22 +23,9 @@ double mean_over_bin(const LognormalFragility& curve, double from, double to, do
 
 }  // namespace
 
-fragility::LeftOut by_stratum(const std::vector<double>& left_out, const fragility::Result& result) {
-  const auto border = left_out.begin() + std::min<std::ptrdiff_t>(result.left_out_records, std::ssize(left_out));
-  return {{left_out.begin(), border}, {border, left_out.end()}};
-}
-
-Rate banded(double value, const std::vector<double>& left_out, const std::vector<double>& resampled,
-            const fragility::Result& result) {
-  fragility::Interval band = fragility::jackknife_of_positive(value, by_stratum(left_out, result), result.confidence);
-  if (std::isnan(band.lower))
-    band = fragility::percentile_interval(resampled, value, result.confidence, result.motions);
-  return {value, band.lower, band.upper};
-}
-
 ByCounts::ByCounts(const HazardCurve& hazard, const fragility::Result& result, const fragility::EdpResult& edp,
-                   std::size_t capacity, const Range& swept)
-    : hazard_(hazard), result_(result), edp_(edp) {
+                   std::size_t capacity, const fragility::FragilityFunction& f, const Range& swept)
+    : hazard_(hazard), result_(result), edp_(edp), f_(f) {
   const std::size_t capacities = edp.capacity.size();
   for (std::size_t i = 0; i < result.im.size(); ++i) {
     const double p = edp.surface.probability[i * capacities + capacity];
@@ -49,6 +36,7 @@ ByCounts::ByCounts(const HazardCurve& hazard, const fragility::Result& result, c
     table_.probability.push_back(p);
   }
   table_.known = {swept.from, std::numeric_limits<double>::infinity()};
+  if (!empty()) weight_ = weights();
 }
 
 std::vector<double> ByCounts::weights(const Range& range) const {
@@ -64,37 +52,74 @@ std::vector<double> ByCounts::weights(const Range& range) const {
   return weight;
 }
 
-double ByCounts::rate(const std::vector<double>& weight) const {
+double ByCounts::polygon(const std::vector<double>& weight) const {
   return std::inner_product(weight.begin(), weight.end(), table_.probability.begin(), 0.0);
 }
 
-Rate ByCounts::banded() {
-  const std::vector<double> weight = weights();
-  const std::vector<double> resampled = rates(weight, edp_.surface.resampled);
-  double below = 0, above = 0;
+double ByCounts::bend(double straight, double median, double dispersion) const {
+  const double of_curve = polygon_of({median, dispersion}), bent = rate_of({median, dispersion}) - of_curve;
+  return std::isfinite(bent) && of_curve > 0 ? bent * std::min(1.0, straight / of_curve) : 0;
+}
+
+double ByCounts::rate(const Range& range) const {
+  const double straight = polygon(weight_), unbent = straight + bend(straight, f_.median, f_.dispersion);
+  return polygon(weights(range)) * (unbent > 0 ? unbent / straight : 1);
+}
+
+Rate ByCounts::banded(const CurveReach& curve) {
+  struct Row {
+    double weight, to_lower, to_upper;  // P of the bin to its limits: down, up
+  };
+  std::vector<Row> known_by_limits;
   for (std::size_t i = 0; i < at_.size(); ++i) {
     if (!same(i)) continue;
     const fragility::Interval limits = rising_limits(i);
-    below += std::pow(weight[i] * (table_.probability[i] - limits.lower), 2);
-    above += std::pow(weight[i] * (limits.upper - table_.probability[i]), 2);
+    known_by_limits.push_back({weight_[i], table_.probability[i] - limits.lower, limits.upper - table_.probability[i]});
   }
-  Rate found = decision::banded(rate(weight), rates(weight, edp_.surface.left_out), resampled, result_);
-  if (std::isnan(found.lower)) return found;
-  found.lower = std::max(0.0, found.lower - std::sqrt(below));
-  found.upper = std::min(hazard_.annual_rate.front(), found.upper + std::sqrt(above));
-  return found;
+  // Of a row of which nothing (or all) was counted in tail^share of the cases.
+  const auto added = [&](double Row::*reach, double share) {
+    double squares = 0;
+    for (const Row& row : known_by_limits) squares += std::pow(row.weight * (1 - std::pow(1 - row.*reach, share)), 2);
+    return std::sqrt(squares);
+  };
+  const double value = rate(), tail = (1 - result_.confidence) / 2;
+  const RateLimits limits(value, rates_left_out(),
+                          rates(edp_.surface.resampled, f_.resampled_median, f_.resampled_dispersion), result_, curve);
+  if (std::isnan(limits.lower(tail))) return {value};
+  const auto counted_lower = [&](double of) { return limits.lower(of); };
+  const auto counted_upper = [&](double of) { return limits.upper(of); };
+  const auto lower = [&](double of) {
+    return -fragility::largest_beside_nothing(
+        of, [&](double share, double rest) { return added(&Row::to_lower, share) - counted_lower(rest); });
+  };
+  const auto upper = [&](double of) {
+    return fragility::largest_beside_nothing(
+        of, [&](double share, double rest) { return added(&Row::to_upper, share) + counted_upper(rest); });
+  };
+  double least = lower(tail), most = upper(tail);
+  const double for_least = fragility::unused_tail(tail, +1, counted_upper, most),
+               for_most = fragility::unused_tail(tail, -1, counted_lower, least);
+  if (for_least > 0) least = lower(tail + for_least);
+  if (for_most > 0) most = upper(tail + for_most);
+  return {value, std::max(0.0, least), std::min(hazard_.annual_rate.front(), most)};
 }
 
-std::vector<double> ByCounts::rates_left_out() const { return rates(weights(), edp_.surface.left_out); }
+std::vector<double> ByCounts::rates_left_out() const {
+  return rates(edp_.surface.left_out, f_.left_out_median, f_.left_out_dispersion);
+}
 
 double ByCounts::rate_of(const LognormalFragility& curve) const {
-  const std::vector<double> weight = weights();
+  const double beyond = hazard_.annual_rate.back() * curve(hazard_.last());
+  return annual_rate(hazard_, curve, table_.known) + beyond;
+}
+
+double ByCounts::polygon_of(const LognormalFragility& curve) const {
   double sum = 0;
   for (std::size_t i = 0; i < bin_.size(); ++i) {
     const std::size_t b = bin_[i];
     const bool by_law = !edp_.binary && edp_.bins[b].status == fragility::BinStatus::fitted;
-    sum += weight[i] * (by_law ? curve(table_.im[i])
-                               : mean_over_bin(curve, result_.im_edge[b], result_.im_edge[b + 1], table_.im[i]));
+    sum += weight_[i] * (by_law ? curve(table_.im[i])
+                                : mean_over_bin(curve, result_.im_edge[b], result_.im_edge[b + 1], table_.im[i]));
   }
   return sum;
 }
@@ -128,12 +153,18 @@ fragility::Interval ByCounts::rising_limits(std::size_t i) {
   return limits;
 }
 
-// Of each resample, or of each group left out: `again` is [of them, im, capacity].
-std::vector<double> ByCounts::rates(const std::vector<double>& weight, const std::vector<double>& again) const {
+// Of each resample, or of each group left out: `again` is [of them, im, capacity], with the curves of the same.
+std::vector<double> ByCounts::rates(const std::vector<double>& again, const std::vector<double>& median,
+                                    const std::vector<double>& dispersion) const {
   const std::size_t size = edp_.surface.probability.size();
   std::vector<double> found(size == 0 ? 0 : again.size() / size, 0);
-  for (std::size_t r = 0; r < found.size(); ++r)
-    for (std::size_t i = 0; i < at_.size(); ++i) found[r] += weight[i] * again[r * size + at_[i]];
+  for (std::size_t r = 0; r < found.size(); ++r) {
+    for (std::size_t i = 0; i < at_.size(); ++i) found[r] += weight_[i] * again[r * size + at_[i]];
+    const bool curved = r < median.size() && std::isfinite(median[r]);
+    const double unbent =
+        found[r] + (curved ? bend(found[r], median[r], dispersion[r]) : bend(found[r], f_.median, f_.dispersion));
+    if (unbent > 0) found[r] = unbent;
+  }
   return found;
 }
 

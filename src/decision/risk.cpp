@@ -22,9 +22,9 @@ constexpr int intervals = 24;
 
 // The hazard curve, with a point before its first one that goes on by its slope down to `im`.
 HazardCurve begun_earlier(const HazardCurve& hazard, double im) {
-  HazardCurve longer = hazard;
-  longer.im.insert(longer.im.begin(), im);
-  longer.annual_rate.insert(longer.annual_rate.begin(), hazard.rate(im));
+  HazardCurve longer{hazard.measure, hazard.period_s, {im}, {hazard.rate(im)}};
+  longer.im.insert(longer.im.end(), hazard.im.begin(), hazard.im.end());
+  longer.annual_rate.insert(longer.annual_rate.end(), hazard.annual_rate.begin(), hazard.annual_rate.end());
   return longer;
 }
 
@@ -38,7 +38,7 @@ struct ByFunction {
 };
 
 // Motions of which nothing exceeded have no curve: they count as no rate.
-Rate banded(const Result& result, const FragilityFunction& f, const ByFunction& by) {
+Rate banded(const Result& result, const FragilityFunction& f, const ByFunction& by, const CurveReach& curve) {
   const auto rates = [&](const std::vector<double>& median, const std::vector<double>& dispersion) {
     std::vector<double> found;
     for (std::size_t i = 0; i < median.size(); ++i) {
@@ -47,8 +47,10 @@ Rate banded(const Result& result, const FragilityFunction& f, const ByFunction& 
     }
     return found;
   };
-  return decision::banded(by.rate({f.median, f.dispersion}), rates(f.left_out_median, f.left_out_dispersion),
-                          rates(f.resampled_median, f.resampled_dispersion), result);
+  const double value = by.rate({f.median, f.dispersion}), tail = (1 - result.confidence) / 2;
+  const RateLimits limits(value, rates(f.left_out_median, f.left_out_dispersion),
+                          rates(f.resampled_median, f.resampled_dispersion), result, curve);
+  return {value, limits.lower(tail), limits.upper(tail)};
 }
 
 // One demand and one capacity.
@@ -61,7 +63,7 @@ class Row {
         risk_(risk),
         f_(f),
         function_{hazard},
-        counts_(hazard, result, edp, c, {risk.im_least, risk.im_most}),
+        counts_(hazard, result, edp, c, f, {risk.im_least, risk.im_most}),
         edp_(edp) {
     row_.edp = edp.name;
     row_.unit = edp.unit;
@@ -69,8 +71,9 @@ class Row {
   }
 
   RiskRow operator()() {
-    row_.by_function = banded(result_, f_, function_);
-    if (!counts_.empty()) row_.by_counts = counts_.banded();
+    const CurveReach curve(f_, result_, [this](const LognormalFragility& f) { return function_.rate(f); });
+    row_.by_function = banded(result_, f_, function_, curve);
+    if (!counts_.empty()) row_.by_counts = counts_.banded(curve);
     recommend();
     outside();
     if (row_.refused.empty() && row_.rate().value > 0) split();
@@ -160,8 +163,7 @@ class Row {
     for (std::size_t i = 0; i + 1 < risk_.edge.size(); ++i) {
       const bool last = i + 2 == risk_.edge.size();
       const Range range{risk_.edge[i], last ? Range{}.to : risk_.edge[i + 1]};
-      const double part =
-          row_.recommended == By::function ? function_.rate(fragility(), range) : counts_.rate(counts_.weights(range));
+      const double part = row_.recommended == By::function ? function_.rate(fragility(), range) : counts_.rate(range);
       row_.share.push_back(part / rate);
       if (sum < 0.5 && sum + part / rate >= 0.5)
         row_.median_im = risk_.edge[i] * std::pow(risk_.edge[i + 1] / risk_.edge[i], (0.5 - sum) * rate / part);

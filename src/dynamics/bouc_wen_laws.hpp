@@ -70,14 +70,7 @@ class BoucWenLawHold {
   }
 
   // Argument of a kink, positive on its present side; call it after fill().
-  Series<double, N> kink(int j) const {
-    Series<double, N> argument = values_[laws_.tape.kink_argument(j)];
-    if (!laws_.tape.turns(j, state_.sides, argument[0])) return Series<double, N>::zero();
-    argument = scaled(state_.sides >> j & 1U ? -1.0 : 1.0, argument);
-    argument[N] = 0;
-    if (state_.has_met(j)) argument[0] = 0;
-    return argument;
-  }
+  Series<double, N> kink(int j) const { return kink_argument(laws_.tape, state_, j, values_); }
 
   // The same at the start, to order 0, whether it was met there or not.
   double kink_now(int j) const {

@@ -33,6 +33,8 @@ BoucWenLife::BoucWenLife(const Setup& setup, const Settings& settings_, History*
       vertical(shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty()),
       contact(bouc_wen_contact(setup.specimen.friction.mu_k, setup.specimen.bouc_wen, settings.tolerance)),
       laws(has_laws(setup.specimen) ? std::optional<Laws>(std::in_place, setup.specimen) : std::nullopt),
+      // Steps are no longer than the ringing's own time, and events are located to the round-off of a step.
+      instant_s(1e-14 * std::sqrt(contact.yield / (std::max(contact.strength, 1e-3) * gravity))),
       cursor(shaking, gravity, push),
       history_(history) {
   if (history_) history_->points.clear(), history_->events.clear();
@@ -92,7 +94,8 @@ void BoucWenLife::turn() {
   last_turn_slip_ = slip;
 }
 
-// With forces besides the floor's the ringing has no closed form. It is left when a swing slips no more than this.
+// With forces besides the floor's the ringing has no closed form. It is left when a swing slips no more than this, over u_y: the swings to
+// come slip less and less, to either side in turn, so that what is left out is less than the last one.
 bool BoucWenLife::settled() {
   constexpr double settled_slip = 1e-6;
   const double since = std::max(shaking.duration_s(), last_slide_s_) + (laws ? laws->settling_s : 0);

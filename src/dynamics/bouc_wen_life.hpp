@@ -22,6 +22,7 @@ class BoucWenLife {
   const bool vertical;
   const BoucWenContact contact;
   const std::optional<Laws> laws;  // of effects within the equations of motion
+  const double instant_s;          // what is closer together happens at once: events are located no better
   FloorCursor cursor;
 
   // The state. Signs: positive to the right.
@@ -124,7 +125,7 @@ void BoucWenLife::arrive(const BoucWenArc<N>& arc, const Floor<double, N>& floor
   }
   if (phase == ContactPhase::yielding || phase == ContactPhase::returning) q = contact.q(zeta);
   cursor.advance(tau);
-  if (tau > 0) law_state.left_kinks();
+  if (tau > instant_s) law_state.left_kinks();
   check();
 }
 

@@ -7,7 +7,7 @@
 namespace freestand::dynamics {
 
 namespace detail {
-// What is left further off than this, over the size of x, is not found: as much as the default tolerance lets a step neglect.
+// What is left further off than this, over the size of x, is not found: a tenth of what the default tolerance lets a step neglect.
 inline constexpr double found = 1e-10;
 
 // Between two ends, by regula falsi in Illinois' form. Where x is asked for that grows with itself, the answer may lie far above

@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "dynamics/law_values.hpp"
+#include "dynamics/row_of_hops.hpp"
 #include "dynamics/wall.hpp"
+#include "dynamics/witness.hpp"
 
 namespace freestand::dynamics {
 namespace {
@@ -123,9 +125,36 @@ double slip_after_hops(const Grip& grip, int pivot, double rate, double w) {
   return sigma * after > 0 ? after : 0;
 }
 
+// The row of hops starts in `state`, slipping. On legs the base always moves, and what slips is the foot.
+bool slip_outlasts_hops(const Grip& friction, State state, double time, const Floor<double, 1>& floor) {
+  const Rig& rig = friction.rig;
+  if (state.omega == 0 || (rig.laws && rig.laws->legs.frequency_radps > 0)) return true;
+  state.mode = Mode::slide_rock;
+  const auto start = [&](int pivot, double w) {
+    state.pivot = pivot;
+    state.sigma = w > 0 ? 1 : -1;
+    state.w = state.foot = w;
+    return with_contact_arc<1>(rig, state, time, floor, [](const auto& arc) {
+      return HopStart{arc.omega[1], arc.w[1]};
+    });
+  };
+  const auto blow = [&](int pivot, double& rate, double& w) {
+    if (rig.impact.law == ImpactLaw::housner) {
+      rate *= kept_rate(rig, pivot, -pivot);
+      return rate != 0;
+    }
+    Velocity after{};
+    const Velocity before = at_centre(arm(rig, pivot, 0.0), w, rate);
+    if (!plastic(friction, arm(rig, -pivot, 0.0), before, after, w)) return false;
+    rate = after.omega;
+    return rate * pivot < 0;
+  };
+  return outlasts_hops(state.pivot, state.omega, state.w, start, blow);
+}
+
 }  // namespace
 
-bool strike(const Rig& rig, State& state, double time) {
+bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& floor) {
   const Grip friction = grip(rig, state, time);
   const int old_pivot = state.pivot, new_pivot = -state.pivot;
   const double omega = state.omega;
@@ -135,8 +164,12 @@ bool strike(const Rig& rig, State& state, double time) {
     state.omega = 0;
   } else if (rig.impact.law == ImpactLaw::housner) {
     state.omega = kept_rate(rig, old_pivot, new_pivot) * omega;
-    if (state.w != 0 && rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation)
-      state.w = slip_after_hops(friction, new_pivot, state.omega, state.w);
+    if (state.w != 0 && rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation) {
+      state.pivot = new_pivot;
+      state.w = slip_outlasts_hops(friction, state, time, floor)
+                    ? slip_after_hops(friction, new_pivot, state.omega, state.w)
+                    : 0;
+    }
   } else {
     const Velocity before = at_centre(arm(rig, old_pivot, 0.0), state.w, omega);
     Velocity after{};
@@ -144,11 +177,15 @@ bool strike(const Rig& rig, State& state, double time) {
     if (!plastic(friction, arm(rig, new_pivot, 0.0), before, after, w)) return false;
     const bool hops = after.omega * new_pivot > 0;
     const bool last_hop = rig.hop_rotation(new_pivot, after.omega) < rig.rest_rotation;
-    if (hops && (!last_hop || w == 0)) {
+    if (hops) {
       state.omega = after.omega;
       state.w = w;
-    } else {
+      state.pivot = new_pivot;
+    }
+    if (!hops || (last_hop && w != 0)) {
+      const bool stops = hops && !slip_outlasts_hops(friction, state, time, floor);
       stay_flat(friction, state, before.vx, before.vy);
+      if (stops) state.w = 0;
     }
   }
   if (rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation) state.omega = 0;

@@ -17,8 +17,9 @@ namespace freestand::dynamics {
 //   coulomb: plastic impulse at the new corner that sticks (|p_x| <= mu_s p_y) or slips (p_x = -sigma mu_k p_y);
 //            where the old corner would be pushed into the floor, both stay down
 // Of a slipping block the endless row of ever smaller hops is replaced by its limit: under `coulomb` the blow on both
-// corners at once, with the friction of all its impulses; under `housner` the sum over its hops.
-bool strike(const Rig& rig, State& state, double time);
+// corners at once, with the friction of all its impulses; under `housner` the sum over its hops; under both nothing, if the slip
+// ends within the row. floor: at the instant.
+bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& floor);
 
 // End of a flight on one corner (pivot +1 or -1), or flat on both. Plastic, with Coulomb friction, whatever the impact
 // law: Housner's law says nothing of a landing. Sets pivot's xi, w, omega. False: Painleve's paradox.

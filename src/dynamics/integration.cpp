@@ -189,6 +189,8 @@ void Integration::stop_slip() {
   state.foot = 0;
 }
 
+bool Integration::strike_floor() { return strike(rig, state, cursor.time(), cursor.local<1>()); }
+
 bool Integration::strikes_too() const {
   return state.pivot != 0 && state.pivot * state.theta <= 0 && state.pivot * state.omega < 0;
 }
@@ -201,14 +203,14 @@ void Integration::resolve(Witness witness) {
     case Witness::impact:
       impact = at_floor = true;
       if (rig.hop_rotation(state.pivot, state.omega) >= rig.told_rotation) ++peaks.response().impacts;
-      regular = strike(rig, state, cursor.time());
+      regular = strike_floor();
       break;
     case Witness::above_right:
     case Witness::above_left:
       impact = at_floor = true;
       ++peaks.response().impacts;
       regular = land(rig, state, witness == Witness::above_right ? 1 : -1, cursor.time());
-      if (regular && state.theta == 0 && state.omega * state.pivot < 0) regular = strike(rig, state, cursor.time());
+      if (regular && state.theta == 0 && state.omega * state.pivot < 0) regular = strike_floor();
       break;
     case Witness::slipping:
       stop_slip();
@@ -228,7 +230,7 @@ void Integration::resolve(Witness witness) {
   if (is_kink(witness) && state.sigma * slip_speed(rig, state) <= 0) stop_slip();
   if (regular && !at_floor && strikes_too()) {
     impact = true;
-    regular = strike(rig, state, cursor.time());
+    regular = strike_floor();
   }
   if (impact && regular && rig.laws && rig.laws->walls.any()) regular = meet_walls_too();
   if (impact && rig.laws) keep_contents_velocity(speed_before);

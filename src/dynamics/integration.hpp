@@ -105,6 +105,7 @@ class Integration {
   void lie_against(int side);
   void keep_contents_velocity(double speed_before);
   void stop_slip();
+  bool strike_floor();
   Rig::AtRest laws_at_rest() const;
   bool forces_have_values() const;
   bool strikes_too() const;

@@ -91,15 +91,9 @@ void measure_gaps(const Rig& rig, LawFlight<N>& f, const Series<double, N>& sine
 // Arguments of the kinks that force and moment have; friction has none in flight.
 template <int N>
 void kinks_in_flight(const Laws& laws, const State& state, const Series<double, N>* values, LawFlight<N>& f) {
-  for (int j = 0; j < laws.tape.kink_count(); ++j) {
-    const double side = state.sides >> j & 1U ? -1.0 : 1.0;
-    const Series<double, N>& argument = values[laws.tape.kink_argument(j)];
-    f.kink[j] = scaled(side, argument);
-    f.kink[j][N] = 0;
-    if (state.has_met(j)) f.kink[j][0] = 0;
-    if (!laws.tape.turns(j, state.sides, argument[0]) || laws.tape.kink_node(j) >= laws.forces_end)
-      f.kink[j] = Series<double, N>::zero();
-  }
+  for (int j = 0; j < laws.tape.kink_count(); ++j)
+    f.kink[j] = laws.tape.kink_node(j) >= laws.forces_end ? Series<double, N>::zero()
+                                                          : kink_argument(laws.tape, state, j, values);
 }
 
 template <int N>

@@ -149,8 +149,8 @@ class Group {
 
   void write_tape(int i, const Laws& laws) {
     for (int node = input_count; node < laws.tape.size(); ++node) {
-      rows_->value[node][i] = laws.tape.node({nullptr, node})->value;
-      rows_->shift[node][i] = laws.tape.node({nullptr, node})->shift;
+      rows_->value[node][i] = laws.tape.operation(node).value;
+      rows_->shift[node][i] = laws.tape.operation(node).shift;
     }
   }
 

@@ -97,7 +97,7 @@ bool Laws::grip_changes() const {
 }
 
 bool Laws::straight() const {
-  for (int i = input_count; i < tape.size(); ++i) switch (tape.node({nullptr, i})->op) {
+  for (int i = input_count; i < tape.size(); ++i) switch (tape.operation(i).op) {
       case Op::constant:
       case Op::affine:
       case Op::add:
@@ -144,7 +144,7 @@ bool Laws::same_shape(const Laws& other) const {
       !std::equal(relative_velocity, relative_velocity + states, other.relative_velocity))
     return false;
   for (int i = input_count; i < tape.size(); ++i) {
-    const Node &x = *tape.node({nullptr, i}), &y = *other.tape.node({nullptr, i});
+    const Node &x = tape.operation(i), &y = other.tape.operation(i);
     if (x.op != y.op || x.a != y.a || x.b != y.b || x.kink != y.kink) return false;
   }
   return true;

@@ -14,14 +14,12 @@
 #include "dynamics/arkode.hpp"
 #include "dynamics/bouc_wen.hpp"
 #include "dynamics/integration.hpp"
+#include "dynamics/reference_state.hpp"
 
 namespace freestand {
 namespace dynamics {
 namespace {
 
-// contact: theta, omega, xi, w, -, -;  flight: theta, omega, x, vx, y, vy;  then path, deflection, the effects' states
-constexpr int plain_size = 6;
-constexpr int state_size = plain_size + 2 + max_states;
 constexpr int witness_slots = 12 + max_kinks;
 constexpr int stationary_u = witness_slots, stationary_theta = witness_slots + 1, stationary_w = witness_slots + 2;
 constexpr int root_count = witness_slots + 3;
@@ -82,6 +80,7 @@ class ReferenceIntegrator {
   // To the next knot, output time or event.
   void integrate_leg() {
     floor_ = life_.cursor.local<judge_order>();
+    if (passed_over_s_ == 0 && life_.state.pivot != 0) look_out_for_the_floor();
     const double h = leg_length();
     const bool to_knot = h == life_.cursor.left();
     if (h > 0) {
@@ -92,19 +91,28 @@ class ReferenceIntegrator {
     if (to_knot) life_.next_segment();
   }
 
+  // A hop that a step would pass over, down and up again, is gone through in short steps, until long after it should have ended.
+  void look_out_for_the_floor() {
+    with_arc(floor_at(0), [&](const auto& arc) {
+      const double fall = 2 * fall_time(life_.state.pivot, arc.theta);
+      if (fall > shortest_ && fall < longest_step_) passed_over_s_ = fall;
+    });
+  }
+
   // One leg of length h. False: an event, or a stationary point, ended it early; or an event was passed over, and the leg ends
   // before the step in which it was: the next leg is that step, in shorter ones.
   bool go(double h) {
     void* ark = stepper_.get();
     const double step = std::min(h, passed_over_s_ > 0 ? passed_over_s_ / 8 : longest_step_);
     passed_over_s_ = 0;
-    off_wall_ = touches_wall() ? 0.5 * touching(rig()) : 0;
+    off_wall_ = touches_wall(rig(), life_.state) ? 0.5 * touching(rig()) : 0;
     start_at(ark, 0, h, step);
     watch_ = {true, true, true};
     double g[root_count];
     roots(0, y_.get(), g, this);
     for (int i = 0; i < 3; ++i) watch_[i] = std::abs(g[witness_slots + i]) > 1e-9;  // not where the leg starts at one
     observe(0);
+    double enough = -1e300;  // a slip speed, above which its extremes are not watched
     for (double tau = 0; tau < h;) {
       const double before = tau, path = life_.peaks.response().slid_path_m;
       const State from = life_.state;
@@ -124,7 +132,7 @@ class ReferenceIntegrator {
       const auto slot = std::find(found, found + witness_slots, -1) - found;
       const bool slips = slot < witness_slots && slots_[slot] == Witness::slipping;
       if (slips && slip_speed(rig(), from) == 0 && tau <= shortest_) {  // round-off of a slip that starts
-        check(ERKStepReset(ark, tau, y_.get()), "ERKStepReset");
+        restart(ark, tau, h);
         continue;
       }
       if (slot < witness_slots)
@@ -146,8 +154,16 @@ class ReferenceIntegrator {
         }
         return false;
       }
-      if (flag == ARK_ROOT_RETURN) {  // a stationary point: the next leg starts there
-        life_.cursor.advance(tau);
+      // Where a law makes the slip steady at once, errors of the steps turn its speed again and again. After an extreme that has kept
+      // half of it none is watched, as long as a step starts and ends above a half and loses less in its time: a cubic then has no zero.
+      const double speed = life_.state.sigma * slip_speed(rig(), life_.state);
+      if (found[stationary_w] && std::count(found, found + root_count, 0) == root_count - 1 &&
+          speed > 0.5 * from.sigma * slip_speed(rig(), from)) {
+        enough = 0.5 * speed;
+        watch_[2] = false;
+        restart(ark, tau, h);
+      } else if (flag == ARK_ROOT_RETURN || speed < enough + std::abs(slip_rate_) * (tau - before)) {
+        life_.cursor.advance(tau);  // a stationary point: the next leg starts there
         return false;
       }
     }
@@ -164,9 +180,13 @@ class ReferenceIntegrator {
 
   void start_at(void* ark, double tau, double end, double step) {
     write(life_.state);
-    check(ERKStepReset(ark, tau, y_.get()), "ERKStepReset");
     check(ERKStepSetMaxStep(ark, step), "ERKStepSetMaxStep");
     check(ERKStepSetInitStep(ark, std::min(end - tau, step)), "ERKStepSetInitStep");
+    restart(ark, tau, end);
+  }
+
+  void restart(void* ark, double tau, double end) {
+    check(ERKStepReset(ark, tau, y_.get()), "ERKStepReset");
     check(ERKStepSetStopTime(ark, end), "ERKStepSetStopTime");
   }
 
@@ -256,29 +276,8 @@ class ReferenceIntegrator {
             {floor_.g.at(tau), dynamics::derivative(floor_.g).at(tau), 0}};
   }
 
-  State read(N_Vector y) const {
-    const double* v = N_VGetArrayPointer(y);
-    State s = life_.state;
-    s.theta = v[0];
-    s.omega = v[1];
-    const bool flying = s.mode == Mode::flight;
-    (flying ? s.x : s.xi) = v[2];
-    (flying ? s.vx : s.w) = v[3];
-    if (flying) s.y = v[4], s.vy = v[5];
-    s.path = v[plain_size];
-    s.deflection = v[plain_size + 1];
-    std::copy(v + plain_size + 2, v + state_size, s.states.begin());
-    return s;
-  }
-
-  void write(const State& s) {
-    double* v = N_VGetArrayPointer(y_.get());
-    const bool flying = s.mode == Mode::flight;
-    const double values[] = {s.theta,           s.omega, flying ? s.x : s.xi, flying ? s.vx : s.w, flying ? s.y : 0,
-                             flying ? s.vy : 0, s.path,  s.deflection};
-    std::copy(std::begin(values), std::end(values), v);
-    std::copy(s.states.begin(), s.states.end(), v + plain_size + 2);
-  }
+  State read(N_Vector y) const { return state_of(N_VGetArrayPointer(y), life_.state); }
+  void write(const State& s) { numbers_of(s, N_VGetArrayPointer(y_.get())); }
 
   static int derivative(double tau, N_Vector y, N_Vector rate, void* self) {
     auto& me = *static_cast<ReferenceIntegrator*>(self);
@@ -298,24 +297,7 @@ class ReferenceIntegrator {
         std::copy(rates, rates + plain_size, d);
         law_rates(arc, me.states(), d + plain_size);
       });
-    const bool finite = std::all_of(d, d + state_size, [](double x) { return std::isfinite(x); });
-    return finite ? 0 : -1;
-  }
-
-  // Rates of path, deflection and the effects' states; the plain block has none.
-  static constexpr int law_size = state_size - plain_size;
-  template <class Plain>
-  static void law_rates(const Plain&, int, double* d) {
-    std::fill(d, d + law_size, 0.0);
-  }
-  static void law_rates(const LawArc<2>& arc, int states, double* d) {
-    d[0] = arc.path[1];
-    d[1] = arc.deflection[1];
-    for (int i = 0; i < max_states; ++i) d[2 + i] = i < states ? arc.states[i][1] : 0.0;
-  }
-  static void law_rates(const LawFlight<2>& flight, int states, double* d) {
-    d[0] = 0, d[1] = flight.deflection[1];
-    for (int i = 0; i < max_states; ++i) d[2 + i] = i < states ? flight.states[i][1] : 0.0;
+    return std::all_of(d, d + state_size, [](double x) { return std::isfinite(x); }) ? 0 : -1;
   }
 
   static int roots(double tau, N_Vector y, double* g, void* self) {
@@ -341,7 +323,8 @@ class ReferenceIntegrator {
         for_each_witness(me.rig(), s, arc, fill);
         if (me.watch_[0]) g[stationary_u] = midpoint(me.rig(), s, arc)[1];
         if (me.watch_[1] && s.pivot != 0) g[stationary_theta] = s.omega;
-        if (me.watch_[2] && s.sigma != 0) g[stationary_w] = slip_speed(arc)[1];
+        me.slip_rate_ = slip_speed(arc)[1];
+        if (me.watch_[2] && s.sigma != 0) g[stationary_w] = me.slip_rate_;
       });
     }
     // A search between values that are none, or infinite, would not end.
@@ -355,15 +338,6 @@ class ReferenceIntegrator {
   const Rig& rig() const { return life_.rig; }
   int states() const { return rig().laws ? rig().laws->states : 0; }
 
-  bool touches_wall() const {
-    if (!rig().laws) return false;
-    for (const int side : {1, -1})
-      for (const Edge edge : {Edge::lower, Edge::upper})
-        if (rig().laws->walls.on(side).stands && edge_now(rig(), life_.state, side, edge).gap <= touching(rig()))
-          return true;
-    return false;
-  }
-
   Integration life_;
   double longest_step_;
   double round_off_;                        // of lengths [m]
@@ -371,7 +345,7 @@ class ReferenceIntegrator {
   double instant_ = 1e-12 * longest_step_;  // shorter than ARKODE can tell from nothing [s]
   double shortest_ = 1e-7 * longest_step_;  // of a step that is gone through again for an event that it passed over [s]
   double output_step_ = 0;
-  double passed_over_s_ = 0;  // length of the step in which the last leg passed over an event
+  double passed_over_s_ = 0;  // length of the step in which the last leg passed over an event, or the next one may
   double off_wall_ = 0;  // an edge at a wall starts its leg so far off it: ARKODE sees no root that a leg starts on [m]
   std::array<bool, 3> watch_{};
   Floor<double, judge_order> floor_{};
@@ -379,6 +353,7 @@ class ReferenceIntegrator {
   double rate_[witness_slots]{};
   std::array<double, witness_slots> seen_{};  // witnesses at the point where they were last asked for
   double seen_at_ = -1;                       // its time within the leg [s]
+  double slip_rate_ = 0;                      // there [m/s2]
   std::unique_ptr<_SUNContext, Delete> context_;
   std::unique_ptr<_generic_N_Vector, Delete> y_;
   Arkode stepper_, locator_;

@@ -6,8 +6,9 @@
 namespace freestand::dynamics {
 namespace {
 
-bool binary(Op op) { return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide; }
-bool has_packs(Op op) { return binary(op) || op == Op::constant || op == Op::affine || op == Op::exp; }
+bool has_packs(Op op) {
+  return (takes_two(op) && op != Op::select) || op == Op::constant || op == Op::affine || op == Op::exp;
+}
 
 // The tape folds one operation into the next, and leaves behind what nobody asks for then.
 SpeedLaw without_unused(const SpeedLaw& all) {
@@ -17,7 +18,7 @@ SpeedLaw without_unused(const SpeedLaw& all) {
     const Node& node = all.nodes[i - 1];
     if (!used[i] || node.op == Op::constant) continue;
     used[node.a] = true;
-    if (binary(node.op)) used[node.b] = true;
+    if (takes_two(node.op)) used[node.b] = true;
   }
   SpeedLaw law;
   std::int16_t place[speed_law_nodes + 1] = {};
@@ -59,11 +60,11 @@ std::optional<SpeedLaw> speed_law(const Laws& laws) {
   place[speed] = 0;
   SpeedLaw law;
   for (int i = laws.forces_end; i <= laws.friction; ++i) {
-    const Node node = *laws.tape.node({nullptr, i});
+    const Node node = laws.tape.operation(i);
     const auto from = [&](int operand) { return place[static_cast<std::size_t>(operand)]; };
-    const bool used = node.op == Op::constant || (from(node.a) >= 0 && (!binary(node.op) || from(node.b) >= 0));
+    const bool used = node.op == Op::constant || (from(node.a) >= 0 && (!takes_two(node.op) || from(node.b) >= 0));
     if (!used || !has_packs(node.op) || law.count == speed_law_nodes) return {};
-    const int a = node.op == Op::constant ? 0 : from(node.a), b = binary(node.op) ? from(node.b) : 0;
+    const int a = node.op == Op::constant ? 0 : from(node.a), b = takes_two(node.op) ? from(node.b) : 0;
     law.nodes[law.count] = {node.op, static_cast<std::int16_t>(a), static_cast<std::int16_t>(b), node.value, node.shift,
                             -1};
     place[static_cast<std::size_t>(i)] = ++law.count;

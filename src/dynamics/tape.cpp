@@ -6,12 +6,6 @@ Tape::Tape() {
   for (int i = 0; i < input_count; ++i) depends_[i] = 1U << i;
 }
 
-namespace {
-bool binary(Op op) {
-  return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide || op == Op::select;
-}
-}  // namespace
-
 Value Tape::append(Op op, int a, int b, double value, double shift, int kink) {
   Node node{op,    static_cast<std::int16_t>(a),   static_cast<std::int16_t>(b), value,
             shift, static_cast<std::int16_t>(kink)};
@@ -21,7 +15,7 @@ Value Tape::append(Op op, int a, int b, double value, double shift, int kink) {
   out_of_kinks_ |= bends && kink_count_ == max_kinks;
   if (overflow()) return {this, 0};
   const int place = size_++;
-  depends_[place] = op == Op::constant ? 0 : depends_[a] | (binary(op) ? depends_[b] : 0);
+  depends_[place] = op == Op::constant ? 0 : depends_[a] | (takes_two(op) ? depends_[b] : 0);
   if (kink >= 0) depends_[place] |= depends_[kinks_[kink]];
   if (bends) {
     node.kink = static_cast<std::int16_t>(kink_count_);
@@ -34,8 +28,8 @@ Value Tape::append(Op op, int a, int b, double value, double shift, int kink) {
 int Tape::find(const Node& node) const {
   for (int i = section_; i < size_; ++i) {
     const Node& same = nodes_[i];
-    if (same.op == node.op && same.a == node.a && (!binary(node.op) || same.b == node.b) && same.value == node.value &&
-        same.shift == node.shift && (node.kink < 0 || same.kink == node.kink))
+    if (same.op == node.op && same.a == node.a && (!takes_two(node.op) || same.b == node.b) &&
+        same.value == node.value && same.shift == node.shift && (node.kink < 0 || same.kink == node.kink))
       return i;
   }
   return -1;

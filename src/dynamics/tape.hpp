@@ -67,6 +67,11 @@ struct Node {
   std::int16_t kink;  // on whose sides it differs; -1: none
 };
 
+// Both operands are values.
+inline bool takes_two(Op op) {
+  return op == Op::add || op == Op::subtract || op == Op::multiply || op == Op::divide || op == Op::select;
+}
+
 // Roots and powers of less than this are taken for a straight line, on either side of zero, from where no series of them starts.
 // It is many times what a step may miss in a speed (1e-9 times p and the block's size): such a speed has a sign.
 inline constexpr double zero_of_roots = 1e-7;
@@ -88,6 +93,9 @@ class Tape {
   void begin_section() { section_ = size_; }
   // factor * x + shift; of constants and of other such values, again one node.
   Value affine(Value x, double factor, double shift);
+  // Of a node that is no input.
+  const Node& operation(int node) const { return nodes_[node]; }
+  // No operation: it is an input.
   const Node* node(Value x) const { return x.node < input_count ? nullptr : &nodes_[x.node]; }
   // The kink at which x changes its sign.
   int kink_at(Value x) { return nodes_[append(Op::step, x.node, 0).node].kink; }
@@ -181,8 +189,8 @@ Value where(Value condition, Value yes, Value no);  // yes where condition > 0
 class OwnNumbers {
  public:
   OwnNumbers(const Tape& tape, std::uint32_t sides) : tape_(tape), sides_(sides) {}
-  double value(int node) const { return tape_.node({nullptr, node})->value; }
-  double shift(int node) const { return tape_.node({nullptr, node})->shift; }
+  double value(int node) const { return tape_.operation(node).value; }
+  double shift(int node) const { return tape_.operation(node).shift; }
   double on_side(int kink, double positive, double negative) const { return sides_ >> kink & 1U ? negative : positive; }
   static double choose(bool which, double yes, double no) { return which ? yes : no; }
   std::uint32_t sides() const { return sides_; }

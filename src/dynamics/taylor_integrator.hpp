@@ -37,8 +37,8 @@ template <int N, class Real>
 // grows as tau^7 leaves e tau/8 in a speed.
 inline constexpr double defect_allowed = 10;
 
-// Steps are not halved below this, over the longest one: a law that jumps without a kink (a formula may) is passed in one such step,
-// which misses at most 1e-6 of what the jump does in 1/p.
+// Steps are not halved below this, over the longest one: a law with no series at a place (a pole) is passed in such steps, or
+// ends the sample.
 inline constexpr double shortest_step = 1e-6;
 
 // N: order of the steps on one corner. FlatN: order in which sliding is exact, degree of the motion + 2.

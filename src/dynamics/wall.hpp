@@ -80,6 +80,14 @@ inline EdgeNow edge_now(const Rig& rig, const State& state, int side, Edge edge)
 // leave, and rebounds that reach less are not followed.
 inline double touching(const Rig& rig) { return std::fmax(rig.rest_height, 1e-11 * rig.top); }
 
+inline bool touches_wall(const Rig& rig, const State& state) {
+  if (!rig.laws) return false;
+  for (const int side : {1, -1})
+    for (const Edge edge : {Edge::lower, Edge::upper})
+      if (rig.laws->walls.on(side).stands && edge_now(rig, state, side, edge).gap <= touching(rig)) return true;
+  return false;
+}
+
 // An upright block touches the wall on that side.
 inline bool touches_upright(const Rig& rig, const State& state, int side) {
   const Wall& wall = rig.laws->walls.on(side);

@@ -2,6 +2,9 @@
 // event.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 #include "dynamics/contact.hpp"
 #include "dynamics/law_flight.hpp"
 #include "dynamics/law_step.hpp"
@@ -96,18 +99,6 @@ Series<Real, N> friction_at_wall(bool right, bool left, const LawArc<N, Real>& a
     if (left && arc.fx[0] > arc.limit_right[0]) return arc.limit_right;
   }
   return arc.fx;
-}
-
-// First terms that later ones outweigh within an instant are the round-off of a place where the argument is zero.
-template <int N>
-Series<double, N> past_instant(Series<double, N> y, double instant_s) {
-  for (int k = 0; k < N; ++k) {
-    double rest = 0;
-    for (int j = N; j > k; --j) rest = (rest + std::abs(y[j])) * instant_s;
-    if (!(std::abs(y[k]) <= rest)) break;
-    y[k] = 0;
-  }
-  return y;
 }
 
 // What is at a wall comes no nearer; what leaves it at this instant has no speed either.
@@ -274,6 +265,15 @@ template <int N, class Use>
 auto with_flight_arc(const Rig& rig, const State& state, double time, const Floor<double, N>& floor, Use&& use) {
   if (rig.laws) return use(fly_with_laws<N>(rig, state, time, floor));
   return use(flight_arc<N>(rig, state, floor));
+}
+
+// When the raised corner would be down again under the pull that it has now; infinite: not at all.
+template <int N>
+double fall_time(int pivot, const Series<double, N>& theta) {
+  const double height = pivot * theta[0], rate = pivot * theta[1], bend = pivot * theta[2];
+  const double root = std::sqrt(std::fmax(rate * rate - 4 * bend * height, 0.0));
+  if (bend < 0 && rate > 0) return (rate + root) / (-2 * bend);
+  return bend < 0 || (rate < 0 && root > 0) ? 2 * height / (root - rate) : std::numeric_limits<double>::infinity();
 }
 
 // The first event of the mode within h.

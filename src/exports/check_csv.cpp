@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <freestand/error.hpp>
+#include <optional>
 
 #include "exports/csv_rows.hpp"
 #include "exports/exporter.hpp"
@@ -22,11 +23,13 @@ double between(const Lines& lines, double at) {
   return lines.y[i - 1] + (at - lines.x[i - 1]) / (lines.x[i] - lines.x[i - 1]) * (lines.y[i] - lines.y[i - 1]);
 }
 
-ReadBack open(const std::filesystem::path& file, const Intensity& im) {
+// id: whose rows they are, of a table of many.
+ReadBack read(const std::filesystem::path& file, const Intensity& im, const std::optional<std::string>& id) {
   const CsvTable table(file);
   ReadBack back;
   std::vector<Lines> states;
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (id && table.text(row, "id") != *id) continue;
     const std::string name = im.period_s > 0 ? fmt::format("{} at {} s", im.name, im.period_s) : im.name;
     if (table.text(row, "im") != name || table.text(row, "im_unit") != im.unit)
       throw Error(
@@ -40,12 +43,19 @@ ReadBack open(const std::filesystem::path& file, const Intensity& im) {
     states.back().x.push_back(table.number(row, "im_value"));
     states.back().y.push_back(table.number(row, "probability"));
   }
+  if (id && states.empty())
+    throw Error(fmt::format("{} has no row of {}: export again", file.string(), *id), Exit::data);
   back.unit = im.unit;
   back.probability = [states](std::size_t s, double value) { return between(states[s], value); };
   return back;
 }
 
-const RegisterCheck here{{.name = "csv", .open = open}};
+ReadBack open(const std::filesystem::path& file, const Intensity& im) { return read(file, im, {}); }
+ReadBack open_one(const std::filesystem::path& file, const Intensity& im, const std::string& id) {
+  return read(file, im, id);
+}
+
+const RegisterCheck here{{.name = "csv", .open = open, .open_one = open_one}};
 
 }  // namespace
 }  // namespace freestand::exports::check_csv

@@ -153,6 +153,12 @@ struct Discrete {
   double at(std::size_t state, double level) const { return level < no_damage ? 0 : line(levels, poes[state], level); }
 };
 
+std::vector<double> begun_with(double first, const std::vector<double>& rest) {
+  std::vector<double> all{first};
+  all.insert(all.end(), rest.begin(), rest.end());
+  return all;
+}
+
 // The reader refuses none of what is asked of the probabilities here, but counts wrong with them.
 Discrete discrete(const pugi::xml_node& function, const std::vector<std::string>& names,
                   const std::filesystem::path& file) {
@@ -170,13 +176,13 @@ Discrete discrete(const pugi::xml_node& function, const std::vector<std::string>
     require(values.size() == found.levels.size(), file, "there is a probability for each level");
     require(std::is_sorted(values.begin(), values.end()) && values.front() >= 0 && values.back() <= 1, file,
             "probabilities do not fall, and lie within 0 and 1");
-    values.insert(values.begin(), 0);
+    values = begun_with(0, values);
     if (!found.poes.empty())
       for (std::size_t i = 0; i < values.size(); ++i)
         require(values[i] <= found.poes.back()[i] + 1e-6, file, "limit states do not cross");
     found.poes.push_back(values);
   }
-  found.levels.insert(found.levels.begin(), found.no_damage);
+  found.levels = begun_with(found.no_damage, found.levels);
   return found;
 }
 

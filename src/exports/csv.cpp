@@ -23,10 +23,11 @@ std::string name_of(const Intensity& im) {
   return im.period_s > 0 ? fmt::format("{} at {} s", im.name, im.period_s) : im.name;
 }
 
-std::string rows(const Model& model, const LimitState& state) {
+// start: what stands before each row
+std::string rows(const Model& model, const LimitState& state, const std::string& start) {
   const Fitted& f = state.fitted;
-  const std::string head = fmt::format("{},{},{},{},{},{}", state.name, cell(state.demand), cell(state.capacity),
-                                       state.unit, name_of(model.im), model.im.unit);
+  const std::string head = start + fmt::format("{},{},{},{},{},{}", state.name, cell(state.demand),
+                                               cell(state.capacity), state.unit, name_of(model.im), model.im.unit);
   const std::string tail = fmt::format("{},{},{},{},{},{}", cell(f.median), cell(f.median_se), cell(f.dispersion),
                                        cell(f.dispersion_se), cell(f.off_by),
                                        f.adequate      ? "yes"
@@ -39,12 +40,20 @@ std::string rows(const Model& model, const LimitState& state) {
   return text;
 }
 
+constexpr const char* columns =
+    "limit_state,demand,capacity,capacity_unit,im,im_unit,im_value,probability,lower,upper,counted,n,median,median_se,"
+    "dispersion,dispersion_se,off_by,adequate\n";
+
 std::vector<File> write(const Model& model, const std::string& name) {
-  std::string text =
-      "limit_state,demand,capacity,capacity_unit,im,im_unit,im_value,probability,lower,upper,counted,n,median,median_"
-      "se,"
-      "dispersion,dispersion_se,off_by,adequate\n";
-  for (const LimitState& state : model.states) text += rows(model, state);
+  std::string text = columns;
+  for (const LimitState& state : model.states) text += rows(model, state, "");
+  return {{name, text}};
+}
+
+std::vector<File> write_all(const Collection& all, const std::string& name) {
+  std::string text = std::string("id,") + columns;
+  for (const Model& model : all.models)
+    for (const LimitState& state : model.states) text += rows(model, state, cell(model.id) + ",");
   return {{name, text}};
 }
 
@@ -54,7 +63,8 @@ const Register here{{.name = "csv",
                      .forms = {Form::discrete},
                      .table = true,
                      .bands = true,
-                     .write = write}};
+                     .write = write,
+                     .write_all = write_all}};
 
 }  // namespace
 }  // namespace freestand::exports::csv

@@ -10,6 +10,9 @@
 namespace freestand::fragility {
 namespace {
 
+// Straight between 81 points over a range R the curve errs by h^2/8 of its bend, h = R/80. The bend is at most 3/m^2 at dispersion 0.4 and
+// 8/m^2 at 0.2, m the median: an error of 0.0015 and 0.004 where m is at 0.2 R, of 0.006 and 0.016 at 0.1 R, as wide as a line in a
+// picture. Pictures and bands alone go by the grid: rates, exports and databases go by median and dispersion.
 constexpr int grid_points = 81;
 
 // Counts by fine cell of IM and by group of motions. Cells without samples are left out.

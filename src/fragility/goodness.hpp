@@ -19,7 +19,8 @@
 
 namespace freestand::fragility {
 
-// Level of the tests of fits [KM05 5.31].
+// Level of the tests of fits: that of the report [KM05 5.31], whose acceptances are compared with ours. Over the bins of a study it is the
+// share of false alarms among those that fail (benjamini_hochberg).
 inline constexpr double test_level = 0.05;
 
 // S = max |F_n - F| over both sides of every step [KM05 5.28-5.30], from u_i = F(x_i) in increasing order.

@@ -12,6 +12,9 @@
 namespace freestand::fragility {
 namespace {
 
+// What joining groups costs: from G of them a standard error is known to 1/sqrt(2 (G - 1)), and Student's t makes a 95 % interval wider
+// than the normal one. Of 256 that is 4.4 % and 0.5 %, of 128 6.3 % and 1 %: less than the two digits that are told. The tally holds every
+// count once a group, so that twice as many would double its memory and the time of a fit.
 constexpr int most_record_groups = 256;
 constexpr int hashed_group_count = 128;
 

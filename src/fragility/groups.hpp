@@ -13,8 +13,8 @@ namespace freestand::fragility {
 // The samples of a group of records are one group (beyond 256 of them they are joined, whole ones to a group). A pulse
 // sample is a motion of its own: a hash of its index puts it in one of 128 groups, which resample like the samples
 // themselves and keep memory bounded; with scrambles, each of these designs is a group, since samples of one design are
-// spread evenly, and so more alike to those of another than independent ones. Where all records are one group they are treated in the same way: the bands then
-// say how well the answer for these records is known, and nothing about others.
+// spread evenly, and so more alike to those of another than independent ones. Where all records are one group they are treated in the same
+// way: the bands then say how well the answer for these records is known, and nothing about others.
 class MotionGroups {
  public:
   explicit MotionGroups(const Options& options);

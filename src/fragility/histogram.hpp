@@ -8,7 +8,8 @@
 
 namespace freestand::fragility {
 
-// Cells of width 1/256 in ln(EDP) from -18 to 12 (EDP from 1.5e-8 to 1.6e5 in its unit), one cell below and one above.
+// Cells of width 1/256 in ln(EDP) from -18 to 12 (EDP from 1.5e-8 to 1.6e5 in its unit), one cell below and
+// one above. S errs by `resolution` below, 5e-6 at omega 0.3 and 5e-5 at 0.1, where 10^6 samples scatter it by 8e-4.
 inline constexpr double ln_lowest = -18, ln_highest = 12, ln_cell_width = 1.0 / 256;
 inline constexpr int ln_cell_count = 30 * 256 + 2;
 

@@ -34,12 +34,21 @@ Estimate jackknife_share(double whole, const LeftOut& left_out, double confidenc
 // which hardly does.
 Estimate jackknife_share(double whole, const LeftOut& left_out, double confidence, double of_a_class);
 
-// Interval of a positive number that scatters as a lognormal does (a rate), about `whole` and laid in its logarithm:
+// Limits of a positive number that scatters as a lognormal does (a rate), about `whole` and laid in its logarithm:
 //   ln whole -+ t_f se,   se^2 = sum_s V_s,   V_s = (G_s - 1)/G_s sum_g (ln left out - mean)^2
-//   f = 2 (sum_s V_s)^2/sum_s var(V_s),   at most sum_s (G_s - 1)      (F. E. Satterthwaite, Biometrics Bulletin 2, 1946)
-//   var(V_s) = (G_s - 1)^2/G_s (m4 - m2^2)
-// with m2 and m4 the central moments of the logarithms in the stratum: where few groups make most of the number, se is known worse than
-// from as many normal ones. NaN where no stratum has two groups, or where whole or one left out is not above 0 (or not known).
-Interval jackknife_of_positive(double whole, LeftOut left_out, double confidence);
+//   f = 2 (sum_s V_s)^2/sum_s var(V_s),   var(V_s) = V_s^2 (2/(G_s - 1) + k_s/G_s)      (F. E. Satterthwaite, Biometrics Bulletin 2, 1946)
+// with k_s the excess kurtosis of the logarithms in the stratum, by the ratio of unbiased cumulants and not below 0: where few groups make
+// most of the number, se is known worse than from as many normal ones. Not known where no stratum has two groups, or where whole or one
+// left out is not above 0 (or not known).
+class PositiveLimits {
+ public:
+  PositiveLimits(double whole, LeftOut left_out);
+  bool known() const { return freedom_ > 0; }
+  double lower(double tail) const;
+  double upper(double tail) const;
+
+ private:
+  double whole_, se_ = 0, freedom_ = 0;
+};
 
 }  // namespace freestand::fragility

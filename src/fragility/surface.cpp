@@ -50,7 +50,23 @@ Parts resampled_parts(const Eigen::MatrixXd& totals, double im, double still_thr
   return parts;
 }
 
-Point fitted_point(const Parts& parts, const Parts& left_out, const BinFit& bin, double capacity, double confidence) {
+// P = over + (1 - over) Q, with Q what was fitted and nothing that overturned in the bin.
+double upper_beside_none_over(const PercentileLimits& limits, double over_upper, double tail) {
+  return largest_beside_nothing(tail, [&](double share, double rest) {
+    const double over = 1 - std::pow(1 - over_upper, share);
+    return over + (1 - over) * limits.upper(rest);
+  });
+}
+
+// P = over + (1 - never) (P - over), with none of those that stood without any demand.
+double lower_beside_none_never(const PercentileLimits& limits, double over, double never_upper, double tail) {
+  return -largest_beside_nothing(tail, [&](double share, double rest) {
+    return -over - std::pow(1 - never_upper, share) * (limits.lower(rest) - over);
+  });
+}
+
+Point fitted_point(const Parts& parts, const Parts& left_out, const BinFit& bin, double capacity, double confidence,
+                   bool censored) {
   const auto exceedance = [&](double over, double never) {
     return three_part_exceedance(over, never, bin.lambda, bin.omega, capacity);
   };
@@ -64,13 +80,21 @@ Point fitted_point(const Parts& parts, const Parts& left_out, const BinFit& bin,
   };
   std::vector<double> values = each(parts);
   point.left_out = each(left_out);
-  const Interval band = percentile_interval(values, point.probability, confidence, bin.motions);
-  point.lower = band.lower;
-  point.upper = band.upper;
+  const PercentileLimits limits(values, point.probability, bin.motions);
   point.resampled = std::move(values);
-  if (std::isnan(band.lower)) return point;
-  if (bin.n_over == 0) point.upper = std::max(point.upper, exceedance(bin.p_over_upper, bin.p_never));
-  if (bin.n_still == 0) point.lower = std::min(point.lower, exceedance(bin.p_over, bin.p_still_upper));
+  if (!limits.known()) return point;
+  const double tail = (1 - confidence) / 2;
+  const auto lower = [&](double of) {
+    return bin.n_still > 0 ? limits.lower(of) : lower_beside_none_never(limits, bin.p_over, bin.p_still_upper, of);
+  };
+  const auto upper = [&](double of) {
+    return bin.n_over > 0 || !censored ? limits.upper(of) : upper_beside_none_over(limits, bin.p_over_upper, of);
+  };
+  const auto fitted_lower = [&](double of) { return limits.lower(of); };
+  const auto fitted_upper = [&](double of) { return limits.upper(of); };
+  const double least = lower(tail), most = upper(tail);
+  point.lower = lower(tail + unused_tail(tail, +1, fitted_upper, most));
+  point.upper = upper(tail + unused_tail(tail, -1, fitted_lower, least));
   return point;
 }
 
@@ -103,8 +127,9 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
     }
     for (std::size_t c = 0; c < capacity.size(); ++c) {
       const Eigen::Index column = BinSums::size + static_cast<Eigen::Index>(c);
-      const Point point = use_fit ? fitted_point(parts, parts_left, bin, capacity[c], options.confidence)
-                                  : empirical_point(groups, totals, left_out, column, records, options.confidence);
+      const Point point =
+          use_fit ? fitted_point(parts, parts_left, bin, capacity[c], options.confidence, options.edps[edp].censored)
+                  : empirical_point(groups, totals, left_out, column, records, options.confidence);
       const double hits = groups.col(column).sum(), n = static_cast<double>(bin.n);
       const double failed = static_cast<double>(bin.n_failed);
       const std::size_t at = b * capacity.size() + c;

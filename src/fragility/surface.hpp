@@ -12,9 +12,15 @@ namespace freestand::fragility {
 // (with Options::empirical_fallback) fails goodness of fit, or empty where it has too few samples. Also sets the
 // standard errors of the bins by resampling.
 //
-// A row of plain fractions has the interval of a share with motions as the unit (clusters.hpp), and a fitted row in which
-// nothing overturned (or nothing stood still) carries that limit. Measured on made-up studies with strong differences between motions: bands of nominal 95 % hold the truth in 87 to
-// 92 % of the cases with 8 motions, 90 to 95 % with 20, 93 to 95 % with 40 or more.
+// A row of plain fractions has the interval of a share with motions as the unit (clusters.hpp). A fitted row in which nothing overturned
+// (or nothing stood still) also holds what may have gone unseen (largest_beside_nothing), where overturning censors the demand; what of
+// its tail that limit does not need is the other's (unused_tail). By simulation, nominal 90 %, 40 records of 25 samples, half of the
+// variance between records, 300 repeats (error 0.017): a fitted row of P = 0.16 holds the truth in 0.90 of the cases where nothing can
+// overturn, in 0.91, 0.87 and 0.90 where half a record, one and two are expected to; of P = 0.06, below what 40 records of which none
+// overturned allow, in 0.90, 0.96, 0.97 and 0.92. There one record more or less moves P by as much as the fit's error, and the band of
+// none holds each P up to the limit, so that no interval comes nearer (tests/fragility/bands_test.cpp). Counted rows hold it in 0.92,
+// lambda in 0.88; a counted row with nothing in it, [0, 1 - tail^(1/motions)], always where P is within: no other interval that is right
+// at the limit is shorter.
 Surface surface(const Tally& tally, std::size_t edp, const Resampling& resampling, std::vector<BinFit>& bins);
 
 // IM x axis x C, plain fractions.

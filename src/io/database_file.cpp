@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <freestand/error.hpp>
+#include <numeric>
 
 #include "io/database_columns.hpp"
 #include "io/h5.hpp"
@@ -17,14 +18,23 @@ using database::Point;
 using database::Word;
 
 template <class Row>
-void write_column(h5::Group& group, const DatabaseColumn<Row>& column, const std::vector<const Row*>& rows) {
-  std::visit(
+h5::Dataset write_column(h5::Group& group, const DatabaseColumn<Row>& column, const std::vector<const Row*>& rows) {
+  return std::visit(
       [&]<class T>(T Row::*member) {
         std::vector<T> values;
         for (const Row* row : rows) values.push_back(row->*member);
-        group.put(column.name, values).describe(column.unit, column.description);
+        return std::move(group.put(column.name, values).describe(column.unit, column.description));
       },
       column.member);
+}
+
+// The numbers of a table's rows, the scale of its columns.
+h5::Dataset write_numbers(h5::Group& group, const char* name, std::size_t count) {
+  std::vector<std::int64_t> numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0);
+  h5::Dataset scale = group.put(name, numbers);
+  scale.scale(name).describe("1", "row of this table");
+  return scale;
 }
 
 template <class Row>
@@ -65,11 +75,12 @@ void write_words(h5::Group& root, const char* name, const std::vector<Word>& wor
     summaries.push_back(word.summary);
     binary.push_back(word.binary);
   }
-  group.put("name", names);
-  group.put("unit", units);
-  group.put("symbol", symbols);
-  group.put("summary", summaries);
-  group.put("binary", binary);
+  h5::Dataset scale = group.put("name", names);
+  scale.scale("name");
+  group.put("unit", units).attach(0, scale);
+  group.put("symbol", symbols).attach(0, scale);
+  group.put("summary", summaries).attach(0, scale);
+  group.put("binary", binary).attach(0, scale);
 }
 
 std::vector<Word> read_words(const h5::Group& root, const char* name) {
@@ -99,7 +110,10 @@ std::vector<std::size_t> read_rows(const h5::Group& group, const char* name, std
 
 void write_tables(h5::Group& root, const Database& db) {
   h5::Group entries = root.make_group("entries");
-  for (const auto& column : entry_columns()) write_column(entries, column, pointers(db.entries));
+  h5::Dataset id = write_column(entries, entry_columns().front(), pointers(db.entries));
+  id.scale("id");
+  for (const auto& column : entry_columns().subspan(1))
+    write_column(entries, column, pointers(db.entries)).attach(0, id);
   h5::Group curves = root.make_group("curves"), points = root.make_group("points");
   std::vector<std::int64_t> entry_of, curve_of;
   std::vector<const Point*> all;
@@ -110,10 +124,12 @@ void write_tables(h5::Group& root, const Database& db) {
       all.push_back(&point);
     }
   }
-  curves.put("entry", entry_of).describe("1", "row of the entry");
-  for (const auto& column : curve_columns()) write_column(curves, column, pointers(db.curves));
-  points.put("curve", curve_of).describe("1", "row of the curve");
-  for (const auto& column : point_columns()) write_column(points, column, all);
+  const h5::Dataset curve = write_numbers(curves, "curve", db.curves.size()),
+                    point = write_numbers(points, "point", all.size());
+  curves.put("entry", entry_of).attach(0, curve).describe("1", "row of the entry");
+  for (const auto& column : curve_columns()) write_column(curves, column, pointers(db.curves)).attach(0, curve);
+  points.put("curve", curve_of).attach(0, point).describe("1", "row of the curve");
+  for (const auto& column : point_columns()) write_column(points, column, all).attach(0, point);
 }
 
 }  // namespace
@@ -125,9 +141,10 @@ void write_database(const std::filesystem::path& path, const Database& db) {
   root.attribute("name", db.name);
   root.attribute("revision", db.revision);
   root.attribute("confidence", db.confidence);
-  root.put("classes", db.classes);
+  root.put("classes", db.classes).scale("classes");
   root.put("families",
-           std::vector<std::string>{database::lognormal_family, database::not_refuted_family, database::points_family});
+           std::vector<std::string>{database::lognormal_family, database::not_refuted_family, database::points_family})
+      .scale("families");
   write_words(root, "intensities", db.intensities);
   write_words(root, "demands", db.demands);
   write_tables(root, db);

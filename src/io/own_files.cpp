@@ -60,7 +60,7 @@ bool is_own(const fs::path& path) {
   if (!fs::is_regular_file(path)) return false;
   try {
     if (kind == ".h5") return has_own_format(path);
-    if (kind == ".csv") return has_own_columns(beginning(path));
+    if (kind == ".csv" && has_own_columns(beginning(path))) return true;
     if (kind == ".json") return beginning(path).find("\"format\": \"freestand-") != std::string::npos;
     if (kind == ".html") return beginning(path).find(maker_of_page) != std::string::npos;
     return is_signed(read_whole(path));

@@ -13,7 +13,7 @@ namespace freestand::io {
 std::string signed_text(std::string_view text);
 
 // Did freestand write the file, as far as its content tells? HDF5 and JSON: their format is one of freestand's; CSV: the
-// header has the columns of a result; HTML: the page names its maker; any other text: its signature holds.
+// header has the columns of a result, or as any other text: its signature holds; HTML: the page names its maker.
 bool is_own(const std::filesystem::path&);
 
 // Throws Error (Exit::usage) that names those of `names` in the folder that freestand did not write.

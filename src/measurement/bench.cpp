@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/random.hpp"
+#include "measurement/quiet.hpp"
 
 namespace freestand::measurement {
 namespace {
-
-// Standard normal numbers, a pure function of their place.
-double normal(std::uint64_t seed, std::uint64_t sample, std::uint64_t stream) {
-  const auto [a, b] = random::bits(seed, sample, stream);
-  return std::sqrt(-2 * std::log(random::unit_interval(a))) * std::cos(2 * std::numbers::pi * random::unit_interval(b));
-}
 
 std::vector<double> samples(const FloorMotion& motion, const std::vector<double>& coefficients) {
   std::vector<double> values;
@@ -28,8 +22,8 @@ std::vector<double> samples(const FloorMotion& motion, const std::vector<double>
 FloorMotion with_noise(const FloorMotion& motion, double horizontal, double vertical, std::uint64_t replay,
                        std::uint64_t stream) {
   std::vector<double> a = samples(motion, motion.horizontal_mps2), v = samples(motion, motion.vertical_mps2);
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] += horizontal * normal(1 + replay, i, stream);
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] += vertical * normal(1 + replay, i, ~stream);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += horizontal * random::standard_normal(1 + replay, i, stream);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += vertical * random::standard_normal(1 + replay, i, ~stream);
   return piecewise_linear(motion.name, motion.knot_s[1] - motion.knot_s[0], a, v);
 }
 
@@ -56,6 +50,11 @@ const char* name(Channel channel) {
 const std::vector<double>& history(const Test& test, Channel channel) {
   if (channel == Channel::slip) return test.slip_m;
   return channel == Channel::rotation ? test.rotation_rad : test.block_acceleration_mps2;
+}
+
+double noise(const Noise& noise, Channel channel) {
+  if (channel == Channel::slip) return noise.slip_m;
+  return channel == Channel::rotation ? noise.rotation_rad : noise.block_acceleration_mps2;
 }
 
 double sensor_noise(const std::vector<double>& signal) {
@@ -85,6 +84,7 @@ Prediction predict(const ModelSpec& model, const Test& test, std::span<const dou
   Prediction out;
   Shaking shaking = test.shaking();
   if (other) shaking.motion = other;
+  shaking.scale *= model.floor_gain.of(x);
   const Specimen body = specimen(model, test, x);
   Settings settings;
   settings.tolerance = 1e-8;
@@ -157,9 +157,10 @@ Reach Bench::reach(const std::vector<std::size_t>& tests) const {
   return all;
 }
 
-double Bench::noise(Channel channel) const {
-  if (channel == Channel::slip) return data_.noise.slip_m;
-  return channel == Channel::rotation ? data_.noise.rotation_rad : data_.noise.block_acceleration_mps2;
+double Bench::noise(Channel channel) const { return measurement::noise(data_.noise, channel); }
+
+void Bench::estimate_sensors() {
+  for (int c = 0; c < channel_count; ++c) sensors_[c] = sensor_of(quiet_stretches(data_, static_cast<Channel>(c)));
 }
 
 Spread Bench::spread(const ModelSpec& model, std::size_t i, std::span<const double> x,

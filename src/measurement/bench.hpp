@@ -6,6 +6,7 @@
 
 #include "measurement/dataset.hpp"
 #include "measurement/model.hpp"
+#include "measurement/sensor.hpp"
 
 namespace freestand::measurement {
 
@@ -14,6 +15,7 @@ inline constexpr int channel_count = 3;
 const char* name(Channel);  // "slip_m" ...
 
 const std::vector<double>& history(const Test&, Channel);
+double noise(const Noise&, Channel);
 
 // Standard deviation of the white noise on a measured acceleration, from its third differences in the quiet parts
 // [the unit of the signal]. Not above what the signal itself does there.
@@ -46,6 +48,9 @@ class Bench {
   const Test& test(std::size_t i) const { return data_.tests[i]; }
   std::size_t size() const { return data_.tests.size(); }
   double noise(Channel) const;
+  // Noise of the channel's sensor in that unit: as stated, until it is estimated where nothing moves.
+  const Sensor& sensor(Channel channel) const { return sensors_[static_cast<std::size_t>(channel)]; }
+  void estimate_sensors();
   double floor_noise_mps2(std::size_t test) const { return floor_noise_mps2_[test]; }
   const std::vector<FloorMotion>& replays(std::size_t test) const { return replays_[test]; }
   // Of the measured slips: of the calibration tests, or of these. Tests held out or left out reach nothing of a fit.
@@ -59,6 +64,7 @@ class Bench {
   std::vector<double> floor_noise_mps2_;
   std::vector<std::vector<FloorMotion>> replays_;
   std::vector<Reach> reach_;  // of each test
+  Sensor sensors_[channel_count];
 };
 
 }  // namespace freestand::measurement

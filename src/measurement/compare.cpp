@@ -38,7 +38,7 @@ ChannelError channel_error(Channel channel, double noise, const std::vector<doub
 
 // One sample of a history with what it is put into bins by.
 struct Sample {
-  double residual, growth;
+  double residual, growth, slip_growth_m, rotation_growth_rad;
   Phase phase;
   std::vector<double> at;
 };
@@ -48,34 +48,43 @@ struct Variable {
 };
 constexpr Variable variables[] = {{"speed_mps", "m/s"}, {"path_m", "m"}, {"position_m", "m"}, {"direction", "1"},
                                   {"normal_g", "g"},    {"time_s", "s"}, {"floor_g", "g"}};
+constexpr std::size_t of_slip = 4;  // the first of them
 
+// Without slip: by rotation alone, with speed, path, position and direction of slip at zero.
 void add_samples(const Bench& bench, const TestComparison& c, std::vector<Sample>& samples) {
   const Test& test = bench.test(c.test);
-  if (test.slip_m.empty() || bench.noise(Channel::slip) <= 0) return;
-  const bool turns = !test.rotation_rad.empty();
-  const Smooth motion = smooth(test.slip_m, test.dt_s, half_window_s);
+  const bool slides = !test.slip_m.empty() && bench.noise(Channel::slip) > 0;
+  if (!slides && (test.rotation_rad.empty() || bench.noise(Channel::rotation) <= 0)) return;
+  const Smooth motion = slides ? smooth(test.slip_m, test.dt_s, half_window_s) : Smooth{};
   const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, half_window_s);
   const std::vector<Phase> phase = phases(bench, test);
   const auto lag = std::max<std::size_t>(1, static_cast<std::size_t>(0.1 / test.dt_s));
-  const auto residual = [&](std::size_t k) {
-    const double slip = (c.model.slip_m[k] - test.slip_m[k]) / bench.noise(Channel::slip);
-    if (!turns) return slip;
-    const double turn = (c.model.rotation_rad[k] - test.rotation_rad[k]) / bench.noise(Channel::rotation);
-    return std::abs(turn) > std::abs(slip) ? turn : slip;
+  const auto missed = [&](Channel channel, std::size_t k) {
+    const auto& measured = history(test, channel);
+    return measured.empty() || bench.noise(channel) <= 0 ? 0 : c.model.channel(channel)[k] - measured[k];
   };
+  const auto residual = [&](std::size_t k) {
+    const double slip = slides ? missed(Channel::slip, k) / bench.noise(Channel::slip) : 0;
+    const double turn = missed(Channel::rotation, k);
+    return std::abs(turn) > std::abs(slip) * bench.noise(Channel::rotation) ? turn / bench.noise(Channel::rotation)
+                                                                            : slip;
+  };
+  const auto growth = [&](auto&& of, std::size_t k) { return k < lag ? 0 : of(k) - of(k - lag); };
   double path = 0;
-  for (std::size_t k = 0; k < test.slip_m.size(); ++k) {
-    const double t = static_cast<double>(k) * test.dt_s, rate = motion.firm_rate(k), speed = std::abs(rate);
-    const bool slips = speed > least;
+  for (std::size_t k = 0; k < phase.size(); ++k) {
+    const double t = static_cast<double>(k) * test.dt_s, rate = slides ? motion.firm_rate(k) : 0,
+                 speed = std::abs(rate);
+    const bool slips = slides && speed > least;
     if (slips) path += speed * test.dt_s;
     const double v = test.has_vertical() ? vertical_acceleration({&test.motion, 1, 1, 1}, t) : 0;
-    const double r = residual(k);
-    samples.push_back(
-        {r,
-         k < lag ? 0 : r - residual(k - lag),
-         phase[k],
-         {speed, path, motion.value[k], slips ? std::copysign(1.0, rate) : 0.0, 1 + v / standard_gravity_mps2, t,
-          std::abs(horizontal_acceleration(test.shaking(), t)) / standard_gravity_mps2}});
+    samples.push_back({residual(k),
+                       growth(residual, k),
+                       growth([&](std::size_t i) { return missed(Channel::slip, i); }, k),
+                       growth([&](std::size_t i) { return missed(Channel::rotation, i); }, k),
+                       phase[k],
+                       {speed, path, slides ? motion.value[k] : 0, slips ? std::copysign(1.0, rate) : 0.0,
+                        1 + v / standard_gravity_mps2, t,
+                        std::abs(horizontal_acceleration(test.shaking(), t)) / standard_gravity_mps2}});
   }
 }
 
@@ -95,18 +104,22 @@ std::vector<double> edges(const std::vector<Sample>& samples, std::size_t variab
 // bin_of(sample): its bin.
 template <class BinOf>
 void fill(ErrorTable& table, std::size_t count, const std::vector<Sample>& samples, BinOf&& bin_of) {
-  for (auto* column : {&table.count, &table.noise_units, &table.growth, &table.bias}) column->assign(count, 0.0);
+  for (auto* column :
+       {&table.count, &table.noise_units, &table.growth, &table.slip_growth_m, &table.rotation_growth_rad, &table.bias})
+    column->assign(count, 0.0);
   for (const Sample& s : samples) {
     const std::size_t b = std::min(bin_of(s), count - 1);
     ++table.count[b];
     table.noise_units[b] += s.residual * s.residual;
     table.growth[b] += s.growth * s.growth;
+    table.slip_growth_m[b] += s.slip_growth_m * s.slip_growth_m;
+    table.rotation_growth_rad[b] += s.rotation_growth_rad * s.rotation_growth_rad;
     table.bias[b] += s.residual;
   }
   for (std::size_t b = 0; b < count; ++b) {
     const double n = table.count[b] > 0 ? table.count[b] : unknown;
-    table.noise_units[b] = std::sqrt(table.noise_units[b] / n);
-    table.growth[b] = std::sqrt(table.growth[b] / n);
+    for (auto* square : {&table.noise_units, &table.growth, &table.slip_growth_m, &table.rotation_growth_rad})
+      (*square)[b] = std::sqrt((*square)[b] / n);
     table.bias[b] /= n;
   }
 }
@@ -121,7 +134,9 @@ std::vector<ErrorTable> tables(const Bench& bench, const std::vector<TestCompari
   for (int p = 0; p < phase_count; ++p) by_phase.label.push_back(name(static_cast<Phase>(p)));
   fill(by_phase, phase_count, samples, [](const Sample& s) { return static_cast<std::size_t>(s.phase); });
   all.push_back(std::move(by_phase));
-  for (std::size_t v = 0; v < std::size(variables); ++v) {
+  const bool slides = std::any_of(tests.begin(), tests.end(),
+                                  [&](const TestComparison& c) { return !bench.test(c.test).slip_m.empty(); });
+  for (std::size_t v = slides ? 0 : of_slip; v < std::size(variables); ++v) {
     ErrorTable table{.variable = variables[v].name, .unit = variables[v].unit};
     table.edge = edges(samples, v);
     for (std::size_t b = 0; b + 1 < table.edge.size(); ++b)
@@ -154,9 +169,10 @@ const char* name(Phase phase) {
 }
 
 std::vector<Phase> phases(const Bench& bench, const Test& test) {
-  const std::size_t n = test.slip_m.size();
+  const bool slides = !test.slip_m.empty();
+  const std::size_t n = std::max(test.slip_m.size(), test.rotation_rad.size());
   const auto near = std::max<std::size_t>(1, static_cast<std::size_t>(0.1 / test.dt_s));
-  const Smooth motion = smooth(test.slip_m, test.dt_s, half_window_s);
+  const Smooth motion = slides ? smooth(test.slip_m, test.dt_s, half_window_s) : Smooth{};
   const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, half_window_s);
   std::vector<Phase> phase(n, Phase::stuck);
   std::size_t onset = n, last_moving = 0, impact = n, last_stuck_before = 0;
@@ -164,7 +180,8 @@ std::vector<Phase> phases(const Bench& bench, const Test& test) {
   for (std::size_t k = 0; k < n; ++k) {
     const double turn = test.rotation_rad.empty() ? 0 : test.rotation_rad[k];
     const bool rocks = std::abs(turn) > 5 * bench.noise(Channel::rotation) && bench.noise(Channel::rotation) > 0;
-    const double rate = motion.firm_rate(k), direction = std::abs(rate) > least ? std::copysign(1.0, rate) : 0;
+    const double rate = slides ? motion.firm_rate(k) : 0,
+                 direction = slides && std::abs(rate) > least ? std::copysign(1.0, rate) : 0;
     if (rocks) {
       if (last_side * turn < 0) impact = k;
       last_side = turn;

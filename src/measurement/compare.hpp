@@ -41,7 +41,8 @@ struct ErrorTable {
   std::vector<double> edge = {}, centre = {};        // edge empty for `phase`
   std::vector<double> count = {}, noise_units = {};  // root mean square
   std::vector<double> growth = {};  // root mean square of the residual's change within 0.1 s, in noise units
-  std::vector<double> bias = {};    // mean residual, in noise units
+  std::vector<double> slip_growth_m = {}, rotation_growth_rad = {};  // the same of one channel; 0: not measured
+  std::vector<double> bias = {};                                     // mean residual, in noise units
 };
 
 struct Comparison {

@@ -21,6 +21,12 @@ struct Noise {
   double slip_m = 0, rotation_rad = 0, block_acceleration_mps2 = 0, floor_acceleration_mps2 = 0;
 };
 
+// How far off a stated dimension or the gain of the floor's accelerometer may be: standard deviations, over what is stated.
+// As assumed where the laboratory states none: a tape on half a metre, an accelerometer as its maker calibrates it.
+struct Tolerance {
+  double width = 0.01, floor_gain = 0.01;
+};
+
 // What is known of a test as single numbers.
 struct Peaks {
   std::optional<double> peak_slip_m, residual_slip_m, peak_rotation_rad, peak_acceleration_g;
@@ -56,6 +62,7 @@ struct Dataset {
   double sampling_dt_s = 0;    // 0: no histories
   Dimensions specimen;
   Noise noise;
+  Tolerance tolerance;
   std::vector<Test> tests;
 };
 

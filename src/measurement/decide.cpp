@@ -5,30 +5,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
-#include <tuple>
 
 #include "base/digits.hpp"
+#include "measurement/laboratory.hpp"
 
 namespace freestand::measurement {
 namespace {
 
-double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-
-// n ln(mean e^2) + k ln n over all samples of the calibration tests.
-double bic(const std::vector<double>& samples, const ModelFit& fit) {
-  double n = 0, square = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    n += samples[i];
-    square += samples[i] * fit.calibration[i].noise_units * fit.calibration[i].noise_units;
-  }
-  return n * std::log(square / n) + static_cast<double>(fit.x.size()) * std::log(n);
+// Where it was asked whether any effect helps: the answer.
+const Chance* help_of(const Diagnosis& d) {
+  const auto found =
+      std::find_if(d.chances.begin(), d.chances.end(), [](const Chance& c) { return c.question == help_question; });
+  return found == d.chances.end() ? nullptr : &*found;
 }
 
 class Decision {
  public:
-  Decision(const Bench& bench, Diagnosis& d) : bench_(bench), d_(d), histories_(kind_of_set(bench) == Kind::history) {}
+  Decision(const Bench& bench, Diagnosis& d, const Lead& lead)
+      : bench_(bench), d_(d), lead_(lead), histories_(kind_of_set(bench) == Kind::history) {}
 
   void take() {
     for (Candidate& c : d_.candidates) c.practical = practical(c.fit, d_.base.fit.x.size());
@@ -36,7 +30,9 @@ class Decision {
       return a.visible != b.visible ? a.visible : a.fit.mean_left_out() < b.fit.mean_left_out();
     });
     const Candidate* best = find_best();
-    if (best && better_than_base(*best)) {
+    if (histories_ && only_friction_scatters(d_)) {
+      friction_scatters();
+    } else if (best && better_than_base(*best)) {
       mark_rivals(*best);
       if (good_enough(*best))
         best = name_rivals();
@@ -91,7 +87,7 @@ class Decision {
       if (part.effects.size() < c.effects.size() && part.visible &&
           std::find(c.effects.begin(), c.effects.end(), part.effects[0]) != c.effects.end())
         least = std::min(least, part.misfit_of_fit);
-    return least - c.misfit_of_fit < chance_misfit;
+    return least - c.misfit_of_fit < gain_of_chance();
   }
 
   // Of the candidates, by misfit (histories) or left-out score; simple and practical ones first where the rest cannot be
@@ -125,22 +121,41 @@ class Decision {
     return misfits_more(a, b) && pooled_left_out(a) > pooled_left_out(b) &&
            (a.explained > std::max(at_noise, 1.1 * b.explained) || worse_left_out(a, b));
   }
-  // And so much that b may be named without a: beyond the paired error of the tests left out, at the noise or not.
-  bool parted(const Candidate& a, const Candidate& b) const { return worse(a, b) && worse_left_out(a, b); }
+  // And so much that b may be named without a: where it is asked, by a lead that data from a would not give it (by_chance);
+  // else beyond the paired error of the tests left out, at the noise or not.
+  bool parted(const Candidate& a, const Candidate& b) const {
+    if (lead_) return (!histories_ || a.misfit > b.misfit) && pooled_left_out(a) > pooled_left_out(b);
+    return worse(a, b) && worse_left_out(a, b);
+  }
   double samples() const { return total(d_.samples); }
 
   void mark_rivals(const Candidate& best) {
     for (Candidate& c : d_.candidates)
       c.rival = &c == &best || (c.visible && c.fit.left_out_refitted && c.practical && !brings_nothing(c) &&
-                                c.effects.size() <= best.effects.size() && !parted(c, best));
+                                c.effects.size() <= best.effects.size() && (!parted(c, best) || by_chance(best, c)));
     drop_needless();
+  }
+
+  // Would data from the rival give the best its lead in more than one set of twenty?
+  bool by_chance(const Candidate& best, const Candidate& rival) {
+    if (!lead_ || !good_enough(best)) return false;
+    Chance chance = lead_(best, rival);
+    chance.about = fmt::format("{} before {}", joined(best.effects), joined(rival.effects));
+    d_.chances.push_back(chance);
+    return chance.chance();
   }
 
   // Also by the plain error: a base that strayed after one test that the floor's noise had turned elsewhere looks worse to
   // the covariance of its own replays than it is. And by more than its own replays stray.
   bool better_than_base(const Candidate& best) const {
-    return worse(d_.base, best) && (!histories_ || gain_beyond_strays(best) > chance_misfit);
+    if (!help()) return worse(d_.base, best) && (!histories_ || gain_beyond_strays(best) > chance_misfit);
+    if (!histories_) return best.fit.mean_left_out() < d_.base.fit.mean_left_out() && !help()->chance();
+    return best.misfit < d_.base.misfit && gain_beyond_strays(best) > 0 &&
+           (best.laboratory ? d_.base.misfit_of_fit - best.misfit_of_fit > help()->usual : !help()->chance());
   }
+
+  const Chance* help() const { return help_of(d_); }
+  double gain_of_chance() const { return help() ? help()->usual : chance_misfit; }
 
   double gain_beyond_strays(const Candidate& best) const {
     double gain = 0;
@@ -173,6 +188,13 @@ class Decision {
 
   bool good_enough(const Candidate& c) const { return !histories_ || c.explained <= at_noise; }
 
+  // Said where the floor's noise hides the difference.
+  std::string floor_noise_allowed_for(const Candidate& best) const {
+    if (!histories_ || pooled_left_out(d_.base) > 2 * pooled_left_out(best)) return "";
+    return fmt::format(" (with the floor's noise allowed for, from {} to {})", three_digits(d_.base.explained),
+                       three_digits(best.explained));
+  }
+
   // The rivals become the verdict. Returns the one of least left-out error.
   const Candidate* name_rivals() {
     std::vector<const Candidate*> rivals;
@@ -184,22 +206,47 @@ class Decision {
     for (const Candidate* rival : rivals) {
       told.push_back(fmt::format("{} ({})", joined(rival->effects), three_digits(pooled_left_out(*rival))));
       for (const auto& effect : rival->effects)
-        if (std::find(d_.effects.begin(), d_.effects.end(), effect) == d_.effects.end()) d_.effects.push_back(effect);
+        if (!rival->laboratory && std::find(d_.effects.begin(), d_.effects.end(), effect) == d_.effects.end())
+          d_.effects.push_back(effect);
     }
     const Candidate& best = *rivals.front();
-    d_.verdict = rivals.size() > 1 ? Verdict::ambiguous : Verdict::missing;
-    if (rivals.size() > 1)
+    d_.verdict = d_.effects.empty() ? Verdict::bad_data : rivals.size() > 1 ? Verdict::ambiguous : Verdict::missing;
+    for (const Candidate* rival : rivals)
+      if (rival->laboratory)
+        say(fmt::format("{}, if {}: check that first",
+                        d_.effects.empty() ? "no effect is needed" : "no effect would be needed",
+                        fault_sentence(rival->effects[0], rival->fit.x.back())));
+    if (d_.verdict == Verdict::bad_data) {
+      d_.reason = Reason::data;
+      say(fmt::format("with that the left-out error falls from {} to {}", three_digits(pooled_left_out(d_.base)),
+                      three_digits(pooled_left_out(best))));
+    } else if (rivals.size() > 1)
       say(
           fmt::format("{} cannot be told apart on these tests: by their errors on tests left out, in brackets, chance "
                       "may have put either first",
                       joined(told)));
     else
       say(
-          fmt::format("{} brings the left-out error from {} to {}; every other effect of those fitted to the end "
+          fmt::format("{} brings the left-out error from {} to {}{}; every other effect of those fitted to the end "
                       "misses the tests left out by more, beyond chance{}",
                       joined(best.effects), three_digits(pooled_left_out(d_.base)), three_digits(pooled_left_out(best)),
-                      but_for(best)));
+                      floor_noise_allowed_for(best), but_for(best)));
     return &best;
+  }
+
+  void friction_scatters() {
+    const Candidate* best = nullptr;
+    for (const Candidate& c : d_.candidates)
+      if (c.visible && !c.laboratory && (!best || c.misfit_of_fit < best->misfit_of_fit)) best = &c;
+    const OwnFriction& own = *d_.own_friction;
+    d_.verdict = Verdict::none;
+    say(fmt::format(
+        "friction differs from test to test by {:.2g} % (standard deviation): with a friction of its own in each "
+        "test the model leaves {:.2f} where noise explains 1{}",
+        100 * own.scatter, std::sqrt(own.misfit / samples()),
+        best ? fmt::format(", and the best effect, {}, leaves {:.2f}", joined(best->effects),
+                           std::sqrt(best->misfit_of_fit / samples()))
+             : ""));
   }
 
   void nothing_suffices(const Candidate& best) {
@@ -231,13 +278,14 @@ class Decision {
 
   const Bench& bench_;
   Diagnosis& d_;
+  const Lead& lead_;
   bool histories_;
 };
 
 }  // namespace
 
 const char* name(Verdict verdict) {
-  constexpr const char* names[] = {"none", "missing", "ambiguous", "unknown"};
+  constexpr const char* names[] = {"none", "missing", "ambiguous", "unknown", "bad_data"};
   return names[static_cast<int>(verdict)];
 }
 
@@ -246,85 +294,18 @@ const char* name(Reason reason) {
   return names[static_cast<int>(reason)];
 }
 
-Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b) {
-  const auto n = static_cast<double>(a.size());
-  Pooled difference;
-  for (std::size_t i = 0; i < a.size(); ++i) difference.error += (a[i].score - b[i].score) / n;
-  double variance = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    variance += std::pow(a[i].score - b[i].score - difference.error, 2) / std::max(n - 1, 1.0);
-  difference.standard_error = std::sqrt(variance / std::max(n, 1.0));
-  return difference;
+bool effect_may_help(const Diagnosis& d) { return !help_of(d) || !help_of(d)->chance(); }
+
+bool only_friction_scatters(const Diagnosis& d) {
+  if (!d.own_friction) return false;
+  const double n = total(d.samples), own = d.own_friction->misfit;
+  double least = d.base.misfit_of_fit;
+  for (const Candidate& c : d.candidates)
+    if (c.visible && c.fit.left_out_refitted) least = std::min(least, c.misfit_of_fit);
+  const auto numbers = static_cast<double>(d.own_friction->factors.size());
+  return own <= at_noise * at_noise * n && least - own > gsl_cdf_chisq_Pinv(1 - chance_level, numbers);
 }
 
-bool worse_left_out(const Candidate& a, const Candidate& b) {
-  const Pooled difference = paired_difference(a.fit.left_out, b.fit.left_out);
-  const double n = static_cast<double>(a.fit.left_out.size());
-  return difference.error > gsl_cdf_tdist_Pinv(0.975, n - 1) * difference.standard_error && difference.error > 1e-9;
-}
-
-void put_in_order(const Bench& bench, const Candidate* best, Diagnosis& d) {
-  const Candidate reference = best ? *best : d.base;
-  const auto tests = tests_of(bench.data(), Role::calibration);
-  const auto mark = [&](Candidate& c) {
-    const Pooled difference = paired_difference(c.fit.left_out, reference.fit.left_out);
-    c.difference = difference.error;
-    c.difference_se = difference.standard_error;
-  };
-  mark(d.base);
-  for (Candidate& c : d.candidates) mark(c);
-  const auto place = [&](const Candidate& c) {
-    const bool to_the_end = c.fit.left_out_refitted;
-    return std::tuple(!c.visible, c.effects != reference.effects, !c.rival, !to_the_end,
-                      pooled(bench, tests, to_the_end ? c.fit.left_out : c.fit.calibration).error);
-  };
-  std::stable_sort(d.candidates.begin(), d.candidates.end(),
-                   [&](const Candidate& a, const Candidate& b) { return place(a) < place(b); });
-  if (best) d.best = 0;
-}
-
-bool practical(const ModelFit& fit, std::size_t known) {
-  for (std::size_t i = known; i < fit.x.size(); ++i) {
-    const Free& free = fit.model.free[i];
-    if (free.logarithmic && (fit.x[i] < free.low / 3 || fit.x[i] > 3 * free.high)) return false;
-  }
-  return true;
-}
-
-Kind kind_of_set(const Bench& bench) {
-  const auto tests = tests_of(bench.data(), Role::calibration);
-  return tests.empty() ? Kind::history : kind(bench.test(tests.front()));
-}
-
-void judge_histories(const Bench&, const Judge& judge, Diagnosis& d, const Jobs& jobs) {
-  std::vector<Candidate*> all = {&d.base};
-  for (Candidate& c : d.candidates) all.push_back(&c);
-  d.samples = judge.samples();
-  const double n = total(d.samples);
-  const double base_bic = bic(d.samples, d.base.fit);
-  const auto answers = jobs("judging", all.size(), [&](std::size_t i) {
-    if (!all[i]->visible) return Values{};  // never fitted: its numbers are the base's alone
-    Values misfits = judge.misfit(all[i]->fit);
-    misfits.push_back(total(judge.misfit_of_fit(all[i]->fit)));
-    return misfits;
-  });
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    Candidate& c = *all[i];
-    if (!c.visible) {
-      c.misfits = d.base.misfits;
-      c.misfit = d.base.misfit;
-      c.misfit_of_fit = d.base.misfit_of_fit;
-      c.explained = d.base.explained;
-      continue;
-    }
-    c.misfits.assign(answers[i].begin(), answers[i].end() - 1);
-    c.misfit = total(c.misfits);
-    c.misfit_of_fit = answers[i].back();
-    c.explained = std::sqrt(c.misfit / n);
-    c.delta_bic = bic(d.samples, c.fit) - base_bic;
-  }
-}
-
-void decide(const Bench& bench, Diagnosis& d) { Decision(bench, d).take(); }
+void decide(const Bench& bench, Diagnosis& d, const Lead& lead) { Decision(bench, d, lead).take(); }
 
 }  // namespace freestand::measurement

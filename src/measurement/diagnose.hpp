@@ -5,16 +5,19 @@
 //   2. Where the best of them leaves an error above the noise, or may hide a second one, pairs are fitted: each of the
 //      best few with every other. Where even these leave an error above the noise, singles and all pairs are fitted
 //      once more by strides (strides.hpp).
-//   3. Histories: models are compared by their misfit G = r^T C^-1 r of the tests left out (judge.hpp), where a wrong
-//      model shows as some tens and more, and chance as a few; and two effects, as peaks and outcomes always, by paired
-//      differences of the left-out scores with their standard error.
+//   3. Histories: models are compared by their misfit G = r^T C^-1 r of the tests left out (judge.hpp), and by chance that
+//      is computed (chance.hpp): may the largest gain of all effects tried be chance, may the lead of the best over a
+//      rival? Beside the effects stand faults of the laboratory (laboratory.hpp), and a friction of its own in each test
+//      (own_friction.hpp). Peaks and outcomes: by paired differences of the left-out scores with their standard error.
 //
 // Tests that say only whether the specimen overturned go their own way (diagnose_outcomes.hpp).
 //
-//   none       no model beats the base by more than chance
+//   none       no model beats the base by more than chance, or nothing but friction that differs from test to test
 //   missing    one does and is at the noise, and every rival misses the tests left out by more, beyond chance
 //   ambiguous  one does and is at the noise, and rivals cannot be told from it
-//   unknown    the base is worse than the noise and so is everything else; or the data are wrong (Reason)
+//   unknown    the base is worse than the noise and so is everything else
+//   bad_data   a dimension or a gain that is not as stated explains the tests as no effect does; or the data are wrong in
+//              a sign, a clock or a unit
 //
 // A rival that needs a parameter far from where its effect is met (three times beyond the catalogue's range) to imitate
 // another is not held to be one.
@@ -23,15 +26,17 @@
 #include <limits>
 #include <optional>
 
+#include "measurement/chance.hpp"
 #include "measurement/judge.hpp"
 #include "measurement/model_fit.hpp"
+#include "measurement/own_friction.hpp"
 
 namespace freestand::measurement {
 
-enum class Verdict { none, missing, ambiguous, unknown };
+enum class Verdict { none, missing, ambiguous, unknown, bad_data };
 const char* name(Verdict);
 
-// Why the verdict is unknown: the data are wrong; no effect helps; effects help, and the best leaves more than noise makes.
+// Why the verdict names no effect: the data are wrong; no effect helps; effects help, and the best leaves more than noise makes.
 enum class Reason { none, data, none_helps, none_suffices };
 const char* name(Reason);
 
@@ -50,6 +55,7 @@ struct Candidate {
   double difference = 0, difference_se = 0;  // of the left-out score to the best one's, paired over the tests
   bool rival = false;                        // cannot be told from the best
   std::string remark = {};                   // why it was not fitted to the end; outcomes only
+  bool laboratory = false;                   // no effect, but something that the laboratory states wrongly
 };
 
 struct Diagnosis {
@@ -57,12 +63,16 @@ struct Diagnosis {
   Reason reason = Reason::none;
   std::vector<std::string> effects;  // to add, in order; ambiguous: the rivals
   Candidate base;
-  std::vector<Candidate> candidates;  // the best, its rivals, others that were fitted to the end, the rest
-  std::optional<std::size_t> best;    // of the candidates: the one that the verdict speaks of
-  std::vector<double> noise_floor;    // error that the best model itself would show, of each calibration test
-  std::vector<double> samples;        // of each calibration test
-  std::vector<double> strays;         // Judge::strays() of the base
+  std::vector<Candidate> candidates;        // the best, its rivals, others that were fitted to the end, the rest
+  std::optional<std::size_t> best;          // of the candidates: the one that the verdict speaks of
+  std::vector<double> noise_floor;          // error that the best model itself would show, of each calibration test
+  std::vector<double> samples;              // of each calibration test
+  std::vector<double> strays;               // Judge::strays() of the base
+  std::vector<Chance> chances;              // each that decided
+  std::optional<OwnFriction> own_friction;  // of the base, where it leaves more than noise
   std::vector<std::string> sentences;
+  std::optional<Candidate>
+      proposal;  // a law of no catalogue (law_search.hpp), where nothing suffices and one does better
 };
 
 struct DiagnosisOptions {

@@ -6,15 +6,26 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "base/digits.hpp"
 #include "measurement/diagnose_outcomes.hpp"
 #include "measurement/findings_motion.hpp"
+#include "measurement/findings_where.hpp"
 
 namespace freestand::measurement {
 namespace {
 
 constexpr double nearly = 1.2;  // of the error that noise makes, below which an error is as good as that
+
+// Does a residual go on from sample to sample by more than noise does? The correlated part of its mean square is that of
+// the sensor and of what the floor's noise makes; where that acts in one direction alone, it is 3.84 times its mean in
+// one test of twenty (chi square of one degree); and the correlation of n white samples scatters by 1/sqrt(n).
+bool goes_on(const Sensor& sensor, const ChannelError& e, double spread, std::size_t samples) {
+  const double square = e.noise_units * e.noise_units, noise = sensor.coloured * sensor.coloured + spread;
+  return e.autocorrelation * square > gsl_cdf_chisq_Pinv(0.95, 1) * noise + gsl_cdf_ugaussian_Pinv(0.95) * square /
+                                                                                std::sqrt(static_cast<double>(samples));
+}
 
 class Findings {
  public:
@@ -28,9 +39,8 @@ class Findings {
     errors();
     peaks();
     outcomes();
-    where();
+    if (std::string place = where_wrong(bench_, c_.calibration); !place.empty()) said_.push_back(std::move(place));
     drift();
-    whiteness();
     chaotic();
     numbers();
     return std::move(said_);
@@ -67,12 +77,15 @@ class Findings {
       if (judged.n > 0 && judged.n < all.n)
         part = fmt::format("; without those in which that noise fans out, by {} where it would make {}",
                            judged.error_text(), three_digits(judged.floor()));
-      say("{} tests are missed by {} noise units (root mean square); the noise of sensors and floor alone would make "
+      const bool near = judged.n > 0 && judged.error() < nearly * judged.floor();
+      say("{} tests are missed by {} noise units (root mean square{}); the noise of sensors and floor alone would make "
           "{}{}{}",
-          role == Role::calibration ? "calibration" : "held-out", all.error_text(), three_digits(all.floor()), part,
-          judged.n > 0                         ? left_to_explain(judged, role)
-          : all.error() < nearly * all.floor() ? ", so that they cannot be judged"
-                                               : "");
+          role == Role::calibration ? "calibration" : "held-out", all.error_text(), by_channel(all),
+          three_digits(all.floor()), part,
+          near                                                  ? left_to_explain(judged, role)
+          : judged.n > 0 && role == Role::calibration           ? ": diagnose asks what is missing"
+          : judged.n == 0 && all.error() < nearly * all.floor() ? ", so that they cannot be judged"
+                                                                : "");
     }
     worst();
   }
@@ -80,12 +93,12 @@ class Findings {
   struct Pool {
     double square = 0, expected = 0, n = 0;
     bool capped = false;
-    std::vector<std::size_t> tests = {};
+    std::vector<const TestComparison*> tests = {};
     void add(const TestComparison& t) {
       square += t.error.noise_units * t.error.noise_units;
       expected += t.expected * t.expected;
       capped |= t.error.noise_units >= failed_error;
-      tests.push_back(t.test);
+      tests.push_back(&t);
       ++n;
     }
     double error() const { return std::sqrt(square / n); }
@@ -93,16 +106,56 @@ class Findings {
     std::string error_text() const { return (capped ? "at least " : "") + three_digits(error()); }
   };
 
-  // Why an error no greater than the noise makes is no praise of the model, where it is none.
-  std::string left_to_explain(const Pool& pool, Role role) const {
-    if (pool.error() >= nearly * pool.floor()) return "";
-    if (std::none_of(pool.tests.begin(), pool.tests.end(), [&](std::size_t i) { return moves(bench_, i); }))
+  // "; slip by 18.3 mm, rotation by 4.2 mrad": root mean square over the tests that measured it.
+  std::string by_channel(const Pool& pool) const {
+    std::string all;
+    for (int c = 0; c < channel_count && !pool.capped; ++c) {
+      double square = 0, n = 0;
+      for (const TestComparison* t : pool.tests)
+        for (const ChannelError& e : t->channels)
+          if (static_cast<int>(e.channel) == c && std::isfinite(e.noise_units))
+            square += e.noise_units * e.noise_units, ++n;
+      const auto channel = static_cast<Channel>(c);
+      if (n > 0)
+        all += fmt::format("{} {} by {}", all.empty() ? ";" : ",", word(channel),
+                           told(channel, bench_.noise(channel) * std::sqrt(square / n)));
+    }
+    return all;
+  }
+
+  // What an error no greater than the noise makes says of the model.
+  std::string left_to_explain(const Pool& pool, Role role) {
+    if (std::none_of(pool.tests.begin(), pool.tests.end(),
+                     [&](const TestComparison* t) { return moves(bench_, t->test); }))
       return ": nothing was measured above the noise, so that this says little of the model";
     const std::size_t tests = tests_of(bench_.data(), Role::calibration).size();
     if (role == Role::calibration && tests <= model_.free.size())
       return fmt::format(": as {} numbers fitted to {} tests may bring about with any model", model_.free.size(),
                          tests);
-    return ": nothing is left to explain";
+    const std::string left = structure();
+    if (left.empty()) return ": nothing is left to explain";
+    return ": little is left to explain" + (std::exchange(structure_said_, true) ? "" : left);
+  }
+
+  // Residuals that go on from sample to sample, where they are more than one in twenty by chance.
+  std::string structure() const {
+    unsigned going = 0, n = 0;
+    for (const TestComparison& t : c_.tests)
+      for (const ChannelError& e : t.channels) {
+        if (!(bench_.noise(e.channel) > 0) || t.expected > drowned) continue;
+        const auto& variance = t.spread[static_cast<std::size_t>(e.channel)];
+        double spread = 0;
+        for (const double v : variance)
+          spread += v / (std::pow(bench_.noise(e.channel), 2) * static_cast<double>(variance.size()));
+        ++n;
+        going += goes_on(bench_.sensor(e.channel), e, spread, variance.size());
+      }
+    if (going == 0 || gsl_cdf_binomial_Q(going - 1, 0.05, n) > 0.05) return "";
+    return fmt::format(
+        ", but in {} of {} residuals the error goes on from sample to sample as noise does not: diagnose asks whether "
+        "an "
+        "effect or a sensor makes it",
+        going, n);
   }
 
   void worst() {
@@ -112,10 +165,9 @@ class Findings {
     const ChannelError* most = nullptr;
     for (const ChannelError& e : worst.channels)
       if (moves(bench_, worst.test, e.channel) && !(most && most->noise_units >= e.noise_units)) most = &e;
-    constexpr const char* words[] = {"slip", "rotation", "acceleration"};
     say("the worst test is {} with {} noise units{}", bench_.test(worst.test).id, one(worst).error_text(),
-        most ? fmt::format(": its {} is missed by {:.0f} % of the measured peak",
-                           words[static_cast<int>(most->channel)], 100 * most->relative)
+        most ? fmt::format(": its {} is missed by {}, {:.0f} % of the measured peak", word(most->channel),
+                           told(most->channel, most->noise_units * bench_.noise(most->channel)), 100 * most->relative)
              : ", where nothing was measured above the noise");
   }
 
@@ -133,17 +185,20 @@ class Findings {
     const auto ratio_text = [](double ln) {
       return ln < std::log(0.1) ? three_digits(std::exp(ln)) : fmt::format("{:.2f}", std::exp(ln));
     };
-    const std::string middle = fmt::format("{}, 95 % between {} and {}", ratio_text(ratio.bias_ln),
-                                           ratio_text(ratio.bias_ln - within), ratio_text(ratio.bias_ln + within));
+    const std::string middle = fmt::format(
+        "{} times the measured ones (geometric mean of {} tests; 95 % between {} and {})", ratio_text(ratio.bias_ln),
+        ratio.count, ratio_text(ratio.bias_ln - within), ratio_text(ratio.bias_ln + within));
     const bool under = ratio.bias_ln < 0;
+    const double factor = std::exp(ratio.scatter_ln);
     if (std::abs(ratio.bias_ln) > within && std::abs(ratio.bias_ln) > 0.03)
-      say("the model {} the peak slip: predicted over measured {} (geometric mean of {} tests, scatter {:.2f} in "
-          "ln), so that its resistance is too {}",
-          under ? "underpredicts" : "overpredicts", middle, ratio.count, ratio.scatter_ln, under ? "high" : "low");
+      say("the model {} the peak slip: predicted ones are {} and scatter by a factor of {:.2f}; its resistance is too "
+          "{}",
+          under ? "underpredicts" : "overpredicts", middle, factor, under ? "high" : "low");
     else if (ratio.scatter_ln > 0.05)
-      say("peak slips have no bias that {} tests can show (predicted over measured {}) but scatter by {:.2f} in "
-          "ln: their input or a missing effect, not the mean resistance",
-          ratio.count, middle, ratio.scatter_ln);
+      say("predicted peak slips are {}: right in the mean, as far as these tests show, but they scatter by a factor of "
+          "{:.2f} from test to test, which another friction would not mend: look for an effect that is missing, or for "
+          "what differs between the tests",
+          middle, factor);
   }
 
   // Of tests that say whether the specimen overturned: how many are missed, and whether chance explains it.
@@ -201,60 +256,6 @@ class Findings {
       say("against odds of nine to one (probability of overturning in brackets) came out {}", fmt::join(sure, ", "));
   }
 
-  // Where the residual grows most: the phase, and the range of a variable that stands out even more.
-  void where() {
-    std::optional<Peak> phase, most;
-    for (const ErrorTable& table : c_.calibration) {
-      const std::optional<Peak> peak = peak_of(table);
-      if (!peak) continue;
-      auto& best = table.variable == "phase" ? phase : most;
-      if (!best || peak->contrast() > best->contrast()) best = peak;
-    }
-    if (!phase && !most) return;
-    const auto tell = [](const Peak& p) {
-      return fmt::format("{}: {} noise units within 0.1 s, against {} on the average", p.place(),
-                         three_digits(p.growth()), three_digits(p.mean));
-    };
-    if (phase && most && most->contrast() > phase->contrast())
-      say("the misfit grows most {}; {}, {}", tell(*phase), most->place(), three_digits(most->growth()));
-    else
-      say("the misfit grows most {}", tell(phase ? *phase : *most));
-  }
-
-  struct Peak {
-    const ErrorTable* table;
-    std::size_t bin;
-    double mean;
-    double growth() const { return table->growth[bin]; }
-    double contrast() const { return growth() / mean; }
-    std::string place() const {
-      const std::string& v = table->variable;
-      if (v == "phase") return fmt::format("in phase \"{}\"", table->label[bin]);
-      const double at = table->centre[bin];
-      if (v == "direction") return fmt::format("slipping to the {}", at > 0 ? "right" : "left");
-      const struct {
-        const char *name, *words;
-      } words[] = {{"speed_mps", "at slip speeds about {} m/s"}, {"path_m", "when about {} m have been slid"},
-                   {"position_m", "at slips about {} m"},        {"normal_g", "under about {} times the weight"},
-                   {"time_s", "about {} s after the start"},     {"floor_g", "under a floor of about {} g"}};
-      const auto found = std::find_if(std::begin(words), std::end(words), [&](const auto& w) { return w.name == v; });
-      return fmt::format(fmt::runtime(found == std::end(words) ? "about {}" : found->words), fmt::format("{:.2g}", at));
-    }
-  };
-
-  // The bin that stands out of its table, among those that hold more than 1 % of the samples.
-  static std::optional<Peak> peak_of(const ErrorTable& table) {
-    double mean = 0, n = 0;
-    for (std::size_t b = 0; b < table.count.size(); ++b)
-      if (table.count[b] > 0) mean += table.count[b] * table.growth[b] * table.growth[b], n += table.count[b];
-    mean = std::sqrt(mean / std::max(n, 1.0));
-    std::optional<std::size_t> most;
-    for (std::size_t b = 0; b < table.count.size(); ++b)
-      if (table.count[b] > 0.01 * n && !(most && table.growth[b] <= table.growth[*most])) most = b;
-    if (!most || mean < 3 || !(table.growth[*most] > 1.8 * mean)) return {};
-    return Peak{&table, *most, mean};
-  }
-
   // Residual slips of the model end on one side of the measured ones, in more tests of any role than chance makes.
   void drift() {
     unsigned right = 0, left = 0;
@@ -269,22 +270,8 @@ class Findings {
     if (p < 0.05)
       say("in {} of {} tests whose end is missed the block ends further to the {} than the model (by chance: p = {}): "
           "a "
-          "bias of direction, as of a tilted floor or of friction that depends on direction",
+          "bias of direction, as of a tilted floor or of friction that depends on direction; check the table's level",
           most, all, right > left ? "left" : "right", three_digits(p));
-  }
-
-  void whiteness() {
-    std::size_t coloured = 0, n = 0;
-    for (const TestComparison& t : c_.tests)
-      for (const ChannelError& channel : t.channels) {
-        ++n;
-        coloured += channel.autocorrelation > 0.5;
-      }
-    if (coloured > 0)
-      say("{} of {} residuals are not white (autocorrelation above 0.5 from step to step): there is structure in what "
-          "is "
-          "missed",
-          coloured, n);
   }
 
   void chaotic() {
@@ -314,6 +301,7 @@ class Findings {
   const ModelSpec& model_;
   std::span<const double> x_;
   const Comparison& c_;
+  bool structure_said_ = false;
   std::vector<std::string> said_;
 };
 

@@ -1,6 +1,7 @@
 #include "measurement/judge.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 namespace freestand::measurement {
@@ -8,7 +9,8 @@ namespace {
 
 constexpr double failed_residual = 1e4;  // [noise units]
 
-// Changes between two predictions, or a prediction and what was measured, one after the other channel, in noise units.
+// Changes between two predictions, or a prediction and what was measured, one after the other channel, as independent
+// numbers of the sensors' noise.
 template <class Of>
 Eigen::VectorXd stacked(const Bench& bench, const Test& test, const Prediction& model, Of&& other) {
   std::vector<double> values;
@@ -18,7 +20,9 @@ Eigen::VectorXd stacked(const Bench& bench, const Test& test, const Prediction& 
     if (history(test, channel).empty() || noise <= 0) continue;
     const auto& a = model.channel(channel);
     const auto& b = other(channel);
+    const std::size_t from = values.size();
     for (std::size_t k = 0; k < a.size(); ++k) values.push_back((a[k] - b[k]) / noise);
+    bench.sensor(channel).whiten(values.data() + from, a.size(), test.dt_s);
   }
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
@@ -46,31 +50,31 @@ double misfit_of(double square, const Eigen::VectorXd& projected, const Inner& i
 }
 
 // gram: A^T A of all replays, with A as in judge.hpp.
-double largest_stray(const Eigen::MatrixXd& gram) {
+std::vector<double> misfits_of_replays(const Eigen::MatrixXd& gram) {
   const Eigen::Index count = gram.rows();
   const auto n = static_cast<double>(count), more = n / (n - 1);  // A of the others has one column fewer
-  double largest = 0;
+  std::vector<double> misfits;
   for (Eigen::Index k = 0; k < count && count > 1; ++k) {
     std::vector<Eigen::Index> others;
     for (Eigen::Index i = 0; i < count; ++i)
       if (i != k) others.push_back(i);
-    largest = std::max(largest, misfit_of(n * gram(k, k), std::sqrt(n * more) * gram(others, k),
-                                          inner_of(more * gram(others, others))));
+    misfits.push_back(
+        misfit_of(n * gram(k, k), std::sqrt(n * more) * gram(others, k), inner_of(more * gram(others, others))));
   }
-  return largest;
+  return misfits;
 }
 
 }  // namespace
 
 struct Judge::Parts {
-  std::vector<Eigen::MatrixXd> A;
+  std::vector<Eigen::MatrixXd> A;     // columns of replays, then of drifts
+  std::vector<Eigen::Index> replays;  // how many of them are of replays
   std::vector<Inner> inner;
   std::vector<Eigen::MatrixXd> root;            // C^-1/2 = 1 + A root A^T
   std::vector<std::vector<Eigen::Index>> kept;  // of all samples
-  Eigen::VectorXd residual(const Bench&, const Test&, const Prediction&, std::size_t i) const;
 };
 
-Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, const Jobs& jobs, double fanned_out)
+Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, const Jobs& jobs, double limit)
     : bench_(bench), tests_(tests_of(bench.data(), Role::calibration)) {
   const auto columns = jobs("replays", tests_.size(), [&](std::size_t i) {
     const Test& test = bench.test(tests_[i]);
@@ -85,14 +89,14 @@ Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, co
     }
     return all;
   });
-  take(columns, fanned_out);
+  take(columns, limit);
 }
 
 Judge::Judge(const Bench& bench) : bench_(bench), tests_(tests_of(bench.data(), Role::calibration)) {
   take(std::vector<Values>(tests_.size()), 1);
 }
 
-void Judge::take(const std::vector<Values>& columns, double fanned_out) {
+void Judge::take(const std::vector<Values>& columns, double limit) {
   auto parts = std::make_shared<Parts>();
   for (std::size_t i = 0; i < tests_.size(); ++i) {
     const Test& test = bench_.test(tests_[i]);
@@ -106,30 +110,106 @@ void Judge::take(const std::vector<Values>& columns, double fanned_out) {
     expected_.push_back(rows > 0 ? std::sqrt(1 + A.squaredNorm() / static_cast<double>(rows)) : 1);
     std::vector<Eigen::Index> kept;
     for (Eigen::Index k = 0; k < rows; ++k)
-      if (A.row(k).squaredNorm() <= fanned_out * fanned_out) kept.push_back(k);
-    A = Eigen::MatrixXd(A(kept, Eigen::all));
+      if (A.row(k).squaredNorm() <= limit * limit) kept.push_back(k);
     samples_.push_back(static_cast<double>(kept.size()));
+    replay_misfits_.push_back(misfits_of_replays(A(kept, Eigen::all).transpose() * A(kept, Eigen::all)));
+    const Eigen::MatrixXd drift = drifts(test);
+    A.conservativeResize(rows, count + drift.cols());
+    A.rightCols(drift.cols()) = drift;
+    A = Eigen::MatrixXd(A(kept, Eigen::all));
     const Eigen::MatrixXd gram = A.transpose() * A;
+    parts->replays.push_back(count);
     parts->inner.push_back(inner_of(gram));
     parts->root.push_back(root_part(gram));
-    strays_.push_back(largest_stray(gram));
+    allowed_.push_back(gram.size() ? gram.trace() - parts->inner.back().solve(gram * gram).trace() : 0);
     parts->A.push_back(std::move(A));
     parts->kept.push_back(std::move(kept));
   }
   parts_ = std::move(parts);
 }
 
-Eigen::VectorXd Judge::Parts::residual(const Bench& bench, const Test& test, const Prediction& model,
-                                       std::size_t i) const {
+// A reading that moves evenly away from zero, of each sensor that drifts, by one standard deviation.
+Eigen::MatrixXd Judge::drifts(const Test& test) const {
+  std::vector<std::vector<double>> columns;
+  for (int c = 0; c < channel_count; ++c) {
+    const auto channel = static_cast<Channel>(c);
+    if (history(test, channel).empty() || bench_.noise(channel) <= 0 || bench_.sensor(channel).drift_per_s == 0)
+      continue;
+    std::vector<double>& column = columns.emplace_back();
+    for (int other = 0; other < channel_count; ++other) {
+      const auto at = static_cast<Channel>(other);
+      if (bench_.noise(at) <= 0) continue;
+      const std::size_t from = column.size(), n = history(test, at).size();
+      for (std::size_t k = 0; k < n; ++k)
+        column.push_back(other == c ? bench_.sensor(at).drift_per_s * test.dt_s * static_cast<double>(k) : 0.0);
+      bench_.sensor(at).whiten(column.data() + from, n, test.dt_s);
+    }
+  }
+  Eigen::MatrixXd all(columns.empty() ? 0 : static_cast<Eigen::Index>(columns[0].size()),
+                      static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    all.col(static_cast<Eigen::Index>(k)) = Eigen::Map<const Eigen::VectorXd>(columns[k].data(), all.rows());
+  return all;
+}
+
+std::vector<double> Judge::strays() const {
+  std::vector<double> largest;
+  for (const std::vector<double>& misfits : replay_misfits_)
+    largest.push_back(misfits.empty() ? 0 : *std::max_element(misfits.begin(), misfits.end()));
+  return largest;
+}
+
+Eigen::VectorXd Judge::residual(std::size_t i, const Prediction& model) const {
+  const Test& test = bench_.test(tests_[i]);
   return stacked(
-      bench, test, model, [&](Channel c) -> const auto& { return history(test, c); })(kept[i]);
+      bench_, test, model, [&](Channel c) -> const auto& { return history(test, c); })(parts_->kept[i]);
+}
+
+Eigen::VectorXd Judge::change(std::size_t i, const Prediction& from, const Prediction& to) const {
+  return stacked(
+      bench_, bench_.test(tests_[i]), to, [&](Channel c) -> const auto& { return from.channel(c); })(parts_->kept[i]);
+}
+
+Eigen::VectorXd Judge::against(std::size_t i, const Eigen::MatrixXd& M, const Eigen::VectorXd& r) const {
+  const Eigen::MatrixXd& A = parts_->A[i];
+  if (A.cols() == 0) return M.transpose() * r;
+  return M.transpose() * r - (A.transpose() * M).transpose() * parts_->inner[i].solve(A.transpose() * r);
+}
+
+Judge::Products Judge::products(std::size_t i, const Eigen::MatrixXd& M) const {
+  const Eigen::MatrixXd& A = parts_->A[i];
+  const Eigen::MatrixXd square = M.transpose() * M;
+  if (A.cols() == 0) return {square, square, Eigen::MatrixXd(M.cols(), 0)};
+  const Eigen::MatrixXd N = A.transpose() * M, gram = A.transpose() * A, solved = parts_->inner[i].solve(N);
+  Products p{square - N.transpose() * solved, {}, {}};
+  // With V = C^-1 M: of white noise V^T V, of the drifts V^T B B^T V.
+  const Eigen::Index replays = parts_->replays[i], drifts = A.cols() - replays;
+  const Eigen::MatrixXd cross = N - gram * solved;  // A^T V
+  p.covariance = square - N.transpose() * solved - solved.transpose() * N + solved.transpose() * gram * solved;
+  p.covariance += cross.bottomRows(drifts).transpose() * cross.bottomRows(drifts);
+  p.replays.resize(M.cols(), replays > 1 ? replays : 0);
+  const auto n = static_cast<double>(replays);
+  for (Eigen::Index k = 0; k < p.replays.cols(); ++k) {
+    std::vector<Eigen::Index> others;
+    Eigen::VectorXd scale(A.cols() - 1);
+    for (Eigen::Index j = 0; j < A.cols(); ++j) {
+      if (j == k) continue;
+      scale[static_cast<Eigen::Index>(others.size())] = j < replays ? std::sqrt(n / (n - 1)) : 1;
+      others.push_back(j);
+    }
+    const Eigen::MatrixXd G = scale.asDiagonal() * gram(others, others) * scale.asDiagonal();
+    const Eigen::VectorXd b = scale.asDiagonal() * gram(others, k);
+    p.replays.col(k) = std::sqrt(n) * (N.row(k).transpose() -
+                                       (scale.asDiagonal() * N(others, Eigen::all)).transpose() * inner_of(G).solve(b));
+  }
+  return p;
 }
 
 std::vector<double> Judge::whitened(std::size_t i, const ModelSpec& model, std::span<const double> x) const {
   const Test& test = bench_.test(tests_[i]);
   const Prediction prediction = predict(model, test, x);
   if (prediction.failed()) return std::vector<double>(parts_->kept[i].size(), failed_residual);
-  Eigen::VectorXd r = parts_->residual(bench_, test, prediction, i);
+  Eigen::VectorXd r = residual(i, prediction);
   if (parts_->root[i].size()) r += parts_->A[i] * (parts_->root[i] * (parts_->A[i].transpose() * r));
   return {r.begin(), r.end()};
 }
@@ -138,7 +218,7 @@ double Judge::misfit(std::size_t i, const ModelFit& fit, const Values& x) const 
   const Test& test = bench_.test(tests_[i]);
   const Prediction model = predict(fit.model, test, x);
   if (model.failed()) return 1e8;
-  const Eigen::VectorXd r = parts_->residual(bench_, test, model, i);
+  const Eigen::VectorXd r = residual(i, model);
   return misfit_of(r.squaredNorm(), parts_->A[i].transpose() * r, parts_->inner[i]);
 }
 

@@ -19,7 +19,6 @@ constexpr int iterations = 12;       // of one round
 constexpr int most_rounds = 6;
 constexpr double noise_score = 0.4;  // of S: 1.2 noise units
 constexpr double far_score = 4;      // of S without replays: what no floor's noise explains
-constexpr double fanned_out = 5;     // [noise units]
 constexpr double over_steps = 0.01;  // of the box: an event more or less in one test is a wall to derivatives
 
 struct Problem {

@@ -26,7 +26,7 @@ std::vector<Values> starts_of(const ModelSpec& wide, const ModelSpec& base, cons
     const std::size_t own = wide.free.size() - x.size();
     add(starts_from({x}, wide, std::max<std::size_t>(1, per_number * own)));
     if (own == 0) continue;
-    if (own == fitted_numbers(last_effect(wide)))
+    if (wide.effects.size() > base.effects.size() && own == fitted_numbers(last_effect(wide)))
       starts.push_back(start_at_nothing({.model = wide, .x = x}, last_effect(wide)));
     if (x.size() != base.free.size()) continue;
     add(starts_from(at_the_ends(wide, x, x.size()), wide, anywhere * own));

@@ -38,11 +38,15 @@ Specimen specimen(const ModelSpec& model, const Dimensions& measured, std::span<
     width = 2 * model.size->of(x) * std::sin(model.slenderness->of(x));
     height = 2 * model.size->of(x) * std::cos(model.slenderness->of(x));
   }
+  width *= model.width_factor.of(x);
   s.block = Block::rectangular(width, height, dimension(model.mass, measured.mass_kg, x, 1));
   s.friction.mu_k = model.mu_k.of(x);
   s.friction.mu_s = s.friction.mu_k;
   if (model.mu_s) s.friction.mu_s = std::max(s.friction.mu_k, model.mu_s->of(x));
   if (model.static_ratio) s.friction.mu_s = s.friction.mu_k * model.static_ratio->of(x);
+  const double factor = model.friction_factor.of(x);
+  s.friction.mu_k *= factor;
+  s.friction.mu_s *= factor;
   s.impact = {model.impact_law, model.impact_factor.of(x)};
   s.model = model.model;
   s.bouc_wen = model.bouc_wen;

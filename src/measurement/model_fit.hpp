@@ -39,6 +39,7 @@ struct ModelFit {
   std::vector<TestError> calibration = {};  // of each calibration test, with x
   std::vector<TestError> left_out = {};     // of each calibration test, with the fit that did not see it
   std::vector<Interval> intervals = {};     // 95 %, of each free number: jackknife over the folds, Student's t
+  std::vector<Values> resampled = {};       // outcomes: of fits to tests drawn with replacement
 
   double mean_left_out() const;
 };

@@ -175,9 +175,11 @@ class Reading {
   void intervals(std::size_t resamples) {
     const std::size_t n = table_.tests.size(), numbers = all_.x.size();
     std::vector<Values> found(numbers);
+    Values drawn;
     for (std::size_t b = 0; b < resamples; ++b) {
       const TableFit fit = search_.best(resampled(std::vector<double>(n, 1.0), 1, b));
       for (std::size_t i = 0; i < numbers; ++i) found[i].push_back(fit.x[i]);
+      drawn.insert(drawn.end(), fit.x.begin(), fit.x.end());
     }
     const std::vector<Interval> open = search_.within_chance(all_);
     for (std::size_t i = 0; i < numbers; ++i) {
@@ -186,6 +188,7 @@ class Reading {
       answer_.push_back(std::min(open[i].lower, found[i][static_cast<std::size_t>(std::lround(0.025 * most))]));
       answer_.push_back(std::max(open[i].upper, found[i][static_cast<std::size_t>(std::lround(0.975 * most))]));
     }
+    answer_.insert(answer_.end(), drawn.begin(), drawn.end());
   }
 
   static constexpr std::size_t bags = 25;
@@ -225,6 +228,7 @@ ModelFit unpacked(const Bench& bench, const OutcomeTable& table, const Values& a
     const Values ends = take(2);
     fit.intervals.push_back({ends[0], ends[1]});
   }
+  while (at != answer.end() && numbers > 0) fit.resampled.push_back(take(numbers));
   fit.evaluations = static_cast<int>(table.points.size());
   fit.left_out_refitted = true;
   return fit;

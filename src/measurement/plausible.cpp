@@ -42,6 +42,8 @@ class Doubter {
         say("the floor's channel of test {} stays at its extreme value for several samples: the sensor looks clipped",
             test.id);
       offsets(i);
+      if (moves_before_floor(bench_, i, Channel::slip) || moves_before_floor(bench_, i, Channel::rotation))
+        early_.add(test.id, 0);
     }
     tell();
     columns();
@@ -126,6 +128,7 @@ class Doubter {
     about(strong_, "the floor of {} reaches {:.3g} g", ": is floor_acceleration_mps2 in m/s2?");
     about(weak_, "{} move more than a floor that reaches {:.2g} g can make them",
           ": is floor_acceleration_mps2 in m/s2, and its sensor alive?");
+    about(early_, "{} moves before its floor does", ": check the clocks of the channels");
     constexpr const char* subtract =
         ": subtract its mean before the shaking, or begin the record before the block moves";
     about(late_slips_, "the slip of {} does not start at zero ({:.2g} m)", subtract, false);
@@ -174,7 +177,7 @@ class Doubter {
 
   const Bench& bench_;
   Doubts out_;
-  Seen slips_, rotations_, strong_, weak_, late_slips_, late_rotations_, floors_;
+  Seen slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_;
   std::vector<std::string> fast_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "measurement/plausible.hpp"
+#include "measurement/smooth.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -42,6 +43,26 @@ double start_offset(const Bench& bench, std::size_t i, Channel channel) {
   const auto count = static_cast<double>(std::max<std::size_t>(n, 1));
   const double mean = sum / count;
   return std::abs(mean) > noise * std::max(1.0, 5 / std::sqrt(count)) + 0.5 * noise ? mean : 0;
+}
+
+bool moves_before_floor(const Bench& bench, std::size_t i, Channel channel) {
+  constexpr double half_window_s = 0.03, surely = 8, floor_noises = 5;  // deviations: once in 1e15 and 1e6 samples
+  const Test& test = bench.test(i);
+  const auto& samples = history(test, channel);
+  if (samples.empty() || bench.noise(channel) <= 0 || test.motion.degree != 1) return false;
+  const double noise = std::max(bench.noise(channel), sensor_noise(samples));
+  const double least = surely * noise * rate_noise(test.dt_s, half_window_s);
+  const Smooth motion = smooth(samples, test.dt_s, half_window_s);
+  const auto shakes = [&](std::size_t k) {
+    const double floor = horizontal_acceleration(test.shaking(), static_cast<double>(k) * test.dt_s);
+    return std::abs(floor) > floor_noises * bench.floor_noise_mps2(i);
+  };
+  std::size_t begins = 0;
+  while (begins < samples.size() && !shakes(begins)) ++begins;
+  // A window that sees a motion may end where it begins. A floor that never shakes is dead, and told of elsewhere.
+  for (std::size_t k = 0; begins < samples.size() && k + 2 * motion.half < begins; ++k)
+    if (std::abs(motion.firm_rate(k)) > least) return true;
+  return false;
 }
 
 double floor_offset_mps2(const std::vector<double>& floor) {

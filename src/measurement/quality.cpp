@@ -78,6 +78,13 @@ void look_at_channel(const Bench& bench, Channel channel, Quality& quality) {
 }
 
 void look_at_channels(const Bench& bench, Quality& quality) {
+  const bool histories = std::any_of(bench.data().tests.begin(), bench.data().tests.end(),
+                                     [](const Test& test) { return test.has_history(); });
+  if (histories && !has(bench, Channel::slip))
+    quality.findings.push_back(
+        "slip was not measured: models are judged by the rotation alone, friction is told by it as far as it depends "
+        "on friction, none can be recovered from the motion, and the clocks of floor and response are not checked by "
+        "slips");
   for (int c = 0; c < channel_count; ++c) look_at_channel(bench, static_cast<Channel>(c), quality);
   std::vector<std::string> still;
   bool slips = false, turns = false;
@@ -96,6 +103,28 @@ void look_at_channels(const Bench& bench, Quality& quality) {
   quality.findings.push_back(
       together(still, "shows no motion above the noise: it bounds", "show no motion above the noise: they bound") +
       fmt::format(" {} from below, and {} nothing else", what, still.size() > 1 ? "say" : "says"));
+}
+
+// A sensor that is not as stated, with its numbers.
+void look_at_sensors(const Bench& bench, Quality& quality) {
+  for (const Channel channel : {Channel::slip, Channel::rotation}) {
+    const Sensor& sensor = bench.sensor(channel);
+    const double noise = bench.noise(channel);
+    const char* unit = channel == Channel::slip ? "m" : "rad";
+    constexpr double worth_a_word = 0.1;  // a size that is nearer to what is stated changes no error in its first digit
+    if (std::abs(std::log(sensor.size())) > worth_a_word || sensor.coloured > worth_a_word * sensor.size())
+      quality.findings.push_back(fmt::format(
+          "{} scatters by {:.2g} {} where nothing moves, {:.2g} times what is stated{}: models are judged by that",
+          name(channel), noise * sensor.size(), unit, sensor.size(),
+          sensor.coloured > 0 ? fmt::format(", and {:.2g} {} of it are correlated over {:.2g} s",
+                                            noise * sensor.coloured, unit, sensor.correlation_s)
+                              : ""));
+    if (sensor.drift_per_s > 0)
+      quality.findings.push_back(
+          fmt::format("{} drifts away from zero by {:.2g} {}/s (standard deviation over the tests): models are judged "
+                      "with that allowed for",
+                      name(channel), noise * sensor.drift_per_s, unit));
+  }
 }
 
 std::string clock_sentence(const std::string& whose, double late_s) {
@@ -157,6 +186,7 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   quality.findings = std::move(doubtful.sentences);
   quality.wrong_numbers = doubtful.spoilt_tests;
   look_at_channels(bench, quality);
+  look_at_sensors(bench, quality);
   const bool settled = look_at_slips(bench, quality);
   const auto tests = tests_of(bench.data(), Role::calibration);
   if (tests.empty() || !bench.test(tests.front()).has_history() || fit.score < 2 * std::log(2.0)) return quality;
@@ -169,8 +199,9 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
     rotates |= greatest(bench.test(i).rotation_rad) > 8 * bench.noise(Channel::rotation);
 
   // Cases: slip mirrored, rotation mirrored, then the lags.
+  const bool slip_asked = !settled && has(bench, Channel::slip);
   const auto scores = jobs("signs and times of the channels", 2 + lags.size(), [&](std::size_t i) {
-    if (i == 0 ? settled : i == 1 && !rotates) return Values{fit.score};
+    if (i == 0 ? !slip_asked : i == 1 && !rotates) return Values{fit.score};
     const Dataset data = changed(bench.data(), i == 0, i == 1, i < 2 ? 0 : lags[i - 2]);
     return Values{refitted(Bench(data, 0), fit, effort)};
   });

@@ -11,8 +11,8 @@ namespace freestand::measurement {
 struct Quality {
   std::vector<std::string> findings;
   bool mirrored_slip = false, mirrored_rotation = false;
-  double late_s = 0;         // by which the response lags behind the floor's channel, beyond what the model gives
-  std::size_t doubtful = 0;  // tests whose slip alone looks mirrored, or late
+  double late_s = 0;              // by which the response lags behind the floor's channel, beyond what the model gives
+  std::size_t doubtful = 0;       // tests whose slip alone looks mirrored, or late
   std::size_t wrong_numbers = 0;  // tests whose floor or response looks as if in another unit, or dead
   std::size_t moving = 0;         // tests with a history in which anything moved
 

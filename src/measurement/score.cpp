@@ -86,14 +86,17 @@ std::vector<PeakPair> peak_pairs(const Bench& bench, const Test& test, const Res
   return pairs;
 }
 
+double limited_ln(const PeakPair& pair, const Prediction& prediction) {
+  return prediction.failed() ? -ln_ratio_limit : std::clamp(pair.ln(), -ln_ratio_limit, ln_ratio_limit);
+}
+
 TestError peak_error(const Bench& bench, std::size_t i, const Prediction& prediction) {
   const auto pairs = peak_pairs(bench, bench.test(i), prediction.response);
   const auto n = static_cast<double>(std::max<std::size_t>(pairs.size(), 1));
   TestError error;
   double square = 0;
   for (const PeakPair& pair : pairs) {
-    const double ln = prediction.failed() ? -ln_ratio_limit : pair.ln();
-    error.score += std::min(ln * ln, ln_ratio_limit * ln_ratio_limit) / n;
+    error.score += std::pow(limited_ln(pair, prediction), 2) / n;
     const double missed =
         pair.measured > pair.least ? std::abs(pair.model / pair.measured - 1) : (pair.model > pair.least ? 1.0 : 0.0);
     error.relative = std::max(error.relative, missed);
@@ -105,11 +108,24 @@ TestError peak_error(const Bench& bench, std::size_t i, const Prediction& predic
 
 }  // namespace
 
+std::vector<double> ln_ratios(const Bench& bench, std::size_t i, const Prediction& prediction) {
+  const auto pairs = peak_pairs(bench, bench.test(i), prediction.response);
+  std::vector<double> ratios;
+  for (const PeakPair& pair : pairs)
+    ratios.push_back(limited_ln(pair, prediction) / std::sqrt(static_cast<double>(pairs.size())));
+  return ratios;
+}
+
 Kind kind(const Test& test) {
   if (test.has_history()) return Kind::history;
   const Peaks& p = test.peaks;
   return p.peak_slip_m || p.residual_slip_m || p.peak_rotation_rad || p.peak_acceleration_g ? Kind::peaks
                                                                                             : Kind::outcome;
+}
+
+Kind kind_of_set(const Bench& bench) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  return tests.empty() ? Kind::history : kind(bench.test(tests.front()));
 }
 
 double least_motion(const Bench& bench, Channel channel) {

@@ -16,6 +16,7 @@ namespace freestand::measurement {
 
 enum class Kind { history, peaks, outcome };  // what a test can be judged by, the first that it has
 Kind kind(const Test&);
+Kind kind_of_set(const Bench&);  // of its first calibration test
 
 struct TestError {
   double score = 0;
@@ -29,6 +30,9 @@ struct TestError {
 // The least peak that is told from standing still, in the channel's unit (block acceleration: g): the sensor's noise;
 // where that is not stated, a thousandth of the greatest such peak in the set, and at least 1e-6.
 double least_motion(const Bench&, Channel);
+
+// ln(model/measured) of each peak that a test knows, limited, over the root of their count: the sum of their squares is its score.
+std::vector<double> ln_ratios(const Bench&, std::size_t test, const Prediction&);
 
 // Does a channel of the test's histories, or any of slip and rotation, exceed eight times its noise?
 bool moves(const Bench&, std::size_t test, Channel);

@@ -63,8 +63,18 @@ ModelSpec changed(const ModelSpec& model, const Trial& trial, const dynamics::Ef
   return out;
 }
 
-double distance(const Bench& bench, const Prediction& a, const Prediction& b) {
+bool of_peaks(const Bench& bench) {
+  return kind(bench.test(tests_of(bench.data(), Role::calibration).front())) == Kind::peaks;
+}
+
+// scatter: of the measured peaks about the model, in ln.
+double distance(const Bench& bench, const Prediction& a, const Prediction& b, double scatter) {
   if (a.failed() || b.failed()) return 0;
+  if (of_peaks(bench)) {
+    const double least = least_motion(bench, Channel::slip);
+    return std::abs(std::log(std::max(a.response.peak_slip_m, least) / std::max(b.response.peak_slip_m, least))) /
+           scatter;
+  }
   double square = 0;
   for (const Channel channel : {Channel::slip, Channel::rotation}) {
     const auto &p = a.channel(channel), &q = b.channel(channel);
@@ -88,21 +98,28 @@ double separation(const Bench& bench, const std::vector<ModelFit>& models, const
       model.mu_k.value *= trial.friction_factor;
     predictions.push_back(predict(model, test, x));
   }
+  const ModelFit& best = models.front();
+  const double tests = static_cast<double>(tests_of(bench.data(), Role::calibration).size());
+  const double scatter = std::sqrt(best.score * tests / std::max(tests - static_cast<double>(best.x.size()), 1.0));
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < predictions.size(); ++i)
     for (std::size_t j = i + 1; j < predictions.size(); ++j)
-      least = std::min(least, distance(bench, predictions[i], predictions[j]));
+      least = std::min(least, distance(bench, predictions[i], predictions[j], scatter));
   return least;
 }
 
-std::string sentence(const Trial& trial, double separation) {
+std::string sentence(const Bench& bench, const Trial& trial, double separation) {
   std::string text = fmt::format("a pulse {} of {:.2g} s and {:.2g} g", trial.pulse, trial.period_s, trial.peak_g);
   if (trial.vertical_share > 0)
     text += fmt::format(", with a vertical pulse of half that period and {:.2g} g beside it",
                         trial.vertical_share * trial.peak_g);
   if (trial.friction_factor != 1)
     text += fmt::format(", on another pair of surfaces with about {:.2g} times the friction", trial.friction_factor);
-  return text + fmt::format(", would part them by {:.3g} noise units", separation);
+  text +=
+      of_peaks(bench)
+          ? fmt::format(", would part their peak slips by {:.2g} times the scatter of the measured ones", separation)
+          : fmt::format(", would part them by {:.3g} noise units", separation);
+  return separation < clear ? text + ": the most of those tried, but too little for one test to decide" : text;
 }
 
 }  // namespace
@@ -130,7 +147,7 @@ Suggestion suggest(const Bench& bench, const std::vector<ModelFit>& models, cons
           t.vertical_share,
           t.friction_factor,
           answers[best][0],
-          sentence(t, answers[best][0])};
+          sentence(bench, t, answers[best][0])};
 }
 
 }  // namespace freestand::measurement

@@ -14,7 +14,8 @@ struct Suggestion {
   double period_s = 0, peak_acceleration_g = 0;
   double vertical_share = 0;   // of the horizontal peak, as a vertical pulse of half the period beside it
   double friction_factor = 1;  // another pair of surfaces: mu times this
-  double separation = 0;       // least distance between two of the models, in noise units (rms)
+  double separation =
+      0;  // least distance between two of the models, in noise units (rms); of peaks, in the scatter of the measured ones
   std::string sentence;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/key_names.hpp"
 #include "base/shown_text.hpp"
@@ -14,7 +15,8 @@ namespace {
 
 using motion::RecordText;
 
-const std::vector<std::string> needed_columns = {"time_s", "floor_acceleration_mps2", "slip_m"};
+const std::vector<std::string> needed_columns = {"time_s", "floor_acceleration_mps2"},
+                               one_needed = {"slip_m", "rotation_rad"};
 const std::vector<std::string> known_columns = {
     "time_s",       "floor_acceleration_mps2", "floor_vertical_acceleration_mps2", "slip_m",
     "rotation_rad", "block_acceleration_mps2"};
@@ -28,9 +30,14 @@ struct Columns {
   std::vector<std::vector<double>> values;
   std::vector<std::size_t> lines;  // of each row
 
+  const std::vector<double>& needed(const std::string& name) const { return values.at(place(name)); }  // by check_names
   const std::vector<double>* find(const std::string& name) const {
-    const auto found = std::find(names.begin(), names.end(), name);
-    return found == names.end() ? nullptr : &values[static_cast<std::size_t>(found - names.begin())];
+    return place(name) == names.size() ? nullptr : &values[place(name)];
+  }
+
+ private:
+  std::size_t place(const std::string& name) const {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   }
 };
 
@@ -75,7 +82,7 @@ void check_header(const RecordText& text, std::size_t header) {
                           "in its numbers): write it out again so",
                           has(';') ? "semicolons" : "tabs"));
   if (line.find_first_not_of("0123456789+-.,eE \t") == std::string_view::npos)
-    text.fail(header, fmt::format("no names of columns (the first line holds numbers): write {} above them",
+    text.fail(header, fmt::format("no names of columns (the first line holds numbers): write {},slip_m above them",
                                   fmt::join(needed_columns, ",")));
 }
 
@@ -105,6 +112,9 @@ void check_names(const RecordText& text, std::size_t header, const std::vector<s
     if (!holds(names, needed))
       text.fail(header, fmt::format("no column {} (the columns are {}): add it, or correct the name", needed,
                                     shown(motion::trim(text.line(header)), 200)));
+  if (std::none_of(one_needed.begin(), one_needed.end(), [&](const auto& name) { return holds(names, name); }))
+    text.fail(header, fmt::format("no column {} (the columns are {}): add one, or correct the name",
+                                  fmt::join(one_needed, " and none "), shown(motion::trim(text.line(header)), 200)));
 }
 
 Columns read_columns(const RecordText& text) {
@@ -123,7 +133,7 @@ Columns read_columns(const RecordText& text) {
 
 // The step, after looking for a jump that is a gap rather than a clock that runs unevenly.
 double constant_step(const RecordText& text, const Columns& columns) {
-  const std::vector<double>& t = *columns.find("time_s");
+  const std::vector<double>& t = columns.needed("time_s");
   std::vector<double> steps;
   for (std::size_t i = 1; i < t.size(); ++i) steps.push_back(t[i] - t[i - 1]);
   std::vector<double> sorted = steps;
@@ -144,23 +154,55 @@ double constant_step(const RecordText& text, const Columns& columns) {
   return text.even_step(t, columns.lines);
 }
 
+// Is one column another one with a factor and an offset? Two sensors have two noises; what is written to six digits and
+// more is a copy where nothing else is left. A table may be told to move upwards as it moves sideways, in another size.
+bool is_copy(const std::vector<double>& a, const std::vector<double>& b, bool any_factor) {
+  const auto n = static_cast<double>(a.size());
+  const double of_a = std::accumulate(a.begin(), a.end(), 0.0) / n, of_b = std::accumulate(b.begin(), b.end(), 0.0) / n;
+  double ab = 0, bb = 0, most = 0, left = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (a[i] - of_a) * (b[i] - of_b);
+    bb += (b[i] - of_b) * (b[i] - of_b);
+    most = std::max(most, std::abs(a[i] - of_a));
+  }
+  if (!(bb > 0) || !(most > 0)) return false;  // a sensor that is dead, and told of elsewhere
+  const double factor = any_factor ? ab / bb : 1;
+  for (std::size_t i = 0; i < a.size(); ++i) left = std::max(left, std::abs(a[i] - of_a - factor * (b[i] - of_b)));
+  return left < 1e-5 * most;
+}
+
+void check_copies(const RecordText& text, const Columns& columns) {
+  for (std::size_t i = 2; i < known_columns.size(); ++i)
+    for (std::size_t k = 1; k < i; ++k) {
+      const auto *a = columns.find(known_columns[i]), *b = columns.find(known_columns[k]);
+      const bool floor = known_columns[i] == "floor_vertical_acceleration_mps2";
+      if (a && b && is_copy(*a, *b, !floor))
+        text.fail(
+            header_line(text),
+            fmt::format("column {} is a copy of {} (two sensors never read the same): put what its own sensor read "
+                        "in its place, or remove it",
+                        known_columns[i], known_columns[k]));
+    }
+}
+
 }  // namespace
 
 void read_test_file(const std::filesystem::path& path, double dt_s, Test& test) {
   const RecordText text(path);
   const Columns columns = read_columns(text);
   const double step = constant_step(text, columns);
+  check_copies(text, columns);
   if (dt_s > 0 && std::abs(step - dt_s) > 0.01 * dt_s)
     text.fail(
         fmt::format("the step is {:.6g} s (the data set states sampling_dt_s: {:.6g}): correct one of them, or leave "
                     "sampling_dt_s out where tests differ",
                     step, dt_s));
   const auto* vertical = columns.find("floor_vertical_acceleration_mps2");
-  test.motion = piecewise_linear(path.string(), step, *columns.find("floor_acceleration_mps2"),
+  test.motion = piecewise_linear(path.string(), step, columns.needed("floor_acceleration_mps2"),
                                  vertical ? *vertical : std::vector<double>{});
   test.dt_s = step;
   test.source = path.string();
-  test.slip_m = *columns.find("slip_m");
+  if (const auto* slip = columns.find("slip_m")) test.slip_m = *slip;
   if (const auto* rotation = columns.find("rotation_rad")) test.rotation_rad = *rotation;
   if (const auto* block = columns.find("block_acceleration_mps2")) test.block_acceleration_mps2 = *block;
   for (const std::string& name : columns.names)

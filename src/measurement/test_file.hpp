@@ -1,5 +1,5 @@
-// The csv file of one measured test: time_s, floor_acceleration_mps2 [, floor_vertical_acceleration_mps2], slip_m [,
-// rotation_rad] [, block_acceleration_mps2]; constant step.
+// The csv file of one measured test: time_s, floor_acceleration_mps2 [, floor_vertical_acceleration_mps2], slip_m or
+// rotation_rad or both [, block_acceleration_mps2]; constant step.
 #pragma once
 
 #include "measurement/dataset.hpp"

@@ -10,6 +10,7 @@ namespace freestand::measurement {
 struct Timing {
   bool mirrored = false;
   int late_steps = 0;   // by which the slip lags behind the floor's channel
+  double late = 0;      // the same between the steps, by the parabola through the least variance and its neighbours
   double gain = 1;      // variance of u'' + a as measured, over that with the slip turned round and shifted by these
   double samples = 0;   // independent ones
   bool judged() const;  // there was slip enough
@@ -17,7 +18,7 @@ struct Timing {
 };
 
 // Among lags of up to most_steps either way and both signs, the one in which u'' + a varies least about its mean of each
-// direction, over the slips of one test; both smoothed alike.
-Timing slip_timing(const Bench&, std::size_t test, int most_steps);
+// direction, over the slips of one test; both smoothed alike. sign_is_known: as measured, no other is looked at.
+Timing slip_timing(const Bench&, std::size_t test, int most_steps, bool sign_is_known = false);
 
 }  // namespace freestand::measurement

@@ -49,6 +49,8 @@ double value(const Triangular& d, double u) {
 
 double value(const Choice& d, double u) { return d.values[pick(d.values.size(), d.weights, u)]; }
 
+double value(const Posterior& d, double u) { return d.values[pick(d.values.size(), {}, u)]; }
+
 // P(Z <= z) of the standard normal cut to [lower, upper], in the smaller tail as above.
 double below_in_cut_normal(double lower, double upper, double z) {
   z = std::clamp(z, lower, upper);
@@ -96,6 +98,8 @@ double below(const Choice& d, double x) {
   return here / sum;
 }
 
+double below(const Posterior& d, double x) { return below(Choice{d.values, {}}, x); }
+
 Support ends(const Fixed& d) { return {d.value, d.value, false, false}; }
 Support ends(const Uniform& d) { return {d.lower, d.upper, true, true}; }
 Support ends(const LogUniform& d) { return {d.lower, d.upper, true, true}; }
@@ -106,6 +110,8 @@ Support ends(const Choice& d) {
   const auto [least, greatest] = std::minmax_element(d.values.begin(), d.values.end());
   return {*least, *greatest, false, false};
 }
+
+Support ends(const Posterior& d) { return ends(Choice{d.values, {}}); }
 
 std::string list(const std::vector<double>& values) {
   std::string text = "[";
@@ -121,6 +127,17 @@ std::string limits_text(double min, double no_min, double max) {
   return (min > no_min ? ", min: " + number_text(min) : "") + (max < unbounded ? ", max: " + number_text(max) : "");
 }
 
+// A name stands bare where YAML reads it back as the same text, otherwise in single quotes.
+std::string quoted(const std::string& name) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
+  const bool bare = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) &&
+                    std::all_of(name.begin(), name.end(), plain);
+  if (bare) return name;
+  std::string text = "'";
+  for (const char c : name) text += c == '\'' ? "''" : std::string(1, c);
+  return text + "'";
+}
+
 std::string text(const Fixed& d) { return number_text(d.value); }
 std::string text(const Uniform& d) { return "{uniform: " + list({d.lower, d.upper}) + "}"; }
 std::string text(const LogUniform& d) { return "{log_uniform: " + list({d.lower, d.upper}) + "}"; }
@@ -134,16 +151,8 @@ std::string text(const Lognormal& d) {
 }
 std::string text(const Triangular& d) { return "{triangular: " + list({d.lower, d.mode, d.upper}) + "}"; }
 std::string text(const Choice& d) { return "{choice: " + list(d.values) + weights_text(d.weights) + "}"; }
-
-// A name stands bare where YAML reads it back as the same text, otherwise in single quotes.
-std::string quoted(const std::string& name) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-  const bool bare = !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) &&
-                    std::all_of(name.begin(), name.end(), plain);
-  if (bare) return name;
-  std::string text = "'";
-  for (const char c : name) text += c == '\'' ? "''" : std::string(1, c);
-  return text + "'";
+std::string text(const Posterior& d) {
+  return "{posterior: " + quoted(d.table) + ", column: " + quoted(d.column) + ", values: " + list(d.values) + "}";
 }
 
 }  // namespace

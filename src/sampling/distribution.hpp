@@ -42,7 +42,13 @@ struct Choice {
   std::vector<double> weights;
 };
 
-using Distribution = std::variant<Fixed, Uniform, LogUniform, Normal, Lognormal, Triangular, Choice>;
+// A column of a table of joint draws, all rows alike likely. Numbers of one table share the uniform that picks the row.
+struct Posterior {
+  std::string table, column;
+  std::vector<double> values;
+};
+
+using Distribution = std::variant<Fixed, Uniform, LogUniform, Normal, Lognormal, Triangular, Choice, Posterior>;
 
 // One of some names (pulse types); weights as in Choice.
 struct Names {
@@ -50,7 +56,7 @@ struct Names {
   std::vector<double> weights;
 };
 
-// Value with probability u below it, 0 < u < 1. Monotone in u (a Choice: in the order of its list).
+// Value with probability u below it, 0 < u < 1. Monotone in u (a Choice, a Posterior: in the order of its list).
 double quantile(const Distribution&, double u);
 
 // P(value <= x).

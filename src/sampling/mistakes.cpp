@@ -107,6 +107,8 @@ Mistake check(const Choice& d) {
   return check_weights(d.values.size(), d.weights);
 }
 
+Mistake check(const Posterior& d) { return check(Choice{d.values, {}}); }
+
 }  // namespace
 
 std::optional<std::string> mistake(const Distribution& distribution) {

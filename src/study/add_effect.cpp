@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "effects/effects.hpp"
-#include "measurement/least_squares.hpp"
+#include "measurement/grown_fit.hpp"
 #include "measurement/outcome_fit.hpp"
-#include "measurement/starts.hpp"
+#include "measurement/posterior.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/fitted_study.hpp"
 #include "study/section.hpp"
@@ -92,29 +92,9 @@ ModelSpec starting(const Prepared& before, const ModelFit& fit, const Prepared& 
   return model;
 }
 
-// Where the fit without the effect stood, with the effect's own numbers all over their range: a wall or a tether that few
-// tests reach is met only from there.
-std::vector<Values> starts_with(const ModelFit& before, const ModelSpec& after) {
-  const std::size_t known = before.x.size(), own = after.free.size() - known;
-  for (std::size_t i = 0; i < known; ++i)
-    if (before.model.free[i].name != after.free[i].name) return {};
-  return starts_from({before.x}, after, 96 * own);
-}
-
-ModelFit fit_with_effect(const Bench& bench, const ModelFit& before, const ModelSpec& after, const Jobs& jobs) {
-  if (outcomes_only(bench.data())) return fit_outcomes(bench, after, {}, {}, jobs);
-  Effort effort;
-  effort.screened_per_number = 256;
-  effort.starts = 6;
-  auto fits = fit_models(bench, {{.model = after, .starts = starts_with(before, after)}}, effort, jobs);
-  polish(bench, {&fits[0]}, effort, 0.15, jobs);
-  refine(bench, {&fits[0]}, effort, jobs);
-  settle(bench, fits[0], effort, jobs);
-  return std::move(fits[0]);
-}
-
 LadderStep step_of(const std::string& step, const Prepared& p, const ModelFit& fit, const Jobs& jobs) {
-  const auto tests = compare_tests(*p.bench, fit, jobs);
+  const Posterior open = outcomes_only(p.data) ? posterior(*p.bench, fit, jobs) : Posterior{};
+  const auto tests = compare_tests(*p.bench, fit, open, jobs);
   const RoleError in = role_error(*p.bench, tests, Role::calibration), out = role_error(*p.bench, tests, Role::holdout);
   const double none = std::nan("");
   return {step,
@@ -164,7 +144,8 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   const auto after = prepare(world, parse_validation(study_text(root), before->validation.file), run, 16);
 
   const ModelFit base = fitted(*before, false, jobs);
-  const ModelFit fit = fit_with_effect(*after->bench, base, starting(*before, base, *after), jobs);
+  ModelFit fit = fit_with_effect(*after->bench, base, starting(*before, base, *after), jobs);
+  open_numbers(*after->bench, fit, jobs);
 
   std::vector<LadderStep> ladder = before->validation.ladder;
   if (ladder.empty()) ladder.push_back(step_of("base", *before, base, jobs));

@@ -22,6 +22,7 @@ Calibrated read_one(const YAML::Node& node, const std::string& name, int line, P
   const std::vector<double> range = section.numbers("calibrate");
   Calibrated c{.name = name, .lower = 0, .upper = 1, .value = section.optional_number("value"), .interval = {}};
   if (section.has("interval")) c.interval = section.numbers("interval");
+  for (const char* of_sweeps : {"posterior", "column"}) section.text(of_sweeps, "");
   section.finish();
   if (range.size() == 2 && range[0] < range[1]) {
     c.lower = range[0];
@@ -61,6 +62,23 @@ void walk(YAML::Node node, const std::string& name, int line, std::vector<Calibr
   }
 }
 
+// Numbers with a table of joint draws become a distribution.
+void leave_to_draws(YAML::Node node) {
+  if (node.IsMap()) {
+    std::vector<std::string> keys;
+    for (const auto& pair : node) keys.push_back(pair.first.Scalar());
+    for (const auto& key : keys) {
+      YAML::Node value = node[key];
+      if (is_calibrate(value) && value["posterior"])
+        for (const char* of_fit : {"calibrate", "value", "interval"}) value.remove(of_fit);
+      else
+        leave_to_draws(value);
+    }
+  } else if (node.IsSequence()) {
+    for (std::size_t i = 0; i < node.size(); ++i) leave_to_draws(node[i]);
+  }
+}
+
 }  // namespace
 
 std::vector<Calibrated> take_calibrated(YAML::Node model, Problems& problems) {
@@ -92,10 +110,11 @@ void add_missing_parameters(YAML::Node model) {
   }
 }
 
-void sweep_model(YAML::Node root, Problems& problems) {
+void sweep_model(YAML::Node root, Problems& problems, FittedAs fitted) {
   if (!root.IsMap() || !root["model"] || !root["model"].IsMap()) return;
   const YAML::Node model = root["model"];
   add_missing_parameters(model);
+  if (fitted == FittedAs::draws) leave_to_draws(model);
   for (const Calibrated& c : take_calibrated(model, problems))
     if (!c.value && c.name != "placement_scatter")
       problems.add(0, fmt::format("{} is not fitted yet (a sweep needs its value): let `freestand add` fit it, or give "
@@ -119,10 +138,14 @@ void write_fitted(YAML::Node node, const std::string& name, const std::vector<Fi
       for (const FittedNumber& number : numbers) {
         if (number.name != inner) continue;
         value["value"] = fmt::format("{}", number.value);
-        value.remove("interval");
+        for (const char* before : {"interval", "posterior", "column"}) value.remove(before);
         if (number.lower < number.upper) {
           value["interval"].push_back(fmt::format("{:.9g}", number.lower));
           value["interval"].push_back(fmt::format("{:.9g}", number.upper));
+        }
+        if (!number.drawn_from.empty()) {
+          value["posterior"] = number.drawn_from;
+          value["column"] = number.name;
         }
         value.SetStyle(YAML::EmitterStyle::Flow);
       }

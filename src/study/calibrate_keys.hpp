@@ -19,14 +19,15 @@ std::vector<Calibrated> take_calibrated(YAML::Node model, Problems&);
 void add_missing_parameters(YAML::Node model);
 
 // A study file whose `model` is a mapping, as a sweep reads it: the keys of the model on the level of the file, numbers
-// that were calibrated at their values, what belongs to measurements left out; numbers that were not fitted yet are
-// problems. Any other file is left as it is.
-void sweep_model(YAML::Node root, Problems&);
+// that were calibrated at their values, or as joint draws where it names a table of these; what belongs to measurements
+// left out; numbers that were not fitted yet are problems. Any other file is left as it is.
+void sweep_model(YAML::Node root, Problems&, FittedAs);
 
 // A number that was fitted, with its interval; lower >= upper: none.
 struct FittedNumber {
   std::string name;
   double value = 0, lower = 1, upper = 0;
+  std::string drawn_from = {};  // a table of joint draws; empty: none
 };
 
 // Writes value and interval into every {calibrate: ...} below `node` that has its number. name: dotted name of the node,

@@ -2,8 +2,10 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "measurement/bands.hpp"
 #include "measurement/findings.hpp"
 #include "study/fitted_study.hpp"
+#include "study/posterior_tables.hpp"
 #include "study/spread_jobs.hpp"
 #include "study/validation_parts.hpp"
 
@@ -60,7 +62,7 @@ Json test_json(const Bench& bench, const TestComparison& t) {
                {"floor_peak_g", floor_peak_g(test)},
                {"error_noise_units", number_or_null(t.error.noise_units)},
                {"error_relative", number_or_null(t.error.relative)},
-               {"error_explained", number_or_null(t.explained)},
+               {"error_floor_noise_allowed", number_or_null(t.explained)},
                {"error_expected", number_or_null(t.expected)},
                {"score", number_or_null(t.error.score)},
                {"outcome", name(t.model.response.outcome)},
@@ -79,7 +81,7 @@ Json test_json(const Bench& bench, const TestComparison& t) {
   return json;
 }
 
-Json history_json(const Bench& bench, const TestComparison& t) {
+Json history_json(const Bench& bench, const TestComparison& t, const Bands& bands) {
   const Test& test = bench.test(t.test);
   const std::size_t n = t.model.slip_m.size(), stride = std::max<std::size_t>(1, (n + most_points - 1) / most_points);
   Json json = {{"id", test.id}, {"role", roles[static_cast<int>(test.role)]}, {"dt_s", test.dt_s}};
@@ -97,11 +99,16 @@ Json history_json(const Bench& bench, const TestComparison& t) {
     if (measured.empty()) continue;
     const auto& model = t.model.channel(channel);
     const auto& spread = t.spread[static_cast<std::size_t>(c)];
+    Json band = nullptr;
+    if (!bands.empty())
+      band = {{"lower", thinned([&, &b = bands[static_cast<std::size_t>(c)]](std::size_t k) { return b.lower[k]; })},
+              {"upper", thinned([&, &b = bands[static_cast<std::size_t>(c)]](std::size_t k) { return b.upper[k]; })}};
     json[name(channel)] = {{"noise", bench.noise(channel)},
                            {"measured", thinned([&](std::size_t k) { return measured[k]; })},
                            {"model", thinned([&](std::size_t k) { return model[k]; })},
                            {"residual", thinned([&](std::size_t k) { return model[k] - measured[k]; })},
-                           {"spread", thinned([&](std::size_t k) { return std::sqrt(spread[k]); })}};
+                           {"spread", thinned([&](std::size_t k) { return std::sqrt(spread[k]); })},
+                           {"band", std::move(band)}};
   }
   return json;
 }
@@ -117,6 +124,8 @@ Json tables_json(const std::vector<ErrorTable>& tables) {
                     {"count", numbers_or_null(t.count)},
                     {"error_noise_units", numbers_or_null(t.noise_units)},
                     {"growth_noise_units", numbers_or_null(t.growth)},
+                    {"growth_slip_m", numbers_or_null(t.slip_growth_m)},
+                    {"growth_rotation_rad", numbers_or_null(t.rotation_growth_rad)},
                     {"bias_noise_units", numbers_or_null(t.bias)}});
   return list;
 }
@@ -128,11 +137,11 @@ Json role_json(const Bench& bench, const std::vector<TestComparison>& tests, Rol
           {"error_relative", number_or_null(e.relative)},
           {"error", number_or_null(e.error)},
           {"error_expected", number_or_null(e.expected)},
-          {"error_explained", number_or_null(e.explained)},
+          {"error_floor_noise_allowed", number_or_null(e.explained)},
           {"tests", e.tests}};
 }
 
-Json parameters_json(const ModelFit& fit, bool calibrated) {
+Json parameters_json(const ModelFit& fit, const Posterior& open, bool calibrated) {
   Json list = Json::array();
   for (std::size_t i = 0; i < fit.x.size(); ++i) {
     const Free& free = fit.model.free[i];
@@ -143,8 +152,25 @@ Json parameters_json(const ModelFit& fit, bool calibrated) {
                     {"upper", free.upper},
                     {"calibrated", calibrated}});
     add_interval(list.back(), fit, i);
+    list.back()["interval_90"] = nullptr;
+    if (!open.of_mean.empty()) {
+      const auto [lower, upper] = open.interval(i, 0.9);
+      list.back()["interval_90"] = {lower, upper};
+    }
   }
   return list;
+}
+
+Json posterior_json(const Posterior& open) {
+  if (open.draws.empty() && open.slip_scatter_ln == 0) return nullptr;
+  return {{"table", open.draws.empty() ? Json(nullptr) : Json(posterior_table)},
+          {"draws", open.draws.size()},
+          {"dispersion", open.dispersion},
+          {"degrees_of_freedom", open.freedom},
+          {"friction_scatter", open.friction_scatter},
+          {"slip_bias_ln", open.slip_bias_ln},
+          {"slip_scatter_ln", open.slip_scatter_ln},
+          {"share_counted", open.counted}};
 }
 
 }  // namespace
@@ -153,17 +179,18 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
   const auto p = prepare(world, run, 16);
   const Bench& bench = *p->bench;
   const Jobs jobs = spread_jobs(world, run.quiet);
-  const ModelFit fit = fitted(*p, false, jobs);
+  ModelFit fit = fitted(*p, false, jobs);
   const bool calibrated = fit.left_out_refitted || fit.evaluations > 0;
+  const Posterior open = open_numbers(bench, fit, jobs);
   Effort effort;
   const Quality quality = examine(bench, fit, effort, jobs);
-  Comparison c = measurement::compare(bench, fit.model, fit.x, compare_tests(bench, fit, jobs), quality);
+  Comparison c = measurement::compare(bench, fit.model, fit.x, compare_tests(bench, fit, open, jobs), quality);
   for (std::string& finding : measurement::undetermined(fit)) c.findings.push_back(std::move(finding));
 
   std::vector<std::string> effects;
   for (const EffectTerm& term : fit.model.effects) effects.push_back(term.effect->name);
   const PeakRatio ratio = peak_ratio(bench, c.tests);
-  Json json = {{"format", "freestand-comparison/1"},
+  Json json = {{"format", "freestand-comparison/2"},
                {"study", run.study},
                {"measurements", p->measurements},
                {"name", p->data.name},
@@ -173,20 +200,27 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
                {"findings", c.findings},
                {"calibration", role_json(bench, c.tests, Role::calibration)},
                {"holdout", role_json(bench, c.tests, Role::holdout)},
-               {"parameters", parameters_json(fit, calibrated)},
+               {"parameters", parameters_json(fit, open, calibrated)},
+               {"posterior", posterior_json(open)},
                {"peak_ratio",
                 {{"count", ratio.count},
                  {"ratio", number_or_null(std::exp(ratio.bias_ln))},
                  {"bias_ln", number_or_null(ratio.bias_ln)},
                  {"scatter_ln", number_or_null(ratio.scatter_ln)}}}};
   json["tests"] = Json::array();
-  for (const TestComparison& t : c.tests) json["tests"].push_back(test_json(bench, t));
+  const std::vector<Bands> bands = predicted_bands(bench, fit.model, open, jobs);
+  for (const TestComparison& t : c.tests) {
+    json["tests"].push_back(test_json(bench, t));
+    json["tests"].back()["within_band"] = number_or_null(share_within(bench.test(t.test), bands[t.test]));
+  }
   json["histories"] = Json::array();
-  for (const std::size_t i : c.worst) json["histories"].push_back(history_json(bench, c.tests[i]));
+  for (const std::size_t i : c.worst)
+    json["histories"].push_back(history_json(bench, c.tests[i], bands[c.tests[i].test]));
   json["error_tables"] = {{"calibration", tables_json(c.calibration)}, {"holdout", tables_json(c.holdout)}};
   json["ladder"] = ladder_json(p->validation.ladder);
   add_provenance(json, world, run);
-  return {std::move(json), fitted_study(*p, fit, folder)};
+  std::string draws = posterior_text(fit.model, open);
+  return {std::move(json), fitted_study(*p, fit, open, folder), std::move(draws)};
 }
 
 }  // namespace freestand::study

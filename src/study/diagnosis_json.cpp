@@ -7,11 +7,13 @@
 #include "effects/effects.hpp"
 #include "measurement/decide.hpp"
 #include "measurement/diagnose_outcomes.hpp"
+#include "measurement/law_search.hpp"
 #include "measurement/least_squares.hpp"
 #include "measurement/quality.hpp"
 #include "measurement/recover.hpp"
 #include "measurement/suggest.hpp"
 #include "measurement/suggest_outcomes.hpp"
+#include "study/law_forms.hpp"
 #include "study/spread_jobs.hpp"
 #include "study/validation_parts.hpp"
 
@@ -39,13 +41,14 @@ Json candidate_json(const Bench& bench, const Candidate& c) {
           {"error_calibration", number_or_null(in.error)},
           {"error_left_out", number_or_null(out.error)},
           {"error_left_out_se", number_or_null(out.standard_error)},
-          {"error_explained", number_or_null(c.explained)},
-          {"misfit", number_or_null(c.misfit)},
+          {"error_left_out_floor_noise_allowed", number_or_null(c.explained)},
+          {"chi_square_left_out", number_or_null(c.misfit)},
+          {"chi_square_fit", number_or_null(c.misfit_of_fit)},
           {"delta_bic", number_or_null(c.delta_bic)},
-          {"difference", number_or_null(c.difference)},
-          {"difference_se", number_or_null(c.difference_se)},
-          {"rival", c.rival},
-          {"practical", c.practical},
+          {"score_left_out_above_best", number_or_null(c.difference)},
+          {"score_left_out_above_best_se", number_or_null(c.difference_se)},
+          {"as_good_as_best", c.rival},
+          {"numbers_as_met_in_practice", c.practical},
           {"left_out_refitted", c.fit.left_out_refitted},
           {"remark", c.remark.empty() ? Json(nullptr) : Json(c.remark)},
           {"evaluations", c.fit.evaluations}};
@@ -131,13 +134,52 @@ void widen_intervals(const Bench& bench, Diagnosis& d, const Jobs& jobs) {
   std::vector<ModelFit*> fits = {&d.base.fit};
   for (Candidate& c : d.candidates)
     if (c.visible) fits.push_back(&c.fit);
+  if (d.proposal) fits.push_back(&d.proposal->fit);
   widen_by_score(bench, fits, jobs);
+}
+
+// The law, its numbers, and the entry with which `add` takes it into the study.
+Json proposal_json(const Bench& bench, const Diagnosis& d, const Json& recovered) {
+  if (!d.proposal) return nullptr;
+  const Candidate& c = *d.proposal;
+  const auto& all = law_forms();
+  const LawForm& form =
+      *std::find_if(all.begin(), all.end(), [&](const LawForm& f) { return f.effect.name == c.effects[0]; });
+  const std::size_t own = fitted_numbers(form.effect);
+  Json json = candidate_json(bench, c);
+  json["variable"] = form.variable;
+  json["friction"] = form.friction.empty() ? Json(nullptr) : Json(form.friction);
+  json["force"] = form.force.empty() ? Json(nullptr) : Json(form.force);
+  const auto own_of = [own](const Values& x) { return Values(x.end() - static_cast<long>(own), x.end()); };
+  json["entry"] = entry_of(form, own_of(c.fit.x));
+  json["band"] = nullptr;
+  for (const Json& table : recovered["tables"]) {
+    Values seen, places;
+    for (const Json& centre : table["centre"])
+      if (centre.is_number()) seen.push_back(centre);
+    if (table["variable"] != form.variable || seen.empty()) continue;
+    const double low = seen.front(), high = seen.back();
+    for (int i = 0; i <= 40; ++i) places.push_back(low + (high - low) * i / 40);
+    const LawBand band =
+        law_band(c.fit, [&](const Values& x) { return law_at(form, places, c.fit.model.mu_k.of(x), own_of(x)); });
+    json["band"] = {{"at", places}, {"law", band.law}, {"lower", band.lower}, {"upper", band.upper}};
+  }
+  return json;
+}
+
+// The key, of the document or of each candidate, by which the verdict was reached.
+const char* decided_by(const Bench& bench, const Diagnosis& d) {
+  const bool faults = std::any_of(d.candidates.begin(), d.candidates.end(), [](const Candidate& c) { return c.rival; });
+  if (d.reason == Reason::data && !faults) return "findings";
+  if (only_friction_scatters(d)) return "friction_scatter";
+  if (!d.chances.empty()) return "tests_of_chance";
+  return measurement::kind_of_set(bench) == Kind::history ? "chi_square_left_out" : "score_left_out_above_best";
 }
 
 // A verdict is only as good as the data.
 void withdraw_if_spoilt(const Quality& quality, Diagnosis& d) {
   if (!quality.spoilt()) return;
-  d.verdict = Verdict::unknown;
+  d.verdict = Verdict::bad_data;
   d.reason = Reason::data;
   d.effects.clear();
   d.best.reset();
@@ -171,23 +213,55 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
   Diagnosis d = measurement::diagnose(bench, p->model, catalogue, options, jobs);
   const Quality quality = examine(bench, d.base.fit, options.effort, jobs);
   withdraw_if_spoilt(quality, d);
+  std::vector<const dynamics::Effect*> forms;
+  for (const LawForm& form : law_forms()) forms.push_back(&form.effect);
+  propose_law(bench, p->model, forms, options, jobs, d);
   widen_intervals(bench, d, jobs);
-  Json json = {{"format", "freestand-diagnosis/1"},
+  Json json = {{"format", "freestand-diagnosis/2"},
                {"study", run.study},
                {"measurements", p->measurements},
                {"name", p->data.name},
                {"error_unit", error_unit(bench)},
                {"verdict", name(d.verdict)},
                {"reason", d.reason == Reason::none ? Json(nullptr) : Json(name(d.reason))},
+               {"decided_by", decided_by(bench, d)},
                {"effects", d.effects},
                {"best", d.best ? Json(label(d.candidates[*d.best])) : Json(nullptr)},
                {"sentences", d.sentences},
                {"findings", quality.findings},
                {"noise_floor", number_or_null(noise_floor(bench, d))},
                {"base", candidate_json(bench, d.base)}};
+  json["tests_of_chance"] = Json::array();
+  for (const Chance& c : d.chances)
+    json["tests_of_chance"].push_back({{"question", c.question},
+                                       {"about", c.about},
+                                       {"p", c.p},
+                                       {"level", chance_level},
+                                       {"observed", c.observed},
+                                       {"chance_reaches", c.usual},
+                                       {"simulations", c.simulations}});
+  json["sensors"] = Json::object();
+  for (const Channel channel : {Channel::slip, Channel::rotation}) {
+    const Sensor& s = bench.sensor(channel);
+    if (bench.noise(channel) > 0)
+      json["sensors"][name(channel)] = {{"white", s.white},
+                                        {"coloured", s.coloured},
+                                        {"correlation_s", s.correlation_s},
+                                        {"drift_per_s", s.drift_per_s},
+                                        {"size_error_ln", s.size_error},
+                                        {"quiet_s", s.quiet_s}};
+  }
+  json["friction_scatter"] = d.own_friction ? Json{{"standard_deviation_ln", d.own_friction->scatter},
+                                                   {"factors", d.own_friction->factors},
+                                                   {"chi_square_fit", number_or_null(d.own_friction->misfit)}}
+                                            : Json(nullptr);
   json["candidates"] = Json::array();
   for (const Candidate& c : d.candidates) json["candidates"].push_back(candidate_json(bench, c));
-  json["recovered_force"] = recovered_json(bench, d, d.best ? d.candidates[*d.best] : d.base);
+  json["recovered_force"] = recovered_json(bench, d,
+                                           d.proposal ? *d.proposal
+                                           : d.best   ? d.candidates[*d.best]
+                                                      : d.base);
+  json["proposed_law"] = proposal_json(bench, d, json["recovered_force"]);
   json["suggested_motion"] = d.verdict == Verdict::ambiguous ? suggestion_json(bench, d, jobs) : Json(nullptr);
   add_provenance(json, world, run);
   return json;

@@ -106,6 +106,13 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
   return "chain: " + m.flow() + "\n";
 }
 
+std::string discrepancy_text(const std::optional<Quantity>& slip) {
+  if (!slip) return "";
+  Mapping m;
+  m.add(*slip);
+  return "discrepancy: " + m.flow() + "\n";
+}
+
 void add_amplitude(const MotionSource& source, Mapping& m) {
   if (!source.scale_to) return m.add(source.amplitude);
   Mapping target;
@@ -209,7 +216,8 @@ std::string samples_text(const Study& study) {
   if (study.scrambles > 1) text += fmt::format("scrambles: {}\n", study.scrambles);
   text += fmt::format("block_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", study.block_size,
                       number_text(study.tolerance), number_text(study.free_vibration_s));
-  return text + model_text(study.model) + chain_text(study.model.chain) + motions_text(study.motions);
+  return text + model_text(study.model) + chain_text(study.model.chain) +
+         discrepancy_text(study.model.slip_discrepancy) + motions_text(study.motions);
 }
 
 std::string all_but_name(const Study& study) { return samples_text(study) + fragility_text(study.fragility); }

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "study/calibrate_keys.hpp"
 #include "study/paths.hpp"
+#include "study/posterior_tables.hpp"
 
 namespace freestand::study {
 namespace {
@@ -14,10 +16,10 @@ using namespace measurement;
 
 std::string number(double value) { return fmt::format("{}", value); }
 
-std::vector<FittedNumber> numbers_of(const ModelFit& fit) {
+std::vector<FittedNumber> numbers_of(const ModelFit& fit, const std::string& table) {
   std::vector<FittedNumber> numbers;
   for (std::size_t i = 0; i < fit.x.size(); ++i) {
-    numbers.push_back({.name = fit.model.free[i].name, .value = fit.x[i]});
+    numbers.push_back({.name = fit.model.free[i].name, .value = fit.x[i], .drawn_from = table});
     if (const auto known = interval_of(fit, i))
       numbers.back().lower = known->lower, numbers.back().upper = known->upper;
   }
@@ -41,7 +43,9 @@ void write_block(YAML::Node root, const Prepared& p) {
   block.SetStyle(YAML::EmitterStyle::Flow);
 }
 
-void write_numbers(YAML::Node root, const ModelFit& fit) { write_fitted(root["model"], "", numbers_of(fit)); }
+void write_numbers(YAML::Node root, const ModelFit& fit, const std::string& table) {
+  write_fitted(root["model"], "", numbers_of(fit, table));
+}
 
 std::string study_text(YAML::Node root) {
   root.SetStyle(YAML::EmitterStyle::Block);
@@ -65,10 +69,18 @@ void write_paths(YAML::Node root, const Prepared& p, const std::filesystem::path
   if (!way.empty()) root["paths_from"] = way;
 }
 
-std::string fitted_study(const Prepared& p, const ModelFit& fit, const std::filesystem::path& folder) {
+std::string fitted_study(const Prepared& p, const ModelFit& fit, const Posterior& open,
+                         const std::filesystem::path& folder) {
   YAML::Node root = YAML::Load(p.validation.text);
   write_block(root, p);
-  write_numbers(root, fit);
+  write_numbers(root, fit, open.draws.empty() ? "" : posterior_table);
+  root["model"].remove("discrepancy");
+  if (open.slip_scatter_ln > 0) {
+    YAML::Node slip;
+    slip["median"] = fmt::format("{:.4g}", std::exp(open.slip_bias_ln));
+    slip["dispersion"] = fmt::format("{:.4g}", open.slip_scatter_ln);
+    root["model"]["discrepancy"]["slip"]["lognormal"] = slip;
+  }
   write_paths(root, p, folder);
   return study_text(root);
 }

@@ -12,8 +12,8 @@ namespace freestand::study {
 // Dimensions that all tests have in common and the model does not give: with them a sweep can take the study as it is.
 void write_block(YAML::Node root, const Prepared&);
 
-// Values and intervals into every {calibrate: ...} of the model.
-void write_numbers(YAML::Node root, const measurement::ModelFit&);
+// Values and intervals into every {calibrate: ...} of the model, and the table of their joint draws where there is one.
+void write_numbers(YAML::Node root, const measurement::ModelFit&, const std::string& table = "");
 
 // The file, one line for each part of the model.
 std::string study_text(YAML::Node root);
@@ -21,7 +21,9 @@ std::string study_text(YAML::Node root);
 // The way to what the study names, and the measurements that were taken, for a file in `folder`.
 void write_paths(YAML::Node root, const Prepared&, const std::filesystem::path& folder);
 
-// The study as it was read, fitted, for a file in another folder.
-std::string fitted_study(const Prepared&, const measurement::ModelFit&, const std::filesystem::path& folder);
+// The study as it was read, fitted, with what is open of it: joint draws, and by how much the slips of another test lie beside the
+// model's. For a file in another folder.
+std::string fitted_study(const Prepared&, const measurement::ModelFit&, const measurement::Posterior&,
+                         const std::filesystem::path& folder);
 
 }  // namespace freestand::study

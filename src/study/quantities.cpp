@@ -18,6 +18,7 @@ std::vector<Quantity> quantities(const ModelPart& model) {
   add(model.impact.factor);
   for (const auto& effect : model.effects)
     for (const auto& q : effect.parameters) add(q);
+  add(model.slip_discrepancy);
   if (model.chain) {
     for (const auto& q : {model.chain->slack, model.chain->stiffness, model.chain->strength}) add(q);
     add(model.chain->height);

@@ -191,11 +191,11 @@ Ranking rank_intensities(const parallel::Communicator& world, const Study& study
   parallel::Words words = tally.words();
   world.sum_in_place(words);
   if (!world.is_root()) return {};
-  return {layout.samples, rank(fragility::RankingTally::from_words(options, words))};
+  return {layout.samples, reader.rows(), rank(fragility::RankingTally::from_words(options, words))};
 }
 
 ordered_json ranking_json(const Ranking& ranking) {
-  ordered_json json = {{"samples", ranking.samples}, {"demands", ordered_json::object()}};
+  ordered_json json = {{"samples", ranking.samples}, {"swept", ranking.swept}, {"demands", ordered_json::object()}};
   for (const RankedDemand& demand : ranking.demands) {
     ordered_json ims = ordered_json::array();
     for (const RankedIm& im : demand.ims) {
@@ -246,10 +246,14 @@ std::string ranking_csv(const Ranking& ranking) {
 std::string ranking_text(const Ranking& ranking, const Study& study, bool all) {
   std::string text;
   for (const RankedDemand& demand : ranking.demands) text += all ? table(demand) : one_line(demand, study);
-  if (all && !text.empty())
-    text +=
-        fmt::format("\nof the first {} samples; standard errors and p values take motions, not samples, as the unit\n",
-                    ranking.samples);
+  if (text.empty()) return text;
+  const std::string which = ranking.samples < ranking.swept
+                                ? fmt::format("of the first {} of {} samples", ranking.samples, ranking.swept)
+                                : fmt::format("of all {} samples", ranking.samples);
+  if (all)
+    text += fmt::format("\n{}; standard errors and p values take motions, not samples, as the unit\n", which);
+  else if (ranking.samples < ranking.swept)
+    text += fmt::format("intensities are ranked by demands {}\n", which);
   return text;
 }
 

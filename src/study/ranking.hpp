@@ -13,12 +13,15 @@
 
 namespace freestand::study {
 
-// As many samples are ranked, the first of the sweep: motions are the unit, and more samples of the same motions tell
-// little more.
+// As many samples are ranked, the first of the sweep, and what is told says so. Of records the motions are the unit: a hundred samples tell
+// the mean of each to a tenth of what samples scatter about it, and then more samples of the same motions tell nothing. Of pulses each
+// sample is a motion: the scatter of ln demand is known to 1 % by the jackknife of configs/quickstart.yaml, and two scatters are parted
+// that differ by 0.6 % of it (0.0023 +- 0.0022 of 0.81 between PGV and Housner's intensity is not): nobody chooses by less. What happened
+// to fewer than 10 of them is not ranked. The tally has the same size for any number, but takes 10 us a sample, a third of a sweep.
 inline constexpr std::int64_t most_ranked_samples = 65536;
 
 struct Ranking {
-  std::int64_t samples = 0;                      // that were ranked
+  std::int64_t samples = 0, swept = 0;           // that were ranked, that the sweep has
   std::vector<fragility::RankedDemand> demands;  // of the study
 };
 

@@ -11,8 +11,8 @@ namespace {
 
 using namespace sampling;
 
-const std::vector<std::string> kinds_of_distribution = {"uniform",   "log_uniform", "normal",
-                                                        "lognormal", "triangular",  "choice"};
+const std::vector<std::string> kinds_of_distribution = {"uniform",    "log_uniform", "normal",   "lognormal",
+                                                        "triangular", "choice",      "posterior"};
 
 // The n numbers of `key`, or nothing and a problem.
 std::optional<std::vector<double>> exactly(Section& section, const std::string& key, std::size_t n, const char* form) {
@@ -65,6 +65,12 @@ std::optional<Distribution> read_kind(Section& section, const std::string& kind)
     Choice choice{section.numbers("choice"), section.numbers("weights")};
     if (section.problems().count() != before) return {};
     return choice;
+  }
+  if (kind == "posterior") {
+    const std::size_t before = section.problems().count();
+    Posterior joint{section.text("posterior", ""), section.text("column", ""), section.numbers("values")};
+    if (section.problems().count() != before) return {};
+    return joint;
   }
   if (kind == "triangular") {
     const auto v = exactly(section, kind, 3, "[lower, mode, upper]");

@@ -22,9 +22,15 @@ using measurement::Test;
 
 constexpr const char* format_name = "freestand-measurements/1";
 constexpr Range size_range = {.lower = 0, .why = "a size must be above zero"};
+constexpr Range tolerance_range = {.lower = 0,
+                                   .upper = 0.1,
+                                   .lower_open = false,
+                                   .why = "it is a standard deviation over what is stated, 0.01 is 1 %"};
 constexpr Range noise_range = {.lower = 0, .why = "errors are told in units of it, so that it must be above zero"};
 const std::vector<std::string> peak_keys = {"peak_slip_m", "residual_slip_m", "peak_rotation_rad",
                                             "peak_acceleration_g", "overturned"};
+
+}  // namespace
 
 Dimensions read_dimensions(Section& file, const Dimensions& fallback) {
   Dimensions dimensions = fallback;
@@ -50,6 +56,19 @@ measurement::Noise read_noise(Section& file) {
   section.finish();
   return noise;
 }
+
+measurement::Tolerance read_tolerance(Section& file) {
+  measurement::Tolerance tolerance;
+  const YAML::Node* node = file.find("tolerance");
+  if (!node) return tolerance;
+  Section section(*node, "tolerance", file.line("tolerance"), file.problems());
+  tolerance.width = section.number("width", tolerance.width, tolerance_range);
+  tolerance.floor_gain = section.number("floor_gain", tolerance.floor_gain, tolerance_range);
+  section.finish();
+  return tolerance;
+}
+
+namespace {
 
 // With a pulse, peak_acceleration_g is the pulse's, whose sign is its direction; the block's own peak is then not given.
 void read_peaks(Section& section, measurement::Peaks& peaks) {
@@ -144,7 +163,7 @@ void read_tests(Section& file, Dataset& set) {
     if (twice)
       file.problems().add(line, fmt::format("test {} stands twice (an id names one test): rename one", test.id));
     const auto same = std::find_if(set.tests.begin(), set.tests.end(), [&](const Test& t) {
-      return t.has_history() && test.has_history() && t.slip_m == test.slip_m &&
+      return t.has_history() && test.has_history() && t.slip_m == test.slip_m && t.rotation_rad == test.rotation_rad &&
              t.motion.horizontal_mps2 == test.motion.horizontal_mps2;
     });
     if (same != set.tests.end() && !twice)
@@ -196,6 +215,7 @@ Dataset read_measurements(const std::filesystem::path& path) {
     set.sampling_dt_s = file.number("sampling_dt_s", 0, range::positive);
     set.specimen = read_dimensions(file, {});
     set.noise = read_noise(file);
+    set.tolerance = read_tolerance(file);
     read_tests(file, set);
     check_noise(file, set);
     file.finish();

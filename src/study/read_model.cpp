@@ -189,6 +189,15 @@ std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
   return chain;
 }
 
+std::optional<Quantity> read_discrepancy(Section& file) {
+  const YAML::Node* node = file.find("discrepancy");
+  if (!node) return {};
+  Section section(*node, "discrepancy", file.line("discrepancy"), file.problems());
+  auto slip = section.quantity("discrepancy", "slip", above_zero);
+  section.finish();
+  return slip;
+}
+
 }  // namespace
 
 ModelPart read_model(Section& file) {
@@ -204,6 +213,7 @@ ModelPart read_model(Section& file) {
       file.problem("impact",
                    "effect impact_loss does not go with impact law coulomb (its impulse follows from friction alone): "
                    "remove the effect, or use housner");
+  model.slip_discrepancy = read_discrepancy(file);
   model.chain = read_chain(file, model);
   if (const std::string text = no_room_for(model.effects, model.chain);
       model.chain && !text.empty() && no_room_for(model.effects, {}).empty())

@@ -49,7 +49,7 @@ void read_damage(Section& fragility, const Known&, FragilityPart&);
 // The study that a mapping says. Throws Error (Exit::usage) with all problems. `path`: names it in messages, and its folder
 // is where relative paths start. line: of the mapping, for what it lacks.
 Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known&, Files, Problems&,
-                 int line = 1);
+                 int line = 1, FittedAs = FittedAs::draws);
 
 // Text of `motions`, as expanded() writes it.
 std::string motions_text(const std::vector<MotionSource>&);

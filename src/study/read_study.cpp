@@ -10,6 +10,7 @@
 #include "study/accuracy.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/paths.hpp"
+#include "study/posterior_tables.hpp"
 #include "study/read_parts.hpp"
 #include "study/target.hpp"
 
@@ -139,9 +140,10 @@ Known known_of(const Study& study, Known known, Files look) {
 }  // namespace
 
 Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, const Known& known, Files look,
-                 Problems& problems, int line) {
+                 Problems& problems, int line, FittedAs fitted) {
   Study study;
-  sweep_model(root, problems);
+  sweep_model(root, problems, fitted);
+  read_posterior_tables(root, path.parent_path(), problems);
   Section file(root, "", line, problems);
   problems.throw_if_any();
   refuse_other_kind(file, "motions", "motion",
@@ -158,11 +160,12 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   return study;
 }
 
-Study parse_study(const std::string& text, const std::filesystem::path& path, const Known& known, Files look) {
+Study parse_study(const std::string& text, const std::filesystem::path& path, const Known& known, Files look,
+                  FittedAs fitted) {
   Problems problems(path.string());
   const auto root = parse_yaml(text, problems);
   problems.throw_if_any();
-  return read_sweep(*root, path, known, look, problems);
+  return read_sweep(*root, path, known, look, problems, 1, fitted);
 }
 
 Case parse_case(const std::string& text, const std::filesystem::path& path) {
@@ -178,14 +181,16 @@ Case parse_case(const std::string& text, const std::filesystem::path& path) {
     one.study.motions = {read_motion(file, one.study.folder)};
     one.output_step_s = file.number("output_step_s", one.output_step_s, range::positive);
     refuse_distributions(one.study, problems);
+    if (one.study.model.slip_discrepancy)
+      file.problem("discrepancy", "discrepancy is of a study (a case is the model's own answer): remove it");
     file.finish();
   }
   problems.throw_if_any();
   return one;
 }
 
-Study read_study(const std::filesystem::path& file, const Known& known) {
-  return parse_study(read_text(file), file, known);
+Study read_study(const std::filesystem::path& file, const Known& known, FittedAs fitted) {
+  return parse_study(read_text(file), file, known, Files::look, fitted);
 }
 
 Case read_case(const std::filesystem::path& file) { return parse_case(read_text(file), file); }

@@ -52,7 +52,7 @@ void fill_dimensions(YAML::Node model, Validation& v) {
 // Every number of the model that is no distribution.
 void check_fixed(const ModelPart& model, Problems& problems) {
   for (const Quantity& q : quantities(model))
-    if (!is_fixed(q.value))
+    if (!is_fixed(q.value) && q.name.rfind("discrepancy.", 0) != 0)
       problems.add(q.line, fmt::format("{} is a distribution (a measured specimen has one value): give a number, or "
                                        "{{calibrate: [lower, upper]}}",
                                        q.name));

@@ -269,6 +269,7 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
                              *parts.value(out.draws, "bouc_wen.exponent"), *parts.value(out.draws, "bouc_wen.gamma"),
                              *parts.value(out.draws, "bouc_wen.beta")};
   out.specimen.effects = parts.effects(out.draws);
+  out.slip_factor = parts.value(out.draws, "discrepancy.slip").value_or(1);
   if (parts.model.chain) out.specimen.effects.push_back(parts.chain(out.draws, out.specimen.block));
   parts.shake(sample, out);
 

@@ -48,6 +48,7 @@ struct Realisation {
   std::size_t motion = 0;     // index into the MotionSet
   double pulse_period_s = 0;  // nan for records
   double pta_g = 0;           // peak of the scaled horizontal motion
+  double slip_factor = 1;     // by which slips are multiplied: discrepancy.slip of the study
   std::vector<double> draws;  // one value for each of draw_columns()
 };
 

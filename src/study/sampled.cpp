@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 namespace freestand::study {
 namespace {
@@ -17,17 +18,29 @@ struct Classes {
       items = choice->values.size();
       weights = choice->weights;
     }
+    if (const auto* joint = std::get_if<sampling::Posterior>(&quantity.value)) class_of_row = ranked(joint->values);
+  }
+  // Rows of a table of joint draws: of each, the class of its value among the others.
+  static std::vector<int> ranked(const std::vector<double>& values) {
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+    std::vector<int> of(values.size());
+    for (std::size_t k = 0; k < order.size(); ++k) of[order[k]] = static_cast<int>(k * classes / order.size());
+    return of;
   }
   bool ordered() const { return items == 0; }
   int count() const { return ordered() ? classes : static_cast<int>(items); }
   int operator()(std::uint64_t sample) const {
     const double u = stream(sample);
+    if (!class_of_row.empty()) return class_of_row[sampling::pick(class_of_row.size(), {}, u)];
     return ordered() ? static_cast<int>(u * classes) : static_cast<int>(sampling::pick(items, weights, u));
   }
 
   Stream stream;
   std::size_t items = 0;  // of a choice
   std::vector<double> weights;
+  std::vector<int> class_of_row;  // of joint draws
 };
 
 bool is_drawn(const std::optional<Quantity>& quantity) { return quantity && !is_fixed(quantity->value); }

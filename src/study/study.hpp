@@ -31,7 +31,10 @@ struct Quantity {
   int line = 0;               // of the study file, for messages; 0: a default
   std::string drawn_as = {};  // the parameter whose draws it takes; empty: its own
 
-  const std::string& stream() const { return drawn_as.empty() ? name : drawn_as; }
+  std::string stream() const {
+    if (const auto* joint = std::get_if<sampling::Posterior>(&value)) return "posterior." + joint->table;
+    return drawn_as.empty() ? name : drawn_as;
+  }
 };
 
 // Either width and height, or slenderness alpha = atan(W/H) and size R = half the diagonal.
@@ -81,6 +84,8 @@ struct ModelPart {
   ImpactPart impact;
   std::vector<EffectPart> effects;
   std::optional<ChainPart> chain;
+  std::optional<Quantity>
+      slip_discrepancy;  // discrepancy.slip: measured slips over those of the model, of which no law is known
 };
 
 // Every number of the model, in the order of its columns.
@@ -230,13 +235,17 @@ struct Known {
 // be there any more; MotionSource::files stays empty.
 enum class Files { look, ignore };
 
+// Numbers that were fitted to measurements: their joint draws, where the study names a table of them, or their best values.
+enum class FittedAs { draws, best };
+
 // Reads and checks a study or case. Every problem of the file is reported at once: throws Error (Exit::usage) with one
 // line each, "file:line: problem (why): what to do".
-Study read_study(const std::filesystem::path& file, const Known&);
+Study read_study(const std::filesystem::path& file, const Known&, FittedAs = FittedAs::draws);
 Case read_case(const std::filesystem::path& file);
 
 // The same from text; `file` names it in messages and its folder is where globs start.
-Study parse_study(const std::string& text, const std::filesystem::path& file, const Known&, Files = Files::look);
+Study parse_study(const std::string& text, const std::filesystem::path& file, const Known&, Files = Files::look,
+                  FittedAs = FittedAs::draws);
 Case parse_case(const std::string& text, const std::filesystem::path& file);
 
 // The study that a result of this program stores; its records are not looked for. `origin` names it in messages.

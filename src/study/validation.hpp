@@ -1,37 +1,49 @@
 // The verbs that hold the model against measurements.
 //
 // comparison.json
-//   format "freestand-comparison/1", study, measurements, specimen_model (effects of the model), error_unit ("noise units",
+//   format "freestand-comparison/2", study, measurements, specimen_model (effects of the model), error_unit ("noise units",
 //   "ln ratio", "Brier"), method (of the calibration, a sentence)
-//   tests: [{id, role, kind (history|peaks|outcome), floor_peak_g, error_noise_units, error_relative, error_explained (the same with
-//     the floor's noise allowed for), error_expected (what noise alone would make), channels: [{name, error_noise_units,
-//     error_relative, bias, autocorrelation}], peaks: [{name, measured, model}], overturned_measured,
-//     overturned_probability, outcome}]
-//   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_explained, tests}; error in
+//   tests: [{id, role, kind (history|peaks|outcome), floor_peak_g, error_noise_units, error_relative,
+//     error_floor_noise_allowed (error_noise_units with the floor's noise allowed for, sample by sample), error_expected
+//     (what noise alone would make), channels: [{name, error_noise_units, error_relative, bias, autocorrelation}],
+//     peaks: [{name, measured, model}], overturned_measured, overturned_probability, outcome, within_band (share of the
+//     readings that lie where 90 of 100 are predicted)}]
+//   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_floor_noise_allowed, tests}; error in
 //     error_unit; error_expected of outcomes: the score that chance alone would make, were the model's probabilities
 //     right; null where there are no such tests
 //   parameters: [{name, unit, value, lower, upper, interval: [l, u] or null, no_interval (why, where it is null),
-//     calibrated (by this run)}]
+//     calibrated (by this run), interval_90 (of the joint draws, or null)}]
+//   posterior: null where there are no draws, else {table, draws, dispersion (of the tests' pulls on the numbers, over what
+//     noise makes), degrees_of_freedom, friction_scatter (standard deviation of ln mu from test to test), slip_bias_ln and
+//     slip_scatter_ln (of peaks: ln(measured/model) of another test), share_counted}
 //   peak_ratio: {count, bias_ln, scatter_ln, ratio}: predicted over measured peak slips
 //   findings: [sentence]
 //   histories: of the five worst: [{id, dt_s, time_s: [], floor_acceleration_mps2: [], CHANNEL: {measured: [], model: [],
-//     residual: [], noise, spread: [] (standard deviation that the floor's noise makes)}}], at most 2000 points each
+//     residual: [], noise, spread: [] (standard deviation that the floor's noise makes),
+//     band: {lower, upper} (where 90 of 100 readings are predicted, or null)}}], at most 2000 points each
 //   error_tables: {calibration: [{variable, unit, label, edge, centre, count, error_noise_units, growth_noise_units,
-//     bias_noise_units}], holdout: [...]}; variables phase, speed_mps, path_m, position_m, direction, normal_g, time_s,
-//     floor_g; growth: change of the residual within 0.1 s
+//     bias_noise_units, growth_slip_m, growth_rotation_rad}], holdout: [...]}; variables phase, speed_mps, path_m,
+//     position_m, direction (where slip was measured), normal_g, time_s, floor_g; growth: change of the residual within
+//     0.1 s, of the channel that changes more, or of one (0: not measured)
 //   ladder: [{step, error_calibration, error_holdout, noise_floor (of the calibration tests), noise_floor_holdout,
 //     explained_holdout (error_holdout with the floor's noise allowed for)}] of the study
 //
 // diagnosis.json
-//   format "freestand-diagnosis/1", study, measurements, error_unit, verdict, effects, sentences, findings
-//   reason: of the verdict unknown: "data" (they look wrong in a sign, a clock or a unit), "none_helps" (no effect lowers
+//   format "freestand-diagnosis/2", study, measurements, error_unit, verdict, effects, sentences, findings
+//   decided_by: the key by which the verdict was reached: tests_of_chance, friction_scatter, findings; where no chance was
+//     computed chi_square_left_out (histories) or score_left_out_above_best (peaks, outcomes) of the candidates
+//   reason: of bad_data: "data" (they look wrong in a sign, a clock or a unit, or a dimension or a gain is not as stated);
+//     of the verdict unknown: "none_helps" (no effect lowers
 //     the error by more than chance), "none_suffices" (one does, and more is left than noise makes); else null
 //   best: the candidate that the verdict and `law` speak of, as its `effect`; null where there is none
 //   base, candidates: [{effect (two joined by "+"), effects: [], visible, parameters: {NAME: {value, interval, no_interval,
 //     unit}},
-//     error_calibration, error_left_out, error_left_out_se, error_explained, misfit, delta_bic, difference (of the mean
-//     left-out score to that of `best`), difference_se, rival, practical, left_out_refitted, remark (why it was not fitted
-//     to the end, or null)}]: the best, its rivals, others that were fitted to the end by left-out error, the rest; of
+//     error_calibration, error_left_out, error_left_out_se, error_left_out_floor_noise_allowed (sqrt of chi_square_left_out
+//     over samples: 1 where sensor and floor noise explain all), chi_square_left_out, chi_square_fit (of the fit to all
+//     tests), delta_bic, score_left_out_above_best (in the mean, paired), score_left_out_above_best_se, as_good_as_best
+//     (chance does not part it from `best`; of `best` too), numbers_as_met_in_practice, left_out_refitted, remark (why it
+//     was not fitted to the end, or null)}]: the best, those as good, others that were fitted to the end by left-out
+//     error, the rest; of
 //     `base` no effect
 //   noise_floor: error that sensor and floor noise alone would make; of outcomes the score that chance alone would make,
 //     were the base's probabilities right
@@ -67,6 +79,7 @@ struct ValidationRun {
 struct Compared {
   nlohmann::ordered_json json;
   std::string fitted;  // the study with the numbers that were fitted, for a file in `folder`: a sweep takes it as it is
+  std::string draws;   // the table of their joint draws beside it, posterior_table; empty: none
 };
 Compared compare(const parallel::Communicator&, const ValidationRun&, const std::filesystem::path& folder);
 nlohmann::ordered_json diagnose(const parallel::Communicator&, const ValidationRun&);

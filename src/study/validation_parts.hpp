@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "measurement/model_fit.hpp"
+#include "measurement/posterior.hpp"
 #include "study/validation.hpp"
 
 namespace freestand::study {
@@ -33,9 +33,10 @@ struct RoleError {
 };
 RoleError role_error(const measurement::Bench&, const std::vector<measurement::TestComparison>&, measurement::Role);
 
-// All tests compared, spread over the ranks.
+// All tests compared, spread over the ranks. Probabilities of overturning are the mean over the draws where there are any: the best
+// numbers alone would be too sure of themselves.
 std::vector<measurement::TestComparison> compare_tests(const measurement::Bench&, const measurement::ModelFit&,
-                                                       const Jobs&);
+                                                       const measurement::Posterior&, const Jobs&);
 
 const char* error_unit(const measurement::Bench&);
 nlohmann::ordered_json ladder_json(const std::vector<LadderStep>&);

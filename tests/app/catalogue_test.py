@@ -105,12 +105,12 @@ class Catalogue(InFolder):
                     columns.add(f"entries/{column}")
                     self.assertEqual(text, db["entries"][column].asstr()[i])
             everything = {f"{table}/{name}" for table in ("entries", "curves", "points") for name in db[table]}
-            self.assertEqual(everything - columns, {"entries/id", "curves/entry", "points/curve"})
+            self.assertEqual(everything - columns, {"entries/id", "curves/curve", "curves/entry", "points/point", "points/curve"})
             # Words are a closed list.
             self.assertLessEqual(set(db["curves/demand"].asstr()[()]), set(words["demands"]))
             self.assertLessEqual(set(db["curves/intensity"].asstr()[()]), set(words["intensities"]))
             self.assertLessEqual(set(db["curves/family"].asstr()[()]), set(words["families"]))
-            self.assertLessEqual({name.split("/")[1] for name in everything} - {"entry", "curve"}, set(words["columns"]))
+            self.assertLessEqual({name.split("/")[1] for name in everything} - {"entry", "curve", "point"}, set(words["columns"]))
 
     def test_a_changed_entry_is_refused_or_computed_anew(self):
         self.build(FRIDGE + RACK)
@@ -177,7 +177,13 @@ class Catalogue(InFolder):
         db = self.folder / "db"
         self.assertIn("2 entries over pgv_mps in", said)
         self.assertEqual(sorted(path.name for path in (db / "exports" / "openquake" / "pgv_mps").iterdir()), ["certificate.json", "fragility.xml"])
-        self.assertEqual(sorted(path.name for path in (db / "exports" / "csv" / "pga_g").iterdir()), ["certificate.json", "low-box.csv", "tall.csv"])
+        self.assertEqual(sorted(path.name for path in (db / "exports" / "csv" / "pga_g").iterdir()), ["certificate.json", "fragility.csv"])
+        with open(db / "exports" / "csv" / "pga_g" / "fragility.csv", newline="", encoding="utf-8") as stream:
+            table = list(csv.DictReader(stream))
+        self.assertEqual(sorted({row["id"] for row in table}), ["low-box", "tall"])
+        own = [row for row in self.rows("points.csv") if (row["id"], row["intensity"], row["demand"], row["capacity"]) == ("tall", "pga_g", "peak_slip_m", "0.05")]
+        self.assertEqual([(float(row["im_value"]), float(row["probability"])) for row in table if (row["id"], row["demand"], row["capacity"]) == ("tall", "peak_slip_m", "0.05")],
+                         [(float(row["im"]), float(row["probability"])) for row in own])
         self.succeed(["catalogue", self.folder / "some.yaml", "-o", db])  # and again
         self.fail_with(2, ["catalogue", self.write("bad.yaml", text.replace("[openquake", "[openqake")), "-o", db], "exports names openqake", "openquake")
         said = self.succeed(["export", db, "--to", "openquake", "--im", "pgv_mps", "--demand", "peak_slip_m", "-o", self.folder / "all.xml"]).stdout

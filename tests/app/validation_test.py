@@ -66,8 +66,21 @@ class Validation(InFolder):
         self.assertGreater(base["error_holdout"], 20 * added["error_holdout"])
         sweep = (out / "fitted.yaml").read_text(encoding="utf-8").replace("samples: 20000", "samples: 300")
         self.succeed(["run", self.write("after/sweep.yaml", sweep), "-o", self.folder / "sweep", "--quiet"])
-        effects = (self.folder / "sweep" / "study.yaml").read_text(encoding="utf-8")
-        self.assertIn("rate_weakening", effects)
+        swept = (self.folder / "sweep" / "study.yaml").read_text(encoding="utf-8")
+        self.assertIn("rate_weakening", swept)
+        # The numbers are drawn together, row by row of the table; --best takes the best ones.
+        lines = [line for line in (out / "fitted_draws.csv").read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+        self.assertEqual(lines[0], "friction.mu,effects.rate_weakening.drop,effects.rate_weakening.speed_mps")
+        self.assertEqual(swept.count("posterior: "), 3)
+        self.succeed(["run", self.folder / "after" / "sweep.yaml", "--best", "-o", self.folder / "best", "--quiet"])
+        self.assertNotIn("posterior", (self.folder / "best" / "study.yaml").read_text(encoding="utf-8"))
+        for test in comparison["tests"]:
+            self.assertGreater(test["within_band"], 0.8)
+        for number in comparison["parameters"]:
+            self.assertLess(number["interval"][0], number["interval_90"][0])
+            self.assertLess(number["interval_90"][1], number["interval"][1])
+        (out / "fitted_draws.csv").unlink()
+        self.fail_with(2, ["run", out / "fitted.yaml", "-o", self.folder / "lost"], "fitted_draws.csv", "--best")
 
     def test_a_formula_is_added_as_a_name_is(self):
         law = ('{name: my_law, friction: "mu*(1 - d*(1 - exp(-abs(v)/c_mps)))", '
@@ -102,6 +115,33 @@ class Validation(InFolder):
         twin = self.copy("twin", None)
         shutil.copy(twin.with_name("t01.csv"), twin.with_name("t02.csv"))
         self.fail_with(3, ["compare", twin, "-o", self.folder / "twin_out", "--quiet"], "test t02 has the file of test t01, or a copy")
+
+    def rewritten(self, name, tests, row):
+        """Some tests of the walk-through, each row of their csv (after the names) as row(i, rows) says."""
+        study = self.copy(name, tests)
+        for test in tests:
+            file = study.with_name(f"{test}.csv")
+            head, *lines = file.read_text(encoding="utf-8").splitlines()
+            rows = [dict(zip(head.split(","), line.split(","))) for line in lines]
+            rows = [row(i, rows) for i in range(len(rows))]
+            file.write_text(",".join(rows[0]) + "\n" + "\n".join(",".join(r.values()) for r in rows) + "\n", encoding="utf-8")
+        return study
+
+    def test_too_little_or_impossible_data_get_no_verdict(self):
+        one = self.copy("one", ("t02",))
+        self.fail_with(3, ["diagnose", one, "-o", self.folder / "o", "--quiet"], "cabinet has 1 calibration test for 1 number")
+        still = self.rewritten("still", ("t02", "t03", "t05"), lambda i, rows: rows[i] | {"slip_m": rows[i % 40]["slip_m"]})
+        self.fail_with(3, ["diagnose", still, "-o", self.folder / "s", "--quiet"], "dataset.yaml", "no test shows motion above the noise")
+        twin = self.rewritten("copy", ("t03",), lambda i, rows: rows[i] | {"rotation_rad": rows[i]["slip_m"]})
+        self.fail_with(3, ["compare", twin, "-o", self.folder / "c", "--quiet"], "t03.csv:1", "rotation_rad is a copy of slip_m")
+
+    def test_a_response_that_begins_before_its_floor_is_bad_data(self):
+        early = self.rewritten("early", ("t02", "t03", "t05"),
+                               lambda i, rows: rows[i] | {"slip_m": rows[min(i + 300, len(rows) - 1)]["slip_m"]})
+        self.succeed(["diagnose", early, "-o", self.folder / "e", "--quiet"])
+        found = read(self.folder / "e" / "diagnosis.json")
+        self.assertEqual((found["verdict"], found["reason"], found["effects"], found["decided_by"]), ("bad_data", "data", [], "findings"))
+        self.assertTrue(any("before its floor" in finding for finding in found["findings"]), found["findings"])
 
     def test_bytes_of_a_binary_file_reach_no_terminal(self):
         for name in ("t03.csv", "dataset.yaml"):

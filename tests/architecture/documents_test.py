@@ -64,9 +64,14 @@ class Documents(unittest.TestCase):
 @unittest.skipUnless(PROGRAM, "no program (FREESTAND is not set)")
 class WithProgram(unittest.TestCase):
     def test_study_of_the_readme_is_accepted(self):
-        (parts, study) = re.findall(r"```yaml\n(.*?)```", text("README.md"), re.S)  # effects and chain, and a whole study
+        (parts, laboratory, study) = re.findall(r"```yaml\n(.*?)```", text("README.md"), re.S)  # effects and chain, files of a laboratory, a whole study
         self.check(study)
         self.check(study + parts)
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "lab.yaml"
+            path.write_text(laboratory, encoding="utf-8")
+            result = subprocess.run([PROGRAM, "import", path, "-o", pathlib.Path(folder) / "bench"], capture_output=True, text=True, timeout=60)
+        self.assertIn("table_01.txt cannot be read", result.stderr)  # all that is wrong with it here
 
     def check(self, study):
         with tempfile.TemporaryDirectory() as folder:

@@ -96,9 +96,8 @@ struct BandCase {
 
 class RiskBands : public testing::TestWithParam<BandCase> {};
 
-// Wanted of 90 % intervals with shared records: 87 to 93 %. Fourteen records are too few for that at the steeper hazard (risk.hpp);
-// there two standard deviations of so many repeats are granted. By counts the exact limits of bins in which nothing was counted make
-// the bands wider than asked. FREESTAND_REPEATS for more.
+// Wanted of 90 % intervals with shared records: 87 to 93 %, and figures of many repeats in risk.hpp. Of fewer than 40 records by counts
+// the limit is missed on one side alone, and there at most as often as asked: up to 0.96 is granted. FREESTAND_REPEATS for more.
 TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
   const BandCase& at = GetParam();
   Sweep sweep;
@@ -106,7 +105,6 @@ TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
   sweep.median = at.median;
   const char* asked = std::getenv("FREESTAND_REPEATS");
   const int repeats = asked ? std::atoi(asked) : at.repeats;
-  const double granted = at.records < 40 ? 2 * std::sqrt(0.87 * 0.13 / repeats) : 0;
   const double k0 = 1e-3, slopes[] = {1.5, 2.5};
   Misses by_function[2], by_counts[2];
   int differ[2] = {0, 0};
@@ -128,16 +126,28 @@ TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
     // Of a true curve the rate is called another one than that of the counts no oftener than the bands miss, one in ten.
     RecordProperty(fmt::format("rates_differ_{}", i), differ[i]);
     EXPECT_LE(differ[i], repeats * (0.1 + 2 * std::sqrt(0.1 * 0.9 / repeats))) << slopes[i];
-    EXPECT_GE(by_function[i].coverage(), 0.87 - granted) << slopes[i] << ": " << text(by_function[i]);
-    EXPECT_LE(by_function[i].coverage(), 0.93 + granted) << slopes[i] << ": " << text(by_function[i]);
-    EXPECT_GE(by_counts[i].coverage(), 0.87 - granted) << slopes[i] << ": " << text(by_counts[i]);
+    EXPECT_GE(by_function[i].coverage(), 0.87) << slopes[i] << ": " << text(by_function[i]);
+    EXPECT_LE(by_function[i].coverage(), 0.93) << slopes[i] << ": " << text(by_function[i]);
+    EXPECT_GE(by_counts[i].coverage(), 0.87) << slopes[i] << ": " << text(by_counts[i]);
+    EXPECT_LE(by_counts[i].coverage(), at.records < 40 ? 0.96 : 0.93) << slopes[i] << ": " << text(by_counts[i]);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, RiskBands,
-                         testing::Values(BandCase{40, 0.6, 450}, BandCase{40, 1.5, 450}, BandCase{14, 0.6, 250},
-                                         BandCase{14, 1.5, 250}),
+                         testing::Values(BandCase{40, 0.6, 500}, BandCase{40, 1.5, 500}, BandCase{14, 0.6, 500},
+                                         BandCase{14, 1.5, 500}),
                          [](const auto& info) { return fmt::format("{}Records{}", info.param.records, info.index); });
+
+// Of ten bins as wide as the curve's dispersion a polygon through their shares gives 1.08 and 1.27 times the rate.
+TEST(Risk, WideBinsDoNotRaiseTheCountedRate) {
+  Sweep sweep;
+  sweep.records = 600;
+  const fragility::Result result = sweep.fit(3, 2);
+  for (const double k : {1.5, 2.5}) {
+    const double truth = 1e-3 * std::pow(sweep.median, -k) * std::exp(0.5 * std::pow(k * sweep.dispersion(), 2));
+    EXPECT_NEAR(risk(result, power_law(1e-3, k, 1e-3, 50)).rows[0].by_counts.value / truth, 1, k == 1.5 ? 0.04 : 0.08);
+  }
+}
 
 // An upper limit of the lowest bin that says nothing (few motions, none of which overturned there) is replaced by that of a higher one.
 TEST(Risk, WhereNothingWasCountedTheLimitsOfHigherIntensitiesHold) {

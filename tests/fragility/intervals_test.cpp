@@ -1,5 +1,6 @@
 #include "fragility/intervals.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
 #include <gtest/gtest.h>
 
@@ -72,6 +73,17 @@ TEST(PercentileInterval, MedianBiasMovesBothEnds) {
   const Interval interval = percentile_interval(values, 0.691462, 0.95, 1000000);
   EXPECT_NEAR(interval.lower, 0.168538, 1e-4);
   EXPECT_NEAR(interval.upper, 0.998461, 1e-4);
+}
+
+// Limits of a normal number, at(t) = z(t): a limit at z(0.01) leaves 0.04 of a tail of 0.05, one at z(0.05) nothing, one out of reach all.
+TEST(UnusedTail, IsWhatALimitThatWasMovedOutwardsDoesNotNeed) {
+  const auto above = [](double t) { return gsl_cdf_ugaussian_Qinv(t); };
+  const auto below = [](double t) { return gsl_cdf_ugaussian_Pinv(t); };
+  EXPECT_NEAR(unused_tail(0.05, +1, above, above(0.01)), 0.04, 1e-4);
+  EXPECT_NEAR(unused_tail(0.05, -1, below, below(0.01)), 0.04, 1e-4);
+  EXPECT_EQ(unused_tail(0.05, +1, above, above(0.05)), 0);
+  EXPECT_EQ(unused_tail(0.05, -1, below, below(0.2)), 0);
+  EXPECT_EQ(unused_tail(0.05, +1, above, 100), 0.05);
 }
 
 TEST(BenjaminiHochberg, ExampleOfTheirPaper) {

@@ -11,34 +11,32 @@
 namespace freestand::fragility {
 namespace {
 
-// By hand: ln of left out 1, e, e^2, e^3 about 1.5: squares 2.25, 0.25, 0.25, 2.25; V = 3/4 * 5 = 3.75; m2 = 1.25, m4 = 2.5625;
-// f = 2 * 3.75^2/(9/4 (2.5625 - 1.5625)) = 12.5, at most 3.
-TEST(JackknifeOfPositive, IsStudentsIntervalOfTheLogarithm) {
-  const std::vector<double> left_out{1, std::exp(1), std::exp(2), std::exp(3)};
-  const Interval found = jackknife_of_positive(5, {left_out}, 0.9);
+// By hand: ln of left out 0, 1, 2, 3 about 1.5: V = 3/4 * 5 = 3.75; they scatter less than normal ones (k < 0), so 3 degrees of freedom.
+TEST(PositiveLimits, AreStudentsOfTheLogarithm) {
+  const PositiveLimits found(5, {{1, std::exp(1), std::exp(2), std::exp(3)}});
   const double reach = gsl_cdf_tdist_Qinv(0.05, 3) * std::sqrt(3.75);
-  EXPECT_NEAR(std::log(found.upper / 5), reach, 1e-12);
-  EXPECT_NEAR(std::log(found.lower / 5), -reach, 1e-12);
+  EXPECT_NEAR(std::log(found.upper(0.05) / 5), reach, 1e-12);
+  EXPECT_NEAR(std::log(found.lower(0.05) / 5), -reach, 1e-12);
 }
 
-// One group of twenty makes all of the scatter: ln left out are 19 times 0 and once 20, mean 1: m2 = 19, m4 = (19 + 19^4)/20 = 6517;
-// V = 19/20 * 20 * 19 = 361; f = 2 * 361^2/(361/20 (6517 - 361)) = 2.3457.
-TEST(JackknifeOfPositive, HasFewDegreesOfFreedomWhereOneGroupMakesTheScatter) {
+// One group of twenty makes all of the scatter: ln left out are 19 times 0 and once 20; V = 19/20 * 20 * 19 = 361, and the unbiased
+// kurtosis of one outlier among n is n: f = 2/(2/19 + 20/20) = 38/21.
+TEST(PositiveLimits, HaveFewDegreesOfFreedomWhereOneGroupMakesTheScatter) {
   std::vector<double> left_out(19, 1.0);
   left_out.push_back(std::exp(20));
-  const Interval found = jackknife_of_positive(1, {left_out}, 0.9);
-  EXPECT_NEAR(std::log(found.upper), gsl_cdf_tdist_Qinv(0.05, 40.0 * 361 / 6156) * 19, 1e-9);
+  EXPECT_NEAR(std::log(PositiveLimits(1, {left_out}).upper(0.05)), gsl_cdf_tdist_Qinv(0.05, 38.0 / 21) * 19, 1e-9);
 }
 
-TEST(JackknifeOfPositive, AddsVariancesOfStrata) {
+TEST(PositiveLimits, AddVariancesOfStrata) {
   const std::vector<double> one{1, 2, 3}, two{1, 1.5, 2};
   const auto variance = [](const std::vector<double>& values) {
     std::vector<double> logarithms;
     for (const double value : values) logarithms.push_back(std::log(value));
     return jackknife_variance(logarithms);
   };
-  const Interval found = jackknife_of_positive(1, {one, two, {7}}, 0.9);
-  EXPECT_NEAR(std::log(found.upper), gsl_cdf_tdist_Qinv(0.05, 4) * std::sqrt(variance(one) + variance(two)), 1e-12);
+  const double a = variance(one), b = variance(two), freedom = (a + b) * (a + b) / (a * a / 2 + b * b / 2);
+  EXPECT_NEAR(std::log(PositiveLimits(1, {one, two, {7}}).upper(0.05)),
+              gsl_cdf_tdist_Qinv(0.05, freedom) * std::sqrt(a + b), 1e-12);
 }
 
 // Three records, of which the second has no samples, beside hashed groups: the mix of records and others stays as it was.
@@ -62,10 +60,10 @@ TEST(LeavingOut, KeepsTheMixOfTheStudy) {
   EXPECT_DOUBLE_EQ(without(4, 0), 6.0);
 }
 
-TEST(JackknifeOfPositive, IsUnknownWhereOneGroupMakesAllOfTheNumber) {
-  EXPECT_TRUE(std::isnan(jackknife_of_positive(1, {{1, 2, 0}}, 0.9).upper));
-  EXPECT_TRUE(std::isnan(jackknife_of_positive(0, {{0, 0, 0}}, 0.9).upper));
-  EXPECT_TRUE(std::isnan(jackknife_of_positive(1, {{1}}, 0.9).upper));
+TEST(PositiveLimits, AreUnknownWhereOneGroupMakesAllOfTheNumber) {
+  EXPECT_FALSE(PositiveLimits(1, {{1, 2, 0}}).known());
+  EXPECT_FALSE(PositiveLimits(0, {{0, 0, 0}}).known());
+  EXPECT_FALSE(PositiveLimits(1, {{1}}).known());
 }
 
 }  // namespace

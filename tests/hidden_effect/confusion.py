@@ -2,7 +2,7 @@
 """Does the diagnosis name what is hidden? The confusion table, and the rates, over made sets.
 
     confusion.py -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--ranks 1] [--again]
-                 [--unpicked] [--build build/release]
+                 [--unpicked] [--fault drift] [--build build/release]
 
 Makes each set (make_sets), runs `freestand diagnose` on it, and, where the answer is right, `freestand add` for each
 hidden effect. One line per set as it is done; DIR/results.jsonl keeps them, so that a later run goes on from there, and
@@ -12,7 +12,8 @@ What counts as what:
   right      the verdict is `missing` and names the hidden effects and no other; `none` where nothing is hidden;
              `unknown` where the effect is of no catalogue, or no candidate's left-out error within 1.2 of the noise
              floor. Twins (a floor tilted and friction by direction, on a block that only slides, are one equation):
-             `ambiguous`, naming the hidden effects and the twin and no other. Beside a third effect they are nearly
+             `ambiguous`, naming the hidden effects and the twin and no other. `bad_data` where it names the dimension or
+             the gain that is at fault. Beside a third effect they are nearly
              one equation: there the hidden pair alone is right as well.
   ambiguous  the verdict is `ambiguous`, and the hidden effects are among the named
   wrong      others are named
@@ -29,6 +30,8 @@ import time
 
 COLUMNS = ["right", "ambiguous", "wrong", "none", "unknown", "failed"]
 STUDY = "measurements: {}/dataset.yaml\nmodel: {{friction: {{mu: {{calibrate: [0.03, 1.2]}}}}, effects: []}}\n"
+# Faults that a verdict may name, by a word of its sentence; noise and friction that scatter spoil no verdict.
+DIMENSIONS = {"gain": "accelerometer", "wrong_width": "width"}
 LEAST_BASE = 4.0  # [noise units]
 AT_NOISE = 1.2
 
@@ -43,10 +46,15 @@ def options():
     parser.add_argument("--duration", type=float, default=20)
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--unpicked", action="store_true", help="floors as they come, down to such as do not move the specimen")
+    parser.add_argument("--fault", help="of the laboratory that measures (make_sets --help)")
     parser.add_argument("--again", action="store_true", help="do finished sets again")
     parser.add_argument("--table", action="store_true", help="print the table of what is done, and do nothing")
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build/release"))
     return parser.parse_args()
+
+
+def named(o, effects, seed):
+    return f"{effects}-{seed}" + (f"-{o.fault}" if o.fault else "")
 
 
 def answer_kind(answer):
@@ -58,6 +66,9 @@ def answer_kind(answer):
 def judged(answer, diagnosis):
     verdict, named, hidden = diagnosis["verdict"], set(diagnosis["effects"]), set(answer["effects"])
     kind, twins = answer_kind(answer), set(answer["twins"])
+    fault = DIMENSIONS.get(answer.get("fault"))
+    if verdict == "bad_data":
+        return "right" if fault and fault in " ".join(diagnosis["sentences"]) else "wrong"
     if kind == "outside":
         floor = max(1.0, diagnosis["noise_floor"] or 1.0)
         errors = [c["error_left_out"] for c in diagnosis["candidates"] if c["visible"] and c["error_left_out"]]
@@ -96,15 +107,16 @@ class Bench:
     def made(self, effects, seed):
         o = self.options
         subprocess.run([self.make_sets, "-o", self.sets, "--effects", effects, "--first", str(seed), "--seeds", "1",
-                        "--tests", str(o.tests), "--duration", str(o.duration)] + ["--unpicked"] * o.unpicked, check=True, capture_output=True)
-        name = f"{effects}-{seed}"
+                        "--tests", str(o.tests), "--duration", str(o.duration)] + ["--unpicked"] * o.unpicked +
+                       (["--fault", o.fault] if o.fault else []), check=True, capture_output=True)
+        name = named(self.options, effects, seed)
         (self.sets / f"{name}.yaml").write_text(STUDY.format(name))
         return name, json.loads((self.sets / "answers.json").read_text())[name]
 
     def one(self, effects, seed):
         name, answer = self.made(effects, seed)
         result = {"name": name, "effects": effects, "seed": seed, "tests": self.options.tests,
-                  "duration": self.options.duration, "unpicked": self.options.unpicked, "kind": answer_kind(answer), "twins": answer["twins"],
+                  "duration": self.options.duration, "unpicked": self.options.unpicked, "fault": self.options.fault, "kind": answer_kind(answer), "twins": answer["twins"],
                   "habit": answer["habit"], "plain_error": answer["plain_error_noise_units"]}
         start = time.monotonic()
         done = self.run("diagnose", f"{name}.yaml", "-o", f"{name}.diagnosis", "--overwrite")
@@ -115,7 +127,7 @@ class Bench:
         visible = [c for c in diagnosis["candidates"] if c["visible"]]
         result.update(verdict=diagnosis["verdict"], named=diagnosis["effects"], judged=judged(answer, diagnosis),
                       base_error=diagnosis["base"]["error_calibration"], noise_floor=diagnosis["noise_floor"],
-                      best=[[c["effect"], c["error_left_out"], c["error_explained"]] for c in visible[:5]])
+                      best=[[c["effect"], c["error_left_out"], c["error_left_out_floor_noise_allowed"]] for c in visible[:5]])
         if result["kind"] == "catalogue" and result["judged"] == "right":
             result.update(self.added(name, answer["effects"]))
         return result
@@ -202,7 +214,7 @@ def main():
     bench, results = Bench(o), known(o)
     wanted = [(e, s) for s in range(o.first, o.first + o.seeds) for e in bench.names()]
     for effects, seed in wanted if not o.table else []:
-        name = f"{effects}-{seed}"
+        name = named(o, effects, seed)
         if name in results and not o.again:
             continue
         results[name] = bench.one(effects, seed)
@@ -211,8 +223,8 @@ def main():
             file.flush()
             os.fsync(file.fileno())
         print(line(results[name]), flush=True)
-    shown = [results[f"{e}-{s}"] for e in bench.names() for s in range(o.first, o.first + o.seeds)
-             if f"{e}-{s}" in results]
+    shown = [results[named(o, e, s)] for e in bench.names() for s in range(o.first, o.first + o.seeds)
+             if named(o, e, s) in results]
     table(shown)
     rates(shown)
     return 0

@@ -36,6 +36,7 @@ const std::map<std::string, std::vector<Range>>& strengths() {
       {"offset_mass", {{"eccentricity", 0.06, 0.2, Draw::either_sign}}},
       {"rough_floor", {{"ratio", 0.3, 0.6}, {"length_m", 0.05, 0.2}}},
       {"friction_heating", {{"rise", 0.4, 1}, {"time_s", 2, 8}}},
+      {"quadratic_drag", {{"per_m", 1, 8}}},
       {"stick_ageing", {{"rise", 0.15, 0.45}, {"time_s", 0.02, 0.4}}},
   };
   return all;

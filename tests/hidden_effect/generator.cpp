@@ -104,6 +104,7 @@ const std::vector<Law>& laws() {
        {"rise", "time_s"},
        {},
        [](Rules& r, const Values& p) { r.laws.heating = p[0], r.laws.heating_time_s = p[1]; }},
+      {"quadratic_drag", {"per_m"}, {}, [](Rules& r, const Values& p) { r.laws.quadratic_drag_per_m = p[0]; }},
       {"stick_ageing",
        {"rise", "time_s"},
        {},
@@ -118,7 +119,7 @@ const std::vector<Law>& laws() {
   };
   return all;
 }
-constexpr std::size_t in_catalogue = 17, outside = 3;
+constexpr std::size_t in_catalogue = 17, outside = 4;
 
 Values values_of(const Law& law, const TruthEffect& effect) {
   for (const auto& [key, value] : effect.parameters)

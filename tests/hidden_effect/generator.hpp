@@ -2,9 +2,10 @@
 //
 // It steps contact impulses (support/moreau_stepper.hpp) and shares nothing with src/dynamics and src/effects: the
 // program does not mark its own homework. The laws are those of PHYSICS section 5, their names and the keys of their
-// parameters as well, and three that stand in no catalogue:
+// parameters as well, and four that stand in no catalogue:
 //   rough_floor      mu (1 + r sin(2 pi u/L)): ratio, length_m
 //   friction_heating mu (1 + d (1 - exp(-t/T))): rise, time_s
+//   quadratic_drag   force per mass -c v |v|: per_m
 //   stick_ageing     mu_s (1 + d ln(1 + tau/T)), tau = time since the contact stuck, from 0 at the start: rise, time_s
 // And the chain of PHYSICS section 4, which pulls at a point of the side face away from `side` (+1, -1), height_m over
 // the base, when that has moved by more than slack_m to `side`; stiffness and strength over the mass.

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "base/units.hpp"
+#include "hidden_effect/laboratory.hpp"
 #include "hidden_effect/set_errors.hpp"
 #include "hidden_effect/shaking.hpp"
 #include "support/keyed_random.hpp"
@@ -148,6 +149,7 @@ MadeSet make_set(const SetRequest& request) {
     set.weakest_error = weakest_error(set);
     if (set.plain_error >= request.least_error && set.weakest_error >= request.least_error) break;
   }
+  if (!request.fault.empty()) spoil(set, request.fault, {request.seed, key_of({request.fault})}, step_s);
   return set;
 }
 

@@ -31,6 +31,7 @@ struct SetRequest {
   double duration_s = 20;  // mean length of a stochastic motion
   double least_error = 6;  // without any of the effects [noise units]: weaker draws are made again, eight at most
   bool unpicked = false;   // floors of 1.2 to 3 mu g as they come, whatever they do
+  std::string fault = {};  // of the laboratory (laboratory.hpp); none: it is as stated
 };
 
 struct MadeTest {
@@ -47,12 +48,15 @@ struct MadeSet {
   std::string name;
   DrawnTruth drawn;
   double slip_noise_m = 0, rotation_noise_rad = 0, floor_noise_mps2 = 0;
+  std::string fault = {};  // of the laboratory
+  double stated_width = 1,
+         stated_noise = 1;   // what the data set states, over what is true; noise: of slip and rotation
   double plain_error = 0;    // [noise units] of the plain model with the best mu, noise aside, over all tests
   double weakest_error = 0;  // see set_errors.hpp
   std::vector<MadeTest> tests;
 };
 
-// "none-3", "static_friction+floor_tilt-1".
+// "none-3", "static_friction+floor_tilt-1", "none-3-drift".
 std::string set_name(const SetRequest& request);
 
 // Throws std::invalid_argument on an effect that does not exist.

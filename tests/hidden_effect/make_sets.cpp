@@ -1,4 +1,4 @@
-// make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--unpicked]:
+// make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--unpicked] [--fault drift]:
 // measurement sets DIR/<effect>-<seed>/, and what is hidden in them in DIR/answers.json. make_sets --list: what is hidden by default.
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "hidden_effect/default_effects.hpp"
+#include "hidden_effect/laboratory.hpp"
 #include "hidden_effect/make_set.hpp"
 
 namespace freestand::test {
@@ -18,6 +19,7 @@ struct Options {
   int tests = 10;
   double duration_s = 20;
   bool list = false, unpicked = false;
+  std::string fault;
 };
 
 nlohmann::ordered_json known_answers(const std::filesystem::path& file) {
@@ -33,6 +35,7 @@ void make(const Options& options) {
     for (const std::string& effects : options.effects) {
       SetRequest request{split_effects(effects), seed, options.tests, options.duration_s};
       request.unpicked = options.unpicked;
+      request.fault = options.fault;
       const MadeSet set = make_set(request);
       write_set(set, options.folder / set.name);
       answers[set.name] = answer_of(set);
@@ -57,6 +60,8 @@ int main(int count, char** words) {
   parser.add_option("--tests", options.tests, "tests of a set")->check(CLI::Range(2, 99));
   parser.add_option("--duration", options.duration_s, "mean length of a stochastic motion [s]");
   parser.add_flag("--unpicked", options.unpicked, "floors as they come, down to such as do not move the specimen");
+  parser.add_option("--fault", options.fault, "of the laboratory that measures")
+      ->check(CLI::IsMember(freestand::test::laboratory_faults()));
   CLI11_PARSE(parser, count, words);
   if (options.list) {
     for (const std::string& effects : freestand::test::default_effects()) fmt::print("{}\n", effects);

@@ -67,7 +67,7 @@ class WholeWay(unittest.TestCase):
                 after = self.compared(f"{effect}.yaml", f"{effect}.after")
                 self.assertLessEqual(after["holdout"]["error_noise_units"], AT_NOISE)
                 self.assertLessEqual(after["calibration"]["error_noise_units"], AT_NOISE)
-                self.assertLessEqual(after["holdout"]["error_explained"], 1.1)
+                self.assertLessEqual(after["holdout"]["error_floor_noise_allowed"], 1.1)
 
     def test_a_plain_block_lacks_nothing(self):
         self.make("none", 5)

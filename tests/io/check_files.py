@@ -135,6 +135,31 @@ def fragility_xarray(path, engine):
         xarray.open_dataset(path, group=group, engine=engine).close()
 
 
+def database_h5py(path):
+    h5py = need("h5py")
+    with h5py.File(path, "r") as root:
+        carries_coordinates(root)
+        assert root["entries/width_m"].dims[0][0].name == "/entries/id"
+        assert root["curves/median"].dims[0][0].name == "/curves/curve"
+        assert root["points/curve"].dims[0][0].name == "/points/point"
+        is_close(root["curves/curve"][:], np.arange(14))
+
+
+def database_xarray(path, engine):
+    xarray = need("xarray")
+    need({"netcdf4": "netCDF4"}.get(engine, engine))
+    with xarray.open_dataset(path, group="entries", engine=engine) as data:
+        assert float(data["mu_k"].sel(id="rack_30_2")) == 0.3 and float(data["mass_kg"].sel(id="rack_30_2")) == 200
+    with xarray.open_dataset(path, group="curves", engine=engine) as data:
+        assert data["median"].dims == ("curve",) and int(data["entry"].sel(curve=3)) == 1
+    with xarray.open_dataset(path, group="points", engine=engine) as data:
+        assert data["probability"].dims == ("point",) and int(data["curve"].sel(point=5)) == 1
+    with xarray.open_dataset(path, group="demands", engine=engine) as data:
+        assert str(data["unit"].sel(name="peak_slip_m").values) == "m"
+    with xarray.open_dataset(path, engine=engine) as data:
+        assert data.attrs["name"] == "made" and [str(text) for text in data["classes"].values] == ["rack", "bookcase"]
+
+
 def postprocess(path):
     need("h5py")
     sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "postprocess"))
@@ -149,6 +174,6 @@ def postprocess(path):
 what, file = sys.argv[1:]
 if what.startswith("xarray"):
     kind, engine = what.split("-")[1:]
-    {"samples": samples_xarray, "fragility": fragility_xarray}[kind](file, engine)
+    {"samples": samples_xarray, "fragility": fragility_xarray, "database": database_xarray}[kind](file, engine)
 else:
-    {"samples": samples_h5py, "fragility": fragility_h5py, "postprocess": postprocess}[what](file)
+    {"samples": samples_h5py, "fragility": fragility_h5py, "database": database_h5py, "postprocess": postprocess}[what](file)

@@ -9,6 +9,7 @@
 #include "database/made_database.hpp"
 #include "io/database_columns.hpp"
 #include "io/h5.hpp"
+#include "io/python.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
@@ -71,6 +72,21 @@ TEST(DatabaseFile, ReadsBackAsItWasWritten) {
     for (std::size_t k = 0; k < db.curves[i].points.size(); ++k)
       expect_same(point_columns(), back.curves[i].points[k], db.curves[i].points[k]);
   }
+}
+
+std::filesystem::path write_made(const freestand::test::Scratch& scratch) {
+  write_database(scratch / "database.h5", database::test::made_database());
+  return scratch / "database.h5";
+}
+
+TEST(DatabaseFile, OpensInH5pyWithItsScales) {
+  const freestand::test::Scratch scratch("database_h5py");
+  FREESTAND_CHECK_WITH_PYTHON("database", write_made(scratch));
+}
+
+TEST(DatabaseFile, OpensInXarrayByH5netcdf) {
+  const freestand::test::Scratch scratch("database_xarray");
+  FREESTAND_CHECK_WITH_PYTHON("xarray-database-h5netcdf", write_made(scratch));
 }
 
 TEST(DatabaseFile, NamesOfColumnsAreNoOthers) {

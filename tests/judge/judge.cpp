@@ -159,14 +159,18 @@ Judgement judge(const JudgedCase& c) try {
   };
   Evidence e = evidence(c, step_s);
   Judgement result;
-  if (!first_difference(e).empty()) {
-    e = evidence(c, 0.25 * step_s);
-    doubt(e, simulate(c.truth, c.floor, 0.7 * 0.25 * step_s));
-    result.what = first_difference(e);
-    if (!result.what.empty()) {
-      doubt_edges(e, c, 0.25 * step_s);
-      result.finding = first_difference(e).empty() ? Finding::on_an_edge : Finding::disagrees;
+  for (const double part : {1.0, 1.0 / 4, 1.0 / 64}) {
+    if (part < 1) {
+      e = evidence(c, part * step_s);
+      doubt(e, simulate(c.truth, c.floor, 0.7 * part * step_s));
     }
+    result.what = first_difference(e);
+    result.finding = result.what.empty() ? Finding::agrees : Finding::disagrees;
+    if (result.what.empty()) break;
+    if (part == 1) continue;
+    doubt_edges(e, c, part * step_s);
+    if (first_difference(e).empty()) result.finding = Finding::on_an_edge;
+    if (result.finding == Finding::on_an_edge) break;
   }
   result.compared = e.own.size();
   result.samples = e.history.slip_m.size();

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <map>
 
-#include "judge/known_gaps.hpp"
 #include "judge/tally.hpp"
 
 namespace freestand::test {
@@ -15,7 +13,6 @@ namespace {
 // Two cases of every recipe, and those of walls five times.
 TEST(Judge, AgreesWithTheKernelOnEveryEffectInEveryMode) {
   Tally tally;
-  std::map<std::string, int> known;
   const std::vector<Recipe> all = recipes();
   for (std::uint64_t number = 0; number < 5 * all.size(); ++number) {
     const std::vector<std::string>& about = all[number % all.size()].effects;
@@ -24,18 +21,9 @@ TEST(Judge, AgreesWithTheKernelOnEveryEffectInEveryMode) {
     const JudgedCase c = judged_case(1, number);
     const Judgement judgement = judge(c);
     tally.add(c, judgement);
-    if (judgement.finding != Finding::disagrees) continue;
-    const std::string gap = known_gap(c, judgement);
-    if (gap.empty())
-      ADD_FAILURE() << c.text() << "\n  " << judgement.what;
-    else
-      ++known[gap];
+    EXPECT_NE(judgement.finding, Finding::disagrees) << c.text() << "\n  " << judgement.what;
   }
   std::printf("%s", tally.table().c_str());
-  for (const auto& [gap, count] : known) std::printf("excused, %d: %s\n", count, gap.c_str());
-  int excused = 0;
-  for (const auto& [gap, count] : known) excused += count;
-  EXPECT_LE(excused, 1);  // they may not grow
   EXPECT_THAT(tally.empty_cells(), testing::IsEmpty());
   EXPECT_GT(tally.total().compared, tally.total().samples * 9 / 10);
 }
@@ -44,6 +32,15 @@ TEST(Judge, AgreesWithTheKernelOnEveryEffectInEveryMode) {
 TEST(Judge, TheReferenceGoesOnFromTheRoundOffOfASlipThatStarts) {
   const Judgement judgement = judge(judged_case(2, 208));
   EXPECT_EQ(judgement.finding, Finding::agrees) << judgement.what;
+}
+
+// A foot under legs that stops for less than a step of the stepper; a row of hops whose end slides for less than one; a hop that the
+// reference passed over, down and up again within one step.
+TEST(Judge, LooksAsCloselyAsACaseAsks) {
+  for (const auto& [seed, number] : {std::pair(2, 2123), std::pair(2, 359), std::pair(4, 871)}) {
+    const Judgement judgement = judge(judged_case(seed, number));
+    EXPECT_EQ(judgement.finding, Finding::agrees) << judgement.what;
+  }
 }
 
 TEST(Judge, MakesTheSameCaseAgain) {

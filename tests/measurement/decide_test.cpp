@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "effects/effects.hpp"
+#include "measurement/laboratory.hpp"
 #include "measurement/made_tests.hpp"
 
 namespace freestand::measurement {
@@ -193,6 +194,79 @@ TEST(Decide, SaysWhyTheAnswerIsUnknown) {
   EXPECT_EQ(useless.reason, Reason::none_helps);
   EXPECT_EQ(not_enough.verdict, Verdict::unknown);
   EXPECT_EQ(not_enough.reason, Reason::none_suffices);
+}
+
+// Whether an effect may help at all, and whether a lead may be chance, are asked by simulation.
+Chance chance(const char* question, double p) {
+  return {.question = question, .about = {}, .p = p, .simulations = 2000};
+}
+
+TEST(DecideByChance, NothingIsNamedWhereTheLargestGainIsChance) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  for (const double p : {0.049, 0.051}) {
+    Diagnosis d = undecided(bench, 0);
+    d.base = candidate(bench, {}, 1.2, 1.1);
+    d.candidates = {candidate(bench, {"reduced_base"}, 1.0, 0.9)};
+    d.chances = {chance(help_question, p)};
+    decide(bench, d);
+    EXPECT_EQ(d.verdict, p < chance_level ? Verdict::missing : Verdict::none) << p;
+  }
+}
+
+TEST(DecideByChance, ARivalWhoseDataGiveTheBestItsLeadIsOne) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  for (const double p : {0.049, 0.051}) {
+    Diagnosis d = undecided(bench, 0);
+    d.candidates = {candidate(bench, {"reduced_base"}, 1.0, 1.0), candidate(bench, {"impact_loss"}, 1.2, 1.2)};
+    decide(bench, d, [&](const Candidate&, const Candidate&) { return chance(lead_question, p); });
+    EXPECT_EQ(d.verdict, p < chance_level ? Verdict::missing : Verdict::ambiguous) << p;
+    ASSERT_EQ(d.chances.size(), 1u);
+    EXPECT_EQ(d.chances[0].about, "reduced_base before impact_loss");
+  }
+}
+
+Candidate width_stated_wrongly(const Bench& bench, double error) {
+  Candidate fault = candidate(bench, {width_fault}, error, error);
+  fault.fit.x = {0.2, 0.98};
+  fault.fit.model.free.push_back({.name = "laboratory.width", .lower = 0.97, .upper = 1.03, .low = 0.97, .high = 1.03});
+  fault.laboratory = true;
+  return fault;
+}
+
+TEST(DecideByChance, AFaultOfTheLaboratoryIsNoEffect) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  Diagnosis d = undecided(bench, 0);
+  d.candidates = {candidate(bench, {"reduced_base"}, 3.0, 2.0), width_stated_wrongly(bench, 1.0)};
+  decide(bench, d);
+  EXPECT_EQ(d.verdict, Verdict::bad_data);
+  EXPECT_TRUE(d.effects.empty());
+  EXPECT_NE(d.sentences.at(0).find("the width is 2.0 % smaller than stated"), std::string::npos) << d.sentences.at(0);
+}
+
+TEST(DecideByChance, AnEffectThatAWidthExplainsAsWellIsAmbiguous) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  Diagnosis d = undecided(bench, 0);
+  d.candidates = {candidate(bench, {"reduced_base"}, 1.0, 1.0), width_stated_wrongly(bench, 1.0)};
+  decide(bench, d);
+  EXPECT_EQ(d.verdict, Verdict::ambiguous);
+  EXPECT_EQ(d.effects, std::vector<std::string>{"reduced_base"});
+}
+
+// Four numbers lower G by 9.5 in one set of twenty.
+TEST(DecideByChance, FrictionThatScattersNeedsNoEffect) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  for (const double lead : {9.0, 10.0}) {
+    Diagnosis d = undecided(bench, 0);
+    d.candidates = {candidate(bench, {"reduced_base"}, 1.05, 1.0)};
+    d.own_friction = OwnFriction{{1, 1.05, 0.95, 1}, 0.04, d.candidates[0].misfit_of_fit - lead};
+    decide(bench, d);
+    EXPECT_EQ(d.verdict, lead < 9.5 ? Verdict::missing : Verdict::none) << lead;
+  }
 }
 
 }  // namespace

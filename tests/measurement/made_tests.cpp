@@ -4,16 +4,11 @@
 #include <numbers>
 
 #include "base/random.hpp"
+#include "effects/effects.hpp"
+#include "measurement/least_squares.hpp"
+#include "support/keyed_random.hpp"
 
 namespace freestand::test {
-namespace {
-
-double normal(std::uint64_t seed, std::uint64_t i, std::uint64_t stream) {
-  const auto [a, b] = random::bits(seed, i, stream);
-  return std::sqrt(-2 * std::log(random::unit_interval(a))) * std::cos(2 * std::numbers::pi * random::unit_interval(b));
-}
-
-}  // namespace
 
 FloorMotion swings(double peak_mps2, double period_s, double dt_s) {
   std::vector<double> a;
@@ -25,7 +20,7 @@ FloorMotion swings(double peak_mps2, double period_s, double dt_s) {
 }
 
 measurement::Test made_test(const std::string& id, const Specimen& specimen, const FloorMotion& motion,
-                            std::uint64_t seed, double dt_s) {
+                            std::uint64_t seed, double dt_s, double noise) {
   measurement::Test test;
   test.id = id;
   test.motion = motion;
@@ -36,13 +31,13 @@ measurement::Test made_test(const std::string& id, const Specimen& specimen, con
   respond(specimen, test.shaking(), {.tolerance = 1e-9, .free_vibration_s = 0}, &history);
   for (std::size_t i = 0; i <= static_cast<std::size_t>(std::lround(4 / dt_s)); ++i) {
     const HistoryPoint& p = history.points[std::min(i, history.points.size() - 1)];
-    test.slip_m.push_back(p.slip_m + slip_noise_m * normal(seed, i, 1));
-    test.rotation_rad.push_back(p.rotation_rad + rotation_noise_rad * normal(seed, i, 2));
+    test.slip_m.push_back(p.slip_m + noise * slip_noise_m * random::standard_normal(seed, i, 1));
+    test.rotation_rad.push_back(p.rotation_rad + noise * rotation_noise_rad * random::standard_normal(seed, i, 2));
   }
   return test;
 }
 
-measurement::Dataset made_dataset(const Specimen& specimen) {
+measurement::Dataset made_dataset(const Specimen& specimen, double noise, const std::vector<double>& friction) {
   measurement::Dataset data;
   data.name = "made";
   data.sampling_dt_s = 0.005;
@@ -50,11 +45,22 @@ measurement::Dataset made_dataset(const Specimen& specimen) {
   const struct { double peak, period; } motions[] = {{6, 0.5}, {4, 0.8}, {8, 0.35}, {5, 1.1}, {7, 0.6}};
   std::uint64_t seed = 0;
   for (const auto& m : motions) {
+    Specimen of_test = specimen;
+    if (!friction.empty()) of_test.friction.mu_k = of_test.friction.mu_s = specimen.friction.mu_k * friction.at(seed);
     ++seed;
-    data.tests.push_back(
-        made_test(std::string("t").append(std::to_string(seed)), specimen, swings(m.peak, m.period), seed));
+    data.tests.push_back(made_test(std::string("t").append(std::to_string(seed)), of_test, swings(m.peak, m.period),
+                                   seed, data.sampling_dt_s, noise));
   }
   data.tests.back().role = measurement::Role::holdout;
+  return data;
+}
+
+measurement::Dataset with_noise(measurement::Dataset data, std::uint64_t key) {
+  KeyedRandom random(9, key);
+  for (measurement::Test& t : data.tests) {
+    for (double& s : t.slip_m) s += data.noise.slip_m * random.normal();
+    for (double& r : t.rotation_rad) r += data.noise.rotation_rad * random.normal();
+  }
   return data;
 }
 
@@ -64,6 +70,20 @@ measurement::ModelSpec free_friction() {
   model.free = {
       {.name = "friction.mu", .unit = "1", .lower = 0.03, .upper = 1.2, .low = 0.03, .high = 1.2, .logarithmic = true}};
   return model;
+}
+
+Specimen cabinet(const char* effect, std::vector<double> parameters) {
+  Specimen s;
+  s.block = Block::rectangular(0.8, 0.6, 100);
+  s.friction = {0.2, 0.2};
+  if (effect) s.effects = {{.effect = effects::find(effect), .parameters = std::move(parameters)}};
+  return s;
+}
+
+measurement::ModelFit fitted(const measurement::Bench& bench, measurement::ModelSpec model, std::vector<double> start) {
+  measurement::ModelFit fit{.model = std::move(model), .x = std::move(start)};
+  measurement::descend_by_derivatives(bench, {&fit}, run_here);
+  return fit;
 }
 
 }  // namespace freestand::test

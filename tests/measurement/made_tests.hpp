@@ -6,6 +6,7 @@
 #include <freestand/simulate.hpp>
 
 #include "measurement/bench.hpp"
+#include "measurement/model_fit.hpp"
 
 namespace freestand::test {
 
@@ -14,12 +15,21 @@ inline constexpr double slip_noise_m = 3e-4, rotation_noise_rad = 3e-4;
 // Two swings of the floor to and fro of that peak [m/s2] and period [s], beginning at 0.5 s; 4 s.
 FloorMotion swings(double peak_mps2, double period_s, double dt_s = 0.005);
 
-// One test: the response of that specimen, with the noise of the sensors.
+// One test: the response of that specimen, with so many times the noise of the sensors.
 measurement::Test made_test(const std::string& id, const Specimen&, const FloorMotion&, std::uint64_t seed,
-                            double dt_s = 0.005);
+                            double dt_s = 0.005, double noise = 1);
 
-// Four tests for calibration and one held out, of different strengths and periods.
-measurement::Dataset made_dataset(const Specimen&);
+// Four tests for calibration and one held out, of different strengths and periods. friction: factors, of each test.
+measurement::Dataset made_dataset(const Specimen&, double noise = 1, const std::vector<double>& friction = {});
+
+// The sensors' noise added, of that key.
+measurement::Dataset with_noise(measurement::Dataset, std::uint64_t key);
+
+// A cabinet that slides, with an effect or none.
+Specimen cabinet(const char* effect = nullptr, std::vector<double> parameters = {});
+
+// From the start downhill.
+measurement::ModelFit fitted(const measurement::Bench&, measurement::ModelSpec, std::vector<double> start);
 
 // A model whose friction is free within [0.03, 1.2].
 measurement::ModelSpec free_friction();

@@ -32,5 +32,24 @@ TEST(Phases, LastAsLongWhateverTheRateOfTheSamples) {
   }
 }
 
+// Rotation alone: a block that rocks is seen to rock, to strike and to come to rest.
+TEST(Phases, ByRotationAlone) {
+  Specimen s;
+  s.block = Block::rectangular(0.3, 1.2, 100);
+  s.friction = {0.9, 0.9};
+  Dataset data = test::made_dataset(s);
+  const std::vector<Phase> both = phases(Bench(data, 0), data.tests[0]);
+  data.tests[0].slip_m.clear();
+  const std::vector<Phase> alone = phases(Bench(data, 0), data.tests[0]);
+  ASSERT_EQ(alone.size(), both.size());
+  std::size_t rocking = 0;
+  for (std::size_t k = 0; k < both.size(); ++k) {
+    const bool rocks = both[k] == Phase::rocking || both[k] == Phase::after_impact;
+    rocking += rocks;
+    EXPECT_EQ(rocks ? alone[k] : both[k], both[k]) << k;
+  }
+  EXPECT_GT(rocking, 40U);
+}
+
 }  // namespace
 }  // namespace freestand::measurement

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <freestand/error.hpp>
 #include <fstream>
 
@@ -60,6 +61,30 @@ std::string file(const std::string& header, std::size_t more = 0, const std::str
 
 const std::string needed = "time_s,floor_acceleration_mps2,slip_m";
 
+TEST_F(TestFile, RotationAlone) {
+  const measurement::Test test = read(file("time_s,floor_acceleration_mps2,rotation_rad"));
+  EXPECT_TRUE(test.slip_m.empty());
+  EXPECT_EQ(test.rotation_rad.size(), 12U);
+  EXPECT_THAT(refused(file("time_s,floor_acceleration_mps2,block_acceleration_mps2")),
+              HasSubstr("t.csv:1: no column slip_m and none rotation_rad"));
+}
+
+// Of another unit, too, and with an offset; what two sensors read of one motion is no copy.
+TEST_F(TestFile, AChannelThatIsAnotherOnesCopy) {
+  const auto with = [](auto&& value) {
+    std::string text = "time_s,floor_acceleration_mps2,slip_m,rotation_rad\n";
+    for (int i = 0; i < 12; ++i)
+      text += std::to_string(0.01 * i) + "," + std::to_string(std::cos(i)) + "," + std::to_string(0.001 * i * i) + "," +
+              std::to_string(value(i)) + "\n";
+    return text;
+  };
+  EXPECT_THAT(refused(with([](int i) { return 0.001 * i * i; })),
+              HasSubstr("t.csv:1: column rotation_rad is a copy of slip_m"));
+  EXPECT_THAT(refused(with([](int i) { return 3 - 9.81 * std::cos(i); })),
+              HasSubstr("column rotation_rad is a copy of floor_acceleration_mps2"));
+  EXPECT_EQ(read(with([](int i) { return 0.001 * i * i + 1e-5 * (i % 3); })).rotation_rad.size(), 12U);
+}
+
 TEST_F(TestFile, ReadsItsColumnsInAnyOrder) {
   const measurement::Test test = read(file("time_s,floor_acceleration_mps2,slip_m,rotation_rad", 1));
   EXPECT_EQ(test.slip_m.size(), 12U);
@@ -89,7 +114,7 @@ TEST_F(TestFile, AChannelUnderAnotherNameOrUnitIsRefused) {
   EXPECT_THAT(refused(file("time_s,floor_acceleration_g,slip_m")), HasSubstr("floor_acceleration_g has another unit"));
   EXPECT_THAT(refused(file("time_s,floor_acceleration_mps2,slip_mm")), HasSubstr("convert it and write slip_m"));
   EXPECT_THAT(refused(file("time_s,floor_acceleration_mps2,lvdt")),
-              HasSubstr("no column slip_m (the columns are time_s"));
+              HasSubstr("no column slip_m and none rotation_rad (the columns are time_s"));
   EXPECT_THAT(refused(file(needed + ",slip_m", 1)), HasSubstr("column slip_m stands twice"));
   EXPECT_THAT(refused(file(needed + ",", 1)), HasSubstr("column 4 has no name"));
   EXPECT_EQ(read(file(needed + ",slip_mm", 1)).unused_columns.size(), 1U);  // beside slip_m

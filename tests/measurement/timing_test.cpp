@@ -205,6 +205,23 @@ TEST(Quality, RecordsThatBeginLate) {
   EXPECT_THAT(examined(data).findings, Contains(HasSubstr("the slip of t1 does not start at zero")));
 }
 
+// The floor shakes from 0.5 s on; a response that is 0.3 s ahead of it cannot be its answer, slip or rotation.
+TEST(Quality, AResponseThatBeginsBeforeItsFloor) {
+  Specimen rocks = cabinet(0.9);
+  rocks.block = Block::rectangular(0.3, 1.2, 100);
+  rocks.model = Model::slide_rock;
+  for (const Specimen& s : {cabinet(0.2), rocks}) {
+    Dataset data = test::made_dataset(s);
+    EXPECT_THAT(doubts(Bench(data, 0)).sentences, Not(Contains(HasSubstr("before its floor"))));
+    if (s.model == Model::slide_rock) data.tests[1].slip_m.clear();
+    for (auto* samples : {&data.tests[1].slip_m, &data.tests[1].rotation_rad})
+      for (std::size_t i = 0; i + 60 < samples->size(); ++i) (*samples)[i] = (*samples)[i + 60];
+    const Doubts found = doubts(Bench(data, 0));
+    EXPECT_THAT(found.sentences, Contains("t2 moves before its floor does: check the clocks of the channels"));
+    EXPECT_GT(found.spoilt_tests, 0U);
+  }
+}
+
 TEST(Quality, ACutOffPeakIsNoRoundedOne) {
   std::vector<double> rounded, cut;
   for (int i = 0; i < 400; ++i) {

@@ -3,11 +3,8 @@
 import csv
 import io
 import json
-import os
 import pathlib
 import re
-import shutil
-import subprocess
 import tempfile
 import unittest
 import urllib.parse
@@ -16,14 +13,11 @@ import support
 import make_database
 from report_test import Page
 
-CHROMIUM = shutil.which("chromium")
-
 
 def table(page, name):
     """The csv that a figure offers, as rows."""
     address = re.search(rf'<figure id="{name}".*?href="data:text/csv;charset=utf-8,([^"]*)"', page, re.S).group(1)
     return list(csv.DictReader(io.StringIO(urllib.parse.unquote(address))))
-
 
 class Database(unittest.TestCase):
     @classmethod
@@ -73,17 +67,14 @@ class Database(unittest.TestCase):
             self.assertIn("database.h5 cannot be used", done.stderr)
 
     # One browser for all that is seen in it: it takes a second to start.
-    @unittest.skipUnless(CHROMIUM, "no chromium (apt-get install chromium)")
+    @unittest.skipUnless(support.BROWSER, "no chromium (apt-get install chromium)")
     def test_in_a_browser_it_draws_what_is_chosen(self):
         move = """<script>const svg = document.querySelector("#curves svg"), box = svg.getBoundingClientRect();
 svg.dispatchEvent(new MouseEvent("mousemove", {clientX: box.left + box.width / 2, clientY: box.top + 20}));</script></body>"""
         copy = self.folder / "copy.html"
         copy.write_text(self.text.replace("</body>", move), encoding="utf-8")
         chosen = urllib.parse.urlencode({"class": "bookcase", "mu": 0.6, "floor": "upper", "demand": "overturned", "im": "pgv_mps", "at": 50})
-        with tempfile.TemporaryDirectory() as profile:
-            done = subprocess.run([CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}", "--host-resolver-rules=MAP * 127.0.0.1:9",
-                                   "--dump-dom", f"file://{copy}#{chosen}"], capture_output=True, text=True, timeout=120, env={**os.environ, "HOME": profile})
-        page = re.sub(r"<script.*?</script>", "", done.stdout, flags=re.S)
+        page = re.sub(r"<script.*?</script>", "", support.browse(f"file://{copy}#{chosen}", "--host-resolver-rules=MAP * 127.0.0.1:9"), flags=re.S)
         self.assertEqual(len(re.findall(r"<svg", page)), 3)
         self.assertNotRegex(page, "NaN|undefined|Infinity")
         # The curves: those of the class on the floor, cell by cell, and the reference of the chosen one.

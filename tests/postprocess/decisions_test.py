@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Pages of decisions: several designs side by side, annual risk, shares of variance."""
 import html
+import json
 import pathlib
 import tempfile
 import types
@@ -8,10 +9,12 @@ import unittest
 
 import support
 
+import h5py
 import make_decisions
 import numpy as np
 from freestand_post import decisions_report, designs, halved, pictures, reading, style
 from freestand_post.command import read
+from freestand_post.problem import Problem
 from freestand_post.report import page
 from pictures_test import overlaps
 
@@ -155,11 +158,46 @@ class Pages(InFolder):
         self.assertIn("No width from 0.6\u00a0m to 0.9\u00a0m halves the annual rate of “overturned” of width 0.9\u00a0m", half)
         self.assertNotIn("halves", self.text(*designs_, risk("r7", "out"), risk("r8", "out")))
 
-    def test_other_intensities_do_not_fit_into_one_axis(self):
-        import h5py
-        other = self.design("b", 3.0)
-        with h5py.File(other / "fragility.h5", "a") as root:
-            root.attrs["im"] = "pga_g"
+    def over(self, folder, im, unit):
+        with h5py.File(folder / "fragility.h5", "a") as root:
+            root.attrs.update(im=im, im_unit=unit, im_symbol="")
+        return folder
+
+    def test_one_sweep_over_two_intensities_stands_on_one_page(self):
+        """Each over its own axis, with its unit; what the ranking says of them stands there once."""
+        folders = [self.over(self.design("pga", 1.2), "pga_g", "g"), self.over(self.design("pgv", 2.3), "pgv_mps", "m/s")]
+        results = read(folders)
+        ranked = [{"im": im, "deviance_explained": value, "deviance_explained_se": 0.03, "behind_best": 0.63 - value, "behind_best_se": 0.02}
+                  for im, value in (("pgv_mps", 0.63), ("pga_g", 0.54), ("pgd_m", 0.3))]
+        results[0].sweeps[0].summary["ranking"] = {"demands": {"overturned": ranked}}
+        drawn = pictures.draw(results[0])
+        self.assertEqual([picture.name for picture in drawn], ["over_intensities", "intensities"])
+        panels = [ax for ax in drawn[0].figure.axes if ax.get_visible()]
+        self.assertEqual([ax.get_xlabel() for ax in panels], ["PGA (g)", "PGV (m/s)"])
+        for ax, median in zip(panels, (1.2, 2.3)):
+            curve = next(line for line in ax.lines if line.get_label() == "overturned")
+            self.assertAlmostEqual(float(np.interp(median, *curve.get_data())), 0.5, delta=0.01)
+        self.assertEqual(overlaps(drawn[0].figure), [])
+        bold = [label.get_text() for label in drawn[1].figure.axes[0].get_yticklabels() if label.get_weight() == "bold"]
+        self.assertEqual(bold, ["PGV", "PGA"])
+        text = self.text(*folders, make_decisions.make_risk(self.folder / "r", sweep="pga"))
+        for words in ("half of the specimens overturn at PGA\u00a0=\u00a01.2\u00a0g and PGV\u00a0=\u00a02.3\u00a0m/s", "over PGA and PGV",
+                      "Annual risk: refrigerator (pga)", "2.30 ± 0.1", "PGV (m/s)</td>"):
+            self.assertIn(words, text)
+        self.assertEqual(text.count("<svg"), 2)
+        self.assertNotIn("nan", text.split("<body>")[1].split("<svg")[0])
+
+    def test_periods_of_one_measure_are_several_intensities(self):
+        folders = [self.over(self.design(name, 1.2), "sa_g", "g") for name in ("short", "long")]
+        for folder, period in zip(folders, (0.2, 1.0)):
+            path = folder / "summary.json"
+            path.write_text(json.dumps({**json.loads(path.read_text()), "im_period_s": period}))
+        self.assertIn("over Sa(0.2\u00a0s) and Sa(1\u00a0s)", self.text(*folders))
+        with self.assertRaisesRegex(Problem, "sa_g:0.2 and .* over sa_g:1"):
+            self.sweeps(*folders)
+
+    def test_other_intensities_of_other_designs_do_not_fit_into_one_axis(self):
+        other = self.over(self.design("b", 3.0, width=0.9), "pga_g", "g")
         done = support.run("report", self.design("a", 2.0), other)
         self.assertEqual(done.returncode, 2)
         self.assertIn("do not fit into one axis", done.stderr)
@@ -194,7 +232,6 @@ class Pages(InFolder):
 
 class NoRate(InFolder):
     def test_a_risk_without_any_rate_has_no_picture(self):
-        import json
         folder = make_decisions.make_risk(self.folder / "risk")
         found = json.loads((folder / "risk.json").read_text())
         found["demands"] = [one for one in found["demands"] if one["refused"]]

@@ -33,7 +33,8 @@ def tables(error):
     def table(variable, unit, label, centre, value):
         edge = [] if label else [c - 0.05 for c in centre] + [centre[-1] + 0.05]
         return {"variable": variable, "unit": unit, "label": label, "edge": edge, "centre": centre, "count": [40.0] * len(value),
-                "error_noise_units": value, "growth_noise_units": [v and 0.3 * v + 1 for v in value], "bias_noise_units": value}
+                "error_noise_units": value, "growth_noise_units": [v and 0.3 * v + 1 for v in value],
+                "growth_slip_m": [v and NOISE * (0.3 * v + 1) for v in value], "growth_rotation_rad": [v and 0.0 for v in value], "bias_noise_units": value}
     phases = ["stuck", "onset", "slipping", "reversal", "rocking", "after impact", "at rest"]
     centre = [0.1, 0.2, 0.3, 0.4]
     return [table("phase", "1", phases, [], [error, 1.1 * error, 2 * error, error, None, None, error]),
@@ -46,7 +47,7 @@ def history_tests(error):
     for i in range(4):
         value = error * (1 + 0.1 * i)
         found.append({"id": f"t0{i + 1}", "role": "holdout" if i == 3 else "calibration", "kind": "history", "source": "t.csv",
-                      "error_noise_units": value, "error_relative": 0.01 * value, "error_explained": 0.95 * value, "error_expected": 1.03,
+                      "error_noise_units": value, "error_relative": 0.01 * value, "error_floor_noise_allowed": 0.95 * value, "error_expected": 1.03,
                       "outcome": "moved", "channels": [],
                       "peaks": [{"name": "peak_slip_m", "measured": 0.04, "model": 0.04 + 0.001 * error}]})
     return found
@@ -55,7 +56,7 @@ def history_tests(error):
 def comparison(folder, effects=(), error=17.4, held_out=13.8, channels=("slip_m",), **changes):
     ratio = {"name": "effects.static_friction.ratio", "unit": "1", "value": 1.8, "lower": 1.0, "upper": 10.0, "interval": None,
              "calibrated": False}
-    value = {"format": "freestand-comparison/1", "study": "study.yaml", "measurements": "/data/bench/dataset.yaml", "name": "bench",
+    value = {"format": "freestand-comparison/2", "study": "study.yaml", "measurements": "/data/bench/dataset.yaml", "name": "bench",
              "effects": list(effects), "error_unit": "noise units", "method": "simplex method", "tests": history_tests(error),
              "findings": [f"calibration tests are missed by {error} noise units"],
              "calibration": {"error_noise_units": error, "error_relative": 0.2, "error": error, "error_expected": 1.03, "tests": 3},
@@ -76,7 +77,7 @@ def peaks(folder, ratio=0.2, name="bench", stuck=0, stood=0):
         model = 0.0 if i < stuck else float(measured * ratio * np.exp(0.3 * random.normal()))
         measured = 0.0 if i >= 9 - stood else measured
         found.append({"id": f"a{i}", "role": "calibration", "kind": "peaks", "source": "pulse B", "error_noise_units": None,
-                      "error_relative": 0.5, "error_explained": None, "error_expected": None, "outcome": "moved", "channels": [],
+                      "error_relative": 0.5, "error_floor_noise_allowed": None, "error_expected": None, "outcome": "moved", "channels": [],
                       "peaks": [{"name": "peak_slip_m", "measured": float(measured), "model": model}]})
     return comparison(folder, name=name, error_unit="ln ratio", tests=found, histories=[], holdout=None,
                       error_tables={"calibration": [], "holdout": []},
@@ -91,7 +92,7 @@ def outcomes(folder, intensity=False, number=40):
         p = i / (number - 1)
         over = (p > 0.5) != (i % 10 == 3)
         found.append({"id": f"b{i:03d}", "role": "calibration", "kind": "outcome", "source": "m.csv", "error_noise_units": None,
-                      "error_relative": None, "error_explained": None, "error_expected": None, "outcome": "moved", "channels": [],
+                      "error_relative": None, "error_floor_noise_allowed": None, "error_expected": None, "outcome": "moved", "channels": [],
                       "peaks": [], "overturned_measured": over, "overturned_probability": p}
                      | ({"floor_peak_g": 0.05 + 0.6 * p} if intensity else {}))
     return comparison(folder, error_unit="Brier", tests=found, histories=[], holdout=None, peak_ratio={"count": 0, "ratio": None,
@@ -106,8 +107,8 @@ def candidate(effect, left_out, rival=False):
                            **({f"effects.{effect}.speed_mps": {"value": 0.1, "unit": "m/s", "interval": None,
                                                                                   "no_interval": "it was not fitted to the end"}} if effect else {})},
             "error_calibration": 0.9 * left_out, "error_left_out": left_out, "error_left_out_se": 0.15 * left_out,
-            "error_explained": 1.0, "misfit": 9.0, "delta_bic": -1000.0 / left_out, "difference": 0.0, "difference_se": 0.1,
-            "rival": rival, "practical": True, "left_out_refitted": True}
+            "error_left_out_floor_noise_allowed": 1.0, "chi_square_left_out": 9.0, "delta_bic": -1000.0 / left_out, "score_left_out_above_best": 0.0, "score_left_out_above_best_se": 0.1,
+            "as_good_as_best": rival, "numbers_as_met_in_practice": True, "left_out_refitted": True}
 
 
 def recovered():
@@ -128,6 +129,10 @@ def recovered():
                        table("direction", "1", [-1, 1], [0.26, 0.22], 0.1, [0.3, 0.3]), empty]}
 
 
+def chance(question, about, p):
+    return {"question": question, "about": about, "p": p, "level": 0.05, "observed": 30.0, "chance_reaches": 10.0, "simulations": 2000}
+
+
 def diagnosis(folder, verdict="missing", **changes):
     rivals = {"missing": 1, "ambiguous": 2}.get(verdict, 0)
     names = ["rate_weakening", "static_friction", "floor_tilt", "wall_impact"] + [f"effect_{i}" for i in range(9)]
@@ -136,11 +141,13 @@ def diagnosis(folder, verdict="missing", **changes):
     suggestion = {"between": names[:2], "specimen": None, "separation_noise_units": 41.9,
                   "motion": {"pulse": "C2", "period_s": 1.2, "peak_acceleration_g": 1.0, "vertical_peak_acceleration_g": 0.6},
                   "sentence": "a pulse C2 of 1.2 s and 1 g would part them by 41.9 noise units"}
-    value = {"format": "freestand-diagnosis/1", "study": "study.yaml", "measurements": "/data/bench/dataset.yaml", "name": "bench",
+    value = {"format": "freestand-diagnosis/2", "study": "study.yaml", "measurements": "/data/bench/dataset.yaml", "name": "bench",
              "error_unit": "noise units", "verdict": verdict, "effects": names[:rivals],
              "best": next((each["effect"] for each in changes.get("candidates", found)), None),
              "reason": "none_suffices" if verdict == "unknown" else None,
              "sentences": ["rate_weakening brings the left-out error from 17.7 to 1.2"], "findings": [],
              "noise_floor": 1.08, "base": candidate("", 17.7), "candidates": found, "recovered_force": recovered(),
-             "suggested_motion": suggestion if verdict == "ambiguous" else None}
+             "suggested_motion": suggestion if verdict == "ambiguous" else None,
+             "tests_of_chance": [chance("does an effect help", "13 effects", 0.0005)]
+             + [chance("is the lead chance", f"{names[0]} before {name}", p) for name, p in ((names[1], 0.31 if rivals > 1 else 0.012), (names[2], 0.0005))]}
     return write(folder, "diagnosis.json", value | changes)

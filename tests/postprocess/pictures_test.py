@@ -137,6 +137,9 @@ class Pictures(unittest.TestCase):
         self.assertEqual(bold, [words.intensity(own)])
         self.assertGreater(right.get_xlim()[0], right.get_xlim()[1])  # the best at the left in both
         self.assertIn("0.4", picture.finding)
+        self.assertNotIn("Of the first", picture.caption)
+        sweep.summary["ranking"].update(samples=65536, swept=100000)
+        self.assertIn("Of the first 65\u202f536 samples", next(intensities.pictures(sweep)).caption)
         self.assertIn(words.intensity("pgv_mps"), picture.finding)
 
     def test_half_is_where_the_title_says(self):

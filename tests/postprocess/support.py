@@ -3,6 +3,7 @@ import contextlib
 import html
 import io
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -27,6 +28,7 @@ except ModuleNotFoundError as missing:
 import make_results  # noqa: E402
 from freestand_post import command  # noqa: E402
 
+BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
 _kept = tempfile.TemporaryDirectory()
 _made = {}
 
@@ -45,17 +47,26 @@ MEASURE = """<script>onload = () => { document.title = JSON.stringify([...docume
 })); };</script>"""
 
 
+def browse(address, *options):
+    """The document that the browser has made of a page. Its profile is its own, since tests run side by side; a browser that ends without a
+    page (it may die on a busy machine) is started twice more."""
+    for _ in range(3):
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+            done = subprocess.run([BROWSER, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}", *options, "--dump-dom", address],
+                                  capture_output=True, text=True, timeout=120, env={**os.environ, "HOME": profile})
+        if "</html>" in done.stdout:
+            return done.stdout
+    raise AssertionError(f"{BROWSER} made no page of {address}: {done.returncode}\n{done.stderr}")
+
+
 def cut_off(test, text):
     """{width: (tables that scroll, what is cut off)} of the page in windows as wide as a laptop and a telephone. Skips without a browser."""
-    browser = shutil.which("chromium") or shutil.which("google-chrome")
-    if not browser:
+    if not BROWSER:
         test.skipTest("no chromium is installed")
     frames = "".join(f'<iframe style="border: 0; width: {width}px; height: 900px" srcdoc="{html.escape(text)}"></iframe>' for width in (1300, 420))
     page = pathlib.Path(_kept.name) / "frames.html"
     page.write_text(f"<title></title>{frames}{MEASURE}", encoding="utf-8")
-    shown = subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--window-size=1400,1000", "--dump-dom", page.as_uri()],
-                           capture_output=True, text=True, timeout=200).stdout
-    title = html.unescape(re.search("<title>(.*?)</title>", shown, re.S).group(1))
+    title = html.unescape(re.search("<title>(.*?)</title>", browse(page.as_uri(), "--window-size=1400,1000"), re.S).group(1))
     return {width: (tables, cut) for width, tables, cut in json.loads(title)}
 
 

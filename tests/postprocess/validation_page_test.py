@@ -29,15 +29,21 @@ class ThePage(Temporary):
         page, text = self.page(make.comparison(self.folder / "before"), diagnosis,
                                make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01))
         for needle in ("bench: the missing effect was static friction", "17.7 base model", "1.20 with static friction",
-                       "1.01 on held-out tests", "1.08 noise floor", "4 tests (3 for calibration and 1 held out)",
+                       "1.01 on held-out tests", "1.03 to 1.08 noise floor: what noise alone would make, which models and tests answer differently", "4 tests (3 for calibration and 1 held out)",
                        "Static friction brings it down.", "friction: μ 0.2991", "static friction: ratio 1.800", "All 1 candidate and", "t03",
                        "simplex method"):
             self.assertIn(needle, page.text)
         self.assertEqual(text.count('<tr class="missed">'), 0)
         self.assertLessEqual({"ladder", "ranking", "recovered", "worst_t02", "where"}, set(page.ids))
 
+    def test_one_noise_floor_where_all_are_the_same(self):
+        one = {"error_noise_units": 2.0, "error_relative": 0.1, "error": 2.0, "error_expected": 1.08, "tests": 1}
+        page, _ = self.page(make.comparison(self.folder / "before", calibration=one, holdout=one), make.diagnosis(self.folder / "diag"))
+        self.assertRegex(page.text, r"1\.08 noise floor: what noise alone would make\s[^,]")
+
     def test_one_comparison(self):
         page, text = self.page(make.comparison(self.folder / "before"))
+        self.assertIn("The error comes about mostly while sliding: there it changes by 4.6 mm in 0.1 s, 2.6 mm on the average", page.text)
         self.assertIn("bench: the model misses its tests by 17.4 times the sensor noise", page.text)
         self.assertEqual(text.count('<tr class="missed">'), 4)
         self.assertNotIn("ladder", page.ids)
@@ -79,6 +85,40 @@ class ThePage(Temporary):
                 self.assertEqual("with rate weakening, on tests left out" in page.text, reason == "none_suffices")
                 self.assertEqual(text.index("<figure") > text.index("What was found"), reason == "data")
 
+    def test_a_fault_of_the_laboratory_is_no_effect(self):
+        width = make.candidate("width_as_stated", 1.02, True)
+        width["parameters"] = {"laboratory.width_as_stated": {"value": 0.981, "unit": "1", "interval": [0.98, 0.982]}}
+        for verdict, effects, others, title in (
+                ("bad_data", [], [make.candidate("reduced_base", 9)], "bench: no effect is needed: the stated width is off"),
+                ("ambiguous", ["reduced_base"], [make.candidate("reduced_base", 1.03, True)],
+                 "bench: the missing effect is reduced base, or the stated width is off")):
+            with self.subTest(verdict):
+                page, _ = self.page(make.diagnosis(self.folder / verdict, verdict, effects=effects, candidates=[width] + others,
+                                                   reason="data" if verdict == "bad_data" else None))
+                self.assertIn(title, page.text)
+                self.assertIn("the stated width", page.text)
+                self.assertNotIn("width as stated", page.text)
+
+    def test_a_law_that_is_proposed(self):
+        law = make.candidate("waves_over_position", 1.28) | {
+            "friction": "mu*(1 + a*sin(2*pi*u/l))", "force": None, "variable": "position_m", "entry": "{name: waves_over_position}\n",
+            "parameters": {"effects.waves_over_position.l_m": {"value": 0.157, "unit": "m", "interval": [0.155, 0.158]}}}
+        page, _ = self.page(make.diagnosis(self.folder / "proposed", "unknown", proposed_law=law))
+        self.assertIn("no effect of the catalogue explains it; waves over position, a law of no catalogue, leaves 1.28 of 17.7", page.text)
+        self.assertIn("friction: mu*(1 + a*sin(2*pi*u/l)) leaves 1.28 of 17.7 noise units", page.text)
+        self.assertIn("freestand add study.yaml proposed/proposed_law.yaml -o WITH_LAW.yaml", page.text)
+        self.assertIn("1.28 with waves over position, on tests left out of the fit", page.text)
+        self.assertIn("0.1550 to 0.1580", page.text)
+        without, _ = self.page(make.diagnosis(self.folder / "without", "unknown"))
+        self.assertNotIn("A law that nobody has named", without.text)
+
+    def test_what_chance_would_do_stands_beside_the_verdict(self):
+        page, _ = self.page(make.diagnosis(self.folder))
+        self.assertIn("that the best of 13 effects gains as much where nothing is missing", page.text)
+        self.assertIn("that rate weakening leads static friction by as much where static friction is the truth", page.text)
+        self.assertIn("less than 0.0005", page.text)
+        self.assertIn("0.012", page.text)
+
     def test_an_interval_that_is_not_there_says_why(self):
         page, _ = self.page(make.diagnosis(self.folder))
         self.assertIn("none: it was not fitted to the end", page.text)
@@ -89,7 +129,7 @@ class ThePage(Temporary):
                             make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01))
         self.assertNotRegex(text, r"figure svg \{[^}]*min-width")
         tables = re.findall(r"<table class=\"([^\"]*)\">(.*?)</table>", text, re.S)
-        self.assertEqual(len(tables), 3)
+        self.assertEqual(len(tables), 4)
         for kind, table in tables:
             self.assertIn("stack", kind)
             body = table[table.index("<tbody>"):]
@@ -110,6 +150,18 @@ class ThePage(Temporary):
         _, text = self.page(make.comparison(self.folder / "one", name="<b>bench</b>", findings=["<script>alert(1)</script>"]))
         self.assertNotIn("<script>alert", text)
         self.assertNotIn("<b>bench", text)
+
+    def test_joint_draws_are_shown_under_the_numbers(self):
+        after = make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01, posterior={"table": "fitted_draws.csv", "friction_scatter": 0.12})
+        lines = [f"{0.3 + 0.001 * k},{1.8 - 0.002 * k}" for k in range(20)]
+        (after / "fitted_draws.csv").write_text("\n".join(["# draws", "friction.mu,effects.static_friction.ratio"] + lines))
+        page, _ = self.page(after)
+        self.assertIn("draws", page.ids)
+        self.assertIn("The tests know friction μ and static friction ratio better together than each (correlation -1.00); friction differs by 12 % from test to test", page.text)
+        (after / "fitted_draws.csv").write_text("friction.mu\nxyz\n")
+        result = support.run("report", after)
+        self.assertEqual(result.returncode, 3)
+        self.assertIn("fitted_draws.csv is no table of numbers", result.stderr)
 
     def test_figures_writes_them_as_files(self):
         folder = make.comparison(self.folder / "one")

@@ -67,7 +67,7 @@ class Reads(Temporary):
         self.assertEqual(reading_validation.read_diagnosis(make.diagnosis(self.folder, candidates=found, best=None)).best, {})
 
     def test_missing_parts_are_empty(self):
-        make.write(self.folder, "diagnosis.json", {"format": "freestand-diagnosis/1", "verdict": "none", "candidates": []})
+        make.write(self.folder, "diagnosis.json", {"format": "freestand-diagnosis/2", "verdict": "none", "candidates": []})
         found = reading_validation.read_diagnosis(self.folder)
         self.assertEqual((found.base, found.best, found.recovered), ({}, {}, []))
         self.assertTrue(math.isnan(found.noise_floor))
@@ -98,7 +98,7 @@ class Refuses(Temporary):
 
     def test_other_format(self):
         make.comparison(self.folder, format="freestand-comparison/9")
-        self.refused(reading_validation.read_comparison, '"freestand-comparison/9"', '"freestand-comparison/1"')
+        self.refused(reading_validation.read_comparison, '"freestand-comparison/9"', '"freestand-comparison/2"')
 
     def test_wrong_kinds_are_named(self):
         for change, place in ((lambda v: v["tests"][1].update(error_relative="big"), "tests[1].error_relative is not a number"),
@@ -160,7 +160,7 @@ class Drawn(Temporary):
         self.assertEqual(set(drawn), {"ladder", "ranking", "recovered", "worst_t02", "worst_t04", "where"})
         self.assertIn("held-out error falls from 13.8 to 1.01 noise units, at the noise floor", drawn["ladder"].finding)
         self.assertIn("falls from 17.7 to 1.20", drawn["ranking"].finding)
-        self.assertIn("“slipping”", drawn["where"].finding)
+        self.assertIn("mostly while sliding", drawn["where"].finding)
         self.assertIn("path slid (mm)", [axes.get_xlabel() for axes in drawn["where"].figure.axes])
         self.assertIn("with the base model", drawn["worst_t02"].finding)
         labels = [axes.get_ylabel() for axes in drawn["worst_t02"].figure.axes]
@@ -184,7 +184,7 @@ class Drawn(Temporary):
                          "With impact loss the held-out error falls from 13.8 to 5.00 noise units, above the noise floor of 1.04")
 
     def test_effects_without_an_error_on_tests_left_out_are_crosses(self):
-        found = [make.candidate("viscous_drag", 1.0, True), make.candidate("rate_strengthening", 1.01) | {"practical": False},
+        found = [make.candidate("viscous_drag", 1.0, True), make.candidate("rate_strengthening", 1.01) | {"numbers_as_met_in_practice": False},
                  make.candidate("floor_tilt", 3.0), make.candidate("flexible_legs", 2.0) | {"left_out_refitted": False}]
         drawn = self.draw(make.diagnosis(self.folder / "crosses", candidates=found))["ranking"]
         (axes,) = drawn.figure.axes
@@ -252,10 +252,10 @@ class Drawn(Temporary):
 
     def test_the_next_best_is_worse_than_the_best(self):
         """An effect that leaves less than the one named is told with what is held against it, never as the next best."""
-        best = make.candidate("rate_weakening", 1.37, True) | {"error_explained": 1.02}
-        for other, told in (({"practical": False}, "static friction leaves 1.17, with numbers that are not met in practice"),
-                            ({"error_explained": 1.4}, "static friction leaves 1.17, but 1.40 against 1.02 where the floor's noise"),
-                            ({"error_explained": 0.9}, "static friction leaves 1.17, which chance does not part from it")):
+        best = make.candidate("rate_weakening", 1.37, True) | {"error_left_out_floor_noise_allowed": 1.02}
+        for other, told in (({"numbers_as_met_in_practice": False}, "static friction leaves 1.17, with numbers that are not met in practice"),
+                            ({"error_left_out_floor_noise_allowed": 1.4}, "static friction leaves 1.17, but 1.40 against 1.02 where the floor's noise"),
+                            ({"error_left_out_floor_noise_allowed": 0.9}, "static friction leaves 1.17, which chance does not part from it")):
             rows = [best, make.candidate("static_friction", 1.17) | other, make.candidate("floor_tilt", 2.5)]
             finding = self.draw(make.diagnosis(self.folder, candidates=rows))["ranking"].finding
             self.assertIn("With rate weakening the left-out error falls from 17.7 to 1.37 noise units", finding)

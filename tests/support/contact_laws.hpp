@@ -34,6 +34,7 @@ struct ContactLaws {
 
   // Forces per mass.
   double drag_per_s = 0;
+  double quadratic_drag_per_m = 0;  // of no catalogue: -c v |v|
   double spring_per_s2 = 0;  // (2 pi f)^2
   struct Tether {
     double slack_m = 0, stiffness_per_s2 = 0, rate_per_s = 0;
@@ -106,7 +107,7 @@ inline double ContactLaws::holding(const Place& at, double age_s, int sigma, dou
 }
 
 inline double ContactLaws::force(double u, double v) const {
-  double x = -drag_per_s * v - spring_per_s2 * u;
+  double x = -drag_per_s * v - quadratic_drag_per_m * v * std::abs(v) - spring_per_s2 * u;
   for (const Tether& tether : tethers) {
     const double side = tether.slack_m < 0 ? -1 : 1, stretch = side * u - std::abs(tether.slack_m);
     if (stretch <= 0) continue;

@@ -214,7 +214,8 @@ TEST(SquareDrops, TheSecondCornerThrowsBack) {
       state.pivot = strike.pivot;
       state.omega = strike.rate_before;
       state.w = strike.slip_before;
-      ASSERT_TRUE(dynamics::strike(square(mu, law), state, 0));
+      const Rig rig = square(mu, law);
+      ASSERT_TRUE(dynamics::strike(rig, state, 0, {{0, 0}, {rig.g, 0}}));
       const bool first = law == ImpactLaw::housner;
       (first ? housner : coulomb).push_back(state.omega / strike.rate_before);
       (first ? far_h : far_c).push_back(std::abs(state.omega / strike.rate_before - ratio.back()));

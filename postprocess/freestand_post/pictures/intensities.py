@@ -2,6 +2,7 @@
 import numpy as np
 
 from .. import style, words
+from ..over_intensities import Intensities
 from ..reading import Sweep
 from . import Picture
 
@@ -16,22 +17,29 @@ CAPTION = ("Left or alone: standard deviation of ln demand about a line over ln 
 
 
 def pictures(results):
+    if isinstance(results, Intensities):
+        yield from _of(results.sweeps[0], {sweep.im_name for sweep in results.sweeps})
     if isinstance(results, Sweep):
-        demands = [edp for edp in results.edps if results.summary.get("ranking", {}).get("demands", {}).get(edp.name)]
-        shown = [edp for edp in demands if edp.kind != "binary"][:1] + [edp for edp in demands if edp.name == "overturned"]
-        if shown or demands:
-            yield _picture(results, shown or demands[:1])
+        yield from _of(results, {results.im_name})
+
+
+def _of(sweep, own):
+    """own: the intensities over which there is a fit."""
+    demands = [edp for edp in sweep.edps if sweep.summary.get("ranking", {}).get("demands", {}).get(edp.name)]
+    shown = [edp for edp in demands if edp.kind != "binary"][:1] + [edp for edp in demands if edp.name == "overturned"]
+    if shown or demands:
+        yield _picture(sweep, shown or demands[:1], own)
 
 
 def _figure_of(edp):
     return "deviance_explained" if edp.kind == "binary" else "scatter"
 
 
-def _rows(sweep, edp):
-    """The best ones, and the sweep's own intensity wherever it stands."""
+def _rows(sweep, edp, own):
+    """The best ones, and the fit's own intensities wherever they stand."""
     key = _figure_of(edp)
     rows = [row for row in sweep.summary["ranking"]["demands"][edp.name] if row.get(key) is not None]
-    return [row for i, row in enumerate(rows) if i < SHOWN - 1 or row["im"] == sweep.im_name or i == len(rows) - 1]
+    return [row for i, row in enumerate(rows) if i < SHOWN - len(own) or row["im"] in own or i == len(rows) - 1]
 
 
 def _rival(row):
@@ -42,19 +50,22 @@ def _doubtful(row):
     return any(left["p"] is not None and left["p"] < DOUBT for left in row.get("sufficiency", []))
 
 
-def _picture(sweep, edps):
-    rows = [_rows(sweep, edp) for edp in edps]
+def _picture(sweep, edps, own):
+    rows = [_rows(sweep, edp, own) for edp in edps]
     fig = style.figure(7.4, 1.6 + 0.25 * max(len(some) for some in rows))
     axes = np.atleast_1d(fig.subplots(1, len(edps)))
     for ax, edp, some in zip(axes, edps, rows):
-        _panel(ax, sweep, edp, some)
+        _panel(ax, edp, some, own)
     finding = _finding(sweep, edps[0], rows[0])
-    own = f" Bold: {sweep.im_symbol}, over which this sweep is fitted." if any(row["im"] == sweep.im_name for some in rows for row in some) else ""
-    style.headline(fig, finding, "Better is further up; filled points are not parted from the best by these motions." + own)
-    return Picture("intensities", fig, finding, CAPTION, "sweep")
+    bold = [words.intensity(name) for name in sorted({row["im"] for some in rows for row in some} & own)]
+    style.headline(fig, finding, "Better is further up; filled points are not parted from the best by these motions."
+                   + (f" Bold: {words.listing(bold)}, over which this sweep is fitted." if bold else ""))
+    ranking = sweep.summary["ranking"]
+    some = ranking.get("samples", 0) < ranking.get("swept", 0)
+    return Picture("intensities", fig, finding, CAPTION + (f" Of the first {words.count(ranking['samples'])} samples." if some else ""), "sweep")
 
 
-def _panel(ax, sweep, edp, rows):
+def _panel(ax, edp, rows, own):
     key = _figure_of(edp)
     value = np.array([row[key] for row in rows])
     error = np.array([row[f"{key}_se"] or 0.0 for row in rows])
@@ -70,7 +81,7 @@ def _panel(ax, sweep, edp, rows):
            xlabel=f"{words.capitalised(edp.label)}: deviance explained" if edp.kind == "binary" else f"scatter of ln {edp.label}")
     ax.set_yticklabels([words.intensity(row["im"]) for row in rows])
     for label, row in zip(ax.get_yticklabels(), rows):
-        label.set(weight="bold" if row["im"] == sweep.im_name else "normal")
+        label.set(weight="bold" if row["im"] in own else "normal")
     if edp.kind == "binary":
         ax.invert_xaxis()  # the best at the left in both panels
     ax.tick_params(axis="y", length=0)

@@ -9,7 +9,7 @@ from . import Picture
 
 order = 100
 CAPTION = ("Each step is one more effect in the model. Calibration: the tests its numbers were fitted to; held out: tests that no fit "
-           "has seen; dashed: what the noise of sensors and floor motion alone would make.")
+           "has seen; dashed: what the noise of sensors and floor motion alone would make of the calibration tests.")
 LINES = (("error_calibration", "calibration", style.BLUE, "-o"), ("error_holdout", "held out", style.VERMILION, "-s"),
          ("noise_floor", "noise floor", style.MUTED, "--"))
 
@@ -58,4 +58,4 @@ def _finding(results, steps):
     told = f"{step} the {what} error {verb} from {validation.error(first[key])} to {validation.error(last[key], results.unit)}"
     if not math.isfinite(floor):
         return told
-    return told + (", at" if last[key] < 1.2 * floor else ", above") + f" the noise floor of {validation.error(floor)}"
+    return told + (", at the noise floor" if last[key] < 1.2 * floor else f", above the noise floor of {validation.error(floor)}")

@@ -33,22 +33,22 @@ def _picture(diagnosis, k):
         if np.isfinite(level):
             ax.axvline(level, color=colour, lw=1.4, ls=form, zorder=1)
     for i, row in enumerate(rows):
-        colour = style.BLUE if row["rival"] else style.MUTED
+        colour = style.BLUE if row["as_good_as_best"] else style.MUTED
         if not row["left_out_refitted"]:
             ax.plot(value[i], y[i], "x", ms=6, color=style.MUTED, mew=1.3, zorder=3)
             continue
         low = min(error[i], 0.7 * value[i])
-        ax.errorbar(value[i], y[i], xerr=[[low], [error[i]]], fmt="o", ms=7, color=colour, mfc=colour if row["rival"] else "white",
+        ax.errorbar(value[i], y[i], xerr=[[low], [error[i]]], fmt="o", ms=7, color=colour, mfc=colour if row["as_good_as_best"] else "white",
                     mec=colour, mew=1.3, elinewidth=1.4, capsize=2.5, zorder=3)
     style.error_scale(ax, "x", np.concatenate([value + error, value - np.minimum(error, 0.7 * value), [base, floor]]))
     ax.set(yticks=y, ylim=(y[-1] - 0.6, 0.6), xlabel=f"error on left-out tests ({diagnosis.unit})")
     ax.set_yticklabels([validation.effect(row["effect"]) for row in rows])
     for label, row in zip(ax.get_yticklabels(), rows):
-        label.set(weight="bold" if row["rival"] else "normal", color=style.BLUE if row["rival"] else style.INK)
+        label.set(weight="bold" if row["as_good_as_best"] else "normal", color=style.BLUE if row["as_good_as_best"] else style.INK)
     ax.tick_params(axis="y", length=0)
     for i, row in enumerate(rows):
         ax.text(1.02, y[i], validation.error(value[i]), transform=ax.get_yaxis_transform(), va="center", size=8.8,
-                color=style.BLUE if row["rival"] else style.MUTED, weight="bold" if row["rival"] else "normal")
+                color=style.BLUE if row["as_good_as_best"] else style.MUTED, weight="bold" if row["as_good_as_best"] else "normal")
     style.grid(ax, "x")
     _name_lines(ax, base, floor)
     finding = verdict.finding(diagnosis)

@@ -11,7 +11,7 @@ TELLS = 0.05  # share of the scatter that a variable must explain to be worth a 
 NAMED = ("missing", "ambiguous")  # verdicts that name an effect, so that there is a law to draw
 CAPTION = ("Recovered without any effect model: the friction coefficient that balances the measured acceleration while the block slips. "
            "Points: mean of a bin; band: 95 % interval of that mean; dashed: the constant of the base model; line: the law of the "
-           "effect that the verdict names, at the same instants. Percentages: share of the scatter that the variable explains. First the variable of the law, then the most telling.")
+           "effect that the verdict names, or that is proposed, at the same instants. Percentages: share of the scatter that the variable explains. First the variable of the law, then the most telling.")
 
 
 def pictures(results):
@@ -30,9 +30,10 @@ def _telling(diagnosis):
 
 
 def _has_law(diagnosis, table):
-    """A law is drawn of the effect that the verdict names, and of no other."""
-    mine = set(table.law_effects) == set(diagnosis.best.get("effects", []))
-    return diagnosis.verdict in NAMED and mine and np.isfinite(table.columns.get("law", np.zeros(0))).any()
+    """A law is drawn of the effect that the verdict names, or of the one proposed, and of no other."""
+    shown = diagnosis.proposal or diagnosis.best
+    mine = set(table.law_effects) == set(shown.get("effects", []))
+    return (diagnosis.verdict in NAMED or diagnosis.proposal) and mine and np.isfinite(table.columns.get("law", np.zeros(0))).any()
 
 
 def _follows(diagnosis, table):

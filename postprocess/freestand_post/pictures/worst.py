@@ -13,7 +13,7 @@ SHOWN = 6
 MEASURED = "#aab2bd"
 SCALE = {"slip_m": (100, "slip (cm)"), "rotation_rad": (180 / np.pi, "rotation (°)"),
          "block_acceleration_mps2": (1 / GRAVITY, "block acc. (g)")}
-CAPTION = ("Grey: measured; lines: model. Under each: model minus measured in units of the sensor's noise; light band: two standard "
+CAPTION = ("Grey: measured; lines: model, shaded where 90 of 100 readings of another such test are predicted. Under each: model minus measured in units of the sensor's noise; light band: two standard "
            "deviations of what sensor and floor noise alone would make. Each axis shows its own range.")
 
 
@@ -39,7 +39,7 @@ def _error(results, k, history):
 def _missed(results, k, history):
     """Whether a later model misses a test, that the first did better, by more than noise."""
     test = next((test for test in results.comparisons[k].tests if test["id"] == history.id), None)
-    return test is None or not test["error_explained"] < 1.5 * test["error_expected"]
+    return test is None or not test["error_floor_noise_allowed"] < 1.5 * test["error_expected"]
 
 
 def _picture(results, found):
@@ -61,7 +61,7 @@ def _picture(results, found):
     axes[0].legend(*handles, ncol=3, frameon=False, loc="lower left", bbox_to_anchor=(-0.005, 1.0), borderaxespad=0,
                    fontsize=8.8, handlelength=1.4, columnspacing=1.4, handletextpad=0.5)
     finding = _finding(results, found)
-    style.headline(fig, finding, "Top: floor acceleration. Below: measured and computed motion, and their difference in noise units.")
+    style.headline(fig, finding, "Top: floor acceleration. Below: measured and computed motion (shaded: where 90 of 100 readings are predicted), and the residual.")
     return Picture(f"worst_{re.sub(r'[^A-Za-z0-9]+', '_', first.id)}", fig, finding, CAPTION, "worst")
 
 
@@ -71,6 +71,8 @@ def _motion(ax, first, channel, lines):
     for name, colour, history in lines:
         other = _channel(history, channel.name)
         if other:
+            if other.band:
+                ax.fill_between(history.time, factor * other.band[0], factor * other.band[1], color=colour, alpha=0.16, lw=0)
             label = "model" if len(lines) == 1 and name == "base" else f"model, {name}"
             ax.plot(history.time, factor * other.model, color=colour, lw=1.3, label=label)
     ax.set_ylabel(axis)

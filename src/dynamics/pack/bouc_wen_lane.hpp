@@ -291,7 +291,7 @@ class BoucWenLane {
   void go(double tau) {
     A += slope * tau;
     left -= tau;
-    if (left < 1e-13) next_interval();
+    if (left < 1e-13) next_interval();  // [s]: round-off of the interval's length; a push of 1e-12 m/s
   }
 
   // Sliding, to the turn.
@@ -340,7 +340,8 @@ class BoucWenLane {
     return Next::turned;
   }
 
-  // Stands, and nothing but round-off accelerates it.
+  // Stands, and nothing but round-off accelerates it: 1e-12 of the forces that cancel, ten thousand times their last digit and a hundredth of
+  // the single samples' force_zero.
   bool balanced() const {
     const double pull = W * zeta, sum = A + pull;
     return p == 0 && (sum < 0 ? -sum : sum) <= 1e-12 * ((A < 0 ? -A : A) + (pull < 0 ? -pull : pull));

@@ -33,7 +33,8 @@ double quick_stop(const double* p, const double* zeta, double A, double slope, d
     if (!(tau > 0 && tau <= end)) return -1;
     const double step = polynomial<N>(p, tau) / (A + slope * tau + W * polynomial<N>(zeta, tau));
     tau += step;
-    if (step < 1e-9 && step > -1e-9) return tau > 0 && tau <= end ? tau : -1;  // the next would be below round-off
+    // Newton's steps go by their squares: after 1e-9 of the contact's own time the next would be 1e-18 of it, below round-off.
+    if (step < 1e-9 && step > -1e-9) return tau > 0 && tau <= end ? tau : -1;
   }
   return -1;
 }

@@ -52,6 +52,7 @@ class Hopping : public LaneGroup<HopRows<Gravity>> {
     const PackMask lands = holds & ~crosses & ~open & (t > zero) & (t <= left), goes = crosses | lands, stays = ~goes;
 
     const Pack falls = xsimd::abs(speed), ahead = left - t, rises = falls * on(r_.kept);
+    // At 100 intervals a second 1e-12 of one are 1e-14 s, to which events are located.
     const PackMask to_knot = crosses | (lands & (ahead < Pack(1e-12)));
     const PackMask told = lands & (falls * falls >= on(r_.told));
     const Pack rests = choose(right, load(r_.rests[0] + i), load(r_.rests[1] + i));

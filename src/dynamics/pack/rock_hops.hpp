@@ -151,7 +151,7 @@ class RockHops : public RockLanes {
     const double kept = 0.5 * (1 + lane.kept);
     if (2 * omega > (look - 1) * h * slow * (1 - kept)) return false;
     const double rotation = omega * omega / (2 * slow);
-    if (rotation > r_.peak[i] || rotation > 0.001 * arm / c.h) return false;
+    if (rotation > r_.peak[i] || rotation > 0.001 * arm / c.h) return false;  // 0.001: as in SlideRockHops::unnoticed
     const double fast = (longer * c.g + c.h * push) / small;
     const double fx = push * magnitude(1 - c.h * c.h / large) + c.h * longer * c.g / small + 2 * c.h * omega * omega;
     const double fy = longer * fast + 2 * c.h * omega * omega;
@@ -189,7 +189,7 @@ class RockHops : public RockLanes {
 
   // ---- small hops
   // Are the hops from here on so small that their series (dynamics/pack/hop_series.hpp) is as good as that of rocking, and
-  // no new peaks?
+  // no new peaks? The limit 1e-3 is that of SlideRockHops.
   bool small_hops(int i) {
     Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;

@@ -116,6 +116,7 @@ class RockLanes {
       if (!(magnitude(a[j]) > tips)) continue;
       if (c.left != c.right) feel_rest(i, m, j, done);
       const double limit_here = a[j] > 0 ? tips : -tips, part = (limit_here - a[j - 1]) / (a[j] - a[j - 1]);
+      // 1e-11 s late at most, in which the push passes the limit by 1e-9 of what the floor changes in an interval.
       const bool at_knot = part > 1 - 1e-9 && j + 1 < t.knots;
       start(i, at_knot ? j : j - 1, at_knot ? 0.0 : (j - 1 == m && part < done ? done : part),
             a[j] * c.scale > 0 ? -1 : 1);
@@ -271,6 +272,8 @@ class RockLanes {
 
   static constexpr int look = 16;  // intervals
 
+  // What dies_out asks of a still floor, 2 omega <= (look - 1) h slowing (1 - kept), where it takes half of what an impact loses for
+  // 1 - kept; 1e-9 is more than both sides round off.
   static double dying_rate(const BatchCase& c, double most_lost) {
     const double arm = c.left < c.right ? c.left : c.right, longer = c.left < c.right ? c.right : c.left;
     const double h = c.table->step_s, slowing = arm * c.g / (c.k2 + c.h * c.h + longer * longer);

@@ -21,7 +21,9 @@ namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 constexpr int slide_slots = 16, half_slots = slide_slots / 2;
-constexpr double height_slack = 1e-6;  // more than the rounding of a height
+// While the block slips, the terms of a height stay within the 64,000 heights over which the floor's velocity swings: they round
+// off to 1e-11 of one each.
+constexpr double height_slack = 1e-6;
 alignas(64) const double still_knot[2 * table_columns] = {};
 
 struct SlideRows {

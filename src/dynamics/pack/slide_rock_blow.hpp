@@ -10,14 +10,16 @@ namespace {
 struct Blow {
   enum class Ends { regular, flat, painleve };  // flat: both corners take it
   Ends ends;
-  double omega, w;  // after it: of the block; of the corner, or of the flat base
+  double omega, w;  // after it, on the corner that strikes
+  double flat;      // slip of a base that stays flat instead
+  bool hops() const { return ends != Ends::painleve && omega != 0; }
 };
 
 // The block, which rocked on `from` with the rate `omega` while its corner slipped with `w`, strikes with `to`.
 inline Blow coulomb_blow(const BatchCase& c, const Ground& from, const Ground& to, double omega, double w) {
   const double vx = w + c.h * omega, vy = from.arm * omega, way = to.arm > 0 ? 1 : -1;  // of the centre of mass
-  if (w == 0 && omega * omega < to.rests) return {Blow::Ends::flat, 0, 0};
-  Blow after{Blow::Ends::regular, (c.k2 * omega + c.h * vx + to.arm * vy) * to.per_inertia, 0};
+  if (w == 0 && omega * omega < to.rests) return {Blow::Ends::flat, 0, 0, 0};
+  Blow after{Blow::Ends::regular, (c.k2 * omega + c.h * vx + to.arm * vy) * to.per_inertia, 0, 0};
   const double px = c.h * after.omega - vx, py = to.arm * after.omega - vy;
   if (!(magnitude(px) <= c.mu_s * py)) {
     const double first = px < 0 ? 1 : -1;  // friction opposes the slip
@@ -30,13 +32,14 @@ inline Blow coulomb_blow(const BatchCase& c, const Ground& from, const Ground& t
       after.w = vx - sigma_mu * push - c.h * after.omega;
       if (found = sigma * after.w >= 0; found) break;
     }
-    if (!found) return {Blow::Ends::painleve, 0, 0};
+    if (!found) return {Blow::Ends::painleve, 0, 0, 0};
   }
-  const bool last_hop = after.omega * after.omega < to.rests;
-  if (after.omega * way > 0 && (!last_hop || after.w == 0)) return after;
+  if (!(after.omega * way > 0)) after.omega = 0;
+  if (after.omega != 0 && (after.omega * after.omega >= to.rests || after.w == 0)) return after;
   const double push = magnitude(vy), speed = magnitude(vx), slip = speed - c.mu_k * push;
-  after.w = speed <= c.mu_s * push || slip < 0 ? 0 : vx > 0 ? slip : -slip;
-  return {Blow::Ends::flat, 0, after.w};
+  after.flat = speed <= c.mu_s * push || slip < 0 ? 0 : vx > 0 ? slip : -slip;
+  after.ends = Blow::Ends::flat;
+  return after;
 }
 
 // Does the corner that strikes stick, where the other one did not slip? Whatever the rate.

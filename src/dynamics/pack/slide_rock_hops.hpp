@@ -64,7 +64,7 @@ class SlideRockHops : public SlideRockLane {
   using SlideRockLane::SlideRockLane;
 
   // The hops from here on are so small that their series (dynamics/pack/hop_series.hpp) is as good as that of rocking, slip
-  // nowhere and are no new peaks.
+  // nowhere and are no new peaks. kappa h^2 < 1e-3: the first term left out of a hop is (kappa h^2)^3/7! = 2e-13 of it.
   bool small_hops() const {
     const double pull = on(side_).pull(a_, g_ - c_.g), square = omega_ * omega_;
     return square * square < limit2() * pull * pull && bounds_.fast * c_.g * h_ * h_ < 1e-3 &&
@@ -162,7 +162,10 @@ class SlideRockHops : public SlideRockLane {
   // A row of hops is no peak, and slips nowhere.
   bool unnoticed(const RowOfHops& row) const {
     const double rotation = row.growth * row.square / (2 * row.slow);
-    const double least = m_ < last_ ? 1e-3 : 1e-5;  // at the end of all the hops' time counts
+    // A rotation of this share of b/h takes as much off the pull back, and off the rates of the row. Of the longest row, 80 intervals,
+    // a thousandth is a twelfth of an interval, and quiet_row looks at two more. At the end of all, where the time of the hops
+    // counts, a row from 1e-5 lasts 2 sqrt(2e-5)/(1 - e)/p = 0.009/(1 - e)/p, and that is off by 1e-7/(1 - e)/p.
+    const double least = m_ < last_ ? 1e-3 : 1e-5;
     if (rotation > peak_rotation_ || rotation * c_.h > least * smaller(c_.left, c_.right)) return false;
     if (magnitude(xi_) + half_base_ * rotation * rotation > peak_slip_ + least_slip) return false;
     return unnoticed(row.push, row.lift, 2 * c_.h * row.growth * row.square);

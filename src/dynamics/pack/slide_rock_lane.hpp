@@ -41,6 +41,7 @@ class SlideRockLane {
                smaller(c_.free_vibration_s / h_, shaken_ ? still_intervals / Shaken::stride : still_intervals)) -
            4;
   }
+  // So short a rest of an interval, a difference, has seven digits: it is left to the lane alone, which goes on to the knot.
   bool in_packs() const { return left_ > 1e-9 && (m_ < last_ || m_ < patience()); }
   bool marches() const { return mode_ == Mode::rock && in_packs(); }
   bool slips() const { return mode_ == Mode::slide_rock && in_packs(); }
@@ -266,7 +267,8 @@ class SlideRockLane {
     stand_at_knot();
     if (m_ > last_ && now() >= h_ * last_ + c_.free_vibration_s) declined_ = true;
   }
-  // Forward by a part x of what is left of the interval.
+  // Forward by a part x of what is left of the interval. A rest of 1e-12 of it is the next knot: at 100 intervals a second that misses 1e-14 s,
+  // to which events are located.
   void forward(double x) {
     if (x >= 1 || left_ * (1 - x) < 1e-12) return next_knot();
     a_ += (next_floor() - a_) * x;
@@ -294,6 +296,7 @@ class SlideRockLane {
     const double alpha = (rx * f.g - ry * f.a) / (c_.k2 + rx * rx + ry * ry);
     return {alpha, 0, ry * alpha - rx * omega * omega + f.a, f.g - rx * alpha - ry * omega * omega};
   }
+  // Near Painleve's paradox, where d vanishes, the corner is said to pull: the sample is then computed alone.
   Forces slipping(double rx, double ry, double omega, Field f, double w) const {
     const double sm = sigma_ * mu_k(w), q = rx + sm * ry, n = f.g - ry * omega * omega, d = c_.k2 + rx * q;
     const double alpha = n * q / d, fy = n * c_.k2 / d;
@@ -334,8 +337,9 @@ class SlideRockLane {
   void decline() { declined_ = true; }
 
   static constexpr int most_events = 10000;
-  static constexpr double longest_row = 80;    // intervals
-  static constexpr double least_slip = 1e-10;  // [m]
+  static constexpr double longest_row = 80;  // intervals
+  // Small hops, and rows of them that are counted at once, are not watched: they may raise the peak slip by so much, unseen [m].
+  static constexpr double least_slip = 1e-10;
 
   const BatchCase& c_;
   const MotionTable& t_;

@@ -7,6 +7,7 @@
 #include "dynamics/pack/search.hpp"
 #include "dynamics/pack/slide_rock_hops.hpp"
 #include "dynamics/pack/slide_rock_search.hpp"
+#include "dynamics/row_of_hops.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -16,7 +17,7 @@ class SlideRockLife : public SlideRockHops {
   using SlideRockHops::SlideRockHops;
 
   // Part of a step in which the terms left out by series of this order are small enough; their last ones per size. 0:
-  // no part that is worth a step, the sample is better computed alone.
+  // no part that is worth a step, the sample is better computed alone: less than a thousandth, of which a thousand would cost more.
   double valid_part(double omega, double w, int order, bool by_law) const {
     const double last = larger(magnitude(omega), magnitude(w) / c_.h);
     const double allowed = by_law ? neglected_by_laws * left_ : neglected;
@@ -47,7 +48,7 @@ class SlideRockLife : public SlideRockHops {
         g_ = g_before + (g - g_before) * part;
         a_ = way * quiet(after, g_);
         feel(a_, g_);
-        if (left_ < 1e-9 && m_ + 1 < last_) next_knot();
+        if (left_ < 1e-9 && m_ + 1 < last_) next_knot();  // 1e-11 s late at most: a push of 1e-10 m/s
         event();
         side_ = after > 0 ? -1 : 1;
         if (tips_at(after, g_) <= slips_at(g_)) {
@@ -85,7 +86,7 @@ class SlideRockLife : public SlideRockHops {
     const double hs = h_ * left_, a1 = next_floor(), g1 = next_gravity(), friction = c_.mu_k * g_;
     if (!(smaller(g_, g1) > 0)) return decline();
     double p[3] = {sigma_ * w_, -(sigma_ * a_ + friction) * hs, -0.5 * (sigma_ * (a1 - a_) + c_.mu_k * (g1 - g_)) * hs};
-    if (p[0] == 0 && p[1] < 0 && p[1] > -1e-9 * c_.g * hs) p[1] = 0;
+    if (p[0] == 0 && p[1] < 0 && p[1] > -slip_zero * c_.g * hs) p[1] = 0;
     const double x = first_fall<2>(p, 1.0), part = x < 1 ? x : 1.0;
     feel(friction, g_);
     if (shaken_) {
@@ -190,12 +191,15 @@ class SlideRockLife : public SlideRockHops {
       const Blow blow = coulomb_blow(c_, on(from), on(to), omega_, w_);
       if (blow.ends == Blow::Ends::painleve) return decline();
       w_ = blow.w;
-      if (blow.ends == Blow::Ends::flat) return choose_flat();
+      if (blow.ends == Blow::Ends::flat) {
+        w_ = blow.hops() && !slip_outlasts_hops(to, blow.omega) ? 0 : blow.flat;
+        return choose_flat();
+      }
       omega = blow.omega;
     }
     const bool ends = hop(to, omega) < c_.rest_rotation;
     if (ends) {
-      if (w_ != 0) w_ = slip_after_hops(to, omega);
+      if (w_ != 0 && omega != 0) w_ = slip_outlasts_hops(to, omega) ? slip_after_hops(to, omega) : 0;
       return choose_flat();
     }
     stand(mode_, to);
@@ -203,6 +207,27 @@ class SlideRockLife : public SlideRockHops {
     if (w_ == 0 && sticks_ && dies_out()) return stand(Mode::rest, 0);
     choose_on_corner();
     hops_ = sticks_ && mode_ == Mode::rock && small_hops();
+  }
+
+  // The row of hops starts on `side`.
+  bool slip_outlasts_hops(int side, double rate) {
+    const auto start = [&](int pivot, double w) {
+      sigma_ = w > 0 ? 1 : -1;
+      const Forces f = slipping(-arm(pivot), c_.h, 0.0, field(), w);
+      return HopStart{f.alpha, f.slip};
+    };
+    const auto blow = [&](int pivot, double& omega, double& w) {
+      if (!c_.coulomb) {
+        omega *= on(pivot).kept;
+        return omega != 0;
+      }
+      const Blow after = coulomb_blow(c_, on(pivot), on(-pivot), omega, w);
+      if (!after.hops()) return false;
+      omega = after.omega;
+      w = after.w;
+      return true;
+    };
+    return outlasts_hops(side, rate, w_, start, blow);
   }
 
   // As in dynamics/impact.cpp: two geometric series.

@@ -96,6 +96,10 @@ struct SlipEnds {
   alignas(64) double parts[pack_lanes];  // of what is left of the interval
 };
 
+// A slip that begins where the push reaches the grip starts with no acceleration, but for the error of that place: 1e-9 of an
+// interval, of floors that change by g in one. In an interval of 0.01 s it would move 5e-13 m.
+constexpr double slip_zero = 1e-9;  // [g]
+
 // Least last term of a series that counts. The series of laws may converge slowly; what they neglect is a speed, which
 // stays for good, so it is less the shorter the step.
 constexpr double neglected = 3e-11, neglected_by_laws = 3e-13;  // least term of a series that counts

@@ -99,13 +99,13 @@ inline int first_loud(const MotionTable& t, int from, double scale, double lift,
 inline int first_doubt(const MotionTable& t, int m, double w, double sigma, double G) {
   const double *V = t.velocity.data(), *M = t.margin.data();
   const Pack way(sigma), start(sigma * (w + V[m])), slows(G);
-  alignas(64) static constexpr double ramp[] = {0, 1, 2, 3, 4, 5, 6, 7};
+  alignas(64) static constexpr double knots_on[] = {0, 1, 2, 3, 4, 5, 6, 7};
   int j = m / table_run * table_run;
   unsigned keep = 0xffU << (m - j);
   for (; j < t.knots; j += table_run, keep = 0xff) {
     unsigned found = 0;
     for (int i = 0; i < table_run; i += pack_lanes) {
-      const Pack knots = load(ramp + i) + Pack(static_cast<double>(j - m));
+      const Pack knots = load(knots_on + i) + Pack(static_cast<double>(j - m));
       found |= bits(start - way * load_any(V + j + i) - slows * knots <= load_any(M + j + i)) << i;
     }
     found &= keep;

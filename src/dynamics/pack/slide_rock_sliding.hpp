@@ -75,7 +75,7 @@ class SlideRockSliding : public SlideRockLife {
     if (x == 0) return decline();
     Ends ends = Ends::none;
     for (int k = 0; k < N + 2; ++k) p[k] = sigma_ * y.w[k];
-    if (p[0] == 0 && p[1] < 0 && p[1] > -1e-9 * c_.g * hs2) p[1] = 0;
+    if (p[0] == 0 && p[1] < 0 && p[1] > -slip_zero * c_.g * hs2) p[1] = 0;
     if (const double stops = first_fall<N + 1>(p, x); stops <= x) x = stops, ends = Ends::stops;
     for (int k = 0; k <= N; ++k) p[k] = (k == 0 ? tipping_factor() : 0.0) - factor.factor()[k];
     if (const double tips = first_fall<N>(p, x); tips < x) x = tips, ends = Ends::tips;

@@ -170,7 +170,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     PackMask slips_on(const Pack& w) const {
       const Pack zero(0.0), slip0 = sigma * y.w[0], rises = sigma * y.w[1], curve = sigma * y.w[2];
       const Pack more = xsimd::abs(y.w[3]) + xsimd::abs(y.w[4]);
-      const PackMask leaves = (slip0 >= zero) & (rises > Pack(-1e-9) * weight_g * left2) & (rises + curve > more);
+      const PackMask leaves = (slip0 >= zero) & (rises > Pack(-slip_zero) * weight_g * left2) & (rises + curve > more);
       return (xsimd::min(slip0, sigma * w) > Pack(0.25) * xsimd::abs(curve) + Pack(0.5) * more) | leaves;
     }
     // Slip of the midpoint: u = xi + B (1 - cos theta).

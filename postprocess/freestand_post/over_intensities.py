@@ -1,0 +1,47 @@
+"""One design over several intensities: the same samples, fitted over each."""
+from dataclasses import dataclass
+
+from . import designs, words
+
+
+@dataclass
+class Intensities:
+    sweeps: list       # fits of one study, each over its own intensity
+    events: list       # (what, [curve over each])
+
+    @property
+    def level(self):
+        return self.sweeps[0].level
+
+
+def compare(sweeps):
+    """Intensities where the sweeps are of one study over several intensities, else what designs.compare() makes of them."""
+    if len({sweep.im_name for sweep in sweeps}) < len(sweeps) or not designs.same_study(sweeps):
+        return designs.compare(sweeps)
+    return Intensities(sweeps, list(designs.curves(sweeps)))
+
+
+def content(found, figures, risks):
+    """What the page shows."""
+    first = found.sweeps[0]
+    symbols = words.listing([sweep.im_symbol for sweep in found.sweeps])
+    name = words.capitalised(str(first.summary.get("study_name") or first.folder.resolve().name))
+    what, curves = next(((what, curves) for what, curves in found.events if all(_known(curve) for curve in curves)), ("", []))
+    return {"title": f"{name}: over {symbols}", "lead": f"One sweep of {words.plural(first.samples, 'sample')}, fitted over {symbols}.",
+            "headline": [(words.quantity(curve["median"], sweep.im_unit), f"median {sweep.im_symbol} of {what}") for sweep, curve in zip(found.sweeps, curves)],
+            "figures": [figure for figure in figures if figure["section"] != "risk"], "rows": list(_rows(found)), "level": found.level, "risks": risks,
+            "provenance": [(sweep.im_symbol, f"{sweep.folder.resolve().name}: {words.count(sweep.samples)} samples, seed {sweep.attributes.get('seed', '–')}, "
+                            f"freestand {sweep.attributes.get('version', '–')}, {sweep.attributes.get('created_utc', '')}") for sweep in found.sweeps]}
+
+
+def _known(curve):
+    return curve["median"] > 0
+
+
+def _rows(found):
+    for what, curves in found.events:
+        for i, (sweep, curve) in enumerate(zip(found.sweeps, curves)):
+            yield {"what": words.capitalised(what) if i == 0 else "", "im": words.with_unit(sweep.im_symbol, sweep.im_unit),
+                   "median": words.plus_minus(curve["median"], curve["median_se"]),
+                   "dispersion": words.plus_minus(curve["dispersion"], curve["dispersion_se"]),
+                   "mark": ("*" if curve["extrapolated"] else "") + ("" if curve["adequate"] or not _known(curve) else "†")}

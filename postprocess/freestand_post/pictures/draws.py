@@ -1,0 +1,71 @@
+"""What the tests leave open of the fitted numbers: the joint draws of the last comparison, two numbers by two."""
+import numpy as np
+
+from .. import style, validation, words
+from ..validation import Validation
+from . import Picture
+
+order = 160
+CAPTION = ("Each point is a set of numbers that the calibration tests allow, as a sweep of fitted.yaml draws them; crosses: the fit. Dashed: "
+           "nine in ten of each number lie between. Where friction differs from test to test, it is that of another test.")
+
+
+def pictures(results):
+    if isinstance(results, Validation) and results.last and results.last.draws:
+        yield _picture(results.last)
+
+
+def _picture(comparison):
+    best = {row["name"]: row["value"] for row in comparison.parameters}
+    names = [name for name in comparison.draws if name in best]
+    values = [comparison.draws[name] for name in names]
+    n = len(names)
+    fig = style.figure(7.4, 2.9 if n == 1 else 1.0 + 1.75 * n)
+    axes = np.atleast_2d(fig.subplots(n, n, squeeze=False))
+    for i in range(n):
+        for j in range(n):
+            if j > i:
+                axes[i, j].set_visible(False)
+            elif i == j:
+                _one(axes[i, i], values[i], best[names[i]])
+            else:
+                axes[i, j].plot(values[j], values[i], ".", ms=3, color=style.BLUE, alpha=0.35, mew=0)
+                axes[i, j].plot(best[names[j]], best[names[i]], "x", ms=7, mew=1.6, color=style.VERMILION)
+            axes[i, j].tick_params(labelbottom=i == n - 1, labelleft=j == 0 and i > 0)
+            axes[i, j].xaxis.set_major_locator(style.ticker.MaxNLocator(3))
+            axes[i, j].yaxis.set_major_locator(style.ticker.MaxNLocator(3) if i != j else style.ticker.NullLocator())
+    for k, name in enumerate(names):
+        axes[n - 1, k].set_xlabel(validation.parameter(name).replace(": ", ":\n"))
+        if k > 0:
+            axes[k, 0].set_ylabel(validation.parameter(name).replace(": ", ":\n"))
+    finding = _finding(comparison, names, values)
+    style.headline(fig, finding, f"{len(values[0])} joint draws of the fitted numbers.")
+    return Picture("draws", fig, finding, CAPTION, "draws")
+
+
+def _one(ax, values, best):
+    ax.hist(values, bins=24, color=style.BLUE, alpha=0.55)
+    ax.axvline(best, color=style.VERMILION, lw=1.6)
+    for end in np.quantile(values, (0.05, 0.95)):
+        ax.axvline(end, color=style.MUTED, lw=0.9, ls="--")
+
+
+def _finding(comparison, names, values):
+    scatter = comparison.friction_scatter
+    friction = f"; friction differs by {words.percent(scatter)} from test to test" if scatter > 0 else ""
+    if len(names) > 1:
+        r = np.corrcoef(np.array(values))
+        np.fill_diagonal(r, 0)
+        i, j = np.unravel_index(np.nanargmax(np.abs(r)), r.shape)
+        if abs(r[i, j]) > 0.7:
+            return (f"The tests know {_called(names[i])} and {_called(names[j])} better together than each "
+                    f"(correlation {r[i, j]:.2f}){friction}")
+    widths = [np.subtract(*np.quantile(v, (0.95, 0.05))) / abs(np.median(v)) for v in values]
+    k = int(np.argmax(widths))
+    low, high = np.quantile(values[k], (0.05, 0.95))
+    return (f"The tests leave {_called(names[k])} open between {words.number(low)} and {words.number(high)}"
+            f"{', and the other numbers less' if len(names) > 1 else ''}{friction}")
+
+
+def _called(name):
+    return validation.parameter(name).replace(": ", " ")

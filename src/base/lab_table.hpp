@@ -1,0 +1,25 @@
+// A table of numbers as laboratories write them: columns set apart by commas, semicolons, tabs or blanks; decimal points or
+// decimal commas; lines of words above the names of the columns, and a line of units below them.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace freestand {
+
+struct LabTable {
+  std::filesystem::path file;
+  std::vector<std::string> columns;         // as the file names them; without names "1", "2", ...
+  std::vector<std::vector<double>> values;  // of each column
+  std::vector<int> lines;                   // of each row, 1 first
+
+  // Position of a column; columns.size() where there is none.
+  std::size_t column(const std::string& name) const;
+};
+
+// Throws Error (Exit::data) that names file and line: no numbers, a row with another number of cells, a cell that is no
+// finite number.
+LabTable read_lab_table(const std::filesystem::path& file);
+
+}  // namespace freestand

@@ -1,0 +1,57 @@
+#include "measurement/laboratory.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "measurement/score.hpp"
+#include "measurement/starts.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+constexpr double deviations = 3;  // one factor in 400 lies further off
+
+bool shows(const Bench& bench, const ModelSpec& base, const Values& x, const ModelSpec& model) {
+  for (const std::size_t test : tests_of(bench.data(), Role::calibration))
+    for (const double factor : {model.free.back().low, model.free.back().high}) {
+      Values other = x;
+      other.push_back(factor);
+      if (std::abs(test_error(bench, test, model, other).score - test_error(bench, test, base, x).score) >= seen_change)
+        return true;
+    }
+  return false;
+}
+
+}  // namespace
+
+bool is_laboratory_fault(const std::string& name) { return name == width_fault || name == gain_fault; }
+
+std::string fault_sentence(const std::string& name, double factor) {
+  const double percent = 100 * std::abs(factor - 1);
+  return name == width_fault
+             ? fmt::format("the width is {:.1f} % {} than stated", percent, factor < 1 ? "smaller" : "larger")
+             : fmt::format("the floor's accelerometer reads {:.1f} % too {}", percent, factor < 1 ? "much" : "little");
+}
+
+std::vector<LaboratoryFault> laboratory_faults(const Bench& bench, const ModelSpec& base, const Values& x) {
+  std::vector<LaboratoryFault> found;
+  const auto add = [&](const char* name, Number ModelSpec::*factor, double deviation) {
+    LaboratoryFault fault{name, base};
+    fault.model.*factor = {.free = static_cast<int>(base.free.size())};
+    const double low = 1 - deviations * deviation, high = 1 + deviations * deviation;
+    fault.model.free.push_back({.name = std::string("laboratory.") + name,
+                                .unit = "1",
+                                .lower = low,
+                                .upper = high,
+                                .low = low,
+                                .high = high});
+    if (deviation > 0 && shows(bench, base, x, fault.model)) found.push_back(std::move(fault));
+  };
+  const bool fitted = base.width && base.width->free >= 0;
+  if (!fitted && !base.slenderness) add(width_fault, &ModelSpec::width_factor, bench.data().tolerance.width);
+  add(gain_fault, &ModelSpec::floor_gain, bench.data().tolerance.floor_gain);
+  return found;
+}
+
+}  // namespace freestand::measurement

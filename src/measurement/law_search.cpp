@@ -1,0 +1,132 @@
+#include "measurement/law_search.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/digits.hpp"
+#include "measurement/decide.hpp"
+#include "measurement/effect_search.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+class LawSearch : EffectSearch {
+ public:
+  LawSearch(const Bench& bench, const ModelSpec& base, const Catalogue& forms, const DiagnosisOptions& options,
+            const Jobs& jobs, Diagnosis& diagnosis)
+      : EffectSearch(bench, base, forms, options, jobs), diagnosis_(diagnosis) {
+    out_.base = diagnosis.base;
+  }
+
+  void run() {
+    fit(single_effects());
+    judge();
+    if (!forms_may_help()) return;
+    const Candidate* form = simplest_that_leads();
+    if (!form || !better_than_the_catalogue(*form)) return;
+    const auto tests = tests_of(bench_.data(), Role::calibration);
+    diagnosis_.proposal = *form;
+    if (diagnosis_.verdict != Verdict::unknown) withdraw();
+    diagnosis_.sentences.push_back(fmt::format(
+        "a law of no catalogue does better: {}; it brings the left-out error from {} to {} (proposed_law.yaml, "
+        "which `freestand add` takes)",
+        law_of(*form).law, three_digits(pooled(bench_, tests, diagnosis_.base.fit.left_out).error),
+        three_digits(pooled(bench_, tests, form->fit.left_out).error)));
+  }
+
+ private:
+  void withdraw() {
+    diagnosis_.sentences.insert(diagnosis_.sentences.begin(),
+                                fmt::format("{} is not enough: in data made from it hardly any misfit is as large",
+                                            fmt::join(diagnosis_.effects, " or ")));
+    diagnosis_.verdict = Verdict::unknown;
+    diagnosis_.reason = Reason::none_suffices;
+    diagnosis_.effects.clear();
+    for (Candidate& c : diagnosis_.candidates) c.rival = false;
+  }
+
+  static const dynamics::Effect& law_of(const Candidate& c) { return *c.fit.model.effects.back().effect; }
+
+  bool forms_may_help() {
+    std::vector<const ModelFit*> tried;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible) tried.push_back(&c.fit);
+    if (tried.empty()) return false;
+    const Judge judge(bench_, out_.base.fit.model, out_.base.fit.x, jobs_);
+    Chance chance = chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_);
+    chance.about = fmt::format("{} forms of laws", tried.size());
+    diagnosis_.chances.push_back(chance);
+    return !chance.chance();
+  }
+
+  bool leads(const Candidate& best, const Candidate& rival) {
+    if (best.fit.mean_left_out() >= rival.fit.mean_left_out()) return false;
+    const Judge judge(bench_, best.fit.model, best.fit.x, jobs_);
+    Chance chance = chance_of_lead(bench_, judge, best.fit, rival.fit, jobs_);
+    chance.about = fmt::format("{} before {}", fmt::join(best.effects, " and "), fmt::join(rival.effects, " and "));
+    diagnosis_.chances.push_back(chance);
+    return !chance.chance();
+  }
+
+  const Candidate* simplest_that_leads() {
+    std::vector<const Candidate*> forms;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible && c.fit.left_out_refitted && c.misfit < out_.base.misfit) forms.push_back(&c);
+    std::stable_sort(forms.begin(), forms.end(), [](const Candidate* a, const Candidate* b) {
+      return std::pair(a->fit.x.size(), a->misfit) < std::pair(b->fit.x.size(), b->misfit);
+    });
+    const Candidate* best = nullptr;
+    for (const Candidate* form : forms)
+      if (!best || leads(*form, *best)) best = form;
+    return best;
+  }
+
+  bool better_than_the_catalogue(const Candidate& form) {
+    const Candidate* known = nullptr;
+    for (const Candidate& c : diagnosis_.candidates)
+      if (c.visible && !c.laboratory && c.fit.left_out_refitted && (!known || c.misfit < known->misfit)) known = &c;
+    return !known || leads(form, *known);
+  }
+
+  Diagnosis& diagnosis_;
+};
+
+}  // namespace
+
+void propose_law(const Bench& bench, const ModelSpec& base, const std::vector<const dynamics::Effect*>& forms,
+                 const DiagnosisOptions& options, const Jobs& jobs, Diagnosis& diagnosis) {
+  if (kind_of_set(bench) != Kind::history || diagnosis.reason == Reason::data) return;
+  if (diagnosis.verdict == Verdict::none) return;
+  if (diagnosis.verdict != Verdict::unknown && diagnosis.best) {
+    const Candidate& best = diagnosis.candidates[*diagnosis.best];
+    const Judge judge(bench, best.fit.model, best.fit.x, jobs);
+    Chance chance = chance_of_misfit(bench, judge, best.fit, best.misfit_of_fit);
+    chance.about = fmt::format("{}", fmt::join(best.effects, " and "));
+    diagnosis.chances.push_back(chance);
+    if (chance.chance()) return;
+  }
+  LawSearch(bench, base, forms, options, jobs, diagnosis).run();
+}
+
+LawBand law_band(const ModelFit& fit, const LawAt& law) {
+  LawBand band{law(fit.x), {}, {}};
+  const std::size_t places = band.law.size();
+  std::vector<double> mean(places, 0), square(places, 0);
+  const auto n = static_cast<double>(fit.fold_x.size());
+  for (const Values& x : fit.fold_x) {
+    const std::vector<double> without = law(x);
+    for (std::size_t i = 0; i < places; ++i) mean[i] += without[i] / n, square[i] += without[i] * without[i];
+  }
+  for (std::size_t i = 0; i < places; ++i) {
+    const double spread = n > 1 ? std::sqrt((n - 1) / n * std::max(square[i] - n * mean[i] * mean[i], 0.0)) : 0;
+    const double half = n > 1 ? gsl_cdf_tdist_Pinv(0.975, n - 1) * spread : 0;
+    band.lower.push_back(band.law[i] - half);
+    band.upper.push_back(band.law[i] + half);
+  }
+  return band;
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,90 @@
+#include "measurement/quiet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "measurement/smooth.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+constexpr double half_window_s = 0.04, shortest_s = 0.3;
+constexpr double still = 5;  // in what noise makes
+// Times that: noise that is stated at less than a third is refused elsewhere (plausible.hpp).
+constexpr double surely = 3;
+constexpr double below = 0.7;  // of the floor that moved the block
+
+// Marks where this displacement moves, with half a window to either side. Noise that is stated too small would be motion:
+// what the third differences show of it counts where it is more.
+void mark_motion(const std::vector<double>& samples, double stated, double dt_s, double times,
+                 std::vector<bool>& moves) {
+  if (samples.empty() || stated <= 0) return;
+  const double noise = times * std::clamp(sensor_noise(samples), stated, surely * stated);
+  const Smooth motion = smooth(samples, dt_s, half_window_s);
+  const double least = still * noise * rate_noise(dt_s, half_window_s);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (std::abs(motion.firm_rate(i)) < least) continue;
+    const std::size_t from = i < motion.half ? 0 : i - motion.half, to = std::min(samples.size(), i + motion.half + 1);
+    for (std::size_t k = from; k < to; ++k) moves[k] = true;
+  }
+}
+
+std::vector<bool> motion_of(const Dataset& data, const Test& test, double times = 1) {
+  std::vector<bool> moves(std::max(test.slip_m.size(), test.rotation_rad.size()), false);
+  mark_motion(test.slip_m, data.noise.slip_m, test.dt_s, times, moves);
+  mark_motion(test.rotation_rad, data.noise.rotation_rad, test.dt_s, times, moves);
+  return moves;
+}
+
+double floor_at(const Test& test, std::size_t i) {
+  return std::abs(horizontal_acceleration(test.shaking(), static_cast<double>(i) * test.dt_s));
+}
+
+// The least floor, over the tests, that had been reached when something was first seen to move beyond doubt.
+double floor_that_moves(const Dataset& data) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Test& test : data.tests) {
+    if (test.role == Role::holdout || !test.has_history()) continue;
+    const std::vector<bool> moves = motion_of(data, test, surely);
+    double reached = 0;
+    std::size_t i = 0;
+    for (; i < moves.size() && !moves[i]; ++i) reached = std::max(reached, floor_at(test, i));
+    // A window that saw the motion ends two halves later: by then it had begun.
+    const std::size_t end = std::min(moves.size(), i + 2 * half_window_samples(half_window_s, test.dt_s));
+    for (std::size_t k = i; k < end; ++k) reached = std::max(reached, floor_at(test, k));
+    if (i < moves.size() && reached > 0) least = std::min(least, reached);
+  }
+  return least;
+}
+
+}  // namespace
+
+std::vector<QuietStretch> quiet_stretches(const Dataset& data, Channel channel) {
+  std::vector<QuietStretch> found;
+  const double noise = measurement::noise(data.noise, channel), loud = below * floor_that_moves(data);
+  if (noise <= 0 || channel == Channel::block_acceleration) return found;
+  for (std::size_t t = 0; t < data.tests.size(); ++t) {
+    const Test& test = data.tests[t];
+    const std::vector<double>& samples = history(test, channel);
+    if (samples.empty() || test.role == Role::holdout || test.dt_s <= 0) continue;
+    std::vector<bool> moves = motion_of(data, test);
+    const std::size_t half = half_window_samples(half_window_s, test.dt_s);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      if (floor_at(test, i) > loud)
+        std::fill(moves.begin() + static_cast<long>(i < half ? 0 : i - half),
+                  moves.begin() + static_cast<long>(std::min(samples.size(), i + half + 1)), true);
+    for (std::size_t from = 0; from < samples.size();) {
+      std::size_t to = from;
+      while (to < samples.size() && !moves[to]) ++to;
+      if (static_cast<double>(to - from) * test.dt_s >= shortest_s) {
+        found.push_back({t, test.dt_s, {}});
+        for (std::size_t i = from; i < to; ++i) found.back().samples.push_back(samples[i] / noise);
+      }
+      from = to + 1;
+    }
+  }
+  return found;
+}
+
+}  // namespace freestand::measurement

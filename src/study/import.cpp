@@ -1,0 +1,303 @@
+#include "study/import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+
+#include "base/lab_table.hpp"
+#include "base/shown_text.hpp"
+#include "measurement/bench.hpp"
+#include "measurement/timing.hpp"
+
+namespace freestand::study {
+namespace {
+
+using Series = std::vector<double>;
+constexpr double longest_offset_s = 0.5;
+
+// A channel of a file, in SI, at the file's own times.
+Series channel(const LabTable& table, const LabColumn& column) {
+  const std::size_t place = table.column(column.name);
+  if (place == table.columns.size()) {
+    std::string names;
+    for (const std::string& name : table.columns) names += (names.empty() ? "" : ", ") + shown(name);
+    throw Error(fmt::format("{} has no column {} (its columns are {}): correct the name", table.file.string(),
+                            shown(column.name), names),
+                Exit::data);
+  }
+  Series values = table.values[place];
+  for (double& value : values) value *= column.factor;
+  return values;
+}
+
+struct File {
+  LabTable table;
+  Series time;
+  double step_s = 0;  // the middle one
+};
+
+File read_file(const LabFile& lab) {
+  File file{read_lab_table(lab.path), {}, 0};
+  file.time = channel(file.table, lab.time);
+  Series steps;
+  for (std::size_t i = 1; i < file.time.size(); ++i) {
+    steps.push_back(file.time[i] - file.time[i - 1]);
+    if (steps.back() <= 0)
+      throw Error(fmt::format("{}:{}: time does not rise (column {}): correct it, or cut the file there",
+                              lab.path.string(), file.table.lines[i], shown(lab.time.name)),
+                  Exit::data);
+  }
+  if (steps.size() < 10)
+    throw Error(fmt::format("{} holds {} rows (a history needs ten and more): give the whole of it", lab.path.string(),
+                            file.time.size()),
+                Exit::data);
+  std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2), steps.end());
+  file.step_s = steps[steps.size() / 2];
+  return file;
+}
+
+// Linear between the samples.
+Series at_times(const Series& time, const Series& values, double start, double step, std::size_t count) {
+  Series out;
+  std::size_t k = 1;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double t = start + step * static_cast<double>(i);
+    while (k + 1 < time.size() && time[k] < t) ++k;
+    const double share = std::clamp((t - time[k - 1]) / (time[k] - time[k - 1]), 0.0, 1.0);
+    out.push_back(values[k - 1] + share * (values[k] - values[k - 1]));
+  }
+  return out;
+}
+
+struct TestOfLab {
+  measurement::Test test;
+  Series floor, vertical;
+};
+
+class Importer {
+ public:
+  explicit Importer(const Laboratory& lab) : lab_(lab) {}
+
+  Imported run() {
+    std::vector<File> floors, responses;
+    for (const LabTest& test : lab_.tests) {
+      floors.push_back(read_file(test.floor));
+      responses.push_back(read_file(test.response));
+    }
+    step_s_ = lab_.sampling_dt_s;
+    for (std::size_t i = 0; i < floors.size() && lab_.sampling_dt_s == 0; ++i)
+      for (const double step : {floors[i].step_s, responses[i].step_s})
+        step_s_ = step_s_ == 0 ? step : std::min(step_s_, step);
+    step_s_ = std::round(1e7 * step_s_) / 1e7;  // clocks are read to some microseconds
+    const std::vector<double> clock_s = clocks(floors, responses);
+    for (std::size_t i = 0; i < floors.size(); ++i) take(lab_.tests[i], floors[i], responses[i], clock_s[i]);
+    tell_noise();
+    out_.files.emplace_back("dataset.yaml", dataset_text());
+    for (const TestOfLab& t : tests_) out_.files.emplace_back(t.test.id + ".csv", csv_text(t));
+    return std::move(out_);
+  }
+
+ private:
+  void say(std::string sentence) { out_.sentences.push_back(std::move(sentence)); }
+
+  void take(const LabTest& lab, const File& floor, const File& response, double clock_s) {
+    TestOfLab t = on_one_clock(lab, floor, response, clock_s);
+    tell(lab, floor, response, t);
+    see_noise(noise_.slip_m, response, lab.slip, lab_.noise.slip_m);
+    see_noise(noise_.rotation_rad, response, lab.rotation, lab_.noise.rotation_rad);
+    see_noise(noise_.block_acceleration_mps2, response, lab.block_acceleration, lab_.noise.block_acceleration_mps2);
+    tests_.push_back(std::move(t));
+  }
+
+  // Of each test, by how much the response's clock is behind. Tests that agree to two steps were read by one clock: its
+  // offset is the middle one, and holds for those, too, whose motion tells nothing.
+  std::vector<double> clocks(const std::vector<File>& floors, const std::vector<File>& responses) {
+    std::vector<double> found, each;
+    for (std::size_t i = 0; i < lab_.tests.size(); ++i) {
+      const LabTest& lab = lab_.tests[i];
+      each.push_back(lab.clock_s.value_or(0));
+      if (lab.clock_s || !lab.slip) continue;
+      const measurement::Timing timing = timing_of(lab, responses[i], on_one_clock(lab, floors[i], responses[i], 0));
+      if (!timing.wrong()) continue;
+      each.back() = std::round(1e4 * timing.late * step_s_) / 1e4;
+      found.push_back(each.back());
+    }
+    for (const LabTest& lab : lab_.tests)
+      if (!lab.slip && !lab.clock_s && lab.floor.path != lab.response.path)
+        say(fmt::format(
+            "{}: the clocks of floor and response are taken as one: slips show their offset, and none was measured "
+            "(clock_s of a test says what it is)",
+            lab.id));
+    if (found.empty()) return each;
+    std::sort(found.begin(), found.end());
+    const double middle = 0.5 * (found[(found.size() - 1) / 2] + found[found.size() / 2]);
+    const bool one_clock = found.size() > 1 && found.back() - found.front() <= 2 * step_s_;
+    for (std::size_t i = 0; i < each.size(); ++i) {
+      if (lab_.tests[i].clock_s || !lab_.tests[i].slip) continue;
+      if (one_clock) each[i] = middle;
+      if (!one_clock && each[i] != 0) say(clock_sentence(lab_.tests[i].id, each[i]));
+    }
+    if (one_clock) say(clock_sentence("all tests", middle));
+    return each;
+  }
+
+  static std::string clock_sentence(const std::string& whose, double clock_s) {
+    return fmt::format(
+        "{}: the response's clock runs {:.4g} s {} the floor's by what slips show, and was set by that (clock_s of "
+        "a test says what it is, 0 too)",
+        whose, std::abs(clock_s), clock_s > 0 ? "behind" : "ahead of");
+  }
+
+  TestOfLab on_one_clock(const LabTest& lab, const File& floor, const File& response, double clock_s) const {
+    Series times = response.time;
+    for (double& time : times) time -= clock_s;
+    const double start = std::max(floor.time.front(), times.front()), end = std::min(floor.time.back(), times.back());
+    const double steps = std::floor((end - start) / step_s_ * (1 + 1e-9) + 1e-6);
+    if (!(steps >= 10))
+      throw Error(
+          fmt::format(
+              "{}: floor and response have no time in common ({} runs from {:.4g} to {:.4g} s, {} from {:.4g} to "
+              "{:.4g} s): give clock_s, by how much the response's clock is behind",
+              lab.id, lab.floor.path.string(), floor.time.front(), floor.time.back(), lab.response.path.string(),
+              response.time.front(), response.time.back()),
+          Exit::data);
+    const auto count = static_cast<std::size_t>(steps) + 1;
+    const auto of = [&](const File& file, const Series& time, const std::optional<LabColumn>& column) {
+      return column ? at_times(time, channel(file.table, *column), start, step_s_, count) : Series{};
+    };
+    TestOfLab t;
+    t.floor = of(floor, floor.time, lab.acceleration);
+    t.vertical = of(floor, floor.time, lab.vertical);
+    t.test.id = lab.id;
+    t.test.role = lab.role;
+    t.test.dt_s = step_s_;
+    t.test.slip_m = of(response, times, lab.slip);
+    t.test.rotation_rad = of(response, times, lab.rotation);
+    t.test.block_acceleration_mps2 = of(response, times, lab.block_acceleration);
+    t.test.motion = piecewise_linear(lab.id, step_s_, t.floor, {});
+    return t;
+  }
+
+  // Of the samples as they were written: those between them hide half of it.
+  static double noise_of(const File& file, const std::optional<LabColumn>& column, double given) {
+    return given > 0 || !column ? given : measurement::sensor_noise(channel(file.table, *column));
+  }
+
+  measurement::Timing timing_of(const LabTest& lab, const File& response, const TestOfLab& t) const {
+    measurement::Dataset set;
+    set.noise.slip_m = noise_of(response, lab.slip, lab_.noise.slip_m);
+    set.noise.rotation_rad = noise_of(response, lab.rotation, lab_.noise.rotation_rad);
+    set.tests = {t.test};
+    return slip_timing(measurement::Bench(set, 0), 0, static_cast<int>(longest_offset_s / step_s_), true);
+  }
+
+  static std::string changed(const LabColumn& column, const std::string& to) {
+    const std::string unit = to.substr(to.rfind('_') + 1);
+    return fmt::format("{} in {}{} is {}", shown(column.name), shown(column.unit),
+                       column.factor < 0 ? ", turned round," : "", to);
+  }
+
+  void tell(const LabTest& lab, const File& floor, const File& response, const TestOfLab& t) {
+    std::vector<std::string> columns = {changed(lab.acceleration, "floor_acceleration_mps2")};
+    if (lab.vertical) columns.push_back(changed(*lab.vertical, "floor_vertical_acceleration_mps2"));
+    if (lab.slip) columns.push_back(changed(*lab.slip, "slip_m"));
+    if (lab.rotation) columns.push_back(changed(*lab.rotation, "rotation_rad"));
+    if (lab.block_acceleration) columns.push_back(changed(*lab.block_acceleration, "block_acceleration_mps2"));
+    say(fmt::format("{}: {}", lab.id, fmt::join(columns, "; ")));
+    say(
+        fmt::format("{}: floor in steps of {:.4g} s, response of {:.4g} s, both now of {:.4g} s; {:.4g} s of {:.4g} s "
+                    "and {:.4g} s are in both",
+                    lab.id, floor.step_s, response.step_s, step_s_, step_s_ * static_cast<double>(t.floor.size() - 1),
+                    floor.time.back() - floor.time.front(), response.time.back() - response.time.front()));
+    std::vector<std::string> unused;
+    const auto see = [&](const LabTable& table, const std::vector<const LabColumn*>& used) {
+      for (const std::string& name : table.columns)
+        if (std::none_of(used.begin(), used.end(), [&](const LabColumn* c) { return c && c->name == name; }))
+          unused.push_back(fmt::format("{} of {}", shown(name), table.file.filename().string()));
+    };
+    const auto if_there = [](const std::optional<LabColumn>& column) { return column ? &*column : nullptr; };
+    const bool one_file = lab.floor.path == lab.response.path;
+    std::vector<const LabColumn*> of_floor = {&lab.floor.time, &lab.acceleration, if_there(lab.vertical)};
+    const std::vector<const LabColumn*> of_response = {&lab.response.time, if_there(lab.slip), if_there(lab.rotation),
+                                                       if_there(lab.block_acceleration)};
+    if (one_file)
+      of_floor.insert(of_floor.end(), of_response.begin(), of_response.end());
+    else
+      see(response.table, of_response);
+    see(floor.table, of_floor);
+    if (!unused.empty()) say(fmt::format("{}: not used: {}", lab.id, fmt::join(unused, ", ")));
+  }
+
+  // The largest of the tests.
+  static void see_noise(double& noise, const File& file, const std::optional<LabColumn>& column, double given) {
+    noise = std::max(noise, noise_of(file, column, given));
+  }
+
+  void tell_noise() {
+    const auto tell_one = [&](double noise, double given, const char* key) {
+      if (given == 0 && noise > 0)
+        say(fmt::format("noise.{} is not given: {:.2g} by the quiet parts; check it against the sensor's sheet", key,
+                        noise));
+    };
+    tell_one(noise_.slip_m, lab_.noise.slip_m, "slip_m");
+    tell_one(noise_.rotation_rad, lab_.noise.rotation_rad, "rotation_rad");
+    tell_one(noise_.block_acceleration_mps2, lab_.noise.block_acceleration_mps2, "block_acceleration_mps2");
+    noise_.floor_acceleration_mps2 = lab_.noise.floor_acceleration_mps2;
+  }
+
+  std::string dataset_text() const {
+    std::string text = fmt::format("format: freestand-measurements/1\nname: {}\n", lab_.name);
+    if (lab_.specimen.width_m || lab_.specimen.height_m || lab_.specimen.mass_kg) text += "specimen:\n";
+    const auto put = [&](const char* key, const std::optional<double>& value) {
+      if (value) text += fmt::format("  {}: {}\n", key, *value);
+    };
+    put("width_m", lab_.specimen.width_m), put("height_m", lab_.specimen.height_m),
+        put("mass_kg", lab_.specimen.mass_kg);
+    text += fmt::format("sampling_dt_s: {}\nnoise:\n", step_s_);
+    const auto noise = [&](const char* key, double value) {
+      if (value > 0) text += fmt::format("  {}: {:.4g}\n", key, value);
+    };
+    noise("slip_m", noise_.slip_m), noise("rotation_rad", noise_.rotation_rad);
+    noise("block_acceleration_mps2", noise_.block_acceleration_mps2);
+    noise("floor_acceleration_mps2", noise_.floor_acceleration_mps2);
+    text += fmt::format("tolerance: {{width: {}, floor_gain: {}}}\ntests:\n", lab_.tolerance.width,
+                        lab_.tolerance.floor_gain);
+    for (const TestOfLab& t : tests_)
+      text += fmt::format("  - {{id: {0}, file: {0}.csv, role: {1}}}\n", t.test.id,
+                          t.test.role == measurement::Role::holdout ? "holdout" : "calibration");
+    return text;
+  }
+
+  static std::string csv_text(const TestOfLab& t) {
+    struct Channel {
+      const char* name;
+      const Series* samples;
+    };
+    std::vector<Channel> channels = {{"floor_acceleration_mps2", &t.floor}};
+    for (const Channel& c : {Channel{"floor_vertical_acceleration_mps2", &t.vertical},
+                             Channel{"slip_m", &t.test.slip_m}, Channel{"rotation_rad", &t.test.rotation_rad},
+                             Channel{"block_acceleration_mps2", &t.test.block_acceleration_mps2}})
+      if (!c.samples->empty()) channels.push_back(c);
+    std::string text = "time_s";
+    for (const Channel& c : channels) text += fmt::format(",{}", c.name);
+    for (std::size_t i = 0; i < t.floor.size(); ++i) {
+      text += fmt::format("\n{:.10g}", t.test.dt_s * static_cast<double>(i));
+      for (const Channel& c : channels) text += fmt::format(",{:.9g}", (*c.samples)[i]);
+    }
+    return text + "\n";
+  }
+
+  const Laboratory& lab_;
+  double step_s_ = 0;
+  measurement::Noise noise_;
+  std::vector<TestOfLab> tests_;
+  Imported out_;
+};
+
+}  // namespace
+
+Imported import_laboratory(const Laboratory& lab) { return Importer(lab).run(); }
+
+}  // namespace freestand::study

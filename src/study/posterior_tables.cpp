@@ -1,0 +1,99 @@
+#include "study/posterior_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <freestand/error.hpp>
+#include <map>
+#include <optional>
+
+#include "base/csv_table.hpp"
+#include "base/shown_text.hpp"
+#include "study/section.hpp"
+
+namespace freestand::study {
+namespace {
+
+class Tables {
+ public:
+  Tables(std::filesystem::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
+
+  void fill(YAML::Node node, int line) {
+    if (node.IsSequence()) {
+      for (std::size_t i = 0; i < node.size(); ++i) fill(node[i], line_of(node[i]) ? line_of(node[i]) : line);
+    } else if (node.IsMap() && node["posterior"] && node["posterior"].IsScalar()) {
+      if (!node["values"]) take(node, line);
+    } else if (node.IsMap()) {
+      std::vector<std::string> keys;
+      for (const auto& pair : node) keys.push_back(pair.first.Scalar());
+      for (const std::string& key : keys) fill(node[key], line_of(node[key]) ? line_of(node[key]) : line);
+    }
+  }
+
+ private:
+  void take(YAML::Node node, int line) {
+    const std::string name = node["posterior"].Scalar();
+    const std::string column = node["column"] && node["column"].IsScalar() ? node["column"].Scalar() : "";
+    const CsvTable* table = read(name, line);
+    if (!table) return;
+    const std::size_t at = table->column(column);
+    if (at == table->columns.size()) {
+      problems_.add(line, fmt::format("{} has no column {} (a number takes its draws from one): use one of {}",
+                                      table->file.string(), column.empty() ? "(none is named)" : shown(column),
+                                      joined(table->columns)));
+      return;
+    }
+    YAML::Node values(YAML::NodeType::Sequence);
+    for (const CsvTable::Row& row : table->rows) {
+      if (!number_of(row.cells[at])) {
+        problems_.add(line, fmt::format("{}{} is \"{}\" (a draw is a finite number): correct it", table->at(row),
+                                        shown(column), shown(row.cells[at])));
+        return;
+      }
+      values.push_back(row.cells[at]);
+    }
+    node["values"] = values;
+  }
+
+  // Once; null where it cannot be used, which is told once.
+  const CsvTable* read(const std::string& name, int line) {
+    const auto known = tables_.find(name);
+    if (known != tables_.end()) return known->second ? &*known->second : nullptr;
+    std::optional<CsvTable>& table = tables_[name];
+    try {
+      table = read_csv_table(folder_ / name);
+    } catch (const Error& error) {
+      problems_.add(line, fmt::format("the table of joint draws cannot be read ({}): give its path from the study's "
+                                      "folder, or take the best values with --best",
+                                      error.what()));
+    }
+    return table ? &*table : nullptr;
+  }
+
+  std::filesystem::path folder_;
+  Problems& problems_;
+  std::map<std::string, std::optional<CsvTable>> tables_;
+};
+
+}  // namespace
+
+void read_posterior_tables(YAML::Node root, const std::filesystem::path& folder, Problems& problems) {
+  Tables(folder, problems).fill(root, line_of(root));
+}
+
+std::string posterior_text(const measurement::ModelSpec& model, const measurement::Posterior& posterior) {
+  if (posterior.draws.empty()) return "";
+  std::string text =
+      fmt::format("# Joint draws of the numbers that the calibration tests leave open{}.\n",
+                  posterior.friction_scatter > 0
+                      ? fmt::format("; friction is that of another test (it differs by {:.2g} % from test to test)",
+                                    100 * posterior.friction_scatter)
+                      : "");
+  for (std::size_t k = 0; k < model.free.size(); ++k) text += (k ? "," : "") + model.free[k].name;
+  for (const measurement::Values& row : posterior.draws) {
+    text += "\n";
+    for (std::size_t k = 0; k < row.size(); ++k) text += fmt::format("{}{}", k ? "," : "", row[k]);
+  }
+  return text + "\n";
+}
+
+}  // namespace freestand::study

@@ -1,0 +1,23 @@
+// Tables of joint draws: csv with a header, a row for each draw, a column for each number that was calibrated, by its name.
+// A study names one of them as {posterior: fitted_draws.csv, column: friction.mu}.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <string>
+
+#include "measurement/posterior.hpp"
+#include "study/problems.hpp"
+
+namespace freestand::study {
+
+inline constexpr const char* posterior_table = "fitted_draws.csv";
+
+// Puts `values` into every such mapping below `root` that has none. Tables lie in `folder`, where the study does.
+void read_posterior_tables(YAML::Node root, const std::filesystem::path& folder, Problems&);
+
+// The text of a table. Empty where there are no draws.
+std::string posterior_text(const measurement::ModelSpec&, const measurement::Posterior&);
+
+}  // namespace freestand::study

@@ -1,0 +1,147 @@
+"""Files of a laboratory become a measurement set: the walk-through's tests written as a laboratory would write them, read back
+by one command, and used."""
+
+import csv
+import re
+import unittest
+
+from support import CONFIGS, InFolder, run
+
+WALK = CONFIGS / "walkthrough"
+G = 9.80665
+LATE = 0.12  # s, by which the block's clock is behind the table's
+
+LAB = """name: cabinet in our words
+specimen: {width_m: 0.7916, height_m: 0.5495, mass_kg: 201}
+noise: {slip_m: 0.000291}
+tests:
+"""
+TEST = """  - id: TID
+    role: ROLE
+    floor: {file: "table TID.txt", time: "Time (s)", acceleration: {column: ACC1, unit: g}}
+    response: {file: block_TID.csv, time: {column: t_ms, unit: ms}, slip: {column: LVDT 1, unit: mm, sign: -1}}
+"""
+
+
+def comma(value, digits=6):
+    return f"{value:.{digits}f}".replace(".", ",")
+
+
+class Import(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.truth = {}
+        text = LAB
+        for k in (1, 2, 3):
+            name = f"t{k:02d}"
+            with open(WALK / f"{name}.csv", encoding="utf-8") as stream:
+                self.truth[name] = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(stream)]
+            self.write_table(name)
+            self.write_block(name)
+            text += TEST.replace("TID", name).replace("ROLE", "holdout" if k == 3 else "calibration")
+        self.lab = self.write("lab.yaml", text)
+
+    def write_table(self, name):
+        """Accelerations in g, 200 Hz, tabs, two lines of words above and a line of units below the names."""
+        rows = [f"{0.005 * i:.4f}\t{row['floor_acceleration_mps2'] / G:.9f}\t{20.0 + 0.001 * i:.3f}" for i, row in enumerate(self.truth[name])]
+        self.write(f"table {name}.txt", "Shaking table 2\nrun 17, cabinet\nTime (s)\tACC1\tTemp\n(s)\t(g)\t(C)\n" + "\n".join(rows) + "\n")
+
+    def write_block(self, name):
+        """Millimetres, 100 Hz, semicolons and decimal commas, turned round, on a clock of its own."""
+        rows = [f"{comma(1000 * (0.005 * i + LATE), 3)};{comma(-1000 * row['slip_m'])};" for i, row in enumerate(self.truth[name]) if i % 2 == 0]
+        self.write(f"block_{name}.csv", "t_ms;LVDT 1;\n" + "\n".join(rows) + "\n")
+
+    def imported(self, folder="set", *more):
+        return self.succeed(["import", self.lab, "-o", self.folder / folder, *more])
+
+    def rows(self, name, folder="set"):
+        with open(self.folder / folder / f"{name}.csv", encoding="utf-8") as stream:
+            return [{key: float(value) for key, value in row.items()} for row in csv.DictReader(line for line in stream if not line.startswith("#"))]
+
+    def test_what_was_written_comes_back(self):
+        told = self.imported().stdout
+        for word in ("ACC1 in g is floor_acceleration_mps2", "LVDT 1 in mm, turned round, is slip_m", "not used: Temp of table t01.txt",
+                     "response's clock runs 0.1"):
+            self.assertIn(word, told)
+        # To a step: friction that follows the speed shifts it a little.
+        offset = float(re.search(r"clock runs ([\d.]+) s behind", told).group(1))
+        self.assertAlmostEqual(offset, LATE, delta=0.005)
+        text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
+        self.write("lab.yaml", text.replace("    role:", f"    clock_s: {LATE}\n    role:"))
+        self.imported("set", "--overwrite", "--quiet")
+        for name, truth in self.truth.items():
+            rows = self.rows(name)
+            self.assertEqual(set(rows[0]), {"time_s", "floor_acceleration_mps2", "slip_m"})
+            shift = round(rows[0]["time_s"] / 0.005)
+            self.assertEqual(shift, 0)
+            self.assertGreater(len(rows), len(truth) - 4)
+            # The floor comes back sample by sample; of the slip every second sample was written.
+            for row, was in zip(rows, truth):
+                self.assertAlmostEqual(row["floor_acceleration_mps2"], was["floor_acceleration_mps2"], delta=2e-8)
+            for row, was in list(zip(rows, truth))[::2]:
+                self.assertAlmostEqual(row["slip_m"], was["slip_m"], delta=2e-9)
+
+    def test_the_set_is_used_as_any_other(self):
+        self.imported()
+        study = self.write("study.yaml", "measurements: set/dataset.yaml\nmodel: {friction: {mu: {calibrate: [0.03, 1.2]}}, "
+                           "effects: [{name: rate_weakening, drop: 0.424, speed_mps: 0.0759}]}\n")
+        self.succeed(["compare", study, "-o", self.folder / "compared", "--quiet"])
+        text = (self.folder / "compared" / "comparison.json").read_text(encoding="utf-8")
+        self.assertIn('"role": "holdout"', text)
+
+    def test_rotation_alone(self):
+        text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
+        self.write("lab.yaml", text.replace("slip: {column: LVDT 1, unit: mm", "rotation: {column: LVDT 1, unit: mrad").replace("slip_m:", "rotation_rad:"))
+        told = self.imported().stdout
+        self.assertIn("t01: the clocks of floor and response are taken as one", told)
+        row, was = self.rows("t02")[100], self.truth["t02"][100 + round(LATE / 0.005)]
+        self.assertEqual(set(row), {"time_s", "floor_acceleration_mps2", "rotation_rad"})
+        self.assertAlmostEqual(row["floor_acceleration_mps2"], was["floor_acceleration_mps2"], delta=2e-8)
+        self.write("lab.yaml", text.replace("slip: {column: LVDT 1, unit: mm", "block_acceleration: {column: LVDT 1, unit: g"))
+        self.fail_with(2, ["import", self.lab, "-o", self.folder / "wrong"], "lab.yaml:8", "neither slip nor rotation")
+
+    def test_a_clock_that_is_given_is_not_estimated(self):
+        text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
+        self.write("lab.yaml", text.replace("    role:", "    clock_s: 0.1\n    role:"))
+        self.assertNotIn("was set by that", self.imported().stdout)
+        # The response begins 0.02 s late now, and the set with it.
+        row = self.rows("t02")[20]
+        self.assertAlmostEqual(row["slip_m"], self.truth["t02"][20]["slip_m"], delta=2e-9)
+        self.assertAlmostEqual(row["floor_acceleration_mps2"], self.truth["t02"][24]["floor_acceleration_mps2"], delta=2e-8)
+
+    def test_noise_that_is_not_given_is_estimated_and_told(self):
+        text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
+        self.write("lab.yaml", text.replace("noise: {slip_m: 0.000291}\n", ""))
+        told = self.imported().stdout
+        self.assertRegex(told, r"noise.slip_m is not given: 0.000[23]\d* by the quiet parts")
+
+    def test_mistakes(self):
+        text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
+
+        def changed(old, new):
+            self.write("lab.yaml", text.replace(old, new, 1))
+            return ["import", self.lab, "-o", self.folder / "wrong"]
+
+        self.fail_with(3, changed("column: ACC1", "column: ACC2"), "table t01.txt", "no column ACC2", "Time (s), ACC1, Temp")
+        self.fail_with(2, changed("unit: mm", "unit: furlong"), "lab.yaml:8", "unit furlong is not known", "mm")
+        self.fail_with(2, changed("sign: -1", "sign: 2"), "lab.yaml:8", "give 1 or -1")
+        self.fail_with(2, changed("time: {column: t_ms, unit: ms}, ", ""), "lab.yaml:8", "response.time is missing")
+        self.fail_with(2, changed("- id: t02", "- id: t01"), "lab.yaml", "stands twice")
+        self.fail_with(3, changed("block_t01.csv", "block_t09.csv"), "block_t09.csv", "cannot be read")
+        self.fail_with(3, changed("    role: calibration", "    clock_s: 1e4\n    role: calibration"), "no time in common")
+        block = (self.folder / "block_t01.csv").read_text(encoding="utf-8").split("\n")
+        self.write("block_t01.csv", "\n".join(block[:40] + [block[40].rsplit(";", 2)[0] + ";NaN;"] + block[41:]))
+        self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "NaN in column LVDT 1 is no finite number")
+        self.write("block_t01.csv", "\n".join(block[:40] + block[39:]))
+        self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "time does not rise")
+        self.write("block_t01.csv", "\n".join(block[:40] + ["1,5"] + block[41:]))
+        self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "1 cells where the table has 2 columns")
+
+    def test_a_folder_with_results_is_not_overwritten(self):
+        self.imported()
+        self.fail_with(2, ["import", self.lab, "-o", self.folder / "set"], "--overwrite")
+        self.imported("set", "--overwrite")
+
+
+if __name__ == "__main__":
+    unittest.main()

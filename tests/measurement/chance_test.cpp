@@ -1,0 +1,122 @@
+// What chance does, against data that are made many times: the size of the tests, and that they see what is there.
+#include "measurement/chance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "effects/effects.hpp"
+#include "measurement/least_squares.hpp"
+#include "measurement/made_tests.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+ModelSpec with(const char* effect, const Bench& bench) {
+  return with_effect(test::free_friction(), *effects::find(effect), bench.reach());
+}
+
+const std::vector<const char*> tried = {"rate_weakening", "viscous_drag", "floor_tilt", "centering_spring",
+                                        "friction_wear"};
+
+// Of true bases, one in twenty is said to lack something: counted over 80 sets.
+TEST(ChanceOfGain, HasItsSize) {
+  const Dataset truth = test::made_dataset(test::cabinet(), 0);
+  constexpr int sets = 80;
+  int rejected = 0;
+  for (std::uint64_t key = 0; key < sets; ++key) {
+    const Dataset data = test::with_noise(truth, key);
+    const Bench bench(data, 0);
+    const Judge judge(bench);
+    const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
+    std::vector<ModelFit> fits;
+    for (const char* effect : tried) {
+      ModelFit fit{.model = with(effect, bench), .x = base.x};
+      for (std::size_t i = 1; i < fit.model.free.size(); ++i) fit.x.push_back(fit.model.free[i].low);
+      fits.push_back(std::move(fit));
+    }
+    std::vector<const ModelFit*> pointers;
+    for (const ModelFit& fit : fits) pointers.push_back(&fit);
+    rejected += !chance_of_gain(bench, judge, base, pointers, run_here).chance();
+  }
+  // Of 80 at 5 %: 4. Binomially more than 10 in one of 500 runs, and none in one of 60.
+  EXPECT_LE(rejected, 10);
+  EXPECT_GE(rejected, 1);
+}
+
+TEST(ChanceOfGain, SeesAnEffectOfAFewNoiseUnits) {
+  const Dataset data = test::with_noise(test::made_dataset(test::cabinet("viscous_drag", {0.15}), 0), 3);
+  const Bench bench(data, 0);
+  const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
+  const ModelFit drag{.model = with("viscous_drag", bench), .x = {base.x[0], 0.1}};
+  const Chance chance = chance_of_gain(bench, Judge(bench), base, {&drag}, run_here);
+  EXPECT_LT(chance.p, 0.01);
+  EXPECT_GT(chance.observed, chance.usual);
+}
+
+TEST(ChanceOfGain, NeedsNoNumberOfTheBase) {
+  const Dataset data = test::with_noise(test::made_dataset(test::cabinet("viscous_drag", {0.15}), 0), 3);
+  const Bench bench(data, 0);
+  ModelFit base{.model = test::free_friction()};
+  base.model.mu_k = {.value = 0.2};
+  base.model.free.clear();
+  const ModelFit drag{.model = with_effect(base.model, *effects::find("viscous_drag"), bench.reach()), .x = {0.15}};
+  EXPECT_LT(chance_of_gain(bench, Judge(bench), base, {&drag}, run_here).p, 0.01);
+  EXPECT_LT(chance_of_lead(bench, Judge(bench), drag, base, run_here).p, 0.01);
+}
+
+// Data from the rival: the best, which is another model fitted to them, is not held to lead. Data from the best: it is.
+TEST(ChanceOfLead, SaysWhichOfTwoMadeTheData) {
+  const Dataset weakening = test::made_dataset(test::cabinet("rate_weakening", {0.3, 0.1}), 0);
+  const Dataset drag = test::made_dataset(test::cabinet("viscous_drag", {0.8}), 0);
+  for (const Dataset* truth : {&weakening, &drag}) {
+    const Dataset data = test::with_noise(*truth, 5);
+    const Bench bench(data, 0);
+    const ModelFit a = test::fitted(bench, with("rate_weakening", bench), {0.2, 0.3, 0.1});
+    const ModelFit b = test::fitted(bench, with("viscous_drag", bench), {0.2, 0.8});
+    const Judge judge(bench);
+    const Chance first = chance_of_lead(bench, judge, a, b, run_here),
+                 second = chance_of_lead(bench, judge, b, a, run_here);
+    EXPECT_EQ(first.chance(), truth == &drag);
+    EXPECT_EQ(second.chance(), truth == &weakening);
+  }
+}
+
+// A model that leads itself leads by nothing: every set made from it does as well.
+TEST(ChanceOfLead, OfAModelOverItselfIsChance) {
+  const Dataset data = test::with_noise(test::made_dataset(test::cabinet(), 0), 1);
+  const Bench bench(data, 0);
+  const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
+  EXPECT_TRUE(chance_of_lead(bench, Judge(bench), base, base, run_here).chance());
+}
+
+double misfit_of(const Judge& judge, const ModelFit& fit) {
+  double sum = 0;
+  for (const double g : judge.misfit_of_fit(fit)) sum += g;
+  return sum;
+}
+
+TEST(ChanceOfMisfit, HasItsSize) {
+  const Dataset truth = test::made_dataset(test::cabinet(), 0);
+  constexpr int sets = 80;
+  int rejected = 0;
+  for (std::uint64_t key = 100; key < 100 + sets; ++key) {
+    const Dataset data = test::with_noise(truth, key);
+    const Bench bench(data, 0);
+    const Judge judge(bench);
+    const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
+    rejected += !chance_of_misfit(bench, judge, base, misfit_of(judge, base)).chance();
+  }
+  // As above: 4 expected.
+  EXPECT_LE(rejected, 10);
+  EXPECT_GE(rejected, 1);
+}
+
+TEST(ChanceOfMisfit, SeesWhatIsLeft) {
+  const Dataset data = test::with_noise(test::made_dataset(test::cabinet("viscous_drag", {0.5}), 0), 3);
+  const Bench bench(data, 0);
+  const Judge judge(bench);
+  const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
+  EXPECT_LT(chance_of_misfit(bench, judge, base, misfit_of(judge, base)).p, 0.001);
+}
+
+}  // namespace
+}  // namespace freestand::measurement

@@ -1,0 +1,81 @@
+// Faults of the laboratory instead of effects.
+#include "measurement/laboratory.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "measurement/least_squares.hpp"
+#include "measurement/made_tests.hpp"
+#include "measurement/own_friction.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+Specimen rigid_block(double width, double height, double mu) {
+  Specimen s;
+  s.block = Block::rectangular(width, height, 100);
+  s.friction = {mu, mu};
+  return s;
+}
+
+std::vector<std::string> names(const Bench& bench, double mu) {
+  std::vector<std::string> all;
+  for (const LaboratoryFault& fault : laboratory_faults(bench, test::free_friction(), {mu})) all.push_back(fault.name);
+  return all;
+}
+
+TEST(Laboratory, TheWidthOfABlockThatOnlySlidesShowsNothing) {
+  const Dataset squat = test::made_dataset(rigid_block(0.8, 0.6, 0.2)),
+                slender = test::made_dataset(rigid_block(0.4, 1.4, 0.7));
+  EXPECT_EQ(names(Bench(squat, 0), 0.2), std::vector<std::string>{gain_fault});
+  EXPECT_EQ(names(Bench(slender, 0), 0.7), (std::vector<std::string>{width_fault, gain_fault}));
+}
+
+TEST(Laboratory, WhatIsKnownExactlyIsNotAskedAbout) {
+  Dataset data = test::made_dataset(rigid_block(0.4, 1.4, 0.7));
+  data.tolerance = {.width = 0, .floor_gain = 0};
+  EXPECT_TRUE(names(Bench(data, 0), 0.7).empty());
+}
+
+// The factors take a wrong statement back, to their standard errors.
+TEST(Laboratory, FitsFindHowFarOffTheStatementIs) {
+  Dataset data = test::made_dataset(rigid_block(0.4, 1.4, 0.7));
+  for (measurement::Test& t : data.tests) t.specimen.width_m = 0.4 * 1.015;
+  const Bench wide(data, 0);
+  ModelFit width{.model = laboratory_faults(wide, test::free_friction(), {0.7})[0].model, .x = {0.7, 1}};
+  descend_by_derivatives(wide, {&width}, run_here);
+  EXPECT_NEAR(width.x[1], 1 / 1.015, 1e-3);
+  EXPECT_EQ(fault_sentence(width_fault, width.x[1]), "the width is 1.5 % smaller than stated");
+
+  Dataset loud = test::made_dataset(rigid_block(0.8, 0.6, 0.2));
+  for (measurement::Test& t : loud.tests) t.scale = 1.02;  // the floor as it was read
+  const Bench reads(loud, 0);
+  ModelFit gain{.model = laboratory_faults(reads, test::free_friction(), {0.2})[0].model, .x = {0.2, 1}};
+  descend_by_derivatives(reads, {&gain}, run_here);
+  EXPECT_NEAR(gain.x[1], 1 / 1.02, 2e-3);
+  EXPECT_EQ(fault_sentence(gain_fault, gain.x[1]), "the floor's accelerometer reads 2.0 % too much");
+}
+
+TEST(OwnFriction, FindsTheScatterOfTheTests) {
+  Dataset data = test::made_dataset(rigid_block(0.8, 0.6, 0.2));
+  const double factors[] = {1.05, 0.93, 1.1, 0.98};
+  const struct { double peak, period; } motions[] = {{6, 0.5}, {4, 0.8}, {8, 0.35}, {5, 1.1}};
+  for (std::size_t i = 0; i < 4; ++i)
+    data.tests[i] = test::made_test(data.tests[i].id, rigid_block(0.8, 0.6, 0.2 * factors[i]),
+                                    test::swings(motions[i].peak, motions[i].period, 0.005), i + 1, 0.005);
+  const Bench bench(data, 0);
+  const ModelFit base{.model = test::free_friction(), .x = {0.2}};
+  const Judge judge(bench);
+  const OwnFriction own = own_friction(bench, judge, base, run_here);
+  double samples = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(own.factors[i], factors[i], 0.003);
+    samples += judge.samples()[i];
+  }
+  EXPECT_NEAR(own.scatter, 0.0742, 0.003);  // of the logarithms of these four
+  EXPECT_NEAR(own.misfit / samples, 1, 0.08);
+}
+
+}  // namespace
+}  // namespace freestand::measurement

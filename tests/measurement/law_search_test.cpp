@@ -1,0 +1,123 @@
+// A law of no catalogue, found by tests left out, and not proposed where it does not earn its numbers.
+#include "measurement/law_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "measurement/least_squares.hpp"
+#include "measurement/left_out.hpp"
+#include "measurement/made_tests.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+using dynamics::At;
+using dynamics::Parameters;
+
+constexpr Effort small_effort = {.screened_per_number = 16, .starts = 2, .budget = 40, .polish = 60, .fold_budget = 40};
+
+dynamics::Effect friction_law(const char* name, std::vector<dynamics::Parameter> parameters,
+                              std::function<dynamics::Value(const At&, const Parameters&)> factor) {
+  dynamics::Effect effect;
+  effect.name = effect.law = name;
+  effect.parameters = std::move(parameters);
+  effect.friction = std::move(factor);
+  return effect;
+}
+
+dynamics::Parameter number(const char* name, double low, double high, double nothing) {
+  return {.name = name,
+          .unit = "1",
+          .summary = "",
+          .lower = 10 * std::min(low, 0.0),
+          .upper = 10 * high,
+          .neutral = nothing,
+          .low = low,
+          .high = high};
+}
+
+const dynamics::Effect waves = friction_law(
+    "waves", {number("a", -0.6, 0.6, 0), number("l", 0.05, 0.4, 0.1)},
+    [](const At& at, const Parameters& p) { return 1.0 + p[0] * sin((2 * std::numbers::pi / p[1]) * at.u); });
+const dynamics::Effect line =
+    friction_law("line", {number("a", -2, 2, 0)}, [](const At& at, const Parameters& p) { return 1.0 + p[0] * at.u; });
+
+Dataset measured(const std::vector<EffectUse>& effects) {
+  Specimen s;
+  s.block = Block::rectangular(0.8, 0.6, 100);
+  s.friction = {0.2, 0.2};
+  s.effects = effects;
+  return test::made_dataset(s);
+}
+
+// The base fitted to the end, and nothing of the catalogue that suffices.
+Diagnosis unknown(const Bench& bench) {
+  const ModelSpec base = test::free_friction();
+  auto fits = fit_models(bench, {{.model = base}}, small_effort, run_here);
+  descend_by_derivatives(bench, {&fits[0]}, run_here);
+  search_left_out(bench, base, {&fits[0]}, small_effort, run_here);
+  evaluate(bench, {}, run_here);
+  Diagnosis d;
+  d.verdict = Verdict::unknown;
+  d.reason = Reason::none_suffices;
+  d.base.fit = std::move(fits[0]);
+  return d;
+}
+
+Diagnosis searched(const Dataset& data) {
+  const Bench bench(data, 4);
+  Diagnosis d = unknown(bench);
+  propose_law(bench, test::free_friction(), {&line, &waves}, {.effort = small_effort, .start = {}}, run_here, d);
+  return d;
+}
+
+TEST(LawSearch, FindsTheLawThatIsThere) {
+  const Diagnosis wavy = searched(measured({{.effect = &waves, .parameters = {0.4, 0.13}}}));
+  ASSERT_TRUE(wavy.proposal);
+  EXPECT_EQ(wavy.proposal->effects, std::vector<std::string>{"waves"});
+  EXPECT_NEAR(wavy.proposal->fit.x[1], 0.4, 0.02);
+  EXPECT_NEAR(wavy.proposal->fit.x[2], 0.13, 0.003);
+  ASSERT_EQ(wavy.sentences.size(), 1u);
+}
+
+// By hand: numbers 0.9, 1 and 1.1 with a fold left out scatter by sqrt(2/3 0.02) = 0.1155, Student's t of two degrees of
+// freedom is 4.303.
+TEST(LawBand, IsTheJackknifesOfTheLaw) {
+  ModelFit fit{.model = test::free_friction(), .x = {1}};
+  fit.fold_x = {{0.9}, {1.0}, {1.1}};
+  const LawBand band = law_band(fit, [](const Values& x) { return Values{x[0], 2 * x[0]}; });
+  EXPECT_EQ(band.law, (Values{1, 2}));
+  EXPECT_NEAR(band.upper[0], 1.4968, 1e-4);
+  EXPECT_NEAR(band.lower[1], 2 - 2 * 0.4968, 1e-4);
+}
+
+TEST(LawSearch, ATermThatDoesNotEarnItsNumbersIsNotProposed) {
+  const Diagnosis slope = searched(measured({{.effect = &line, .parameters = {1.2}}}));
+  ASSERT_TRUE(slope.proposal);  // long waves would do as well, with one number more
+  EXPECT_EQ(slope.proposal->effects, std::vector<std::string>{"line"});
+}
+
+TEST(LawSearch, NothingIsProposedWhereNothingIsMissing) {
+  const Diagnosis d = searched(measured({}));
+  EXPECT_FALSE(d.proposal);
+  EXPECT_EQ(d.verdict, Verdict::unknown);
+  ASSERT_EQ(d.chances.size(), 1u);
+  EXPECT_TRUE(d.chances[0].chance());
+}
+
+TEST(LawSearch, AVerdictThatNamesNothingStays) {
+  const Dataset data = measured({{.effect = &waves, .parameters = {0.4, 0.13}}});
+  const Bench bench(data, 4);
+  for (const Verdict verdict : {Verdict::none, Verdict::bad_data}) {
+    Diagnosis d = unknown(bench);
+    d.verdict = verdict;
+    d.reason = verdict == Verdict::bad_data ? Reason::data : Reason::none;
+    propose_law(bench, test::free_friction(), {&line, &waves}, {.effort = small_effort, .start = {}}, run_here, d);
+    EXPECT_FALSE(d.proposal);
+    EXPECT_EQ(d.verdict, verdict);
+  }
+}
+
+}  // namespace
+}  // namespace freestand::measurement

@@ -1,0 +1,98 @@
+// What the tests leave open of the numbers: intervals against the truth, over sets that are made many times.
+#include "measurement/posterior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "effects/effects.hpp"
+#include "measurement/made_tests.hpp"
+#include "support/keyed_random.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+Specimen weakening_cabinet() { return test::cabinet("rate_weakening", {0.3, 0.1}); }
+
+ModelSpec weakening(const Bench& bench) {
+  return with_effect(test::free_friction(), *effects::find("rate_weakening"), bench.reach());
+}
+
+// Of so many sets, intervals of 90 % hold the truth in so many but for one run in five hundred (binomial).
+struct Held {
+  int sets, least, most;
+};
+
+TEST(Posterior, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  const Dataset truth = test::made_dataset(weakening_cabinet(), 0);
+  const Values numbers = {0.2, 0.3, 0.1};
+  constexpr Held held{24, 17, 24};
+  int holds[3] = {};
+  double rank = 0;
+  for (std::uint64_t key = 0; key < held.sets; ++key) {
+    const Dataset data = test::with_noise(truth, key);
+    const Bench bench(data, 0);
+    const Posterior p = posterior(bench, test::fitted(bench, weakening(bench), numbers), run_here);
+    ASSERT_EQ(p.draws.size(), 500u);
+    EXPECT_GT(p.counted, 0.3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Interval interval = p.interval(k, 0.9);
+      holds[k] += interval.lower <= numbers[k] && numbers[k] <= interval.upper;
+    }
+    const auto below =
+        std::count_if(p.of_mean.begin(), p.of_mean.end(), [&](const Values& x) { return x[0] < numbers[0]; });
+    rank += static_cast<double>(below) / 500 / held.sets;
+  }
+  for (const int number : holds) {
+    EXPECT_GE(number, held.least);
+    EXPECT_LE(number, held.most);
+  }
+  EXPECT_NEAR(rank, 0.5, 0.18);  // three standard deviations of the mean of 24 uniform ranks
+}
+
+// Friction that scatters by 5 %: the mean's interval holds the truth, and the draws hold the friction of a test to come.
+TEST(Posterior, FrictionOfAnotherTestScattersAsThatOfTheTestsDoes) {
+  constexpr Held held{24, 17, 24};
+  constexpr double scatter = 0.05;
+  int holds = 0, holds_another = 0;
+  double found = 0;
+  for (std::uint64_t key = 0; key < held.sets; ++key) {
+    test::KeyedRandom random(31, key);
+    std::vector<double> factors;
+    for (int i = 0; i < 5; ++i) factors.push_back(std::exp(scatter * random.normal()));
+    const Dataset data = test::with_noise(test::made_dataset(test::cabinet(), 0, factors), key);
+    const Bench bench(data, 0);
+    const Posterior p = posterior(bench, test::fitted(bench, test::free_friction(), {0.2}), run_here);
+    const Interval mean = p.interval(0, 0.9);
+    holds += mean.lower <= 0.2 && 0.2 <= mean.upper;
+    const double another = 0.2 * factors[4];
+    const auto below = std::count_if(p.draws.begin(), p.draws.end(), [&](const Values& x) { return x[0] < another; });
+    holds_another += below >= 25 && below <= 475;
+    found += p.friction_scatter / held.sets;
+  }
+  EXPECT_GE(holds, held.least);
+  EXPECT_GE(holds_another, held.least);
+  EXPECT_NEAR(found, scatter, 0.015);
+}
+
+// A model that lacks an effect is not sure of its friction: tests pull it to and fro.
+TEST(Posterior, AModelThatMissesIsLessSure) {
+  const Dataset data = test::made_dataset(weakening_cabinet());
+  const Bench bench(data, 0);
+  const Posterior right = posterior(bench, test::fitted(bench, weakening(bench), {0.2, 0.3, 0.1}), run_here);
+  const Posterior wrong = posterior(bench, test::fitted(bench, test::free_friction(), {0.17}), run_here);
+  const Interval of_right = right.interval(0, 0.9), of_wrong = wrong.interval(0, 0.9);
+  EXPECT_GT(of_wrong.upper - of_wrong.lower, 3 * (of_right.upper - of_right.lower));
+}
+
+TEST(Posterior, OfAModelWithoutFreeNumbersNothingIsOpen) {
+  const Dataset data = test::made_dataset(test::cabinet());
+  const Bench bench(data, 0);
+  ModelFit fit{.model = test::free_friction()};
+  fit.model.mu_k = {.value = 0.2};
+  fit.model.free.clear();
+  EXPECT_TRUE(posterior(bench, fit, run_here).draws.empty());
+}
+
+}  // namespace
+}  // namespace freestand::measurement

@@ -1,0 +1,129 @@
+// The noise of sensors, from series made with noise that is known.
+#include "measurement/sensor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "measurement/made_tests.hpp"
+#include "measurement/quiet.hpp"
+#include "support/keyed_random.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+constexpr double dt_s = 0.005;
+
+// White and coloured noise by the difference equation, about a constant, with a slope.
+QuietStretch noise(std::uint64_t key, std::size_t test, std::size_t count, double white, double coloured,
+                   double correlation_s, double slope_per_s = 0) {
+  test::KeyedRandom random(1, key);
+  QuietStretch stretch{test, dt_s, {}};
+  const double r = correlation_s > 0 ? std::exp(-dt_s / correlation_s) : 0, constant = random.uniform(-50, 50);
+  double c = coloured * random.normal();
+  for (std::size_t i = 0; i < count; ++i) {
+    stretch.samples.push_back(constant + slope_per_s * dt_s * static_cast<double>(i) + c + white * random.normal());
+    c = r * c + std::sqrt(1 - r * r) * coloured * random.normal();
+  }
+  return stretch;
+}
+
+std::vector<QuietStretch> set_of(std::uint64_t key, double white, double coloured = 0, double correlation_s = 0,
+                                 double slope_per_s = 0) {
+  std::vector<QuietStretch> all;
+  for (std::size_t test = 0; test < 7; ++test)
+    for (std::size_t part = 0; part < 3; ++part)
+      all.push_back(noise(1000 * key + 10 * test + part, test, 150 + 100 * part, white, coloured, correlation_s,
+                          test % 2 ? slope_per_s : -slope_per_s));
+  return all;
+}
+
+TEST(Sensor, AsStatedStaysAsStatedInNineteenSetsOfTwenty) {
+  int changed = 0;
+  constexpr int sets = 60;
+  for (std::uint64_t key = 1; key <= sets; ++key) {
+    const Sensor found = sensor_of(set_of(key, 1));
+    changed += found.white != 1 || found.coloured != 0;
+    EXPECT_NEAR(found.size(), 1, 0.1);
+  }
+  EXPECT_LE(changed, 11);  // two questions of 5 % each: more in one run of a hundred
+}
+
+TEST(Sensor, FindsTheSizeThatWasStatedWrongly) {
+  for (const double size : {0.5, 2.0}) {
+    const Sensor found = sensor_of(set_of(7, size));
+    EXPECT_NEAR(found.size() / size, 1, 4 * found.size_error);
+    EXPECT_LT(found.size_error, 0.02);
+  }
+}
+
+TEST(Sensor, FindsColour) {
+  for (const double correlation_s : {0.05, 0.3}) {
+    const Sensor found = sensor_of(set_of(11, 0.3, 1, correlation_s));
+    EXPECT_NEAR(found.white, 0.3, 0.03) << correlation_s;
+    // The variance is the less known the fewer correlation times there are: 5000 samples hold 500 and 80 of them.
+    EXPECT_NEAR(found.coloured, 1, correlation_s < 0.1 ? 0.15 : 0.4) << correlation_s;
+    EXPECT_NEAR(std::log(found.correlation_s / correlation_s), 0, 0.7) << correlation_s;
+  }
+}
+
+TEST(Sensor, FindsDrift) {
+  EXPECT_EQ(sensor_of(set_of(13, 1)).drift_per_s, 0);
+  EXPECT_NEAR(sensor_of(set_of(13, 1, 0, 0, 0.5)).drift_per_s, 0.5, 0.1);
+}
+
+// Whitened by its own sensor, noise is independent and of size 1; white noise of the stated size is left as it is.
+TEST(Sensor, WhitensItsOwnNoise) {
+  QuietStretch stretch = noise(3, 0, 20000, 0.4, 1.5, 0.1);
+  const double mean = std::accumulate(stretch.samples.begin(), stretch.samples.end(), 0.0) / 20000;
+  for (double& y : stretch.samples) y -= mean;
+  Sensor{.white = 0.4, .coloured = 1.5, .correlation_s = 0.1}.whiten(stretch.samples.data(), 20000, dt_s);
+  double square = 0, lag = 0;
+  for (std::size_t i = 0; i < 20000; ++i) square += stretch.samples[i] * stretch.samples[i] / 20000;
+  for (std::size_t i = 1; i < 20000; ++i) lag += stretch.samples[i] * stretch.samples[i - 1] / 20000;
+  EXPECT_NEAR(square, 1, 0.04);  // four standard errors, sqrt(2/20000) each
+  EXPECT_NEAR(lag, 0, 0.03);
+  std::vector<double> same = {3, -2, 5};
+  Sensor{}.whiten(same.data(), 3, dt_s);
+  EXPECT_EQ(same, (std::vector<double>{3, -2, 5}));
+}
+
+TEST(Sensor, IsReadOffWhereTheBlockStands) {
+  Specimen cabinet;
+  cabinet.block = Block::rectangular(0.8, 0.6, 100);
+  cabinet.friction = {0.2, 0.2};
+  Dataset data = test::made_dataset(cabinet);
+  const auto stretches = quiet_stretches(data, Channel::slip);
+  ASSERT_FALSE(stretches.empty());
+  double seconds = 0, most = 0;
+  for (const QuietStretch& s : stretches) {
+    seconds += s.dt_s * static_cast<double>(s.samples.size());
+    const auto [low, high] = std::minmax_element(s.samples.begin(), s.samples.end());
+    most = std::max(most, *high - *low);
+  }
+  EXPECT_GT(seconds, 4);  // of 16
+  EXPECT_LT(most, 10);    // noise units: no motion among them
+  EXPECT_NEAR(sensor_of(stretches).size(), 1, 0.06);
+  data.noise.slip_m *= 2;
+  EXPECT_NEAR(sensor_of(quiet_stretches(data, Channel::slip)).size(), 0.5, 0.03);
+}
+
+// A floor that begins with a jump has moved the block before a smoothed window shows it: what came before the jump says
+// nothing of what holds the block.
+TEST(Sensor, IsReadOffBesideAFloorThatJumps) {
+  Specimen cabinet;
+  cabinet.block = Block::rectangular(0.8, 0.6, 100);
+  cabinet.friction = {0.2, 0.2};
+  Dataset data = test::made_dataset(cabinet);
+  std::vector<double> jump(800, 0.0);
+  for (int i = 100; i < 160; ++i) jump[static_cast<std::size_t>(i)] = 5;
+  data.tests[0] = test::made_test("jump", cabinet, piecewise_linear("jump", 0.005, jump, {}), 9);
+  double seconds = 0;
+  for (const QuietStretch& s : quiet_stretches(data, Channel::slip))
+    if (s.test != 0) seconds += s.dt_s * static_cast<double>(s.samples.size());
+  EXPECT_GT(seconds, 3);  // of the three other tests
+}
+
+}  // namespace
+}  // namespace freestand::measurement

@@ -1,0 +1,59 @@
+// Forms of laws that a diagnosis proposes: each is a study's effect as it is written out.
+#include "study/law_forms.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "study/read_validation.hpp"
+
+namespace freestand::study {
+namespace {
+
+TEST(LawForms, EachEntryIsReadAsAnEffectWithItsNumbersFree) {
+  std::set<std::string> names;
+  for (const LawForm& form : law_forms()) {
+    std::vector<double> values;
+    for (const auto& p : form.effect.parameters) values.push_back(0.5 * (p.low + p.high));
+    const std::string text = fmt::format(
+        "measurements: dataset.yaml\nmodel:\n  friction: {{mu: 0.2}}\n  effects:\n    - {}", entry_of(form, values));
+    const Validation study = parse_validation(text, "study.yaml");
+    ASSERT_EQ(study.model.effects.size(), 1u) << text;
+    EXPECT_EQ(study.model.effects[0].name, form.effect.name);
+    EXPECT_EQ(study.model.effects[0].parameters.size(), form.effect.parameters.size());
+    EXPECT_TRUE(names.insert(form.effect.name).second) << form.effect.name;
+  }
+}
+
+// Over its own variable every law is what its formula says by hand.
+TEST(LawForms, TheLawOverItsVariable) {
+  const auto& all = law_forms();
+  const auto named = [&](const std::string& name) {
+    return *std::find_if(all.begin(), all.end(), [&](const LawForm& f) { return f.effect.name == name; });
+  };
+  EXPECT_NEAR(law_at(named("law_of_time"), {2}, 0.2, {0.1})[0], 0.2 * 1.2, 1e-15);
+  EXPECT_NEAR(law_at(named("law_of_normal_force"), {1.5}, 0.2, {-0.4})[0], 0.2 * 0.8, 1e-15);
+  EXPECT_NEAR(law_at(named("law_of_path"), {0.5}, 0.2, {1})[0], 0.3, 1e-15);
+  EXPECT_NEAR(law_at(named("law_of_speed"), {0.5}, 0.2, {1, -2})[0], 0.2, 1e-15);
+  EXPECT_NEAR(law_at(named("quadratic_drag"), {-0.5}, 0.2, {3})[0], 0.75, 1e-15);
+  EXPECT_NEAR(law_at(named("waves_over_position"), {0.025}, 0.2, {0.5, 0.1, 0.1})[0], 0.3, 1e-12);
+}
+
+// Numbers to be calibrated hold the value that was found, within what is allowed.
+TEST(LawForms, RangesHoldTheValueFound) {
+  for (const LawForm& form : law_forms()) {
+    std::vector<double> low, high;
+    for (const auto& p : form.effect.parameters) {
+      EXPECT_LT(p.lower, p.low) << p.name;
+      EXPECT_LT(p.low, p.high) << p.name;
+      ASSERT_TRUE(p.neutral) << p.name;
+      low.push_back(p.low), high.push_back(p.high);
+    }
+    EXPECT_NE(entry_of(form, low), entry_of(form, high));
+  }
+}
+
+}  // namespace
+}  // namespace freestand::study
