@@ -176,7 +176,7 @@ class Slurm(Stage):
     def setUp(self):
         super().setUp()
         self.stand_in("scontrol", 'echo "JobId=77 JobState=${STATE:-RUNNING} Reason=None"')
-        self.stand_in("srun", "exit ${CODE:-0}")
+        self.stand_in("srun", '[ ${CODE:-0} != 0 ] || { mkdir -p results; date +%N >results/summary.json; }; exit ${CODE:-0}')
         self.environment.update(FREESTAND=str(self.stand_in("freestand", "exit 0")), SLURM_JOB_ID="77", SLURM_SUBMIT_DIR=str(self.folder))
 
     def submit(self, *arguments):
@@ -199,6 +199,18 @@ class Slurm(Stage):
         self.assertTrue(self.requeued())
         self.assertEqual(len(self.called("srun")), 1)
         self.assertIn("--resume", self.called("srun")[0])
+
+    def test_a_step_that_was_not_launched_is_tried_again(self):
+        """Slurm 22.05 ends such a step with 0."""
+        self.environment["FREESTAND_PAUSE"] = "0"
+        self.stand_in("srun", f'[ "$(grep -c ^srun {self.calls})" = 1 ] || {{ mkdir -p results; date >results/summary.json; }}')
+        self.assertEqual(self.submit("s.yaml", "results").returncode, 0)
+        self.assertEqual(len(self.called("srun")), 2)
+        self.stand_in("srun", "exit 0")  # never, beside what an earlier run has written
+        lost = self.submit("s.yaml", "results")
+        self.assertEqual((lost.returncode, len(self.called("srun"))), (1, 5))
+        self.assertIn("not launched", lost.stderr)
+        self.assertEqual(self.called("scontrol"), [])
 
     def test_mistakes_and_what_has_to_be_cured_do_not(self):
         for code in (2, 3, 74, 137):
