@@ -48,35 +48,6 @@ void FloorCursor::go_to(std::size_t segments_left, double start, double offset) 
   offset_ = offset;
 }
 
-void FloorCursor::next_run() {
-  segment_ = std::min(segments_, segment_ + FloorMotion::run_length);
-  start_ = knots_[segment_] * stretch_;
-  offset_ = 0;
-}
-
-double FloorCursor::bound(const double* coefficients) const {
-  const double h = knots_[segment_ + 1] - knots_[segment_];
-  const double* c = coefficients + segment_ * stride_;
-  double bound = 0;
-  for (int k = degree_; k >= 0; --k) bound = bound * h + std::abs(c[k]);
-  return bound;
-}
-
-FloorCursor::Bound FloorCursor::segment_bound() const {
-  return {std::abs(push_) + std::abs(scale_) * bound(horizontal_),
-          vertical_ ? std::abs(vertical_scale_) * bound(vertical_) : 0.0};
-}
-
-bool FloorCursor::run_starts_here() const {
-  return offset_ == 0 && segment_ % FloorMotion::run_length == 0 && !motion_->horizontal_run_mps2.empty();
-}
-
-FloorCursor::Bound FloorCursor::run_bound() const {
-  const std::size_t run = segment_ / FloorMotion::run_length;
-  return {std::abs(push_) + std::abs(scale_) * motion_->horizontal_run_mps2[run],
-          vertical_ ? std::abs(vertical_scale_) * motion_->vertical_run_mps2[run] : 0.0};
-}
-
 // sum_k coefficients[k] (x + offset / stretch)^k in powers of tau = stretch * x.
 void FloorCursor::shift(const double* coefficients, double scale, double* out, int order) const {
   if (degree_ == 1 && order >= 1) {  // of records

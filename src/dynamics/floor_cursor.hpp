@@ -1,6 +1,8 @@
 // Walks along a floor motion, segment by segment, and gives the polynomials of the floor about the present instant.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <freestand/floor_motion.hpp>
 
 #include "dynamics/contact.hpp"
@@ -21,7 +23,25 @@ class FloorCursor {
   std::size_t segment() const { return segment_; }
   void advance(double tau) { offset_ += tau; }
   void next_segment();  // to the first instant of the next segment
-  void next_run();      // to the first instant of the next run of segments
+  // To the first instant of the next segment over which the floor's accelerations are not quiet(bound), whole runs of them at
+  // once. False: it is the present one.
+  template <class Quiet>
+  bool pass_over(Quiet&& quiet) {
+    const std::size_t from = segment_;
+    while (!motion_over()) {
+      if (run_starts_here() && quiet(run_bound())) {
+        segment_ = std::min(segments_, segment_ + FloorMotion::run_length);
+        offset_ = 0;
+      } else if (quiet(segment_bound())) {
+        ++segment_;
+        offset_ = 0;
+      } else {
+        break;
+      }
+    }
+    if (segment_ != from) start_ = knots_[segment_] * stretch_;
+    return segment_ != from;
+  }
 
   // The segment's coefficients, and those of a vertical channel or null.
   struct Place {
@@ -32,13 +52,21 @@ class FloorCursor {
   Place place() const;
   void go_to(std::size_t segments_left, double start, double offset);
 
-  // Bounds of the floor's accelerations [m/s2], over the present segment, or over the run that starts here.
+  // Bounds of the floor's accelerations [m/s2], over the present segment, or over the run that starts here: `shaken` across,
+  // with gravity along the floor `a`; v upwards.
   struct Bound {
-    double a, v;
+    double shaken, a, v;
   };
-  Bound segment_bound() const;
-  bool run_starts_here() const;
-  Bound run_bound() const;
+  Bound segment_bound() const {
+    return bound(bound_of(horizontal_), vertical_ ? bound_of(vertical_) : 0.0);
+  }
+  bool run_starts_here() const {
+    return offset_ == 0 && segment_ % FloorMotion::run_length == 0 && !motion_->horizontal_run_mps2.empty();
+  }
+  Bound run_bound() const {
+    const std::size_t run = segment_ / FloorMotion::run_length;
+    return bound(motion_->horizontal_run_mps2[run], vertical_ ? motion_->vertical_run_mps2[run] : 0.0);
+  }
 
   // Floor acceleration and effective gravity about time(). N must be at least the degree of the motion.
   template <int N>
@@ -56,7 +84,17 @@ class FloorCursor {
  private:
   void shift(const double* coefficients, double scale, double* out, int order) const;
 
-  double bound(const double* coefficients) const;
+  Bound bound(double horizontal, double vertical) const {
+    const double shaken = std::abs(scale_) * horizontal;
+    return {shaken, std::abs(push_) + shaken, std::abs(vertical_scale_) * vertical};
+  }
+  double bound_of(const double* coefficients) const {
+    const double h = knots_[segment_ + 1] - knots_[segment_];
+    const double* c = coefficients + segment_ * stride_;
+    double sum = 0;
+    for (int k = degree_; k >= 0; --k) sum = sum * h + std::abs(c[k]);
+    return sum;
+  }
 
   const FloorMotion* motion_;
   const double* knots_;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "dynamics/blow.hpp"
 #include "dynamics/law_values.hpp"
 #include "dynamics/row_of_hops.hpp"
 #include "dynamics/wall.hpp"
@@ -10,23 +11,14 @@
 namespace freestand::dynamics {
 namespace {
 
-struct Velocity {
-  double vx, vy, omega;  // of the centre of mass, and rotation
-};
 
-struct Arm {
-  double rx, ry;  // corner to centre of mass
-};
-
-Arm arm(const Rig& rig, int pivot, double theta) {
+Arm<double> arm(const Rig& rig, int pivot, double theta) {
   Arc<double, 1> arc;
   start_arc(arc, rig.corner(pivot), theta, 0.0, 0.0, 0.0);
   return {arc.rx[0], arc.ry[0]};
 }
 
-Velocity at_centre(const Arm& r, double w, double omega) { return {w + r.ry * omega, -r.rx * omega, omega}; }
-
-double slip(const Arm& r, const Velocity& v) { return v.vx - v.omega * r.ry; }
+double slip(const Arm<double>& r, const Velocity<double>& v) { return v.vx - v.omega * r.ry; }
 
 // Friction in a blow. Effects see it with the weight as normal force and the slip speed before it; legs pass on none.
 struct Grip {
@@ -43,16 +35,8 @@ Grip grip(const Rig& rig, const State& state, double time) {
   return {rig, law_values(rig, state, time, -1).factor, law_values(rig, state, time, 1).factor};
 }
 
-// The corner keeps its place: angular momentum about it is conserved.
-Velocity stick(const Rig& rig, const Arm& r, const Velocity& before) {
-  const double M = rig.carried_mass();
-  const double omega =
-      (rig.k2 * before.omega + M * r.ry * before.vx - r.rx * before.vy) / (rig.k2 + r.rx * r.rx + M * r.ry * r.ry);
-  return at_centre(r, 0.0, omega);
-}
-
 // The corner slips in direction sigma while it is stopped vertically. False: no push can stop it.
-bool slide_through(const Grip& grip, const Arm& r, const Velocity& before, int sigma, Velocity& after) {
+bool slide_through(const Grip& grip, const Arm<double>& r, const Velocity<double>& before, int sigma, Velocity<double>& after) {
   const double k2 = grip.rig.k2, sigma_mu = sigma * grip.mu_k(sigma);
   const double q = r.rx + sigma_mu * r.ry;
   const double d = k2 + r.rx * q;
@@ -63,10 +47,10 @@ bool slide_through(const Grip& grip, const Arm& r, const Velocity& before, int s
 }
 
 // Plastic impulse on one corner: stick if friction holds, else the slip that keeps its direction.
-bool plastic(const Grip& grip, const Arm& r, const Velocity& before, Velocity& after, double& w) {
-  after = stick(grip.rig, r, before);
+bool plastic(const Grip& grip, const Arm<double>& r, const Velocity<double>& before, Velocity<double>& after, double& w) {
+  after = stick(grip.rig.k2, grip.rig.carried_mass(), r, before);
   w = 0;
-  const double px = grip.rig.carried_mass() * (after.vx - before.vx), py = after.vy - before.vy;
+  const auto [px, py] = impulse(grip.rig.carried_mass(), before, after);
   const int first = px < 0 ? 1 : -1;  // friction opposes the slip
   if (!grip.rig.can_slip || std::abs(px) <= grip.mu_s(first) * py) return true;
   for (const int sigma : {first, -first}) {
@@ -90,25 +74,18 @@ void stay_flat(const Grip& grip, State& state, double vx, double vy) {
 
 // A block that comes down flat, fast across, lands on the corner ahead alone and turns over it, where the floor would have
 // to pull at the other one for it to stay flat.
-bool tips(const Grip& grip, State& state, const Velocity& before) {
+bool tips(const Grip& grip, State& state, const Velocity<double>& before) {
   const Rig& rig = grip.rig;
   if (!rig.can_rock || before.vx == 0) return false;
   const int ahead = before.vx > 0 ? 1 : -1;
-  const Arm r = arm(rig, ahead, 0.0);
-  Velocity after{};
+  const Arm<double> r = arm(rig, ahead, 0.0);
+  Velocity<double> after{};
   double w = 0;
   if (!plastic(grip, r, before, after, w) || !(after.omega * ahead > 0)) return false;
   state.pivot = ahead;
   state.omega = after.omega;
   state.w = w;
   return true;
-}
-
-// Housner's ratio of the rates after and before an impact in which `from` gives over to `to`.
-double kept_rate(const Rig& rig, int from, int to) {
-  const double kept =
-      (rig.k2 + rig.carried_mass() * rig.h * rig.h + rig.offset(from) * rig.offset(to)) / rig.inertia(to);
-  return rig.impact.factor * std::fmax(kept, 0.0);
 }
 
 // Slip speed at the end of the endless row of hops that starts on `pivot` with `rate`, impacts leaving the slip as it
@@ -143,8 +120,8 @@ bool slip_outlasts_hops(const Grip& friction, State state, double time, const Fl
       rate *= kept_rate(rig, pivot, -pivot);
       return rate != 0;
     }
-    Velocity after{};
-    const Velocity before = at_centre(arm(rig, pivot, 0.0), w, rate);
+    Velocity<double> after{};
+    const Velocity<double> before = at_centre(arm(rig, pivot, 0.0), w, rate);
     if (!plastic(friction, arm(rig, -pivot, 0.0), before, after, w)) return false;
     rate = after.omega;
     return rate * pivot < 0;
@@ -153,6 +130,12 @@ bool slip_outlasts_hops(const Grip& friction, State state, double time, const Fl
 }
 
 }  // namespace
+
+double kept_rate(const Rig& rig, int from, int to) {
+  const double kept =
+      (rig.k2 + rig.carried_mass() * rig.h * rig.h + rig.offset(from) * rig.offset(to)) / rig.inertia(to);
+  return rig.impact.factor * std::fmax(kept, 0.0);
+}
 
 bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& floor) {
   const Grip friction = grip(rig, state, time);
@@ -171,8 +154,8 @@ bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& f
                     : 0;
     }
   } else {
-    const Velocity before = at_centre(arm(rig, old_pivot, 0.0), state.w, omega);
-    Velocity after{};
+    const Velocity<double> before = at_centre(arm(rig, old_pivot, 0.0), state.w, omega);
+    Velocity<double> after{};
     double w = 0;
     if (!plastic(friction, arm(rig, new_pivot, 0.0), before, after, w)) return false;
     const bool hops = after.omega * new_pivot > 0;
@@ -194,9 +177,9 @@ bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& f
 }
 
 bool land(const Rig& rig, State& state, int pivot, double time) {
-  const Velocity before{state.vx, state.vy, state.omega};
+  const Velocity<double> before{state.vx, state.vy, state.omega};
   const bool flat = state.theta == 0 && state.omega == 0;
-  const Arm r = flat ? Arm{} : arm(rig, pivot, state.theta);
+  const Arm<double> r = flat ? Arm<double>{} : arm(rig, pivot, state.theta);
   state.mode = flat ? Mode::slide : Mode::slide_rock;
   state.wall = 0;
   state.pivot = flat ? 0 : pivot;
@@ -210,7 +193,7 @@ bool land(const Rig& rig, State& state, int pivot, double time) {
     stay_flat(friction, state, before.vx, before.vy);
     return true;
   }
-  Velocity after{};
+  Velocity<double> after{};
   if (!plastic(friction, r, before, after, state.w)) return false;
   state.omega = after.omega;
   return true;
@@ -219,7 +202,7 @@ bool land(const Rig& rig, State& state, int pivot, double time) {
 namespace {
 
 // A push at height l over the centre of mass that changes the speed there by dv, of a block on a corner that it lifts.
-bool lifts(const Rig& rig, State& state, const Arm& r, const Velocity& before, double l, double dv) {
+bool lifts(const Rig& rig, State& state, const Arm<double>& r, const Velocity<double>& before, double l, double dv) {
   const double M = rig.carried_mass(), push = dv / (1 / M + l * l / rig.k2), turn = l * push / rig.k2;
   if (!rig.can_slip || !(r.rx * turn > 0)) return false;
   state.x = rig.offset(state.pivot) + state.xi + r.rx;
@@ -233,12 +216,12 @@ bool lifts(const Rig& rig, State& state, const Arm& r, const Velocity& before, d
 }
 
 // The corner carries the push: it sticks, or slips with friction. `speed`: of the edge after it, along x.
-bool carries(const Grip& grip, State& state, const Arm& r, const Velocity& before, const EdgeNow& edge, double speed,
+bool carries(const Grip& grip, State& state, const Arm<double>& r, const Velocity<double>& before, const EdgeNow& edge, double speed,
              double dv) {
   const double M = grip.rig.carried_mass(), k2 = grip.rig.k2, l = edge.height - r.ry;
   int first = state.w < 0 ? -1 : 1;
   if (edge.height > 0) {
-    const Velocity after = at_centre(r, 0.0, speed / edge.height);
+    const Velocity<double> after = at_centre(r, 0.0, speed / edge.height);
     const double along = M * (after.vx - before.vx), py = after.vy - before.vy;
     const double push = (k2 * (after.omega - before.omega) - r.rx * py + r.ry * along) / edge.height;
     const double px = along - push;
@@ -292,8 +275,8 @@ bool strike_wall(const Rig& rig, State& state, int side, Edge edge, double time,
     state.vx += push / M;
     state.omega += now.height * push / rig.k2;
   } else {
-    const Arm r = arm(rig, state.pivot, state.theta);
-    const Velocity before = at_centre(r, state.w, state.omega);
+    const Arm<double> r = arm(rig, state.pivot, state.theta);
+    const Velocity<double> before = at_centre(r, state.w, state.omega);
     if (!lifts(rig, state, r, before, now.height - r.ry, dv) &&
         !carries(grip(rig, state, time), state, r, before, now, after, dv))
       return false;

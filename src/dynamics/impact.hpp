@@ -21,6 +21,9 @@ namespace freestand::dynamics {
 // ends within the row. floor: at the instant.
 bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& floor);
 
+// Housner's ratio of the rates after and before an impact in which corner `from` gives over to `to`.
+double kept_rate(const Rig& rig, int from, int to);
+
 // End of a flight on one corner (pivot +1 or -1), or flat on both. Plastic, with Coulomb friction, whatever the impact
 // law: Housner's law says nothing of a landing. Sets pivot's xi, w, omega. False: Painleve's paradox.
 bool land(const Rig& rig, State& state, int pivot, double time);

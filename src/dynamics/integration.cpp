@@ -67,52 +67,55 @@ Rig::AtRest Integration::laws_at_rest() const {
 void Integration::wait() {
   const Rig::AtRest rest = laws_at_rest();
   while (!cursor.motion_over()) {
-    if (!recorder.wanted() && cursor.run_starts_here()) {
-      const FloorCursor::Bound run = cursor.run_bound();
-      if (!peaks.may_exceed(run.a, run.v) && rig.stays_put(run.a, run.v, rest)) {
-        cursor.next_run();
-        steps_ = 0;
-        continue;
-      }
-    }
-    const FloorCursor::Bound bound = cursor.segment_bound();
-    const bool stays = rig.stays_put(bound.a, bound.v, rest);
-    if (stays && !recorder.wanted() && !peaks.may_exceed(bound.a, bound.v)) {
-      next_segment();
-      continue;
-    }
-    const auto floor = cursor.local<wait_order>();
-    if (stays) {
-      peaks.observe_rest(rig, floor, cursor.left());
-      if (recorder.wanted()) recorder.rest(state, floor, cursor.time(), cursor.left());
-      next_segment();
-      continue;
-    }
-    Found found;
-    bool to_knot = true;
-    with_contact_arc<wait_order>(rig, state, cursor.time(), floor, [&](const auto& arc) {
-      const auto first_event = [&](double h) {
-        FirstEvent first(h);
-        for_each_witness(rig, state, arc, first);
-        return first.found();
+    if (!recorder.wanted() && rest.constant) {
+      const auto quiet = [&](const FloorCursor::Bound& floor) {
+        return !peaks.may_exceed(floor.shaken, floor.v) && rig.stays_put(floor.a, floor.v, rest);
       };
-      const auto missed = [&](double tau) {
-        const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
-        return grip_missed(rig, state, cursor.time() + tau, there, arc, tau);
-      };
-      found = first_event(cursor.left());
-      while (found.tau * p_ > shortest_wait && !(missed(found.tau) <= settings.tolerance * rig.g)) {
-        found = first_event(0.5 * found.tau);
-        to_knot = false;
-      }
-      if (found.tau > 0) peaks.observe(rig, state, arc, found.tau);
-      recorder.record(state, arc, floor, cursor.time(), found.tau);
-    });
-    cursor.advance(found.tau);
-    if (found.tau > 0) left_instant(found.tau);
-    if (found.any) return resolve(found.witness);
-    if (to_knot) next_segment();
+      if (cursor.pass_over(quiet)) steps_ = 0;
+      if (cursor.motion_over()) return;
+    }
+    // What holds a block at rest under laws that do not change is linear in a record.
+    const bool event = shaking.motion->degree == 1 && rest.constant ? look_ahead<2>(rest) : look_ahead<wait_order>(rest);
+    if (event) return;
   }
+}
+
+// Along the segment, to the instant at which rest ends or as far as the series follow the grip. True: it has ended.
+template <int N>
+bool Integration::look_ahead(const Rig::AtRest& rest) {
+  const FloorCursor::Bound bound = cursor.segment_bound();
+  const Floor<double, N> floor = cursor.local<N>();
+  if (rig.stays_put(bound.a, bound.v, rest)) {
+    peaks.observe_rest(rig, floor, cursor.left());
+    if (recorder.wanted()) recorder.rest(state, floor, cursor.time(), cursor.left());
+    next_segment();
+    return false;
+  }
+  Found found;
+  bool to_knot = true;
+  with_contact_arc<N>(rig, state, cursor.time(), floor, [&](const auto& arc) {
+    const auto first_event = [&](double h) {
+      FirstEvent first(h);
+      for_each_witness(rig, state, arc, first);
+      return first.found();
+    };
+    const auto missed = [&](double tau) {
+      const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
+      return grip_missed(rig, state, cursor.time() + tau, there, arc, tau);
+    };
+    found = first_event(cursor.left());
+    while (found.tau * p_ > shortest_wait && !(missed(found.tau) <= settings.tolerance * rig.g)) {
+      found = first_event(0.5 * found.tau);
+      to_knot = false;
+    }
+    if (found.tau > 0) peaks.observe(rig, state, arc, found.tau);
+    recorder.record(state, arc, floor, cursor.time(), found.tau);
+  });
+  cursor.advance(found.tau);
+  if (found.tau > 0) left_instant(found.tau);
+  if (found.any) resolve(found.witness);
+  if (!found.any && to_knot) next_segment();
+  return found.any;
 }
 
 void Integration::left_instant(double tau) {
@@ -235,9 +238,17 @@ void Integration::resolve(Witness witness) {
   if (impact && regular && rig.laws && rig.laws->walls.any()) regular = meet_walls_too();
   if (impact && rig.laws) keep_contents_velocity(speed_before);
   if (impact) state.left_kinks();  // speeds jump, and what was about to turn may turn back
-  if (!regular || !choose_mode(rig, cursor, state))
-    return stop(rig.can_rock && forces_have_values() ? Outcome::painleve : Outcome::not_finite);
+  if (!regular) return stop_without_mode();
+  choose(from, impact);
+}
+
+void Integration::choose(State from, bool impact) {
+  if (!choose_mode(rig, cursor, state)) return stop_without_mode();
   chose(from, impact);
+}
+
+void Integration::stop_without_mode() {
+  stop(rig.can_rock && forces_have_values() ? Outcome::painleve : Outcome::not_finite);
 }
 
 bool Integration::forces_have_values() const {
@@ -256,6 +267,12 @@ void Integration::chose(const State& from, bool impact) {
   if (from.mode == Mode::flight && state.mode != Mode::flight) flown_ += std::abs(from.x - took_off_from_);
   peaks.response().events += news;
   if (++resolved_ >= settings.event_limit && !finished_) stop(Outcome::step_limit);
+}
+
+void Integration::rocked_on(int blows, int told) {
+  peaks.response().impacts += told;
+  peaks.response().events += blows;
+  resolved_ += blows;
 }
 
 void Integration::stop(Outcome outcome) {

@@ -72,12 +72,18 @@ class Integration {
     cursor.next_segment();
     steps_ = 0;
   }
-  // Others have gone along the motion for it, from knot to knot.
-  void went_to(std::size_t segments_left, double start, double offset) {
+  // Others have gone along the motion for it, in so many steps within the segment.
+  void went_to(std::size_t segments_left, double start, double offset, int steps) {
     cursor.go_to(segments_left, start, offset);
-    if (offset == 0) steps_ = 0;
+    steps_ = steps;
     state.doubt = 1;
   }
+  // In them it has struck the floor so many times and rocked on, stuck; told: of rotations that count as impacts.
+  void rocked_on(int blows, int told);
+  // And once more, stuck: how it goes on is to be told.
+  void struck() { choose(state, true); }
+  int steps() const { return steps_; }
+  int events_left() const { return settings.event_limit - resolved_; }
   // Time went on by tau: what was special about the last instant is over.
   void left_instant(double tau);
   // Applies an event: sets what the event makes exact, strikes or lands where corners meet the floor, chooses the next
@@ -99,6 +105,10 @@ class Integration {
 
  private:
   double slip() const;
+  template <int N>
+  bool look_ahead(const Rig::AtRest& rest);
+  void choose(State from, bool impact);
+  void stop_without_mode();
   bool meet_wall(int side, Edge edge);
   bool meet_walls_too();
   bool is_next_to(Edge edge, int side) const;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "dynamics/impact.hpp"
 #include "dynamics/taylor_integrator.hpp"
 
 namespace freestand::dynamics {
@@ -23,6 +24,7 @@ class Group {
     rows_->can_slip = life.rig.can_slip;
     rows_->can_rock = life.rig.can_rock;
     rows_->slip_by_side = settings.slip_by_side;
+    rows_->impact = life.rig.impact.law;
     rows_->tolerance = settings.tolerance;
     for (int i = 0; i < law_slots; ++i) stand_still(i);
   }
@@ -30,6 +32,7 @@ class Group {
   bool takes(const Integration& life) const {
     return rows_->turns == (life.state.pivot != 0) && rows_->slips == (life.state.sigma != 0) &&
            rows_->can_slip == life.rig.can_slip && rows_->can_rock == life.rig.can_rock &&
+           rows_->impact == life.rig.impact.law &&
            laws_.same_shape(*life.rig.laws);
   }
   int count() const { return rows_->lanes; }
@@ -78,6 +81,13 @@ class Group {
     set(Row::left_gap, at.left_wall.gap);
     set(Row::left_across, at.left_wall.across);
     set(Row::left_up, at.left_wall.up);
+    set(Row::other_corner, rig.offset(-pivot));
+    set(Row::inertia, rig.inertia(pivot));
+    set(Row::other_inertia, rig.inertia(-pivot));
+    set(Row::kept, kept_rate(rig, pivot, -pivot));
+    set(Row::kept_next, kept_rate(rig, -pivot, pivot));
+    set(Row::told_rotation, rig.told_rotation);
+    set(Row::rest_rotation, rig.rest_rotation);
     set(Row::right_arm, rig.right / rig.h);
     set(Row::left_arm, rig.left / rig.h);
     set(Row::over_height, 1 / rig.h);
@@ -112,6 +122,9 @@ class Group {
     rows_->vertical[i] = place.vertical ? place.vertical : no_motion;
     rows_->vertical_stride[i] = place.vertical ? 2 : 0;
     rows_->segments[i] = static_cast<int>(place.left);
+    rows_->steps[i] = life.steps();
+    rows_->blows[i] = rows_->told[i] = rows_->struck[i] = 0;
+    rows_->room[i] = life.events_left();
   }
 
   // Back to the text for single samples.
@@ -119,6 +132,7 @@ class Group {
     Integration& life = integrator.life();
     State& state = life.state;
     const auto get = [&](Row row) { return rows_->row(row)[i]; };
+    state.pivot = static_cast<int>(get(Row::pivot));
     state.theta = get(Row::theta);
     state.omega = get(Row::omega);
     state.xi = get(Row::xi);
@@ -127,7 +141,8 @@ class Group {
     state.deflection = get(Row::deflection);
     state.foot = get(Row::foot);
     for (int k = 0; k < laws_.states; ++k) state.states[static_cast<std::size_t>(k)] = state_row(k)[i];
-    life.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset));
+    life.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset), rows_->steps[i]);
+    life.rocked_on(rows_->blows[i] - rows_->struck[i], rows_->told[i]);
     Response& peaks = life.peaks.response();
     peaks.peak_slip_m = get(Row::peak_slip);
     peaks.peak_slip_right_m = get(Row::peak_slip_right);
@@ -168,6 +183,11 @@ class Group {
     move(rows_->vertical);
     move(rows_->vertical_stride);
     move(rows_->segments);
+    move(rows_->steps);
+    move(rows_->blows);
+    move(rows_->told);
+    move(rows_->room);
+    move(rows_->struck);
   }
 
   const Laws laws_;
@@ -221,10 +241,11 @@ class Pool {
     // From the last one on, since the last one of the group takes the place of one that leaves.
     for (int slot = kernels_.lanes; slot-- > 0;) {
       const unsigned bit = 1U << slot;
-      if (!((stopped.before_step | stopped.at_end) & bit)) continue;
+      if (!((stopped.before_step | stopped.at_end | stopped.undecided) & bit)) continue;
       const int lane = group.lane(slot);
       Integrator& integrator = *lanes_[lane].integrator;
       group.read(slot, integrator);
+      if (stopped.undecided & bit) integrator.life().struck();
       if (stopped.before_step & bit) integrator.step_along(series_of(slot, integrator));
       if (walks_on(integrator) && group.takes(integrator.life())) {
         group.write(slot, integrator);

@@ -2,6 +2,8 @@
 // mode and have a tape in common, but for its numbers.
 #pragma once
 
+#include <freestand/specimen.hpp>
+
 #include "dynamics/laws.hpp"
 
 namespace freestand::dynamics {
@@ -35,6 +37,14 @@ enum class Row : int {
   left_gap,
   left_across,
   left_up,
+  // A blow on the other corner
+  other_corner,
+  inertia,  // about this corner, and about the other one [m2]
+  other_inertia,
+  kept,  // Housner's ratio there, and of the blow after
+  kept_next,
+  told_rotation,  // as in Rig
+  rest_rotation,
   // Stance<Real>
   right_arm,
   left_arm,
@@ -70,6 +80,7 @@ struct LawRows {
   const Laws* laws = nullptr;
   bool turns = false, slips = false, can_slip = false, can_rock = false;
   bool slip_by_side = false;
+  ImpactLaw impact = ImpactLaw::housner;
   double tolerance = 0;
   int lanes = 0;
   alignas(64) double numbers[row_count][law_slots] = {};
@@ -79,13 +90,17 @@ struct LawRows {
   // Where the present segment of the motion ends; its coefficients; how many segments there are to go, this one included.
   const double *knot[law_slots] = {}, *horizontal[law_slots] = {}, *vertical[law_slots] = {};
   int vertical_stride[law_slots] = {}, segments[law_slots] = {};
+  // Steps within the segment; blows that the packs have gone through, those that count as impacts, and how many more may follow.
+  int steps[law_slots] = {}, blows[law_slots] = {}, told[law_slots] = {}, room[law_slots] = {};
+  int struck[law_slots] = {};  // 1: just so, it is not yet told how it goes on
 
   double* row(Row which) { return numbers[static_cast<int>(which)]; }
 };
 
-// Which lanes stopped: before a step in which something may happen, or at the end of their motion. Bit l: lane first + l.
+// Which lanes stopped: before a step in which something may happen, at the end of their motion, or after a blow that leaves open
+// how they go on. Bit l: lane first + l.
 struct Stopped {
-  unsigned before_step, at_end;
+  unsigned before_step, at_end, undecided;
 };
 
 // Steps from knot to knot with lanes [first, first + lanes of a pack), until one stops; those beyond rows.lanes stand still.

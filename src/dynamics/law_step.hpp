@@ -86,7 +86,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   void begin() {
     Place::begin();
     const Corner<Real>& body = at_.body;
-    if (whole_) inertia0_ = body.k2 + body.c * body.c + body.h * body.h;
+    if (whole_) over_inertia_ = Real(1.0) / (body.k2 + body.c * body.c + body.h * body.h);
   }
 
   [[gnu::always_inline]] void coefficient(int k) {
@@ -164,10 +164,11 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   }
 
   // theta'' D = numerator, D[0..k] known.
-  [[gnu::always_inline]] Real quotient(Real numerator, const Series<Real, N>& d, int k) const {
+  [[gnu::always_inline]] Real quotient(Real numerator, const Series<Real, N>& d, int k) {
+    if (k == 0) over_d_ = Real(1.0) / d[0];
 #pragma GCC unroll 16
     for (int i = 1; i <= k; ++i) numerator = numerator - d[i] * y_.alpha[k - i];
-    return numerator / d[0];
+    return numerator * over_d_;
   }
 
   [[gnu::always_inline]] void stuck(int k) {
@@ -180,7 +181,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
       load_[k] = legs_ ? leg_force : of_mass(floor_.a[k] - rx_omega2_[k]) - force_[k];  // or f_x of the legs
       const Real numerator = product(y_.rx, y_.n, k) - product(y_.ry, load_, k) + y_.moment[k];
       if (whole_ && !legs_) {
-        y_.alpha[k] = numerator / inertia0_;
+        y_.alpha[k] = numerator * over_inertia_;
       } else {
         const Real moved = legs_ ? Real(0.0) : at_.mass;
         inertia_[k] = product(y_.rx, y_.rx, k) + moved * product(y_.ry, y_.ry, k) + (k == 0 ? at_.body.k2 : Real(0.0));
@@ -347,7 +348,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   static constexpr double least_normal = 1e-18;
 
   const bool whole_;  // all of the mass moves with the block
-  Real inertia0_;     // k^2 + r^2
+  Real over_inertia_, over_d_;  // 1/(k^2 + r^2); 1/D at the start
   Series<Real, N> force_, factor_, load_, inertia_, q_;
   Real acceleration_ = Real(0.0), deflection_rate_ = Real(0.0), wall_force_ = Real(0.0);
   // Of a single sample.

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "base/units.hpp"
+#include "dynamics/blow.hpp"
 #include "dynamics/contact.hpp"
 #include "dynamics/kinks.hpp"
 #include "dynamics/laws.hpp"
@@ -79,10 +80,8 @@ struct Rig {
   // About the pivot, per mass.
   double inertia(int pivot) const { return k2 + carried_mass() * h * h + offset(pivot) * offset(pivot); }
 
-  // Largest rotation of a free hop that starts flat with rate omega: (1/2) J omega^2 = g |c| theta.
   double hop_rotation(int pivot, double omega) const {
-    const double c = offset(pivot);
-    return inertia(pivot) * omega * omega / (2 * g * (c < 0 ? -c : c));
+    return dynamics::hop_rotation(inertia(pivot), omega, g, offset(pivot));
   }
 };
 

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "dynamics/single_root.hpp"
+#include "dynamics/tape.hpp"
+
 namespace freestand::dynamics::detail {
 namespace {
 
@@ -50,36 +53,6 @@ int sign_changes(const Polynomial<N>& c) {
   return changes;
 }
 
-// The only root on (0, 1] of a polynomial with c(0) > 0 >= c(1): Halley's method from the root of a parabola, kept inside
-// the bracket by bisection.
-template <int N>
-double only_root(const Polynomial<N>& c) {
-  double lo = 0, hi = 1, end = 0;
-  for (int k = N; k >= 0; --k) end += c[k];
-  const double rate = N > 0 ? c[1] : 0, bow = end - c[0] - rate;
-  const double root = std::sqrt(std::max(rate * rate - 4 * bow * c[0], 0.0));
-  double x = rate > 0 ? (rate + root) / (-2 * bow) : 2 * c[0] / (root - rate);
-  if (!(x > lo && x < hi)) x = 0.5;
-  for (int i = 0; i < 100; ++i) {
-    double value = c[N], slope = 0, bend = 0;  // bend: half the second derivative
-#pragma GCC unroll 16
-    for (int k = N - 1; k >= 0; --k) {
-      bend = bend * x + slope;
-      slope = slope * x + value;
-      value = value * x + c[k];
-    }
-    (value > 0 ? lo : hi) = x;
-    // Near a turning point that is no root, Halley's step leads to that point: there the bracket is halved.
-    const double square = slope * slope, curve = value * bend;
-    double next = x - value * slope / (square - curve);
-    if (!(next >= lo && next <= hi && square > std::abs(curve))) next = 0.5 * (lo + hi);
-    const double step = std::abs(next - x);
-    x = next;
-    if (step <= 1e-8 * x) return x;  // what is left is the third power of that
-  }
-  return hi;
-}
-
 // First root of a polynomial on (0, 1], positive at 0.
 template <int N>
 class Search {
@@ -92,7 +65,7 @@ class Search {
     if (changes == 0 || magnitude(c.data(), N, 1) <= noise_ || --intervals_left_ < 0) return false;
     if (changes == 1 || depth == deepest) {
       if (evaluate(c.data(), N, 1) > 0) return false;
-      x = only_root<N>(c);
+      x = only_root<N, OwnNumbers>(c.data(), true);
       return true;
     }
     Polynomial<N> half = c;
@@ -119,7 +92,11 @@ bool first_root_of(const double* c, double h, double& tau) {
   Polynomial<N> unit;
   double scale = 1, sum = 0;
   for (int k = 0; k <= N; ++k, scale *= h) sum += std::abs(unit[k] = c[k] * scale);
-  if (!std::isfinite(sum) || !Search<N>(unit).find(unit, 0, tau)) return false;
+  if (!std::isfinite(sum)) return false;
+  if (falls_once<N>(unit.data()))
+    tau = only_root<N, OwnNumbers>(unit.data(), true);
+  else if (!Search<N>(unit).find(unit, 0, tau))
+    return false;
   tau *= h;
   return true;
 }

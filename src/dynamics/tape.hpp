@@ -193,6 +193,7 @@ class OwnNumbers {
   double shift(int node) const { return tape_.operation(node).shift; }
   double on_side(int kink, double positive, double negative) const { return sides_ >> kink & 1U ? negative : positive; }
   static double choose(bool which, double yes, double no) { return which ? yes : no; }
+  static bool any(bool which) { return which; }
   std::uint32_t sides() const { return sides_; }
   void turn(std::uint32_t sides) { sides_ = sides; }
   static double exp(double x) { return std::exp(x); }

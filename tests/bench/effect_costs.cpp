@@ -1,7 +1,7 @@
 // What each effect costs: the slide-rock samples of job P3 (jobs.hpp) with one effect of the catalogue, within its usual
 // range, in blocks as a sweep computes them, beside the same samples without it, in packs and one by one.
 //
-//   build/release/benchmark_effects [samples [effect]]
+//   build/release/benchmark_effects [samples [effect [only]]]        only: its row alone, for a profiler
 //
 // Processor time, medians of five runs in turns.
 #include <cmath>
@@ -50,22 +50,24 @@ void run(Row& row, const std::vector<Shaking>& shakings) {
   row.microseconds.push_back(1e6 * seconds / static_cast<double>(shakings.size()));
 }
 
-void tell(std::size_t samples, const std::string& only) {
+void tell(std::size_t samples, const std::string& only, bool alone) {
   const auto records = benchmark_records(0.6);
   const Job job = benchmark_jobs(records, samples)[2];
   std::vector<Row> rows = {{"none, in packs", job.specimens, false, {}}, {"none, one by one", job.specimens, true, {}}};
   for (const dynamics::Effect& effect : effects::all())
     if (only.empty() || effect.name == only)
       rows.push_back({effect.name.c_str(), with(effect, job.specimens), false, {}});
+  if (alone) rows.erase(rows.begin(), rows.begin() + 2);
   for (int i = 0; i < runs; ++i)
     for (Row& row : rows) run(row, job.shakings);
+  if (alone) return static_cast<void>(std::printf("%s: %.1f us a sample\n", only.c_str(), test::median(rows[0].microseconds)));
 
   std::printf("%-22s %14s %14s %18s\n", "effect", "us a sample", "to packs", "to one by one");
-  const double packs = test::median(rows[0].microseconds), alone = test::median(rows[1].microseconds);
+  const double packs = test::median(rows[0].microseconds), singly = test::median(rows[1].microseconds);
   for (const Row& row : rows) {
     const double time = test::median(row.microseconds);
     std::printf("%-22s %14.1f %+12.0f %% %+16.0f %%\n", row.name, time, 100 * (time / packs - 1),
-                100 * (time / alone - 1));
+                100 * (time / singly - 1));
   }
 }
 
@@ -73,6 +75,6 @@ void tell(std::size_t samples, const std::string& only) {
 }  // namespace freestand::bench
 
 int main(int argc, char** argv) {
-  freestand::bench::tell(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 960, argc > 2 ? argv[2] : "");
+  freestand::bench::tell(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 960, argc > 2 ? argv[2] : "", argc > 3);
   return 0;
 }

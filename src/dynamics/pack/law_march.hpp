@@ -1,53 +1,18 @@
 // Samples under laws, a pack of them at once, from knot to knot of their motions while nothing happens: no event that is not
-// excluded beyond doubt, a step that is as long as the segment, and extremes that are at its ends or no new ones. The same steps,
-// with the same decisions and the same bits, as taylor_integrator.hpp goes one by one.
+// excluded beyond doubt, but for blows of a block that rocks on; a step that is as long as the segment, or up to the blow; and
+// extremes that are at its ends or no new ones. The same steps, with the same decisions and the same bits, as
+// taylor_integrator.hpp goes one by one.
 #pragma once
 
-#include "base/pack.hpp"
-#include "dynamics/law_rows.hpp"
 #include "dynamics/law_step.hpp"
-#include "dynamics/pack/outside.hpp"
+#include "dynamics/pack/lane_numbers.hpp"
+#include "dynamics/pack/law_blows.hpp"
 #include "dynamics/peaks.hpp"
 #include "dynamics/taylor_integrator.hpp"
 #include "dynamics/witness.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
-
-// The numbers of the tapes of a pack.
-class LaneNumbers {
- public:
-  LaneNumbers(const LawRows& rows, int first) : rows_(rows), first_(first) {}
-  Pack value(int node) const { return load(rows_.value[node] + first_); }
-  Pack shift(int node) const { return load(rows_.shift[node] + first_); }
-  Pack on_side(int kink, const Pack& positive, const Pack& negative) const {
-    return freestand::choose(load(rows_.side[kink] + first_) > Pack(0.0), positive, negative);
-  }
-  static Pack choose(const PackMask& mask, const Pack& yes, const Pack& no) { return freestand::choose(mask, yes, no); }
-  static Pack exp(const Pack& x) { return each(x, exp_outside); }
-  static Pack log(const Pack& x) { return each(x, log_outside); }
-  static Pack sqrt(const Pack& x) { return xsimd::sqrt(x); }
-  static Pack sin(const Pack& x) { return each(x, sin_outside); }
-  static Pack cos(const Pack& x) { return each(x, cos_outside); }
-  static Pack pow(const Pack& x, const Pack& exponent) {
-    alignas(64) double at[pack_lanes], to[pack_lanes];
-    store(at, x);
-    store(to, exponent);
-    for (int l = 0; l < pack_lanes; ++l) at[l] = pow_outside(at[l], to[l]);
-    return load(at);
-  }
-
- private:
-  static Pack each(const Pack& x, double (*function)(double)) {
-    alignas(64) double at[pack_lanes];
-    store(at, x);
-    for (double& one : at) one = function(one);
-    return load(at);
-  }
-
-  const LawRows& rows_;
-  int first_;
-};
 
 template <bool turning, bool slipping>
 class LawMarchOf {
@@ -68,6 +33,7 @@ class LawMarchOf {
         there_{Series<Pack, 1>::zero(), Series<Pack, 1>::zero()},
         step_(laws_, here_, numbers_, {}, floor_),
         end_(laws_, to_, numbers_, {}, there_),
+        blows_(rows, first),
         stance_{turning,
                 slipping,
                 rows.can_slip,
@@ -86,17 +52,23 @@ class LawMarchOf {
   Stopped run(double* series) {
     const int here = rows_.lanes - first_ < pack_lanes ? rows_.lanes - first_ : pack_lanes;
     unsigned going = (1U << here) - 1;
-    Stopped stopped{0, 0};
+    Stopped stopped{0, 0, 0};
     for (int left = here; 2 * left > here;) {
       set_floor();
       const Arc& arc = step_.run();
+      reach_ = h_;
       PackMask sure = nothing_happens(arc);
       sure = sure & follows_laws(arc);
       sure = sure & sees_extremes(arc);
+      if (bits(strikes_)) sure = sure & (~strikes_ | blows_.strike(to_));
+      const unsigned undecided = struck_ ? struck_ & ~bits(blows_.rocks_on(arc, stance_)) & going : 0;
+      struck_ &= undecided;
+      going &= ~undecided;
       const unsigned free = bits(sure) & going, stop = going & ~free;
       for (unsigned open = stop; open; open &= open - 1) tell(arc, __builtin_ctz(open), series);
       const unsigned at_end = go_on(free);
       stopped.before_step |= stop;
+      stopped.undecided |= undecided;
       stopped.at_end |= at_end;
       going = free & ~at_end;
       left = __builtin_popcount(going);
@@ -142,6 +114,8 @@ class LawMarchOf {
     slid_ = number(Row::slid_path);
     rotation_ = number(Row::peak_rotation);
     acceleration_ = number(Row::peak_acceleration);
+    if (turning && !slipping)
+      for (int l = 0; l < pack_lanes; ++l) struck_ |= static_cast<unsigned>(rows_.struck[first_ + l]) << l;
   }
 
   void save() {
@@ -162,6 +136,9 @@ class LawMarchOf {
     keep(Row::slid_path, slid_);
     keep(Row::peak_rotation, rotation_);
     keep(Row::peak_acceleration, acceleration_);
+    if (!turning || slipping) return;
+    blows_.save(at);
+    for (int l = 0; l < pack_lanes; ++l) rows_.struck[first_ + l] = struck_ >> l & 1U;
   }
 
   // As FloorCursor::local and left().
@@ -185,8 +162,9 @@ class LawMarchOf {
     h_ = next_ - start_ - offset_;
   }
 
-  // The segment can be gone in one step, and no witness can turn within it.
-  PackMask nothing_happens(const Arc& arc) const {
+  // The segment can be gone in one step, and no witness can turn within it, or only the raised corner comes down.
+  PackMask nothing_happens(const Arc& arc) {
+    strikes_ = h_ < h_;
     const Pack longest = number(Row::longest_step_s), tolerance(rows_.tolerance);
     PackMask sure = (h_ <= longest) & (h_ > Pack(shortest_step) * longest);
     const Pack power = whole_power<law_order>(h_);
@@ -205,7 +183,13 @@ class LawMarchOf {
       sure = sure & neglects(arc.states[i], laws_.relative_velocity[i] ? Row::over_speed : Row::over_length);
     visit_contact(stance_, {}, arc, [&](Witness witness, const Series<Pack, law_order>& y) {
       PackMask positive = surely_positive(y, h_);
-      if (witness == Witness::impact) positive = positive | surely_rises_from_zero(y, h_, Pack(0.0));
+      if (witness == Witness::impact) {
+        positive = positive | surely_rises_from_zero(y, h_, Pack(0.0));
+        if (turning && !slipping && blows_.possible() && bits(~positive)) {
+          strikes_ = ~positive & blows_.comes_down(y, h_, reach_);
+          positive = positive | strikes_;
+        }
+      }
       if (witness == Witness::slipping) positive = positive | surely_rises_from_zero(y, h_, number(Row::force_zero));
       sure = sure & positive;
     });
@@ -227,32 +211,32 @@ class LawMarchOf {
     return clear;
   }
 
-  // Leaves in end_ the state at the end of the step.
+  // Leaves in to_ the state at the end of the step.
   PackMask follows_laws(const Arc& arc) {
     Standing<Pack>& to = to_;
     const Pack bound(beyond_all_bounds);
-    to.theta = turning ? arc.theta.at(h_) : Pack(0.0);
-    to.omega = turning ? arc.omega.at(h_) : Pack(0.0);
-    to.xi = arc.xi.at(h_);
-    to.w = arc.w.at(h_);
-    to.path = arc.path.at(h_);
-    to.deflection = arc.deflection.at(h_);
-    to.foot = slipping ? arc.foot.at(h_) : Pack(0.0);
-    for (int i = 0; i < laws_.states; ++i) to.states[i] = arc.states[i].at(h_);
-    to.time = here_.time + h_;
+    to.theta = turning ? arc.theta.at(reach_) : Pack(0.0);
+    to.omega = turning ? arc.omega.at(reach_) : Pack(0.0);
+    to.xi = arc.xi.at(reach_);
+    to.w = arc.w.at(reach_);
+    to.path = arc.path.at(reach_);
+    to.deflection = arc.deflection.at(reach_);
+    to.foot = slipping ? arc.foot.at(reach_) : Pack(0.0);
+    for (int i = 0; i < laws_.states; ++i) to.states[i] = arc.states[i].at(reach_);
+    to.time = here_.time + reach_;
     PackMask follows = (xsimd::abs(to.theta) < bound) & (xsimd::abs(to.omega) < bound) & (xsimd::abs(to.xi) < bound) &
                        (xsimd::abs(to.w) < bound);
     if (straight_ && !grip_changes_) return follows;
-    there_.a[0] = floor_.a.at(h_);
-    there_.g[0] = floor_.g.at(h_);
+    there_.a[0] = floor_.a.at(reach_);
+    there_.g[0] = floor_.g.at(reach_);
     const LawArc<1, Pack>& fresh = grip_changes_ ? end_.run() : end_.accelerations();
     const Pack allowed(defect_allowed * rows_.tolerance);
-    const auto little = [&](const Pack& missed, Row over) { return xsimd::abs(missed) * number(over) * h_ <= allowed; };
-    follows = follows & little(fresh.w[1] - derivative(arc.w).at(h_), Row::over_speed);
-    if (turning) follows = follows & little(fresh.omega[1] - derivative(arc.omega).at(h_), Row::over_rotation);
+    const auto little = [&](const Pack& missed, Row over) { return xsimd::abs(missed) * number(over) * reach_ <= allowed; };
+    follows = follows & little(fresh.w[1] - derivative(arc.w).at(reach_), Row::over_speed);
+    if (turning) follows = follows & little(fresh.omega[1] - derivative(arc.omega).at(reach_), Row::over_rotation);
     if (grip_changes_)
-      follows = follows & little(fresh.limit_right[0] - arc.limit_right.at(h_), Row::over_speed) &
-                little(fresh.limit_left[0] - arc.limit_left.at(h_), Row::over_speed);
+      follows = follows & little(fresh.limit_right[0] - arc.limit_right.at(reach_), Row::over_speed) &
+                little(fresh.limit_left[0] - arc.limit_left.at(reach_), Row::over_speed);
     return follows;
   }
 
@@ -264,10 +248,10 @@ class LawMarchOf {
     return within | surely_monotonic(y, h);
   }
   PackMask largest(const Series<Pack, law_order>& y, const Pack& before, Pack& after) const {
-    const PackMask within = surely_within(y, h_, before);
+    const PackMask within = surely_within(y, reach_, before);
     after = before;
     if (bits(within) == all_lanes) return within;
-    return extreme(y, h_, xsimd::abs(y[0]), xsimd::abs(y.at(h_)), before, after);
+    return extreme(y, reach_, xsimd::abs(y[0]), xsimd::abs(y.at(reach_)), before, after);
   }
 
   // As Peaks::observe.
@@ -276,9 +260,9 @@ class LawMarchOf {
     const Series<Pack, law_order> u = turning ? midpoint(at.body, at.half_base, arc, arc.versine) : arc.xi;
     PackMask seen = largest(u, slip_, new_slip_);
     if (rows_.slip_by_side) {
-      const Pack last = u.at(h_);
-      seen = seen & extreme(u, h_, u[0], last, slip_right_, new_slip_right_) &
-             extreme(u, h_, -u[0], -last, slip_left_, new_slip_left_);
+      const Pack last = u.at(reach_);
+      seen = seen & extreme(u, reach_, u[0], last, slip_right_, new_slip_right_) &
+             extreme(u, reach_, -u[0], -last, slip_left_, new_slip_left_);
     }
     new_rotation_ = rotation_;
     if (turning) seen = seen & largest(arc.theta, rotation_, new_rotation_);
@@ -291,7 +275,7 @@ class LawMarchOf {
     x[0] = x[0] - number(Row::push);
     y[0] = y[0] - number(Row::gravity);
     const Pack peak2 = acceleration_ * acceleration_;
-    const Pack bound_x = size_of_rest<0>(x, h_), bound_y = size_of_rest<0>(y, h_);
+    const Pack bound_x = size_of_rest<0>(x, reach_), bound_y = size_of_rest<0>(y, reach_);
     const Pack bound2 = bound_x * bound_x + bound_y * bound_y;
     const PackMask within = bound2 <= peak2 * Pack(same_peak);
     new_acceleration_ = acceleration_;
@@ -303,21 +287,23 @@ class LawMarchOf {
     return within | (seen & (bound2 < Pack(largest_number)));
   }
 
-  // Those that are free go to the next knot; bit l: lane l has none.
+  // Those that are free go to the next knot, or to the blow; bit l: lane l has no knot ahead.
   unsigned go_on(unsigned free) {
     alignas(64) double mask[pack_lanes];
     unsigned at_end = 0;
+    const unsigned struck = bits(strikes_) & free, to_knot = free & ~struck;
     for (int l = 0; l < pack_lanes; ++l) {
-      const bool goes = free >> l & 1U;
+      const bool goes = to_knot >> l & 1U;
       const int i = first_ + l;
       mask[l] = goes;
       rows_.knot[i] += goes;
       rows_.horizontal[i] += 2 * goes;
       rows_.vertical[i] += rows_.vertical_stride[i] * goes;
       rows_.segments[i] -= goes;
+      if (goes) rows_.steps[i] = rows_.segments[i] > 0;
       at_end |= unsigned{goes && rows_.segments[i] == 0} << l;
     }
-    const PackMask goes = load(mask) > Pack(0.0);
+    PackMask goes = load(mask) > Pack(0.0);
     const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
     Standing<Pack>& at = here_;
     const Standing<Pack>& to = to_;
@@ -331,6 +317,14 @@ class LawMarchOf {
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to.states[i]);
     move(start_, next_);
     move(offset_, Pack(0.0));
+    if (struck) {
+      const PackMask blow = strikes_ & ~goes & lanes(struck);
+      blows_.stand(blow, struck, at);
+      offset_ = freestand::choose(blow, offset_ + reach_, offset_);
+      stance_.pivot = at.pivot;
+      goes = goes | blow;
+      struck_ |= struck;
+    }
     at.time = start_ + offset_;
     move(slip_, new_slip_);
     if (rows_.slip_by_side) {
@@ -341,6 +335,12 @@ class LawMarchOf {
     move(rotation_, new_rotation_);
     move(acceleration_, new_acceleration_);
     return at_end;
+  }
+
+  static PackMask lanes(unsigned which) {
+    alignas(64) double mask[pack_lanes];
+    for (int l = 0; l < pack_lanes; ++l) mask[l] = which >> l & 1U;
+    return load(mask) > Pack(0.0);
   }
 
   // The series of one lane.
@@ -365,7 +365,9 @@ class LawMarchOf {
   const int first_;
   const bool straight_, grip_changes_;
   const LaneNumbers numbers_;
-  Pack start_, offset_, next_, h_;
+  Pack start_, offset_, next_, h_, reach_;
+  PackMask strikes_;     // within the step
+  unsigned struck_ = 0;  // before it
   Pack slip_, slip_right_, slip_left_, slid_, rotation_, acceleration_;
   Pack new_slip_, new_slip_right_, new_slip_left_, new_slid_, new_rotation_, new_acceleration_;
   Standing<Pack> here_, to_;
@@ -373,7 +375,8 @@ class LawMarchOf {
   Floor<Pack, 1> there_;
   Step step_;
   End<1> end_;
-  const Stance<Pack> stance_;
+  LawBlows blows_;
+  Stance<Pack> stance_;
 };
 
 template <bool turning, bool slipping>

@@ -1,0 +1,47 @@
+// The numbers of the tapes of samples in a pack, and the functions that their laws may use.
+#pragma once
+
+#include "base/pack.hpp"
+#include "dynamics/law_rows.hpp"
+#include "dynamics/pack/outside.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+class LaneNumbers {
+ public:
+  LaneNumbers(const LawRows& rows, int first) : rows_(rows), first_(first) {}
+  Pack value(int node) const { return load(rows_.value[node] + first_); }
+  Pack shift(int node) const { return load(rows_.shift[node] + first_); }
+  Pack on_side(int kink, const Pack& positive, const Pack& negative) const {
+    return freestand::choose(load(rows_.side[kink] + first_) > Pack(0.0), positive, negative);
+  }
+  static Pack choose(const PackMask& mask, const Pack& yes, const Pack& no) { return freestand::choose(mask, yes, no); }
+  static bool any(const PackMask& mask) { return bits(mask); }
+  static Pack exp(const Pack& x) { return each(x, exp_outside); }
+  static Pack log(const Pack& x) { return each(x, log_outside); }
+  static Pack sqrt(const Pack& x) { return xsimd::sqrt(x); }
+  static Pack sin(const Pack& x) { return each(x, sin_outside); }
+  static Pack cos(const Pack& x) { return each(x, cos_outside); }
+  static Pack pow(const Pack& x, const Pack& exponent) {
+    alignas(64) double at[pack_lanes], to[pack_lanes];
+    store(at, x);
+    store(to, exponent);
+    for (int l = 0; l < pack_lanes; ++l) at[l] = pow_outside(at[l], to[l]);
+    return load(at);
+  }
+
+ private:
+  static Pack each(const Pack& x, double (*function)(double)) {
+    alignas(64) double at[pack_lanes];
+    store(at, x);
+    for (double& one : at) one = function(one);
+    return load(at);
+  }
+
+  const LawRows& rows_;
+  int first_;
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
