@@ -57,10 +57,10 @@ class LawMarchOf {
       set_floor();
       const Arc& arc = step_.run();
       reach_ = h_;
-      PackMask sure = nothing_happens(arc);
+      PackMask sure = nothing_happens(arc, going);
       sure = sure & follows_laws(arc);
       sure = sure & sees_extremes(arc);
-      if (bits(strikes_)) sure = sure & (~strikes_ | blows_.strike(to_));
+      if (bits(strikes_) & going) sure = sure & (~strikes_ | blows_.strike(to_));
       const unsigned undecided = struck_ ? struck_ & ~bits(blows_.rocks_on(arc, stance_)) & going : 0;
       struck_ &= undecided;
       going &= ~undecided;
@@ -163,7 +163,7 @@ class LawMarchOf {
   }
 
   // The segment can be gone in one step, and no witness can turn within it, or only the raised corner comes down.
-  PackMask nothing_happens(const Arc& arc) {
+  PackMask nothing_happens(const Arc& arc, unsigned going) {
     strikes_ = h_ < h_;
     const Pack longest = number(Row::longest_step_s), tolerance(rows_.tolerance);
     PackMask sure = (h_ <= longest) & (h_ > Pack(shortest_step) * longest);
@@ -185,7 +185,7 @@ class LawMarchOf {
       PackMask positive = surely_positive(y, h_);
       if (witness == Witness::impact) {
         positive = positive | surely_rises_from_zero(y, h_, Pack(0.0));
-        if (turning && !slipping && blows_.possible() && bits(~positive)) {
+        if (turning && !slipping && blows_.possible() && (bits(~positive) & going)) {
           strikes_ = ~positive & blows_.comes_down(y, h_, reach_);
           positive = positive | strikes_;
         }
@@ -306,7 +306,7 @@ class LawMarchOf {
     PackMask goes = load(mask) > Pack(0.0);
     const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
     Standing<Pack>& at = here_;
-    const Standing<Pack>& to = to_;
+    Standing<Pack>& to = to_;
     move(at.theta, to.theta);
     move(at.omega, to.omega);
     move(at.xi, to.xi);
@@ -321,7 +321,9 @@ class LawMarchOf {
       const PackMask blow = strikes_ & ~goes & lanes(struck);
       blows_.stand(blow, struck, at);
       offset_ = freestand::choose(blow, offset_ + reach_, offset_);
-      stance_.pivot = at.pivot;
+      to_.body.c = at.body.c;
+      to_.half_base = at.half_base;
+      to_.pivot = stance_.pivot = at.pivot;
       goes = goes | blow;
       struck_ |= struck;
     }
