@@ -48,30 +48,25 @@ class LawMarchOf {
     load_state();
   }
 
-  // Goes on until half of the lanes have stopped.
+  // Goes on until a lane stops: gaps in a pack cost more than going in and out of it.
   Stopped run(double* series) {
     const int here = rows_.lanes - first_ < pack_lanes ? rows_.lanes - first_ : pack_lanes;
-    unsigned going = (1U << here) - 1;
+    const unsigned lanes_here = (1U << here) - 1;
     Stopped stopped{0, 0, 0};
-    for (int left = here; 2 * left > here;) {
+    while (!(stopped.before_step | stopped.at_end | stopped.undecided)) {
       set_floor();
       const Arc& arc = step_.run();
       reach_ = h_;
-      PackMask sure = nothing_happens(arc, going);
+      PackMask sure = nothing_happens(arc, lanes_here);
       sure = sure & follows_laws(arc);
       sure = sure & sees_extremes(arc);
-      if (bits(strikes_) & going) sure = sure & (~strikes_ | blows_.strike(to_));
-      const unsigned undecided = struck_ ? struck_ & ~bits(blows_.rocks_on(arc, stance_)) & going : 0;
-      struck_ &= undecided;
-      going &= ~undecided;
-      const unsigned free = bits(sure) & going, stop = going & ~free;
-      for (unsigned open = stop; open; open &= open - 1) tell(arc, __builtin_ctz(open), series);
-      const unsigned at_end = go_on(free);
-      stopped.before_step |= stop;
-      stopped.undecided |= undecided;
-      stopped.at_end |= at_end;
-      going = free & ~at_end;
-      left = __builtin_popcount(going);
+      if (bits(strikes_)) sure = sure & (~strikes_ | blows_.strike(to_));
+      stopped.undecided = struck_ ? struck_ & ~bits(blows_.rocks_on(arc, stance_)) : 0;
+      struck_ = stopped.undecided;
+      const unsigned free = bits(sure) & lanes_here & ~stopped.undecided;
+      stopped.before_step = lanes_here & ~(free | stopped.undecided);
+      for (unsigned open = stopped.before_step; open; open &= open - 1) tell(arc, __builtin_ctz(open), series);
+      stopped.at_end = go_on(free);
     }
     save();
     return stopped;
@@ -163,7 +158,7 @@ class LawMarchOf {
   }
 
   // The segment can be gone in one step, and no witness can turn within it, or only the raised corner comes down.
-  PackMask nothing_happens(const Arc& arc, unsigned going) {
+  PackMask nothing_happens(const Arc& arc, unsigned lanes_here) {
     strikes_ = h_ < h_;
     const Pack longest = number(Row::longest_step_s), tolerance(rows_.tolerance);
     PackMask sure = (h_ <= longest) & (h_ > Pack(shortest_step) * longest);
@@ -185,7 +180,7 @@ class LawMarchOf {
       PackMask positive = surely_positive(y, h_);
       if (witness == Witness::impact) {
         positive = positive | surely_rises_from_zero(y, h_, Pack(0.0));
-        if (turning && !slipping && blows_.possible() && (bits(~positive) & going)) {
+        if (turning && !slipping && blows_.possible() && (bits(~positive) & lanes_here)) {
           strikes_ = ~positive & blows_.comes_down(y, h_, reach_);
           positive = positive | strikes_;
         }
