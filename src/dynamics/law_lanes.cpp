@@ -64,8 +64,6 @@ class Group {
     set(Row::mu_k, rig.mu_k);
     set(Row::mu_s, rig.mu_s);
     set(Row::mass, at.mass);
-    set(Row::leg_rate, at.leg_rate);
-    set(Row::leg_damping, at.leg_damping);
     set(Row::pivot, at.pivot);
     set(Row::sigma, at.sigma);
     set(Row::theta, state.theta);
@@ -73,8 +71,6 @@ class Group {
     set(Row::xi, state.xi);
     set(Row::w, state.w);
     set(Row::path, state.path);
-    set(Row::deflection, state.deflection);
-    set(Row::foot, state.foot);
     set(Row::right_gap, at.right_wall.gap);
     set(Row::right_across, at.right_wall.across);
     set(Row::right_up, at.right_wall.up);
@@ -138,8 +134,6 @@ class Group {
     state.xi = get(Row::xi);
     state.w = get(Row::w);
     state.path = get(Row::path);
-    state.deflection = get(Row::deflection);
-    state.foot = get(Row::foot);
     for (int k = 0; k < laws_.states; ++k) state.states[static_cast<std::size_t>(k)] = state_row(k)[i];
     life.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset), rows_->steps[i]);
     life.rocked_on(rows_->blows[i] - rows_->struck[i], rows_->told[i]);

@@ -1,6 +1,8 @@
 // Where the block is in the course of a step, as laws and walls see it: the part of the equations that no force enters.
 #pragma once
 
+#include <type_traits>
+
 #include "dynamics/law_arc.hpp"
 #include "dynamics/standing.hpp"
 
@@ -15,9 +17,11 @@ class LawPlace {
         at_(at),
         numbers_(numbers),
         floor_(floor),
-        legs_(laws.legs.frequency_radps > 0),
+        legs_(has_legs(laws)),
         kind_(kind),
-        sees_place_(laws.reads(Input::u) || laws.reads(Input::v) || laws.walls.any()) {}
+        sees_place_(laws.reads(Input::u) || laws.reads(Input::v) || laws.walls.any()) {
+    if (!legs_) y_.deflection = Series<Real, N>::zero();
+  }
 
  protected:
   bool turns() const { return kind_.turns(); }
@@ -34,7 +38,7 @@ class LawPlace {
     y_.rx[0] = body.h * rotation.sine - body.c * rotation.cosine;
     y_.ry[0] = body.c * rotation.sine + body.h * rotation.cosine;
     y_.path[0] = at_.path;
-    y_.deflection[0] = at_.deflection;
+    if (legs_) y_.deflection[0] = at_.deflection;
     if (sees_place_) {
       sine_[0] = rotation.sine;
       cosine_[0] = rotation.cosine;
@@ -106,7 +110,15 @@ class LawPlace {
   const Standing<Real>& at_;
   Numbers numbers_;
   const Floor<Real, N>& floor_;
-  const bool legs_;
+  // Single samples may stand on legs, those of packs do not.
+  using Legs = std::conditional_t<std::is_same_v<Real, double>, bool, std::false_type>;
+  static Legs has_legs(const Laws& laws) {
+    if constexpr (std::is_same_v<Legs, bool>)
+      return laws.legs.frequency_radps > 0;
+    else
+      return {};
+  }
+  const Legs legs_;
   LawArc<N, Real> y_;
   Series<Real, N> values_[max_nodes];
   Series<Real, N> omega2_, rx_omega2_, sine_, cosine_;

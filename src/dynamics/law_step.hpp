@@ -278,7 +278,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
       for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[k + 1] = values_[laws_.rate[i]][k] * over;
     }
     y_.path[k + 1] = at_.sigma * y_.foot[k] * over;
-    y_.deflection[k + 1] = deflection_rate_ * over;
+    if (legs_) y_.deflection[k + 1] = deflection_rate_ * over;
     if (turns()) return integrate_coefficient(y_, acceleration_, k);
     y_.theta[k + 1] = y_.omega[k + 1] = y_.rx[k + 1] = y_.ry[k + 1] = Real(0.0);
     y_.xi[k + 1] = y_.w[k] * over;

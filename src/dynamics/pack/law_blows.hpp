@@ -53,7 +53,7 @@ class LawBlows {
     to_.body.c = corner_;
     to_.pivot = -at.pivot;
     to_.half_base = -at.half_base;
-    to_.theta = to_.w = to_.foot = zero;
+    to_.theta = to_.w = zero;
     if (rows_.impact == ImpactLaw::housner) {
       to_.omega = kept_ * at.omega;
     } else {
@@ -108,8 +108,6 @@ class LawBlows {
     move(at.xi, to_.xi);
     move(at.w, to_.w);
     move(at.path, to_.path);
-    move(at.deflection, to_.deflection);
-    move(at.foot, to_.foot);
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to_.states[i]);
   }
 

@@ -59,11 +59,10 @@ class LawMarchOf {
       reach_ = h_;
       PackMask sure = nothing_happens(arc, lanes_here);
       sure = sure & follows_laws(arc);
-      sure = sure & sees_extremes(arc);
       if (bits(strikes_)) sure = sure & (~strikes_ | blows_.strike(to_));
       stopped.undecided = struck_ ? struck_ & ~bits(blows_.rocks_on(arc, stance_)) : 0;
       struck_ = stopped.undecided;
-      const unsigned free = bits(sure) & lanes_here & ~stopped.undecided;
+      const unsigned free = see_extremes(arc, bits(sure) & lanes_here & ~stopped.undecided);
       stopped.before_step = lanes_here & ~(free | stopped.undecided);
       for (unsigned open = stopped.before_step; open; open &= open - 1) tell(arc, __builtin_ctz(open), series);
       stopped.at_end = go_on(free);
@@ -83,8 +82,6 @@ class LawMarchOf {
     at.mu_k = number(Row::mu_k);
     at.mu_s = number(Row::mu_s);
     at.mass = number(Row::mass);
-    at.leg_rate = number(Row::leg_rate);
-    at.leg_damping = number(Row::leg_damping);
     at.pivot = number(Row::pivot);
     at.sigma = number(Row::sigma);
     at.right_wall = {number(Row::right_gap), number(Row::right_across), number(Row::right_up)};
@@ -97,8 +94,6 @@ class LawMarchOf {
     here_.xi = number(Row::xi);
     here_.w = number(Row::w);
     here_.path = number(Row::path);
-    here_.deflection = number(Row::deflection);
-    here_.foot = number(Row::foot);
     for (int i = 0; i < laws_.states; ++i) here_.states[i] = number(state_row(i));
     start_ = number(Row::start);
     offset_ = number(Row::offset);
@@ -120,8 +115,6 @@ class LawMarchOf {
     keep(Row::xi, at.xi);
     keep(Row::w, at.w);
     keep(Row::path, at.path);
-    keep(Row::deflection, at.deflection);
-    keep(Row::foot, at.foot);
     for (int i = 0; i < laws_.states; ++i) keep(state_row(i), at.states[i]);
     keep(Row::start, start_);
     keep(Row::offset, offset_);
@@ -166,13 +159,10 @@ class LawMarchOf {
     const auto neglects = [&](const Series<Pack, law_order>& y, Row over) {
       return xsimd::abs(y[law_order]) * number(over) * power <= tolerance;
     };
-    sure = sure & neglects(arc.xi, Row::over_length) & neglects(arc.w, Row::over_speed) &
-           neglects(arc.path, Row::over_length);
+    if (slipping)
+      sure = sure & neglects(arc.xi, Row::over_length) & neglects(arc.w, Row::over_speed) &
+             neglects(arc.path, Row::over_length);
     if (turning) sure = sure & neglects(arc.theta, Row::over_angle) & neglects(arc.omega, Row::over_rotation);
-    if (laws_.legs.frequency_radps > 0) {
-      sure = sure & neglects(arc.deflection, Row::over_length);
-      if (slipping) sure = sure & (xsimd::abs(arc.foot[0]) >= Pack(Step::foot_zero));
-    }
     if (slipping && laws_.friction >= 0) sure = sure & (arc.friction >= Pack(0.0));
     for (int i = 0; i < laws_.states; ++i)
       sure = sure & neglects(arc.states[i], laws_.relative_velocity[i] ? Row::over_speed : Row::over_length);
@@ -212,11 +202,9 @@ class LawMarchOf {
     const Pack bound(beyond_all_bounds);
     to.theta = turning ? arc.theta.at(reach_) : Pack(0.0);
     to.omega = turning ? arc.omega.at(reach_) : Pack(0.0);
-    to.xi = arc.xi.at(reach_);
-    to.w = arc.w.at(reach_);
-    to.path = arc.path.at(reach_);
-    to.deflection = arc.deflection.at(reach_);
-    to.foot = slipping ? arc.foot.at(reach_) : Pack(0.0);
+    to.xi = slipping ? arc.xi.at(reach_) : here_.xi;
+    to.w = slipping ? arc.w.at(reach_) : here_.w;
+    to.path = slipping ? arc.path.at(reach_) : here_.path;
     for (int i = 0; i < laws_.states; ++i) to.states[i] = arc.states[i].at(reach_);
     to.time = here_.time + reach_;
     PackMask follows = (xsimd::abs(to.theta) < bound) & (xsimd::abs(to.omega) < bound) & (xsimd::abs(to.xi) < bound) &
@@ -235,37 +223,48 @@ class LawMarchOf {
     return follows;
   }
 
-  // max_abs and max_of, where the extreme is at an end of the step or is no new one.
-  static PackMask extreme(const Series<Pack, law_order>& y, const Pack& h, const Pack& first, const Pack& last,
-                          const Pack& before, Pack& after) {
-    const PackMask within = surely_within(y, h, before);
-    after = freestand::choose(within, before, xsimd::max(before, xsimd::max(first, last)));
-    return within | surely_monotonic(y, h);
-  }
-  PackMask largest(const Series<Pack, law_order>& y, const Pack& before, Pack& after) const {
+  // max_abs and max_of (roots.hpp) of the lanes wanted: mostly the extreme is at an end of the step or is no new one.
+  using Search = double (*)(const double* c, int order, double h, double floor);
+  Pack extreme(const Series<Pack, law_order>& y, const Pack& first, const Pack& last, const Pack& before,
+               unsigned wanted, Search search) const {
     const PackMask within = surely_within(y, reach_, before);
-    after = before;
-    if (bits(within) == all_lanes) return within;
-    return extreme(y, reach_, xsimd::abs(y[0]), xsimd::abs(y.at(reach_)), before, after);
+    const Pack at_ends = xsimd::max(before, xsimd::max(first, last));
+    const unsigned unsure = wanted & ~bits(within | surely_monotonic(y, reach_));
+    if (!unsure) return freestand::choose(within, before, at_ends);
+    alignas(64) double most[pack_lanes];
+    store(most, freestand::choose(within, before, at_ends));
+    const double* numbers = reinterpret_cast<const double*>(&y);
+    for (unsigned open = unsure; open; open &= open - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(open));
+      double c[law_order + 1];
+      for (int k = 0; k <= law_order; ++k) c[k] = numbers[static_cast<std::size_t>(k * pack_lanes) + lane];
+      const double h = reach_.get(lane), floor = before.get(lane);
+      clear_upper_parts();
+      most[lane] = search(c, law_order, h, floor);
+    }
+    return load(most);
+  }
+  Pack largest(const Series<Pack, law_order>& y, const Pack& before, unsigned wanted) const {
+    if (!(wanted & ~bits(surely_within(y, reach_, before)))) return before;
+    return extreme(y, xsimd::abs(y[0]), xsimd::abs(y.at(reach_)), before, wanted, detail::max_abs);
   }
 
-  // As Peaks::observe.
-  PackMask sees_extremes(const Arc& arc) {
+  // As Peaks::observe, of the lanes wanted; of which of them there are any.
+  unsigned see_extremes(const Arc& arc, unsigned wanted) {
     const Standing<Pack>& at = here_;
     const Series<Pack, law_order> u = turning ? midpoint(at.body, at.half_base, arc, arc.versine) : arc.xi;
-    PackMask seen = largest(u, slip_, new_slip_);
+    new_slip_ = largest(u, slip_, wanted);
     if (rows_.slip_by_side) {
       const Pack last = u.at(reach_);
-      seen = seen & extreme(u, reach_, u[0], last, slip_right_, new_slip_right_) &
-             extreme(u, reach_, -u[0], -last, slip_left_, new_slip_left_);
+      new_slip_right_ = extreme(u, u[0], last, slip_right_, wanted, detail::max_of);
+      new_slip_left_ = extreme(scaled(Pack(-1.0), u), -u[0], -last, slip_left_, wanted, detail::max_of);
     }
-    new_rotation_ = rotation_;
-    if (turning) seen = seen & largest(arc.theta, rotation_, new_rotation_);
+    new_rotation_ = turning ? largest(arc.theta, rotation_, wanted) : rotation_;
     new_slid_ = slid_ + (to_.path - arc.path[0]);
-    return seen & sees_acceleration(arc);
+    return see_acceleration(arc, wanted);
   }
 
-  PackMask sees_acceleration(const Arc& arc) {
+  unsigned see_acceleration(const Arc& arc, unsigned wanted) {
     Series<Pack, law_order> x = arc.ax, y = arc.fy;
     x[0] = x[0] - number(Row::push);
     y[0] = y[0] - number(Row::gravity);
@@ -274,12 +273,12 @@ class LawMarchOf {
     const Pack bound2 = bound_x * bound_x + bound_y * bound_y;
     const PackMask within = bound2 <= peak2 * Pack(same_peak);
     new_acceleration_ = acceleration_;
-    if (bits(within) == all_lanes) return within;
-    const Series<Pack, law_order> square = squared_length(x, y);
-    Pack peak;
-    const PackMask seen = largest(square, peak2, peak);
+    const unsigned may_exceed = wanted & ~bits(within);
+    if (!may_exceed) return wanted;
+    const PackMask finite = bound2 < Pack(std::numeric_limits<double>::infinity());
+    const Pack peak = largest(squared_length(x, y), peak2, may_exceed & bits(finite));
     new_acceleration_ = freestand::choose(within, acceleration_, xsimd::sqrt(peak));
-    return within | (seen & (bound2 < Pack(largest_number)));
+    return wanted & bits(finite);
   }
 
   // Those that are free go to the next knot, or to the blow; bit l: lane l has no knot ahead.
@@ -307,8 +306,6 @@ class LawMarchOf {
     move(at.xi, to.xi);
     move(at.w, to.w);
     move(at.path, to.path);
-    move(at.deflection, to.deflection);
-    move(at.foot, to.foot);
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to.states[i]);
     move(start_, next_);
     move(offset_, Pack(0.0));
@@ -353,9 +350,6 @@ class LawMarchOf {
     copy(Numbers::states, Numbers::states + laws_.states * Numbers::series);
     copy(Numbers::kinks, Numbers::kinks + laws_.tape.kink_count() * Numbers::series);
   }
-
-  static constexpr unsigned all_lanes = (1U << pack_lanes) - 1;
-  static constexpr double largest_number = 1.7976931348623157e308;
 
   LawRows& rows_;
   const Laws& laws_;
