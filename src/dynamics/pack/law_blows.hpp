@@ -23,10 +23,8 @@ class LawBlows {
         kept_(number(Row::kept)),
         kept_next_(number(Row::kept_next)) {}
 
-  // Not with walls, which blows may throw a block against; nor where friction in a blow follows laws.
-  bool possible() const {
-    return !laws_.walls.any() && (rows_.impact == ImpactLaw::housner || laws_.friction < 0);
-  }
+  // Not where friction in a blow follows laws.
+  bool possible() const { return rows_.impact == ImpactLaw::housner || laws_.friction < 0; }
 
   // Where the corner that is up comes down once within h, beyond doubt: when. height: pivot theta.
   static PackMask comes_down(const Series<Pack, law_order>& height, const Pack& h, Pack& when) {
@@ -65,6 +63,7 @@ class LawBlows {
     }
     sure = sure & (to_.omega * to_.pivot > zero) & (hop_rotation(inertia_there_, to_.omega, g, corner_) >= rest);
     keep_contents_velocity(at);
+    if (laws_.walls.any()) sure = sure & clear_of_walls(at);
     return sure & has_room();
   }
 
@@ -109,6 +108,11 @@ class LawBlows {
     move(at.w, to_.w);
     move(at.path, to_.path);
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to_.states[i]);
+    if (!laws_.walls.any()) return;
+    move(at.right_wall.across, to_.right_wall.across);
+    move(at.right_wall.up, to_.right_wall.up);
+    move(at.left_wall.across, to_.left_wall.across);
+    move(at.left_wall.up, to_.left_wall.up);
   }
 
   void save(const Standing<Pack>& at) {
@@ -120,6 +124,11 @@ class LawBlows {
     keep(Row::other_inertia, inertia_there_);
     keep(Row::kept, kept_);
     keep(Row::kept_next, kept_next_);
+    if (!laws_.walls.any()) return;
+    keep(Row::right_across, at.right_wall.across);
+    keep(Row::right_up, at.right_wall.up);
+    keep(Row::left_across, at.left_wall.across);
+    keep(Row::left_up, at.left_wall.up);
   }
 
  private:
@@ -147,6 +156,20 @@ class LawBlows {
     const Pack jump = (to_.w + at.body.h * to_.omega) - before;
     for (int i = 0; i < laws_.states; ++i)
       if (laws_.relative_velocity[i]) to_.states[i] = to_.states[i] - jump;
+  }
+
+  // No edge touches a wall when the block is upright; the edges that are next to the walls on the other corner.
+  PackMask clear_of_walls(const Standing<Pack>& at) {
+    const Pack zero(0.0), touching = number(Row::touching), between = corner_ - at.body.c, top = Pack(2.0) * at.body.h;
+    const PackMask right = to_.pivot > zero;
+    to_.right_wall.across = choose(right, zero, between);
+    to_.right_wall.up = choose(right, top, zero);
+    to_.left_wall.across = choose(right, between, zero);
+    to_.left_wall.up = choose(right, zero, top);
+    PackMask clear = zero == zero;
+    if (laws_.walls.right.stands) clear = clear & (at.right_wall.gap - at.xi > touching);
+    if (laws_.walls.left.stands) clear = clear & (at.left_wall.gap + at.xi > touching);
+    return clear;
   }
 
   LawRows& rows_;

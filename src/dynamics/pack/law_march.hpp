@@ -316,6 +316,8 @@ class LawMarchOf {
       to_.body.c = at.body.c;
       to_.half_base = at.half_base;
       to_.pivot = stance_.pivot = at.pivot;
+      to_.right_wall = at.right_wall;
+      to_.left_wall = at.left_wall;
       goes = goes | blow;
       struck_ |= struck;
     }
