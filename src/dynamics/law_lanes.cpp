@@ -164,7 +164,10 @@ class Group {
   }
 
   // An empty slot, which the packs read all the same.
-  void stand_still(int i) { rows_->knot[i] = rows_->horizontal[i] = rows_->vertical[i] = no_motion; }
+  void stand_still(int i) {
+    rows_->knot[i] = rows_->horizontal[i] = rows_->vertical[i] = no_motion;
+    rows_->struck[i] = 0;
+  }
 
   void take_place_of(int last, int i) {
     lane_[i] = lane_[last];

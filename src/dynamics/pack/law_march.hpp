@@ -52,6 +52,7 @@ class LawMarchOf {
   Stopped run(double* series) {
     const int here = rows_.lanes - first_ < pack_lanes ? rows_.lanes - first_ : pack_lanes;
     const unsigned lanes_here = (1U << here) - 1;
+    struck_ &= lanes_here;
     Stopped stopped{0, 0, 0};
     while (!(stopped.before_step | stopped.at_end | stopped.undecided)) {
       set_floor();
