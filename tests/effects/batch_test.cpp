@@ -101,6 +101,39 @@ TEST(CatalogueInBlocks, EachSampleIsAnsweredAsAlone) {
     }
 }
 
+// A pack that is not full, whose lanes empty one after the other: blows of blocks that rock, some of which slip from
+// then on.
+TEST(LawsInBlocks, OfAnySizeHaveTheBitsOfSingleSamples) {
+  for (const char* name :
+       {"viscous_drag", "floor_tilt", "directional_friction", "friction_wear", "moving_contents", "wall_impact"}) {
+    Samples samples = samples_with(*effects::find(name), Model::slide_rock, 48);
+    std::vector<std::size_t> with;
+    for (std::size_t i = 0; i < samples.specimens.size(); ++i) {
+      Specimen& specimen = samples.specimens[i];
+      KeyedRandom random(95, i);
+      specimen.friction.mu_k = random.uniform(0.9, 1.2) * specimen.block.right_m / specimen.block.height_m;
+      specimen.friction.mu_s = random.uniform(1.0, 1.2) * specimen.friction.mu_k;
+      specimen.impact.law = ImpactLaw::housner;
+    }
+    for (std::size_t i = 0; i < samples.specimens.size(); ++i)
+      if (!samples.specimens[i].effects.empty()) with.push_back(i);
+    for (std::size_t size = 1; size <= 11; ++size)
+      for (std::size_t first = 0; first + size <= with.size(); first += size) {
+        std::vector<Specimen> specimens;
+        std::vector<Shaking> shakings;
+        for (std::size_t i = first; i < first + size; ++i) {
+          specimens.push_back(samples.specimens[with[i]]);
+          shakings.push_back(samples.shakings[with[i]]);
+        }
+        std::vector<Response> block(size);
+        respond_batch(specimens, shakings, {}, block);
+        for (std::size_t i = 0; i < size; ++i)
+          EXPECT_TRUE(same_bits(block[i], respond(specimens[i], shakings[i])))
+              << name << ", sample " << with[first + i] << " in a block of " << size;
+      }
+  }
+}
+
 // Of records, where the slip to each side is followed: only laws go in packs then, but for legs.
 bool one_by_one_by_side(const std::vector<EffectUse>& uses) {
   const std::set<std::string> no_laws = {"impact_loss", "offset_mass", "reduced_base", "static_friction",
