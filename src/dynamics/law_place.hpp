@@ -57,6 +57,12 @@ class LawPlace {
   }
 
   [[gnu::always_inline]] void kinematics(int k) {
+    press(k);
+    inputs(k);
+  }
+
+  // What presses a corner down when theta'' = 0.
+  [[gnu::always_inline]] void press(int k) {
     y_.n[k] = floor_.g[k];
     if (turns()) {
       omega2_[k] = product(y_.omega, y_.omega, k);
@@ -64,6 +70,9 @@ class LawPlace {
       rx_omega2_[k] = product(y_.rx, omega2_, k);
     }
     y_.d[k] = Real(0.0);
+  }
+
+  [[gnu::always_inline]] void inputs(int k) {
     if (sees_place_) place(k);
     if (laws_.reads(Input::theta)) value(Input::theta)[k] = y_.theta[k];
     if (laws_.reads(Input::omega)) value(Input::omega)[k] = y_.omega[k];

@@ -48,6 +48,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
     rig_ = &rig;
     state_ = &state;
     leans_ = turns() && state.at_wall();
+    rocks_plainly_ = rocks_plainly_ && !leans_;
     if (leans_) leaning_.lever = lever_over_corner(rig, state.pivot, state.wall, state.edge);
     friction_sees_force_ =
         turns() && !leans_ && slips() && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::normal);
@@ -57,7 +58,9 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   // `floor` are read anew by every run().
   LawStep(const Laws& laws, const Standing<Real>& at, const Numbers& numbers, const Kind& kind,
           const Floor<Real, N>& floor)
-      : Place(laws, at, numbers, kind, floor), whole_(laws.carried_mass == 1) {
+      : Place(laws, at, numbers, kind, floor),
+        whole_(laws.carried_mass == 1),
+        rocks_plainly_(whole_ && !legs_ && laws.states == 0 && !laws.sees_normal_force(false)) {
     if (laws_.moment < 0) y_.moment = Series<Real, N>::zero();
     if (laws_.friction < 0) {
       factor_ = Series<Real, N>::zero();
@@ -69,8 +72,12 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
 
   const LawArc<N, Real>& run() {
     begin();
+    if (turns() && !slips() && rocks_plainly_) {
+      rock();
+    } else {
 #pragma GCC unroll 16
-    for (int k = 0; k < N; ++k) coefficient(k);
+      for (int k = 0; k < N; ++k) coefficient(k);
+    }
     finish();
     return y_;
   }
@@ -87,6 +94,35 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
     Place::begin();
     const Corner<Real>& body = at_.body;
     if (whole_) over_inertia_ = Real(1.0) / (body.k2 + body.c * body.c + body.h * body.h);
+  }
+
+  // Stuck on a corner, all of the mass moving with the block, the terms in omega^2 cancel in
+  //   (k^2 + r^2) theta'' = r_x g' - r_y (a - X) + T,   and   f_x = r_x'' + a - X,  f_y = r_y'' + g'.
+  void rock() {
+    for (int k = 0; k <= N; ++k) y_.path[k] = k == 0 ? at_.path : Real(0.0), y_.foot[k] = y_.n[k] = y_.d[k] = Real(0.0);
+#pragma GCC unroll 16
+    for (int k = 0; k < N; ++k) {
+      this->inputs(k);
+      forces_of_laws(k);
+      Real numerator = of_floor(y_.rx, floor_.g, k) - of_floor(y_.ry, floor_.a, k) + y_.moment[k];
+      if (laws_.force >= 0) numerator = numerator + product(y_.ry, force_, k);
+      y_.alpha[k] = numerator * over_inertia_;
+      integrate_coefficient(y_, Real(0.0), k);
+    }
+    const Real beyond_x = product(y_.ry, y_.omega, N), beyond_y = -product(y_.rx, y_.omega, N);  // of r', coefficient N
+#pragma GCC unroll 16
+    for (int k = 0; k < N; ++k) {
+      const Real more(k + 1.0), rate(k + 2.0);
+      y_.ax[k] = more * (k < N - 1 ? rate * y_.rx[k + 2] : beyond_x) + floor_.a[k];
+      y_.fy[k] = more * (k < N - 1 ? rate * y_.ry[k + 2] : beyond_y) + floor_.g[k];
+      y_.fx[k] = laws_.force < 0 ? y_.ax[k] : y_.ax[k] - force_[k];
+      if (laws_.reads(Input::normal)) see_normal(k, y_.fy[k] * Real(1 / standard_gravity_mps2));
+    }
+  }
+  // Coefficient k of y times what the floor does, which in a record is linear.
+  static Real of_floor(const Series<Real, N>& y, const Series<Real, N>& floor, int k) {
+    if constexpr (single || N < 2) return product(y, floor, k);
+    return k == 0 ? y[0] * floor[0] : y[k - 1] * floor[1] + y[k] * floor[0];
   }
 
   [[gnu::always_inline]] void coefficient(int k) {
@@ -129,9 +165,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   [[gnu::always_inline]] Real act(int k, const Real& normal) {
     if (laws_.reads(Input::normal)) see_normal(k, normal);
     if constexpr (single) y_.fy[k] = standard_gravity_mps2 * normal;
-    if (laws_.forces_end > input_count) laws_.tape.advance(input_count, laws_.forces_end, k, numbers_, values_);
-    force_[k] = laws_.force < 0 ? Real(0.0) : values_[laws_.force][k];
-    if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
+    forces_of_laws(k);
     if (!slips()) {
       stuck(k);
     } else {
@@ -150,6 +184,12 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
       if (friction_sees_force_) return (y_.n[k] - product(y_.rx, y_.alpha, k)) / standard_gravity_mps2;
     }
     return y_.fy[k] * Real(1 / standard_gravity_mps2);
+  }
+
+  [[gnu::always_inline]] void forces_of_laws(int k) {
+    if (laws_.forces_end > input_count) laws_.tape.advance(input_count, laws_.forces_end, k, numbers_, values_);
+    force_[k] = laws_.force < 0 ? Real(0.0) : values_[laws_.force][k];
+    if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
   }
 
   // The slip at a speed of order k that the laws see; the speed that comes out.
@@ -347,7 +387,8 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   // [m g]; less than the round-off of a sum of forces, and more than what makes a power of it overflow.
   static constexpr double least_normal = 1e-18;
 
-  const bool whole_;  // all of the mass moves with the block
+  const bool whole_;    // all of the mass moves with the block
+  bool rocks_plainly_;  // when it is stuck: nothing in the equations looks at forces or states, or pushes but laws
   Real over_inertia_, over_d_;  // 1/(k^2 + r^2); 1/D at the start
   Series<Real, N> force_, factor_, load_, inertia_, q_;
   Real acceleration_ = Real(0.0), deflection_rate_ = Real(0.0), wall_force_ = Real(0.0);
