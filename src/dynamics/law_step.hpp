@@ -60,6 +60,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
           const Floor<Real, N>& floor)
       : Place(laws, at, numbers, kind, floor),
         whole_(laws.carried_mass == 1),
+        grip_changes_(laws.grip_changes()),
         rocks_plainly_(whole_ && !legs_ && laws.states == 0 && !laws.sees_normal_force(false)) {
     if (laws_.moment < 0) y_.moment = Series<Real, N>::zero();
     if (laws_.friction < 0) {
@@ -371,9 +372,13 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
     Series<Real, N> result;
     if (laws_.reads(Input::sigma)) value(Input::sigma)[0] = Real(double(sigma));
     if constexpr (single) numbers_.turn(laws_.sides_of_slip(numbers_.sides(), state_->turned, values_));
-    for (int k = 0; k < N; ++k) {
-      factor_[k] = factor_from_tape(k);
-      result[k] = at_.mu_s * product(factor_, y_.fy, k);
+    if (!grip_changes_) {
+      result = scaled(at_.mu_s * factor_from_tape(0), y_.fy);
+    } else {
+      for (int k = 0; k < N; ++k) {
+        factor_[k] = factor_from_tape(k);
+        result[k] = at_.mu_s * product(factor_, y_.fy, k);
+      }
     }
     result[N] = Real(0.0);
     return result;
@@ -388,6 +393,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   static constexpr double least_normal = 1e-18;
 
   const bool whole_;    // all of the mass moves with the block
+  const bool grip_changes_;
   bool rocks_plainly_;  // when it is stuck: nothing in the equations looks at forces or states, or pushes but laws
   Real over_inertia_, over_d_;  // 1/(k^2 + r^2); 1/D at the start
   Series<Real, N> force_, factor_, load_, inertia_, q_;

@@ -96,8 +96,9 @@ bool Laws::grip_changes() const {
   return friction >= 0 && (tape.dependence(friction) & ~constant) != 0;
 }
 
-bool Laws::straight() const {
-  for (int i = input_count; i < tape.size(); ++i) switch (tape.operation(i).op) {
+bool Laws::straight(bool slips) const {
+  const auto enters = [&](int node) { return slips || node < forces_end || node >= friction_end; };
+  for (int i = input_count; i < tape.size(); ++i) switch (enters(i) ? tape.operation(i).op : Op::constant) {
       case Op::constant:
       case Op::affine:
       case Op::add:
@@ -111,7 +112,7 @@ bool Laws::straight() const {
       default:
         return false;
     }
-  return !uses(Input::normal);
+  return !sees_normal_force(slips);
 }
 
 bool Laws::in_packs(bool turns, bool slips) const {

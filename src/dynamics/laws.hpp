@@ -45,9 +45,9 @@ struct Laws {
   }
   // The share of the normal force that friction may take changes while a contact is stuck.
   bool grip_changes() const;
-  // Sums and multiples of what they look at, on either side of their kinks: they bend no series that the block does not bend
-  // itself, whose last terms tell what a step neglects.
-  bool straight() const;
+  // Of a contact that slips or not: those in its equations are sums and multiples of what they look at, on either side of their
+  // kinks: they bend no series that the block does not bend itself, whose last terms tell what a step neglects.
+  bool straight(bool slips) const;
   // A pack can step along: nothing needs to be solved for a force or a speed that a law follows while it sets it, and no
   // kinks turn with the direction of a slip that is about to begin.
   bool in_packs(bool turns, bool slips) const;

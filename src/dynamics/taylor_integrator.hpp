@@ -48,7 +48,7 @@ class TaylorIntegrator {
   TaylorIntegrator(const Setup& setup, const Settings& settings, History* history)
       : life_(setup, settings, history),
         flat_exactly_(!life_.rig.laws),
-        straight_(life_.rig.laws && life_.rig.laws->straight()),
+        straight_{life_.rig.laws && life_.rig.laws->straight(false), life_.rig.laws && life_.rig.laws->straight(true)},
         size_(setup.specimen.block) {}
 
   Response run() {
@@ -135,7 +135,7 @@ class TaylorIntegrator {
   bool follows_laws(const State& before, const LawArc<M>& arc, const Floor<double, M>& floor, double tau) const {
     const Laws& laws = *life_.rig.laws;
     const bool grip_changes = before.sigma == 0 && laws.grip_changes();
-    if (straight_ && !grip_changes) return true;
+    if (straight_[before.sigma != 0] && !grip_changes) return true;
     State end = before;
     go_to(life_.rig, end, arc, tau);
     const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
@@ -209,7 +209,7 @@ class TaylorIntegrator {
 
   Integration life_;
   bool flat_exactly_;  // steps of order FlatN are exact on both corners
-  bool straight_;      // laws
+  bool straight_[2];   // laws of what is stuck, and of what slips
   Sizes size_;
 };
 

@@ -26,7 +26,7 @@ class LawMarchOf {
       : rows_(rows),
         laws_(*rows.laws),
         first_(first),
-        straight_(laws_.straight()),
+        straight_(laws_.straight(slipping)),
         grip_changes_(!slipping && laws_.grip_changes()),
         numbers_(rows, first),
         floor_{Series<Pack, law_order>::zero(), Series<Pack, law_order>::zero()},
