@@ -21,7 +21,8 @@ Velocity<Real> at_centre(const Arm<Real>& r, const Real& w, const Real& omega) {
 // M: share of the mass that moves sideways.
 template <class Real>
 Velocity<Real> stick(const Real& k2, const Real& M, const Arm<Real>& r, const Velocity<Real>& before) {
-  const Real omega = (k2 * before.omega + M * r.ry * before.vx - r.rx * before.vy) / (k2 + r.rx * r.rx + M * r.ry * r.ry);
+  const Real omega =
+      (k2 * before.omega + M * r.ry * before.vx - r.rx * before.vy) / (k2 + r.rx * r.rx + M * r.ry * r.ry);
   return at_centre(r, Real(0.0), omega);
 }
 

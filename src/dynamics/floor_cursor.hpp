@@ -57,9 +57,7 @@ class FloorCursor {
   struct Bound {
     double shaken, a, v;
   };
-  Bound segment_bound() const {
-    return bound(bound_of(horizontal_), vertical_ ? bound_of(vertical_) : 0.0);
-  }
+  Bound segment_bound() const { return bound(bound_of(horizontal_), vertical_ ? bound_of(vertical_) : 0.0); }
   bool run_starts_here() const {
     return offset_ == 0 && segment_ % FloorMotion::run_length == 0 && !motion_->horizontal_run_mps2.empty();
   }

@@ -11,7 +11,6 @@
 namespace freestand::dynamics {
 namespace {
 
-
 Arm<double> arm(const Rig& rig, int pivot, double theta) {
   Arc<double, 1> arc;
   start_arc(arc, rig.corner(pivot), theta, 0.0, 0.0, 0.0);
@@ -36,7 +35,8 @@ Grip grip(const Rig& rig, const State& state, double time) {
 }
 
 // The corner slips in direction sigma while it is stopped vertically. False: no push can stop it.
-bool slide_through(const Grip& grip, const Arm<double>& r, const Velocity<double>& before, int sigma, Velocity<double>& after) {
+bool slide_through(const Grip& grip, const Arm<double>& r, const Velocity<double>& before, int sigma,
+                   Velocity<double>& after) {
   const double k2 = grip.rig.k2, sigma_mu = sigma * grip.mu_k(sigma);
   const double q = r.rx + sigma_mu * r.ry;
   const double d = k2 + r.rx * q;
@@ -47,7 +47,8 @@ bool slide_through(const Grip& grip, const Arm<double>& r, const Velocity<double
 }
 
 // Plastic impulse on one corner: stick if friction holds, else the slip that keeps its direction.
-bool plastic(const Grip& grip, const Arm<double>& r, const Velocity<double>& before, Velocity<double>& after, double& w) {
+bool plastic(const Grip& grip, const Arm<double>& r, const Velocity<double>& before, Velocity<double>& after,
+             double& w) {
   after = stick(grip.rig.k2, grip.rig.carried_mass(), r, before);
   w = 0;
   const auto [px, py] = impulse(grip.rig.carried_mass(), before, after);
@@ -216,8 +217,8 @@ bool lifts(const Rig& rig, State& state, const Arm<double>& r, const Velocity<do
 }
 
 // The corner carries the push: it sticks, or slips with friction. `speed`: of the edge after it, along x.
-bool carries(const Grip& grip, State& state, const Arm<double>& r, const Velocity<double>& before, const EdgeNow& edge, double speed,
-             double dv) {
+bool carries(const Grip& grip, State& state, const Arm<double>& r, const Velocity<double>& before, const EdgeNow& edge,
+             double speed, double dv) {
   const double M = grip.rig.carried_mass(), k2 = grip.rig.k2, l = edge.height - r.ry;
   int first = state.w < 0 ? -1 : 1;
   if (edge.height > 0) {

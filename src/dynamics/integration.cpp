@@ -75,7 +75,8 @@ void Integration::wait() {
       if (cursor.motion_over()) return;
     }
     // What holds a block at rest under laws that do not change is linear in a record.
-    const bool event = shaking.motion->degree == 1 && rest.constant ? look_ahead<2>(rest) : look_ahead<wait_order>(rest);
+    const bool event =
+        shaking.motion->degree == 1 && rest.constant ? look_ahead<2>(rest) : look_ahead<wait_order>(rest);
     if (event) return;
   }
 }

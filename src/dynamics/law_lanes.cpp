@@ -32,8 +32,7 @@ class Group {
   bool takes(const Integration& life) const {
     return rows_->turns == (life.state.pivot != 0) && rows_->slips == (life.state.sigma != 0) &&
            rows_->can_slip == life.rig.can_slip && rows_->can_rock == life.rig.can_rock &&
-           rows_->impact == life.rig.impact.law &&
-           laws_.same_shape(*life.rig.laws);
+           rows_->impact == life.rig.impact.law && laws_.same_shape(*life.rig.laws);
   }
   int count() const { return rows_->lanes; }
   int lane(int slot) const { return lane_[slot]; }
@@ -64,6 +63,8 @@ class Group {
     set(Row::mu_k, rig.mu_k);
     set(Row::mu_s, rig.mu_s);
     set(Row::mass, at.mass);
+    set(Row::leg_rate, at.leg_rate);
+    set(Row::leg_damping, at.leg_damping);
     set(Row::pivot, at.pivot);
     set(Row::sigma, at.sigma);
     set(Row::theta, state.theta);
@@ -71,6 +72,7 @@ class Group {
     set(Row::xi, state.xi);
     set(Row::w, state.w);
     set(Row::path, state.path);
+    set(Row::deflection, state.deflection);
     set(Row::right_gap, at.right_wall.gap);
     set(Row::right_across, at.right_wall.across);
     set(Row::right_up, at.right_wall.up);
@@ -134,6 +136,7 @@ class Group {
     state.xi = get(Row::xi);
     state.w = get(Row::w);
     state.path = get(Row::path);
+    state.deflection = get(Row::deflection);
     for (int k = 0; k < laws_.states; ++k) state.states[static_cast<std::size_t>(k)] = state_row(k)[i];
     life.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset), rows_->steps[i]);
     life.rocked_on(rows_->blows[i] - rows_->struck[i], rows_->told[i]);
@@ -314,11 +317,8 @@ class Pool {
 }  // namespace
 
 bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
-  const auto has_legs = [](const EffectUse& use) { return static_cast<bool>(use.effect->legs); };
-  const auto& effects = setup.specimen.effects;
   return setup.specimen.model != Model::bouc_wen && (has_laws(setup.specimen) || setup.floor.push_mps2 != 0) &&
-         setup.shaking.motion && setup.shaking.motion->degree == 1 && admissible(setup, settings) &&
-         std::none_of(effects.begin(), effects.end(), has_legs);
+         setup.shaking.motion && setup.shaking.motion->degree == 1 && admissible(setup, settings);
 }
 
 void respond_in_law_lanes(const BatchKernels& kernels, std::span<const Specimen> specimens,

@@ -12,8 +12,7 @@
 
 namespace freestand::dynamics {
 
-// Whether packs take the sample: it has laws, and its motion is a record. Not on legs, whose foot has no mass and moves faster than
-// the knots of a record follow one another.
+// Whether packs take the sample: it has laws, and its motion is a record.
 bool goes_in_law_lanes(const Setup& setup, const Settings& settings);
 
 // Computes samples[i] = respond(specimens[i], shakings[i]) for the i of `which`.

@@ -1,8 +1,6 @@
 // Where the block is in the course of a step, as laws and walls see it: the part of the equations that no force enters.
 #pragma once
 
-#include <type_traits>
-
 #include "dynamics/law_arc.hpp"
 #include "dynamics/standing.hpp"
 
@@ -17,7 +15,7 @@ class LawPlace {
         at_(at),
         numbers_(numbers),
         floor_(floor),
-        legs_(has_legs(laws)),
+        legs_(laws.legs.frequency_radps > 0),
         kind_(kind),
         sees_place_(laws.reads(Input::u) || laws.reads(Input::v) || laws.walls.any()) {
     if (!legs_) y_.deflection = Series<Real, N>::zero();
@@ -119,15 +117,7 @@ class LawPlace {
   const Standing<Real>& at_;
   Numbers numbers_;
   const Floor<Real, N>& floor_;
-  // Single samples may stand on legs, those of packs do not.
-  using Legs = std::conditional_t<std::is_same_v<Real, double>, bool, std::false_type>;
-  static Legs has_legs(const Laws& laws) {
-    if constexpr (std::is_same_v<Legs, bool>)
-      return laws.legs.frequency_radps > 0;
-    else
-      return {};
-  }
-  const Legs legs_;
+  const bool legs_;
   LawArc<N, Real> y_;
   Series<Real, N> values_[max_nodes];
   Series<Real, N> omega2_, rx_omega2_, sine_, cosine_;

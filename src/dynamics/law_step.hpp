@@ -392,7 +392,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   // [m g]; less than the round-off of a sum of forces, and more than what makes a power of it overflow.
   static constexpr double least_normal = 1e-18;
 
-  const bool whole_;    // all of the mass moves with the block
+  const bool whole_;  // all of the mass moves with the block
   const bool grip_changes_;
   bool rocks_plainly_;  // when it is stuck: nothing in the equations looks at forces or states, or pushes but laws
   Real over_inertia_, over_d_;  // 1/(k^2 + r^2); 1/D at the start

@@ -118,7 +118,7 @@ bool Laws::straight(bool slips) const {
 bool Laws::in_packs(bool turns, bool slips) const {
   if (turns && (sees_normal_force(slips) || (slips && friction >= 0 && tape.depends(friction, Input::normal))))
     return false;
-  if (slips) return true;
+  if (slips) return legs.frequency_radps == 0;
   for (int j = 0; j < tape.kink_count(); ++j) {
     const int node = tape.kink_node(j), argument = tape.kink_argument(j);
     if (node < forces_end || node >= friction_end) continue;
@@ -137,6 +137,7 @@ bool Laws::same_shape(const Laws& other) const {
                       laws.states,
                       laws.tape.size(),
                       laws.walls.right.stands + 2 * laws.walls.left.stands,
+                      static_cast<int>(laws.legs.frequency_radps > 0),
                       static_cast<int>(laws.carried_mass == 1)};
   };
   if (numbers(*this) != numbers(other)) return false;

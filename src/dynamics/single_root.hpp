@@ -57,7 +57,8 @@ Real only_root(const Real* c, const Mask& wanted) {
     next = choose((next >= lo) & (next <= hi) & (steep > abs(bent)), next, half * (lo + hi));
     const Real step = abs(next - x);
     x = choose(sought, next, x);
-    sought = sought & (step > Real(1e-8) * x);  // what is left is the third power of that, near a turning point times some 1e6
+    sought = sought &
+             (step > Real(1e-8) * x);  // what is left is the third power of that, near a turning point times some 1e6
     if (!Numbers::any(sought)) return x;
   }
   return choose(sought, hi, x);

@@ -60,7 +60,8 @@ void tell(std::size_t samples, const std::string& only, bool alone) {
   if (alone) rows.erase(rows.begin(), rows.begin() + 2);
   for (int i = 0; i < runs; ++i)
     for (Row& row : rows) run(row, job.shakings);
-  if (alone) return static_cast<void>(std::printf("%s: %.1f us a sample\n", only.c_str(), test::median(rows[0].microseconds)));
+  if (alone)
+    return static_cast<void>(std::printf("%s: %.1f us a sample\n", only.c_str(), test::median(rows[0].microseconds)));
 
   std::printf("%-22s %14s %14s %18s\n", "effect", "us a sample", "to packs", "to one by one");
   const double packs = test::median(rows[0].microseconds), singly = test::median(rows[1].microseconds);

@@ -92,8 +92,7 @@ TEST(CatalogueInBlocks, EachSampleIsAnsweredAsAlone) {
           shakings.push_back(samples.shakings[i]);
         }
       if (!in_packs.count(effect.name) && dynamics::batch_kernels()) {
-        const std::size_t expected = effect.name == "flexible_legs" ? with.size() : 0;
-        EXPECT_EQ(dynamics::respond_and_count(with, shakings, {}, block), expected) << effect.name;
+        EXPECT_EQ(dynamics::respond_and_count(with, shakings, {}, block), 0U) << effect.name;
       }
       if (in_packs.count(effect.name)) {
         EXPECT_LE(bits, 15) << effect.name << " is computed alone";  // some rest, and are the same either way
@@ -134,13 +133,12 @@ TEST(LawsInBlocks, OfAnySizeHaveTheBitsOfSingleSamples) {
   }
 }
 
-// Of records, where the slip to each side is followed: only laws go in packs then, but for legs.
+// Of records, where the slip to each side is followed: only laws go in packs then.
 bool one_by_one_by_side(const std::vector<EffectUse>& uses) {
   const std::set<std::string> no_laws = {"impact_loss", "offset_mass", "reduced_base", "static_friction",
                                          "vertical_shaking"};
-  const auto is_legs = [](const EffectUse& use) { return use.effect->name == "flexible_legs"; };
   const auto is_no_law = [&](const EffectUse& use) { return no_laws.count(use.effect->name) > 0; };
-  return std::any_of(uses.begin(), uses.end(), is_legs) || std::all_of(uses.begin(), uses.end(), is_no_law);
+  return std::all_of(uses.begin(), uses.end(), is_no_law);
 }
 
 // Laws together, one after the other in one pool: lanes of different tapes, sides of kinks and modes, with vertical shaking; and the

@@ -23,8 +23,10 @@ class LawBlows {
         kept_(number(Row::kept)),
         kept_next_(number(Row::kept_next)) {}
 
-  // Not where friction in a blow follows laws.
-  bool possible() const { return rows_.impact == ImpactLaw::housner || laws_.friction < 0; }
+  // Not where friction in a blow follows laws, or legs pass none on.
+  bool possible() const {
+    return rows_.impact == ImpactLaw::housner || (laws_.friction < 0 && laws_.legs.frequency_radps == 0);
+  }
 
   // Where the corner that is up comes down once within h, beyond doubt: when. height: pivot theta.
   static PackMask comes_down(const Series<Pack, law_order>& height, const Pack& h, Pack& when) {
@@ -50,8 +52,8 @@ class LawBlows {
     to_ = at;
     to_.body.c = corner_;
     to_.pivot = -at.pivot;
-    to_.half_base = -at.half_base;
-    to_.theta = to_.w = zero;
+    to_.half_base = -at.half_base;  // w is zero, but for the speed of a base on legs
+    to_.theta = zero;
     if (rows_.impact == ImpactLaw::housner) {
       to_.omega = kept_ * at.omega;
     } else {
@@ -107,6 +109,7 @@ class LawBlows {
     move(at.xi, to_.xi);
     move(at.w, to_.w);
     move(at.path, to_.path);
+    move(at.deflection, to_.deflection);
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to_.states[i]);
     if (!laws_.walls.any()) return;
     move(at.right_wall.across, to_.right_wall.across);

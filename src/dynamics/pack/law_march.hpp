@@ -28,6 +28,8 @@ class LawMarchOf {
         first_(first),
         straight_(laws_.straight(slipping)),
         grip_changes_(!slipping && laws_.grip_changes()),
+        on_legs_(laws_.legs.frequency_radps > 0),
+        base_moves_(slipping || on_legs_),
         numbers_(rows, first),
         floor_{Series<Pack, law_order>::zero(), Series<Pack, law_order>::zero()},
         there_{Series<Pack, 1>::zero(), Series<Pack, 1>::zero()},
@@ -83,6 +85,8 @@ class LawMarchOf {
     at.mu_k = number(Row::mu_k);
     at.mu_s = number(Row::mu_s);
     at.mass = number(Row::mass);
+    at.leg_rate = number(Row::leg_rate);
+    at.leg_damping = number(Row::leg_damping);
     at.pivot = number(Row::pivot);
     at.sigma = number(Row::sigma);
     at.right_wall = {number(Row::right_gap), number(Row::right_across), number(Row::right_up)};
@@ -95,6 +99,7 @@ class LawMarchOf {
     here_.xi = number(Row::xi);
     here_.w = number(Row::w);
     here_.path = number(Row::path);
+    here_.deflection = number(Row::deflection);
     for (int i = 0; i < laws_.states; ++i) here_.states[i] = number(state_row(i));
     start_ = number(Row::start);
     offset_ = number(Row::offset);
@@ -116,6 +121,7 @@ class LawMarchOf {
     keep(Row::xi, at.xi);
     keep(Row::w, at.w);
     keep(Row::path, at.path);
+    keep(Row::deflection, at.deflection);
     for (int i = 0; i < laws_.states; ++i) keep(state_row(i), at.states[i]);
     keep(Row::start, start_);
     keep(Row::offset, offset_);
@@ -160,9 +166,10 @@ class LawMarchOf {
     const auto neglects = [&](const Series<Pack, law_order>& y, Row over) {
       return xsimd::abs(y[law_order]) * number(over) * power <= tolerance;
     };
-    if (slipping)
+    if (base_moves_)
       sure = sure & neglects(arc.xi, Row::over_length) & neglects(arc.w, Row::over_speed) &
              neglects(arc.path, Row::over_length);
+    if (on_legs_) sure = sure & neglects(arc.deflection, Row::over_length);
     if (turning) sure = sure & neglects(arc.theta, Row::over_angle) & neglects(arc.omega, Row::over_rotation);
     if (slipping && laws_.friction >= 0) sure = sure & (arc.friction >= Pack(0.0));
     for (int i = 0; i < laws_.states; ++i)
@@ -203,9 +210,10 @@ class LawMarchOf {
     const Pack bound(beyond_all_bounds);
     to.theta = turning ? arc.theta.at(reach_) : Pack(0.0);
     to.omega = turning ? arc.omega.at(reach_) : Pack(0.0);
-    to.xi = slipping ? arc.xi.at(reach_) : here_.xi;
-    to.w = slipping ? arc.w.at(reach_) : here_.w;
+    to.xi = base_moves_ ? arc.xi.at(reach_) : here_.xi;
+    to.w = base_moves_ ? arc.w.at(reach_) : here_.w;
     to.path = slipping ? arc.path.at(reach_) : here_.path;
+    to.deflection = on_legs_ ? arc.deflection.at(reach_) : here_.deflection;
     for (int i = 0; i < laws_.states; ++i) to.states[i] = arc.states[i].at(reach_);
     to.time = here_.time + reach_;
     PackMask follows = (xsimd::abs(to.theta) < bound) & (xsimd::abs(to.omega) < bound) & (xsimd::abs(to.xi) < bound) &
@@ -215,7 +223,9 @@ class LawMarchOf {
     there_.g[0] = floor_.g.at(reach_);
     const LawArc<1, Pack>& fresh = grip_changes_ ? end_.run() : end_.accelerations();
     const Pack allowed(defect_allowed * rows_.tolerance);
-    const auto little = [&](const Pack& missed, Row over) { return xsimd::abs(missed) * number(over) * reach_ <= allowed; };
+    const auto little = [&](const Pack& missed, Row over) {
+      return xsimd::abs(missed) * number(over) * reach_ <= allowed;
+    };
     follows = follows & little(fresh.w[1] - derivative(arc.w).at(reach_), Row::over_speed);
     if (turning) follows = follows & little(fresh.omega[1] - derivative(arc.omega).at(reach_), Row::over_rotation);
     if (grip_changes_)
@@ -307,6 +317,7 @@ class LawMarchOf {
     move(at.xi, to.xi);
     move(at.w, to.w);
     move(at.path, to.path);
+    move(at.deflection, to.deflection);
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to.states[i]);
     move(start_, next_);
     move(offset_, Pack(0.0));
@@ -357,7 +368,8 @@ class LawMarchOf {
   LawRows& rows_;
   const Laws& laws_;
   const int first_;
-  const bool straight_, grip_changes_;
+  const bool straight_, grip_changes_, on_legs_;
+  const bool base_moves_;  // the point of contact, or the base over legs
   const LaneNumbers numbers_;
   Pack start_, offset_, next_, h_, reach_;
   PackMask strikes_;     // within the step
