@@ -1,4 +1,5 @@
-// Where the block is in the course of a step, as laws and walls see it: the part of the equations that no force enters.
+// Where the block is in the course of a step, as laws and walls see it, and what the laws make of it: the part of the equations that
+// no contact force enters.
 #pragma once
 
 #include "dynamics/law_arc.hpp"
@@ -99,6 +100,27 @@ class LawPlace {
     v[k] = v[k] + at_.half_base * product(sine_, y_.omega, k);
   }
 
+  // Stages of a step that reaches over a lift-off may ask for a floor that pulls, where laws mean nothing: they see no force
+  // then, and a corner whose friction follows its force has none.
+  void see_normal(int k, const Real& normal) {
+    Series<Real, N>& seen = value(Input::normal);
+    if (k == 0)
+      seen[0] = numbers_.choose(normal < Real(least_normal), Real(least_normal), normal);
+    else
+      seen[k] = numbers_.choose(seen[0] == Real(least_normal), Real(0.0), normal);
+  }
+
+  // What laws give, of order k.
+  [[gnu::always_inline]] void forces_of_laws(int k) {
+    if (laws_.forces_end > input_count) laws_.tape.advance(input_count, laws_.forces_end, k, numbers_, values_);
+    force_[k] = laws_.force < 0 ? Real(0.0) : values_[laws_.force][k];
+    if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
+  }
+  const Real& factor_from_tape(int k) {
+    laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, numbers_, values_);
+    return values_[laws_.friction][k];
+  }
+
   void gaps() {
     if (!turns()) {
       sine_ = cosine_ = Series<Real, N>::zero();
@@ -113,6 +135,9 @@ class LawPlace {
     y_.wall_push[N] = Real(0.0);
   }
 
+  // [m g]; less than the round-off of a sum of forces, and more than what makes a power of it overflow.
+  static constexpr double least_normal = 1e-18;
+
   const Laws& laws_;
   const Standing<Real>& at_;
   Numbers numbers_;
@@ -120,6 +145,7 @@ class LawPlace {
   const bool legs_;
   LawArc<N, Real> y_;
   Series<Real, N> values_[max_nodes];
+  Series<Real, N> force_;  // X [m/s2]
   Series<Real, N> omega2_, rx_omega2_, sine_, cosine_;
 
  private:

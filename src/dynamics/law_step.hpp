@@ -29,6 +29,7 @@ namespace freestand::dynamics {
 template <int N, class Real = double, class Numbers = OwnNumbers, class Kind = AnyKind>
 class LawStep : LawPlace<N, Real, Numbers, Kind> {
   using Place = LawPlace<N, Real, Numbers, Kind>;
+  using Place::force_, Place::factor_from_tape, Place::forces_of_laws, Place::see_normal;
   using Place::laws_, Place::at_, Place::numbers_, Place::floor_, Place::legs_, Place::y_, Place::values_;
   using Place::omega2_, Place::rx_omega2_, Place::sine_, Place::cosine_;
   using Place::turns, Place::slips, Place::value;
@@ -150,16 +151,6 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
     if (seen) see_normal(k, normal);
   }
 
-  // Stages of a step that reaches over a lift-off may ask for a floor that pulls, where laws mean nothing: they see no force
-  // then, and a corner whose friction follows its force has none.
-  void see_normal(int k, const Real& normal) {
-    Series<Real, N>& seen = value(Input::normal);
-    if (k == 0)
-      seen[0] = numbers_.choose(normal < Real(least_normal), Real(least_normal), normal);
-    else
-      seen[k] = numbers_.choose(seen[0] == Real(least_normal), Real(0.0), normal);
-  }
-
   bool laws_see_the_normal_force() const { return laws_.sees_normal_force(slips()); }
 
   // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
@@ -185,12 +176,6 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
       if (friction_sees_force_) return (y_.n[k] - product(y_.rx, y_.alpha, k)) / standard_gravity_mps2;
     }
     return y_.fy[k] * Real(1 / standard_gravity_mps2);
-  }
-
-  [[gnu::always_inline]] void forces_of_laws(int k) {
-    if (laws_.forces_end > input_count) laws_.tape.advance(input_count, laws_.forces_end, k, numbers_, values_);
-    force_[k] = laws_.force < 0 ? Real(0.0) : values_[laws_.force][k];
-    if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
   }
 
   // The slip at a speed of order k that the laws see; the speed that comes out.
@@ -306,11 +291,6 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
 
   Real with_factor(const Series<Real, N>& x, int k) const { return laws_.friction < 0 ? x[k] : product(factor_, x, k); }
 
-  const Real& factor_from_tape(int k) {
-    laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, numbers_, values_);
-    return values_[laws_.friction][k];
-  }
-
   [[gnu::always_inline]] void integrate(int k) {
     const Real over(1.0 / (k + 1));
     if (laws_.states > 0) {
@@ -389,14 +369,11 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   Real W2() const { return at_.leg_rate * at_.leg_rate; }
   Real zW2() const { return Real(2.0) * at_.leg_damping * at_.leg_rate; }
 
-  // [m g]; less than the round-off of a sum of forces, and more than what makes a power of it overflow.
-  static constexpr double least_normal = 1e-18;
-
   const bool whole_;  // all of the mass moves with the block
   const bool grip_changes_;
   bool rocks_plainly_;  // when it is stuck: nothing in the equations looks at forces or states, or pushes but laws
   Real over_inertia_, over_d_;  // 1/(k^2 + r^2); 1/D at the start
-  Series<Real, N> force_, factor_, load_, inertia_, q_;
+  Series<Real, N> factor_, load_, inertia_, q_;
   Real acceleration_ = Real(0.0), deflection_rate_ = Real(0.0), wall_force_ = Real(0.0);
   // Of a single sample.
   struct None {};
