@@ -352,7 +352,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
     Series<Real, N> result;
     if (laws_.reads(Input::sigma)) value(Input::sigma)[0] = Real(double(sigma));
     if constexpr (single) numbers_.turn(laws_.sides_of_slip(numbers_.sides(), state_->turned, values_));
-    if (!grip_changes_) {
+    if (!grip_changes_ && laws_.tape.kink_count() == 0) {  // kinks look at the whole series
       result = scaled(at_.mu_s * factor_from_tape(0), y_.fy);
     } else {
       for (int k = 0; k < N; ++k) {
