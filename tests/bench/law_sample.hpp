@@ -25,6 +25,7 @@ class LawSample {
     block_.choose(y_, floor_.a(0), floor_.g(0));
     bool alive = true;
     while (alive && !floor_.ended()) {
+      if (response_.events > most_events) return response_.failed = true, response_;
       switch (y_.mode) {
         case PeerMode::rest:
           if constexpr (Law::own > 0)
@@ -47,7 +48,7 @@ class LawSample {
   }
 
  private:
-  static constexpr int event_kinds = 8;
+  static constexpr int event_kinds = 8, most_events = 20000;
 
   // A block whose law stands still while it rests. False: it rests for good.
   bool wait() {
