@@ -12,7 +12,7 @@ PeerResponse sample(const Specimen& specimen, const Shaking& shaking, const Odei
   const std::vector<double> none(3);
   const LawBlock<Law> block(specimen, specimen.effects.empty() ? none : specimen.effects[0].parameters, 1e-9);
   double vertical = 0;
-  if constexpr (Law::is_shaken) vertical = block.law.scale;
+  if constexpr (Law::is_shaken) vertical = block.law.scale * std::abs(shaking.scale);
   const RecordFloor floor(shaking, block.law.push, block.law.gravity, vertical, steps.per_knot);
   return LawSample<Law, RecordFloor>(block, floor, steps.root_s).run();
 }
