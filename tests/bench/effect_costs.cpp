@@ -1,17 +1,20 @@
-// What each effect costs: the slide-rock samples of job P3 (jobs.hpp) with one effect of the catalogue, within its usual
-// range, in blocks as a sweep computes them, beside the same samples without it, in packs and one by one.
+// What each effect costs, beside a peer: the slide-rock samples of job P3 (jobs.hpp) with one effect of the catalogue, or a
+// law written as a formula, within its usual range; freestand in blocks as a sweep computes them, and inlined odeint dopri5
+// with the same law written by hand (peer_laws.hpp), with one step a knot and with as many as make it as accurate.
 //
-//   build/release/benchmark_effects [samples [effect [only]]]        only: its row alone, for a profiler
+//   build/release/benchmark_effects [samples [effect [only]]]        only: freestand alone, for a profiler
 //
-// Processor time, medians of five runs in turns.
+// Processor time, medians of five runs in turns. Errors are medians over the samples of |demand - demand of a tight run|
+// (tolerance 1e-13, one by one), relative to the latter; flips: another outcome.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <string>
 
+#include "answers.hpp"
 #include "effects/effects.hpp"
-#include "jobs.hpp"
+#include "formula/formula.hpp"
 #include "support/medians.hpp"
 
 namespace freestand::bench {
@@ -32,50 +35,78 @@ std::vector<Specimen> with(const dynamics::Effect& effect, std::vector<Specimen>
   return specimens;
 }
 
-struct Row {
-  const char* name;
-  std::vector<Specimen> specimens;
-  bool alone;  // one by one
-  std::vector<double> microseconds;
-};
-
-void run(Row& row, const std::vector<Shaking>& shakings) {
-  std::vector<Response> responses(shakings.size());
-  const std::clock_t start = std::clock();
-  if (row.alone)
-    for (std::size_t i = 0; i < shakings.size(); ++i) responses[i] = respond(row.specimens[i], shakings[i]);
-  else
-    respond_batch(row.specimens, shakings, {}, responses);
-  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  row.microseconds.push_back(1e6 * seconds / static_cast<double>(shakings.size()));
+// A drag in proportion to the square of the velocity, as a study's formula.
+const dynamics::Effect& drag_by_formula() {
+  static const dynamics::Effect effect = [] {
+    dynamics::Effect drag = formula::effect("quadratic_drag", "", "-c_per_m*v*abs(v)", {"c_per_m"});
+    drag.parameters[0].low = drag.parameters[0].high = 2;
+    return drag;
+  }();
+  return effect;
 }
 
-void tell(std::size_t samples, const std::string& only, bool alone) {
+struct Timed {
+  Solver solve;
+  std::vector<double> microseconds = {};
+  std::vector<Answer> answers = {};
+
+  void run(const Job& job) {
+    const std::clock_t start = std::clock();
+    answers = solve(job, job.samples());
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    microseconds.push_back(1e6 * seconds / static_cast<double>(job.samples()));
+  }
+  double time() const { return test::median(microseconds); }
+};
+
+void tell(const Job& job, Peer peer, bool alone) {
+  auto by_error = std::make_shared<AsAccurate>(peer);
+  const auto plain = [peer](const Specimen& b, const Shaking& s) { return answer(peer(b, s, {})); };
+  std::vector<Timed> solvers = {{in_packs}};
+  if (peer && !alone) {
+    solvers.push_back({one_by_one(plain)});
+    solvers.push_back({[by_error](const Job& on, std::size_t count) { return (*by_error)(on, count); }});
+    solvers.back().solve(job, job.samples());  // finds its steps
+  }
+  for (int i = 0; i < runs; ++i)
+    for (Timed& solver : solvers) solver.run(job);
+  std::printf("%-22s %8.1f", job.name.c_str(), solvers[0].time());
+  if (alone) return static_cast<void>(std::printf(" us a sample\n"));
+  const auto truth = tight_run(job);
+  const Accuracy own = accuracy(job, solvers[0].answers, truth);
+  std::printf(" %8.0e %3d/%-3d", own.median, own.flips, own.failed);
+  for (std::size_t i = 1; i < solvers.size(); ++i) {
+    const Accuracy of = accuracy(job, solvers[i].answers, truth);
+    std::printf(" | %8.1f %8.0e %3d/%-3d %6.1f", solvers[i].time(), of.median, of.flips, of.failed,
+                solvers[i].time() / solvers[0].time());
+  }
+  std::printf(solvers.size() > 1 ? " %3d\n" : "\n", by_error->steps_per_knot());
+  std::fflush(stdout);
+}
+
+void tell_all(std::size_t samples, const std::string& only, bool alone) {
   const auto records = benchmark_records(0.6);
   const Job job = benchmark_jobs(records, samples)[2];
-  std::vector<Row> rows = {{"none, in packs", job.specimens, false, {}}, {"none, one by one", job.specimens, true, {}}};
-  for (const dynamics::Effect& effect : effects::all())
-    if (only.empty() || effect.name == only)
-      rows.push_back({effect.name.c_str(), with(effect, job.specimens), false, {}});
-  if (alone) rows.erase(rows.begin(), rows.begin() + 2);
-  for (int i = 0; i < runs; ++i)
-    for (Row& row : rows) run(row, job.shakings);
-  if (alone)
-    return static_cast<void>(std::printf("%s: %.1f us a sample\n", only.c_str(), test::median(rows[0].microseconds)));
-
-  std::printf("%-22s %14s %14s %18s\n", "effect", "us a sample", "to packs", "to one by one");
-  const double packs = test::median(rows[0].microseconds), singly = test::median(rows[1].microseconds);
-  for (const Row& row : rows) {
-    const double time = test::median(row.microseconds);
-    std::printf("%-22s %14.1f %+12.0f %% %+16.0f %%\n", row.name, time, 100 * (time / packs - 1),
-                100 * (time / singly - 1));
-  }
+  if (!alone)
+    std::printf("%-22s %8s %8s %7s | %-33s | %-33s\n%-22s %8s %8s %7s | %8s %8s %7s %6s | %8s %8s %7s %6s %s\n", "",
+                "freestand", "", "", "dopri5, one step a knot", "dopri5, as accurate", "effect", "us", "error",
+                "fl/fail", "us", "error", "fl/fail", "ratio", "us", "error", "fl/fail", "ratio", "steps");
+  const auto row = [&](const std::string& name, std::vector<Specimen> specimens) {
+    if (!only.empty() && name != only) return;
+    Job on = job;
+    on.name = name;
+    on.specimens = std::move(specimens);
+    tell(on, law_peer(name), alone);
+  };
+  row("none", job.specimens);
+  for (const dynamics::Effect& effect : effects::all()) row(effect.name, with(effect, job.specimens));
+  row(drag_by_formula().name, with(drag_by_formula(), job.specimens));
 }
 
 }  // namespace
 }  // namespace freestand::bench
 
 int main(int argc, char** argv) {
-  freestand::bench::tell(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 960, argc > 2 ? argv[2] : "", argc > 3);
+  freestand::bench::tell_all(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 960, argc > 2 ? argv[2] : "", argc > 3);
   return 0;
 }

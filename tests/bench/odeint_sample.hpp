@@ -10,6 +10,7 @@
 #include <boost/numeric/odeint/algebra/array_algebra.hpp>
 #include <cmath>
 
+#include "illinois.hpp"
 #include "peers.hpp"
 
 namespace freestand::bench {
@@ -17,30 +18,6 @@ namespace {
 
 template <std::size_t D>
 using Values = std::array<double, D>;
-
-// Root of f on [lo, hi] with f(lo) > 0 >= f(hi) (Dowell & Jarratt 1971).
-template <class F>
-double illinois(F&& f, double lo, double f_lo, double hi, double f_hi, double width) {
-  int side = 0;
-  for (int i = 0; i < 60 && hi - lo > width; ++i) {
-    double x = hi - f_hi * (hi - lo) / (f_hi - f_lo);
-    if (!(x > lo && x < hi)) x = 0.5 * (lo + hi);
-    const double value = f(x);
-    if (value == 0) return x;
-    if (value > 0) {
-      lo = x;
-      f_lo = value;
-      if (side == 1) f_hi *= 0.5;
-      side = 1;
-    } else {
-      hi = x;
-      f_hi = value;
-      if (side == -1) f_lo *= 0.5;
-      side = -1;
-    }
-  }
-  return hi;
-}
 
 template <template <std::size_t> class Method>
 class OdeintSample {
@@ -158,24 +135,11 @@ class OdeintSample {
     offset_ = 0;
   }
 
-  // First sign change of a witness that is positive at the start (or starts at zero) and negative at the end.
-  template <class F>
-  bool crossing(F&& f, double f_begin, double f_end, double begin, double end, double& when) {
-    if (f_end > 0) return false;
-    double lo = begin, f_lo = f_begin;
-    for (double part = 0.5; !(f_lo > 0) && part > 1e-9; part *= 0.5) {
-      lo = begin + part * (end - begin);
-      f_lo = f(lo);
-    }
-    when = f_lo > 0 ? illinois(f, lo, f_lo, end, f_end, root_s_) : begin;
-    return true;
-  }
-
-  // The same, where an event has been found at `when` already: an earlier one takes its place.
+  // Where an event has been found at `when` already, an earlier one takes its place.
   template <class F>
   void earlier(PeerEvent other, F&& f, double f_begin, double f_when, double begin, double& when, PeerEvent& event) {
     double at = when;
-    if (!crossing(f, f_begin, f_when, begin, when, at) || (event != PeerEvent::none && at >= when)) return;
+    if (!crossing(f, f_begin, f_when, begin, when, at, root_s_) || (event != PeerEvent::none && at >= when)) return;
     when = at;
     event = other;
   }
@@ -199,7 +163,7 @@ class OdeintSample {
           const auto stopping = [&](double t) { return witness(PeerEvent::stop, inside(t), t); };
           const auto tipping = [&](double t) { return witness(PeerEvent::tip, inside(t), t); };
           PeerEvent event = PeerEvent::none;
-          if (crossing(stopping, sigma * x[1], sigma * next[1], begin, end, when)) event = PeerEvent::stop;
+          if (crossing(stopping, sigma * x[1], sigma * next[1], begin, end, when, root_s_)) event = PeerEvent::stop;
           if (may_tip) {
             const double tips = witness(PeerEvent::tip, x, begin),
                          tips_then = when == end ? witness(PeerEvent::tip, next, end) : tipping(when);
@@ -234,7 +198,7 @@ class OdeintSample {
         [&](const X& x, const X& next, auto& inside, double begin, double end, double& when) {
           const auto impact = [&](double t) { return witness(PeerEvent::impact, inside(t), t); };
           PeerEvent event = PeerEvent::none;
-          if (crossing(impact, s * x[0], s * next[0], begin, when, when)) event = PeerEvent::impact;
+          if (crossing(impact, s * x[0], s * next[0], begin, when, when, root_s_)) event = PeerEvent::impact;
           if (std::abs(next[0]) > pi / 2) return PeerEvent::overturned;
           const double grip_after = grip(next, end);
           observe_forces(observed_.fx, observed_.fy);
@@ -286,7 +250,7 @@ class OdeintSample {
           const auto impact = [&](double t) { return witness(PeerEvent::impact, inside(t), t); };
           const auto stopping = [&](double t) { return witness(PeerEvent::stop, inside(t), t); };
           PeerEvent event = PeerEvent::none;
-          if (crossing(impact, s * x[0], s * next[0], begin, when, when)) event = PeerEvent::impact;
+          if (crossing(impact, s * x[0], s * next[0], begin, when, when, root_s_)) event = PeerEvent::impact;
           const double w_then = when == end ? next[3] : inside(when)[3];
           earlier(PeerEvent::stop, stopping, sigma * x[3], sigma * w_then, begin, when, event);
           if (std::abs(next[0]) > pi / 2) return PeerEvent::overturned;

@@ -18,7 +18,7 @@
 namespace freestand::bench {
 
 enum class PeerMode { rest, slide, rock, slide_rock };
-enum class PeerEvent { none, impact, overturned, grip, stop, lift, tip };
+enum class PeerEvent { none, impact, overturned, grip, stop, lift, tip, kink };
 
 struct PeerState {
   PeerMode mode = PeerMode::rest;

@@ -1,6 +1,8 @@
 // What the program is measured against: the same samples by other means.
 #pragma once
 
+#include <string>
+
 #include "peer_block.hpp"
 
 namespace freestand::bench {
@@ -25,8 +27,12 @@ struct OdeintSteps {
   int per_knot = 1;
   double root_s = 1e-13;  // width to which an event is located
 };
-PeerResponse dopri5_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps = {});
+using Peer = PeerResponse (*)(const Specimen&, const Shaking&, const OdeintSteps&);
+PeerResponse dopri5_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps);
 PeerResponse fehlberg78_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps);
+
+// dopri5 in the same way under one effect, whose law is written by hand (peer_laws.hpp). Null where there is none.
+Peer law_peer(const std::string& effect);
 
 // The same two on model bouc_wen: dopri5 with its step chosen by its error, and CVODE, BDF where the contact is stiff.
 PeerResponse odeint_bouc_wen(const Specimen& specimen, const Shaking& shaking);
