@@ -18,10 +18,6 @@ struct Dopri5 {
   void step(Rates& rates, const X& x, const X& dx, double begin, X& next, X& dnext, double h) {
     stepper.do_step(rates, x, dx, begin, next, dnext, h);
   }
-  template <class Rates>
-  void step(Rates& rates, const X& x, const X& dx, double begin, X& next, X& dnext, double h, X& error) {
-    stepper.do_step(rates, x, dx, begin, next, dnext, h, error);
-  }
   X inside(double t, const X& x, const X& dx, double begin, const X& next, const X& dnext, double end) {
     X at;
     stepper.calc_state(t, at, x, dx, begin, next, dnext, end);

@@ -2,7 +2,7 @@
 // is uniform and its impacts are Housner's.
 //
 //   f_x = M (w' + r_y theta'' - r_x omega^2 + a) - X,   f_y = g' - r_x theta'' - r_y omega^2,   k^2 theta'' = r_x f_y - r_y f_x
-//   slipping: f_x = -sigma mu F f_y;  on legs that carry f_x = -(W^2 y + 2 z W y'), y' = w where the foot is stuck
+//   slipping: f_x = -sigma mu F f_y
 //
 // A mode change is decided from the values at the instant alone.
 #pragma once
@@ -46,17 +46,12 @@ struct LawBlock {
     return law.factor(sigma, path);
   }
   double limit(double sigma, const LawState& y, double fy) const { return mu_s * factor(sigma, y.path, fy) * fy; }
-  // Above zero while the foot is stuck.
+  // Above zero while the contact is stuck.
   double grip(const LawState& y, const LawForces& f) const {
     return std::fmin(limit(-1, y, f.fy) - f.fx, limit(1, y, f.fy) + f.fx);
   }
   double displacement(const LawState& y) const { return y.xi + y.s * b * (1 - std::cos(y.theta)); }
   double velocity(const LawState& y) const { return y.w + y.s * b * std::sin(y.theta) * y.omega; }
-  // Of the contact.
-  double slip_speed(const LawState& y, const LawForces& f) const {
-    if constexpr (Law::on_legs) return y.w - f.rate0;
-    return y.w;
-  }
 
   // a, g: acceleration of the floor and gravity across it at the instant.
   template <bool turns, bool slips>
@@ -78,10 +73,6 @@ struct LawBlock {
       f.fy = turns ? pressed(sm, y, rx, ry, n) : g;
       f.fx = -sm * factor(y.sigma, y.path, f.fy) * f.fy;
       if constexpr (turns) f.alpha = (rx * f.fy - ry * f.fx) / k2;
-    } else if constexpr (Law::on_legs) {
-      f.fx = law.leg_force(y.e0, y.w);
-      if constexpr (turns) f.alpha = (rx * n - ry * f.fx) / (k2 + rx * rx);
-      f.fy = n - rx * f.alpha;
     } else if constexpr (turns) {
       if constexpr (Law::own == 0)
         f.alpha = (rx * g - ry * (a - X)) * over_inertia;
@@ -94,10 +85,8 @@ struct LawBlock {
       f.fy = g;
     }
     f.acceleration = (f.fx + X) / M;
-    if (slips || Law::on_legs) f.slip_acceleration = f.acceleration - a - ry * f.alpha + rx * omega2;
-    if constexpr (Law::on_legs) {
-      f.rate0 = slips ? law.deflection_rate(y.e0, f.fx) : y.w;
-    } else if constexpr (Law::own == 2) {
+    if (slips) f.slip_acceleration = f.acceleration - a - ry * f.alpha + rx * omega2;
+    if constexpr (Law::own == 2) {
       f.rate0 = y.e1;
       f.rate1 = law.rate_of_speed(y, f.acceleration);
     }
@@ -121,10 +110,10 @@ struct LawBlock {
     }
   }
 
-  // Flat and not turning. Legs whose foot slipped go on if that agrees with their force.
+  // Flat and not turning.
   void choose_flat(LawState& y, double a, double g) const {
     y.s = 0;
-    if (slides_on(y, a, g)) return;
+    if (slides_on(y, g)) return;
     const double sigma = y.sigma;
     y.sigma = 0;
     y.mode = PeerMode::rest;
@@ -141,13 +130,9 @@ struct LawBlock {
     y.sigma = slips ? over : sigma != 0 ? sigma : over;
     slide_or_tip(y, g);
   }
-  bool slides_on(LawState& y, double a, double g) const {
-    if constexpr (Law::on_legs) {
-      if (y.sigma == 0 || y.sigma * slip_speed(y, forces<false, true>(y, a, g)) <= 0) return false;
-    } else {
-      if (y.w == 0) return false;
-      y.sigma = y.w > 0 ? 1 : -1;
-    }
+  bool slides_on(LawState& y, double g) const {
+    if (y.w == 0) return false;
+    y.sigma = y.w > 0 ? 1 : -1;
     slide_or_tip(y, g);
     return true;
   }
@@ -159,9 +144,7 @@ struct LawBlock {
   }
   void choose_on_corner(LawState& y, double a, double g) const {
     y.mode = PeerMode::slide_rock;
-    if constexpr (Law::on_legs) {
-      if (y.sigma != 0 && y.sigma * slip_speed(y, forces<true, true>(y, a, g)) > 0) return;
-    } else if (y.w != 0) {
+    if (y.w != 0) {
       y.sigma = y.w > 0 ? 1 : -1;
       return;
     }
@@ -197,10 +180,10 @@ struct LawBlock {
     turn_side(y);
     choose(y, a, g);
   }
-  // The rest of the hops at once: two geometric series. Legs pass on no friction of a blow.
+  // The rest of the hops at once: two geometric series.
   void last_hops(LawState& y) const {
     const double before = y.w > 0 ? 1 : -1;
-    const double mu = Law::on_legs ? 0 : mu_k * factor(before, y.path, law.gravity);
+    const double mu = mu_k * factor(before, y.path, law.gravity);
     y.w += (2 * h * y.omega * (1 - kept) + 2 * before * mu * b * (1 + kept) * std::abs(y.omega)) / (1 - kept * kept);
     if (y.w * before < 0) y.w = 0;
   }
@@ -235,7 +218,7 @@ struct LawBlock {
         choose(y, a, g);
         return true;
       case PeerEvent::stop:
-        if (!Law::on_legs) y.w = 0;
+        y.w = 0;
         y.sigma = 0;
         turn_side(y);
         choose(y, a, g);

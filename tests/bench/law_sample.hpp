@@ -1,5 +1,4 @@
-// One sample of a block under a law (law_block.hpp) by dopri5 of Boost.odeint, from knot to knot: in equal steps, or in steps
-// chosen by their error where the floor says so (peer_floor.hpp). Events are located by the Illinois method on the polynomial
+// One sample of a block under a law (law_block.hpp) by dopri5 of Boost.odeint, from knot to knot: in equal steps. Events are located by the Illinois method on the polynomial
 // of the step.
 #pragma once
 
@@ -13,11 +12,11 @@
 namespace freestand::bench {
 namespace {
 
-template <class Law, class Floor>
+template <class Law>
 class LawSample {
  public:
-  LawSample(const LawBlock<Law>& block, const Floor& floor, double root_s, double tolerance = 0)
-      : block_(block), floor_(floor), root_s_(root_s), tolerance_(tolerance) {
+  LawSample(const LawBlock<Law>& block, const RecordFloor& floor, double root_s)
+      : block_(block), floor_(floor), root_s_(root_s) {
     block_.turn_side(y_);
   }
 
@@ -73,7 +72,7 @@ class LawSample {
   // Where the unknowns of a mode stand.
   template <bool turns, bool slips>
   struct Place {
-    static constexpr int moves = slips || Law::on_legs, xi = 2 * turns, own = xi + 2 * moves;
+    static constexpr int moves = slips, xi = 2 * turns, own = xi + 2 * moves;
     static constexpr std::size_t count = own + Law::own;
     using X = std::array<double, count>;
 
@@ -96,18 +95,24 @@ class LawSample {
     }
   };
 
-  // Above zero until the event.
-  template <PeerEvent event, bool turns, bool slips>
-  double witness(const LawState& y, double t) {
+  template <bool turns, bool slips>
+  LawForces forces_at(const LawState& y, double t) const {
+    return block_.template forces<turns, slips>(y, floor_.a(t), floor_.g(t));
+  }
+  // Above zero until the event. f: forces then.
+  template <PeerEvent event>
+  double witness(const LawState& y, const LawForces& f) const {
     if constexpr (event == PeerEvent::impact) return y.s * y.theta;
     if constexpr (event == PeerEvent::kink)
       return block_.law.witness(block_.displacement(y), block_.velocity(y), y.side);
-    if constexpr (event == PeerEvent::stop && !Law::on_legs) return y.sigma * y.w;
-    const LawForces f = block_.template forces<turns, slips>(y, floor_.a(t), floor_.g(t));
-    if constexpr (event == PeerEvent::stop) return y.sigma * block_.slip_speed(y, f);
+    if constexpr (event == PeerEvent::stop) return y.sigma * y.w;
     if constexpr (event == PeerEvent::grip) return block_.grip(y, f);
     if constexpr (event == PeerEvent::tip) return block_.b * f.fy - block_.h * std::abs(f.fx);
     return f.fy;
+  }
+  template <PeerEvent event>
+  static constexpr bool asks_for_forces() {
+    return event != PeerEvent::impact && event != PeerEvent::kink && event != PeerEvent::stop;
   }
   // Events that are looked for by their witness.
   template <PeerEvent event, bool turns, bool slips>
@@ -123,8 +128,9 @@ class LawSample {
     return event == PeerEvent::grip ? block_.can_slip : event != PeerEvent::tip || block_.can_rock;
   }
 
+  // Everything inlined, so that what a step does not ask for is not computed.
   template <bool turns, bool slips>
-  bool march() {
+  [[gnu::flatten]] bool march() {
     using P = Place<turns, slips>;
     using X = typename P::X;
     const LawState start = y_;
@@ -150,7 +156,8 @@ class LawSample {
     };
     each([&]<PeerEvent event>() {
       if constexpr (watched<event, turns, slips>())
-        if (possible(event)) before[static_cast<int>(event)] = witness<event, turns, slips>(y_, floor_.offset);
+        if (possible(event))
+          before[static_cast<int>(event)] = witness<event>(y_, forces_at<turns, slips>(y_, floor_.offset));
     });
     const double since = floor_.time();
     while (!floor_.ended()) {
@@ -160,16 +167,22 @@ class LawSample {
         rates(x, dx, 0);
         continue;
       }
-      const double begin = floor_.offset, h = stepped(method, rates, x, dx, next, dnext), end = begin + h;
+      const double begin = floor_.offset, h = floor_.step(), end = begin + h;
+      method.step(rates, x, dx, begin, next, dnext, h);
       const auto inside = [&](double t) { return method.inside(t, x, dx, begin, next, dnext, end); };
+      const LawState last = P::state(start, next);
+      const LawForces forces_last = forces_at<turns, slips>(last, end);
       double when = end;
       PeerEvent found = PeerEvent::none;
       each([&]<PeerEvent event>() {
         if constexpr (watched<event, turns, slips>()) {
           if (!possible(event)) return;
-          const auto f = [&](double t) { return witness<event, turns, slips>(P::state(start, inside(t)), t); };
+          const auto f = [&](double t) {
+            const LawState y = P::state(start, inside(t));
+            return witness<event>(y, asks_for_forces<event>() ? forces_at<turns, slips>(y, t) : LawForces{});
+          };
           constexpr int i = static_cast<int>(event);
-          after[i] = when == end ? witness<event, turns, slips>(P::state(start, next), end) : f(when);
+          after[i] = when == end ? witness<event>(last, forces_last) : f(when);
           double at = when;
           if (crossing(f, before[i], after[i], begin, when, at, root_s_) && (found == PeerEvent::none || at < when))
             when = at, found = event;
@@ -177,10 +190,10 @@ class LawSample {
       });
       if constexpr (turns)
         if (std::abs(next[0]) > pi / 2) found = PeerEvent::overturned, when = end;
-      const X there = when == end ? next : inside(when);
-      const LawState now = P::state(start, there);
+      const LawState now = when == end ? last : P::state(start, inside(when));
       watch<turns, slips>(
-          P::state(start, x), now, [&](double t) { return P::state(start, inside(t)); }, begin, when);
+          P::state(start, x), now, when == end ? forces_last : forces_at<turns, slips>(now, when),
+          [&](double t) { return P::state(start, inside(t)); }, begin, when);
       if (found != PeerEvent::none) {
         y_ = now;
         floor_.offset = when;
@@ -196,31 +209,9 @@ class LawSample {
     return false;
   }
 
-  // One step; its length.
-  template <class Method, class Rates, class X>
-  double stepped(Method& method, Rates& rates, const X& x, const X& dx, X& next, X& dnext) {
-    if constexpr (!Floor::by_error) {
-      const double h = floor_.step();
-      method.step(rates, x, dx, floor_.offset, next, dnext, h);
-      return h;
-    } else {
-      for (;;) {
-        X missed;
-        const double h = std::fmin(next_step_, floor_.left());
-        method.step(rates, x, dx, floor_.offset, next, dnext, h, missed);
-        double error = 0;
-        for (std::size_t i = 0; i < x.size(); ++i)
-          error = std::fmax(error, std::abs(missed[i]) / (tolerance_ * (floor_.size(i % 2) + std::abs(next[i]))));
-        const double factor = error > 0 ? 0.9 * std::pow(error, -0.2) : 5;
-        if (h == next_step_ || error > 1) next_step_ = h * std::fmin(5.0, std::fmax(0.2, factor));
-        if (error <= 1) return h;
-      }
-    }
-  }
-
   // Peaks of a step.
   template <bool turns, bool slips, class Inside>
-  void watch(const LawState& from, const LawState& to, Inside&& inside, double begin, double when) {
+  void watch(const LawState& from, const LawState& to, const LawForces& f, Inside&& inside, double begin, double when) {
     const auto top = [&](auto&& rate) {
       const double before = rate(from), after = rate(to);
       if (before * after >= 0) return;
@@ -229,9 +220,8 @@ class LawSample {
       observe<turns, slips>(inside(illinois(rises, begin, sign * before, when, sign * after, 1e-9)));
     };
     if constexpr (turns) top([](const LawState& y) { return y.omega; });
-    if constexpr (Law::on_legs || (turns && slips)) top([&](const LawState& y) { return block_.velocity(y); });
+    if constexpr (turns && slips) top([&](const LawState& y) { return block_.velocity(y); });
     observe<turns, slips>(to);
-    const LawForces f = block_.template forces<turns, slips>(to, floor_.a(when), floor_.g(when));
     const double lift = f.fy - block_.law.gravity, level = f.acceleration;
     acceleration2_ = std::fmax(acceleration2_, level * level + lift * lift);
   }
@@ -242,11 +232,11 @@ class LawSample {
   }
 
   LawBlock<Law> block_;
-  Floor floor_;
+  RecordFloor floor_;
   LawState y_;
   PeerResponse response_;
   double acceleration2_ = 0;
-  double root_s_, tolerance_, next_step_ = 1e-3;
+  double root_s_;
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ PeerResponse sample(const Specimen& specimen, const Shaking& shaking, const Odei
   double vertical = 0;
   if constexpr (Law::is_shaken) vertical = block.law.scale * std::abs(shaking.scale);
   const RecordFloor floor(shaking, block.law.push, block.law.gravity, vertical, steps.per_knot);
-  return LawSample<Law, RecordFloor>(block, floor, steps.root_s).run();
+  return LawSample<Law>(block, floor, steps.root_s).run();
 }
 
 }  // namespace
@@ -30,8 +30,7 @@ Peer law_peer(const std::string& effect) {
                                                     {"centering_spring", sample<CenteringSpring>},
                                                     {"quadratic_drag", sample<QuadraticDrag>},
                                                     {"slack_tether", sample<SlackTether>},
-                                                    {"moving_contents", sample<MovingContents>},
-                                                    {"flexible_legs", sample<FlexibleLegs>}};
+                                                    {"moving_contents", sample<MovingContents>}};
   if (effect == "static_friction" || effect == "impact_loss" || effect == "rate_weakening") return dopri5_peer;
   const auto peer = peers.find(effect);
   return peer == peers.end() ? nullptr : peer->second;

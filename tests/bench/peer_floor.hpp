@@ -14,7 +14,6 @@ constexpr double after_motion_s = 60;
 // A record: knots at i * dt, linear between them, values scaled as they are read; steps are equal parts of a piece.
 class RecordFloor {
  public:
-  static constexpr bool by_error = false;
   RecordFloor(const Shaking& shaking, double push, double gravity, double vertical_scale, int steps_per_knot)
       : values_(shaking.motion->horizontal_mps2.data()),
         vertical_(vertical_scale != 0 ? shaking.motion->vertical_mps2.data() : nullptr),

@@ -21,7 +21,6 @@ struct LawState : PeerState {
 struct NoLaw {
   explicit NoLaw(const std::vector<double>&) {}
 
-  static constexpr bool on_legs = false;         // the block sways over its foot
   static constexpr bool has_kinks = false;       // the force has a kink where witness() changes its sign
   static constexpr bool is_shaken = false;       // by the vertical channel
   static constexpr bool factor_changes = false;  // during a slip in one direction
@@ -85,7 +84,11 @@ struct CenteringSpring : NoLaw {
 // force -c v |v|
 struct QuadraticDrag : NoLaw {
   explicit QuadraticDrag(const std::vector<double>& p) : NoLaw(p), rate(p[0]) {}
-  double force(double, double v, const LawState&) const { return -rate * v * std::abs(v); }
+  static constexpr bool has_kinks = true;
+  double force(double, double v, const LawState& y) const { return -y.side * rate * v * v; }
+  static double witness(double, double v, int side) { return side * v; }
+  static int side_at(double, double v) { return v < 0 ? -1 : 1; }
+  static int side_beyond(double, double, int side) { return -side; }
   double rate;
 };
 
@@ -128,19 +131,6 @@ struct MovingContents : NoLaw {
     return -acceleration - w2 * y.e0 - damping * y.e1;
   }
   double share, w2, damping, mass;
-};
-
-// Unknown: deflection of the legs. w is the speed of the base above them.
-struct FlexibleLegs : NoLaw {
-  explicit FlexibleLegs(const std::vector<double>& p)
-      : NoLaw(p), w2(4 * pi * pi * p[0] * p[0]), damping(4 * pi * p[1] * p[0]) {
-    settling_s = 1 / p[0];
-  }
-  static constexpr bool on_legs = true;
-  static constexpr int own = 1;
-  double leg_force(double deflection, double rate) const { return -(w2 * deflection + damping * rate); }
-  double deflection_rate(double deflection, double leg_force) const { return (-leg_force - w2 * deflection) / damping; }
-  double w2, damping;
 };
 
 }  // namespace freestand::bench
