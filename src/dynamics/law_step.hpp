@@ -64,6 +64,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
         grip_changes_(laws.grip_changes()),
         rocks_plainly_(whole_ && !legs_ && laws.states == 0 && !laws.sees_normal_force(false)) {
     if (laws_.moment < 0) y_.moment = Series<Real, N>::zero();
+    if (turns() && !slips() && rocks_plainly_) y_.path = y_.foot = y_.n = y_.d = Series<Real, N>::zero();
     if (laws_.friction < 0) {
       factor_ = Series<Real, N>::zero();
       factor_[0] = Real(1.0);
@@ -101,7 +102,6 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   // Stuck on a corner, all of the mass moving with the block, the terms in omega^2 cancel in
   //   (k^2 + r^2) theta'' = r_x g' - r_y (a - X) + T,   and   f_x = r_x'' + a - X,  f_y = r_y'' + g'.
   void rock() {
-    for (int k = 0; k <= N; ++k) y_.path[k] = k == 0 ? at_.path : Real(0.0), y_.foot[k] = y_.n[k] = y_.d[k] = Real(0.0);
 #pragma GCC unroll 16
     for (int k = 0; k < N; ++k) {
       this->inputs(k);
