@@ -112,7 +112,8 @@ struct RankedIm {
   std::string im;
   std::int64_t samples = 0;  // that moved and stood and have IM > 0; for what happens or not all sound ones
   // Scatter of ln(EDP), or the share of deviance explained. Its standard error; how far it is behind the best one, and that
-  // difference's own standard error. NaN with fewer than 5 folds.
+  // difference's own standard error. NaN with fewer than 5 folds that hold
+  // samples.
   double value = unknown, value_se = unknown, behind = unknown, behind_se = unknown;
   double slope = unknown;  // of ln(EDP) over ln(IM)
   double parts = unknown;  // of what happens or not: probability that IM puts a pair in order
@@ -125,8 +126,8 @@ struct RankedDemand {
   std::vector<RankedIm> ims;  // the best first
 };
 
-// One entry a demand that has something to rank: at least 30 samples that moved, or 10 to which it happened and 10 to which
-// not.
+// One entry a demand of which some figure has a standard error: samples that moved in 5 folds or more; of what happens or not, 10
+// to which it happened and 10 to which not as well.
 std::vector<RankedDemand> rank(const RankingTally& tally);
 
 }  // namespace freestand::fragility

@@ -1,11 +1,13 @@
 #include "fragility/ranking.hpp"
 
+#include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <freestand/error.hpp>
 
 #include "base/random.hpp"
+#include "fragility/probit.hpp"
 
 namespace freestand::fragility::ranking_test {
 namespace {
@@ -167,6 +169,90 @@ TEST(Ranking, WithoutWhatItNeedsThereIsNone) {
   const double im[] = {1.0}, edp[] = {1.0, 0.0};
   EXPECT_THROW(tally.add({0, 3, false, 1, im, edp}), Error);
   EXPECT_THROW(tally.add({0, 0, false, 1, im, std::span(edp, 1)}), Error);
+}
+
+// The least numbers of folds, events and motions of ranking.cpp.
+
+TEST(LeastNumbers, FiveFoldsKnowAnErrorWithinAFactorOfTwo) {
+  const auto share = [](int folds) {  // of standard errors that are told between half and twice the true one
+    const double freedom = folds - 1;
+    return gsl_cdf_chisq_P(4 * freedom, freedom) - gsl_cdf_chisq_P(0.25 * freedom, freedom);
+  };
+  EXPECT_GE(share(5), 0.9);
+  EXPECT_LT(share(4), 0.9);
+}
+
+// Ten events among many samples, dispersion 0.5, by simulation: the slope's bias, over the true one.
+TEST(LeastNumbers, TenEventsKeepTheBiasOfACurveSmall) {
+  const auto bias_with = [](double median) {
+    double sum = 0, events = 0;
+    int fits = 0;
+    for (std::uint64_t set = 0; set < 1500; ++set) {
+      std::vector<ProbitPoint> points;
+      double hits = 0;
+      for (std::uint64_t i = 0; i < 150; ++i) {
+        const double ln_im = 0.6 * normal(set, i, 10), p = 0.5 * std::erfc(-2 * (ln_im - median) / std::sqrt(2.0));
+        const double hit = random::uniform(set, i, 20) < p;
+        points.push_back({std::exp(ln_im), 1, hit});
+        hits += hit;
+      }
+      if (hits < 8 || hits > 12) continue;
+      events += hits;
+      sum += fit_probit(points).b / 2 - 1;
+      ++fits;
+    }
+    std::printf("%d sets with %.1f events: bias %.3f\n", fits, events / fits, sum / fits);
+    return sum / fits;
+  };
+  EXPECT_LT(std::abs(bias_with(1.15)), 0.15);
+}
+
+// The property is known of a few records alone: a line through three leaves one degree of freedom, through two none.
+TEST(LeastNumbers, ThreeMotionsHaveAChance) {
+  for (const int known : {2, 3}) {
+    constexpr int records = 12;
+    RankingOptions few{{"pga_g"}, {{"peak_slip_m", false, 1e-4, true}}, {}, {}};
+    MotionProperty period{.name = "period_s", .of_pulses = false, .value = {}};
+    for (int m = 0; m < records; ++m) {
+      few.motion_group.push_back(m);
+      period.value.push_back(m < known ? 0.5 + m * m : unknown);
+    }
+    few.properties.push_back(period);
+    RankingTally tally(few);
+    for (std::uint64_t i = 0; i < 600; ++i) {
+      const double im = 0.1 + random::uniform(3, i, 1), edp = std::exp(0.2 * normal(3, i, 5)) * im;
+      tally.add({.index = i,
+                 .motion = static_cast<int>(i) % records,
+                 .overturned = false,
+                 .pulse_period_s = unknown,
+                 .im = {&im, 1},
+                 .edp = {&edp, 1}});
+    }
+    const auto ranked = rank(tally);
+    ASSERT_EQ(ranked.size(), 1U);
+    const Sufficiency& found = ranked[0].ims[0].sufficiency.at(0);
+    EXPECT_EQ(found.motions, known);
+    EXPECT_EQ(std::isfinite(found.p), known == 3);
+  }
+}
+
+// Too few folds for an error: four records are ranked by nothing.
+TEST(LeastNumbers, WithoutAnErrorNothingIsRanked) {
+  for (const int records : {4, 5}) {
+    RankingOptions few{{"pga_g"}, {{"peak_slip_m", false, 1e-4, true}}, {}, {}};
+    for (int m = 0; m < records; ++m) few.motion_group.push_back(m);
+    RankingTally tally(few);
+    for (std::uint64_t i = 0; i < 400; ++i) {
+      const double im = 0.1 + random::uniform(4, i, 1), edp = std::exp(0.2 * normal(4, i, 5)) * im;
+      tally.add({.index = i,
+                 .motion = static_cast<int>(i) % records,
+                 .overturned = false,
+                 .pulse_period_s = unknown,
+                 .im = {&im, 1},
+                 .edp = {&edp, 1}});
+    }
+    EXPECT_EQ(rank(tally).size(), records == 5 ? 1U : 0U);
+  }
 }
 
 }  // namespace
