@@ -213,8 +213,7 @@ void Integration::resolve(Witness witness) {
     case Witness::above_left:
       impact = at_floor = true;
       ++peaks.response().impacts;
-      regular = land(rig, state, witness == Witness::above_right ? 1 : -1, cursor.time());
-      if (regular && state.theta == 0 && state.omega * state.pivot < 0) regular = strike_floor();
+      regular = land_on(witness == Witness::above_right ? 1 : -1);
       break;
     case Witness::slipping:
       stop_slip();
@@ -244,8 +243,38 @@ void Integration::resolve(Witness witness) {
 }
 
 void Integration::choose(State from, bool impact) {
-  if (!choose_mode(rig, cursor, state)) return stop_without_mode();
+  bool found = choose_mode(rig, cursor, state);
+  for (const int corner : sides(state))
+    if (!found && sinks(corner)) found = land_on(corner) && choose_mode(rig, cursor, state);
+  const State open = state;
+  for (const int side : sides(open))
+    if (!found) state = open, found = rests_at_wall(side) && choose_mode(rig, cursor, state);
+  if (!found) return stop_without_mode();
   chose(from, impact);
+}
+
+// The edge beside a wall touches it and neither comes nor leaves.
+bool Integration::rests_at_wall(int side) {
+  if (!rig.laws || !rig.laws->walls.on(side).stands || state.mode == Mode::flight || state.wall != 0) return false;
+  const Edge edge = touching_edge(state.pivot, side);
+  const EdgeNow now = edge_now(rig, state, side, edge);
+  if (now.gap > touching(rig) || std::abs(now.speed) > rig.slow()) return false;
+  state.wall = side;
+  state.edge = edge;
+  return true;
+}
+
+bool Integration::land_on(int corner) {
+  if (!land(rig, state, corner, cursor.time())) return false;
+  return state.theta != 0 || state.omega * state.pivot >= 0 || strike_floor();
+}
+
+// A blow of a wall that lifts one corner of an upright block throws the other one at the floor on which it stands.
+bool Integration::sinks(int corner) const {
+  if (state.mode != Mode::flight) return false;
+  const Flight<double, 1> flight = flight_arc<1>(rig, state, cursor.local<1>());
+  const Series<double, 1>& gap = corner > 0 ? flight.gap_right : flight.gap_left;
+  return gap[0] <= rig.rest_height && gap[1] < 0;
 }
 
 void Integration::stop_without_mode() {

@@ -108,6 +108,9 @@ class Integration {
   template <int N>
   bool look_ahead(const Rig::AtRest& rest);
   void choose(State from, bool impact);
+  bool rests_at_wall(int side);
+  bool land_on(int corner);
+  bool sinks(int corner) const;
   void stop_without_mode();
   bool meet_wall(int side, Edge edge);
   bool meet_walls_too();

@@ -8,6 +8,7 @@
 #include "dynamics/chain.hpp"
 #include "dynamics/laws_by_hand.hpp"
 #include "effects/effect_fixture.hpp"
+#include "support/keyed_random.hpp"
 
 namespace freestand::test {
 namespace {
@@ -225,6 +226,27 @@ TEST_P(Wall, AChainedBlockDoesNotFallThroughTheWallBehind) {
   }
   EXPECT_GE(free_falls, 5);
   EXPECT_LE(held_falls, free_falls / 4);  // its base may be drawn from under it
+}
+
+// A block that is all but upright beside a wall, thrown between wall and floor ever more slowly, has an answer.
+TEST(Walls, BlocksThatSettleBesideOneHaveAnAnswer) {
+  CaseFamily family;
+  family.seed = 97;
+  family.one_model = 0;
+  family.duration_low_s = 5;
+  family.duration_high_s = 8;
+  int struck = 0;
+  for (std::uint64_t i = 0; i < 1500; ++i) {
+    RandomCase c = random_case(family, i);
+    KeyedRandom random(98, i);
+    c.specimen.model = Model::slide_rock;
+    const double gap = random.uniform(-0.06, 0.06);
+    c.specimen.effects = {wall(gap, random.uniform(0, 0.8))};
+    const Response response = respond(c.specimen, c.shaking);
+    struck += response.wall_hits > 0;
+    EXPECT_NE(response.outcome, Outcome::painleve) << i << ' ' << c.text();
+  }
+  EXPECT_GT(struck, 300);
 }
 
 }  // namespace
