@@ -1,7 +1,6 @@
 // Samples under laws, a pack of them at once, from knot to knot of their motions while nothing happens: no event that is not
-// excluded beyond doubt, but for blows of a block that rocks on; a step that is as long as the segment, or up to the blow; and
-// extremes that are at its ends or no new ones. The same steps, with the same decisions and the same bits, as
-// taylor_integrator.hpp goes one by one.
+// excluded beyond doubt, but for blows of a block that rocks on, and a step that is as long as the segment, or up to the blow. The same
+// steps, with the same decisions and the same bits, as taylor_integrator.hpp goes one by one.
 #pragma once
 
 #include "dynamics/law_step.hpp"
