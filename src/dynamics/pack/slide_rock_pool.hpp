@@ -220,9 +220,9 @@ class SlideRockPool {
   Response* responses_;
   std::uint8_t* declined_;
   std::size_t taken_ = 0;
-  March rocks_, strikes_;  // those of the next impacts: the first pack of it
-  typename March::Strikes strike_;
-  Impact impacts_[march_slots];  // of the lanes that go on by themselves after it
+  March rocks_, strikes_;                // those of the next impacts: the first pack of it
+  typename March::Strikes strike_ = {};  // a pack that is not full reads it whole
+  Impact impacts_[march_slots];          // of the lanes that go on by themselves after it
   SlideRockSlips<M, Gravity, Friction> slips_, slip_ends_;
   SlideRockSlides<slide_order, Friction> slides_, slide_ends_;
   Hopping<Gravity> hops_;
