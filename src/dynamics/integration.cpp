@@ -6,9 +6,8 @@
 
 namespace freestand::dynamics {
 namespace {
-// So many steps within one segment of the motion that come no further than this, times p, stand before a place where a law has
-// no value: at that pace a motion of a minute would take 1e7 of them, minutes for one sample.
-constexpr int steps_watched = 10000;
+// steps_watched that come no further than this, times p, stand before a place where a law has no value: at that pace a motion of a
+// minute would take 1e7 of them, minutes for one sample.
 constexpr double least_progress = 0.1;
 // Waits are halved for a grip that is no polynomial down to this, times p: in it a force that changes by g over 1/p changes by
 // 1e-6 g, which moves nothing by more than 1e-12 of the block's size before the next look.
@@ -242,15 +241,20 @@ void Integration::resolve(Witness witness) {
   choose(from, impact);
 }
 
-void Integration::choose(State from, bool impact) {
-  bool found = choose_mode(rig, cursor, state);
-  for (const int corner : sides(state))
-    if (!found && sinks(corner)) found = land_on(corner) && choose_mode(rig, cursor, state);
-  const State open = state;
-  for (const int side : sides(open))
-    if (!found) state = open, found = rests_at_wall(side) && choose_mode(rig, cursor, state);
-  if (!found) return stop_without_mode();
+void Integration::choose(const State& from, bool impact) {
+  if (!choose_mode(rig, cursor, state) && !choose_beside_wall()) return stop_without_mode();
   chose(from, impact);
+}
+
+bool Integration::choose_beside_wall() {
+  for (const int corner : sides(state))
+    if (sinks(corner) && land_on(corner) && choose_mode(rig, cursor, state)) return true;
+  const State open = state;
+  for (const int side : sides(open)) {
+    state = open;
+    if (rests_at_wall(side) && choose_mode(rig, cursor, state)) return true;
+  }
+  return false;
 }
 
 // The edge beside a wall touches it and neither comes nor leaves.

@@ -56,6 +56,9 @@ inline constexpr double beyond_all_bounds = 1e6;  // [m], [rad] and per second: 
 
 class Integration {
  public:
+  // After so many steps within one segment of the motion it is looked whether they come any further.
+  static constexpr int steps_watched = 10000;
+
   Integration(const Setup& setup, const Settings& settings, History* history);
 
   bool finished() const { return finished_; }
@@ -81,7 +84,10 @@ class Integration {
   // In them it has struck the floor so many times and rocked on, stuck; told: of rotations that count as impacts.
   void rocked_on(int blows, int told);
   // And once more, stuck: how it goes on is to be told.
-  void struck() { choose(state, true); }
+  void struck() {
+    const State from = state;
+    choose(from, true);
+  }
   int steps() const { return steps_; }
   int events_left() const { return settings.event_limit - resolved_; }
   // Time went on by tau: what was special about the last instant is over.
@@ -107,7 +113,8 @@ class Integration {
   double slip() const;
   template <int N>
   bool look_ahead(const Rig::AtRest& rest);
-  void choose(State from, bool impact);
+  void choose(const State& from, bool impact);
+  bool choose_beside_wall();  // where no mode stands
   bool rests_at_wall(int side);
   bool land_on(int corner);
   bool sinks(int corner) const;

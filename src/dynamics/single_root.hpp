@@ -1,5 +1,5 @@
 // The root of a polynomial that falls to zero once, beyond doubt. Numbers: of one sample, or of a pack, whose lanes go the way
-// of single numbers, to the bit (OwnNumbers in tape.hpp, LaneNumbers in pack/law_march.hpp). c: coefficients of 1, x ... x^N,
+// of single numbers, to the bit (OwnNumbers in tape.hpp, LaneNumbers in pack/lane_numbers.hpp). c: coefficients of 1, x ... x^N,
 // x = 0 ... 1; zeros behind the last one change nothing.
 #pragma once
 
@@ -57,8 +57,7 @@ Real only_root(const Real* c, const Mask& wanted) {
     next = choose((next >= lo) & (next <= hi) & (steep > abs(bent)), next, half * (lo + hi));
     const Real step = abs(next - x);
     x = choose(sought, next, x);
-    sought = sought &
-             (step > Real(1e-8) * x);  // what is left is the third power of that, near a turning point times some 1e6
+    sought = sought & (step > Real(1e-8) * x);  // what is left is the third power of that
     if (!Numbers::any(sought)) return x;
   }
   return choose(sought, hi, x);

@@ -60,12 +60,12 @@ struct Timed {
 };
 
 void tell(const Job& job, Peer peer, bool alone) {
-  auto by_error = std::make_shared<AsAccurate>(peer);
+  auto as_accurate = std::make_shared<AsAccurate>(peer);
   const auto plain = [peer](const Specimen& b, const Shaking& s) { return answer(peer(b, s, {})); };
   std::vector<Timed> solvers = {{in_packs}};
   if (peer && !alone) {
     solvers.push_back({one_by_one(plain)});
-    solvers.push_back({[by_error](const Job& on, std::size_t count) { return (*by_error)(on, count); }});
+    solvers.push_back({[as_accurate](const Job& on, std::size_t count) { return (*as_accurate)(on, count); }});
     solvers.back().solve(job, job.samples());  // finds its steps
   }
   for (int i = 0; i < runs; ++i)
@@ -80,7 +80,7 @@ void tell(const Job& job, Peer peer, bool alone) {
     std::printf(" | %8.1f %8.0e %3d/%-3d %6.1f", solvers[i].time(), of.median, of.flips, of.failed,
                 solvers[i].time() / solvers[0].time());
   }
-  std::printf(solvers.size() > 1 ? " %3d\n" : "\n", by_error->steps_per_knot());
+  std::printf(solvers.size() > 1 ? " %3d\n" : "\n", as_accurate->steps_per_knot());
   std::fflush(stdout);
 }
 

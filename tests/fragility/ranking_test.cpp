@@ -207,6 +207,21 @@ TEST(LeastNumbers, TenEventsKeepTheBiasOfACurveSmall) {
   EXPECT_LT(std::abs(bias_with(1.15)), 0.15);
 }
 
+// Samples of the records in turn; ln demand = ln IM and noise.
+RankingTally shaken(const RankingOptions& options, std::uint64_t samples) {
+  RankingTally tally(options);
+  for (std::uint64_t i = 0; i < samples; ++i) {
+    const double im = 0.1 + random::uniform(3, i, 1), edp = std::exp(0.2 * normal(3, i, 5)) * im;
+    tally.add({.index = i,
+               .motion = static_cast<int>(i % options.motion_group.size()),
+               .overturned = false,
+               .pulse_period_s = unknown,
+               .im = {&im, 1},
+               .edp = {&edp, 1}});
+  }
+  return tally;
+}
+
 // The property is known of a few records alone: a line through three leaves one degree of freedom, through two none.
 TEST(LeastNumbers, ThreeMotionsHaveAChance) {
   for (const int known : {2, 3}) {
@@ -218,17 +233,7 @@ TEST(LeastNumbers, ThreeMotionsHaveAChance) {
       period.value.push_back(m < known ? 0.5 + m * m : unknown);
     }
     few.properties.push_back(period);
-    RankingTally tally(few);
-    for (std::uint64_t i = 0; i < 600; ++i) {
-      const double im = 0.1 + random::uniform(3, i, 1), edp = std::exp(0.2 * normal(3, i, 5)) * im;
-      tally.add({.index = i,
-                 .motion = static_cast<int>(i) % records,
-                 .overturned = false,
-                 .pulse_period_s = unknown,
-                 .im = {&im, 1},
-                 .edp = {&edp, 1}});
-    }
-    const auto ranked = rank(tally);
+    const auto ranked = rank(shaken(few, 600));
     ASSERT_EQ(ranked.size(), 1U);
     const Sufficiency& found = ranked[0].ims[0].sufficiency.at(0);
     EXPECT_EQ(found.motions, known);
@@ -241,17 +246,7 @@ TEST(LeastNumbers, WithoutAnErrorNothingIsRanked) {
   for (const int records : {4, 5}) {
     RankingOptions few{{"pga_g"}, {{"peak_slip_m", false, 1e-4, true}}, {}, {}};
     for (int m = 0; m < records; ++m) few.motion_group.push_back(m);
-    RankingTally tally(few);
-    for (std::uint64_t i = 0; i < 400; ++i) {
-      const double im = 0.1 + random::uniform(4, i, 1), edp = std::exp(0.2 * normal(4, i, 5)) * im;
-      tally.add({.index = i,
-                 .motion = static_cast<int>(i) % records,
-                 .overturned = false,
-                 .pulse_period_s = unknown,
-                 .im = {&im, 1},
-                 .edp = {&edp, 1}});
-    }
-    EXPECT_EQ(rank(tally).size(), records == 5 ? 1U : 0U);
+    EXPECT_EQ(rank(shaken(few, 400)).size(), records == 5 ? 1U : 0U);
   }
 }
 

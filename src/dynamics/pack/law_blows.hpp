@@ -3,6 +3,7 @@
 #pragma once
 
 #include "dynamics/blow.hpp"
+#include "dynamics/integration.hpp"
 #include "dynamics/law_step.hpp"
 #include "dynamics/pack/lane_numbers.hpp"
 #include "dynamics/single_root.hpp"
@@ -48,23 +49,16 @@ class LawBlows {
     const Pack g = number(Row::gravity), rest = number(Row::rest_rotation), zero(0.0), &h = at.body.h;
     told_ = bits(hop_rotation(inertia_, at.omega, g, at.body.c) >= number(Row::told_rotation));
     PackMask sure = hop_rotation(inertia_there_, at.omega, g, corner_) >= rest;
-
-    to_ = at;
-    to_.body.c = corner_;
-    to_.pivot = -at.pivot;
-    to_.half_base = -at.half_base;  // w is zero, but for the speed of a base on legs
-    to_.theta = zero;
     if (rows_.impact == ImpactLaw::housner) {
-      to_.omega = kept_ * at.omega;
+      omega_ = kept_ * at.omega;
     } else {
       const Velocity<Pack> before = at_centre(Arm<Pack>{-at.body.c, h}, zero, at.omega);
       const Velocity<Pack> after = stick(at.body.k2, at.mass, Arm<Pack>{-corner_, h}, before);
       const auto [px, py] = impulse(at.mass, before, after);
       if (rows_.can_slip) sure = sure & (xsimd::abs(px) <= at.mu_s * py);
-      to_.omega = after.omega;
+      omega_ = after.omega;
     }
-    sure = sure & (to_.omega * to_.pivot > zero) & (hop_rotation(inertia_there_, to_.omega, g, corner_) >= rest);
-    keep_contents_velocity(at);
+    sure = sure & (omega_ * at.pivot < zero) & (hop_rotation(inertia_there_, omega_, g, corner_) >= rest);
     if (laws_.walls.any()) sure = sure & clear_of_walls(at);
     return sure & has_room();
   }
@@ -85,9 +79,9 @@ class LawBlows {
     return sure;
   }
 
-  // Those lanes stand on the corner that came down.
-  void stand(const PackMask& which, unsigned lanes, Standing<Pack>& at) {
-    const auto move = [&](Pack& from, const Pack& to) { from = choose(which, to, from); };
+  // Those lanes stand on the corner that came down. to: the moment before the blow, and then the one after it.
+  void stand(const PackMask& which, unsigned lanes, Standing<Pack>& to) {
+    const auto move = [&](Pack& from, const Pack& there) { from = choose(which, there, from); };
     const auto swap = [&](Pack& x, Pack& y) {
       const Pack before = x;
       move(x, y);
@@ -99,23 +93,17 @@ class LawBlows {
       rows_.steps[i] += struck;
       rows_.told[i] += struck & static_cast<int>(told_ >> l & 1U);
     }
-    swap(at.body.c, corner_);
+    const Pack jump = jump_of_centre(to);
+    for (int i = 0; i < laws_.states; ++i)  // contents keep their own velocity
+      if (laws_.relative_velocity[i]) move(to.states[i], to.states[i] - jump);
+    move(to.theta, Pack(0.0));
+    move(to.omega, omega_);
+    swap(to.body.c, corner_);
     swap(inertia_, inertia_there_);
     swap(kept_, kept_next_);
-    move(at.pivot, to_.pivot);
-    move(at.half_base, to_.half_base);
-    move(at.theta, to_.theta);
-    move(at.omega, to_.omega);
-    move(at.xi, to_.xi);
-    move(at.w, to_.w);
-    move(at.path, to_.path);
-    move(at.deflection, to_.deflection);
-    for (int i = 0; i < laws_.states; ++i) move(at.states[i], to_.states[i]);
-    if (!laws_.walls.any()) return;
-    move(at.right_wall.across, to_.right_wall.across);
-    move(at.right_wall.up, to_.right_wall.up);
-    move(at.left_wall.across, to_.left_wall.across);
-    move(at.left_wall.up, to_.left_wall.up);
+    move(to.pivot, -to.pivot);
+    move(to.half_base, -to.half_base);
+    if (laws_.walls.any()) face_walls(which, to);
   }
 
   void save(const Standing<Pack>& at) {
@@ -137,50 +125,54 @@ class LawBlows {
  private:
   // Terms by which mode_logic.cpp mostly tells whether a mode stands.
   static constexpr int judged = 3;
-  // Steps within a segment after which a sample goes on alone, which looks whether it comes any further.
-  static constexpr int most_steps = 9000;
-
   Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)] + first_); }
   void keep(Row row, const Pack& x) { store(rows_.numbers[static_cast<int>(row)] + first_, x); }
 
+  // Neither the last event that is allowed, nor a step after which the sample looks whether it comes any further.
   PackMask has_room() const {
     alignas(64) double room[pack_lanes];
     for (int l = 0; l < pack_lanes; ++l) {
       const int i = first_ + l;
-      room[l] = rows_.blows[i] + 1 < rows_.room[i] && rows_.steps[i] < most_steps;
+      room[l] = rows_.blows[i] + 1 < rows_.room[i] && rows_.steps[i] % Integration::steps_watched != 0;
     }
     return load(room) > Pack(0.0);
   }
 
-  // As Integration's, by the speed of the centre of mass.
-  void keep_contents_velocity(const Standing<Pack>& at) {
+  // Of the speed of the centre of mass.
+  Pack jump_of_centre(const Standing<Pack>& at) const {
     const Rotation<Pack> rotation = rotation_by(at.theta);
     const Pack before = at.w + (at.body.c * rotation.sine + at.body.h * rotation.cosine) * at.omega;
-    const Pack jump = (to_.w + at.body.h * to_.omega) - before;
-    for (int i = 0; i < laws_.states; ++i)
-      if (laws_.relative_velocity[i]) to_.states[i] = to_.states[i] - jump;
+    return (at.w + at.body.h * omega_) - before;
   }
 
-  // No edge touches a wall when the block is upright; the edges that are next to the walls on the other corner.
-  PackMask clear_of_walls(const Standing<Pack>& at) {
-    const Pack zero(0.0), touching = number(Row::touching), between = corner_ - at.body.c, top = Pack(2.0) * at.body.h;
-    const PackMask right = to_.pivot > zero;
-    to_.right_wall.across = choose(right, zero, between);
-    to_.right_wall.up = choose(right, top, zero);
-    to_.left_wall.across = choose(right, between, zero);
-    to_.left_wall.up = choose(right, zero, top);
-    PackMask clear = zero == zero;
+  // No edge touches a wall when the block is upright.
+  PackMask clear_of_walls(const Standing<Pack>& at) const {
+    const Pack touching = number(Row::touching);
+    PackMask clear = touching == touching;
     if (laws_.walls.right.stands) clear = clear & (at.right_wall.gap - at.xi > touching);
     if (laws_.walls.left.stands) clear = clear & (at.left_wall.gap + at.xi > touching);
     return clear;
+  }
+  // The edges that are next to the walls on the corner on which the block now stands: corner_ is the other one.
+  void face_walls(const PackMask& which, Standing<Pack>& at) const {
+    const Pack zero(0.0), between = at.body.c - corner_, top = Pack(2.0) * at.body.h;
+    const PackMask right = which & (at.pivot > zero), left = which & ~right;
+    const auto face = [](ToWall<Pack>& wall, const PackMask& lanes, const Pack& across, const Pack& up) {
+      wall.across = choose(lanes, across, wall.across);
+      wall.up = choose(lanes, up, wall.up);
+    };
+    face(at.right_wall, right, zero, top);
+    face(at.right_wall, left, between, zero);
+    face(at.left_wall, right, between, zero);
+    face(at.left_wall, left, zero, top);
   }
 
   LawRows& rows_;
   const Laws& laws_;
   const int first_;
   Pack corner_, inertia_, inertia_there_, kept_, kept_next_;  // the other corner; about this one, and that one
-  Standing<Pack> to_;
-  unsigned told_ = 0;
+  Pack omega_;                                                // after the blow
+  unsigned told_ = 0;                                         // lanes whose impact counts
 };
 
 }  // namespace

@@ -235,9 +235,8 @@ class LawMarchOf {
 
   // max_abs and max_of (roots.hpp) of the lanes wanted: mostly the extreme is at an end of the step or is no new one.
   using Search = double (*)(const double* c, int order, double h, double floor);
-  Pack extreme(const Series<Pack, law_order>& y, const Pack& first, const Pack& last, const Pack& before,
-               unsigned wanted, Search search) const {
-    const PackMask within = surely_within(y, reach_, before);
+  Pack extreme(const Series<Pack, law_order>& y, const PackMask& within, const Pack& first, const Pack& last,
+               const Pack& before, unsigned wanted, Search search) const {
     const Pack at_ends = xsimd::max(before, xsimd::max(first, last));
     const unsigned unsure = wanted & ~bits(within | surely_monotonic(y, reach_));
     if (!unsure) return freestand::choose(within, before, at_ends);
@@ -255,8 +254,9 @@ class LawMarchOf {
     return load(most);
   }
   Pack largest(const Series<Pack, law_order>& y, const Pack& before, unsigned wanted) const {
-    if (!(wanted & ~bits(surely_within(y, reach_, before)))) return before;
-    return extreme(y, xsimd::abs(y[0]), xsimd::abs(y.at(reach_)), before, wanted, detail::max_abs);
+    const PackMask within = surely_within(y, reach_, before);
+    if (!(wanted & ~bits(within))) return before;
+    return extreme(y, within, xsimd::abs(y[0]), xsimd::abs(y.at(reach_)), before, wanted, detail::max_abs);
   }
 
   // As Peaks::observe, of the lanes wanted; of which of them there are any.
@@ -266,8 +266,11 @@ class LawMarchOf {
     new_slip_ = largest(u, slip_, wanted);
     if (rows_.slip_by_side) {
       const Pack last = u.at(reach_);
-      new_slip_right_ = extreme(u, u[0], last, slip_right_, wanted, detail::max_of);
-      new_slip_left_ = extreme(scaled(Pack(-1.0), u), -u[0], -last, slip_left_, wanted, detail::max_of);
+      const auto side = [&](const Series<Pack, law_order>& y, const Pack& first, const Pack& end, const Pack& before) {
+        return extreme(y, surely_within(y, reach_, before), first, end, before, wanted, detail::max_of);
+      };
+      new_slip_right_ = side(u, u[0], last, slip_right_);
+      new_slip_left_ = side(scaled(Pack(-1.0), u), -u[0], -last, slip_left_);
     }
     new_rotation_ = turning ? largest(arc.theta, rotation_, wanted) : rotation_;
     new_slid_ = slid_ + (to_.path - arc.path[0]);
@@ -309,8 +312,21 @@ class LawMarchOf {
     }
     PackMask goes = load(mask) > Pack(0.0);
     const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
-    Standing<Pack>& at = here_;
-    Standing<Pack>& to = to_;
+    move(start_, next_);
+    move(offset_, Pack(0.0));
+    Standing<Pack>&at = here_, &to = to_;
+    if (struck) {
+      const PackMask blow = strikes_ & lanes(struck);
+      offset_ = freestand::choose(blow, offset_ + reach_, offset_);
+      blows_.stand(blow, struck, to);
+      at.body.c = to.body.c;
+      at.half_base = to.half_base;
+      at.pivot = stance_.pivot = to.pivot;
+      at.right_wall = to.right_wall;
+      at.left_wall = to.left_wall;
+      goes = goes | blow;
+      struck_ |= struck;
+    }
     move(at.theta, to.theta);
     move(at.omega, to.omega);
     move(at.xi, to.xi);
@@ -318,20 +334,6 @@ class LawMarchOf {
     move(at.path, to.path);
     move(at.deflection, to.deflection);
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to.states[i]);
-    move(start_, next_);
-    move(offset_, Pack(0.0));
-    if (struck) {
-      const PackMask blow = strikes_ & ~goes & lanes(struck);
-      blows_.stand(blow, struck, at);
-      offset_ = freestand::choose(blow, offset_ + reach_, offset_);
-      to_.body.c = at.body.c;
-      to_.half_base = at.half_base;
-      to_.pivot = stance_.pivot = at.pivot;
-      to_.right_wall = at.right_wall;
-      to_.left_wall = at.left_wall;
-      goes = goes | blow;
-      struck_ |= struck;
-    }
     at.time = start_ + offset_;
     move(slip_, new_slip_);
     if (rows_.slip_by_side) {
