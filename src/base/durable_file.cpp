@@ -92,12 +92,8 @@ void sync_path(const fs::path& path, int flags) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-void rename_file(const fs::path& aside, const fs::path& path) {
-  if (::rename(aside.c_str(), path.c_str()) != 0) throw file_error("write", path, errno);
-}
-
 void rename_and_sync(const fs::path& aside, const fs::path& path) {
-  rename_file(aside, path);
+  if (::rename(aside.c_str(), path.c_str()) != 0) throw file_error("write", path, errno);
   sync_path(folder_of(path), O_RDONLY | O_DIRECTORY);
 }
 
@@ -108,16 +104,6 @@ std::string host_name() {
 }
 
 constexpr const char* aside_ending = ".part";
-
-void write(const fs::path& path, std::span<const std::span<const std::byte>> pieces, bool durably) {
-  const fs::path aside = aside_name(path);
-  AsideFile file(aside, path);
-  for (const auto& piece : pieces) file.write(piece);
-  if (durably) file.sync();
-  file.close();
-  durably ? rename_and_sync(aside, path) : rename_file(aside, path);
-  file.keep();
-}
 
 }  // namespace
 
@@ -139,11 +125,13 @@ bool is_aside_name(const fs::path& path) {
 }
 
 void write_durably(const fs::path& path, std::span<const std::span<const std::byte>> pieces) {
-  write(path, pieces, true);
-}
-
-void write_aside(const fs::path& path, std::span<const std::span<const std::byte>> pieces) {
-  write(path, pieces, false);
+  const fs::path aside = aside_name(path);
+  AsideFile file(aside, path);
+  for (const auto& piece : pieces) file.write(piece);
+  file.sync();
+  file.close();
+  rename_and_sync(aside, path);
+  file.keep();
 }
 
 void write_durably(const fs::path& path, std::string_view text) {

@@ -24,10 +24,6 @@ bool is_aside_name(const std::filesystem::path& path);
 void write_durably(const std::filesystem::path& path, std::span<const std::span<const std::byte>> pieces);
 void write_durably(const std::filesystem::path& path, std::string_view text);
 
-// The same without the syncs, which take far longer than the writing: for files whose reader tells a torn one from a whole
-// one. The end of the program tears none; that of the machine may.
-void write_aside(const std::filesystem::path& path, std::span<const std::span<const std::byte>> pieces);
-
 // Syncs and renames a file that someone else has written, and syncs the folder.
 void publish_durably(const std::filesystem::path& aside, const std::filesystem::path& path);
 

@@ -10,6 +10,7 @@
 #include "base/durable_file.hpp"
 #include "io/folder_lock.hpp"
 #include "io/own_files.hpp"
+#include "parallel/block_log.hpp"
 
 namespace freestand::io {
 namespace {
@@ -37,11 +38,6 @@ std::vector<fs::path> paths_in(const fs::path& folder) {
   return paths;
 }
 
-bool is_block(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return name.starts_with("block-") && name.ends_with(".bin");
-}
-
 bool is_used(const fs::path& folder) {
   const std::vector<fs::path> all = paths_in(folder);
   return std::any_of(all.begin(), all.end(), [](const fs::path& path) { return path.filename() != lock_name; });
@@ -51,9 +47,7 @@ bool is_used(const fs::path& folder) {
 std::string used_text(const fs::path& folder) {
   std::error_code error;
   const bool swept = fs::exists(folder / "samples.h5", error);
-  const std::vector<fs::path> blocks =
-      fs::is_directory(folder / blocks_name, error) ? paths_in(folder / blocks_name) : std::vector<fs::path>{};
-  const auto finished = std::count_if(blocks.begin(), blocks.end(), is_block);
+  const std::int64_t finished = parallel::count_blocks(folder / blocks_name);
   if (finished == 0 && !fs::exists(folder / begun_name, error))
     return fmt::format(
         "{} is not empty (results of another run would mix with this one's): name another folder, or "
@@ -69,12 +63,7 @@ std::string used_text(const fs::path& folder) {
 void remove_results(const fs::path& folder) {
   for (const char* name : results) remove_file(folder / name);
   remove_leftovers(folder);
-  const fs::path blocks = folder / blocks_name;
-  std::error_code error;
-  if (!fs::is_directory(blocks, error)) return;
-  for (const fs::path& path : paths_in(blocks))
-    if (is_aside_name(path) || is_block(path)) remove_file(path);
-  if (fs::is_empty(blocks, error)) remove_file(blocks);
+  parallel::remove_blocks(folder / blocks_name);
 }
 
 }  // namespace

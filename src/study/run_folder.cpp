@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "io/own_files.hpp"
+#include "parallel/block_log.hpp"
 #include "study/sweep.hpp"
 
 namespace freestand::study {
@@ -27,9 +28,7 @@ std::int64_t finished_in(const fs::path& folder) {
   std::int64_t finished = 0;
   if (fs::exists(samples_path(folder), error))
     finished = fs::last_write_time(samples_path(folder), error).time_since_epoch().count();
-  for (fs::directory_iterator i(blocks_path(folder), error), end; !error && i != end; i.increment(error))
-    finished += i->path().filename().string().starts_with("block-");
-  return finished;
+  return finished + parallel::count_blocks(blocks_path(folder));
 }
 
 fs::path note_path(const fs::path& folder) { return folder / io::begun_name; }

@@ -13,7 +13,7 @@
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 #include "io/samples_file.hpp"
-#include "parallel/checkpoint.hpp"
+#include "parallel/block_log.hpp"
 #include "parallel/progress.hpp"
 #include "parallel/schedule.hpp"
 #include "study/accuracy.hpp"
@@ -84,7 +84,7 @@ class Sweep {
         folder_(folder),
         earlier_(study, folder.path()),
         evaluator_(evaluator_together(world, study, options.quiet)),
-        store_(store_in(folder.path())) {
+        log_(log_in(folder.path())) {
     earlier_.check(evaluator_.columns(), evaluator_.motions().fingerprint());
   }
 
@@ -109,7 +109,7 @@ class Sweep {
 
  private:
   // What is wrong with the bins is told before anything is made.
-  parallel::BlockStore store_in(const std::filesystem::path& folder) const {
+  parallel::BlockLog log_in(const std::filesystem::path& folder) const {
     refuse_bins_that_are_too_narrow();
     return {blocks_path(folder), samples_fingerprint(study_) + evaluator_.motions().fingerprint(),
             kernel_of(evaluator_.columns())};
@@ -139,13 +139,11 @@ class Sweep {
   }
 
   void take_stock() {
-    parallel::Words finished;
     world_.on_root([&] {
-      finished = finished_blocks();
-      store_.remove_leftovers();
+      find_blocks();
       if (earlier_.rows() == 0) write_study();  // else it is of the samples that are there, until all are
     });
-    finished_ = world_.broadcast(finished);
+    finished_ = log_.begin(world_);
   }
 
   void write_study() const {
@@ -158,9 +156,9 @@ class Sweep {
     return std::clamp<std::int64_t>(earlier_.rows() - block * blocks.block_size, 0, blocks.rows(block));
   }
 
-  parallel::Words finished_blocks() const {
+  void find_blocks() {
     try {
-      return store_.finished();
+      log_.find();
     } catch (const parallel::OtherBlocks& other) {
       throw Error(
           fmt::format("{} holds samples of another study ({}): resume with the study and records it was started with, "
@@ -189,6 +187,7 @@ class Sweep {
         progress ? &*progress : nullptr);
     summary_.compute_s += seconds_since(start);
     if (!complete) folder_.leave();
+    log_.share(world_);
     summary_.computed += samples - there;
     finished_.insert(finished_.end(), todo.begin(), todo.end());
     std::sort(finished_.begin(), finished_.end());
@@ -196,7 +195,7 @@ class Sweep {
 
   parallel::Counts compute_block(std::int64_t samples, std::int64_t block, const parallel::Beat& beat) {
     parallel::Counts counts;
-    store_.write(block, rows_of(samples, block, counts, beat));
+    log_.write(block, rows_of(samples, block, counts, beat));
     return counts;
   }
 
@@ -226,7 +225,7 @@ class Sweep {
     const std::int64_t rows = layout(samples).rows(block);
     if (earlier_rows(samples, block) == rows) return earlier_.read(block * layout(samples).block_size, rows);
     try {
-      return store_.read(block).values;
+      return log_.read(block).values;
     } catch (const Error& error) {
       parallel::tell(fmt::format("{}: it is computed again now\n", error.what()));
       parallel::Counts ignored;
@@ -287,7 +286,7 @@ class Sweep {
                       [&](std::int64_t block) { return finished_rows(samples, block); });
     world_.on_root([&] {
       write_study();
-      store_.clear();
+      parallel::remove_blocks(log_.folder());
     });
     summary_.write_s = seconds_since(writing);
   }
@@ -299,7 +298,7 @@ class Sweep {
   RunFolder& folder_;
   const EarlierSamples earlier_;
   Evaluator evaluator_;
-  parallel::BlockStore store_;
+  parallel::BlockLog log_;
   parallel::Words finished_;
   SweepSummary summary_;
 };
@@ -315,8 +314,7 @@ SweepSummary sweep(const Communicator& world, const Study& study, const SweepOpt
   world.on_root([&] {
     complete[0] = EarlierSamples(study, folder.path()).complete();
     if (!complete[0]) return;
-    if (std::filesystem::exists(blocks_path(folder.path())))  // its end was interrupted
-      parallel::BlockStore(blocks_path(folder.path()), samples_fingerprint(study)).clear();
+    parallel::remove_blocks(blocks_path(folder.path()));  // its end was interrupted
     io::write_text(study_path(folder.path()), io::signed_text(expanded(study, folder.path())));
   });
   if (world.broadcast(complete)[0]) return {.samples = static_cast<std::int64_t>(study.samples), .computed = 0};

@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from support import InFolder, command, datasets, run, study_text
+from support import InFolder, command, datasets, finished_blocks, run, study_text
 
 
 def ranks_of(launcher):
@@ -55,7 +55,7 @@ class KillAndResume(InFolder):
             for rank in ranks_of(launcher.pid)[:1]:
                 os.kill(rank, signal.SIGKILL)
             launcher.communicate(timeout=60)
-            kept.append(len(list(folder.glob("blocks/*"))) if folder.exists() else 0)
+            kept.append(finished_blocks(folder))
             self.resume(folder)
         self.assertGreater(max(kept), 0, "no run was killed between its first and its last block")
 
@@ -63,21 +63,21 @@ class KillAndResume(InFolder):
         folder = self.folder / "stopped"
         launcher = self.start(folder)
         deadline = time.monotonic() + 30
-        while time.monotonic() < deadline and len(list(folder.glob("blocks/*"))) < 3:
+        while time.monotonic() < deadline and finished_blocks(folder) < 3:
             time.sleep(0.01)
         for rank in ranks_of(launcher.pid):
             os.kill(rank, signal.SIGTERM)
         _, error = launcher.communicate(timeout=60)
         self.assertEqual(launcher.returncode, 75, error)
         self.assertIn("--resume", error)
-        self.assertGreaterEqual(len(list(folder.glob("blocks/*"))), 3)
+        self.assertGreaterEqual(finished_blocks(folder), 3)
         self.assertFalse((folder / "samples.h5").exists())
         self.resume(folder)
 
     def test_resume_refuses_another_study(self):
         folder = self.folder / "stopped"
         launcher = self.start(folder)
-        while launcher.poll() is None and len(list(folder.glob("blocks/*"))) < 2:
+        while launcher.poll() is None and finished_blocks(folder) < 2:
             time.sleep(0.01)
         for rank in ranks_of(launcher.pid):
             os.kill(rank, signal.SIGTERM)
@@ -92,7 +92,7 @@ class KillAndResume(InFolder):
         self.fail_with(2, ["sweep", other, "-o", folder, "--resume"], "study.yaml would be replaced")
         (folder / "study.yaml").unlink()
         self.fail_with(2, ["sweep", other, "-o", folder, "--resume"], "another study (their fingerprint differs)")
-        finished = len(list(folder.glob("blocks/block-*.bin")))
+        finished = finished_blocks(folder)
         self.fail_with(2, ["sweep", self.study, "-o", folder],
                        f"--resume goes on, --overwrite throws {finished} finished blocks away")
         # Other bins are no other study: their samples are the same.

@@ -5,7 +5,7 @@ import subprocess
 import time
 import unittest
 
-from support import InFolder, command, datasets, result, slow_fit, study_text
+from support import InFolder, command, datasets, finished_blocks, result, slow_fit, study_text
 
 
 def contents(folder):
@@ -32,9 +32,6 @@ class Stopping(InFolder):
         _, self.error = process.communicate(timeout=100)
         return process.returncode, time.monotonic() - start
 
-    def blocks(self, folder):
-        return list((folder / "blocks").glob("block-*"))
-
     def whole(self, study):
         folder = self.folder / "whole"
         self.succeed(["run", study, "-o", folder, "--quiet"], 2)
@@ -47,8 +44,8 @@ class Signals(Stopping):
         whole, folder = self.whole(study), self.folder / "out"
         for ranks, number in ((1, signal.SIGTERM), (2, signal.SIGUSR1)):
             process = self.start(["run", study, "-o", folder, "--quiet", *(["--resume"] if folder.exists() else [])], ranks)
-            before = len(self.blocks(folder))
-            self.wait_for(lambda: len(self.blocks(folder)) > before, process)
+            before = finished_blocks(folder)
+            self.wait_for(lambda: finished_blocks(folder) > before, process)
             code, seconds = self.stop(process, number)
             self.assertEqual(code, 75, self.error)
             self.assertLess(seconds, 15)  # 10 s, and what a busy machine adds
@@ -109,7 +106,7 @@ class OneFolder(Stopping):
         study = self.write("study.yaml", study_text(samples=12000))
         whole, folder = self.whole(study), self.folder / "out"
         first = self.start(["run", study, "-o", folder, "--quiet"])
-        self.wait_for(lambda: self.blocks(folder), first)
+        self.wait_for(lambda: finished_blocks(folder), first)
         first.send_signal(signal.SIGSTOP)  # it must not be done before it is disturbed
         for option in ("--resume", "--overwrite"):
             self.fail_with(2, ["run", study, "-o", folder, "--quiet", option], "in use", "process", ranks=2)
@@ -124,9 +121,10 @@ class OneFolder(Stopping):
         other = self.write("other.yaml", "name: second\n" + text.replace("seed: 7", "seed: 8"))
         folder = self.folder / "out"
         process = self.start(["sweep", study, "-o", folder, "--quiet"])
-        self.wait_for(lambda: len(self.blocks(folder)) > 2, process)
+        self.wait_for(lambda: finished_blocks(folder) > 2, process)
         self.assertEqual(self.stop(process, signal.SIGTERM)[0], 75)
-        (folder / "blocks" / ".block-00000099.bin.host.1.part").write_text("half")
+        with open(folder / "blocks" / "run-0001.node-000000.log", "ab") as log:
+            log.write(b"half a block")
         before = contents(folder)
         self.fail_with(2, ["sweep", other, "-o", folder, "--resume", "--quiet"], "another study")
         self.assertEqual(contents(folder), before)
@@ -140,12 +138,13 @@ class OneFolder(Stopping):
         self.succeed(["sweep", study, "-o", self.folder / "whole", "--quiet"], 2)
         folder = self.folder / "out"
         process = self.start(["sweep", study, "-o", folder, "--quiet"])
-        self.wait_for(lambda: len(self.blocks(folder)) > 3, process)
+        self.wait_for(lambda: finished_blocks(folder) > 3, process)
         self.assertEqual(self.stop(process, signal.SIGTERM)[0], 75)
-        unreadable, torn = sorted(self.blocks(folder))[1:3]
-        unreadable.unlink()
+        log = folder / "blocks" / "run-0001.node-000000.log"
+        whole = log.read_bytes()
+        log.write_bytes(whole[:200] + b"?" + whole[201:-1])  # the first block's values, and the last one's end
+        unreadable = log.with_name("run-0002.node-000000.log")
         unreadable.symlink_to(unreadable.name)  # to itself: not even root reads it
-        torn.write_bytes(torn.read_bytes()[:-1])
         self.succeed(["sweep", study, "-o", folder, "--resume", "--quiet"], 2)
         self.assertEqual(datasets(folder / "samples.h5"), datasets(self.folder / "whole" / "samples.h5"))
 

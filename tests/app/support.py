@@ -63,6 +63,12 @@ def datasets(path):
     return found
 
 
+def finished_blocks(folder):
+    """Blocks of samples in the logs of a sweep that is not done: each begins a page."""
+    logs = (log.read_bytes() for log in (folder / "blocks").glob("run-*.log"))
+    return sum(log[page:page + 8] == b"FSBLOCKS" for log in logs for page in range(0, len(log), 4096))
+
+
 def result(folder):
     """All numbers of a result folder."""
     texts = {name: (folder / name).read_bytes() for name in ("bins.csv", "surface.csv")}

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/durable_file.hpp"
+#include "parallel/block_log.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 #include "support/trouble.hpp"
@@ -51,10 +52,11 @@ TEST(OutputFolder, AnInterruptedSweepIsToldAsThat) {
   };
   put(scratch / begun_name);
   EXPECT_THAT(refused(), AllOf(HasSubstr("interrupted sweep"), HasSubstr("--overwrite starts again")));
-  put(scratch / "blocks/block-00000001.bin");
-  put(scratch / "blocks/.block-00000002.bin.h.1.part");
+  parallel::BlockLog log(scratch / "blocks", "study");
+  log.begin({});
+  log.write(1, {1, {0.5}});
   EXPECT_THAT(refused(), HasSubstr("--resume goes on, --overwrite throws 1 finished block away"));
-  put(scratch / "blocks/block-00000007.bin");
+  log.write(7, {1, {0.5}});
   EXPECT_THAT(refused(), HasSubstr("--resume goes on, --overwrite throws 2 finished blocks away"));
   put(scratch / "samples.h5");  // to which samples were being added
   EXPECT_THAT(refused(), HasSubstr("--resume goes on, --overwrite throws 2 finished blocks away"));
@@ -66,13 +68,12 @@ TEST(OutputFolder, AnInterruptedSweepIsToldAsThat) {
 
 TEST(OutputFolder, OverwriteRemovesResultsAndNothingElse) {
   const test::Scratch scratch("out");
-  for (const char* name : {"surface.csv", ".samples.h5.part", "thesis.txt", "blocks/block-00000001.bin",
-                           "blocks/.block-00000002.bin.h.1.part"})
+  for (const char* name : {"surface.csv", ".samples.h5.part", "thesis.txt", "blocks/run-0001.node-000000.log"})
     put(scratch / name);
   prepare_output_folder(scratch.folder(), Existing::overwrite);
   EXPECT_EQ(names_in(scratch.folder()), std::set<std::string>{"thesis.txt"});
   put(scratch / "blocks/mine.txt");
-  put(scratch / "blocks/block-00000001.bin");
+  put(scratch / "blocks/run-0001.node-000000.log");
   prepare_output_folder(scratch.folder(), Existing::overwrite);
   EXPECT_EQ(names_in(scratch.folder()), (std::set<std::string>{"thesis.txt", "blocks", "blocks/mine.txt"}));
 }
@@ -91,10 +92,11 @@ TEST(OutputFolder, OverwriteReplacesNoFileOfAnyoneElse) {
 
 TEST(OutputFolder, ResumeLeavesEverything) {
   const test::Scratch scratch("out");
-  put(scratch / "blocks/block-00000001.bin");
+  put(scratch / "blocks/run-0001.node-000000.log");
   put(scratch / "samples.h5");
   prepare_output_folder(scratch.folder(), Existing::resume);
-  EXPECT_EQ(names_in(scratch.folder()), (std::set<std::string>{"blocks", "blocks/block-00000001.bin", "samples.h5"}));
+  EXPECT_EQ(names_in(scratch.folder()),
+            (std::set<std::string>{"blocks", "blocks/run-0001.node-000000.log", "samples.h5"}));
 }
 
 TEST(OutputFolder, AFileInItsPlaceIsRefused) {

@@ -7,7 +7,7 @@
 #include "base/durable_file.hpp"
 #include "io/samples_file.hpp"
 #include "mpi/mpi_main.hpp"
-#include "parallel/checkpoint.hpp"
+#include "parallel/block_log.hpp"
 #include "parallel/schedule.hpp"
 #include "support/sample_blocks.hpp"
 
@@ -33,18 +33,23 @@ fs::path folder() {
   return path;
 }
 
-// The way of a sweep: blocks by whoever is free, each into its file, then all into samples.h5.
+// The way of a sweep: blocks by whoever is free, each into the log of its node, then all into samples.h5.
 TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
   const fs::path path = folder();
   const BlockLayout layout{123457, 1000};
-  const parallel::BlockStore store(path / "blocks", "small");
+  parallel::BlockLog store(path / "blocks", "small");
+  store.begin(world());
   std::vector<std::int64_t> todo(static_cast<std::size_t>(layout.blocks()));
   std::iota(todo.begin(), todo.end(), 0);
   ASSERT_TRUE(parallel::for_each_block(world(), todo, [&](std::int64_t block, const parallel::Beat&) {
     store.write(block, {6, small_rows(block * layout.block_size, layout.rows(block))});
     return parallel::Counts{};
   }));
-  EXPECT_EQ(store.finished(), todo);
+  store.share(world());
+  parallel::BlockLog next(path / "blocks", "small");  // what another run finds
+  world().on_root([&] { next.find(); });
+  EXPECT_EQ(next.begin(world()), todo);
+  EXPECT_EQ(std::distance(fs::directory_iterator(path / "blocks"), {}), 1);
 
   SamplesHeader header = small_header();
   header.provenance.samples = layout.samples;
@@ -57,7 +62,7 @@ TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
   EXPECT_TRUE(same_bits(reader.read(first, 5000).values, small_rows(first, 5000)));
   EXPECT_TRUE(same_bits(reader.read(120000, 3457).values, small_rows(120000, 3457)));
   world().barrier();
-  world().on_root([&] { store.clear(); });
+  world().on_root([&] { parallel::remove_blocks(store.folder()); });
 }
 
 TEST(Samples, FewerBlocksThanRanksAreWrittenToo) {

@@ -9,7 +9,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
 
 from cluster import Cluster, why_not
-from support import FREESTAND, InFolder, result, slow_fit, study_text
+from support import FREESTAND, InFolder, finished_blocks, result, slow_fit, study_text
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "jobs/freestand.slurm"
 
@@ -57,7 +57,7 @@ class Slurm(InFolder):
         self.assertEqual(self.cluster.run("scancel", *options, self.job).returncode, 0)
 
     def blocks(self):
-        return len(list(self.out.glob("blocks/block-*")))
+        return finished_blocks(self.out)
 
     def test_signalled_in_every_phase_it_ends_with_the_bits_of_mpirun(self):
         """The limit's SIGTERM goes to the step, as by --signal=TERM@..., or to the script, as by --signal=B:..."""

@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "parallel/block_log.hpp"
 #include "study/sweep.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
@@ -23,12 +24,14 @@ class RunFolderTest : public testing::Test {
   void TearDown() override { parallel::clear_stop(); }
 
   // A run that is asked to stop after it has finished these blocks. What it says.
-  std::string stopped_run(Exit expected, const std::vector<std::string>& blocks) {
+  std::string stopped_run(Exit expected, const std::vector<std::int64_t>& blocks) {
     parallel::clear_stop();
     RunFolder folder({}, scratch_.folder(), io::Existing::resume, "go on with --resume");
     folder.begin();
-    fs::create_directories(blocks_path(scratch_.folder()));
-    for (const std::string& block : blocks) std::ofstream(blocks_path(scratch_.folder()) / block) << "x";
+    parallel::BlockLog log(blocks_path(scratch_.folder()), "study");
+    log.find();
+    log.begin({});
+    for (const std::int64_t block : blocks) log.write(block, {1, {0.5}});
     folder.leave_if_asked();
     parallel::request_stop();
     return error_text(expected, [&] { folder.leave_if_asked(); });
@@ -38,17 +41,16 @@ class RunFolderTest : public testing::Test {
 };
 
 TEST_F(RunFolderTest, AStopIsResumable) {
-  EXPECT_THAT(stopped_run(Exit::resumable, {"block-00000001.bin"}),
-              AllOf(HasSubstr("stopped early"), HasSubstr("go on with --resume")));
+  EXPECT_THAT(stopped_run(Exit::resumable, {1}), AllOf(HasSubstr("stopped early"), HasSubstr("go on with --resume")));
   EXPECT_FALSE(fs::exists(scratch_ / io::lock_name));
 }
 
 TEST_F(RunFolderTest, TwoStopsInARowWithoutProgressAskForACure) {
-  stopped_run(Exit::resumable, {"block-00000001.bin"});
+  stopped_run(Exit::resumable, {1});
   stopped_run(Exit::resumable, {});
   EXPECT_THAT(stopped_run(Exit::cure, {}), AllOf(HasSubstr("more time"), HasSubstr("go on with --resume")));
   stopped_run(Exit::cure, {});
-  stopped_run(Exit::resumable, {"block-00000002.bin"});
+  stopped_run(Exit::resumable, {2});
   stopped_run(Exit::resumable, {});
   stopped_run(Exit::cure, {});
 }

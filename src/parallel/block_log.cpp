@@ -1,0 +1,299 @@
+#include "parallel/block_log.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <span>
+#include <system_error>
+
+#include "base/durable_file.hpp"
+
+namespace freestand::parallel {
+namespace {
+
+namespace fs = std::filesystem;
+static_assert(std::endian::native == std::endian::little, "block logs are little endian");
+
+// Blocks begin at pages: ranks of one node never write into the same one, and after a gap the next is soon found.
+constexpr std::int64_t page = 4096;
+
+struct Header {
+  std::array<char, 8> magic = {'F', 'S', 'B', 'L', 'O', 'C', 'K', 'S'};
+  std::uint32_t format = 3;
+  std::uint32_t kernel = 0;
+  std::int64_t block = 0, rows = 0, columns = 0;
+  std::array<char, 64> fingerprint{};
+  std::uint64_t values_checksum = 0, checksum = 0;
+
+  std::int64_t bytes() const;  // of the block
+};
+static_assert(sizeof(Header) == 120 && std::is_trivially_copyable_v<Header>);
+
+std::int64_t Header::bytes() const {
+  return static_cast<std::int64_t>(sizeof(Header) + sizeof(double) * static_cast<std::size_t>(rows * columns));
+}
+
+std::uint64_t fnv1a(std::span<const std::byte> bytes) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const std::byte byte : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 1099511628211ULL;
+  return hash;
+}
+
+std::uint64_t checksum_of(const Header& header) {
+  return fnv1a(std::as_bytes(std::span(&header, 1)).first(offsetof(Header, checksum)));
+}
+
+std::int64_t whole_pages(std::int64_t bytes) { return (bytes + page - 1) / page * page; }
+
+std::string text_of(const std::array<char, 64>& fingerprint) {
+  return {fingerprint.begin(), std::find(fingerprint.begin(), fingerprint.end(), '\0')};
+}
+
+class OpenFile {
+ public:
+  OpenFile(const fs::path& path, int flags) : descriptor_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~OpenFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  explicit operator bool() const { return descriptor_ >= 0; }
+  std::int64_t size() const {
+    struct stat status {};
+    return ::fstat(descriptor_, &status) == 0 ? status.st_size : 0;
+  }
+
+  // Are all of them there?
+  bool read(std::span<std::byte> bytes, std::int64_t offset) const {
+    return all(bytes, [&](std::byte* at, std::size_t size, std::size_t done) {
+      return ::pread(descriptor_, at, size, offset + static_cast<std::int64_t>(done));
+    });
+  }
+  bool write(std::span<const std::byte> bytes, std::int64_t offset) const {
+    return all(bytes, [&](const std::byte* at, std::size_t size, std::size_t done) {
+      return ::pwrite(descriptor_, at, size, offset + static_cast<std::int64_t>(done));
+    });
+  }
+  bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
+
+ private:
+  // As often as it takes: calls are interrupted, and do a part.
+  template <class Span, class Call>
+  static bool all(Span bytes, const Call& call) {
+    for (std::size_t done = 0; done < bytes.size();) {
+      const ssize_t count = call(bytes.data() + done, bytes.size() - done, done);
+      if (count < 0 && errno == EINTR) continue;
+      if (count <= 0) return false;
+      done += static_cast<std::size_t>(count);
+    }
+    return true;
+  }
+
+  int descriptor_;
+};
+
+// The header at this place, if a block begins there that the file has room for.
+std::optional<Header> header_at(const OpenFile& file, std::int64_t offset, std::int64_t file_size) {
+  Header header;
+  const Header expected;
+  if (!file.read(std::as_writable_bytes(std::span(&header, 1)), offset)) return {};
+  if (header.magic != expected.magic || header.format != expected.format || header.checksum != checksum_of(header))
+    return {};
+  if (header.rows < 0 || header.columns <= 0 || header.rows > file_size / header.columns) return {};
+  if (offset + header.bytes() > file_size) return {};
+  return header;
+}
+
+// Calls found(header, offset) for each block of a log; for none where it cannot be read.
+void for_each_header(const fs::path& path, const std::function<void(const Header&, std::int64_t)>& found) {
+  const OpenFile file(path, O_RDONLY);
+  if (!file) return;
+  const std::int64_t size = file.size();
+  for (std::int64_t offset = 0; offset < size;) {
+    const auto header = header_at(file, offset, size);
+    if (header) found(*header, offset);
+    offset += header ? whole_pages(header->bytes()) : page;
+  }
+}
+
+struct Log {
+  std::int64_t run, node;
+  fs::path path;
+};
+
+std::vector<Log> logs_in(const fs::path& folder) {
+  std::vector<Log> logs;
+  std::error_code error;
+  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+    long long run = 0, node = 0;
+    int length = 0;
+    const std::string name = i->path().filename().string();
+    if (std::sscanf(name.c_str(), "run-%lld.node-%lld.log%n", &run, &node, &length) == 2 &&
+        length == static_cast<int>(name.size()))
+      logs.push_back({run, node, i->path()});
+  }
+  if (error && error != std::errc::no_such_file_or_directory) throw file_error("read", folder, error.value());
+  return logs;
+}
+
+}  // namespace
+
+BlockLog::BlockLog(fs::path folder, std::string fingerprint, std::uint32_t kernel)
+    : folder_(std::move(folder)), fingerprint_(std::move(fingerprint)), kernel_(kernel) {
+  if (fingerprint_.empty() || fingerprint_.size() > sizeof(Header::fingerprint))
+    throw Error(
+        fmt::format("study fingerprint \"{}\" cannot be stored (1 to 64 characters): shorten it", fingerprint_));
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw file_error("make folder", folder_, error.value());
+}
+
+fs::path BlockLog::log(std::int64_t run, std::int64_t node) const {
+  return folder_ / fmt::format("run-{:04}.node-{:06}.log", run, node);
+}
+
+void BlockLog::find() {
+  places_.clear();
+  run_ = 0;
+  for (const Log& log : logs_in(folder_)) {
+    run_ = std::max(run_, log.run);
+    find_in(log.path, log.run, log.node);
+  }
+  keep_latest();
+}
+
+void BlockLog::find_in(const fs::path& path, std::int64_t run, std::int64_t node) {
+  for_each_header(path, [&](const Header& header, std::int64_t offset) {
+    if (const std::string other = text_of(header.fingerprint); other != fingerprint_)
+      throw OtherBlocks(
+          fmt::format("{} holds samples of another study (its fingerprint is {}, this study's is {}): resume with "
+                      "the study and records it was started with, or choose another output folder",
+                      folder_.string(), other, fingerprint_),
+          other);
+    if (header.kernel != kernel_)
+      throw Error(
+          fmt::format("{} holds samples of another version of freestand, which gives other numbers (kernel {:08x}, "
+                      "this one's is {:08x}): resume with the program it was started with, or start again with "
+                      "--overwrite",
+                      folder_.string(), header.kernel, kernel_));
+    places_.push_back({header.block, run, node, offset});
+  });
+}
+
+// Of several places of one block the last: of the last run, and there the farthest behind.
+void BlockLog::keep_latest() {
+  std::sort(places_.begin(), places_.end(), std::greater<>());
+  places_.erase(
+      std::unique(places_.begin(), places_.end(), [](const Place& a, const Place& b) { return a.block == b.block; }),
+      places_.end());
+  std::reverse(places_.begin(), places_.end());
+}
+
+std::vector<std::int64_t> BlockLog::begin(const Communicator& world) {
+  run_ = world.broadcast(Words{run_ + 1}).front();
+  end_.emplace(world);
+  if (world.is_root()) written_ = std::move(places_);
+  places_.clear();
+  share(world);
+
+  Words damaged(places_.size(), 0);
+  for (std::size_t i = static_cast<std::size_t>(world.rank()); i < places_.size();
+       i += static_cast<std::size_t>(world.size()))
+    damaged[i] = !is_whole(places_[i]);
+  world.sum_in_place(damaged);
+  std::vector<Place> whole;
+  std::vector<std::int64_t> blocks;
+  for (std::size_t i = 0; i < places_.size(); ++i)
+    if (!damaged[i]) whole.push_back(places_[i]), blocks.push_back(places_[i].block);
+  places_ = std::move(whole);
+  return blocks;
+}
+
+bool BlockLog::is_whole(const Place& place) const {
+  try {
+    read(place.block);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+void BlockLog::write(std::int64_t block, const BlockRows& rows) {
+  Header header;
+  header.kernel = kernel_;
+  header.block = block;
+  header.rows = rows.rows();
+  header.columns = rows.columns;
+  std::copy(fingerprint_.begin(), fingerprint_.end(), header.fingerprint.begin());
+  const auto values = std::as_bytes(std::span(rows.values));
+  header.values_checksum = fnv1a(values);
+  header.checksum = checksum_of(header);
+
+  if (!end_) end_.emplace(Communicator());
+  const std::int64_t offset = end_->fetch_add(whole_pages(header.bytes()));
+  const fs::path path = log(run_, end_->node());
+  OpenFile file(path, O_WRONLY | O_CREAT);
+  if (!file || !file.write(std::as_bytes(std::span(&header, 1)), offset) ||
+      !file.write(values, offset + static_cast<std::int64_t>(sizeof header)) || !file.close())
+    throw file_error("write", path, errno);
+  written_.push_back({block, run_, end_->node(), offset});
+}
+
+void BlockLog::share(const Communicator& world) {
+  Words mine;
+  for (const Place& place : std::exchange(written_, {}))
+    mine.insert(mine.end(), {place.block, place.run, place.node, place.offset});
+  Words all;
+  for (const Words& one : world.gather(mine)) all.insert(all.end(), one.begin(), one.end());
+  all = world.broadcast(all);
+  for (std::size_t i = 0; i < all.size(); i += 4) places_.push_back({all[i], all[i + 1], all[i + 2], all[i + 3]});
+  keep_latest();
+}
+
+BlockRows BlockLog::read(std::int64_t block) const {
+  const auto place = std::lower_bound(places_.begin(), places_.end(), Place{block, 0, 0, 0});
+  const auto reject = [&](const fs::path& where, const char* why) {
+    throw Error(
+        fmt::format("block {} of {} cannot be used ({}): --resume computes it again", block, where.string(), why),
+        Exit::data);
+  };
+  if (place == places_.end() || place->block != block) reject(folder_, "it is not there");
+  const fs::path path = log(place->run, place->node);
+  const OpenFile file(path, O_RDONLY);
+  if (!file) reject(path, "the file cannot be read");
+  const auto header = header_at(file, place->offset, file.size());
+  if (!header || header->block != block) reject(path, "torn or damaged");
+  if (text_of(header->fingerprint) != fingerprint_) reject(path, "of another study");
+  if (header->kernel != kernel_) reject(path, "of another version of freestand");
+  BlockRows rows{header->columns, std::vector<double>(static_cast<std::size_t>(header->rows * header->columns))};
+  const auto bytes = std::as_writable_bytes(std::span(rows.values));
+  if (!file.read(bytes, place->offset + static_cast<std::int64_t>(sizeof(Header))) ||
+      fnv1a(bytes) != header->values_checksum)
+    reject(path, "torn or damaged");
+  return rows;
+}
+
+std::int64_t count_blocks(const fs::path& folder) {
+  std::int64_t count = 0;
+  for (const Log& log : logs_in(folder)) for_each_header(log.path, [&](const Header&, std::int64_t) { ++count; });
+  return count;
+}
+
+void remove_blocks(const fs::path& folder) {
+  std::error_code error;
+  for (const Log& log : logs_in(folder))
+    if (!fs::remove(log.path, error) && error) throw file_error("remove", log.path, error.value());
+  if (fs::is_empty(folder, error)) fs::remove(folder, error);
+}
+
+}  // namespace freestand::parallel
