@@ -38,8 +38,7 @@ std::uint64_t default_block_size(std::uint64_t samples) {
 }
 
 constexpr std::uint64_t most_samples = 1ULL << 50;
-constexpr std::uint64_t most_blocks = 1ULL
-                                      << 22;  // each is a file of one folder for a while, and a number on every rank
+constexpr std::uint64_t most_blocks = 1ULL << 22;  // each is some tens of bytes on every rank
 
 void read_until(Section& file, Study& study) {
   const YAML::Node* node = file.find("until");

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "io/own_files.hpp"
@@ -46,6 +49,26 @@ RunFolder::RunFolder(const parallel::Communicator& world, const fs::path& folder
     io::make_output_folder(folder_, existing, writes);
     lock_.emplace(folder_, io::FolderLock::Settings{.lost = parallel::request_stop});
     io::prepare_output_folder(folder_, existing, writes);
+  });
+  refuse_other_folders();
+}
+
+// The root's lock is there for all, or this is not its folder. A network file system may show it late.
+void RunFolder::refuse_other_folders() const {
+  bool seen = false;
+  for (int tries = 0; tries < 200 && !seen; ++tries) {
+    if (tries > 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::error_code ignored;
+    const fs::directory_iterator refreshed(folder_, ignored);
+    seen = fs::exists(folder_ / io::lock_name, ignored);
+  }
+  const auto all = world_.gather({seen});
+  world_.on_root([&] {
+    const auto other = std::find(all.begin(), all.end(), parallel::Words{0});
+    if (other != all.end())
+      throw Error(fmt::format("{} is not the same folder on every node (rank {} does not see what rank 0 has written there): "
+                              "name one on a file system that all nodes share",
+                              folder_.string(), other - all.begin()));
   });
 }
 

@@ -21,7 +21,8 @@ class RunFolder {
   // Makes the folder, takes its lock, and then does with what is in it as `existing` says. `go_on`: what the user is told
   // to do after a stop ("go on with --resume"). `writes`: names that will be written beside the
   // results. A run that has not ended 7 s after it was asked to stop is ended where it
-  // stands. Collective, as all below. Throws Error as io::FolderLock and io::prepare_output_folder do.
+  // stands. Collective, as all below. Throws Error as io::FolderLock and io::prepare_output_folder do, and where the folder is
+  // another one for some rank (Exit::usage): local to its node.
   RunFolder(const parallel::Communicator&, const std::filesystem::path& folder, io::Existing existing,
             std::string go_on, const std::vector<std::string>& writes = {});
 
@@ -42,6 +43,7 @@ class RunFolder {
   void end() const;
 
  private:
+  void refuse_other_folders() const;
   Error stopped() const;
   void overdue();
 

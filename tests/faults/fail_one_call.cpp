@@ -1,0 +1,204 @@
+// A library that is loaded before the C library (LD_PRELOAD): of the calls by which a process changes files below a folder,
+// one fails, or the process dies there. What it is to do stands in the environment:
+//   FAULT_FOLDER   only files below it count
+//   FAULT_CALL     which of the calls, from 1
+//   FAULT_KIND     enospc, eio, eintr: the call fails with that error; short: a write does half; renamed: a rename is done
+//                  and tells ENOENT, as one that a network file system has sent twice; killed: the process dies
+//                  before the call; torn: it dies when half of a write is done
+//   FAULT_LASTING  1: every call from then on, not that one alone
+//   FAULT_RANK     only the process of this rank under mpirun
+//   FAULT_TOLD     a file that is made when the call is reached
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/uio.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+enum class Kind { none, enospc, eio, eintr, short_write, renamed, killed, torn };
+
+const char* setting(const char* name) {
+  const char* text = std::getenv(name);
+  return text ? text : "";
+}
+
+Kind kind_in_environment() {
+  const char* rank = std::getenv("FAULT_RANK");
+  if (rank && std::strcmp(rank, setting("OMPI_COMM_WORLD_RANK")) != 0) return Kind::none;
+  const char* names[] = {"none", "enospc", "eio", "eintr", "short", "renamed", "killed", "torn"};
+  for (int i = 1; i < 8; ++i)
+    if (std::strcmp(setting("FAULT_KIND"), names[i]) == 0) return static_cast<Kind>(i);
+  return Kind::none;
+}
+
+bool is_below(const char* path) {
+  const char* folder = setting("FAULT_FOLDER");
+  return path && *folder && std::strncmp(path, folder, std::strlen(folder)) == 0;
+}
+
+bool is_below(int descriptor) {
+  char name[64], path[PATH_MAX] = {};
+  std::snprintf(name, sizeof name, "/proc/self/fd/%d", descriptor);
+  return ::readlink(name, path, sizeof path - 1) > 0 && is_below(path);
+}
+
+// Is this call, which counts, to fail?
+bool fails() {
+  static std::atomic<long> calls{0};
+  static const long wanted = std::atol(setting("FAULT_CALL"));
+  static const bool lasting = *setting("FAULT_LASTING") == '1';
+  const long call = ++calls;
+  if (call == wanted) ::syscall(SYS_close, ::syscall(SYS_openat, AT_FDCWD, setting("FAULT_TOLD"), O_CREAT | O_WRONLY, 0666));
+  return call == wanted || (lasting && call > wanted);
+}
+
+// What the call is to do, if it changes a file of the folder.
+template <class Where>
+Kind fault(Where where) {
+  static const Kind kind = kind_in_environment();
+  if (kind == Kind::none || !is_below(where) || !fails()) return Kind::none;
+  if (kind == Kind::killed) ::kill(::getpid(), SIGKILL);
+  return kind;
+}
+
+// Does the call fail by its error alone? Interrupted are only calls that may be.
+bool fails_at_once(Kind kind, bool may_be_interrupted) {
+  if (kind == Kind::enospc) errno = ENOSPC;
+  if (kind == Kind::eio) errno = EIO;
+  if (kind == Kind::eintr) errno = EINTR;
+  return kind == Kind::enospc || kind == Kind::eio || (kind == Kind::eintr && may_be_interrupted);
+}
+
+template <class Call>
+Call next(const char* name) {
+  return reinterpret_cast<Call>(::dlsym(RTLD_NEXT, name));
+}
+
+template <class Write>
+ssize_t written(int descriptor, size_t size, const Write& write) {
+  const Kind kind = fault(descriptor);
+  if (fails_at_once(kind, true)) return -1;
+  if ((kind != Kind::short_write && kind != Kind::torn) || size < 2) return write(size);
+  const ssize_t half = write(size / 2);
+  if (kind == Kind::torn) ::kill(::getpid(), SIGKILL);
+  return half;
+}
+
+// Pieces are written by the first alone where a part is asked for.
+template <class Write>
+ssize_t pieces_written(int descriptor, const iovec* pieces, int count, const Write& write) {
+  return written(descriptor, static_cast<size_t>(2 * count), [&](size_t twice) {
+    return twice == static_cast<size_t>(2 * count) || count == 1 ? write(pieces, count) : write(pieces, static_cast<int>(twice / 2));
+  });
+}
+
+bool opens_for_writing(int flags) { return (flags & (O_WRONLY | O_RDWR | O_CREAT)) != 0; }
+
+template <class Open>
+int opened(const char* path, int flags, const Open& open) {
+  if (opens_for_writing(flags) && fails_at_once(fault(path), true)) return -1;
+  return open();
+}
+
+template <class Where, class Call>
+int done(Where where, bool may_be_interrupted, const Call& call) {
+  if (fails_at_once(fault(where), may_be_interrupted)) return -1;
+  return call();
+}
+
+}  // namespace
+
+extern "C" {
+
+ssize_t write(int descriptor, const void* data, size_t size) {
+  static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
+  return written(descriptor, size, [&](size_t part) { return real(descriptor, data, part); });
+}
+ssize_t pwrite(int descriptor, const void* data, size_t size, off_t offset) {
+  static const auto real = next<ssize_t (*)(int, const void*, size_t, off_t)>("pwrite");
+  return written(descriptor, size, [&](size_t part) { return real(descriptor, data, part, offset); });
+}
+ssize_t pwrite64(int descriptor, const void* data, size_t size, off64_t offset) { return pwrite(descriptor, data, size, offset); }
+ssize_t writev(int descriptor, const iovec* pieces, int count) {
+  static const auto real = next<ssize_t (*)(int, const iovec*, int)>("writev");
+  return pieces_written(descriptor, pieces, count, [&](const iovec* some, int n) { return real(descriptor, some, n); });
+}
+ssize_t pwritev(int descriptor, const iovec* pieces, int count, off_t offset) {
+  static const auto real = next<ssize_t (*)(int, const iovec*, int, off_t)>("pwritev");
+  return pieces_written(descriptor, pieces, count, [&](const iovec* some, int n) { return real(descriptor, some, n, offset); });
+}
+ssize_t pwritev64(int descriptor, const iovec* pieces, int count, off64_t offset) { return pwritev(descriptor, pieces, count, offset); }
+
+int open(const char* path, int flags, ...) {
+  std::va_list more;
+  va_start(more, flags);
+  const mode_t mode = (flags & O_CREAT) ? va_arg(more, mode_t) : 0;
+  va_end(more);
+  static const auto real = next<int (*)(const char*, int, ...)>("open");
+  return opened(path, flags, [&] { return real(path, flags, mode); });
+}
+int open64(const char* path, int flags, ...) {
+  std::va_list more;
+  va_start(more, flags);
+  const mode_t mode = (flags & O_CREAT) ? va_arg(more, mode_t) : 0;
+  va_end(more);
+  static const auto real = next<int (*)(const char*, int, ...)>("open64");
+  return opened(path, flags, [&] { return real(path, flags, mode); });
+}
+
+int fsync(int descriptor) {
+  static const auto real = next<int (*)(int)>("fsync");
+  return done(descriptor, true, [&] { return real(descriptor); });
+}
+int fdatasync(int descriptor) {
+  static const auto real = next<int (*)(int)>("fdatasync");
+  return done(descriptor, true, [&] { return real(descriptor); });
+}
+int ftruncate(int descriptor, off_t size) {
+  static const auto real = next<int (*)(int, off_t)>("ftruncate");
+  return done(descriptor, true, [&] { return real(descriptor, size); });
+}
+int ftruncate64(int descriptor, off64_t size) { return ftruncate(descriptor, size); }
+
+int rename(const char* from, const char* to) {
+  static const auto real = next<int (*)(const char*, const char*)>("rename");
+  const Kind kind = fault(to);
+  if (fails_at_once(kind, false)) return -1;
+  const int result = real(from, to);
+  if (kind != Kind::renamed || result != 0) return result;
+  errno = ENOENT;
+  return -1;
+}
+int link(const char* from, const char* to) {
+  static const auto real = next<int (*)(const char*, const char*)>("link");
+  return done(to, false, [&] { return real(from, to); });
+}
+int unlink(const char* path) {
+  static const auto real = next<int (*)(const char*)>("unlink");
+  return done(path, false, [&] { return real(path); });
+}
+int remove(const char* path) {
+  static const auto real = next<int (*)(const char*)>("remove");
+  return done(path, false, [&] { return real(path); });
+}
+int rmdir(const char* path) {
+  static const auto real = next<int (*)(const char*)>("rmdir");
+  return done(path, false, [&] { return real(path); });
+}
+int mkdir(const char* path, mode_t mode) {
+  static const auto real = next<int (*)(const char*, mode_t)>("mkdir");
+  return done(path, false, [&] { return real(path, mode); });
+}
+
+}  // extern "C"

@@ -1,0 +1,110 @@
+"""Each call by which a run changes its folder fails in turn, or the run dies there. The rule: it is done with the right bits, or it tells
+and going on gives the right bits; nothing between.
+
+    faults_test.py [RANKS [EVERY]]     calls 1, 1 + EVERY, ... of every kind of fault, until a run ends before the call is reached
+"""
+
+import collections
+import concurrent.futures
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
+from support import command, result, study_text
+
+LIBRARY = os.environ["FAIL_ONE_CALL"]
+CURE, RESUMABLE = 74, 75
+LEFT = ["bins.csv", "fragility.h5", "ranking.csv", "samples.h5", "study.yaml", "summary.json", "surface.csv"]
+# What may come of it. A call that was interrupted, did a part, or tells an error though it is done, is no reason to end.
+ALLOWED = {"enospc": {0, CURE}, "eio": {0, CURE}, "eintr": {0}, "short": {0}, "renamed": {0}, "killed": None, "torn": None}
+LASTING = ("enospc", "eio")
+
+
+def small_study():
+    text = study_text(samples=128, block_size=32).replace(", axes: [friction.mu_k], resamples: 50", ", resamples: 20")
+    return text.replace("count: 5", "count: 2").replace("edp: [delta, overturned]", "edp: [delta]")
+
+
+class Faults:
+    def __init__(self, ranks, every):
+        self.ranks, self.every = ranks, every
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="freestand-faults-"))
+        self.study = self.folder / "study.yaml"
+        self.study.write_text(small_study())
+        self.run(self.folder / "whole", check=True)
+        self.whole = result(self.folder / "whole")
+
+    def run(self, out, *options, check=False, **settings):
+        environment = {**os.environ, **settings}
+        arguments = command(["run", self.study, "-o", out, "--quiet", *options], self.ranks)
+        if settings and self.ranks > 1:  # the launcher's own files are not meant
+            arguments = arguments[:3] + ["env", f"LD_PRELOAD={LIBRARY}"] + arguments[3:]
+        elif settings:
+            environment["LD_PRELOAD"] = LIBRARY
+        return subprocess.run(arguments, env=environment, capture_output=True, text=True, timeout=120, check=check)
+
+    def one(self, kind, lasting, call):
+        """What is wrong, nothing if all is well; None where the run ended before the call."""
+        name = f"{kind}{'-lasting' if lasting else ''}-{call}"
+        out, told = self.folder / name, self.folder / f"{name}.told"
+        try:
+            done = self.run(out, FAULT_FOLDER=str(out), FAULT_CALL=str(call), FAULT_KIND=kind, FAULT_LASTING="01"[lasting],
+                            FAULT_RANK=str(call % self.ranks) if self.ranks > 1 else "", FAULT_TOLD=str(told))
+            reached = told.exists()
+            wrong = self.wrong(out, kind, done)
+            return (f"{name}: {wrong}\n    {done.returncode}: {done.stderr.strip()[-400:]}" if wrong else "") if reached or wrong else None
+        except subprocess.TimeoutExpired:
+            return f"{name}: hangs"
+        finally:
+            shutil.rmtree(out, ignore_errors=True)
+            told.unlink(missing_ok=True)
+
+    def wrong(self, out, kind, done):
+        allowed = ALLOWED[kind]
+        if allowed is not None and done.returncode not in allowed:
+            return f"ends with {done.returncode}"
+        if done.returncode != 0 and allowed is not None and (not done.stderr.strip() or "unexpected" in done.stderr):
+            return "does not say what happened"
+        if done.returncode == 0:
+            return self.other(out, "is done, but")
+        for _ in range(2):  # where a rank has died, its lock is watched first
+            again = self.run(out, "--resume")
+            if again.returncode != RESUMABLE:
+                break
+        if again.returncode != 0:
+            return f"going on ends with {again.returncode}: {again.stderr.strip()[-400:]}"
+        return self.other(out, "gone on,")
+
+    def other(self, out, when):
+        if result(out) != self.whole:
+            return f"{when} the numbers are others"
+        names = sorted(path.name for path in out.iterdir())
+        return "" if names == LEFT else f"{when} {sorted(set(names) ^ set(LEFT))} is there or missing"
+
+    def all(self):
+        counts, faults = collections.Counter(), []
+        kinds = [(kind, False) for kind in ALLOWED] + [(kind, True) for kind in LASTING]
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            for kind, lasting in kinds:
+                call, ended = 1, False
+                while not ended:
+                    calls = [call + self.every * i for i in range(16)]
+                    call = calls[-1] + self.every
+                    for wrong in pool.map(lambda one: self.one(kind, lasting, one), calls):
+                        ended = ended or wrong is None
+                        counts[kind + (", lasting" if lasting else "")] += wrong is not None
+                        if wrong:
+                            faults.append(wrong)
+                            print(wrong, flush=True)
+        shutil.rmtree(self.folder)
+        print(f"{self.ranks} ranks: {sum(counts.values())} faults, {len(faults)} answered wrongly:", dict(counts), flush=True)
+        return not faults
+
+
+if __name__ == "__main__":
+    numbers = [int(text) for text in sys.argv[1:]] + [1, 1][len(sys.argv) - 1:]
+    sys.exit(0 if Faults(*numbers).all() else 1)
