@@ -1,12 +1,15 @@
 #include "base/durable_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <system_error>
+
+#include "base/file_calls.hpp"
 
 namespace freestand {
 namespace {
@@ -33,6 +36,9 @@ Advice advice(int error_number) {
     case EACCES:
     case EPERM:
       return {"choose a folder that you may write to, or change its permissions", Exit::usage};
+    case EINTR:
+    case ESTALE:
+      return {"start again; a sweep keeps its finished blocks", Exit::resumable};
     case ENOENT:
     case ENOTDIR:
       return {"check the path", Exit::usage};
@@ -41,11 +47,15 @@ Advice advice(int error_number) {
   }
 }
 
+int sync_descriptor(int descriptor) {
+  return uninterrupted([&] { return ::fsync(descriptor); });
+}
+
 // An open file that goes away unless it is kept.
 class AsideFile {
  public:
   explicit AsideFile(const fs::path& path, const fs::path& final_path) : path_(path), final_path_(final_path) {
-    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    descriptor_ = uninterrupted([&] { return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666); });
     if (descriptor_ < 0) throw file_error("write", final_path, errno);
   }
   ~AsideFile() {
@@ -56,16 +66,12 @@ class AsideFile {
   AsideFile& operator=(const AsideFile&) = delete;
 
   void write(std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count < 0) throw file_error("write", final_path_, errno);
-      bytes = bytes.subspan(static_cast<std::size_t>(count));
-    }
+    if (!all_done(bytes, [&](auto part, std::size_t) { return ::write(descriptor_, part.data(), part.size()); }))
+      throw file_error("write", final_path_, errno);
   }
 
   void sync() const {
-    if (::fsync(descriptor_) != 0 && errno != EINVAL) throw file_error("write", final_path_, errno);
+    if (sync_descriptor(descriptor_) != 0 && errno != EINVAL) throw file_error("write", final_path_, errno);
   }
 
   void close() {
@@ -82,9 +88,9 @@ class AsideFile {
 };
 
 void sync_path(const fs::path& path, int flags) {
-  const int descriptor = ::open(path.c_str(), flags | O_CLOEXEC);
+  const int descriptor = uninterrupted([&] { return ::open(path.c_str(), flags | O_CLOEXEC); });
   if (descriptor < 0) throw file_error("open", path, errno);
-  const int result = ::fsync(descriptor);
+  const int result = sync_descriptor(descriptor);
   const int error_number = errno;
   ::close(descriptor);
   if (result != 0 && error_number != EINVAL) throw file_error("write", path, error_number);
@@ -92,8 +98,17 @@ void sync_path(const fs::path& path, int flags) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
+// By which a file system knows a file, whatever its name; 0 where there is none.
+std::int64_t file_number(const fs::path& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0 ? static_cast<std::int64_t>(status.st_ino) : 0;
+}
+
+// A network file system that has sent a rename twice says that there is nothing to rename, and has done it.
 void rename_and_sync(const fs::path& aside, const fs::path& path) {
-  if (::rename(aside.c_str(), path.c_str()) != 0) throw file_error("write", path, errno);
+  const std::int64_t number = file_number(aside);
+  if (::rename(aside.c_str(), path.c_str()) != 0 && (errno != ENOENT || file_number(path) != number))
+    throw file_error("write", path, errno);
   sync_path(folder_of(path), O_RDONLY | O_DIRECTORY);
 }
 

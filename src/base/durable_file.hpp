@@ -12,7 +12,8 @@ namespace freestand {
 
 // What went wrong with `path`, from errno, as "cannot ACTION PATH (why): what to do". A full disk, a quota or a file
 // size limit, a file system that is read-only and a device that fails are Exit::cure: what was finished is kept, but going
-// on before they are cured would fail again. A missing right or folder is Exit::usage.
+// on before they are cured would fail again. A missing right or folder is Exit::usage. What may go away by itself, a call that
+// was interrupted or a file handle that a server no longer knows, is Exit::resumable.
 Error file_error(const std::string& action, const std::filesystem::path& path, int error_number);
 
 // PATH with ".HOST.PID.part" behind its name and a dot before it: no other process of the run writes there.

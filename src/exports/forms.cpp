@@ -116,7 +116,7 @@ Refusal make_parts(LimitState& state, const Wanted& wanted, const fragility::Res
   state.curve.form = Form::parts;
   state.curve.ln_capacity = edp.binary ? 0 : std::log(state.capacity);
   std::vector<PartsPoint>& parts = state.curve.parts;
-  parts.clear();
+  parts.assign(1, {0, 0, 1, NAN, NAN});  // without shaking
   for (const Bin& bin : state.bins) {
     const BinFit& fit = edp.bins[bin.index];
     if (!edp.binary && fit.n_moved > 0 && fit.status != BinStatus::fitted)
@@ -128,7 +128,6 @@ Refusal make_parts(LimitState& state, const Wanted& wanted, const fragility::Res
   }
   if (!borrow_lognormals(parts))
     return fmt::format("{} has no three parts (nothing moved in any bin): use --form discrete", label(wanted));
-  parts.insert(parts.begin(), {0, 0, 1, parts.front().lambda, parts.front().omega});
   state.why = "the three parts of each bin";
   return {};
 }

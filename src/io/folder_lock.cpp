@@ -18,6 +18,7 @@
 #include <sstream>
 
 #include "base/durable_file.hpp"
+#include "base/file_calls.hpp"
 
 namespace freestand::io {
 namespace {
@@ -97,8 +98,9 @@ std::optional<Found> look_at(const fs::path& path) {
     if (errno == ENOENT) return {};
     throw file_error("read", path, errno);
   }
-  std::ifstream file(path);
-  return Found{{std::istreambuf_iterator<char>(file), {}}, status.st_mtim};
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return Found{text.str(), status.st_mtim};
 }
 
 enum class Holder { alive, dead, out_of_sight };
@@ -174,14 +176,15 @@ FolderLock::~FolderLock() {
 
 // False: there is one already.
 bool FolderLock::create() {
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+  descriptor_ = uninterrupted([&] { return ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644); });
   if (descriptor_ < 0 && errno == EEXIST) return false;
   if (descriptor_ < 0) throw file_error("write", path_, errno);
   const std::string text = description_of_ours();
-  const ssize_t count = ::write(descriptor_, text.data(), text.size());
-  const bool whole = count == static_cast<ssize_t>(text.size());
-  if (whole && (::fsync(descriptor_) == 0 || errno == EINVAL)) return true;
-  const int error_number = count < 0 || whole ? errno : ENOSPC;
+  if (all_done(std::span(text),
+               [&](auto part, std::size_t) { return ::write(descriptor_, part.data(), part.size()); }) &&
+      (uninterrupted([&] { return ::fsync(descriptor_); }) == 0 || errno == EINVAL))
+    return true;
+  const int error_number = errno;
   ::unlink(path_.c_str());
   ::close(descriptor_);
   throw file_error("write", path_, error_number);

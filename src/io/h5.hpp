@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/durable_file.hpp"
+
 namespace freestand::io::h5 {
 
 using Id = std::int64_t;
@@ -144,9 +146,9 @@ class File {
   static File create_together(const std::filesystem::path& path, const Layout& layout) {
     const std::filesystem::path aside = aside_together(path);
     if (world_rank() == 0) {
-      File file = create_at(aside, path);
+      File file = create(path);
       layout(file);
-      file.hand_over();
+      write_durably(aside, file.image());
     }
     return open_together(aside, path);
   }
@@ -167,9 +169,8 @@ class File {
   struct State;
   explicit File(std::unique_ptr<State> state);
   static std::filesystem::path aside_together(const std::filesystem::path& path);
-  static File create_at(const std::filesystem::path& aside, const std::filesystem::path& path);
   static File open_together(const std::filesystem::path& aside, const std::filesystem::path& path);
-  void hand_over();
+  std::string image() const;  // the bytes of a file that is made
 
   std::unique_ptr<State> state_;
 };

@@ -2,6 +2,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <exception>
 #include <freestand/error.hpp>
@@ -44,13 +45,16 @@ herr_t collect(unsigned, const H5E_error2_t* error, void* into) {
   return 0;
 }
 
-enum class Access { reading, writing, together };
+enum class Access { reading, making, writing, together };
 
-// A file that is written is closed with all that is open in it; one that is read lives as long as anything in it.
+// A file that is written is closed with all that is open in it; one that is read lives as long as anything in it. A new one is
+// made in memory, where nothing fails: HDF5 (1.10) does not survive a close that fails, not even until the end of MPI.
 Handle file_access(Access how, const std::string& name) {
   Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, name, "file access settings", Doing::writing);
   H5Pset_fclose_degree(access.id(), how == Access::reading ? H5F_CLOSE_WEAK : H5F_CLOSE_STRONG);
   H5Pset_file_locking(access.id(), true, true);
+  H5Pset_sieve_buf_size(access.id(), 0);  // data that waits for its dataset's end is lost where writing it fails there
+  if (how == Access::making) H5Pset_fapl_core(access.id(), 1U << 20, false);
   if (how == Access::together) {
     H5Pset_fapl_mpio(access.id(), MPI_COMM_WORLD, MPI_INFO_NULL);
     H5Pset_all_coll_metadata_ops(access.id(), true);
@@ -139,7 +143,7 @@ void close_unwanted(Handle& file) {
 
 struct File::State {
   Handle file;
-  fs::path aside, path;  // aside is empty for a file that is read
+  fs::path aside, path;  // aside is empty for a file that is read or made
   bool together = false;
   std::shared_ptr<const std::string> name;
 
@@ -158,23 +162,20 @@ File::File(std::unique_ptr<State> state) : state_(std::move(state)) {}
 File::File(File&&) noexcept = default;
 File::~File() = default;
 
-File File::create(const fs::path& path) { return create_at(aside_name(path), path); }
-
-fs::path File::aside_together(const fs::path& path) {
-  return path.parent_path() / fmt::format(".{}.part", path.filename().string());
-}
-
-File File::create_at(const fs::path& aside, const fs::path& path) {
+File File::create(const fs::path& path) {
   start_library();
   auto state = std::make_unique<State>();
   state->path = path;
   state->name = std::make_shared<const std::string>(path.string());
-  const Handle access = file_access(Access::writing, *state->name);
+  const Handle access = file_access(Access::making, *state->name);
   const Handle creation = group_properties(*state->name, true);
-  state->file = checked(H5Fcreate(aside.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, *state->name,
+  state->file = checked(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, *state->name,
                         "the file cannot be made", Doing::writing);
-  state->aside = aside;
   return File(std::move(state));
+}
+
+fs::path File::aside_together(const fs::path& path) {
+  return path.parent_path() / fmt::format(".{}.part", path.filename().string());
 }
 
 File File::open_together(const fs::path& aside, const fs::path& path) {
@@ -208,26 +209,32 @@ Group File::root() const {
   return Group(std::move(group), state_->name, state_->together);
 }
 
-void File::hand_over() {
+std::string File::image() const {
+  const Id id = state_->file.id();
   const std::string& name = *state_->name;
-  if (H5Fflush(state_->file.id(), H5F_SCOPE_GLOBAL) < 0) throw failure(name, "not all is written", Doing::writing);
-  const Id id = state_->file.release();
-  if (H5Fclose(id) < 0) throw failure(name, "closing failed", Doing::writing);
-  state_->aside.clear();
+  if (H5Fflush(id, H5F_SCOPE_GLOBAL) < 0) throw failure(name, "not all is written", Doing::writing);
+  const ssize_t size = H5Fget_file_image(id, nullptr, 0);
+  std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
+  if (size <= 0 || H5Fget_file_image(id, bytes.data(), bytes.size()) != size)
+    throw failure(name, "it cannot be copied out of memory", Doing::writing);
+  return bytes;
 }
 
 void File::finish() {
-  const fs::path aside = state_->aside;
-  hand_over();
+  const std::string& name = *state_->name;
+  if (state_->aside.empty()) return write_durably(state_->path, image());
+  if (H5Fflush(state_->file.id(), H5F_SCOPE_GLOBAL) < 0) throw failure(name, "not all is written", Doing::writing);
+  if (H5Fclose(state_->file.release()) < 0) throw failure(name, "closing failed", Doing::writing);
   if (world_rank() == 0 || !state_->together) {
     try {
-      publish_durably(aside, state_->path);
+      publish_durably(state_->aside, state_->path);
     } catch (...) {
-      ::unlink(aside.c_str());
+      ::unlink(state_->aside.c_str());
       throw;
     }
   }
   if (state_->together) MPI_Barrier(MPI_COMM_WORLD);
+  state_->aside.clear();
 }
 
 }  // namespace freestand::io::h5

@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "base/durable_file.hpp"
+#include "base/file_calls.hpp"
 
 namespace freestand::parallel {
 namespace {
@@ -60,7 +61,8 @@ std::string text_of(const std::array<char, 64>& fingerprint) {
 
 class OpenFile {
  public:
-  OpenFile(const fs::path& path, int flags) : descriptor_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  OpenFile(const fs::path& path, int flags)
+      : descriptor_(uninterrupted([&] { return ::open(path.c_str(), flags | O_CLOEXEC, 0666); })) {}
   ~OpenFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
   }
@@ -75,30 +77,18 @@ class OpenFile {
 
   // Are all of them there?
   bool read(std::span<std::byte> bytes, std::int64_t offset) const {
-    return all(bytes, [&](std::byte* at, std::size_t size, std::size_t done) {
-      return ::pread(descriptor_, at, size, offset + static_cast<std::int64_t>(done));
+    return all_done(bytes, [&](auto part, std::size_t done) {
+      return ::pread(descriptor_, part.data(), part.size(), offset + static_cast<std::int64_t>(done));
     });
   }
   bool write(std::span<const std::byte> bytes, std::int64_t offset) const {
-    return all(bytes, [&](const std::byte* at, std::size_t size, std::size_t done) {
-      return ::pwrite(descriptor_, at, size, offset + static_cast<std::int64_t>(done));
+    return all_done(bytes, [&](auto part, std::size_t done) {
+      return ::pwrite(descriptor_, part.data(), part.size(), offset + static_cast<std::int64_t>(done));
     });
   }
   bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
 
  private:
-  // As often as it takes: calls are interrupted, and do a part.
-  template <class Span, class Call>
-  static bool all(Span bytes, const Call& call) {
-    for (std::size_t done = 0; done < bytes.size();) {
-      const ssize_t count = call(bytes.data() + done, bytes.size() - done, done);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return false;
-      done += static_cast<std::size_t>(count);
-    }
-    return true;
-  }
-
   int descriptor_;
 };
 
