@@ -11,16 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "base/durable_file.hpp"
-
 namespace freestand::io::h5 {
 
 using Id = std::int64_t;
 using Dimensions = std::vector<std::uint64_t>;
-
-// Ranks of the run as HDF5 sees them: 0 of 1 where MPI was not started.
-int world_rank();
-int world_size();
 
 // One identifier, closed when it goes. Empty when moved from.
 class Handle {
@@ -87,12 +81,11 @@ class Dataset : public Object {
   std::vector<double> read() const;
   std::vector<std::string> read_texts() const;
 
-  // Rows first .. first+count-1 of a one-dimensional dataset. In a file opened with open_together, write_rows is
-  // collective: every rank calls it, with count 0 where it has nothing.
-  void write_rows(std::uint64_t first, const std::vector<double>& values);
-  void write_rows(std::uint64_t first, const std::vector<std::int32_t>& values);
-  void write_rows(std::uint64_t first, const std::vector<std::uint8_t>& values);
+  // Rows first .. first+count-1 of a one-dimensional dataset.
   std::vector<double> read_rows(std::uint64_t first, std::uint64_t count) const;
+
+  // Where the values of a reserved dataset begin in the file [bytes], one behind the other, little endian.
+  std::int64_t offset() const;
 
   // Makes it a dimension scale of this name; attaches a scale to a dimension.
   Dataset& scale(const std::string& name);
@@ -102,9 +95,7 @@ class Dataset : public Object {
 
  private:
   friend class Group;
-  Dataset(Handle handle, std::shared_ptr<const std::string> file, bool together)
-      : Object(std::move(handle), std::move(file)), together_(together) {}
-  bool together_;
+  using Object::Object;
 };
 
 class Group : public Object {
@@ -114,8 +105,8 @@ class Group : public Object {
   bool has(const std::string& name) const;
   std::vector<std::string> names() const;  // of what is in it, in the order of creation
 
-  // A dataset without values yet: contiguous, not filled.
-  Dataset make_dataset(const std::string& name, Type type, const Dimensions& dimensions);
+  // A dataset without values: its place in the file is reserved, they are written there when the file is closed.
+  Dataset reserve_dataset(const std::string& name, Type type, const Dimensions& dimensions);
   Dataset open_dataset(const std::string& name) const;
 
   // A dataset with its values.
@@ -127,11 +118,10 @@ class Group : public Object {
 
  protected:
   friend class File;
+  Dataset make_dataset(const std::string& name, Type type, const Dimensions& dimensions, bool reserved);
   template <class T>
   Dataset put_values(const std::string& name, const std::vector<T>& values, Dimensions dimensions);
-  Group(Handle handle, std::shared_ptr<const std::string> file, bool together)
-      : Object(std::move(handle), std::move(file)), together_(together) {}
-  bool together_ = false;
+  using Object::Object;
 };
 
 class File {
@@ -139,26 +129,16 @@ class File {
   // A new file, by this process alone. It has its name after finish(); without finish() nothing is left.
   static File create(const std::filesystem::path& path);
 
-  // A new file by all ranks: `layout` makes groups, datasets and attributes, on rank 0 alone; then every rank holds the
-  // file, for Dataset::write_rows. finish() gives it its name. Collective. The file is the same to the byte for any
-  // number of ranks. Without mpirun there is one rank.
-  template <class Layout>
-  static File create_together(const std::filesystem::path& path, const Layout& layout) {
-    const std::filesystem::path aside = aside_together(path);
-    if (world_rank() == 0) {
-      File file = create(path);
-      layout(file);
-      write_durably(aside, file.image());
-    }
-    return open_together(aside, path);
-  }
+  // A new file at `aside`, which messages call `path`, for datasets that are reserved. It is there, for whoever writes their
+  // values and renames it, after close(); without close() nothing is left.
+  static File create_at(const std::filesystem::path& aside, const std::filesystem::path& path);
+  void close();
 
   // An existing file, to read. Any number of processes at once. Throws Error (Exit::data) if it is not HDF5.
   static File open(const std::filesystem::path& path);
 
   Group root() const;
-  // Closes, syncs, renames. Collective for a file made together.
-  void finish();
+  void finish();  // of a file that create() has made
 
   ~File();
   File(File&&) noexcept;
@@ -168,9 +148,6 @@ class File {
  private:
   struct State;
   explicit File(std::unique_ptr<State> state);
-  static std::filesystem::path aside_together(const std::filesystem::path& path);
-  static File open_together(const std::filesystem::path& aside, const std::filesystem::path& path);
-  std::string image() const;  // the bytes of a file that is made
 
   std::unique_ptr<State> state_;
 };

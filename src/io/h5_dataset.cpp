@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cstring>
 #include <freestand/error.hpp>
 #include <functional>
 #include <numeric>
@@ -53,22 +52,6 @@ struct RowSpaces {
   }
 };
 
-template <class T>
-void write_slab(Id dataset, const std::string& file, bool together, std::uint64_t first, const std::vector<T>& values) {
-  const RowSpaces spaces(dataset, file, first, values.size());
-  const Handle transfer = checked(H5Pcreate(H5P_DATASET_XFER), H5Pclose, file, "transfer settings", Doing::writing);
-  if (together) H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE);
-  const std::string name = name_of(dataset);
-  if (H5Dwrite(dataset, memory_type<T>(), spaces.memory.id(), spaces.file.id(), transfer.id(), values.data()) < 0)
-    throw failure(file, name, Doing::writing);
-  if (!together) return;
-  // Open MPI takes a write that did a part, as at the end of a disk's space, for a whole one (4.1). The ranks that wrote read.
-  std::vector<T> there(values.size());
-  if (H5Dread(dataset, memory_type<T>(), spaces.memory.id(), spaces.file.id(), transfer.id(), there.data()) < 0 ||
-      (!values.empty() && std::memcmp(there.data(), values.data(), values.size() * sizeof(T)) != 0))
-    throw failure(file, name + " is not there as it was written", Doing::writing);
-}
-
 }  // namespace
 
 Dimensions Dataset::dimensions() const {
@@ -116,15 +99,7 @@ std::vector<std::string> Dataset::read_texts() const {
   return values;
 }
 
-void Dataset::write_rows(std::uint64_t first, const std::vector<double>& values) {
-  write_slab(id(), *file_, together_, first, values);
-}
-void Dataset::write_rows(std::uint64_t first, const std::vector<std::int32_t>& values) {
-  write_slab(id(), *file_, together_, first, values);
-}
-void Dataset::write_rows(std::uint64_t first, const std::vector<std::uint8_t>& values) {
-  write_slab(id(), *file_, together_, first, values);
-}
+std::int64_t Dataset::offset() const { return static_cast<std::int64_t>(H5Dget_offset(id())); }
 
 std::vector<double> Dataset::read_rows(std::uint64_t first, std::uint64_t count) const {
   std::vector<double> values(count);

@@ -45,44 +45,20 @@ herr_t collect(unsigned, const H5E_error2_t* error, void* into) {
   return 0;
 }
 
-enum class Access { reading, making, writing, together };
+enum class Access { reading, making, writing };
 
 // A file that is written is closed with all that is open in it; one that is read lives as long as anything in it. A new one is
-// made in memory, where nothing fails: HDF5 (1.10) does not survive a close that fails, not even until the end of MPI.
+// made in memory, where nothing fails.
 Handle file_access(Access how, const std::string& name) {
   Handle access = checked(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, name, "file access settings", Doing::writing);
   H5Pset_fclose_degree(access.id(), how == Access::reading ? H5F_CLOSE_WEAK : H5F_CLOSE_STRONG);
   H5Pset_file_locking(access.id(), true, true);
   H5Pset_sieve_buf_size(access.id(), 0);  // data that waits for its dataset's end is lost where writing it fails there
   if (how == Access::making) H5Pset_fapl_core(access.id(), 1U << 20, false);
-  if (how == Access::together) {
-    H5Pset_fapl_mpio(access.id(), MPI_COMM_WORLD, MPI_INFO_NULL);
-    H5Pset_all_coll_metadata_ops(access.id(), true);
-    H5Pset_coll_metadata_write(access.id(), true);
-  }
   return access;
 }
 
-bool mpi_runs() {
-  int initialized = 0, finalized = 0;
-  MPI_Initialized(&initialized);
-  if (initialized) MPI_Finalized(&finalized);
-  return initialized && !finalized;
-}
-
 }  // namespace
-
-int world_rank() {
-  int rank = 0;
-  if (mpi_runs()) MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  return rank;
-}
-
-int world_size() {
-  int size = 1;
-  if (mpi_runs()) MPI_Comm_size(MPI_COMM_WORLD, &size);
-  return size;
-}
 
 Error failure(const std::string& file, const std::string& what, Doing doing) {
   Reasons reasons;
@@ -125,9 +101,9 @@ Handle group_properties(const std::string& file, bool for_file) {
 
 namespace {
 
-// Closes a file that will not be kept. What HDF5 still holds for it may not fit on a full disk, and HDF5 (1.10) does
-// not survive a close that fails: the rest goes into memory instead.
-void close_unwanted(Handle& file) {
+// Closes a file of which all that matters is written. What HDF5 still holds for it may not fit on a full disk, and HDF5
+// (1.10) does not survive a close that fails, not even until the end of MPI: the rest goes into memory instead.
+void close_without_writing(Handle& file) {
   void* descriptor = nullptr;
   if (file.id() >= 0 && H5Fget_vfd_handle(file.id(), H5P_DEFAULT, &descriptor) >= 0 && descriptor) {
     const int memory = ::memfd_create("freestand", MFD_CLOEXEC);
@@ -143,18 +119,13 @@ void close_unwanted(Handle& file) {
 
 struct File::State {
   Handle file;
-  fs::path aside, path;  // aside is empty for a file that is read or made
-  bool together = false;
+  fs::path aside, path;  // aside is empty but for a file that create_at() has made
   std::shared_ptr<const std::string> name;
 
-  // Closing a file together would wait for ranks that do not come.
   ~State() {
     if (aside.empty()) return;
-    if (together)
-      file.release();
-    else
-      close_unwanted(file);
-    if (!together || world_rank() == 0) ::unlink(aside.c_str());
+    close_without_writing(file);
+    ::unlink(aside.c_str());
   }
 };
 
@@ -174,21 +145,16 @@ File File::create(const fs::path& path) {
   return File(std::move(state));
 }
 
-fs::path File::aside_together(const fs::path& path) {
-  return path.parent_path() / fmt::format(".{}.part", path.filename().string());
-}
-
-File File::open_together(const fs::path& aside, const fs::path& path) {
+File File::create_at(const fs::path& aside, const fs::path& path) {
   start_library();
   auto state = std::make_unique<State>();
   state->path = path;
-  state->aside = aside;
-  state->together = world_size() > 1;
   state->name = std::make_shared<const std::string>(path.string());
-  if (state->together) MPI_Barrier(MPI_COMM_WORLD);
-  const Handle access = file_access(state->together ? Access::together : Access::writing, *state->name);
-  state->file = checked(H5Fopen(aside.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose, *state->name,
-                        "the file cannot be opened by all ranks", Doing::writing);
+  const Handle access = file_access(Access::writing, *state->name);
+  const Handle creation = group_properties(*state->name, true);
+  state->file = checked(H5Fcreate(aside.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose, *state->name,
+                        "the file cannot be made", Doing::writing);
+  state->aside = aside;
   return File(std::move(state));
 }
 
@@ -206,10 +172,17 @@ File File::open(const fs::path& path) {
 Group File::root() const {
   Handle group =
       checked(H5Gopen2(state_->file.id(), "/", H5P_DEFAULT), H5Gclose, *state_->name, "no root group", Doing::reading);
-  return Group(std::move(group), state_->name, state_->together);
+  return Group(std::move(group), state_->name);
 }
 
-std::string File::image() const {
+void File::close() {
+  if (H5Fflush(state_->file.id(), H5F_SCOPE_GLOBAL) < 0)
+    throw failure(*state_->name, "not all is written", Doing::writing);
+  close_without_writing(state_->file);
+  state_->aside.clear();
+}
+
+void File::finish() {
   const Id id = state_->file.id();
   const std::string& name = *state_->name;
   if (H5Fflush(id, H5F_SCOPE_GLOBAL) < 0) throw failure(name, "not all is written", Doing::writing);
@@ -217,24 +190,7 @@ std::string File::image() const {
   std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
   if (size <= 0 || H5Fget_file_image(id, bytes.data(), bytes.size()) != size)
     throw failure(name, "it cannot be copied out of memory", Doing::writing);
-  return bytes;
-}
-
-void File::finish() {
-  const std::string& name = *state_->name;
-  if (state_->aside.empty()) return write_durably(state_->path, image());
-  if (H5Fflush(state_->file.id(), H5F_SCOPE_GLOBAL) < 0) throw failure(name, "not all is written", Doing::writing);
-  if (H5Fclose(state_->file.release()) < 0) throw failure(name, "closing failed", Doing::writing);
-  if (world_rank() == 0 || !state_->together) {
-    try {
-      publish_durably(state_->aside, state_->path);
-    } catch (...) {
-      ::unlink(state_->aside.c_str());
-      throw;
-    }
-  }
-  if (state_->together) MPI_Barrier(MPI_COMM_WORLD);
-  state_->aside.clear();
+  write_durably(state_->path, bytes);
 }
 
 }  // namespace freestand::io::h5

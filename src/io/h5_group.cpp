@@ -56,13 +56,13 @@ Group Group::make_group(const std::string& name) {
   const Handle properties = group_properties(*file_, false);
   Handle group = checked(H5Gcreate2(id(), name.c_str(), H5P_DEFAULT, properties.id(), H5P_DEFAULT), H5Gclose, *file_,
                          "group " + name + " cannot be made", Doing::writing);
-  return Group(std::move(group), file_, together_);
+  return Group(std::move(group), file_);
 }
 
 Group Group::open_group(const std::string& name) const {
   Handle group =
       checked(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), H5Gclose, *file_, "no group " + name, Doing::reading);
-  return Group(std::move(group), file_, together_);
+  return Group(std::move(group), file_);
 }
 
 bool Group::has(const std::string& name) const { return H5Lexists(id(), name.c_str(), H5P_DEFAULT) > 0; }
@@ -78,28 +78,36 @@ std::vector<std::string> Group::names() const {
   return names;
 }
 
-Dataset Group::make_dataset(const std::string& name, Type type, const Dimensions& dimensions) {
+Dataset Group::make_dataset(const std::string& name, Type type, const Dimensions& dimensions, bool reserved) {
   const std::string what = "dataset " + name + " cannot be made";
   const std::vector<hsize_t> extent(dimensions.begin(), dimensions.end());
   const Handle space = checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose,
                                *file_, what, Doing::writing);
   const Handle properties = dataset_properties(*file_);
+  if (reserved) {
+    H5Pset_alloc_time(properties.id(), H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(properties.id(), H5D_FILL_TIME_NEVER);
+  }
   Handle dataset =
       checked(H5Dcreate2(id(), name.c_str(), file_type(type), space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
               H5Dclose, *file_, what, Doing::writing);
-  return Dataset(std::move(dataset), file_, together_);
+  return Dataset(std::move(dataset), file_);
+}
+
+Dataset Group::reserve_dataset(const std::string& name, Type type, const Dimensions& dimensions) {
+  return make_dataset(name, type, dimensions, true);
 }
 
 Dataset Group::open_dataset(const std::string& name) const {
   Handle dataset =
       checked(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose, *file_, "no dataset " + name, Doing::reading);
-  return Dataset(std::move(dataset), file_, together_);
+  return Dataset(std::move(dataset), file_);
 }
 
 template <class T>
 Dataset Group::put_values(const std::string& name, const std::vector<T>& values, Dimensions dimensions) {
   if (dimensions.empty()) dimensions = {values.size()};
-  Dataset dataset = make_dataset(name, type_for<T>(), dimensions);
+  Dataset dataset = make_dataset(name, type_for<T>(), dimensions, false);
   dataset.write(values);
   return dataset;
 }
@@ -130,7 +138,7 @@ Dataset Group::put(const std::string& name, const std::vector<std::string>& valu
   for (const std::string& value : values) texts.push_back(value.c_str());
   if (!texts.empty() && H5Dwrite(dataset.id(), type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, texts.data()) < 0)
     throw failure(*file_, "dataset " + name, Doing::writing);
-  return Dataset(std::move(dataset), file_, together_);
+  return Dataset(std::move(dataset), file_);
 }
 
 }  // namespace freestand::io::h5

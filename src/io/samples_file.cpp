@@ -1,6 +1,8 @@
 #include "io/samples_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,11 @@
 #include <freestand/response.hpp>
 #include <limits>
 #include <numeric>
+#include <span>
+
+#include "base/durable_file.hpp"
+#include "base/open_file.hpp"
+#include "io/h5.hpp"
 
 namespace freestand::io {
 namespace {
@@ -90,19 +97,28 @@ void lay_out(h5::Group& group, const MotionRows& motions) {
       .describe("m/s2", "pseudo-spectral acceleration at scale 1, 5 % damping; of pulses with a period of 1 s");
 }
 
-void lay_out(h5::File& file, const SamplesHeader& header, std::int64_t rows) {
+// Where the values of each column begin in the file, those of the samples' numbers at the end.
+parallel::Words lay_out(const std::filesystem::path& aside, const std::filesystem::path& path,
+                        const SamplesHeader& header, std::int64_t rows) {
+  const h5::Dimensions all{static_cast<std::uint64_t>(rows)};
+  parallel::Words places;
+  h5::File file = h5::File::create_at(aside, path);
   h5::Group root = file.root();
   write_provenance(root, samples_format, header.provenance);
   h5::Group samples = root.make_group("samples");
-  h5::Dataset scale = samples.put("sample", counted(static_cast<std::size_t>(rows)));
+  h5::Dataset scale = samples.reserve_dataset("sample", h5::Type::integer64, all);
   scale.scale("sample").describe("", "number of the sample");
   for (const Column& column : header.columns) {
-    h5::Dataset dataset = samples.make_dataset(column.name, type_of(column.kind), {static_cast<std::uint64_t>(rows)});
+    h5::Dataset dataset = samples.reserve_dataset(column.name, type_of(column.kind), all);
     dataset.attach(0, scale).describe(column.unit, column.description);
     if (column.name == "outcome") describe_outcome(dataset);
+    places.push_back(dataset.offset());
   }
+  places.push_back(scale.offset());
   h5::Group motions = root.make_group("motions");
   lay_out(motions, header.motions);
+  file.close();
+  return places;
 }
 
 // Rows of consecutive blocks, row-major.
@@ -125,19 +141,58 @@ Slab read_slab(const BlockLayout& layout, std::size_t columns, std::int64_t firs
   return slab;
 }
 
-void write_slab(h5::Group& samples, const std::vector<Column>& columns, const Slab& slab) {
-  const std::size_t rows = slab.values.size() / columns.size();
-  std::vector<double> values(rows);
-  for (std::size_t c = 0; c < columns.size(); ++c) {
-    for (std::size_t row = 0; row < rows; ++row) values[row] = slab.values[row * columns.size() + c];
-    h5::Dataset dataset = samples.open_dataset(columns[c].name);
-    const auto first = static_cast<std::uint64_t>(slab.first);
-    if (columns[c].kind == ColumnKind::real) dataset.write_rows(first, values);
-    if (columns[c].kind == ColumnKind::integer)
-      dataset.write_rows(first, whole_numbers<std::int32_t>(values, columns[c]));
-    if (columns[c].kind == ColumnKind::flag) dataset.write_rows(first, whole_numbers<std::uint8_t>(values, columns[c]));
+// The file's datasets, at the places where they begin.
+class Columns {
+ public:
+  Columns(const std::filesystem::path& aside, const std::filesystem::path& path, const std::vector<Column>& columns,
+          parallel::Words places)
+      : path_(path), columns_(columns), places_(std::move(places)), file_(aside, O_WRONLY) {
+    check(static_cast<bool>(file_));
   }
-}
+
+  void write(const Slab& slab) const {
+    const std::size_t rows = slab.values.size() / columns_.size();
+    std::vector<double> values(rows);
+    for (std::size_t c = 0; c < columns_.size(); ++c) {
+      for (std::size_t row = 0; row < rows; ++row) values[row] = slab.values[row * columns_.size() + c];
+      if (columns_[c].kind == ColumnKind::real) put(c, slab.first, values);
+      if (columns_[c].kind == ColumnKind::integer) put(c, slab.first, whole_numbers<std::int32_t>(values, columns_[c]));
+      if (columns_[c].kind == ColumnKind::flag) put(c, slab.first, whole_numbers<std::uint8_t>(values, columns_[c]));
+    }
+    std::vector<std::int64_t> numbers(rows);
+    std::iota(numbers.begin(), numbers.end(), slab.first);
+    put(columns_.size(), slab.first, numbers);
+  }
+
+  void finish() {
+    check(file_.sync());
+    check(file_.close());
+  }
+
+ private:
+  void check(bool done) const {
+    if (!done) throw file_error("write", path_, errno);
+  }
+
+  template <class T>
+  void put(std::size_t column, std::int64_t first, const std::vector<T>& values) const {
+    check(
+        file_.write(std::as_bytes(std::span(values)), places_[column] + first * static_cast<std::int64_t>(sizeof(T))));
+  }
+
+  const std::filesystem::path& path_;
+  const std::vector<Column>& columns_;
+  const parallel::Words places_;
+  OpenFile file_;
+};
+
+// What is left under the name aside where an error ends the writing.
+struct Leftover {
+  std::filesystem::path path;
+  ~Leftover() {
+    if (!path.empty()) ::unlink(path.c_str());
+  }
+};
 
 Column column_of(const std::string& name, const h5::Dataset& dataset) {
   const auto text = [&](const char* key) { return dataset.has_attribute(key) ? dataset.text_attribute(key) : ""; };
@@ -176,19 +231,28 @@ std::int64_t BlockLayout::rows(std::int64_t block) const {
   return std::clamp<std::int64_t>(samples - block * block_size, 0, block_size);
 }
 
-void write_samples(const std::filesystem::path& path, const SamplesHeader& header, const BlockLayout& layout,
-                   const ReadBlock& read) {
-  h5::File file = h5::File::create_together(path, [&](h5::File& made) { lay_out(made, header, layout.samples); });
-  h5::Group samples = file.root().open_group("samples");
+void write_samples(const parallel::Communicator& world, const std::filesystem::path& path, const SamplesHeader& header,
+                   const BlockLayout& layout, const ReadBlock& read) {
+  const std::filesystem::path aside = path.parent_path() / fmt::format(".{}.part", path.filename().string());
+  Leftover leftover;
+  parallel::Words places;
+  if (world.is_root()) {
+    places = lay_out(aside, path, header, layout.samples);
+    leftover.path = aside;
+  }
+  Columns file(aside, path, header.columns, world.broadcast(places));
   const auto columns = static_cast<std::int64_t>(header.columns.size());
   const std::int64_t run =
       std::max<std::int64_t>(1, slab_values / std::max<std::int64_t>(1, columns * layout.block_size));
-  const std::int64_t blocks = layout.blocks(), ranks = h5::world_size(), rank = h5::world_rank();
-  for (std::int64_t first = 0; columns > 0 && first < blocks; first += run * ranks) {
-    const std::int64_t mine = std::min(first + rank * run, blocks), end = std::min(mine + run, blocks);
-    write_slab(samples, header.columns, read_slab(layout, header.columns.size(), mine, end, read));
-  }
+  const std::int64_t blocks = layout.blocks();
+  for (std::int64_t first = world.rank() * run; columns > 0 && first < blocks; first += run * world.size())
+    file.write(read_slab(layout, header.columns.size(), first, std::min(first + run, blocks), read));
   file.finish();
+  world.barrier();
+  world.on_root([&] {
+    publish_durably(aside, path);
+    leftover.path.clear();
+  });
 }
 
 SampleReader::SampleReader(const std::filesystem::path& path)

@@ -17,6 +17,7 @@
 
 #include "base/table.hpp"
 #include "io/provenance.hpp"
+#include "parallel/communicator.hpp"
 
 namespace freestand::io {
 
@@ -50,11 +51,13 @@ struct BlockLayout {
 // Values of one block, row-major, rows(block) x columns.
 using ReadBlock = std::function<std::vector<double>(std::int64_t block)>;
 
-// Writes the file, all ranks together: each reads runs of blocks, in order, and writes them as slabs; it holds about
-// 16 MiB of rows, or one block, at a time. The file does not depend on the number of ranks but for the provenance.
-// Throws Error: a full disk is Exit::cure, a block of another shape or a fraction in an integer column Exit::data.
-// Collective.
-void write_samples(const std::filesystem::path& path, const SamplesHeader&, const BlockLayout&, const ReadBlock&);
+// Writes the file, all ranks together: the root lays it out, then each reads runs of blocks, in order, and writes their rows
+// where they belong; it holds about 16 MiB of rows, or one block, at a time. Not by MPI's own files: those of Open MPI (4.1)
+// wait for ever where one rank cannot open the file, and take a write that did a part for a whole one.
+// The file does not depend on the number of ranks but for the provenance. Throws Error: a full disk is Exit::cure, a block of
+// another shape or a fraction in an integer column Exit::data. Collective.
+void write_samples(const parallel::Communicator&, const std::filesystem::path& path, const SamplesHeader&,
+                   const BlockLayout&, const ReadBlock&);
 
 // Reads samples.h5 block by block. Every rank may have its own.
 class SampleReader {

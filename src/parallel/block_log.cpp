@@ -1,9 +1,6 @@
 #include "parallel/block_log.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +13,7 @@
 #include <system_error>
 
 #include "base/durable_file.hpp"
-#include "base/file_calls.hpp"
+#include "base/open_file.hpp"
 
 namespace freestand::parallel {
 namespace {
@@ -58,39 +55,6 @@ std::int64_t whole_pages(std::int64_t bytes) { return (bytes + page - 1) / page 
 std::string text_of(const std::array<char, 64>& fingerprint) {
   return {fingerprint.begin(), std::find(fingerprint.begin(), fingerprint.end(), '\0')};
 }
-
-class OpenFile {
- public:
-  OpenFile(const fs::path& path, int flags)
-      : descriptor_(uninterrupted([&] { return ::open(path.c_str(), flags | O_CLOEXEC, 0666); })) {}
-  ~OpenFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
-  explicit operator bool() const { return descriptor_ >= 0; }
-  std::int64_t size() const {
-    struct stat status {};
-    return ::fstat(descriptor_, &status) == 0 ? status.st_size : 0;
-  }
-
-  // Are all of them there?
-  bool read(std::span<std::byte> bytes, std::int64_t offset) const {
-    return all_done(bytes, [&](auto part, std::size_t done) {
-      return ::pread(descriptor_, part.data(), part.size(), offset + static_cast<std::int64_t>(done));
-    });
-  }
-  bool write(std::span<const std::byte> bytes, std::int64_t offset) const {
-    return all_done(bytes, [&](auto part, std::size_t done) {
-      return ::pwrite(descriptor_, part.data(), part.size(), offset + static_cast<std::int64_t>(done));
-    });
-  }
-  bool close() { return ::close(std::exchange(descriptor_, -1)) == 0; }
-
- private:
-  int descriptor_;
-};
 
 // The header at this place, if a block begins there that the file has room for.
 std::optional<Header> header_at(const OpenFile& file, std::int64_t offset, std::int64_t file_size) {

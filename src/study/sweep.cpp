@@ -282,7 +282,7 @@ class Sweep {
     header.provenance.samples = samples;
     header.provenance.kernel = fmt::format("{:08x}", kernel_number);
     folder_.confirm();
-    io::write_samples(samples_path(folder_.path()), header, layout(samples),
+    io::write_samples(world_, samples_path(folder_.path()), header, layout(samples),
                       [&](std::int64_t block) { return finished_rows(samples, block); });
     world_.on_root([&] {
       write_study();

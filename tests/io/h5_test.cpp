@@ -4,8 +4,10 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <span>
 
 #include "base/durable_file.hpp"
+#include "base/open_file.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 #include "support/trouble.hpp"
@@ -76,17 +78,30 @@ TEST(H5, ValuesComeBackToTheBit) {
   EXPECT_FALSE(root.has("flag"));
 }
 
-TEST(H5, RowsAreWrittenAndReadInSlabs) {
+TEST(H5, RowsAreReadFromWhereTheyWereReserved) {
   const test::Scratch scratch("h5");
-  File file = File::create(scratch / "x.h5");
-  Dataset rows = file.root().make_dataset("rows", Type::integer, {10});
-  rows.write_rows(6, std::vector<std::int32_t>{6, 7, 8, 9});
-  rows.write_rows(0, std::vector<std::int32_t>{0, 1, 2, 3, 4, 5});
-  rows.write_rows(3, std::vector<std::int32_t>{});
-  EXPECT_EQ(rows.read_rows(4, 3), (std::vector<double>{4, 5, 6}));
-  EXPECT_EQ(rows.read_rows(4, 0), std::vector<double>{});
-  EXPECT_THROW(rows.read_rows(8, 3), Error);
-  EXPECT_THROW(rows.write_rows(8, std::vector<std::int32_t>{1, 2, 3}), Error);
+  const std::filesystem::path aside = scratch / "aside.h5";
+  std::int64_t offset = 0;
+  {
+    File file = File::create_at(aside, scratch / "x.h5");
+    offset = file.root().reserve_dataset("rows", Type::integer, {10}).offset();
+    file.close();
+  }
+  const std::vector<std::int32_t> rows{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+  const OpenFile bytes(aside, O_WRONLY);
+  ASSERT_TRUE(bytes.write(std::as_bytes(std::span(rows)).subspan(24), offset + 24));
+  ASSERT_TRUE(bytes.write(std::as_bytes(std::span(rows)).first(24), offset));
+  const File file = File::open(aside);
+  const Dataset there = file.root().open_dataset("rows");
+  EXPECT_EQ(there.read_rows(4, 3), (std::vector<double>{4, 5, 6}));
+  EXPECT_EQ(there.read_rows(4, 0), std::vector<double>{});
+  EXPECT_THROW(there.read_rows(8, 3), Error);
+}
+
+TEST(H5, AFileThatIsNotClosedIsGone) {
+  const test::Scratch scratch("h5");
+  { File::create_at(scratch / "aside.h5", scratch / "x.h5").root().reserve_dataset("rows", Type::real, {10}); }
+  EXPECT_TRUE(std::filesystem::is_empty(scratch.folder()));
 }
 
 TEST(H5, TheSameContentGivesTheSameBytes) {

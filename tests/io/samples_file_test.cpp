@@ -23,7 +23,7 @@ std::filesystem::path write_ten(const test::Scratch& scratch) {
   SamplesHeader header = small_header();
   header.provenance.samples = 10;
   const BlockLayout layout{10, 4};
-  write_samples(scratch / "samples.h5", header, layout, small_blocks(layout));
+  write_samples({}, scratch / "samples.h5", header, layout, small_blocks(layout));
   return scratch / "samples.h5";
 }
 
@@ -87,14 +87,14 @@ TEST(SamplesFile, TheSizeOfTheBlocksLeavesNoTrace) {
   const test::Scratch scratch("samples");
   for (const std::int64_t size : {1, 7, 1000, 5000}) {
     const BlockLayout layout{5000, size};
-    write_samples(scratch / std::to_string(size), small_header(), layout, small_blocks(layout));
+    write_samples({}, scratch / std::to_string(size), small_header(), layout, small_blocks(layout));
     EXPECT_EQ(read_whole(scratch / std::to_string(size)), read_whole(scratch / "1"));
   }
 }
 
 TEST(SamplesFile, NoSamplesAtAllIsAFileToo) {
   const test::Scratch scratch("samples");
-  write_samples(scratch / "samples.h5", small_header(), {0, 4}, small_blocks({0, 4}));
+  write_samples({}, scratch / "samples.h5", small_header(), {0, 4}, small_blocks({0, 4}));
   const SampleReader reader(scratch / "samples.h5");
   EXPECT_EQ(reader.rows(), 0);
   EXPECT_EQ(reader.read(0, 0).rows(), 0u);
@@ -128,7 +128,7 @@ TEST(SamplesFile, ABlockOfAnotherShapeIsRefused) {
   const auto short_by_one = [](std::int64_t) { return std::vector<double>(4 * 6 - 1); };
   EXPECT_THAT(error_text(Exit::data,
                          [&] {
-                           write_samples(scratch / "x.h5", small_header(), {8, 4}, short_by_one);
+                           write_samples({}, scratch / "x.h5", small_header(), {8, 4}, short_by_one);
                          }),
               HasSubstr("block 0"));
   EXPECT_FALSE(std::filesystem::exists(scratch / "x.h5"));
@@ -140,7 +140,7 @@ TEST(SamplesFile, WholeNumberColumnsTakeOnlyWholeNumbers) {
     const auto rows = [bad](std::int64_t) { return std::vector<double>{0, 0, 0, 0, 0, bad}; };
     EXPECT_THAT(error_text(Exit::data,
                            [&] {
-                             write_samples(scratch / "x.h5", small_header(), {1, 1}, rows);
+                             write_samples({}, scratch / "x.h5", small_header(), {1, 1}, rows);
                            }),
                 HasSubstr("overturned"));
   }
@@ -153,8 +153,9 @@ TEST(SamplesFile, AFullDiskHasToBeCuredAndLeavesNothing) {
   if (!disk.mounted()) GTEST_SKIP() << "no right to mount a small file system here";
   const BlockLayout layout{100000, 1000};
   EXPECT_THAT(
-      error_text(Exit::cure,
-                 [&] { write_samples(disk.folder() / "samples.h5", small_header(), layout, small_blocks(layout)); }),
+      error_text(
+          Exit::cure,
+          [&] { write_samples({}, disk.folder() / "samples.h5", small_header(), layout, small_blocks(layout)); }),
       AllOf(HasSubstr("samples.h5"), HasSubstr("No space left")));
   EXPECT_TRUE(std::filesystem::is_empty(disk.folder()));
 }

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   const parallel::Session session(&argc, &argv);
   try {
     const io::BlockLayout layout{150000, 1000};
-    io::write_samples(std::filesystem::path(argv[1]) / "samples.h5", test::small_header(), layout,
+    io::write_samples(session.world(), std::filesystem::path(argv[1]) / "samples.h5", test::small_header(), layout,
                       test::small_blocks(layout));
     return 0;
   } catch (const Error& error) {

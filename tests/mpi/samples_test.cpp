@@ -53,7 +53,8 @@ TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
 
   SamplesHeader header = small_header();
   header.provenance.samples = layout.samples;
-  write_samples(path / "samples.h5", header, layout, [&](std::int64_t block) { return store.read(block).values; });
+  write_samples(world(), path / "samples.h5", header, layout,
+                [&](std::int64_t block) { return store.read(block).values; });
   EXPECT_FALSE(fs::exists(path / ".samples.h5.part"));
 
   const SampleReader reader(path / "samples.h5");
@@ -68,7 +69,7 @@ TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
 TEST(Samples, FewerBlocksThanRanksAreWrittenToo) {
   const fs::path path = fmt::format("few_of_{}_ranks.h5", world().size());
   const BlockLayout layout{3, 2};
-  write_samples(path, small_header(), layout, test::small_blocks(layout));
+  write_samples(world(), path, small_header(), layout, test::small_blocks(layout));
   EXPECT_TRUE(same_bits(SampleReader(path).read(0, 3).values, small_rows(0, 3)));
 }
 
