@@ -148,7 +148,7 @@
     const here = intensity(), p = chosen ? at(curveOf(chosen.at), here) : null;
     drawing += `<line class="rule" style="stroke:#1d2430;stroke-dasharray:2 3" x1="${x(here)}" x2="${x(here)}" y1="${TOP}" y2="${height - BOTTOM}"/>` + labels(names);
     const finding = p ? `${chosen.id}: P(${event()}) = ${share(p[0])} (${share(p[1])} to ${share(p[2])}) at ${word.symbol} = ${text(here)}${unit(word)}` : `${choice("class")}: P(${event()})`;
-    const figure = show("curves", height, drawing, finding, "Probability over the floor's intensity: in bold the entry that is chosen, with its band; in colour the same equipment on other frictions; in grey the rest of its class; dashed somebody else's fragility of it. Move over it for values.", table);
+    const figure = show("curves", height, drawing, finding, `Probability over ${word.symbol}${word.summary ? ` (${word.summary})` : ""}: in bold the entry that is chosen, with its band; in colour the same equipment on other frictions; in grey the rest of its class; dashed somebody else's fragility of it. Move over it for values.`, table);
     const svg = figure.querySelector("svg");
     svg.addEventListener("mousemove", (move) => {
       const box = svg.getBoundingClientRect(), im = x.back((move.clientX - box.left) * WIDTH / box.width);

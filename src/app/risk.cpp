@@ -20,20 +20,24 @@ void tell(const study::RiskAnswer& answer, const study::RiskOptions& options) {
   const decision::Risk& risk = answer.risk;
   std::size_t width = 0;
   for (const auto& row : risk.rows) width = std::max(width, title(row).size());
-  const double years = options.years.front();
   fmt::print("{}, bands of {:g} %; hazard over {}\n", answer.study_name, 100 * risk.confidence, risk.im);
-  fmt::print("  {:<{}}  {:<32}  {:<28}  {:<17}  by\n", "", width, "annual rate", fmt::format("in {:g} years", years),
-             "half from above");
+  std::string in_years;
+  for (const double years : options.years) in_years += fmt::format("{:<30}", fmt::format("in {:g} years", years));
+  fmt::print("  {:<{}}  {:<32}  {}{:<17}  by\n", "", width, "annual rate", in_years, "half from above");
   for (const decision::RiskRow& row : risk.rows) {
     if (!row.refused.empty()) {
       fmt::print("  {:<{}}  not told: {}\n", title(row), width, row.refused);
       continue;
     }
     const decision::Rate& rate = row.rate();
-    const auto chance = [&](double r) { return percent(decision::probability_in_years(r, years)); };
-    fmt::print("  {:<{}}  {:<32}  {:<28}  {:<17}  {}\n", title(row), width,
-               fmt::format("{:.2g} [{:.2g}, {:.2g}]", rate.value, rate.lower, rate.upper),
-               fmt::format("{} [{}, {}]", chance(rate.value), chance(rate.lower), chance(rate.upper)),
+    std::string chances;
+    for (const double years : options.years) {
+      const auto chance = [&](double r) { return percent(decision::probability_in_years(r, years)); };
+      chances +=
+          fmt::format("{:<30}", fmt::format("{} [{}, {}]", chance(rate.value), chance(rate.lower), chance(rate.upper)));
+    }
+    fmt::print("  {:<{}}  {:<32}  {}{:<17}  {}\n", title(row), width,
+               fmt::format("{:.2g} [{:.2g}, {:.2g}]", rate.value, rate.lower, rate.upper), chances,
                std::isnan(row.median_im) ? "-" : fmt::format("{:.2g} {}", row.median_im, risk.im_unit),
                row.recommended == decision::By::function ? "fitted curve" : "counts");
   }

@@ -33,7 +33,7 @@ const Measure* record_measure(const std::string& name) {
                                                   : "scaled with the square of the record's scale";
   Measure measure{.name = name,
                   .unit = number->unit,
-                  .symbol = column,
+                  .symbol = name,
                   .summary = "what the table of records gives as " + column + ", " + scaled,
                   .source = "column " + column + " of the table"};
   measure.value = [column, power = number->power](const Input& in) {

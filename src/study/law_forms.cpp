@@ -28,7 +28,7 @@ LawForm form(const char* name, const char* variable, const char* friction, const
     p.low = n.low;
     p.high = n.high;
     p.neutral = n.nothing;
-    p.unit = p.name.ends_with("_m") ? "m" : p.name.ends_with("_s") ? "s" : "";
+    p.unit = std::string(p.name.ends_with("_m") ? "m" : p.name.ends_with("_s") ? "s" : "");
     // Ten times beyond where fits start; amplitudes of friction that would turn it round are refused by the model itself.
     p.lower = positive ? n.low / 10 : 10 * n.low;
     p.upper = 10 * n.high;

@@ -2,11 +2,10 @@
 
 import csv
 import json
-import math
 import re
 import unittest
 
-from support import InFolder, datasets, h5py, study_text
+from support import InFolder, datasets, h5py, study_text, write_records
 
 RECORDS = '  - {records: "records/*.csv", scale_to: {pta_g: {uniform: [0.1, 1.5]}}}\n'
 WITHOUT_ORIGIN = {"study", "study_name", "command", "host", "created_utc", "ranks"}
@@ -20,11 +19,7 @@ def study_over(im, samples=1500):
 class AnyIntensity(InFolder):
     def setUp(self):
         super().setUp()
-        (self.folder / "records").mkdir()
-        for name, beat, fade in (("a", 5, 0.3), ("b", 9, 0.5), ("c", 3, 0.2), ("d", 14, 0.4), ("e", 7, 0.3), ("f", 20, 0.2)):
-            rows = (f"{0.01 * i:.2f},{4 * math.sin(beat * 0.01 * i * (1 + 0.001 * i)) * math.exp(-fade * 0.01 * i):.9f}\n"
-                    for i in range(600))
-            (self.folder / "records" / f"{name}.csv").write_text("time_s,floor_acceleration_mps2\n" + "".join(rows))
+        write_records(self.folder / "records")
         self.out = self.folder / "out"
         self.done = self.succeed(["run", self.write("study.yaml", study_over("report")), "-o", self.out], 2)
 
@@ -108,9 +103,7 @@ class AnyIntensity(InFolder):
         self.assertFalse((self.folder / "no").exists())
 
     def test_what_a_table_of_records_gives_is_an_intensity(self):
-        lines = "".join(f"{name}.csv,{0.1 * (number + 1):.1f},{5 + 0.3 * number}\n" for number, name in enumerate("abcdef"))
-        (self.folder / "records" / "INDEX.csv").write_text("file,pga_g,magnitude_mw\n" + lines)
-        study = study_over("report").replace("records/*.csv", "records/INDEX.csv")
+        study = study_over("report").replace("records/*.csv", "records.csv")
         out = self.folder / "table"
         self.succeed(["run", self.write("table.yaml", study), "-o", out], 2)
         self.succeed(["fit", out, "--im", "record.pga_g", "-o", self.folder / "by_table"])

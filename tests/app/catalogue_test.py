@@ -2,13 +2,14 @@
 
 import csv
 import json
+import re
 import signal
 import subprocess
 import time
 import unittest
 import xml.etree.ElementTree as xml
 
-from support import CONFIGS, InFolder, command, datasets, h5py
+from support import CONFIGS, InFolder, command, datasets, h5py, write_records
 
 HEAD = """\
 format: freestand-catalogue/1
@@ -168,6 +169,13 @@ class Catalogue(InFolder):
         self.assertEqual(json.loads((self.folder / "db" / "words.json").read_text())["demands"]["blocked_door"]["summary"],
                          "residual_slip_m > 0.08 or overturned (fridge); residual_slip_m > 0.12 or overturned (rack)")
         self.assertIn("blocked_door", self.succeed(["query", self.folder / "db"]).stdout)
+
+    def test_intensities_whose_names_hold_a_dot_are_exported_into_folders_too(self):
+        write_records(self.folder / "records")
+        text = (HEAD + TALL).replace("im: pga_g, ", "").replace("entries:", "intensities: [pga_g, record.pga_g]\nexports: [openquake]\nentries:")
+        text = re.sub(r"motions: .*", "motions: [{records: records.csv, scale_to: {pga_g: {log_uniform: [0.1, 2]}}}]", text)
+        self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"])
+        self.assertEqual([len(list(folder.glob("fragility.xml"))) for folder in (self.folder / "db" / "exports" / "openquake").iterdir()], [1, 1])
 
     def test_all_entries_are_exported_into_one_file_under_their_ids(self):
         # The low box slips and never falls: of what nobody asked for that is told and left out, where one list need not hold all.

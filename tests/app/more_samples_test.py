@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from support import InFolder, datasets, result, study_text
+from support import InFolder, datasets, h5py, result, study_text
 
 
 class MoreSamples(InFolder):
@@ -34,6 +34,16 @@ class MoreSamples(InFolder):
         timing = json.loads((out / "summary.json").read_text())["timing"]
         self.assertEqual(timing["samples_computed"], 0)
         self.assertEqual(len((out / "bins.csv").read_text().splitlines()), 1 + 2 * 3)
+
+    def test_samples_of_a_program_that_gives_other_numbers_are_refused(self):
+        out = self.folder / "out"
+        self.run_study(out, samples=300)
+        with h5py.File(out / "samples.h5", "r+") as file:
+            file.attrs["kernel"] = "00000001"
+        before = result(out)
+        study = self.write("more.yaml", study_text(samples=600))
+        self.fail_with(2, ["run", study, "-o", out, "--resume", "--quiet"], "another version of freestand")
+        self.assertEqual(result(out), before)
 
     def test_what_cannot_be_added_to_is_refused_and_kept(self):
         out = self.folder / "out"

@@ -133,6 +133,22 @@ class OneFolder(Stopping):
         self.fail_with(2, ["sweep", other, "-o", folder, "--resume", "--quiet"], "another study")
         self.assertEqual(contents(folder), before)
 
+    def test_blocks_of_a_program_that_gives_other_numbers_are_refused(self):
+        """The number that says so is in the header of each block, between its format and its checksum."""
+        study, folder = self.write("study.yaml", study_text(samples=12000)), self.folder / "out"
+        process = self.start(["sweep", study, "-o", folder, "--quiet"])
+        self.wait_for(lambda: finished_blocks(folder) > 1, process)
+        self.assertEqual(self.stop(process, signal.SIGTERM)[0], 75)
+        log = folder / "blocks" / "run-0001.node-000000.log"
+        header = bytearray(log.read_bytes())
+        header[12] ^= 1
+        checksum = 14695981039346656037
+        for byte in header[:112]:
+            checksum = (checksum ^ byte) * 1099511628211 % 2**64
+        header[112:120] = checksum.to_bytes(8, "little")
+        log.write_bytes(header)
+        self.fail_with(2, ["sweep", study, "-o", folder, "--resume", "--quiet"], "another version of freestand")
+
     def test_a_block_that_cannot_be_read_is_computed_again(self):
         study = self.write("study.yaml", study_text(samples=12000))
         self.succeed(["sweep", study, "-o", self.folder / "whole", "--quiet"], 2)

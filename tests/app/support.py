@@ -1,5 +1,6 @@
 """What the tests of the program share: studies, runs, and the comparison of result files."""
 
+import math
 import os
 import pathlib
 import subprocess
@@ -33,6 +34,18 @@ fragility: {{im: report, bins: {{count: 5}}, edp: [delta, overturned], axes: [fr
 
 def study_text(samples=3000, design="sobol", block_size=64):
     return STUDY.format(samples=samples, design=design, block_size=block_size)
+
+
+def write_records(folder):
+    """Six floor motions, and a table beside the folder that gives each a peak of the ground and a magnitude."""
+    folder.mkdir()
+    table = "file,pga_g,magnitude_mw\n"
+    for number, (beat, fade) in enumerate(((5, 0.3), (9, 0.5), (3, 0.2), (14, 0.4), (7, 0.3), (20, 0.2))):
+        name = f"{'abcdef'[number]}.csv"
+        rows = (f"{0.01 * i:.2f},{4 * math.sin(beat * 0.01 * i * (1 + 0.001 * i)) * math.exp(-fade * 0.01 * i):.9f}\n" for i in range(600))
+        (folder / name).write_text("time_s,floor_acceleration_mps2\n" + "".join(rows))
+        table += f"{folder.name}/{name},{0.1 * (number + 1):.1f},{5 + 0.3 * number}\n"
+    folder.with_suffix(".csv").write_text(table)
 
 
 def slow_fit(text):

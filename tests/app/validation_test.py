@@ -47,6 +47,8 @@ class Validation(InFolder):
         self.assertEqual(found[1], found[3])
         diagnosis = found[1][1]
         self.assertEqual(len(diagnosis["candidates"]), len({c["effect"] for c in diagnosis["candidates"]}))
+        self.assertEqual(diagnosis["best"], diagnosis["candidates"][0]["effect"])  # one answer in the whole file
+        self.assertIn(diagnosis["effects"], ([], [diagnosis["best"]]))
         for candidate in [diagnosis["base"]] + diagnosis["candidates"]:
             for name, number in candidate["parameters"].items():
                 if number["interval"] is None:

@@ -9,7 +9,7 @@ import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCRIPTS = [*(ROOT / "jobs").glob("*"), ROOT / "tests/run", ROOT / "tests/memcheck", ROOT / ".ci/run"]
+SCRIPTS = [*(ROOT / "jobs").glob("*"), ROOT / "tests/run", ROOT / "tests/memcheck", ROOT / "tests/faults/run", ROOT / ".ci/run"]
 
 
 def packages(optional=False):

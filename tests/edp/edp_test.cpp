@@ -35,6 +35,14 @@ TEST(Edp, DeclarationsAreComplete) {
   }
 }
 
+// A chain that held counts as whole and a wall that was not hit as not hit, whatever became of the block afterwards.
+TEST(Edp, FourDemandsKeepTheirValueWhenTheBlockOverturns) {
+  std::vector<std::string> kept;
+  for (const Edp& edp : all())
+    if (!edp.censored) kept.push_back(edp.name);
+  EXPECT_THAT(kept, testing::UnorderedElementsAre("overturned", "connection_failed", "wall_hit", "wall_speed_mps"));
+}
+
 TEST(Edp, ValuesFollowTheirDefinitions) {
   Response response;
   response.outcome = Outcome::moved;
