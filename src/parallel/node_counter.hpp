@@ -1,4 +1,4 @@
-// A number that the ranks of one node share, in memory of the node.
+// A number that the ranks of one node share, in memory of the node. Where they cannot, each rank has its own.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace freestand::parallel {
 
 class NodeCounter {
  public:
-  // Begins at 0. Collective, and so is its end.
+  // Begins at 0. Collective.
   explicit NodeCounter(const Communicator&);
   ~NodeCounter();
   NodeCounter(NodeCounter&&) noexcept;
@@ -19,7 +19,7 @@ class NodeCounter {
   // The value before; no two ranks of the node get the same while amount is positive.
   std::int64_t fetch_add(std::int64_t amount);
 
-  // The lowest rank on this node: another number on every node.
+  // The lowest rank on this node: another number for each number that is counted.
   std::int64_t node() const { return node_; }
 
  private:
