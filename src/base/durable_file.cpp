@@ -107,7 +107,7 @@ std::int64_t file_number(const fs::path& path) {
 // A network file system that has sent a rename twice says that there is nothing to rename, and has done it.
 void rename_and_sync(const fs::path& aside, const fs::path& path) {
   const std::int64_t number = file_number(aside);
-  if (::rename(aside.c_str(), path.c_str()) != 0 && (errno != ENOENT || file_number(path) != number))
+  if (::rename(aside.c_str(), path.c_str()) != 0 && (errno != ENOENT || number == 0 || file_number(path) != number))
     throw file_error("write", path, errno);
   sync_path(folder_of(path), O_RDONLY | O_DIRECTORY);
 }

@@ -23,6 +23,7 @@ template <class Byte, class Call>
 bool all_done(std::span<Byte> bytes, const Call& call) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = uninterrupted([&] { return call(bytes.subspan(done), done); });
+    if (count == 0) errno = EIO;  // nothing is left to read, or nothing more can be written
     if (count <= 0) return false;
     done += static_cast<std::size_t>(count);
   }
