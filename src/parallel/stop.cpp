@@ -45,7 +45,11 @@ StopOnSignal::StopOnSignal(Overdue overdue) : StopOnSignal() {
 StopOnSignal::~StopOnSignal() {
   over_ = true;
   if (watch_.joinable()) watch_.join();
-  for (std::size_t i = 0; i < stop_signals.size(); ++i) sigaction(stop_signals[i], &before_[i], nullptr);
+  for (std::size_t i = 0; i < stop_signals.size(); ++i) {
+    const bool leaving = stop_flag && stop_signals[i] != SIGINT && before_[i].sa_handler == SIG_DFL;
+    const struct sigaction ignored = action_of(SIG_IGN);
+    sigaction(stop_signals[i], leaving ? &ignored : &before_[i], nullptr);
+  }
 }
 
 bool stop_requested() { return stop_flag != 0; }

@@ -10,7 +10,9 @@
 namespace freestand::parallel {
 
 // While it lives, SIGTERM, SIGINT, SIGUSR1 and SIGUSR2 (which mpirun passes on) ask the run to stop after the open blocks
-// instead of ending the process; a second SIGINT ends it. One may live within another: what was before is put back.
+// instead of ending the process; a second SIGINT ends it. One may live within another: what was before is put back. A run that was asked
+// to stop is on its way out: from then on only SIGINT ends it, since batch systems, where they see one rank gone, tell the others to
+// end, and their exit code must still be that of a run that can go on.
 class StopOnSignal {
  public:
   // What to do, from another thread, when the run still goes on `patience_s` after it was asked to stop: it is in the
