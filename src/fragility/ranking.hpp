@@ -99,6 +99,7 @@ class RankingTally {
   std::vector<First> first_;
   std::vector<Second> second_;
   std::vector<WithPeriod> with_period_;
+  std::vector<std::size_t> binary_;  // [edp] its number among the binary ones, which alone have cells
   std::vector<Cell> cell_;
 };
 

@@ -31,7 +31,9 @@ RankingTally::RankingTally(RankingOptions options) : options_(std::move(options)
   first_.resize(pairs * units_);
   second_.resize(pairs * folds);
   with_period_.resize(pairs);
-  cell_.resize(pairs * folds * cells);
+  std::size_t binary = 0;
+  for (const RankedEdp& edp : options_.edps) binary_.push_back(edp.binary ? binary++ : 0);
+  cell_.resize(binary * options_.ims.size() * folds * cells);
 }
 
 std::size_t RankingTally::unit_of_motion(std::size_t motion) const {
@@ -59,7 +61,7 @@ void RankingTally::add_edp(std::size_t e, std::size_t unit, bool of_pulse, const
   if (edp.binary) {
     if (!std::isfinite(value)) return;
     for (std::size_t k = 0; k < count; ++k) {
-      Cell& cell = cell_[((e * count + k) * folds + fold) * cells + cell_of(sample.im[k])];
+      Cell& cell = cell_[((binary_[e] * count + k) * folds + fold) * cells + cell_of(sample.im[k])];
       ++cell.n;
       cell.hits += value > 0.5;
     }
@@ -99,7 +101,7 @@ const RankingTally::WithPeriod& RankingTally::with_period(std::size_t edp, std::
   return with_period_[edp * options_.ims.size() + im];
 }
 const RankingTally::Cell& RankingTally::cell(std::size_t edp, std::size_t im, std::size_t fold, std::size_t i) const {
-  return cell_[((edp * options_.ims.size() + im) * folds + fold) * cells + i];
+  return cell_[((binary_[edp] * options_.ims.size() + im) * folds + fold) * cells + i];
 }
 double RankingTally::im_of_cell(std::size_t i) { return std::exp(ln_first + ln_step * (static_cast<double>(i) + 0.5)); }
 

@@ -79,6 +79,7 @@ class Dataset : public Object {
   void write(const std::vector<std::int32_t>& values);
   void write(const std::vector<std::uint8_t>& values);
   std::vector<double> read() const;
+  std::vector<std::int64_t> read_integers() const;
   std::vector<std::string> read_texts() const;
 
   // Rows first .. first+count-1 of a one-dimensional dataset.

@@ -52,6 +52,15 @@ struct RowSpaces {
   }
 };
 
+template <class T>
+std::vector<T> read_all(Id id, const std::string& file, const Dimensions& dimensions) {
+  std::vector<T> values(count_of(dimensions));
+  const std::string name = name_of(id);
+  if (!values.empty() && H5Dread(id, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    throw failure(file, name, Doing::reading);
+  return values;
+}
+
 }  // namespace
 
 Dimensions Dataset::dimensions() const {
@@ -77,13 +86,8 @@ void Dataset::write(const std::vector<std::int64_t>& values) { write_all(id(), *
 void Dataset::write(const std::vector<std::int32_t>& values) { write_all(id(), *file_, dimensions(), values); }
 void Dataset::write(const std::vector<std::uint8_t>& values) { write_all(id(), *file_, dimensions(), values); }
 
-std::vector<double> Dataset::read() const {
-  std::vector<double> values(count_of(dimensions()));
-  const std::string name = name_of(id());
-  if (!values.empty() && H5Dread(id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    throw failure(*file_, name, Doing::reading);
-  return values;
-}
+std::vector<double> Dataset::read() const { return read_all<double>(id(), *file_, dimensions()); }
+std::vector<std::int64_t> Dataset::read_integers() const { return read_all<std::int64_t>(id(), *file_, dimensions()); }
 
 std::vector<std::string> Dataset::read_texts() const {
   std::vector<char*> texts(count_of(dimensions()), nullptr);

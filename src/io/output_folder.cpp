@@ -10,15 +10,16 @@
 #include "base/durable_file.hpp"
 #include "io/folder_lock.hpp"
 #include "io/own_files.hpp"
-#include "parallel/block_log.hpp"
+#include "parallel/finished_blocks.hpp"
 
 namespace freestand::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* results[] = {"samples.h5",  "fragility.h5",    "bins.csv",       "surface.csv", "summary.json",
-                                   "history.csv", "comparison.json", "diagnosis.json", "report.html", begun_name};
+constexpr const char* results[] = {"samples.h5",     "tally.h5",     "fragility.h5", "bins.csv",
+                                   "surface.csv",    "summary.json", "history.csv",  "comparison.json",
+                                   "diagnosis.json", "report.html",  begun_name};
 
 void check(const std::error_code& error, const char* action, const fs::path& path) {
   if (error) throw file_error(action, path, error.value());
@@ -47,7 +48,7 @@ bool is_used(const fs::path& folder) {
 std::string used_text(const fs::path& folder) {
   std::error_code error;
   const bool swept = fs::exists(folder / "samples.h5", error);
-  const std::int64_t finished = parallel::count_blocks(folder / blocks_name);
+  const std::int64_t finished = parallel::count_finished_blocks(folder / blocks_name);
   if (finished == 0 && !fs::exists(folder / begun_name, error))
     return fmt::format(
         "{} is not empty (results of another run would mix with this one's): name another folder, or "
@@ -63,7 +64,7 @@ std::string used_text(const fs::path& folder) {
 void remove_results(const fs::path& folder) {
   for (const char* name : results) remove_file(folder / name);
   remove_leftovers(folder);
-  parallel::remove_blocks(folder / blocks_name);
+  parallel::remove_finished_blocks(folder / blocks_name);
 }
 
 }  // namespace

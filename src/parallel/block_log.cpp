@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <span>
@@ -14,6 +13,7 @@
 
 #include "base/durable_file.hpp"
 #include "base/open_file.hpp"
+#include "parallel/run_files.hpp"
 
 namespace freestand::parallel {
 namespace {
@@ -38,12 +38,6 @@ static_assert(sizeof(Header) == 120 && std::is_trivially_copyable_v<Header>);
 
 std::int64_t Header::bytes() const {
   return static_cast<std::int64_t>(sizeof(Header) + sizeof(double) * static_cast<std::size_t>(rows * columns));
-}
-
-std::uint64_t fnv1a(std::span<const std::byte> bytes) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const std::byte byte : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 1099511628211ULL;
-  return hash;
 }
 
 std::uint64_t checksum_of(const Header& header) {
@@ -80,26 +74,6 @@ void for_each_header(const fs::path& path, const std::function<void(const Header
   }
 }
 
-struct Log {
-  std::int64_t run, node;
-  fs::path path;
-};
-
-std::vector<Log> logs_in(const fs::path& folder) {
-  std::vector<Log> logs;
-  std::error_code error;
-  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
-    long long run = 0, node = 0;
-    int length = 0;
-    const std::string name = i->path().filename().string();
-    if (std::sscanf(name.c_str(), "run-%lld.node-%lld.log%n", &run, &node, &length) == 2 &&
-        length == static_cast<int>(name.size()))
-      logs.push_back({run, node, i->path()});
-  }
-  if (error && error != std::errc::no_such_file_or_directory) throw file_error("read", folder, error.value());
-  return logs;
-}
-
 }  // namespace
 
 BlockLog::BlockLog(fs::path folder, std::string fingerprint, std::uint32_t kernel)
@@ -112,14 +86,12 @@ BlockLog::BlockLog(fs::path folder, std::string fingerprint, std::uint32_t kerne
   if (error) throw file_error("make folder", folder_, error.value());
 }
 
-fs::path BlockLog::log(std::int64_t run, std::int64_t node) const {
-  return folder_ / fmt::format("run-{:04}.node-{:06}.log", run, node);
-}
+fs::path BlockLog::log(std::int64_t run, std::int64_t node) const { return run_file(folder_, run, node, "log"); }
 
 void BlockLog::find() {
   places_.clear();
   run_ = 0;
-  for (const Log& log : logs_in(folder_)) {
+  for (const RunFile& log : run_files(folder_, "log")) {
     run_ = std::max(run_, log.run);
     find_in(log.path, log.run, log.node);
   }
@@ -155,7 +127,7 @@ void BlockLog::keep_latest() {
 
 std::vector<std::int64_t> BlockLog::begin(const Communicator& world) {
   run_ = world.broadcast(Words{run_ + 1}).front();
-  end_.emplace(world);
+  end_.emplace(world, 1);
   if (world.is_root()) written_ = std::move(places_);
   places_.clear();
   share(world);
@@ -193,8 +165,8 @@ void BlockLog::write(std::int64_t block, const BlockRows& rows) {
   header.values_checksum = fnv1a(values);
   header.checksum = checksum_of(header);
 
-  if (!end_) end_.emplace(Communicator());
-  const std::int64_t offset = end_->fetch_add(whole_pages(header.bytes()));
+  if (!end_) end_.emplace(Communicator(), 1);
+  const std::int64_t offset = end_->fetch_add(0, whole_pages(header.bytes()));
   const fs::path path = log(run_, end_->node());
   OpenFile file(path, O_WRONLY | O_CREAT);
   if (!file || !file.write(std::as_bytes(std::span(&header, 1)), offset) ||
@@ -239,15 +211,9 @@ BlockRows BlockLog::read(std::int64_t block) const {
 
 std::int64_t count_blocks(const fs::path& folder) {
   std::int64_t count = 0;
-  for (const Log& log : logs_in(folder)) for_each_header(log.path, [&](const Header&, std::int64_t) { ++count; });
+  for (const RunFile& log : run_files(folder, "log"))
+    for_each_header(log.path, [&](const Header&, std::int64_t) { ++count; });
   return count;
-}
-
-void remove_blocks(const fs::path& folder) {
-  std::error_code error;
-  for (const Log& log : logs_in(folder))
-    if (!fs::remove(log.path, error) && error) throw file_error("remove", log.path, error.value());
-  if (fs::is_empty(folder, error)) fs::remove(folder, error);
 }
 
 }  // namespace freestand::parallel

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "parallel/communicator.hpp"
-#include "parallel/node_counter.hpp"
+#include "parallel/node_memory.hpp"
 
 namespace freestand::parallel {
 
@@ -81,13 +81,10 @@ class BlockLog {
   std::int64_t run_ = 0;
   std::vector<Place> places_;       // one a block, ascending
   std::vector<Place> written_;      // by this rank, not yet shared
-  std::optional<NodeCounter> end_;  // of this node's log
+  std::optional<NodeMemory> end_;   // of this node's log, alone in it
 };
 
 // How many blocks lie in the logs of a folder, of whatever study.
 std::int64_t count_blocks(const std::filesystem::path& folder);
-
-// Removes all logs of the folder, and the folder if it is then empty.
-void remove_blocks(const std::filesystem::path& folder);
 
 }  // namespace freestand::parallel

@@ -8,10 +8,8 @@
 #include "edp/edp.hpp"
 #include "fragility/fit.hpp"
 #include "fragility/pilot.hpp"
-#include "fragility/tally.hpp"
 #include "intensity/intensity.hpp"
 #include "study/bins.hpp"
-#include "study/damage_states.hpp"
 #include "study/intensities.hpp"
 #include "study/realise.hpp"
 
@@ -113,21 +111,28 @@ fragility::Options fragility_options(const Study& study, const Target& target, T
 fragility::Result analyse(const parallel::Communicator& world, const Study& study, const Target& target,
                           const std::vector<int>& motion_group, std::int64_t blocks, std::int64_t block_size,
                           const ReadTable& read, const Jobs& jobs, parallel::StepDisplay* display) {
-  const fragility::Options options = fragility_options(study, target, first_rows(blocks, read), motion_group);
-  fragility::Tally tally(options);
-  const DamageStates damage(study);
+  DemandCounts counts(study, target, fragility_options(study, target, first_rows(blocks, read), motion_group));
   for (std::int64_t block = world.rank(); block < blocks; block += world.size()) {
-    const auto first = static_cast<std::uint64_t>(block * block_size);
-    Table rows = read(block);
-    damage.append(rows, first);
-    tally.add(rows, first, keeping(target));
+    counts.add(read(block), static_cast<std::uint64_t>(block * block_size));
     if (display)
       display->show("reading blocks of samples", static_cast<std::size_t>(block + 1), static_cast<std::size_t>(blocks));
   }
-  parallel::Words words = tally.words();
+  parallel::Words words = counts.words();
   world.sum_in_place(words);
-  fragility::Result result = fragility::fit(fragility::Tally::from_words(options, words), jobs);
+  fragility::Result result = counts.result(words, jobs);
   return world.is_root() ? result : fragility::Result{};
+}
+
+DemandCounts::DemandCounts(const Study& study, const Target& target, fragility::Options options)
+    : target_(target), damage_(study), tally_(std::move(options)) {}
+
+void DemandCounts::add(Table rows, std::uint64_t first) {
+  damage_.append(rows, first);
+  tally_.add(rows, first, keeping(target_));
+}
+
+fragility::Result DemandCounts::result(std::span<const std::int64_t> words, const Jobs& jobs) const {
+  return fragility::fit(fragility::Tally::from_words(tally_.options(), words), jobs);
 }
 
 std::vector<std::string> analysed_columns(const FragilityPart& part) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,10 @@
 #include "base/table.hpp"
 #include "fragility/options.hpp"
 #include "fragility/result.hpp"
+#include "fragility/tally.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/step_display.hpp"
+#include "study/damage_states.hpp"
 #include "study/study.hpp"
 #include "study/target.hpp"
 
@@ -38,6 +41,27 @@ using ReadTable = std::function<Table(std::int64_t block)>;
 fragility::Result analyse(const parallel::Communicator&, const Study&, const Target&,
                           const std::vector<int>& motion_group, std::int64_t blocks, std::int64_t block_size,
                           const ReadTable&, const Jobs&, parallel::StepDisplay* display = nullptr);
+
+// What is counted of samples for the fragility of a study.
+class DemandCounts {
+ public:
+  // study and target outlive it.
+  DemandCounts(const Study&, const Target&, fragility::Options);
+
+  // Row i is sample first + i; with the column im_NAME.
+  void add(Table rows, std::uint64_t first);
+
+  // Words of several may be added element by element.
+  parallel::Words words() const { return tally_.words(); }
+  void clear() { tally_ = fragility::Tally(tally_.options()); }
+
+  fragility::Result result(std::span<const std::int64_t> words, const Jobs&) const;
+
+ private:
+  const Target& target_;
+  DamageStates damage_;
+  fragility::Tally tally_;
+};
 
 // Names of the columns of samples.h5 that it and the intensity read.
 std::vector<std::string> analysed_columns(const FragilityPart&);

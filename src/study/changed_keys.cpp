@@ -14,9 +14,10 @@ bool changes_samples(const std::string& key) {
   return !key.starts_with("fragility.");
 }
 
-std::string changes_told(const Study& now, const Study& before) {
+std::string changes_told(const Study& now, const Study& before, Changes changes) {
   std::vector<Difference> changed = differences(now, before);
-  std::erase_if(changed, [](const Difference& difference) { return !changes_samples(difference.key); });
+  if (changes == Changes::of_samples)
+    std::erase_if(changed, [](const Difference& difference) { return !changes_samples(difference.key); });
   if (changed.empty()) return "";
   const auto& [key, is, was] = changed.front();
   const std::string more = changed.size() > 1 ? fmt::format("; and {} more", changed.size() - 1) : "";

@@ -7,6 +7,7 @@
 #include "study/changed_keys.hpp"
 #include "study/kernel_number.hpp"
 #include "study/sweep.hpp"
+#include "study/swept_study.hpp"
 
 namespace freestand::study {
 namespace {
@@ -38,8 +39,14 @@ EarlierSamples::EarlierSamples(const Study& study, const std::filesystem::path& 
   if (draws_fingerprint(swept) != draws_fingerprint(study))
     throw Error(fmt::format("{} holds the results of another study ({}): take that back, or {}", folder.string(),
                             changes_told(study, swept), other_folder));
-  complete_ = study.until || swept.until ? expanded(swept) == expanded(study) : rows() == wanted;
+  const std::int64_t there = swept_samples(*reader_);
+  complete_ = study.until || swept.until ? expanded(swept) == expanded(study) : there == wanted;
   if (complete_) return;
+  if (rows() < there)
+    throw Error(
+        fmt::format("{} holds the counts of {} samples of this study, of which {} are kept, and none can be added "
+                    "(keep: all would have let it): {}",
+                    folder.string(), there, rows(), other_folder));
   if (rows() > wanted)
     throw Error(
         fmt::format("{} holds {} samples of this study, and {} are asked for (none is taken away): `freestand "

@@ -203,6 +203,10 @@ std::string fragility_text(const FragilityPart& f) {
                     number_text(f.adequate), f.empirical_fallback);
 }
 
+std::string keep_text(const KeepPart& keep) {
+  return keep.one_in == 0 ? "none" : fmt::format("{{thin: {}}}", keep.one_in);
+}
+
 // What makes the samples: all but the name and the fragility block.
 std::string samples_text(const Study& study) {
   std::string text = fmt::format("seed: {}\n", study.seed);
@@ -211,6 +215,7 @@ std::string samples_text(const Study& study) {
                         study.until->at_most);
   else
     text += fmt::format("samples: {}\n", study.samples);
+  if (study.keep.one_in != 1) text += fmt::format("keep: {}\n", keep_text(study.keep));
   text += fmt::format("design: {}\n", name(study.design));
   if (study.slip_by_side) text += "slip_by_side: true\n";
   if (study.scrambles > 1) text += fmt::format("scrambles: {}\n", study.scrambles);

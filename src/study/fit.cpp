@@ -4,11 +4,13 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "io/fragility_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 #include "io/samples_file.hpp"
+#include "io/tally_file.hpp"
 #include "io/text_files.hpp"
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
@@ -17,7 +19,9 @@
 #include "study/paths.hpp"
 #include "study/ranking.hpp"
 #include "study/read_parts.hpp"
+#include "study/sample_counts.hpp"
 #include "study/spread_jobs.hpp"
+#include "study/swept_study.hpp"
 #include "study/target.hpp"
 #include "study/until.hpp"
 
@@ -59,6 +63,24 @@ EditedStudy study_of(const parallel::Communicator& world, const std::string& swe
     changed_study(swept, text, file, options.changes);
   });
   return changed_study(swept, world.broadcast(text), file, options.changes);
+}
+
+// What was counted of all samples, where the sweep has not kept all and this study asks for no other counts.
+std::optional<parallel::Words> counted_words(const parallel::Communicator& world, const Study& study,
+                                             const io::SampleReader& reader, const std::filesystem::path& folder) {
+  if (reader.rows() == swept_samples(reader)) return {};
+  parallel::Words words;
+  world.on_root([&] {
+    const io::TallyContent tally = io::read_tally(tally_path(folder));
+    if (tally.provenance.created_utc != reader.provenance().created_utc)
+      throw Error(fmt::format("{} and {} are of two sweeps: sweep again", tally_path(folder).string(),
+                              samples_path(folder).string()),
+                  Exit::data);
+    if (tally.fingerprint == counts_fingerprint(study)) words = tally.words;
+  });
+  words = world.broadcast(words);
+  if (words.empty()) return {};
+  return words;
 }
 
 io::Provenance provenance_of(const io::SampleReader& reader, const Study& study, const FitOptions& options, int ranks) {
@@ -122,17 +144,29 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   if (!intensity.interpolation().empty()) told.notes.push_back(intensity.interpolation());
   const Target target(study);
   if (!target.empty()) told.notes.push_back(target.told());
-  const io::BlockLayout layout{reader.rows(), rows_at_once};
   into.begin();
   into.leave_if_asked();
-  const std::vector<std::string> columns = analysed_columns(study.fragility);
-  const auto rows_of = [&](std::int64_t block) {
-    return intensity.beside(reader.read(block * rows_at_once, layout.rows(block), columns));
-  };
-  parallel::StepDisplay display(options.quiet || !world.is_root());
-  const fragility::Result result = analyse(world, study, target, reader.motions().group, layout.blocks(), rows_at_once,
-                                           rows_of, spread_jobs(world, options.quiet, [&] { into.leave(); }), &display);
-  const Ranking ranking = rank_intensities(world, study, target, reader);
+  const auto jobs = spread_jobs(world, options.quiet, [&] { into.leave(); });
+  fragility::Result result;
+  Ranking ranking;
+  if (const auto words = counted_words(world, study, reader, options.from)) {
+    const SampleCounts counts(study, target, reader.motions().group, motion_summaries(reader.motions()),
+                              reader.read(0, bin_layout_samples));
+    result = counts.result(*words, jobs);
+    if (world.is_root()) ranking = counts.ranking(*words, swept_samples(reader));
+    told.samples = swept_samples(reader);
+  } else {
+    if (const std::string note = kept_told(reader); !note.empty()) told.notes.push_back(note);
+    const io::BlockLayout layout{reader.rows(), rows_at_once};
+    const std::vector<std::string> columns = analysed_columns(study.fragility);
+    const auto rows_of = [&](std::int64_t block) {
+      return intensity.beside(reader.read(block * rows_at_once, layout.rows(block), columns));
+    };
+    parallel::StepDisplay display(options.quiet || !world.is_root());
+    result =
+        analyse(world, study, target, reader.motions().group, layout.blocks(), rows_at_once, rows_of, jobs, &display);
+    ranking = rank_intensities(world, study, target, reader);
+  }
   told.warnings = result.warnings;
   world.on_root([&] {
     const io::Provenance provenance = provenance_of(reader, study, options, world.size());
@@ -149,6 +183,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     if (elsewhere) summary["samples_in"] = way_between(folder, options.from);
     summary["files"] = {"fragility.h5", "bins.csv", "surface.csv", "ranking.csv", "study.yaml"};
     if (!elsewhere) summary["files"].push_back("samples.h5");
+    if (!elsewhere && reader.rows() < swept_samples(reader)) summary["files"].push_back("tally.h5");
     io::write_text(folder / "summary.json", io::json_text(summary));
   });
   into.end();

@@ -67,20 +67,20 @@ MotionSummaries quick(MotionSummaries summaries) {
 }
 
 fragility::RankingOptions options_of(const Study& study, const std::vector<IntensityPart>& parts,
-                                     const io::MotionRows& motions, const MotionSummaries& summaries) {
+                                     const std::vector<int>& motion_group, const MotionSummaries& summaries) {
   fragility::RankingOptions options;
   for (const IntensityPart& part : parts) options.ims.push_back(short_name(part));
   for (const std::string& name : study.fragility.edp) {
     const edp::Edp& edp = edp::find(name);
     options.edps.push_back({edp.name, edp.binary, edp.binary ? 0 : study.fragility.still.at(name), edp.censored});
   }
-  options.motion_group = motions.group;
+  options.motion_group = motion_group;
   fragility::MotionProperty of_records{"record_pulse_period_s"};
   bool records = false, pulses = false;
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     const double period = summaries[i].pulse.period_s;
     of_records.value.push_back(period > 0 ? period : fragility::unknown);
-    (motions.group[i] < 0 ? pulses : records) = true;
+    (motion_group[i] < 0 ? pulses : records) = true;
   }
   if (records) options.properties.push_back(std::move(of_records));
   for (const std::string& column : given_columns(summaries)) {
@@ -92,50 +92,6 @@ fragility::RankingOptions options_of(const Study& study, const std::vector<Inten
   if (pulses) options.properties.push_back({.name = "pulse_period_s", .of_pulses = true, .value = {}});
   return options;
 }
-
-// Adds the rows of one block to the tally.
-class Counter {
- public:
-  Counter(fragility::RankingTally& tally, const Target& target, const std::vector<IntensityPart>& parts,
-          const MotionSummaries& summaries)
-      : tally_(tally), target_(target) {
-    for (const IntensityPart& part : parts) intensities_.emplace_back(part, summaries);
-  }
-
-  std::vector<std::string> columns() const {
-    std::vector<std::string> names = SampleIntensity::columns();
-    names.push_back("outcome");
-    for (const auto& edp : tally_.options().edps) names.push_back("edp_" + edp.name);
-    return names;
-  }
-
-  void add(const Table& rows, std::int64_t first) {
-    std::vector<std::vector<double>> values;
-    for (const SampleIntensity& intensity : intensities_) values.push_back(intensity(rows));
-    const std::size_t outcome = column_index(rows.columns, "outcome"), motion = column_index(rows.columns, "motion"),
-                      period = column_index(rows.columns, "pulse_period_s");
-    const std::size_t edps = tally_.options().edps.size(), first_edp = rows.columns.size() - edps;
-    std::vector<double> im(intensities_.size()), edp(edps);
-    for (std::size_t row = 0; row < rows.rows(); ++row) {
-      const auto ended = static_cast<Outcome>(rows.at(row, outcome));
-      if (!target_.keeps(static_cast<std::uint64_t>(first) + row)) continue;
-      if (ended != Outcome::at_rest && ended != Outcome::moved && ended != Outcome::overturned) continue;
-      for (std::size_t k = 0; k < im.size(); ++k) im[k] = values[k][row];
-      for (std::size_t e = 0; e < edps; ++e) edp[e] = rows.at(row, first_edp + e);
-      tally_.add({.index = static_cast<std::uint64_t>(first) + row,
-                  .motion = static_cast<int>(rows.at(row, motion)),
-                  .overturned = ended == Outcome::overturned,
-                  .pulse_period_s = rows.at(row, period),
-                  .im = im,
-                  .edp = edp});
-    }
-  }
-
- private:
-  fragility::RankingTally& tally_;
-  const Target& target_;
-  std::vector<SampleIntensity> intensities_;
-};
 
 ordered_json number_json(double x) { return std::isfinite(x) ? ordered_json(x) : ordered_json(); }
 
@@ -178,20 +134,63 @@ std::string table(const RankedDemand& demand) {
 
 }  // namespace
 
+RankingCounts::RankingCounts(const Study& study, const Target& target, const std::vector<int>& motion_group,
+                             const MotionSummaries& with_pulses)
+    : target_(target), tally_([&] {
+        const MotionSummaries summaries = quick(with_pulses);
+        const std::vector<IntensityPart> parts = candidates(study, summaries);
+        for (const IntensityPart& part : parts) intensities_.emplace_back(part, summaries);
+        return options_of(study, parts, motion_group, summaries);
+      }()) {}
+
+std::vector<std::string> RankingCounts::columns() const {
+  std::vector<std::string> names = SampleIntensity::columns();
+  names.push_back("outcome");
+  for (const auto& edp : tally_.options().edps) names.push_back("edp_" + edp.name);
+  return names;
+}
+
+void RankingCounts::add(const Table& rows, std::int64_t first) {
+  const auto end = static_cast<std::size_t>(
+      std::clamp<std::int64_t>(most_ranked_samples - first, 0, static_cast<std::int64_t>(rows.rows())));
+  if (end == 0) return;
+  std::vector<std::vector<double>> values;
+  for (const SampleIntensity& intensity : intensities_) values.push_back(intensity(rows));
+  const std::size_t outcome = column_index(rows.columns, "outcome"), motion = column_index(rows.columns, "motion"),
+                    period = column_index(rows.columns, "pulse_period_s");
+  std::vector<std::size_t> edp_column;
+  for (const auto& edp : tally_.options().edps) edp_column.push_back(column_index(rows.columns, "edp_" + edp.name));
+  std::vector<double> im(intensities_.size()), edp(edp_column.size());
+  for (std::size_t row = 0; row < end; ++row) {
+    const auto ended = static_cast<Outcome>(rows.at(row, outcome));
+    if (!target_.keeps(static_cast<std::uint64_t>(first) + row)) continue;
+    if (ended != Outcome::at_rest && ended != Outcome::moved && ended != Outcome::overturned) continue;
+    for (std::size_t k = 0; k < im.size(); ++k) im[k] = values[k][row];
+    for (std::size_t e = 0; e < edp.size(); ++e) edp[e] = rows.at(row, edp_column[e]);
+    tally_.add({.index = static_cast<std::uint64_t>(first) + row,
+                .motion = static_cast<int>(rows.at(row, motion)),
+                .overturned = ended == Outcome::overturned,
+                .pulse_period_s = rows.at(row, period),
+                .im = im,
+                .edp = edp});
+  }
+}
+
+Ranking RankingCounts::ranking(std::span<const std::int64_t> words, std::int64_t swept) const {
+  return {std::min(swept, most_ranked_samples), swept,
+          rank(fragility::RankingTally::from_words(tally_.options(), words))};
+}
+
 Ranking rank_intensities(const parallel::Communicator& world, const Study& study, const Target& target,
                          const io::SampleReader& reader) {
-  const MotionSummaries summaries = quick(motion_summaries(reader.motions()));
-  const std::vector<IntensityPart> parts = candidates(study, summaries);
-  const fragility::RankingOptions options = options_of(study, parts, reader.motions(), summaries);
-  fragility::RankingTally tally(options);
-  Counter counter(tally, target, parts, summaries);
+  RankingCounts counts(study, target, reader.motions().group, motion_summaries(reader.motions()));
   const io::BlockLayout layout{std::min(reader.rows(), most_ranked_samples), rows_of_a_block};
   for (std::int64_t block = world.rank(); block < layout.blocks(); block += world.size())
-    counter.add(reader.read(block * rows_of_a_block, layout.rows(block), counter.columns()), block * rows_of_a_block);
-  parallel::Words words = tally.words();
+    counts.add(reader.read(block * rows_of_a_block, layout.rows(block), counts.columns()), block * rows_of_a_block);
+  parallel::Words words = counts.words();
   world.sum_in_place(words);
   if (!world.is_root()) return {};
-  return {layout.samples, reader.rows(), rank(fragility::RankingTally::from_words(options, words))};
+  return counts.ranking(words, reader.rows());
 }
 
 ordered_json ranking_json(const Ranking& ranking) {

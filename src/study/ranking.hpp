@@ -2,12 +2,15 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "fragility/ranking.hpp"
 #include "io/samples_file.hpp"
 #include "parallel/communicator.hpp"
+#include "study/intensities.hpp"
+#include "study/motion_summaries.hpp"
 #include "study/study.hpp"
 #include "study/target.hpp"
 
@@ -25,8 +28,32 @@ struct Ranking {
   std::vector<fragility::RankedDemand> demands;  // of the study
 };
 
-// Every intensity of the catalogue once, spectral accelerations at usual periods and at the study's. On the root, the
-// others get an empty one; the same to the bit on any number of ranks. Collective.
+// What is counted of samples for it, of every intensity of the catalogue once, spectral accelerations at usual periods and at
+// the study's.
+class RankingCounts {
+ public:
+  // motion_group: one entry a motion (fragility::Options). target outlives it.
+  RankingCounts(const Study&, const Target&, const std::vector<int>& motion_group, const MotionSummaries&);
+
+  // Of a row it reads these columns.
+  std::vector<std::string> columns() const;
+
+  // Row i is sample first + i; those from most_ranked_samples on are left out.
+  void add(const Table& rows, std::int64_t first);
+
+  // Words of several may be added element by element.
+  parallel::Words words() const { return tally_.words(); }
+  void clear() { tally_ = fragility::RankingTally(tally_.options()); }
+
+  Ranking ranking(std::span<const std::int64_t> words, std::int64_t swept) const;
+
+ private:
+  const Target& target_;
+  std::vector<SampleIntensity> intensities_;
+  fragility::RankingTally tally_;
+};
+
+// On the root, the others get an empty one; the same to the bit on any number of ranks. Collective.
 Ranking rank_intensities(const parallel::Communicator&, const Study&, const Target&, const io::SampleReader&);
 
 nlohmann::ordered_json ranking_json(const Ranking&);

@@ -59,6 +59,21 @@ void read_until(Section& file, Study& study) {
   study.samples = until.at_most;
 }
 
+// More samples than this are not kept unless the study says so: their file would have tens of gigabytes.
+constexpr std::uint64_t most_kept_unasked = 100'000'000;
+
+void read_keep(Section& file, Study& study) {
+  const YAML::Node* node = file.find("keep");
+  if (node && node->IsMap()) {
+    Section section(*node, "keep", file.line("keep"), file.problems());
+    study.keep.one_in = section.integer("thin", 1, 1, most_samples);
+    section.finish();
+    return;
+  }
+  const int fallback = study.samples > most_kept_unasked ? 1 : 0;
+  study.keep.one_in = file.choice("keep", {"all", "none"}, fallback) == 0 ? 1 : 0;
+}
+
 void read_design(Section& file, Study& study) {
   study.seed = file.integer("seed", 1, 0);
   study.design = static_cast<sampling::Design>(file.choice("design", {"monte_carlo", "latin_hypercube", "sobol"}, 2));
@@ -77,13 +92,15 @@ void read_design(Section& file, Study& study) {
     file.problem("design",
                  "latin_hypercube does not go with until (its strata depend on the number of samples): give "
                  "samples, or use sobol");
+  read_keep(file, study);
   study.block_size = file.integer("block_size", default_block_size(study.samples), 1, 1U << 20);
   if (study.samples / study.block_size > most_blocks)
     file.problem(
         study.until ? "until" : "samples",
-        fmt::format("{} samples in blocks of {} are more than {} blocks (each is a file until the sweep ends): "
-                    "lower {}, or raise block_size",
-                    study.samples, study.block_size, most_blocks, study.until ? "at_most" : "samples"));
+        fmt::format(
+            "{} samples in blocks of {} are more than {} blocks (of each every rank must know whether it is finished): "
+            "lower {}, or raise block_size",
+            study.samples, study.block_size, most_blocks, study.until ? "at_most" : "samples"));
 }
 
 // A case is one sample: no distribution anywhere.

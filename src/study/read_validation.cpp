@@ -105,8 +105,8 @@ void read_all(const YAML::Node& root, Validation& v, Problems& problems) {
   check_fixed(v.model, problems);
   check_ranges(v, file.line("model"), problems);
   v.ladder = read_ladder(file);
-  for (const char* key :
-       {"seed", "samples", "until", "design", "block_size", "tolerance", "free_vibration_s", "motions", "fragility"})
+  for (const char* key : {"seed", "samples", "until", "keep", "design", "block_size", "tolerance", "free_vibration_s",
+                          "motions", "fragility"})
     file.find(key);  // of the sweep that takes the same file
   file.finish();
 }

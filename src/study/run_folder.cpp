@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "io/own_files.hpp"
-#include "parallel/block_log.hpp"
+#include "parallel/finished_blocks.hpp"
 #include "study/sweep.hpp"
 
 namespace freestand::study {
@@ -31,7 +31,7 @@ std::int64_t finished_in(const fs::path& folder) {
   std::int64_t finished = 0;
   if (fs::exists(samples_path(folder), error))
     finished = fs::last_write_time(samples_path(folder), error).time_since_epoch().count();
-  return finished + parallel::count_blocks(blocks_path(folder));
+  return finished + parallel::count_finished_blocks(blocks_path(folder));
 }
 
 fs::path note_path(const fs::path& folder) { return folder / io::begun_name; }

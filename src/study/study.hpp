@@ -179,12 +179,19 @@ struct UntilPart {
   std::uint64_t at_most = 0;
 };
 
+// Which samples are kept beside what is counted of them: the first ones, since the first points of a Sobol sequence are evenly
+// spread and every k-th is not.
+struct KeepPart {
+  std::uint64_t one_in = 1;  // of so many samples one is kept; 0: none
+};
+
 struct Study {
   std::string name;              // key `name`, or the stem of the file
   std::filesystem::path folder;  // relative paths start here: the study file's folder, or its key paths_from
   std::uint64_t seed = 1;
   std::uint64_t samples = 0;  // with `until`: until->at_most
   std::optional<UntilPart> until;
+  KeepPart keep;
   sampling::Design design = sampling::Design::sobol;
   int scrambles =
       1;  // independent designs, from whose differences errors come where every sample is a motion of its own

@@ -8,17 +8,18 @@
 #include <numeric>
 #include <optional>
 
-#include "base/random.hpp"
 #include "fragility/fit.hpp"
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 #include "io/samples_file.hpp"
-#include "parallel/block_log.hpp"
+#include "io/tally_file.hpp"
+#include "parallel/finished_blocks.hpp"
 #include "parallel/progress.hpp"
 #include "parallel/schedule.hpp"
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
 #include "study/changed_keys.hpp"
+#include "study/checkpoint.hpp"
 #include "study/doubts.hpp"
 #include "study/earlier_samples.hpp"
 #include "study/effects_page.hpp"
@@ -43,14 +44,16 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 // Why the blocks in the folder are of another study: in which key, as the study.yaml beside them tells.
 std::string why_other(const Study& study, const std::filesystem::path& folder, const std::string& blocks_fingerprint) {
-  if (blocks_fingerprint.starts_with(samples_fingerprint(study)))
-    return "a record has other contents now, or another name";
+  const bool same_samples = blocks_fingerprint.starts_with(samples_fingerprint(study));
+  const auto samples = static_cast<std::int64_t>(study.samples);
   try {
-    const std::string told = changes_told(study, parse_stored(read_text(study_path(folder)), study_path(folder)));
+    const std::string told =
+        changes_told(study, parse_stored(read_text(study_path(folder)), study_path(folder)),
+                     same_samples && kept_samples(study, samples) < samples ? Changes::of_counts : Changes::of_samples);
     if (!told.empty()) return told;
   } catch (const Error&) {  // it is gone, or no study any more
   }
-  return "their fingerprint differs";
+  return same_samples ? "a record has other contents now, or another name" : "their fingerprint differs";
 }
 
 // The root tries the records first, so that a broken one is told once and all ranks leave in order.
@@ -68,13 +71,6 @@ Evaluator evaluator_together(const Communicator& world, const Study& study, bool
   return {study, motions, summarize_together(world, study, motions, &display)};
 }
 
-// Of the numbers of a row and of what they mean.
-std::uint32_t kernel_of(const std::vector<Column>& columns) {
-  std::string names;
-  for (const Column& column : columns) names += column.name + "\n";
-  return kernel_number ^ static_cast<std::uint32_t>(random::stable_hash(names));
-}
-
 class Sweep {
  public:
   Sweep(const Communicator& world, const Study& study, const SweepOptions& options, RunFolder& folder)
@@ -84,8 +80,10 @@ class Sweep {
         folder_(folder),
         earlier_(study, folder.path()),
         evaluator_(evaluator_together(world, study, options.quiet)),
-        log_(log_in(folder.path())) {
+        target_(study) {
     earlier_.check(evaluator_.columns(), evaluator_.motions().fingerprint());
+    refuse_bins_that_are_too_narrow();  // before anything is made
+    checkpoint_.emplace(world, study, target_, evaluator_, folder.path());
   }
 
   SweepSummary run() {
@@ -108,13 +106,6 @@ class Sweep {
   }
 
  private:
-  // What is wrong with the bins is told before anything is made.
-  parallel::BlockLog log_in(const std::filesystem::path& folder) const {
-    refuse_bins_that_are_too_narrow();
-    return {blocks_path(folder), samples_fingerprint(study_) + evaluator_.motions().fingerprint(),
-            kernel_of(evaluator_.columns())};
-  }
-
   std::int64_t total() const { return static_cast<std::int64_t>(study_.samples); }
   io::BlockLayout layout(std::int64_t samples) const { return {samples, static_cast<std::int64_t>(study_.block_size)}; }
 
@@ -134,7 +125,7 @@ class Sweep {
     world_.on_root([&] {
       const auto first = static_cast<std::size_t>(std::min(total(), bin_layout_samples));
       const SampleIntensity intensity(study_.fragility.im, evaluator_.summaries());
-      laid_out(study_, Target(study_), intensity.beside(evaluator_.draws(first)), evaluator_.motions().groups());
+      laid_out(study_, target_, intensity.beside(evaluator_.draws(first)), evaluator_.motions().groups());
     });
   }
 
@@ -143,7 +134,7 @@ class Sweep {
       find_blocks();
       if (earlier_.rows() == 0) write_study();  // else it is of the samples that are there, until all are
     });
-    finished_ = log_.begin(world_);
+    checkpoint_->begin();
   }
 
   void write_study() const {
@@ -158,7 +149,7 @@ class Sweep {
 
   void find_blocks() {
     try {
-      log_.find();
+      checkpoint_->find();
     } catch (const parallel::OtherBlocks& other) {
       throw Error(
           fmt::format("{} holds samples of another study ({}): resume with the study and records it was started with, "
@@ -173,7 +164,7 @@ class Sweep {
     std::int64_t there = 0;
     for (std::int64_t block = 0; block < layout(samples).blocks(); ++block) {
       const std::int64_t rows = layout(samples).rows(block), earlier = earlier_rows(samples, block);
-      const bool finished = earlier == rows || std::binary_search(finished_.begin(), finished_.end(), block);
+      const bool finished = earlier == rows || block < finished_ || checkpoint_->has(block);
       there += finished ? rows : earlier;
       if (!finished) todo.push_back(block);
     }
@@ -186,30 +177,29 @@ class Sweep {
         [&](std::int64_t block, const parallel::Beat& beat) { return compute_block(samples, block, beat); },
         progress ? &*progress : nullptr);
     summary_.compute_s += seconds_since(start);
+    checkpoint_->share();
     if (!complete) folder_.leave();
-    log_.share(world_);
     summary_.computed += samples - there;
-    finished_.insert(finished_.end(), todo.begin(), todo.end());
-    std::sort(finished_.begin(), finished_.end());
+    finished_ = samples / layout(samples).block_size;
   }
 
   parallel::Counts compute_block(std::int64_t samples, std::int64_t block, const parallel::Beat& beat) {
     parallel::Counts counts;
-    log_.write(block, rows_of(samples, block, counts, beat));
+    checkpoint_->add(block, {evaluator_.columns(), rows_of(block, layout(samples).rows(block), counts, beat)});
     return counts;
   }
 
-  parallel::BlockRows rows_of(std::int64_t samples, std::int64_t block, parallel::Counts& counts,
+  // The first so many rows of a block.
+  std::vector<double> rows_of(std::int64_t block, std::int64_t rows, parallel::Counts& counts,
                               const parallel::Beat& beat) const {
-    const io::BlockLayout blocks = layout(samples);
-    parallel::BlockRows rows{.columns = static_cast<std::int64_t>(evaluator_.columns().size()), .values = {}};
-    rows.values.reserve(static_cast<std::size_t>(rows.columns * blocks.rows(block)));
-    const std::int64_t first = block * blocks.block_size, end = first + blocks.rows(block);
-    const std::int64_t earlier = earlier_rows(samples, block);
-    if (earlier > 0) rows.values = earlier_.read(first, earlier);
+    std::vector<double> values;
+    values.reserve(evaluator_.columns().size() * static_cast<std::size_t>(rows));
+    const std::int64_t first = block * layout(total()).block_size, end = first + rows;
+    const std::int64_t earlier = std::min(rows, earlier_rows(total(), block));
+    if (earlier > 0) values = earlier_.read(first, earlier);
     for (std::int64_t sample = first + earlier; sample < end; sample += pack_samples) {
       const auto count = static_cast<std::size_t>(std::min(pack_samples, end - sample));
-      for (const Outcome outcome : evaluator_.append(static_cast<std::uint64_t>(sample), count, rows.values)) {
+      for (const Outcome outcome : evaluator_.append(static_cast<std::uint64_t>(sample), count, values)) {
         ++counts.samples;
         counts.overturned += outcome == Outcome::overturned;
         counts.failed +=
@@ -217,33 +207,34 @@ class Sweep {
       }
       beat();
     }
-    return rows;
+    return values;
   }
 
-  // A finished block; one whose file has become unreadable since is computed again.
+  // Of a finished block what is kept; where that has become unreadable since, it is computed again.
   std::vector<double> finished_rows(std::int64_t samples, std::int64_t block) const {
-    const std::int64_t rows = layout(samples).rows(block);
+    const std::int64_t rows = std::min(layout(samples).rows(block), checkpoint_->kept(block));
     if (earlier_rows(samples, block) == rows) return earlier_.read(block * layout(samples).block_size, rows);
     try {
-      return log_.read(block).values;
+      return checkpoint_->rows(block);
     } catch (const Error& error) {
       parallel::tell(fmt::format("{}: it is computed again now\n", error.what()));
       parallel::Counts ignored;
-      return rows_of(samples, block, ignored, [] {}).values;
+      return rows_of(block, rows, ignored, [] {});
     }
   }
 
   // Of the finished samples; on the root.
   fragility::Result result_so_far(std::int64_t samples) {
     folder_.leave_if_asked();
+    const Jobs jobs = spread_jobs(world_, true, [this] { folder_.leave(); });
+    if (const SampleCounts* counts = checkpoint_->counts()) return counts->result(checkpoint_->counted(), jobs);
     const SampleIntensity intensity(study_.fragility.im, evaluator_.summaries());
     return analyse(
-        world_, study_, Target(study_), evaluator_.motions().groups(), layout(samples).blocks(),
-        layout(samples).block_size,
+        world_, study_, target_, evaluator_.motions().groups(), layout(samples).blocks(), layout(samples).block_size,
         [&](std::int64_t block) {
           return intensity.beside({evaluator_.columns(), finished_rows(samples, block)});
         },
-        spread_jobs(world_, true, [this] { folder_.leave(); }));
+        jobs);
   }
 
   // However quiet: who asked for a half width must know that it was not reached.
@@ -282,11 +273,18 @@ class Sweep {
     header.provenance.samples = samples;
     header.provenance.kernel = fmt::format("{:08x}", kernel_number);
     folder_.confirm();
-    io::write_samples(world_, samples_path(folder_.path()), header, layout(samples),
+    if (checkpoint_->counts()) {
+      const parallel::Words words = checkpoint_->counted();
+      world_.on_root([&] {
+        io::write_tally(tally_path(folder_.path()), {header.provenance, counts_fingerprint(study_), words});
+      });
+    }
+    io::write_samples(world_, samples_path(folder_.path()), header,
+                      {std::min(samples, checkpoint_->kept()), layout(samples).block_size},
                       [&](std::int64_t block) { return finished_rows(samples, block); });
     world_.on_root([&] {
       write_study();
-      parallel::remove_blocks(log_.folder());
+      parallel::remove_finished_blocks(blocks_path(folder_.path()));
     });
     summary_.write_s = seconds_since(writing);
   }
@@ -297,9 +295,10 @@ class Sweep {
   const SweepOptions& options_;
   RunFolder& folder_;
   const EarlierSamples earlier_;
-  Evaluator evaluator_;
-  parallel::BlockLog log_;
-  parallel::Words finished_;
+  const Evaluator evaluator_;
+  const Target target_;
+  std::optional<Checkpoint> checkpoint_;
+  std::int64_t finished_ = 0;  // whole blocks of the rounds so far
   SweepSummary summary_;
 };
 
@@ -307,6 +306,7 @@ class Sweep {
 
 std::filesystem::path samples_path(const std::filesystem::path& folder) { return folder / "samples.h5"; }
 std::filesystem::path blocks_path(const std::filesystem::path& folder) { return folder / "blocks"; }
+std::filesystem::path tally_path(const std::filesystem::path& folder) { return folder / "tally.h5"; }
 std::filesystem::path study_path(const std::filesystem::path& folder) { return folder / "study.yaml"; }
 
 SweepSummary sweep(const Communicator& world, const Study& study, const SweepOptions& options, RunFolder& folder) {
@@ -314,7 +314,7 @@ SweepSummary sweep(const Communicator& world, const Study& study, const SweepOpt
   world.on_root([&] {
     complete[0] = EarlierSamples(study, folder.path()).complete();
     if (!complete[0]) return;
-    parallel::remove_blocks(blocks_path(folder.path()));  // its end was interrupted
+    parallel::remove_finished_blocks(blocks_path(folder.path()));  // its end was interrupted
     io::write_text(study_path(folder.path()), io::signed_text(expanded(study, folder.path())));
   });
   if (world.broadcast(complete)[0]) return {.samples = static_cast<std::int64_t>(study.samples), .computed = 0};

@@ -19,6 +19,7 @@ struct SweepOptions {
 // Where a sweep's files lie inside its folder.
 std::filesystem::path samples_path(const std::filesystem::path& folder);
 std::filesystem::path blocks_path(const std::filesystem::path& folder);
+std::filesystem::path tally_path(const std::filesystem::path& folder);  // only where not all samples are kept
 std::filesystem::path study_path(const std::filesystem::path& folder);  // the expanded study
 
 struct SweepSummary {

@@ -10,6 +10,17 @@
 
 namespace freestand::study {
 
+std::int64_t swept_samples(const io::SampleReader& samples) { return samples.provenance().samples; }
+
+std::string kept_told(const io::SampleReader& samples) {
+  if (samples.rows() == swept_samples(samples)) return "";
+  return fmt::format(
+      "of the {} samples of the sweep the first {} are kept, and these alone answer what was not asked before it "
+      "(keep: all, "
+      "or {{thin: 100}}, keeps more)",
+      swept_samples(samples), samples.rows());
+}
+
 Study analysed_study(const std::filesystem::path& folder, const io::SampleReader& samples) {
   Study study = parse_stored(samples.provenance().study, samples_path(folder));
   const std::filesystem::path fitted = folder / "fragility.h5";

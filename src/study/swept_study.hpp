@@ -1,7 +1,9 @@
 // The study of a finished sweep, for what is asked of it afterwards.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "io/samples_file.hpp"
 #include "parallel/communicator.hpp"
@@ -9,6 +11,12 @@
 #include "study/sweep.hpp"
 
 namespace freestand::study {
+
+// How many samples were swept; the first reader.rows() of them are kept.
+std::int64_t swept_samples(const io::SampleReader&);
+
+// What is to be told where an answer comes from those that are kept; empty where all are.
+std::string kept_told(const io::SampleReader&);
 
 // As stored with the samples, records not looked for; the fragility block is that of fragility.h5 where there is one: what was fitted
 // last.

@@ -7,7 +7,7 @@
 #include "base/durable_file.hpp"
 #include "io/samples_file.hpp"
 #include "mpi/mpi_main.hpp"
-#include "parallel/block_log.hpp"
+#include "parallel/finished_blocks.hpp"
 #include "parallel/schedule.hpp"
 #include "support/sample_blocks.hpp"
 
@@ -63,7 +63,7 @@ TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
   EXPECT_TRUE(same_bits(reader.read(first, 5000).values, small_rows(first, 5000)));
   EXPECT_TRUE(same_bits(reader.read(120000, 3457).values, small_rows(120000, 3457)));
   world().barrier();
-  world().on_root([&] { parallel::remove_blocks(store.folder()); });
+  world().on_root([&] { parallel::remove_finished_blocks(store.folder()); });
 }
 
 TEST(Samples, FewerBlocksThanRanksAreWrittenToo) {

@@ -1,5 +1,3 @@
-#include "parallel/block_log.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +8,7 @@
 #include <fstream>
 
 #include "base/durable_file.hpp"
+#include "parallel/finished_blocks.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 #include "support/trouble.hpp"
@@ -92,7 +91,7 @@ TEST_F(BlockLogTest, FilesOfOthersAreLeftAlone) {
   replace(scratch_ / "notes.txt", "mine");
   replace(scratch_ / "run-0009.node-000000.log.bak", "mine too");
   EXPECT_EQ(found(), (Blocks{0, 3, 12, 100000000}));
-  remove_blocks(scratch_.folder());
+  remove_finished_blocks(scratch_.folder());
   EXPECT_TRUE(logs(scratch_.folder()).empty());
   EXPECT_TRUE(fs::exists(scratch_ / "notes.txt") && fs::exists(scratch_ / "run-0009.node-000000.log.bak"));
 }

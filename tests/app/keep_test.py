@@ -1,0 +1,121 @@
+"""A sweep that does not keep its samples has the tables of one that does, on any number of ranks and after any interruption."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import time
+import unittest
+
+from kill_and_resume_test import ranks_of
+from support import InFolder, command, datasets, h5py, study_text
+
+TABLES = ("bins.csv", "surface.csv", "ranking.csv")
+
+
+def tables(folder):
+    return {name: (folder / name).read_bytes() for name in TABLES}, datasets(folder / "fragility.h5")
+
+
+def summed_blocks(folder):
+    """Blocks in the sums of the last run whose first node has a file."""
+    files = sorted((folder / "blocks").glob("run-*.node-000000.sums"))
+    try:
+        content = files[-1].read_bytes() if files else b""
+    except FileNotFoundError:
+        return 0
+    blocks = int.from_bytes(content[80:88], "little")
+    return sum(byte.bit_count() for byte in content[112:112 + (blocks + 63) // 64 * 8])
+
+
+class Keep(InFolder):
+    def study(self, keep, samples=9000, **changes):
+        return self.write(f"{keep[:4]}.yaml".replace("{", ""), study_text(samples=samples, **changes) + (f"keep: {keep}\n" if keep else ""))
+
+    def test_the_tables_are_those_of_all_samples(self):
+        all_kept = self.folder / "all"
+        self.succeed(["run", self.study("all"), "-o", all_kept, "--quiet"], 2)
+        for keep, kept, ranks in (("none", 4096, 1), ("none", 4096, 3), ("{thin: 2}", 4500, 2)):
+            out = self.folder / f"{kept}-{ranks}"
+            done = self.succeed(["run", self.study(keep), "-o", out, "--quiet"], ranks)
+            self.assertEqual(tables(out), tables(all_kept))
+            self.assertNotIn("are kept", done.stdout)
+            self.assertFalse((out / "blocks").exists())
+            with h5py.File(out / "samples.h5") as few, h5py.File(all_kept / "samples.h5") as many:
+                self.assertEqual(len(few["samples/sample"]), kept)
+                self.assertEqual(few["samples/edp_delta"][:].tobytes(), many["samples/edp_delta"][:kept].tobytes())
+            summary = json.loads((out / "summary.json").read_text())
+            self.assertEqual(summary["samples"], 9000)
+            self.assertIn("tally.h5", summary["files"])
+
+    def test_fits_of_what_was_counted_and_of_what_was_kept(self):
+        out = self.folder / "out"
+        self.succeed(["sweep", self.study("none"), "-o", out, "--quiet"], 2)
+        study = out / "study.yaml"
+        swept = study.read_text()
+        study.write_text(swept.replace("confidence: 0.95", "confidence: 0.9"))
+        self.assertIn("9000 samples fitted", self.succeed(["fit", out]).stdout)
+        told = self.succeed(["fit", out, "--im", "pga_g", "-o", self.folder / "pga"], 2).stdout
+        self.assertIn("of the 9000 samples of the sweep the first 4096 are kept", told)
+        self.assertIn("4096 samples fitted", told)
+        (out / "tally.h5").unlink()
+        self.fail_with(3, ["fit", out], "tally.h5")
+
+    def test_with_until(self):
+        studies = [self.write(f"{keep}.yaml", study_text().replace("samples: 3000", "until: {half_width: 0.03, at_most: 40000}") + f"keep: {keep}\n")
+                   for keep in ("all", "none")]
+        for study in studies:
+            self.succeed(["run", study, "-o", self.folder / study.stem, "--quiet"], 2)
+        self.assertEqual(tables(self.folder / "none"), tables(self.folder / "all"))
+        samples = json.loads((self.folder / "none" / "summary.json").read_text())["samples"]
+        self.assertTrue(4096 < samples < 40000, samples)
+
+    def test_killed_and_stopped_it_goes_on_to_the_same_bits(self):
+        study = self.study("none", samples=200000)
+        whole = self.folder / "whole"
+        self.succeed(["run", study, "-o", whole, "--quiet"], 2)
+        out, dice, kept = self.folder / "out", random.Random(3), []
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            launcher = subprocess.Popen(command(["run", study, "-o", out, "--quiet", *(["--resume"] if out.exists() else [])], 2),
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+            before, deadline = summed_blocks(out), time.monotonic() + 60
+            while summed_blocks(out) <= before and launcher.poll() is None and time.monotonic() < deadline:
+                time.sleep(0.01)
+            time.sleep(dice.uniform(0, 0.3))
+            for rank in ranks_of(launcher.pid)[:2 if number == signal.SIGTERM else 1]:
+                os.kill(rank, number)
+            _, error = launcher.communicate(timeout=60)
+            self.assertTrue(launcher.returncode, error)
+            kept.append(summed_blocks(out))
+        self.assertGreater(kept[0], 0)
+        self.assertGreater(kept[1], kept[0])
+        self.fail_with(2, ["run", study, "-o", out], f"--overwrite throws {kept[1]} finished blocks away")
+        self.succeed(["run", study, "-o", out, "--resume", "--quiet"], 3)
+        self.assertEqual(tables(out), tables(whole))
+        computed = json.loads((out / "summary.json").read_text())["timing"]["samples_computed"]
+        self.assertEqual(computed, 200000 - 64 * kept[1])
+
+    def test_what_cannot_be_gone_on_with_is_refused(self):
+        study, out = self.study("none", samples=200000), self.folder / "out"
+        launcher = subprocess.Popen(command(["run", study, "-o", out, "--quiet"], 1), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        while not summed_blocks(out) and launcher.poll() is None:
+            time.sleep(0.01)
+        launcher.terminate()
+        launcher.communicate(timeout=60)
+        for old, new, why in (("count: 5", "count: 6", "fragility.bins.count was 5, is 6"), ("keep: none", "keep: all", "keep was none")):
+            other = self.write("other.yaml", study.read_text().replace(old, new))
+            self.fail_with(2, ["run", other, "-o", out, "--resume"], why)
+        self.succeed(["run", study, "-o", out, "--resume", "--quiet"], 2)
+        more = self.study("none", samples=210000)
+        self.fail_with(2, ["run", more, "-o", out, "--resume"], "counts of 200000 samples", "none can be added")
+
+    def test_unless_the_study_says_otherwise_a_hundred_million_are_kept(self):
+        told = self.succeed(["run", self.study("", samples=100_000_001), "--check"]).stdout
+        self.assertIn("\nkeep: none\n", told)
+        self.assertNotIn("\nkeep:", self.succeed(["run", self.study("", samples=100_000_000), "--check"]).stdout)
+        self.fail_with(2, ["run", self.study("some"), "--check"], "keep", "all, none")
+
+
+if __name__ == "__main__":
+    unittest.main()
