@@ -10,6 +10,7 @@
 #include "study/known.hpp"
 #include "study/realise.hpp"
 #include "study/sweep.hpp"
+#include "study/sweep_size.hpp"
 
 namespace freestand::app {
 namespace {
@@ -30,11 +31,17 @@ study::Study read(const Context& context, const RunOptions& options) {
   return read_it();
 }
 
+// Records that cannot be read, and bins that cannot be laid, are told as the sweep would tell them.
 Exit check(const Context& context, const RunOptions& options) {
   const study::Study study = read(context, options);
-  // Records that cannot be read are told as the sweep would tell them.
-  context.world.on_root([&] { study::load_motions(study); });
-  if (context.world.is_root()) fmt::print("{}", study::expanded(study, ""));
+  std::string size;
+  context.world.on_root([&] {
+    const study::Target target(study);
+    const study::SweepSize found = study::size_of(study, target, study::Evaluator(study, study::load_motions(study)));
+    study::refuse_too_large(found);
+    size = study::told(found);
+  });
+  if (context.world.is_root()) fmt::print("{}# {}\n", study::expanded(study, ""), size);
   return Exit::done;
 }
 

@@ -29,6 +29,7 @@
 #include "study/known.hpp"
 #include "study/read_parts.hpp"
 #include "study/spread_jobs.hpp"
+#include "study/sweep_size.hpp"
 #include "study/until.hpp"
 
 namespace freestand::study {
@@ -82,7 +83,7 @@ class Sweep {
         evaluator_(evaluator_together(world, study, options.quiet)),
         target_(study) {
     earlier_.check(evaluator_.columns(), evaluator_.motions().fingerprint());
-    refuse_bins_that_are_too_narrow();  // before anything is made
+    look_at_size();
     checkpoint_.emplace(world, study, target_, evaluator_, folder.path());
   }
 
@@ -116,16 +117,13 @@ class Sweep {
     return std::min(total(), block * ((bin_layout_samples + block - 1) / block));
   }
 
-  // The bins are laid over the first samples' intensities, which are known before any response is.
-  void refuse_bins_that_are_too_narrow() const {
-    const auto& axes = study_.fragility.axes;
-    if (study_.fragility.bins.width <= 0 &&
-        std::none_of(axes.begin(), axes.end(), [](const AxisPart& axis) { return axis.bins.width > 0; }))
-      return;
+  // Before anything is made: the bins are laid over the first samples' intensities, which are known before any response is.
+  void look_at_size() const {
     world_.on_root([&] {
-      const auto first = static_cast<std::size_t>(std::min(total(), bin_layout_samples));
-      const SampleIntensity intensity(study_.fragility.im, evaluator_.summaries());
-      laid_out(study_, target_, intensity.beside(evaluator_.draws(first)), evaluator_.motions().groups());
+      const SweepSize size = size_of(study_, target_, evaluator_);
+      refuse_too_large(size);
+      if (const std::string room = room_told(size, folder_.path()); !room.empty())
+        parallel::tell("doubtful: " + room + "\n");
     });
   }
 

@@ -3,6 +3,7 @@
 import json
 import os
 import random
+import re
 import signal
 import subprocess
 import time
@@ -109,6 +110,23 @@ class Keep(InFolder):
         self.succeed(["run", study, "-o", out, "--resume", "--quiet"], 2)
         more = self.study("none", samples=210000)
         self.fail_with(2, ["run", more, "-o", out, "--resume"], "counts of 200000 samples", "none can be added")
+
+    def test_check_tells_how_large_it_is(self):
+        factor = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9}
+        for keep, files in (("all", ("samples.h5",)), ("none", ("samples.h5", "tally.h5"))):
+            study, out = self.study(keep, samples=20000), self.folder / keep
+            told = self.succeed(["run", study, "--check"]).stdout
+            number, unit = re.search(r"kept: (\S+) (\w*B) in samples.h5", told).groups()
+            self.succeed(["sweep", study, "-o", out, "--quiet"])
+            size = sum((out / name).stat().st_size for name in files)
+            self.assertAlmostEqual(float(number) * factor[unit], size, delta=0.03 * size)
+        study = self.write("large.yaml", study_text().replace("count: 5", "count: 1000").replace("axes: [friction.mu_k]", """axes:
+  [{name: friction.mu_k, bins: {count: 1000}}, {name: block.width_m, bins: {count: 1000}}, {name: motion.period_s, bins: {count: 1000}},
+   {name: motion.pta_g, bins: {count: 1000}}],
+  capacities: {delta: [%s]}""" % ", ".join(f"{0.01 * i:g}" for i in range(1, 100))))
+        for arguments in (["--check"], ["-o", self.folder / "large"]):
+            self.fail_with(2, ["run", study, *arguments], "what is counted takes", "take fewer bins")
+        self.assertEqual(list((self.folder / "large").glob("*.h5")), [])
 
     def test_unless_the_study_says_otherwise_a_hundred_million_are_kept(self):
         told = self.succeed(["run", self.study("", samples=100_000_001), "--check"]).stdout
