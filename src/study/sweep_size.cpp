@@ -1,0 +1,100 @@
+#include "study/sweep_size.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <freestand/error.hpp>
+#include <system_error>
+
+#include "fragility/groups.hpp"
+#include "fragility/tally_layout.hpp"
+#include "study/analysis.hpp"
+#include "study/intensities.hpp"
+#include "study/ranking.hpp"
+#include "study/sample_counts.hpp"
+
+namespace freestand::study {
+namespace {
+
+constexpr double word_bytes = 8, number_bytes = 8;  // of a count, and of the number of a sample
+constexpr double words_of_a_sum = 4;
+// A tally, its words as they travel, and those that have arrived.
+constexpr double copies = 3;
+
+double bytes_of(ColumnKind kind) {
+  switch (kind) {
+    case ColumnKind::integer:
+      return 4;
+    case ColumnKind::flag:
+      return 1;
+    case ColumnKind::real:
+      break;
+  }
+  return 8;
+}
+
+std::string bytes_text(double bytes) {
+  constexpr std::array units{"B", "kB", "MB", "GB", "TB", "PB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1000 && unit + 1 < units.size(); ++unit) bytes /= 1000;
+  return fmt::format("{:.3g} {}", bytes, units[unit]);
+}
+
+}  // namespace
+
+SweepSize size_of(const Study& study, const Target& target, const Evaluator& evaluator) {
+  SweepSize size;
+  size.samples = static_cast<std::int64_t>(study.samples);
+  size.kept = kept_samples(study, size.samples);
+  double row = number_bytes;
+  for (const Column& column : evaluator.columns()) row += bytes_of(column.kind);
+  size.samples_bytes = row * static_cast<double>(size.kept);
+  size.blocks_bytes = 8.0 * static_cast<double>(evaluator.columns().size()) * static_cast<double>(size.kept);
+
+  const SampleIntensity intensity(study.fragility.im, evaluator.summaries());
+  const auto first = static_cast<std::size_t>(std::min(size.samples, bin_layout_samples));
+  const fragility::Options options =
+      laid_out(study, target, intensity.beside(evaluator.draws(first)), evaluator.motions().groups());
+  const fragility::MotionGroups groups(options);
+  const fragility::TallyLayout layout(options, static_cast<std::size_t>(groups.count()));
+  const RankingCounts ranking(study, target, evaluator.motions().groups(), evaluator.summaries());
+  size.counts_bytes = word_bytes * (static_cast<double>(layout.count_size) +
+                                    words_of_a_sum * static_cast<double>(layout.sum_size) +
+                                    static_cast<double>(ranking.words().size()));
+  size.memory_bytes = copies * size.counts_bytes;
+  return size;
+}
+
+std::string told(const SweepSize& size) {
+  const std::string memory = fmt::format("{} of counts in the memory of each rank", bytes_text(size.memory_bytes));
+  const bool all = size.kept == size.samples;
+  const double files = size.samples_bytes + (all ? 0 : size.counts_bytes);
+  return fmt::format("{} samples, of which {} kept: {} in {}; while it runs {} more in blocks/{}; {}", size.samples,
+                     all ? "all are" : fmt::format("the first {} are", size.kept), bytes_text(files),
+                     all ? "samples.h5" : "samples.h5 and tally.h5", bytes_text(size.blocks_bytes),
+                     all ? "" : fmt::format(" and {} for each node", bytes_text(size.counts_bytes)), memory);
+}
+
+void refuse_too_large(const SweepSize& size) {
+  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (size.memory_bytes <= memory) return;
+  throw Error(
+      fmt::format("what is counted takes {} in each rank, and this machine has {}: take fewer bins, capacities, second axes or "
+                  "demands",
+                  bytes_text(size.memory_bytes), bytes_text(memory)));
+}
+
+std::string room_told(const SweepSize& size, const std::filesystem::path& folder) {
+  std::error_code error;
+  const double room = static_cast<double>(std::filesystem::space(folder, error).available);
+  const double wanted = size.samples_bytes + size.blocks_bytes + 2 * size.counts_bytes;
+  if (error || room >= wanted) return "";
+  return fmt::format(
+      "{} has room for {}, and the sweep will take {} (keep: {{thin: 100}} or none takes less): it will stop when the disk "
+      "is full, and go on with --resume when there is more room",
+      folder.string(), bytes_text(room), bytes_text(wanted));
+}
+
+}  // namespace freestand::study
