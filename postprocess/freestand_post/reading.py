@@ -93,6 +93,11 @@ class Sweep:
     def samples(self):
         return int(sum(self.outcomes.values()))
 
+    @property
+    def kept(self):
+        """Samples whose draws are known."""
+        return self.outcome.size
+
     def continuous(self):
         return [edp for edp in self.edps if edp.kind != "binary" and edp.capacity.size]
 

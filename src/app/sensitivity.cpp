@@ -38,6 +38,7 @@ void tell(const study::Sensitivity& found, const study::SensitivityOptions& opti
   fmt::print("share of the variance that would go if the parameter were known, +- standard error\n");
   for (std::size_t a = 0; a < found.answers.size(); ++a)
     fmt::print("  {:<{}}  {}\n", study::title(found.answers[a]), width, line(found, a));
+  if (!found.note.empty()) fmt::print("{}\n", found.note);
   fmt::print("sensitivity.csv and sensitivity.json in {}\n",
              (options.output.empty() ? options.folder : options.output).string());
 }

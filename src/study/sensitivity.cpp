@@ -73,6 +73,7 @@ class Shares {
     found.answers = answers_.answers();
     found.confidence = options_.confidence;
     found.pairs = options_.pairs;
+    found.note = kept_told(reader_);
     decision::ShareTally first = first_order(found.parameters);
     decision::TotalTally total(options_.pairs > 0 ? sampled_.size() : 0, found.answers, groups_);
     if (options_.pairs > 0) compute_pairs(total);

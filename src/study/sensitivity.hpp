@@ -32,6 +32,7 @@ struct Sensitivity {
   std::vector<std::string> why_empty;                     // [answer]
   double confidence = 0.95;
   std::int64_t pairs = 0;
+  std::string note = {};  // where not all samples of the sweep are kept
 };
 
 // The shares, on the root (empty on the others): first-order ones of the samples that are there; total ones of the first `pairs`

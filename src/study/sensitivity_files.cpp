@@ -39,6 +39,7 @@ Json sensitivity_json(const Sensitivity& found) {
        {{"share", "Var(E[Y|X])/Var(Y), from classes of X of equal probability (Kelley 1935), motions left out in turn"},
         {"total", "E[(Y-Y')^2]/(2 Var(Y)), Y' with X drawn again (Jansen 1999), motions left out in turn"}}},
       {"pairs", found.pairs},
+      {"note", found.note},
       {"parameters", Json::array()},
       {"answers", Json::array()}};
   for (const auto& parameter : found.parameters)

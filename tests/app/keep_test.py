@@ -60,6 +60,7 @@ class Keep(InFolder):
         told = self.succeed(["fit", out, "--im", "pga_g", "-o", self.folder / "pga"], 2).stdout
         self.assertIn("of the 9000 samples of the sweep the first 4096 are kept", told)
         self.assertIn("4096 samples fitted", told)
+        self.assertIn("the first 4096 are kept", self.succeed(["sensitivity", out]).stdout)
         (out / "tally.h5").unlink()
         self.fail_with(3, ["fit", out], "tally.h5")
 

@@ -184,6 +184,19 @@ class MissingAndBroken(Temporary):
             self.assertIn(needle, page.text)
         self.assertNotIn("coverage", page.ids)
 
+    def test_where_few_samples_are_kept_the_page_says_of_which_it_speaks(self):
+        folder = support.sweep_copy(self.folder / "sweep")
+        with h5py.File(folder / "samples.h5", "a") as root:
+            for name in list(root["samples"]):
+                values, attributes = root["samples"][name][:1000], {key: value for key, value in root["samples"][name].attrs.items() if not key.isupper()}
+                del root["samples"][name]
+                root["samples"][name] = values
+                root["samples"][name].attrs.update(attributes)
+        self.assertEqual(support.run("report", folder).returncode, 0)
+        text = (folder / "report.html").read_text()
+        self.assertIn("drawn, of the 1\u202f000 samples kept", text)
+        self.assertIn("samples kept shown", text)
+
     def test_truncated_file_is_one_line_and_exit_3(self):
         path = support.sweep_copy(self.folder / "sweep") / "fragility.h5"
         path.write_bytes(path.read_bytes()[:20_000])

@@ -115,8 +115,9 @@ def _picture(sweep, names):
             elif column < row:
                 ax.tick_params(labelleft=False)
     fig.align_labels()
-    shown = (f"{words.count(some.size)} of {words.plural(sweep.outcome.size, 'sample')} shown" if some.size < sweep.outcome.size else
-             f"all {words.plural(sweep.outcome.size, 'sample')} shown")
+    kept = " kept" if sweep.kept < sweep.samples else ""
+    shown = (f"{words.count(some.size)} of {words.plural(sweep.kept, 'sample')}{kept} shown" if some.size < sweep.kept else
+             f"all {words.plural(sweep.kept, 'sample')}{kept} shown")
     finding = _finding(sweep, names)
     style.headline(fig, finding, f"Draws of the sweep, one by one and in pairs; {shown}.")
     _key(axes, sweep, count)
