@@ -149,6 +149,7 @@ BlockSums::Content BlockSums::read(const fs::path& path) const {
 }
 
 void BlockSums::find() {
+  remove_asides(folder_);
   before_ = {Words(static_cast<std::size_t>((blocks_ + bits - 1) / bits)), Words(words_)};
   for (const RunFile& file : valid_files(folder_)) {
     try {

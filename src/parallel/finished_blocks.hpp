@@ -21,6 +21,7 @@ inline std::int64_t count_finished_blocks(const std::filesystem::path& folder) {
 inline void remove_finished_blocks(const std::filesystem::path& folder) {
   remove_run_files(folder, "log");
   remove_run_files(folder, "sums");
+  remove_asides(folder);
   std::error_code error;
   if (std::filesystem::is_empty(folder, error)) std::filesystem::remove(folder, error);
 }

@@ -11,28 +11,46 @@ namespace freestand::parallel {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+// None where there is no such folder.
+std::vector<fs::path> paths_in(const fs::path& folder) {
+  std::vector<fs::path> paths;
+  std::error_code error;
+  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) paths.push_back(i->path());
+  if (error && error != std::errc::no_such_file_or_directory) throw file_error("read", folder, error.value());
+  return paths;
+}
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  if (!fs::remove(path, error) && error) throw file_error("remove", path, error.value());
+}
+
+}  // namespace
+
 fs::path run_file(const fs::path& folder, std::int64_t run, std::int64_t node, const std::string& extension) {
   return folder / fmt::format("run-{:04}.node-{:06}.{}", run, node, extension);
 }
 
 std::vector<RunFile> run_files(const fs::path& folder, const std::string& extension) {
   std::vector<RunFile> files;
-  std::error_code error;
-  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+  for (const fs::path& path : paths_in(folder)) {
     long long run = 0, node = 0;
-    const std::string name = i->path().filename().string();
-    if (std::sscanf(name.c_str(), "run-%lld.node-%lld.", &run, &node) == 2 &&
-        i->path() == run_file(folder, run, node, extension))
-      files.push_back({run, node, i->path()});
+    if (std::sscanf(path.filename().c_str(), "run-%lld.node-%lld.", &run, &node) == 2 &&
+        path == run_file(folder, run, node, extension))
+      files.push_back({run, node, path});
   }
-  if (error && error != std::errc::no_such_file_or_directory) throw file_error("read", folder, error.value());
   return files;
 }
 
 void remove_run_files(const fs::path& folder, const std::string& extension) {
-  std::error_code error;
-  for (const RunFile& file : run_files(folder, extension))
-    if (!fs::remove(file.path, error) && error) throw file_error("remove", file.path, error.value());
+  for (const RunFile& file : run_files(folder, extension)) remove_file(file.path);
+}
+
+void remove_asides(const fs::path& folder) {
+  for (const fs::path& path : paths_in(folder))
+    if (is_aside_name(path)) remove_file(path);
 }
 
 std::uint64_t fnv1a(std::span<const std::byte> bytes) {

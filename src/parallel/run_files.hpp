@@ -23,6 +23,9 @@ std::vector<RunFile> run_files(const std::filesystem::path& folder, const std::s
 // Those of any run and node. Throws what file_error() makes.
 void remove_run_files(const std::filesystem::path& folder, const std::string& extension);
 
+// What a program has left that died while it wrote such a file aside.
+void remove_asides(const std::filesystem::path& folder);
+
 // FNV-1a, for checksums.
 std::uint64_t fnv1a(std::span<const std::byte> bytes);
 

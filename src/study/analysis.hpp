@@ -54,6 +54,9 @@ class DemandCounts {
   // Words of several may be added element by element.
   parallel::Words words() const { return tally_.words(); }
   void clear() { tally_ = fragility::Tally(tally_.options()); }
+  parallel::Words normal(std::span<const std::int64_t> added) const {
+    return fragility::Tally::from_words(tally_.options(), added).words();
+  }
 
   fragility::Result result(std::span<const std::int64_t> words, const Jobs&) const;
 

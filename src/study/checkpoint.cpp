@@ -99,6 +99,6 @@ void Checkpoint::share() {
   counted_->sums.write(world_);
 }
 
-parallel::Words Checkpoint::counted() { return counted_->sums.total(world_); }
+parallel::Words Checkpoint::counted() { return counted_->counts.normal(counted_->sums.total(world_)); }
 
 }  // namespace freestand::study

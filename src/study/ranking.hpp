@@ -44,6 +44,9 @@ class RankingCounts {
   // Words of several may be added element by element.
   parallel::Words words() const { return tally_.words(); }
   void clear() { tally_ = fragility::RankingTally(tally_.options()); }
+  parallel::Words normal(std::span<const std::int64_t> added) const {
+    return fragility::RankingTally::from_words(tally_.options(), added).words();
+  }
 
   Ranking ranking(std::span<const std::int64_t> words, std::int64_t swept) const;
 

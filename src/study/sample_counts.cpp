@@ -44,6 +44,13 @@ parallel::Words SampleCounts::take() {
   return words;
 }
 
+parallel::Words SampleCounts::normal(const parallel::Words& added) const {
+  parallel::Words words = demands_.normal(std::span(added).first(demand_words_));
+  const parallel::Words ranking = ranking_.normal(std::span(added).subspan(demand_words_));
+  words.insert(words.end(), ranking.begin(), ranking.end());
+  return words;
+}
+
 fragility::Result SampleCounts::result(const parallel::Words& words, const Jobs& jobs) const {
   return demands_.result(std::span(words).first(demand_words_), jobs);
 }

@@ -29,6 +29,9 @@ class SampleCounts {
   parallel::Words take();
   std::size_t size() const { return size_; }  // words
 
+  // The same sums, written in the one way that does not depend on who added what.
+  parallel::Words normal(const parallel::Words&) const;
+
   // Of words that were added up.
   fragility::Result result(const parallel::Words&, const Jobs&) const;
   Ranking ranking(const parallel::Words&, std::int64_t swept) const;

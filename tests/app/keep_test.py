@@ -37,6 +37,7 @@ class Keep(InFolder):
     def test_the_tables_are_those_of_all_samples(self):
         all_kept = self.folder / "all"
         self.succeed(["run", self.study("all"), "-o", all_kept, "--quiet"], 2)
+        counts = []
         for keep, kept, ranks in (("none", 4096, 1), ("none", 4096, 3), ("{thin: 2}", 4500, 2)):
             out = self.folder / f"{kept}-{ranks}"
             done = self.succeed(["run", self.study(keep), "-o", out, "--quiet"], ranks)
@@ -46,9 +47,11 @@ class Keep(InFolder):
             with h5py.File(out / "samples.h5") as few, h5py.File(all_kept / "samples.h5") as many:
                 self.assertEqual(len(few["samples/sample"]), kept)
                 self.assertEqual(few["samples/edp_delta"][:].tobytes(), many["samples/edp_delta"][:kept].tobytes())
+            counts.append(datasets(out / "tally.h5"))
             summary = json.loads((out / "summary.json").read_text())
             self.assertEqual(summary["samples"], 9000)
             self.assertIn("tally.h5", summary["files"])
+        self.assertTrue(all(one == counts[0] for one in counts))
 
     def test_fits_of_what_was_counted_and_of_what_was_kept(self):
         out = self.folder / "out"

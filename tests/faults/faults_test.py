@@ -1,7 +1,8 @@
 """Each call by which a run changes its folder fails in turn, or the run dies there. The rule: it is done with the right bits, or it tells
 and going on gives the right bits; nothing between.
 
-    faults_test.py [RANKS [EVERY]]     every EVERYth call of each rank, for every kind of fault, until a run ends before the call
+    faults_test.py [RANKS [EVERY [all|none]]]     every EVERYth call of each rank, for every kind of fault, until a run ends before the
+                                                  call; which samples the study keeps
 """
 
 import collections
@@ -15,7 +16,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
-from support import command, result, study_text
+from support import command, datasets, result, study_text
 
 LIBRARY = os.environ["FAIL_ONE_CALL"]
 CURE, RESUMABLE = 74, 75
@@ -27,19 +28,25 @@ ALLOWED = {"enospc": {0, CURE}, "eio": {0, CURE}, "eintr": {0, RESUMABLE}, "shor
 LASTING = ("enospc", "eio")
 
 
-def small_study():
-    text = study_text(samples=128, block_size=32).replace(", axes: [friction.mu_k], resamples: 50", ", resamples: 20")
+def small_study(keep):
+    # Of fewer than 4096 samples all are kept.
+    text = study_text(samples=128, block_size=32) if keep == "all" else study_text(samples=4400, block_size=1100) + "model: slide\nkeep: none\n"
+    text = text.replace(", axes: [friction.mu_k], resamples: 50", ", resamples: 20")
     return text.replace("count: 5", "count: 2").replace("edp: [delta, overturned]", "edp: [delta]")
 
 
 class Faults:
-    def __init__(self, ranks, every):
-        self.ranks, self.every = ranks, every
+    def __init__(self, ranks=1, every=1, keep="all"):
+        self.ranks, self.every, self.keep = int(ranks), int(every), keep
+        self.left = sorted(LEFT + (["tally.h5"] if keep == "none" else []))
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="freestand-faults-"))
         self.study = self.folder / "study.yaml"
-        self.study.write_text(small_study())
+        self.study.write_text(small_study(keep))
         self.run(self.folder / "whole", check=True)
-        self.whole = result(self.folder / "whole")
+        self.whole = self.numbers(self.folder / "whole")
+
+    def numbers(self, out):
+        return result(out), datasets(out / "tally.h5") if self.keep == "none" else {}
 
     def run(self, out, *options, check=False, **settings):
         environment = {**os.environ, **settings}
@@ -85,10 +92,10 @@ class Faults:
         return self.other(out, "gone on,")
 
     def other(self, out, when):
-        if result(out) != self.whole:
+        if self.numbers(out) != self.whole:
             return f"{when} the numbers are others"
         names = sorted(path.name for path in out.iterdir())
-        return "" if names == LEFT else f"{when} {sorted(set(names) ^ set(LEFT))} is there or missing"
+        return "" if names == self.left else f"{when} {sorted(set(names) ^ set(self.left))} is there or missing"
 
     def all(self):
         counts, faults = collections.Counter(), []
@@ -104,10 +111,9 @@ class Faults:
                             faults.append(wrong)
                             print(wrong, flush=True)
         shutil.rmtree(self.folder)
-        print(f"{self.ranks} ranks: {sum(counts.values())} faults, {len(faults)} answered wrongly:", dict(counts), flush=True)
+        print(f"{self.ranks} ranks, keep {self.keep}: {sum(counts.values())} faults, {len(faults)} answered wrongly:", dict(counts), flush=True)
         return not faults
 
 
 if __name__ == "__main__":
-    numbers = [int(text) for text in sys.argv[1:]] + [1, 1][len(sys.argv) - 1:]
-    sys.exit(0 if Faults(*numbers).all() else 1)
+    sys.exit(0 if Faults(*sys.argv[1:]).all() else 1)

@@ -95,6 +95,20 @@ TEST_F(BlockSumsTest, OfTwoRunsOnlyOneCounts) {
   EXPECT_EQ(count_summed_blocks(scratch_.folder()), 1);
 }
 
+TEST_F(BlockSumsTest, WhatDeathLeftOfAFileGoesWithTheNextRun) {
+  const fs::path aside = aside_name(run_file(scratch_.folder() / "blocks", 1, 0, "sums"));
+  for (const bool at_the_end : {false, true}) {
+    BlockSums one(scratch_.folder() / "blocks", "abc", 0, blocks, 3);
+    std::ofstream(aside) << "torn";
+    if (at_the_end)
+      remove_finished_blocks(scratch_.folder() / "blocks");
+    else
+      one.find();
+    EXPECT_FALSE(fs::exists(aside)) << at_the_end;
+  }
+  EXPECT_FALSE(fs::exists(scratch_.folder() / "blocks"));
+}
+
 TEST_F(BlockSumsTest, OtherNodesOfTheLastRunCount) {
   BlockSums one = begun();
   add(one, {5}, {1, 1, 1});
