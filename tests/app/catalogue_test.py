@@ -263,6 +263,7 @@ class Catalogue(InFolder):
         asked = ["--class", "refrigerator", "--im", "pga_g=0.6", "--demand", "peak_slip_m", "--capacity", "0.05"]
         said = self.succeed(["query", database, *asked]).stdout
         self.assertRegex(said, r"P\(peak_slip_m > 0.05 m \| pga_g = 0.6 g\), with its 95 % band\n0\.\d{4}  \[0\.\d{4}, [01]\.\d{4}\]  fridge\n")
+        self.assertRegex(said, r"\nread by (straight lines|the lognormal)")
         ends = [answer["probability"][0] for answer in self.ask(*asked)["answers"]]
         between = self.ask(*asked, "--mu", "0.3")["answers"]
         self.assertEqual(len(between), 1)
@@ -273,6 +274,19 @@ class Catalogue(InFolder):
         self.assertEqual(len(curve["im"]), 4)
         self.assertTrue(self.ask(*asked, "--mu", "0.45")["answers"][0]["extrapolated"])
         self.assertEqual(len(self.ask("--class", "refrigerator")["entries"]), 2)
+
+    def test_between_points_a_question_and_an_export_have_one_answer(self):
+        self.build(GRIPPY)
+        self.succeed(["export", self.folder / "db", "--format", "openquake", "--demand", "peak_slip_m:0.05", "-o", self.folder / "some.xml"])
+        function = xml.parse(self.folder / "some.xml").getroot().find(f".//{NRML}fragilityFunction")
+        self.assertEqual(function.get("format"), "discrete")
+        levels, shares = ([float(x) for x in function.find(NRML + what).text.split()] for what in ("imls", "poes"))
+        for i in range(len(levels) - 1):
+            middle = (levels[i] + levels[i + 1]) / 2
+            answer = self.ask("--im", f"pga_g={middle!r}", "--demand", "peak_slip_m", "--capacity", "0.05")["answers"][0]
+            self.assertAlmostEqual(answer["probability"][0], (shares[i] + shares[i + 1]) / 2, delta=1e-9)
+            self.assertIn("straight lines between the points", answer["rule"])
+        self.assertGreater(shares[-1] - shares[0], 0.2)
 
     def test_mistakes_of_questions_are_told_with_the_choices(self):
         self.build(FRIDGE)
