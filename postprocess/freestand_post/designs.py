@@ -52,7 +52,7 @@ def compare(sweeps):
     differing = _differing([_flat(sweep) for sweep in sweeps])
     paired = all(_motions(sweep) == _motions(first) for sweep in sweeps)
     level = float(first.attributes.get("confidence", 0.95))
-    rows = [Row(what, each, [_ratio(each[0], curve, paired, level) for curve in each]) for what, each in curves(sweeps)]
+    rows = [Row(what, each, [ratio(each[0], curve, paired, level) for curve in each]) for what, each in curves(sweeps)]
     return Designs(sweeps, _labels(sweeps, differing), differing, rows, paired, level)
 
 
@@ -163,7 +163,7 @@ def curves(sweeps):
                 yield what, [other.functions[int(place[0])] for other, place in zip(others, places)]
 
 
-def _ratio(first, curve, paired, level):
+def ratio(first, curve, paired, level):
     """Median over the first one's, with its interval from resampled motions: the same motions of both where they are paired."""
     if curve is first or not (first["median"] > 0 and curve["median"] > 0):
         return (math.nan,) * 3
@@ -180,9 +180,9 @@ def _ratio(first, curve, paired, level):
     return tuple(math.exp(one) for one in (value, low, high))
 
 
-def verdict(ratio):
-    """Is it beyond chance?"""
-    value, low, high = ratio
+def verdict(found):
+    """Is such a ratio beyond chance?"""
+    _, low, high = found
     if not math.isfinite(low):
         return "not known"
     return "yes" if low > 1 or high < 1 else "no"
