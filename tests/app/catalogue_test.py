@@ -210,6 +210,9 @@ class Catalogue(InFolder):
             self.assertEqual([float(level) for level in functions[1][0].text.split()], [100 * float(row["im"]) for row in points])
         said = self.succeed(["export", db, "--to", "openquake", "-o", self.folder / "usual"]).stdout
         self.assertIn("overturned never happened", said)  # in one list of states, as zeros
+        again = self.fail_with(3, ["export", db, "--to", "openquake", "--each", "--limit-state", "peak_slip_m:7", "-o", self.folder / "seven"], "2 of 2 entries").stderr
+        self.assertEqual(again.count("has no capacity 7"), 1)
+        self.assertIn("and the same of low-box", again)
         said = self.succeed(["export", db, "--to", "pelicun", "-o", self.folder / "pelicun"]).stdout
         self.assertIn("left out: overturned never happened", said)
         with open(self.folder / "pelicun" / "fragility.csv", newline="", encoding="utf-8") as stream:
@@ -224,6 +227,12 @@ class Catalogue(InFolder):
         curve = self.write("hazard.csv", "pga_g,annual_rate\n0.05,0.01\n1,0.0001\n")
         self.fail_with(2, ["risk", db, "--hazard", curve, "-o", self.folder / "no"], "is a database of 2 entries", "db/entries/tall")
         self.fail_with(2, ["sensitivity", db], "is a database of 2 entries", "db/entries/tall")
+
+    def test_demands_that_an_export_leaves_out_are_told(self):
+        text = (HEAD + FRIDGE + TALL).replace("edp: [peak_slip_m", "edp: [slid_path_m, peak_slip_m")
+        self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"])
+        said = self.succeed(["export", self.folder / "db", "--to", "openquake", "-o", self.folder / "some.xml"]).stdout
+        self.assertEqual(said.count("left out: peak_slip_m (--limit-state takes them)"), 1)
 
     def test_each_entry_is_exported_into_a_file_of_its_name_where_that_is_asked(self):
         self.build(FRIDGE + TALL)
