@@ -3,7 +3,7 @@ import math
 import pathlib
 
 from . import words
-from .designs import ratio, verdict
+from .designs import ratio, verdict, warnings
 from .halved import halving
 from .reading_decisions import Risk, Sensitivity
 
@@ -73,7 +73,7 @@ def designs(found, risk_results, figures):
             "headline": _headline(found), "figures": [figure for figure in figures if figure["section"] == "designs"],
             "differing": found.differing, "folders": [sweep.folder.resolve().name for sweep in found.sweeps], "im": found.im_symbol,
             "im_unit": words.UNITS.get(found.sweeps[0].im_unit, found.sweeps[0].im_unit), "level": words.level(found.level), "paired": found.paired,
-            "rates": rates(found, risk_results), "medians": _medians(found), "risks": risks(risk_results, figures, named=True), "provenance": _provenance(found)}
+            "warnings": warnings(found.sweeps, found.labels), "rates": rates(found, risk_results), "medians": _medians(found), "risks": risks(risk_results, figures, named=True), "provenance": _provenance(found)}
 
 
 def rates(found, risk_results):

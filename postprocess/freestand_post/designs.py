@@ -48,12 +48,22 @@ def compare(sweeps):
     for sweep in sweeps[1:]:
         if (sweep.im_name, sweep.im_unit) != (first.im_name, first.im_unit):
             raise Problem(f"{first.folder} was fitted over {first.im_name} and {sweep.folder} over {sweep.im_name}: several designs do not fit into "
-                          f"one axis so; fit both over the same (freestand fit DIR --im {first.im_name} -o DIR2)", USAGE)
+                          f"one axis so; fit both over the same (freestand fit DIR --im {first.im_name} -o DIR2); several designs over several intensities are a catalogue, "
+                          "whose page holds them all", USAGE)
     differing = _differing([_flat(sweep) for sweep in sweeps])
     paired = all(_motions(sweep) == _motions(first) for sweep in sweeps)
     level = float(first.attributes.get("confidence", 0.95))
     rows = [Row(what, each, [ratio(each[0], curve, paired, level) for curve in each]) for what, each in curves(sweeps)]
     return Designs(sweeps, _labels(sweeps, differing), differing, rows, paired, level)
+
+
+def warnings(sweeps, labels):
+    """What the fits warn of, but for what concerns other demands than the first of each: "label: warning"."""
+    found = []
+    for sweep, label in zip(sweeps, labels):
+        others = tuple(f"{edp.name}: " for edp in sweep.edps[1:])
+        found += [f"{words.capitalised(label)}: {text}" for text in map(str, sweep.summary.get("warnings", [])) if not text.startswith(others)]
+    return found
 
 
 def same_study(sweeps):

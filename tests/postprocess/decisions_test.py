@@ -163,6 +163,17 @@ class Pages(InFolder):
         self.assertEqual(text.count("<svg"), 3)
         self.assertNotIn("nan", text.split("<body>")[1].split("<svg")[0])
 
+    def test_what_the_fits_warn_of_stands_on_the_page_but_for_other_demands(self):
+        folders = [self.design("a", 2.0), self.design("b", 3.0, width=0.9)]
+        path = folders[1] / "summary.json"
+        summary = json.loads(path.read_text())
+        lead, other = list(summary["edps"])[:2]
+        summary["warnings"] = [f"{lead}: bins are empty.", f"{other}: bins are emptier."]
+        path.write_text(json.dumps(summary))
+        text = self.text(*folders)
+        self.assertIn(f"Width 0.9\u00a0m: {lead}: bins are empty.", text)
+        self.assertNotIn("emptier", text)
+
     def test_the_width_that_halves_a_rate_is_that_of_the_designs_which_the_risks_are_of(self):
         """In whatever order they are given; of risks that are of other sweeps nothing is said."""
         designs_ = [self.design("a", 2.0), self.design("b", 3.0, width=0.9)]
