@@ -222,13 +222,13 @@ std::string Section::elsewhere(const std::string& key) const {
         "key {} is not needed (the model is plane: width_m is the side along the shaking, and across it nothing "
         "happens): remove it; for shaking along that side write it as width_m",
         key);
-  for (const auto& [part, keys] :
-       {std::pair{"block",
-                  std::initializer_list<const char*>{"width_m", "height_m", "mass_kg", "slenderness_rad", "size_m"}},
-        std::pair{"friction", std::initializer_list<const char*>{"mu", "mu_k", "mu_s", "static_ratio"}}})
-    if (knows(part) && is_one_of(keys))
-      return fmt::format("key {} stands beside {}: (it is a part of it): put it under it, {}: {{{}: ...}}", key, part,
-                         part, key);
+  const auto put_under = [&](const char* part) {
+    return fmt::format("key {} stands beside {}: (it is a part of it): put it under it, {}: {{{}: ...}}", key, part,
+                       part, key);
+  };
+  if (knows("block") && is_one_of({"width_m", "height_m", "mass_kg", "slenderness_rad", "size_m"}))
+    return put_under("block");
+  if (knows("friction") && is_one_of({"mu", "mu_k", "mu_s", "static_ratio"})) return put_under("friction");
   return "";
 }
 

@@ -63,7 +63,8 @@ TEST(DamageStates, ThoseThatHoldForEveryBlockThatOverturnedAreNamed) {
       "  edp: [overturned]\n  damage: {door: peak_slip_m > 0.1, near: peak_slip_m < 0.1, both: peak_slip_m > 0.1 or "
       "overturned, stays: residual_slip_m > 0.1 and not overturned, broken: connection_failed or peak_slip_m < 0.1, "
       "any: "
-      "connection_failed or overturned}\n"));
+      "connection_failed or overturned}\n",
+      "chain: {stiffness_npm: 1e4, strength_n: 2736, wall_gap_m: 0.1}\n"));
   EXPECT_THAT(states.with_overturned(), testing::ElementsAre("door", "both", "any"));
 }
 

@@ -75,7 +75,7 @@ TEST(Doubts, RecordsOfOneSignBesideAWallOnOneSide) {
     return doubts(study);
   };
   const std::string right = "effects: [{name: wall_impact, gap_m: 0.05}]\n",
-                    both = "effects: [{name: wall_impact, gap_m: 0.05}, {name: wall_impact, gap_m: -0.05}]\n",
+                    both = "effects: [{name: wall_impact, gap_m: {uniform: [-0.05, 0.05]}}]\n",
                     behind = "chain: {stiffness_npm: 1e4, strength_n: 2736, wall_gap_m: 0.1}\n";
   EXPECT_THAT(said(right, sampling::Fixed{1}),
               ElementsAre(HasSubstr("the wall of wall_impact is on one side, and some/*.csv")));
