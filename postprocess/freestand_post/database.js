@@ -58,14 +58,25 @@
     const [low, high] = range();
     return Math.exp(Math.log(low) + Number(form.elements.at.value) / 100 * Math.log(high / low));
   }
-  // Probability and band at an intensity, straight over ln IM between the points; nothing outside of them.
+  // Probability and band at an intensity, as `freestand query` and exports read the curve: its lognormal where that is adequate, else
+  // straight lines over the intensity between the points, from 0 at 0; nothing outside of what was swept.
   function at(curve, im) {
     const points = curve ? curve.points : [];
-    const next = points.findIndex((p) => p[IM] >= im);
-    if (next < 0 || (next === 0 && points[0][IM] > im)) return null;
-    if (next === 0) return points[0].slice(1, 4);
-    const [a, b] = [points[next - 1], points[next]], t = Math.log(im / a[IM]) / Math.log(b[IM] / a[IM]);
-    return [P, LOW, HIGH].map((i) => (1 - t) * a[i] + t * b[i]);
+    if (!points.length || im < curve.im_least * (1 - 1e-6) || im > curve.im_most * (1 + 1e-6)) return null;
+    const next = points.findIndex((p) => p[IM] >= im), last = points[points.length - 1];
+    const b = next < 0 ? last : points[next], a = next < 0 ? last : next === 0 ? [0, 0, 0, b[HIGH]] : points[next - 1];
+    const t = b === a ? 1 : (im - a[IM]) / (b[IM] - a[IM]);
+    let [p, low, high] = [P, LOW, HIGH].map((i) => (1 - t) * a[i] + t * b[i]);
+    if (!byLognormal(curve)) return [p, low, high];
+    const fitted = phi(Math.log(im / curve.median) / curve.dispersion), along = im < points[0][IM] || im > last[IM] ? fitted - p : 0;
+    return [fitted, Math.max(0, Math.min(low + along, fitted)), Math.min(1, Math.max(high + along, fitted))];
+  }
+  const byLognormal = (curve) => curve.family === "lognormal" && curve.dispersion > 0;
+  const ruleOf = (curve) => !curve ? "" : byLognormal(curve) ? "read by its lognormal, which is adequate" : "read by straight lines between its points over the intensity";
+  // What the rule draws: [im, probability, lower, upper], finely, with the points themselves in it.
+  function trace(curve) {
+    const ims = curve.points.flatMap((p, i) => i ? [1, 2, 3, 4, 5, 6, 7, 8].map((k) => curve.points[i - 1][IM] * (p[IM] / curve.points[i - 1][IM]) ** (k / 8)) : [p[IM]]);
+    return ims.map((im) => [im, ...(at(curve, im) ?? [])]).filter((p) => p.length > 1);
   }
   // Standard normal distribution (Abramowitz and Stegun 26.2.17; error below 1e-7).
   function phi(z) {
@@ -127,8 +138,9 @@
     order.forEach((entry) => {
       const curve = curveOf(entry.at), colour = like(entry) ? colours[shown.filter(like).indexOf(entry) % colours.length] : "#c3c8cf", isChosen = chosen && entry.at === chosen.at;
       if (!curve || !curve.points.length) return;
-      if (isChosen) drawing += `<path class="band" fill="${colour}" d="${path(curve.points.map((p) => [x(p[IM]), y(p[HIGH])]).concat(curve.points.slice().reverse().map((p) => [x(p[IM]), y(p[LOW])])))}Z"/>`;
-      drawing += `<path class="curve${isChosen ? " chosen" : ""}" stroke="${colour}" d="${path(curve.points.map((p) => [x(p[IM]), y(p[P])]))}"/>`;
+      const line = trace(curve);
+      if (isChosen) drawing += `<path class="band" fill="${colour}" d="${path(line.map((p) => [x(p[IM]), y(p[HIGH])]).concat(line.slice().reverse().map((p) => [x(p[IM]), y(p[LOW])])))}Z"/>`;
+      drawing += `<path class="curve${isChosen ? " chosen" : ""}" stroke="${colour}" d="${path(line.map((p) => [x(p[IM]), y(p[P])]))}"/>`;
       for (const p of curve.points) {
         drawing += `<circle class="dot" cx="${x(p[IM]).toFixed(1)}" cy="${y(p[P]).toFixed(1)}" r="${isChosen ? 4.5 : 2.5}" fill="${colour}"><title>${escape(entry.id)}: ${word.symbol} ${text(p[IM])}${unit(word)}, P = ${share(p[P])} [${share(p[LOW])}, ${share(p[HIGH])}], ${p[N]} samples</title></circle>`;
         table.push([entry.id, entry.mu_k, p[IM], p[P], p[LOW], p[HIGH], p[N]]);
@@ -148,7 +160,7 @@
     const here = intensity(), p = chosen ? at(curveOf(chosen.at), here) : null;
     drawing += `<line class="rule" style="stroke:#1d2430;stroke-dasharray:2 3" x1="${x(here)}" x2="${x(here)}" y1="${TOP}" y2="${height - BOTTOM}"/>` + labels(names);
     const finding = p ? `${chosen.id}: P(${event()}) = ${share(p[0])} (${share(p[1])} to ${share(p[2])}) at ${word.symbol} = ${text(here)}${unit(word)}` : `${choice("class")}: P(${event()})`;
-    const figure = show("curves", height, drawing, finding, `Probability over ${word.symbol}${word.summary ? ` (${word.summary})` : ""}: in bold the entry that is chosen, with its band; in colour the same equipment on other frictions; in grey the rest of its class; dashed somebody else's fragility of it. Move over it for values.`, table);
+    const figure = show("curves", height, drawing, finding, `Probability over ${word.symbol}${word.summary ? ` (${word.summary})` : ""}: in bold the entry that is chosen, with its band; in colour the same equipment on other frictions; in grey the rest of its class; dashed somebody else's fragility of it. ${chosen && curveOf(chosen.at) ? `${chosen.id} is ${ruleOf(curveOf(chosen.at))}, as by freestand query. ` : ""}Move over it for values.`, table);
     const svg = figure.querySelector("svg");
     svg.addEventListener("mousemove", (move) => {
       const box = svg.getBoundingClientRect(), im = x.back((move.clientX - box.left) * WIDTH / box.width);
@@ -198,7 +210,7 @@
     const next = curve.points.findIndex((p) => p[P] >= 0.5);
     if (next < 1) return null;
     const [a, b] = [curve.points[next - 1], curve.points[next]];
-    return Number((a[IM] * (b[IM] / a[IM]) ** ((0.5 - a[P]) / (b[P] - a[P]))).toPrecision(6));
+    return Number((a[IM] + (b[IM] - a[IM]) * (0.5 - a[P]) / (b[P] - a[P])).toPrecision(6));
   }
 
   // Ours beside somebody else's: medians of each reference's own demand and intensity.

@@ -3,7 +3,7 @@ import math
 import pathlib
 
 from . import words
-from .designs import verdict
+from .designs import ratio, verdict, warnings
 from .halved import halving
 from .reading_decisions import Risk, Sensitivity
 
@@ -73,7 +73,7 @@ def designs(found, risk_results, figures):
             "headline": _headline(found), "figures": [figure for figure in figures if figure["section"] == "designs"],
             "differing": found.differing, "folders": [sweep.folder.resolve().name for sweep in found.sweeps], "im": found.im_symbol,
             "im_unit": words.UNITS.get(found.sweeps[0].im_unit, found.sweeps[0].im_unit), "level": words.level(found.level), "paired": found.paired,
-            "rates": rates(found, risk_results), "medians": _medians(found), "risks": risks(risk_results, figures, named=True), "provenance": _provenance(found)}
+            "warnings": warnings(found.sweeps, found.labels), "rates": rates(found, risk_results), "medians": _medians(found), "risks": risks(risk_results, figures, named=True), "provenance": _provenance(found)}
 
 
 def rates(found, risk_results):
@@ -85,7 +85,8 @@ def rates(found, risk_results):
     labels = [_design(found, risk) for risk in risk_results]
     rows = [{"design": words.capitalised(label), "cells": [_rate(table.get(key), tables[0][key]) for key in events]} for label, table in zip(labels, tables)]
     return {"columns": [words.capitalised(tables[0][key].title) for key in events], "rows": rows, "level": words.level(risk_results[0].confidence),
-            "finding": _lowest(tables[0][events[0]].title, labels, [table[events[0]].rate if events[0] in table else (math.nan,) * 3 for table in tables]) if events else "",
+            "finding": _lowest(tables[0][events[0]].title, labels, [table[events[0]].rate if events[0] in table else (math.nan,) * 3 for table in tables],
+                           _medians_differ(found, labels, tables[0][events[0]])) if events else "",
             "halved": halving(found, labels, events, tables),
             "hazards": any(list(risk.hazard_rate) != list(risk_results[0].hazard_rate) or risk.im_symbol != risk_results[0].im_symbol for risk in risk_results)}
 
@@ -110,17 +111,31 @@ def _rate(row, first):
     return {"rate": words.a_year(row.rate[0]), "band": _span(words.a_year, *row.rate[1:]), "ratio": words.number(ratio)}
 
 
-def _lowest(what, labels, found):
-    """Which design has the lowest rate, by what factor below the first, and from which ones its band does not part it."""
+def _lowest(what, labels, found, medians_differ=lambda a, b: False):
+    """Which design has the lowest rate, by what factor below the first, and from which ones its band does not part it. medians_differ: do
+    those of two designs (by position) differ by more than chance? Pairs of samples with the same motion tell more than two bands."""
     told = [i for i, rate in enumerate(found) if math.isfinite(rate[0])]
     if len(told) < 2:
         return ""
     least = min(told, key=lambda i: found[i][0])
     rate, first = found[least][0], found[0][0]
     below = f", {words.number(first / rate)} times below {labels[0]}" if least and first > 0 and rate > 0 else ""
-    near = [labels[i] for i in told if i != least and not found[least][2] < found[i][1]]
+    near = [i for i in told if i != least and not found[least][2] < found[i][1]]
+    by_medians = [labels[i] for i in near if medians_differ(least, i)]
+    by_nothing = [labels[i] for i in near if not medians_differ(least, i)]
     return (f"{words.capitalised(labels[least])} has the lowest annual rate of “{what}”: {words.a_year(rate)}{below}"
-            + (f"; not parted by more than their bands from {words.listing(near)}" if near else ""))
+            + (f"; the bands of these rates do not part it from {words.listing(by_medians)}, but the medians differ by more than chance" if by_medians else "")
+            + (f"; not parted by more than their bands from {words.listing(by_nothing)}" if by_nothing else ""))
+
+
+def _medians_differ(found, labels, event):
+    """Of two designs of `labels`, for the event of a rate."""
+    what = "overturning" if event.edp == "overturned" else event.title
+    row = next((row for row in found.rows if row.what == what), None)
+    place = [found.labels.index(label) if label in found.labels else None for label in labels]
+    if row is None or None in place:
+        return lambda a, b: False
+    return lambda a, b: verdict(ratio(row.curves[place[a]], row.curves[place[b]], found.paired, found.level)) == "yes"
 
 
 def _headline(found):

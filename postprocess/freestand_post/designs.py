@@ -48,12 +48,22 @@ def compare(sweeps):
     for sweep in sweeps[1:]:
         if (sweep.im_name, sweep.im_unit) != (first.im_name, first.im_unit):
             raise Problem(f"{first.folder} was fitted over {first.im_name} and {sweep.folder} over {sweep.im_name}: several designs do not fit into "
-                          f"one axis so; fit both over the same (freestand fit DIR --im {first.im_name} -o DIR2)", USAGE)
+                          f"one axis so; fit both over the same (freestand fit DIR --im {first.im_name} -o DIR2); several designs over several intensities are a catalogue, "
+                          "whose page holds them all", USAGE)
     differing = _differing([_flat(sweep) for sweep in sweeps])
     paired = all(_motions(sweep) == _motions(first) for sweep in sweeps)
     level = float(first.attributes.get("confidence", 0.95))
-    rows = [Row(what, each, [_ratio(each[0], curve, paired, level) for curve in each]) for what, each in curves(sweeps)]
+    rows = [Row(what, each, [ratio(each[0], curve, paired, level) for curve in each]) for what, each in curves(sweeps)]
     return Designs(sweeps, _labels(sweeps, differing), differing, rows, paired, level)
+
+
+def warnings(sweeps, labels):
+    """What the fits warn of, but for what concerns other demands than the first of each: "label: warning"."""
+    found = []
+    for sweep, label in zip(sweeps, labels):
+        others = tuple(f"{edp.name}: " for edp in sweep.edps[1:])
+        found += [f"{words.capitalised(label)}: {text}" for text in map(str, sweep.summary.get("warnings", [])) if not text.startswith(others)]
+    return found
 
 
 def same_study(sweeps):
@@ -163,7 +173,7 @@ def curves(sweeps):
                 yield what, [other.functions[int(place[0])] for other, place in zip(others, places)]
 
 
-def _ratio(first, curve, paired, level):
+def ratio(first, curve, paired, level):
     """Median over the first one's, with its interval from resampled motions: the same motions of both where they are paired."""
     if curve is first or not (first["median"] > 0 and curve["median"] > 0):
         return (math.nan,) * 3
@@ -180,9 +190,9 @@ def _ratio(first, curve, paired, level):
     return tuple(math.exp(one) for one in (value, low, high))
 
 
-def verdict(ratio):
-    """Is it beyond chance?"""
-    value, low, high = ratio
+def verdict(found):
+    """Is such a ratio beyond chance?"""
+    _, low, high = found
     if not math.isfinite(low):
         return "not known"
     return "yes" if low > 1 or high < 1 else "no"

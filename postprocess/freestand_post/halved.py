@@ -33,11 +33,17 @@ def _sentence(key, value, event, tables):
         return f"No {name} from {least} to {most} halves {what}."
     # The band of the other designs' rates, whose first one is what is halved.
     ends = [_crossing(value, np.where(np.arange(value.size) == 0, rates[:, 0], rates[:, side]), wanted) for side in (1, 2)]
-    band = ""
-    if all(math.isfinite(end) for end in ends):
-        band = f" ({words.number(min(ends))} to {words.number(max(ends))})"
-    elif any(math.isfinite(end) for end in ends):
-        band = " (its band reaches beyond the designs)"
+    # A limit that no design reaches is told as beyond the last of them on its side.
+    known = [end for end in ends if math.isfinite(end)]
+    least, most = words.chosen(value.min(), unit), words.chosen(value.max(), unit)
+    if len(known) == 2:
+        band = f" ({words.number(min(known))} to {words.number(max(known))})"
+    elif known and known[0] < at:
+        band = f" ({words.number(known[0])} to beyond {most}, the largest of the designs)"
+    elif known:
+        band = f" (below {least}, the smallest of the designs, to {words.number(known[0])})"
+    else:
+        band = f" (its band reaches beyond the designs, {least} to {most})"
     return f"{words.capitalised(name)} {words.quantity(at, unit)}{band} halves {what}: read between the designs, ln rate over ln {name}."
 
 

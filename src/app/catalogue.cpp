@@ -34,7 +34,7 @@ void show(const study::Catalogue& catalogue) {
 void tell(const study::DatabaseExport& done, bool quiet) {
   if (quiet) return;
   fmt::print("{} entries over {} in {}\n", done.entries.size(), done.im, done.output.string());
-  for (const std::string& refused : done.refused) fmt::print("  not exported: {}\n", refused);
+  for (const std::string& refused : study::told_once(done.refused)) fmt::print("  not exported: {}\n", refused);
 }
 
 Exit build(const Context& context, const CatalogueOptions& options) {

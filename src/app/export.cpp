@@ -30,22 +30,27 @@ void tell(const study::ExportSummary& summary, const std::string& format) {
   std::vector<std::string> files;
   for (const auto& file : summary.files) files.push_back(file.string());
   fmt::print("{} read back as {} reads it: probabilities within {:.1e} of freestand's{}\n", files.front(), format,
-             summary.difference, summary.rounding == "none" ? "" : " (" + summary.rounding + ")");
+             summary.difference, summary.rounding == "none" ? "" : ", as wanted: " + summary.rounding);
   for (const std::string& note : model.notes) fmt::print("* {}\n", note);
   fmt::print("written: {}\n", fmt::join(files, ", "));
 }
 
 void tell(const study::DatabaseExport& done, const study::ExportRequest& request) {
   double difference = 0;
+  std::vector<std::string> left_out;  // of all of them alike
   for (const auto& [id, summary] : done.entries) {
     std::vector<std::string> states;
     for (const exports::LimitState& state : summary.model.states)
       states.push_back(fmt::format("{} {}", state.name, exports::name(state.curve.form)));
     fmt::print("{}: {}\n", id, fmt::join(states, ", "));
-    for (const std::string& note : summary.model.notes)
+    for (const std::string& note : summary.model.notes) {
+      const bool once = note.starts_with("left out:") && note.find("never happened") == std::string::npos;
+      if (once && std::find(left_out.begin(), left_out.end(), note) == left_out.end()) left_out.push_back(note);
       if (note.find("never happened") != std::string::npos) fmt::print("  * {}\n", note);
+    }
     difference = std::max(difference, summary.difference);
   }
+  for (const std::string& note : left_out) fmt::print("* {}\n", note);
   if (!done.other_ims.empty())
     fmt::print("over {}, one of {} intensities (--im takes {} too)\n", done.im, done.other_ims.size() + 1,
                fmt::join(done.other_ims, ", "));
@@ -55,7 +60,7 @@ void tell(const study::DatabaseExport& done, const study::ExportRequest& request
                request.format, difference);
   if (!done.refused.empty())
     throw Error(fmt::format("{} of {} entries are not exported:\n{}", done.refused.size(),
-                            done.refused.size() + done.entries.size(), fmt::join(done.refused, "\n")),
+                            done.refused.size() + done.entries.size(), fmt::join(study::told_once(done.refused), "\n")),
                 Exit::data);
 }
 

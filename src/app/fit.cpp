@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/command.hpp"
@@ -17,16 +18,31 @@ struct FitOptions {
   bool overwrite = false, quiet = false, rank = false;
 };
 
+// "by fragility.im as the command line says and by fragility.bins as study.yaml says since the sweep"
+std::string origin(const study::FitSummary& summary, const FitOptions& options) {
+  const std::vector<std::string> asked = options.changes.keys();
+  std::vector<std::string> edited = summary.changed, parts;
+  std::erase_if(edited,
+                [&](const std::string& key) { return std::find(asked.begin(), asked.end(), key) != asked.end(); });
+  // Demands and intensities take their capacities, thresholds and bins along.
+  if (!options.changes.edp.empty() || !options.changes.capacities.empty())
+    std::erase_if(edited,
+                  [](const std::string& key) { return key == "fragility.capacities" || key == "fragility.still"; });
+  if (!options.changes.im.empty()) std::erase(edited, "fragility.bins");
+  if (!asked.empty()) parts.push_back(fmt::format("by {} as the command line says", fmt::join(asked, ", ")));
+  if (!edited.empty())
+    parts.push_back(fmt::format("by {} of {}, which was edited after the sweep", fmt::join(edited, ", "),
+                                study::study_path(options.folder).string()));
+  return parts.empty() ? "by the study as it was swept" : fmt::format("{}", fmt::join(parts, " and "));
+}
+
 void tell(const study::FitSummary& summary, const FitOptions& options) {
   for (const std::string& note : summary.notes) fmt::print("{}\n", note);
   fmt::print("{}{}", summary.ranking, warnings_text(summary, options.into.empty() ? options.folder : options.into));
-  const std::string by = summary.changed.empty()
-                             ? "by the study as it was swept"
-                             : fmt::format("by {} of {}{}, changed since the sweep", fmt::join(summary.changed, ", "),
-                                           options.changes.any() ? "the command line or of " : "",
-                                           study::study_path(options.folder).string());
-  fmt::print("{} samples fitted over {} in {}, {}; results in {}\n", summary.samples, summary.intensity,
-             short_duration(summary.wall_s), by, options.into.empty() ? options.folder : options.into);
+  const bool here = options.into.empty();
+  fmt::print("{} samples fitted over {} in {}, {}; results in {}{}\n", summary.samples, summary.intensity,
+             short_duration(summary.wall_s), origin(summary, options), here ? options.folder : options.into,
+             here ? ", in place of the fit that was there (-o DIR2 keeps it)" : "");
 }
 
 // Else a folder would be made for nothing.
@@ -79,7 +95,9 @@ void add_fit(CLI::App& parser, Work& work) {
           "other distributions of what was swept: \"friction.mu_k={lognormal: {median: 0.3, dispersion: 0.2}}\"")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  auto* output = verb->add_option("-o,--output", options->into, "folder for the results; else that of the sweep");
+  verb->add_option("--confidence", options->changes.confidence, "of every band, as 0.9; risk and exports take it over");
+  auto* output = verb->add_option("-o,--output", options->into,
+                                  "folder for the results; else that of the sweep, whose fit they replace");
   verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder of -o")
       ->needs(output);
   verb->add_flag("--rank", options->rank, "print the whole ranking of the intensities, as ranking.csv holds it");

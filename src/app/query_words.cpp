@@ -186,6 +186,9 @@ std::string answers_text(const Database& db, const Question& question, const std
   const bool curve = !std::isfinite(question.im_value);
   std::string text = fmt::format("P({} | {}{}), with its {:g} % band\n", event(db, question), im.name,
                                  curve ? "" : " = " + with_unit(question.im_value, im.unit), 100 * db.confidence);
+  const bool one_rule = !answers.empty() && std::all_of(answers.begin(), answers.end(), [&](const Answer& answer) {
+    return answer.rule == answers.front().rule;
+  });
   for (const Answer& answer : answers) {
     if (curve) {
       text += origin(db, answer) + "\n";
@@ -198,8 +201,9 @@ std::string answers_text(const Database& db, const Question& question, const std
       text += fmt::format("  lognormal of median {} and dispersion {}\n",
                           with_unit(std::stod(three_digits(answer.median)), im.unit), three_digits(answer.dispersion));
     for (const std::string& note : answer.notes) text += "  " + note + "\n";
+    if (!one_rule) text += "  " + answer.rule + "\n";
   }
-  return text;
+  return text + (one_rule ? answers.front().rule + "\n" : "");
 }
 
 std::string answers_json(const Database& db, const Question& question, const std::vector<Answer>& answers) {
@@ -224,6 +228,7 @@ std::string answers_json(const Database& db, const Question& question, const std
     }
     one["extrapolated"] = !answer.notes.empty();
     one["notes"] = answer.notes;
+    one["rule"] = answer.rule;
     one["median"] = number(answer.median);
     one["dispersion"] = number(answer.dispersion);
     json["answers"].push_back(std::move(one));

@@ -1,6 +1,7 @@
 #include "study/risk.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,18 @@ namespace {
 
 std::string percent(double probability) {
   return std::isnan(probability) ? "-" : fmt::format("{:.2g} %", 100 * probability);
+}
+
+// Why rows go by counts, each reason with its rows.
+std::vector<std::pair<std::string, std::vector<std::string>>> reasons(const decision::Risk& risk) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> found;
+  for (const decision::RiskRow& row : risk.rows) {
+    if (!row.refused.empty() || row.recommended == decision::By::function) continue;
+    auto at = std::find_if(found.begin(), found.end(), [&](const auto& one) { return one.first == row.why; });
+    if (at == found.end()) at = found.insert(at, {row.why, {}});
+    at->second.push_back(title(row));
+  }
+  return found;
 }
 
 void tell(const study::RiskAnswer& answer, const study::RiskOptions& options) {
@@ -41,6 +54,7 @@ void tell(const study::RiskAnswer& answer, const study::RiskOptions& options) {
                std::isnan(row.median_im) ? "-" : fmt::format("{:.2g} {}", row.median_im, risk.im_unit),
                row.recommended == decision::By::function ? "fitted curve" : "counts");
   }
+  for (const auto& [why, titles] : reasons(risk)) fmt::print("* by counts, {}: {}\n", why, fmt::join(titles, ", "));
   for (const std::string& warning : risk.warnings) fmt::print("warning: {}\n", warning);
   fmt::print("risk.csv and risk.json in {}\n", options.output.string());
 }

@@ -26,9 +26,12 @@ std::string times_text(const study::SweepSummary& sweep, double fit_s, int ranks
 
 std::string warnings_text(const study::FitSummary& fit, const std::string& folder) {
   if (fit.warnings.empty()) return "";
+  constexpr std::size_t most = 4;
   const std::string where = (std::filesystem::path(folder) / "summary.json").string();
-  return fmt::format("warning: {} ({}{})\n", fit.warnings.front(),
-                     fit.warnings.size() > 1 ? fmt::format("{} more in ", fit.warnings.size() - 1) : "", where);
+  const std::size_t shown = std::min(most, fit.warnings.size()), more = fit.warnings.size() - shown;
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) text += "warning: " + fit.warnings[i] + "\n";
+  return text + (more ? fmt::format("({} more warnings in {})\n", more, where) : "");
 }
 
 }  // namespace freestand::app

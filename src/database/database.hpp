@@ -19,8 +19,8 @@ struct Word {
   bool binary = false;  // a demand that happens or not, and takes no capacity
 };
 
-// How a curve is to be read: by its lognormal, where off_by is small; by its points, where that is not so, or where a lognormal is merely
-// not refuted: too few motions tell whether it is off by little.
+// How a curve is to be read: by its lognormal, where off_by is small; by straight lines between its points, where that is not so, or
+// where a lognormal is merely not refuted: too few motions tell whether it is off by little.
 inline constexpr const char* lognormal_family = "lognormal";
 inline constexpr const char* points_family = "points";
 inline constexpr const char* not_refuted_family = "not_refuted";

@@ -29,22 +29,22 @@ std::vector<const Point*> usable(const Curve& curve) {
   return points;
 }
 
-// Change of Phi^-1(P) with ln IM at an end of the points: of the fitted lognormal, or of the last two points where they rise.
-double slope_at(const Curve& curve, const std::vector<const Point*>& points, std::size_t end) {
-  if (curve.dispersion > 0) return 1 / curve.dispersion;
-  if (points.size() < 2) return 0;
-  const Probability a = of(*points[end ? end - 1 : 0]), b = of(*points[end ? end : 1]);
-  const double resolution = std::max(a.resolution, b.resolution);
-  const double rise =
-      gsl_cdf_ugaussian_Pinv(drawn_in(b.value, resolution)) - gsl_cdf_ugaussian_Pinv(drawn_in(a.value, resolution));
-  return std::max(0.0, rise / std::log(points[end ? end : 1]->im / points[end ? end - 1 : 0]->im));
-}
-
-Probability beyond(const Curve& curve, const std::vector<const Point*>& points, std::size_t end, double im) {
-  Probability p = of(*points[end]);
-  const double shift = slope_at(curve, points, end) * std::log(im / points[end]->im);
+// Straight lines in P over the intensity: from 0 at 0 to the first point, level above the last.
+Probability straight(const std::vector<const Point*>& points, double im) {
+  const auto next = std::find_if(points.begin(), points.end(), [&](const Point* p) { return p->im >= im; });
+  if (next == points.end()) return of(*points.back());
+  Probability p = of(**next);
+  if (next == points.begin()) {
+    p.value *= im / (*next)->im;
+    p.lower *= im / (*next)->im;
+    return p;
+  }
+  const Point& before = **(next - 1);
+  const double rest = ((*next)->im - im) / ((*next)->im - before.im);
+  const Probability a = of(before);
   for (double Probability::*member : {&Probability::value, &Probability::lower, &Probability::upper})
-    if (p.*member > 0 && p.*member < 1) p.*member = gsl_cdf_ugaussian_P(gsl_cdf_ugaussian_Pinv(p.*member) + shift);
+    p.*member -= rest * (p.*member - a.*member);
+  p.resolution = std::max(p.resolution, a.resolution);
   return p;
 }
 
@@ -70,14 +70,20 @@ Probability blend(std::span<const Probability> known, std::span<const double> we
 Probability at(const Curve& curve, double im) {
   const std::vector<const Point*> points = usable(curve);
   if (points.empty()) return {};
-  const auto next = std::find_if(points.begin(), points.end(), [&](const Point* p) { return p->im >= im; });
-  if (next == points.end()) return beyond(curve, points, points.size() - 1, im);
-  if ((*next)->im == im) return of(**next);
-  if (next == points.begin()) return beyond(curve, points, 0, im);
-  const Point &a = **(next - 1), &b = **next;
-  const double t = std::log(im / a.im) / std::log(b.im / a.im);
-  return blend(std::array{of(a), of(b)}, std::array{1 - t, t});
+  Probability p = straight(points, im);
+  if (!by_lognormal(curve)) return p;
+  const double by_points = p.value;
+  p.value = gsl_cdf_ugaussian_P(std::log(im / curve.median) / curve.dispersion);
+  if (im > points.back()->im || im < points.front()->im) {  // the band goes along
+    p.lower += p.value - by_points;
+    p.upper += p.value - by_points;
+  }
+  p.lower = std::clamp(p.lower, 0.0, p.value);
+  p.upper = std::clamp(p.upper, p.value, 1.0);
+  return p;
 }
+
+bool by_lognormal(const Curve& curve) { return curve.family == lognormal_family && curve.dispersion > 0; }
 
 bool outside(const Curve& curve, double im) { return im < curve.im_least || im > curve.im_most; }
 

@@ -20,9 +20,14 @@ struct Probability {
 // itself.
 Probability blend(std::span<const Probability> known, std::span<const double> weights);
 
-// The curve at an intensity > 0: straight in Phi^-1(P) over ln IM between its points; outside of them on with the slope of
-// its lognormal, or of the last two points where it has none. NaN where it has no point that is known.
+// The curve at an intensity > 0, by the rule that its family states: the lognormal of median and dispersion, or straight lines
+// in P over the intensity between the points, from 0 at 0 to the first one and level above the last. So do the page of the
+// database and exports read it. The band is on straight lines in both cases; a lognormal takes it along beyond the points, and
+// widens it where it leaves it. NaN where no point is known.
 Probability at(const Curve&, double im);
+
+// Is it read by its lognormal?
+bool by_lognormal(const Curve&);
 
 // Is the intensity outside of what was swept?
 bool outside(const Curve&, double im);

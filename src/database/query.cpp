@@ -144,8 +144,23 @@ void check_intensity(const Database& db, const Question& question, const std::ve
     }
 }
 
+std::string rule(const std::vector<Between>& parts) {
+  std::size_t all = 0, lognormal = 0;
+  for (const Between& part : parts)
+    for (const Curve* curve : part.curves) {
+      ++all;
+      if (by_lognormal(*curve)) ++lognormal;
+    }
+  std::string text = lognormal == all ? "read by the lognormal, which is adequate"
+                     : lognormal == 0
+                         ? "read by straight lines between the points over the intensity, as exports by levels are"
+                         : "read by the lognormal where it is adequate, else by straight lines between the points";
+  if (all > 1) text += "; between entries and capacities by Phi^-1(P) over logarithms";
+  return text;
+}
+
 Answer answer(const Database& db, const Question& question, bool binary, GridPoint point) {
-  Answer answer{.parts = {}, .im = {}, .probability = {}, .notes = std::move(point.notes)};
+  Answer answer{.parts = {}, .im = {}, .probability = {}, .notes = std::move(point.notes), .rule = {}};
   std::vector<Between> parts;
   std::vector<double> weights;
   for (const Part& part : point.parts) {
@@ -162,8 +177,9 @@ Answer answer(const Database& db, const Question& question, bool binary, GridPoi
     p.lower = std::min(p.lower, p.value);
     p.upper = std::max(p.upper, p.value);
   }
+  answer.rule = rule(parts);
   answer.parts = std::move(point.parts);
-  if (parts.size() == 1 && parts[0].curves.size() == 1 && parts[0].curves[0]->family == lognormal_family) {
+  if (parts.size() == 1 && parts[0].curves.size() == 1 && by_lognormal(*parts[0].curves[0])) {
     answer.median = parts[0].curves[0]->median;
     answer.dispersion = parts[0].curves[0]->dispersion;
   }

@@ -38,6 +38,7 @@ struct Answer {
   std::vector<double> im;   // the one asked for, or the curve's
   std::vector<Probability> probability;
   std::vector<std::string> notes;                 // plain sentences: what was extrapolated, and how far
+  std::string rule;                               // a plain sentence: how its curves are read between their points
   double median = unknown, dispersion = unknown;  // of one entry whose curve is a lognormal
 };
 

@@ -181,6 +181,33 @@ class Row {
   RiskRow row_;
 };
 
+bool happens_within(const RiskRow& inner, const RiskRow& outer, const std::vector<std::string>& with_overturned) {
+  if (inner.edp == outer.edp) return inner.capacity > outer.capacity;
+  return inner.edp == "overturned" &&
+         std::find(with_overturned.begin(), with_overturned.end(), outer.edp) != with_overturned.end();
+}
+
+// Limits by those of events that hold or are held. A limit that would pass the value itself is none.
+void put_in_order(std::vector<RiskRow>& rows, const std::vector<std::string>& with_overturned) {
+  const std::vector<RiskRow> own = rows;
+  for (RiskRow& row : rows) {
+    Rate& rate = row.recommended == By::function ? row.by_function : row.by_counts;
+    const RiskRow* bound = nullptr;
+    for (const RiskRow& other : own) {
+      if (!row.refused.empty() || !other.refused.empty()) continue;
+      const Rate& beside = other.rate();
+      if (happens_within(row, other, with_overturned) && beside.upper < rate.upper && beside.upper >= rate.value) {
+        rate.upper = beside.upper;
+        bound = &other;
+      }
+      if (happens_within(other, row, with_overturned) && beside.lower > rate.lower && beside.lower <= rate.value)
+        rate.lower = beside.lower;
+    }
+    if (bound)
+      row.why += fmt::format("; its upper limit is that of {}, which holds whenever this happens", title(*bound));
+  }
+}
+
 // One sentence a cause, with all that it concerns.
 void warn(Risk& risk, const HazardCurve& hazard, double RiskRow::*share, const std::string& what) {
   std::string concerned;
@@ -200,7 +227,7 @@ std::string title(const RiskRow& row) {
   return fmt::format("{} > {}{}", row.edp, row.capacity, row.unit == "1" ? "" : " " + row.unit);
 }
 
-Risk risk(const Result& result, const HazardCurve& hazard) {
+Risk risk(const Result& result, const HazardCurve& hazard, const std::vector<std::string>& with_overturned) {
   Risk found;
   found.im = result.im_name;
   found.im_unit = result.im_unit;
@@ -218,6 +245,7 @@ Risk risk(const Result& result, const HazardCurve& hazard) {
   for (const EdpResult& edp : result.edps)
     for (std::size_t c = 0; c < edp.capacity.size(); ++c)
       found.rows.push_back(Row(result, hazard, edp, c, edp.functions.empty() ? none : edp.functions[c], found)());
+  put_in_order(found.rows, with_overturned);
   for (const RiskRow& row : found.rows)
     if (!row.refused.empty())
       found.warnings.push_back(fmt::format("{}: no rate is told: {}", title(row), row.refused));

@@ -69,7 +69,11 @@ inline constexpr double outside_to_warn_of = 0.05, outside_to_refuse = 0.5;
 // of the counts, as far as leaving motions out of both can tell; the counts elsewhere. "Adequate" is a difference of probabilities: where
 // these stay small it says nothing of a rate. The hazard must be over the result's intensity. Throws Error (Exit::usage) where sweep and
 // hazard curve share no intensity.
-Risk risk(const fragility::Result&, const HazardCurve&);
+//
+// An event that happens whenever another one does has at least its rate, so the upper limit of the inner one is at most that of the outer
+// one, and the lower limit of the outer one at least that of the inner one: of capacities of one demand, and of overturning within the
+// demands `with_overturned`, beyond every capacity of which a block that overturned is.
+Risk risk(const fragility::Result&, const HazardCurve&, const std::vector<std::string>& with_overturned = {});
 
 // "peak_slip_m > 0.1 m", "overturned"
 std::string title(const RiskRow&);

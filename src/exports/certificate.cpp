@@ -81,7 +81,9 @@ Certified certified(const Model& model, const Format& format, const std::filesys
   found.allowed = wanted_difference + back.rounds_by;
   found.json = {{"target", format.name},
                 {"id", model.id},
+                {"holds", !(found.difference > found.allowed)},
                 {"largest_difference", found.difference},
+                {"allowed", found.allowed},
                 {"wanted_below", wanted_difference},
                 {"rounding", back.rounding.empty() ? "none" : back.rounding},
                 {"rounding_at_most", back.rounds_by},
@@ -120,7 +122,9 @@ Certified certify(const Collection& all, const Format& format, const std::filesy
   whole.allowed = faulty ? 0 : wanted_difference + rounds_by;  // one that is off by more than its own is off
   whole.json = {{"target", format.name},
                 {"id", all.id},
+                {"holds", !(whole.difference > whole.allowed)},
                 {"largest_difference", whole.difference},
+                {"allowed", whole.allowed},
                 {"wanted_below", wanted_difference},
                 {"rounding", rounding},
                 {"rounding_at_most", rounds_by},

@@ -157,10 +157,13 @@ std::vector<std::string> warnings(const Tally& tally, const Result& result) {
   std::vector<std::string> out;
   about_outcomes(tally, result, out);
   about_motions(tally, result, out);
-  for (const EdpResult& edp : result.edps) about_bins(edp, tally.options(), out);
-  for (const EdpResult& edp : result.edps)
-    if (edp.name != "overturned") about_functions(edp, tally.options(), out);
-  about_overturning(tally, result, out);
+  // Demand by demand as the study names them, so that what concerns the first one is read first.
+  const auto overturned = [](const EdpResult& edp) { return edp.name == "overturned"; };
+  for (const EdpResult& edp : result.edps) {
+    about_bins(edp, tally.options(), out);
+    overturned(edp) ? about_overturning(tally, result, out) : about_functions(edp, tally.options(), out);
+  }
+  if (std::none_of(result.edps.begin(), result.edps.end(), overturned)) about_overturning(tally, result, out);
   return out;
 }
 

@@ -51,6 +51,9 @@ const Measure& find(const std::string& name) {
     if (measure.name == name) return measure;
     known += (known.empty() ? "" : ", ") + measure.name;
   }
+  if (name.starts_with(of_records))
+    throw Error("no intensity measure \"" + name + "\" (" + name.substr(of_records.size()) +
+                " is no column of a table of records with a unit that freestand knows): name it as record.pga_g");
   throw Error("no intensity measure \"" + name + "\" (the measures are " + known + "): name one of these");
 }
 

@@ -25,8 +25,8 @@ constexpr auto one = FieldUnit::one, edp = FieldUnit::edp;
 constexpr BinField fields[] = {
   {"n", true, one, "samples in the bin, failed ones left out", get<BinFit, &BinFit::n>, set<BinFit, &BinFit::n>},
   {"n_still", true, one, "samples that stood still", get<BinFit, &BinFit::n_still>, set<BinFit, &BinFit::n_still>},
-  {"n_over", true, one, "samples that overturned", get<BinFit, &BinFit::n_over>, set<BinFit, &BinFit::n_over>},
-  {"n_moved", true, one, "samples that moved and stood", get<BinFit, &BinFit::n_moved>, set<BinFit, &BinFit::n_moved>},
+  {"n_over", true, one, "samples that overturned, whatever else happened to them", get<BinFit, &BinFit::n_over>, set<BinFit, &BinFit::n_over>},
+  {"n_moved", true, one, "samples that moved and stood; of a demand that happens or not: in which it happened and which stood", get<BinFit, &BinFit::n_moved>, set<BinFit, &BinFit::n_moved>},
   {"n_failed", true, one, "samples that failed, in none of the counts", get<BinFit, &BinFit::n_failed>, set<BinFit, &BinFit::n_failed>},
   {"motions", true, one, "groups of floor motions in the bin", get<BinFit, &BinFit::motions>, set<BinFit, &BinFit::motions>},
   {"p_still", false, one, "probability of standing still, given no overturning", get<BinFit, &BinFit::p_still>, set<BinFit, &BinFit::p_still>},

@@ -83,8 +83,11 @@ std::string words_json(const Database& db) {
   json["families"] = {
       {database::lognormal_family, "the lognormal of median and dispersion is off by at most off_by, which is small"},
       {database::not_refuted_family,
-       "the points of the curve are to be used: the lognormal is not refuted, but may be off by off_by"},
-      {database::points_family, "the points of the curve are to be used"}};
+       "the points of the curve are to be used, as below: the lognormal is not refuted, but may be off by off_by"},
+      {database::points_family,
+       "straight lines in probability over the intensity between the points of the curve, from 0 at 0 to the first "
+       "one, "
+       "level above the last"}};
   json["intensities"] = words(db.intensities);
   json["demands"] = words(db.demands);
   nlohmann::ordered_json columns;

@@ -299,7 +299,7 @@ void write_fragility(const std::filesystem::path& path, const Provenance& proven
 std::string bins_csv(const Result& result) {
   std::string text = "edp,unit,im,im_lower,im_upper";
   for (const BinField& field : bin_fields()) text += fmt::format(",{}", field.name);
-  text += '\n';
+  text += ",n_happened\n";  // of a demand that happens or not, overturned samples included
   for (const EdpResult& edp : result.edps)
     for (std::size_t i = 0; i < edp.bins.size(); ++i) {
       text += fmt::format("{},{},{},{},{}", cell(edp.name), cell(edp.unit), cell(result.im[i]), cell(result.im_edge[i]),
@@ -309,7 +309,10 @@ std::string bins_csv(const Result& result) {
           text += fmt::format(",{}", name(edp.bins[i].status));
         else
           text += fmt::format(",{}", cell(field.value(edp.bins[i])));
-      text += '\n';
+      const bool told = edp.binary && std::isfinite(edp.surface.empirical[i]);
+      text +=
+          fmt::format(",{}\n", told ? cell(std::round(edp.surface.empirical[i] * static_cast<double>(edp.bins[i].n)))
+                                    : std::string());
     }
   return text;
 }

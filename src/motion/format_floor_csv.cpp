@@ -48,6 +48,7 @@ RawRecord read(const RecordText& text) {
     record.channels[0].values.push_back(text.number(line, row[horizontal]));
     if (vertical < names.size()) record.channels[1].values.push_back(text.number(line, row[vertical]));
   }
+  text.whole_to_its_end(header + 1);
   record.dt_s = text.even_step(times, lines);
   return record;
 }

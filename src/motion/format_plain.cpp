@@ -44,6 +44,7 @@ RawRecord read(const RecordText& text) {
     lines.push_back(line);
     record.channels[0].values.push_back(row.back());
   }
+  text.whole_to_its_end(first_line(text));
   if (columns == 2) record.dt_s = text.even_step(times, lines);
   return record;
 }

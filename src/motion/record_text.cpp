@@ -146,13 +146,33 @@ void RecordText::columns(std::size_t line, std::size_t width, std::vector<double
 std::vector<double> RecordText::block(std::size_t& line, std::size_t expected, std::size_t width) const {
   std::vector<double> values;
   values.reserve(std::min<std::size_t>(expected, 64 * size()));
+  const std::size_t first = line;
   for (; line < size() && values.size() < expected; ++line)
     width == 0 ? numbers(line, values) : columns(line, width, values);
   if (values.size() < expected)
     fail(size() - 1, fmt::format("the record ends after {} values (the header says {}): get the whole file",
                                  values.size(), expected));
   if (values.size() > expected) surplus(line - 1, expected);
+  if (line == size()) whole_to_its_end(first);
   return values;
+}
+
+void RecordText::whole_to_its_end(std::size_t line) const {
+  constexpr std::string_view of_numbers = "0123456789.+-eEdD";
+  if (of_numbers.find(content_.back()) == std::string_view::npos) return;
+  const auto places = [](std::string_view text) {
+    const std::string_view last = split(text, separators).back();
+    return last.size() - std::min(last.find('.'), last.size());
+  };
+  std::size_t least = static_cast<std::size_t>(-1);
+  for (; line + 1 < size(); ++line)
+    if (const std::string_view text = trim(lines_[line]);
+        !text.empty() && of_numbers.find(text.back()) != std::string_view::npos)
+      least = std::min(least, places(text));
+  if (least != static_cast<std::size_t>(-1) && places(lines_.back()) < least)
+    fail(size() - 1,
+         "the line has no end, and its number fewer digits than any other (the file was cut off there): get the whole "
+         "file; if it is whole, end its last line");
 }
 
 void RecordText::ends_at(std::size_t line, std::size_t expected) const {

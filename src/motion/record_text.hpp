@@ -42,6 +42,9 @@ class RecordText {
   // The numbers from `line` on until they are `expected`, which must be so at the end of a line; `line` goes behind
   // them. width 0: not in columns.
   std::vector<double> block(std::size_t& line, std::size_t expected, std::size_t width = 0) const;
+  // Throws where the last line has no end and its number fewer places behind the point than the last ones of all lines from `line`
+  // on: a file that was cut off in the middle of a number.
+  void whole_to_its_end(std::size_t line) const;
   // Throws when there is more than blank lines from `line` on.
   void ends_at(std::size_t line, std::size_t expected) const;
 

@@ -1,6 +1,7 @@
 #include "study/build_catalogue.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -80,7 +81,7 @@ struct Plan {
 Plan plan_of(const Catalogue& catalogue, const Database& before, const fs::path& folder, bool redo) {
   Plan plan;
   Fingerprints fingerprint_of;
-  std::string refused;
+  std::vector<Refusal> refused;
   std::map<std::string, const database::Entry*> old;
   for (const database::Entry& entry : before.entries) old[entry.id] = &entry;
   for (const CatalogueEntry& entry : catalogue.entries) {
@@ -105,12 +106,14 @@ Plan plan_of(const Catalogue& catalogue, const Database& before, const fs::path&
                              : changed.empty()
                                  ? "its records were changed"
                                  : fmt::format("{} was {}, is {}", changed[0].key, changed[0].before, changed[0].now);
-    refused += fmt::format(
-        "{}{}: entry {} is not the one of the database ({}): take it back, give it another id, or add "
-        "--redo to compute it anew",
-        refused.empty() ? "" : "\n", entry.place, entry.words.id, what);
+    refused.push_back(
+        {entry.words.id,
+         fmt::format("entry {} is not the one of the database ({}): take it back, give it another id, or add "
+                     "--redo to compute it anew",
+                     entry.words.id, what),
+         entry.place});
   }
-  if (!refused.empty()) throw Error(refused);
+  if (!refused.empty()) throw Error(fmt::format("{}", fmt::join(told_once(refused), "\n")));
   return plan;
 }
 

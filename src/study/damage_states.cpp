@@ -38,6 +38,21 @@ struct DamageStates::State {
     return condition.holds(demands) ? 1 : 0;
   }
 
+  // With what an overturned block still tells of itself at its least, and at its most.
+  bool holds_overturned() const {
+    for (const double told : {0.0, std::numeric_limits<double>::infinity()}) {
+      std::vector<double> values;
+      for (const std::string& name : part.demands) {
+        const edp::Edp& demand = edp::find(name);
+        const bool over = name == "overturned" || (demand.binary && told > 0);
+        values.push_back(over ? 1 : demand.censored ? std::numeric_limits<double>::infinity() : told);
+      }
+      for (const Quantity& parameter : part.parameters) values.push_back(quantile(parameter.value, 0.5));
+      if (!condition.holds(values)) return false;
+    }
+    return true;
+  }
+
   DamagePart part;
   formula::Condition condition;
   std::vector<sampling::Stream> streams;
@@ -58,6 +73,13 @@ std::vector<fragility::EdpOptions> DamageStates::edps() const {
     edps.push_back({state->part.name, "1", symbol, true, 0, {}, false});
   }
   return edps;
+}
+
+std::vector<std::string> DamageStates::with_overturned() const {
+  std::vector<std::string> names;
+  for (const auto& state : states_)
+    if (state->holds_overturned()) names.push_back(state->part.name);
+  return names;
 }
 
 void DamageStates::append(Table& rows, std::uint64_t first) const {

@@ -19,6 +19,9 @@ class DamageStates {
   bool empty() const;
   std::vector<fragility::EdpOptions> edps() const;
 
+  // Of those that hold for a block that overturned, whatever else happened to it.
+  std::vector<std::string> with_overturned() const;
+
   // Appends a column edp_NAME for each to rows of samples, the first of which is sample `first`. Parameters are drawn by
   // their names, independently of the demands. A censored demand of a sample that overturned is above every capacity
   // (+inf); a sample without a demand that the condition looks at has no state (nan).

@@ -15,7 +15,7 @@
 namespace freestand::study {
 namespace {
 
-constexpr double longest_m = 50, steepest_rad = 1.2, roughest = 2, longest_period_s = 20, strongest_g = 10,
+constexpr double longest_m = 10, steepest_rad = 1.2, roughest = 2, longest_period_s = 20, strongest_g = 10,
                  fastest_mps = 10, coarsest_step_s = 0.1;
 // Two thirds of a lognormal's values span a factor of e^(2 dispersion): here 100, which no dimension or coefficient does.
 constexpr double widest_dispersion = 2.3;
@@ -116,6 +116,37 @@ void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
   if (source.amplitude->unit == "m/s") doubter.ask(source.amplitude, fastest_mps, "is it in m/s?");
 }
 
+// What stands on one side only; "" of nothing.
+std::string one_sided(const Study& study) {
+  if (study.model.chain) return "chain";
+  double least = 0, most = 0;
+  for (const EffectPart& effect : study.model.effects)
+    if (effect.name == "wall_impact")
+      for (const Quantity& parameter : effect.parameters)
+        if (parameter.name.ends_with(".gap_m")) {
+          const sampling::Support gap = support(parameter.value);
+          least = std::min(least, gap.lower);
+          most = std::max(most, gap.upper >= 0 ? std::max(gap.upper, 1e-9) : 0.0);
+        }
+  if ((least < 0) != (most > 0)) return "wall of wall_impact";
+  for (const std::string& edp : study.fragility.edp)
+    if (edp == "peak_slip_right_m" || edp == "peak_slip_left_m") return "demand " + edp;
+  return "";
+}
+
+// A record that is turned round is as likely a motion of the floor, and does something else to what stands on one side.
+void ask_of_polarity(const MotionSource& source, const std::string& what, Doubter& doubter) {
+  if (what.empty() || source.kind != MotionSource::Kind::records || !source.amplitude) return;
+  const sampling::Support amplitudes = support(source.amplitude->value);
+  if (amplitudes.lower < 0 && amplitudes.upper > 0) return;
+  doubter.said.push_back(fmt::format(
+      "the {} is on one side, and {} shakes with one sign only: turned round each record is as likely: is that "
+      "meant? a range of both signs turns them round too ({})",
+      what, source.records,
+      source.scale_to ? fmt::format("scale_to: {{{}: {{uniform: [-2, 2]}}}}", source.scale_to->name)
+                      : "scale: {choice: [-1, 1]}"));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const Study& study) {
@@ -131,6 +162,7 @@ std::vector<std::string> doubts(const Study& study) {
   const bool shaken = shakes_vertically(study.model);
   for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, doubter);
+  for (const MotionSource& source : study.motions) ask_of_polarity(source, one_sided(study), doubter);
   const auto& chain = study.model.chain;
   if (chain && chain->wall_gap && chain->wall_gap->line == 0)
     doubter.said.push_back(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "exports/select.hpp"
+#include "study/problems.hpp"
 
 namespace freestand::study {
 
@@ -38,7 +39,7 @@ ExportSummary export_fragility(const ExportRequest&);
 // other.
 struct DatabaseExport {
   std::vector<std::pair<std::string, ExportSummary>> entries;  // by id
-  std::vector<std::string> refused;                            // "fridge-vinyl: why"
+  std::vector<Refusal> refused;                                // "fridge-vinyl: why" of fridge-vinyl
   std::vector<std::filesystem::path> files;                    // that hold all of them, the certificate last
   std::filesystem::path output;
   std::string im;

@@ -53,14 +53,14 @@ ExportRequest request_of(const ExportRequest& request, const Database& db, std::
 }
 
 // Limit states that one list of names is to hold: those of every entry, in the order in which they are met.
-// `never`: what each of them tells of states that never happened.
+// `left_out`: what each of them tells of what it leaves out.
 std::vector<std::string> states_of_all(const std::vector<ExportRequest>& requests, const exports::Format& format,
-                                       std::vector<std::string>& never) {
+                                       std::vector<std::vector<std::string>>& left_out) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < requests.size(); ++i) try {
       const exports::Model model = ready_model(requests[i], format).model;
       for (const std::string& note : model.notes)
-        if (note.starts_with("left out:") && note.find("never happened") != std::string::npos) never[i] = note;
+        if (note.starts_with("left out:")) left_out[i].push_back(note);
       for (const exports::LimitState& state : model.states) {
         const std::string word =
             std::isnan(state.capacity) ? state.demand : fmt::format("{}:{}", state.demand, state.capacity);
@@ -88,7 +88,7 @@ void export_each(const ExportRequest& request, const exports::Format& format, co
       if (one.what.id.empty()) one.what.id = usual_id(id);
       done.entries.emplace_back(id, export_fragility(one));
     } catch (const Error& error) {
-      done.refused.push_back(fmt::format("{}: {}", db.entries[e].id, error.what()));
+      done.refused.push_back({db.entries[e].id, fmt::format("{}: {}", db.entries[e].id, error.what())});
     }
 }
 
@@ -100,11 +100,11 @@ void export_all(const ExportRequest& request, const exports::Format& format, con
       ids.push_back(db.entries[e].id);
       requests.back().what.id = format.name == "pelicun" ? usual_id(ids.back()) : ids.back();
     } catch (const Error& error) {
-      done.refused.push_back(fmt::format("{}: {}", db.entries[e].id, error.what()));
+      done.refused.push_back({db.entries[e].id, fmt::format("{}: {}", db.entries[e].id, error.what())});
     }
-  std::vector<std::string> never(requests.size());
+  std::vector<std::vector<std::string>> left_out(requests.size());
   if (format.one_list_of_states && request.what.states.empty()) {
-    const std::vector<std::string> states = states_of_all(requests, format, never);
+    const std::vector<std::string> states = states_of_all(requests, format, left_out);
     for (ExportRequest& one : requests) one.what.states = states;
   }
   exports::Collection all{request.what.id.empty() ? usual_id(db.name) : request.what.id,
@@ -121,15 +121,17 @@ void export_all(const ExportRequest& request, const exports::Format& format, con
         throw Error(
             fmt::format("its id would be {}, as that of another entry: add --each for a file of each", one.model.id));
       origin["entries"][ids[i]] = one.origin;
-      const bool told = std::any_of(one.model.states.begin(), one.model.states.end(),
-                                    [&](const auto& state) { return never[i].find(state.name) != std::string::npos; });
-      if (!never[i].empty() && !told) one.model.notes.push_back(never[i]);
+      for (const std::string& note : left_out[i]) {
+        const bool taken = std::any_of(one.model.states.begin(), one.model.states.end(),
+                                       [&](const auto& state) { return note.find(state.name) != std::string::npos; });
+        if (!taken) one.model.notes.push_back(note);
+      }
       ExportSummary summary;
       summary.model = one.model;
       done.entries.emplace_back(ids[i], std::move(summary));
       all.models.push_back(std::move(one.model));
     } catch (const Error& error) {
-      done.refused.push_back(fmt::format("{}: {}", ids[i], error.what()));
+      done.refused.push_back({ids[i], fmt::format("{}: {}", ids[i], error.what())});
     }
   if (all.models.empty()) return;
   const export_parts::ExportPlace to = export_parts::place(request, format);

@@ -105,6 +105,15 @@ std::string without_lines(const std::string& text) {
 
 }  // namespace
 
+std::vector<std::string> FragilityChanges::keys() const {
+  std::vector<std::string> found;
+  for (const auto& [given, key] : {std::pair(!bins.empty(), "bins"), std::pair(!capacities.empty(), "capacities"),
+                                   std::pair(confidence.has_value(), "confidence"), std::pair(!edp.empty(), "edp"),
+                                   std::pair(!im.empty(), "im"), std::pair(!target.empty(), "target")})
+    if (given) found.push_back(std::string("fragility.") + key);
+  return found;
+}
+
 Study with_changes(const Study& study, const FragilityChanges& changes) {
   if (!changes.any()) return study;
   YAML::Node root = YAML::Load(expanded(study));
@@ -117,6 +126,7 @@ Study with_changes(const Study& study, const FragilityChanges& changes) {
   if (!changes.edp.empty()) fragility["edp"] = changes.edp;
   change_capacities(fragility, changes);
   change_target(fragility, changes.target);
+  if (changes.confidence) fragility["confidence"] = sampling::number_text(*changes.confidence);
   YAML::Emitter out;
   out << root;
   try {

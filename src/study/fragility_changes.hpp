@@ -1,6 +1,7 @@
 // Another intensity, other bins, demands and capacities for a study whose samples are there, as the command line says them.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,12 @@ struct FragilityChanges {
 
   std::vector<std::string> target = {};  // "friction.mu_k={lognormal: {median: 0.3, dispersion: 0.2}}"
 
-  bool any() const { return !im.empty() || !bins.empty() || !edp.empty() || !capacities.empty() || !target.empty(); }
+  std::optional<double> confidence = {};  // of every band
+
+  bool any() const { return !keys().empty(); }
+
+  // Keys of the study that they change.
+  std::vector<std::string> keys() const;
 };
 
 // The study with these changes, checked as any study file. Bins by edges or by width are in the unit of their intensity:

@@ -32,6 +32,8 @@ const Entry& named(const std::vector<const Entry*>& all, const std::string& name
     if (entry->name == name) return *entry;
     names.push_back(entry->name);
   }
+  if constexpr (std::is_same_v<Entry, Measure>)
+    if (name.starts_with("record.")) return intensity::find(name);
   throw Error(
       fmt::format("{} {} is not in the catalogue ({}): see `freestand {}`", kind, name, hint(name, names), verb));
 }
@@ -129,7 +131,8 @@ MeasurePages intensities_catalogue() {
   return catalogue(
       intensity::all(), "intensity", "im",
       "`freestand im NAME` tells more. A finished sweep holds all of them: `freestand fit DIR --im NAME -o "
-      "DIR2`\nneeds no new one.\n");
+      "DIR2`\nneeds no new one.\nA table of records (`records: INDEX.csv`) adds its own columns as record.COLUMN: "
+      "record.pga_g, record.magnitude_mw.\n");
 }
 
 MeasurePages demands_catalogue() {

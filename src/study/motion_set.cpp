@@ -1,5 +1,6 @@
 // Loads every floor motion of a study once.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -83,7 +84,10 @@ class Loader {
         add_numbers(source, row, entries_.back());
         items.push_back(entries_.size() - 1);
       } catch (const Error& error) {
-        problems_ += (problems_.empty() ? "" : "\n") + (row.where.empty() ? "" : row.where + ": ") + error.what();
+        const std::string what = error.what();
+        const bool named = what.find(row.file.string()) != std::string::npos;
+        problems_.push_back(
+            {row.file.string(), named ? what : fmt::format("{}: {}", row.file.string(), what), row.where});
       }
     }
     return items;
@@ -93,7 +97,7 @@ class Loader {
 
   std::vector<Entry> finish() {
     for (Entry& entry : entries_) entry.numbers.resize(numbers_.size(), not_given);
-    if (!problems_.empty()) throw Error(problems_, Exit::data);
+    if (!problems_.empty()) throw Error(fmt::format("{}", fmt::join(told_once(problems_), "\n")), Exit::data);
     bool vertical = !shakes_vertically(study_.model);
     for (const auto& entry : entries_) vertical = vertical || !entry.motion.vertical_mps2.empty();
     if (!vertical)
@@ -130,7 +134,7 @@ class Loader {
   std::vector<Entry> entries_;
   std::vector<motion::RecordNumber> numbers_;
   std::map<std::string, std::size_t> pulses_;
-  std::string problems_;
+  std::vector<Refusal> problems_;
 };
 
 }  // namespace

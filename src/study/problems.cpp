@@ -31,6 +31,30 @@ void Problems::throw_if_any(Exit exit) const {
   if (!empty()) throw Error(text(), exit);
 }
 
+std::vector<std::string> told_once(const std::vector<Refusal>& refusals) {
+  struct Told {
+    std::string alike, first;
+    std::vector<std::string> subjects;
+  };
+  std::vector<Told> all;
+  for (const Refusal& refusal : refusals) {
+    std::string alike = refusal.text;
+    for (std::size_t at = 0; !refusal.subject.empty() && (at = alike.find(refusal.subject, at)) != std::string::npos;)
+      alike.erase(at, refusal.subject.size());
+    auto known = std::find_if(all.begin(), all.end(), [&](const Told& one) { return one.alike == alike; });
+    if (known == all.end())
+      known = all.insert(all.end(), {alike, (refusal.place.empty() ? "" : refusal.place + ": ") + refusal.text, {}});
+    known->subjects.push_back(refusal.subject);
+  }
+  std::vector<std::string> lines;
+  for (const Told& one : all) {
+    const std::size_t more = one.subjects.size() - 1;
+    std::vector<std::string> others(one.subjects.begin() + 1, one.subjects.end());
+    lines.push_back(more == 0 ? one.first : fmt::format("{}; and the same of {}", one.first, some(others, 3)));
+  }
+  return lines;
+}
+
 std::string hint(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string near = nearest(word, candidates);
   return near.empty() ? "known: " + joined(candidates) : "did you mean " + near + "?";

@@ -40,6 +40,14 @@ class Problems {
   std::vector<Entry> entries_;
 };
 
+// One line a text, in the order of their first: "text", or "text; and the same of b, c and 12 more" where it is that of several but
+// for the subject's name in it.
+struct Refusal {
+  std::string subject, text;
+  std::string place = {};  // stands before the text, "INDEX.csv:5"
+};
+std::vector<std::string> told_once(const std::vector<Refusal>&);
+
 // "did you mean delta?" or, when nothing is near, "known: delta, overturned".
 std::string hint(std::string_view word, const std::vector<std::string>& candidates);
 

@@ -114,7 +114,8 @@ std::string one_line(const RankedDemand& demand, const Study& study) {
   std::string text = fmt::format("best intensity for {}: {} ({})", demand.edp, best.im, figure(demand, best));
   if (!equals.empty()) text += fmt::format(", not parted from it by these motions: {}", equals);
   for (const RankedIm& im : demand.ims)
-    if (im.im == own && own != best.im && clearly_behind(im)) text += fmt::format("; {} has {:.3g}", own, im.value);
+    if (im.im == own && own != best.im && std::isfinite(im.value))
+      text += fmt::format("; {}, which this fit is over, has {:.3g}", own, im.value);
   return text + "\n";
 }
 

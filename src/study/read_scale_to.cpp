@@ -8,8 +8,6 @@
 namespace freestand::study {
 namespace {
 
-constexpr Range target_range = {.lower = 0, .why = "an intensity that a motion is scaled to must be above zero"};
-
 std::vector<std::string> proportional_measures() {
   std::vector<std::string> names;
   for (const auto* measure : intensity::all())
@@ -67,7 +65,7 @@ std::optional<Quantity> read_scale_to(Section& section, MotionSource& source) {
                                 scale_to.name(measure.name), known));
   source.scale_to =
       IntensityPart{measure.name, measure.parameter ? measure.parameter->name : "", read_parameter(scale_to, measure)};
-  auto target = scale_to.quantity("motion", measure.name, target_range);
+  auto target = scale_to.quantity("motion", measure.name, range::any);  // negative: mirrored
   if (target) target->drawn_as = "motion.pta_g";  // the same shaking, whatever it is measured by
   scale_to.finish();
   return target;

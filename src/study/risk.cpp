@@ -8,11 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "decision/annual_rate.hpp"
+#include "edp/edp.hpp"
 #include "intensity/intensity.hpp"
 #include "io/fragility_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/text_files.hpp"
 #include "study/build_catalogue.hpp"
+#include "study/damage_states.hpp"
 #include "study/read_parts.hpp"
 
 namespace freestand::study {
@@ -57,6 +59,16 @@ double period_of(const io::FragilityFile& fragility, const RiskOptions& options,
         "{} is of {} at {} s, the sweep was fitted over it at {} s: fit the sweep at {} s, or give the curve at {} s",
         options.hazard.string(), im, hazard.period_s, period, hazard.period_s, period));
   return period;
+}
+
+// Demands that every block which overturned is beyond.
+std::vector<std::string> with_overturned(const io::FragilityFile& fragility, const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const edp::Edp& demand : edp::all())
+    if (demand.censored) names.push_back(demand.name);
+  for (std::string& state : DamageStates(parse_stored(fragility.provenance.study, folder)).with_overturned())
+    names.push_back(std::move(state));
+  return names;
 }
 
 void refuse_another_intensity(const decision::HazardCurve& hazard, const fragility::Result& swept,
@@ -127,8 +139,8 @@ RiskAnswer risk(const RiskOptions& options) {
   const decision::HazardCurve hazard =
       decision::parse_hazard(read_text(options.hazard), options.hazard.string(), measures(fragility.result));
   refuse_another_intensity(hazard, fragility.result, options);
-  RiskAnswer answer{hazard, decision::risk(fragility.result, hazard), fragility.provenance.study_name,
-                    period_of(fragility, options, hazard)};
+  RiskAnswer answer{hazard, decision::risk(fragility.result, hazard, with_overturned(fragility, options.folder)),
+                    fragility.provenance.study_name, period_of(fragility, options, hazard)};
   if (answer.period_s > 0 && hazard.period_s == 0)
     answer.risk.warnings.push_back(
         fmt::format("{} tells no period: its {} is taken to be at {} s, as the sweep's (a column period_s says it)",

@@ -211,6 +211,27 @@ void Section::finish() {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) problems_.add(line, unknown_key(key));
 }
 
+// Keys that people write in another place than they belong, or that a plane model has none of.
+std::string Section::elsewhere(const std::string& key) const {
+  const auto is_one_of = [&](std::initializer_list<const char*> keys) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+  };
+  const auto knows = [&](const char* part) { return std::find(known_.begin(), known_.end(), part) != known_.end(); };
+  if (is_one_of({"depth_m", "length_m", "thickness_m"}) && (knows("width_m") || knows("block")))
+    return fmt::format(
+        "key {} is not needed (the model is plane: width_m is the side along the shaking, and across it nothing "
+        "happens): remove it; for shaking along that side write it as width_m",
+        key);
+  const auto put_under = [&](const char* part) {
+    return fmt::format("key {} stands beside {}: (it is a part of it): put it under it, {}: {{{}: ...}}", key, part,
+                       part, key);
+  };
+  if (knows("block") && is_one_of({"width_m", "height_m", "mass_kg", "slenderness_rad", "size_m"}))
+    return put_under("block");
+  if (knows("friction") && is_one_of({"mu", "mu_k", "mu_s", "static_ratio"})) return put_under("friction");
+  return "";
+}
+
 std::string Section::unknown_key(const std::string& whole) const {
   const std::string key = shown(whole);
   const std::string where = path_.empty() ? "" : " in " + path_;
@@ -223,6 +244,7 @@ std::string Section::unknown_key(const std::string& whole) const {
       return fmt::format("key {}{} has another unit (freestand reads SI, here {}): convert the value and write {}", key,
                          where, unit_of(known), known);
   }
+  if (const std::string told = elsewhere(key); !told.empty()) return told;
   const std::string near = nearest(key, known_);
   if (!near.empty()) return fmt::format("unknown key {}{} (did you mean {}?): correct or remove it", key, where, near);
   return fmt::format("unknown key {}{} (nothing reads it): remove it, or use one of {}", key, where, joined(known_));

@@ -90,6 +90,7 @@ class Section {
   };
   const Item* item(const std::string& key) const;
   std::string unknown_key(const std::string& key) const;
+  std::string elsewhere(const std::string& key) const;
 
   std::string path_;
   int line_;

@@ -143,6 +143,9 @@ class AnyIntensity(InFolder):
 
 class Catalogues(InFolder):
     def test_they_list_and_explain(self):
+        self.assertIn("what the table of records gives as pga_g", self.succeed(["im", "record.pga_g"]).stdout)
+        self.fail_with(2, ["im", "record.colour"], "colour is no column", "record.pga_g")
+        self.assertIn("record.COLUMN", self.succeed(["im"]).stdout)
         for verb, name in (("im", "sa_g"), ("edp", "peak_slip_m")):
             self.assertIn(name, self.succeed([verb]).stdout)
             page = self.succeed([verb, name]).stdout

@@ -210,6 +210,9 @@ class Catalogue(InFolder):
             self.assertEqual([float(level) for level in functions[1][0].text.split()], [100 * float(row["im"]) for row in points])
         said = self.succeed(["export", db, "--to", "openquake", "-o", self.folder / "usual"]).stdout
         self.assertIn("overturned never happened", said)  # in one list of states, as zeros
+        again = self.fail_with(3, ["export", db, "--to", "openquake", "--each", "--limit-state", "peak_slip_m:7", "-o", self.folder / "seven"], "2 of 2 entries").stderr
+        self.assertEqual(again.count("has no capacity 7"), 1)
+        self.assertIn("and the same of low-box", again)
         said = self.succeed(["export", db, "--to", "pelicun", "-o", self.folder / "pelicun"]).stdout
         self.assertIn("left out: overturned never happened", said)
         with open(self.folder / "pelicun" / "fragility.csv", newline="", encoding="utf-8") as stream:
@@ -224,6 +227,12 @@ class Catalogue(InFolder):
         curve = self.write("hazard.csv", "pga_g,annual_rate\n0.05,0.01\n1,0.0001\n")
         self.fail_with(2, ["risk", db, "--hazard", curve, "-o", self.folder / "no"], "is a database of 2 entries", "db/entries/tall")
         self.fail_with(2, ["sensitivity", db], "is a database of 2 entries", "db/entries/tall")
+
+    def test_demands_that_an_export_leaves_out_are_told(self):
+        text = (HEAD + FRIDGE + TALL).replace("edp: [peak_slip_m", "edp: [slid_path_m, peak_slip_m")
+        self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"])
+        said = self.succeed(["export", self.folder / "db", "--to", "openquake", "-o", self.folder / "some.xml"]).stdout
+        self.assertEqual(said.count("left out: peak_slip_m (--limit-state takes them)"), 1)
 
     def test_each_entry_is_exported_into_a_file_of_its_name_where_that_is_asked(self):
         self.build(FRIDGE + TALL)
@@ -263,6 +272,7 @@ class Catalogue(InFolder):
         asked = ["--class", "refrigerator", "--im", "pga_g=0.6", "--demand", "peak_slip_m", "--capacity", "0.05"]
         said = self.succeed(["query", database, *asked]).stdout
         self.assertRegex(said, r"P\(peak_slip_m > 0.05 m \| pga_g = 0.6 g\), with its 95 % band\n0\.\d{4}  \[0\.\d{4}, [01]\.\d{4}\]  fridge\n")
+        self.assertRegex(said, r"\nread by (straight lines|the lognormal)")
         ends = [answer["probability"][0] for answer in self.ask(*asked)["answers"]]
         between = self.ask(*asked, "--mu", "0.3")["answers"]
         self.assertEqual(len(between), 1)
@@ -273,6 +283,19 @@ class Catalogue(InFolder):
         self.assertEqual(len(curve["im"]), 4)
         self.assertTrue(self.ask(*asked, "--mu", "0.45")["answers"][0]["extrapolated"])
         self.assertEqual(len(self.ask("--class", "refrigerator")["entries"]), 2)
+
+    def test_between_points_a_question_and_an_export_have_one_answer(self):
+        self.build(GRIPPY)
+        self.succeed(["export", self.folder / "db", "--format", "openquake", "--demand", "peak_slip_m:0.05", "-o", self.folder / "some.xml"])
+        function = xml.parse(self.folder / "some.xml").getroot().find(f".//{NRML}fragilityFunction")
+        self.assertEqual(function.get("format"), "discrete")
+        levels, shares = ([float(x) for x in function.find(NRML + what).text.split()] for what in ("imls", "poes"))
+        for i in range(len(levels) - 1):
+            middle = (levels[i] + levels[i + 1]) / 2
+            answer = self.ask("--im", f"pga_g={middle!r}", "--demand", "peak_slip_m", "--capacity", "0.05")["answers"][0]
+            self.assertAlmostEqual(answer["probability"][0], (shares[i] + shares[i + 1]) / 2, delta=1e-9)
+            self.assertIn("straight lines between the points", answer["rule"])
+        self.assertGreater(shares[-1] - shares[0], 0.2)
 
     def test_mistakes_of_questions_are_told_with_the_choices(self):
         self.build(FRIDGE)

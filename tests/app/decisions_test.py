@@ -41,6 +41,17 @@ class Risk(InFolder):
         delta = [row["annual_rate"] for row in told if row["edp"] == "delta"]
         self.assertEqual(delta, sorted(delta, reverse=True))
         self.assertIn("probability_475y", table[0])
+        # An overturned block is beyond every capacity, so no limit of overturning lies above one of those.
+        over, = (row for row in told if row["edp"] == "overturned")
+        for row in told:
+            if row["edp"] == "delta":
+                self.assertLessEqual(over["upper"], row["upper"])
+                self.assertLessEqual(over["lower"], row["lower"])
+        # Why a row goes by counts stands below the table.
+        for row in told:
+            if row["recommended"] == "counts":
+                self.assertIn(f"* by counts, {row['why']}: ", done.stdout)
+        self.assertIn("counts", [row["recommended"] for row in told])
         # Nothing is replaced unasked, nor the sweep at all.
         self.fail_with(2, ["risk", self.out, "--hazard", self.hazard, "-o", self.folder / "risk"], "--overwrite")
         self.succeed(["risk", self.out, "--hazard", self.hazard, "-o", self.folder / "risk", "--overwrite"])

@@ -70,6 +70,7 @@ class Export(InFolder):
         entry = self.certificate()["fridge.xml"]
         self.against_surface(lambda state, im: numpy.interp(100 * im, levels, values[state]), entry)
         self.assertLess(entry["largest_difference"], 1e-6)
+        self.assertTrue(entry["holds"])
 
     def test_a_spectral_acceleration_goes_out_at_its_period(self):
         self.sweep("{name: sa_g, period_s: 0.5}")

@@ -59,11 +59,37 @@ class Fit(InFolder):
             self.assertEqual(sorted({(float(r["im"]), float(r["im_lower"]), float(r["im_upper"])) for r in rows}),
                              sorted(zip(centre, edge[:-1], edge[1:])))
 
+    def test_what_the_command_line_asks_for_is_told_as_such(self):
+        self.sweep()
+        said = self.succeed(["fit", self.out, "--im", "pga_g", "--confidence", "0.8"]).stdout
+        self.assertIn("by fragility.confidence, fragility.im as the command line says; results in", said)
+        self.assertIn("in place of the fit that was there", said)
+        self.assertNotIn("edited", said)
+        with h5py.File(self.out / "fragility.h5") as file:
+            self.assertEqual(file.attrs["confidence"], 0.8)
+        self.fail_with(2, ["fit", self.out, "--confidence", "95"], "fragility.confidence is 95")
+        self.assertNotIn("in place", self.succeed(["fit", self.out, "-o", self.folder / "other"]).stdout)
+
+    def test_how_often_something_happened_stands_in_its_own_column(self):
+        self.sweep()
+        with open(self.out / "bins.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        over = [row for row in rows if row["edp"] == "overturned"]
+        self.assertEqual([row["n_happened"] for row in over], [row["n_over"] for row in over])
+        self.assertGreater(sum(int(row["n_happened"]) for row in over), 0)
+        self.assertEqual({row["n_happened"] for row in rows if row["edp"] == "delta"}, {""})
+
     def test_run_tells_what_its_fit_warns_of(self):
         failing = self.write("study.yaml", study_text(samples=300) + 'effects: [{name: dead, force: "sqrt(3 - t - 10*speed)"}]\n')
         told = self.succeed(["run", failing, "-o", self.folder / "out"]).stdout
         warning = next(line for line in told.splitlines() if line.startswith("warning: "))
-        self.assertRegex(warning, r"of 300 samples ended as not_finite .* \(\d+ more in .*out/summary.json\)")
+        self.assertRegex(warning, r"of 300 samples ended as not_finite")
+        warnings = json.loads((self.folder / "out/summary.json").read_text())["warnings"]
+        self.assertEqual([line[9:] for line in told.splitlines() if line.startswith("warning: ")], warnings[:4])
+        self.assertEqual(f"({len(warnings) - 4} more warnings in " in told, len(warnings) > 4)
+        # What concerns the demand that the study names first comes before what concerns others.
+        of = [warning.split(":")[0] for warning in warnings if warning.startswith(("delta: ", "overturned: "))]
+        self.assertEqual(of, sorted(of))
         self.assertIn(warning, self.succeed(["fit", self.folder / "out"]).stdout)
 
     def test_times_are_told_by_phase_and_in_total(self):

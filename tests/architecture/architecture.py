@@ -182,9 +182,14 @@ def _helper(folder, file):
     return any(file.stem.startswith(header.stem + "_") for header in folder.glob("*.hpp"))
 
 
+def leftovers(root):
+    """Result files in the root of the tree, where a test that was started there has left them."""
+    return [f"{file.name}: a result file in the root: remove it, and let what writes it use a folder of its own" for file in sorted(root.glob("*.h5"))]
+
+
 def problems(root):
     root = pathlib.Path(root)
-    return graph_problems(root) + include_problems(root) + text_problems(root) + registry_problems(root)
+    return leftovers(root) + graph_problems(root) + include_problems(root) + text_problems(root) + registry_problems(root)
 
 
 if __name__ == "__main__":

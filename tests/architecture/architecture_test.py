@@ -113,6 +113,9 @@ class Planted(unittest.TestCase):
         for word in ("TO" + "DO", "FIX" + "ME", "XX" + "X", "place" + "holder", "not " + "implemented"):
             self.expect({"jobs/script": f"# a line\n# {word}: later\n"}, "jobs/script:2", word)
 
+    def test_result_file_that_a_test_left_in_the_root(self):
+        self.expect({"few_of_2_ranks.h5": "bytes"}, "few_of_2_ranks.h5", "in the root")
+
     def test_file_that_registers_nothing(self):
         self.expect({"src/edp/forgotten.cpp": '#include "edp/edp.hpp"\n'}, "src/edp/forgotten.cpp", "registers nothing")
 

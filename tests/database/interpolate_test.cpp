@@ -50,21 +50,44 @@ TEST(Interpolate, NoneStaysNone) {
   EXPECT_NEAR(blend(wide, std::array{0.25, 0.75}).upper, 0.1, 1e-12);
 }
 
-TEST(Interpolate, BeyondThePointsACurveGoesOnAsItsLognormal) {
-  Curve curve = test::curve(0, 0.05, 0.4, 0.5);
-  EXPECT_NEAR(at(curve, 2.1).value, test::lognormal(2.1, 0.4, 0.5), 1e-9);
-  EXPECT_NEAR(at(curve, 0.08).value, test::lognormal(0.08, 0.4, 0.5), 1e-9);
-  curve.dispersion = unknown;  // then the last two points say how it goes on, here the same
-  EXPECT_NEAR(at(curve, 2.1).value, test::lognormal(2.1, 0.4, 0.5), 1e-6);
+TEST(Interpolate, ALognormalGoesOnBeyondThePointsAndTakesItsBandAlong) {
+  const Curve curve = test::curve(0, 0.05, 0.4, 0.5);
+  for (const double im : {0.08, 0.13, 0.3, 1.7, 2.1}) {
+    const Probability p = at(curve, im);
+    EXPECT_NEAR(p.value, test::lognormal(im, 0.4, 0.5), 1e-12);
+    EXPECT_LE(p.lower, p.value);
+    EXPECT_LE(p.value, p.upper);
+  }
   EXPECT_TRUE(outside(curve, 2.1));
   EXPECT_TRUE(outside(curve, 0.08));
   EXPECT_FALSE(outside(curve, 0.3));
 }
 
+// As OpenQuake reads levels: straight over the intensity itself, from 0 at 0, level above the last.
+TEST(Interpolate, WithoutAnAdequateLognormalLinesBetweenThePointsAreStraight) {
+  for (const char* family : {points_family, not_refuted_family}) {
+    Curve curve = test::curve(0, 0.05, 0.4, 0.5);
+    curve.family = family;
+    curve.points = {{0.2, 0.1, 0.06, 0.2, 100}, {0.6, 0.5, 0.4, 0.7, 100}};
+    const auto expect = [&](double im, double value, double lower, double upper) {
+      const Probability p = at(curve, im);
+      EXPECT_NEAR(p.value, value, 1e-12);
+      EXPECT_NEAR(p.lower, lower, 1e-12);
+      EXPECT_NEAR(p.upper, upper, 1e-12);
+    };
+    expect(0.2, 0.1, 0.06, 0.2);
+    expect(0.3, 0.2, 0.145, 0.325);
+    expect(0.5, 0.4, 0.315, 0.575);
+    expect(0.1, 0.05, 0.03, 0.2);
+    expect(0.9, 0.5, 0.4, 0.7);
+  }
+}
+
 TEST(Interpolate, APointThatIsNotKnownIsPassedOver) {
   Curve curve = test::curve(0, 0.05, 0.4, 0.5);
-  curve.points[2].probability = unknown;
-  EXPECT_NEAR(at(curve, 0.4).value, 0.5, 1e-6);
+  curve.family = points_family;
+  curve.points[2].probability = unknown;  // between 0.2 and 0.8
+  EXPECT_NEAR(at(curve, 0.4).value, (2 * curve.points[1].probability + curve.points[3].probability) / 3, 1e-12);
   curve.points.clear();
   EXPECT_TRUE(std::isnan(at(curve, 0.4).value));
 }

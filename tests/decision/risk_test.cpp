@@ -303,6 +303,32 @@ TEST(Risk, NothingCountedIsAZeroWithItsLimit) {
   EXPECT_THAT(found.warnings, testing::Contains(HasSubstr("no sample exceeds it")));
 }
 
+// Overturning, whose upper limit is that of zero counts, beside what holds it, and slip above two capacities.
+TEST(Risk, WhatHappensWithinAnotherEventHasNoLargerLimit) {
+  Sweep sweep;
+  sweep.records = 14;
+  fragility::Result result = sweep.fit(3, 50);
+  fragility::EdpResult& inner = result.edps[0];
+  inner.functions.clear();  // by counts
+  fragility::EdpResult outer = inner;
+  std::fill(inner.surface.upper.begin(), inner.surface.upper.end(), 0.9);
+  outer.name = "peak_slip_m";
+  outer.binary = false;
+  outer.capacity = {0.05};
+  result.edps.push_back(outer);
+  const HazardCurve hazard = power_law(1e-3, 2, 0.01, 20);
+  const std::vector<RiskRow> apart = risk(result, hazard).rows, within = risk(result, hazard, {"peak_slip_m"}).rows;
+  ASSERT_GT(apart[0].rate().upper, 1.5 * apart[1].rate().upper);
+  EXPECT_EQ(within[0].rate().upper, apart[1].rate().upper);
+  EXPECT_THAT(within[0].why, HasSubstr("upper limit is that of peak_slip_m > 0.05"));
+  EXPECT_EQ(within[1].rate().upper, apart[1].rate().upper);
+  // The lower limit of what holds another is that of the other where it is larger.
+  result.edps[0].surface = result.edps[1].surface;
+  for (double& lower : result.edps[1].surface.lower) lower = 0;
+  const std::vector<RiskRow> again = risk(result, hazard, {"peak_slip_m"}).rows;
+  EXPECT_GE(again[1].rate().lower, again[0].rate().lower);
+}
+
 TEST(Risk, NoIntensityInCommonIsRefused) { EXPECT_THROW(risk(Sweep{}.fit(3, 50), power_law(1e-3, 2, 10, 20)), Error); }
 
 }  // namespace

@@ -49,6 +49,16 @@ TEST_F(Record, At2ReadsDosAndOldMacLineEnds) {
   expect_samples(read_record(write("x.AT2", text + "\x1a")), 0.005, seven, g);
 }
 
+TEST_F(Record, AFileThatWasCutOffInANumberIsRefused) {
+  const std::string csv = "time_s,floor_acceleration_mps2\n0,0.0000\n0.01,0.1250\n0.02,-0.2500\n0.03,0.12";
+  expect_data_error(write("cut.csv", csv), 5, "the line has no end");
+  EXPECT_EQ(read_record(write("whole.csv", csv + "\n")).knot_s.size(), 4U);
+  EXPECT_EQ(read_record(write("full.csv", csv + "50")).knot_s.size(), 4U);
+  const std::string at2 = at2_head + "NPTS= 4, DT= .01 SEC\n .1234E-02 .2345E-03\n .3456E-03 .4567";
+  expect_data_error(write("cut.AT2", at2), 6, "the line has no end");
+  EXPECT_EQ(read_record(write("full.AT2", at2 + "E-03")).knot_s.size(), 4U);
+}
+
 TEST_F(Record, At2ReadsNumbersThatRunTogether) {
   const std::string text = at2_head + "NPTS= 6, DT= .01 SEC\n-.1234E-02-.2345E-03-0.5-.25+.125-1.D-01\n";
   expect_samples(read_record(write("x.AT2", text)), 0.01, {-.1234e-2, -.2345e-3, -0.5, -0.25, 0.125, -0.1}, g);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <numeric>
 
@@ -23,9 +24,15 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
 }
 
-// Working folder of the test run; the files stay there, so that runs with other numbers of ranks can be compared.
+// Files stay where FREESTAND_KEPT_SAMPLES says, so that runs with other numbers of ranks can be compared; else in the folder
+// for temporary files, whatever folder the program is started in.
+fs::path place(const std::string& name) {
+  const char* kept = std::getenv("FREESTAND_KEPT_SAMPLES");
+  return (kept ? fs::path(kept) : fs::temp_directory_path()) / name;
+}
+
 fs::path folder() {
-  const fs::path path = fmt::format("samples_of_{}_ranks", world().size());
+  const fs::path path = place(fmt::format("samples_of_{}_ranks", world().size()));
   world().on_root([&] {
     fs::remove_all(path);
     fs::create_directories(path);
@@ -67,10 +74,12 @@ TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
 }
 
 TEST(Samples, FewerBlocksThanRanksAreWrittenToo) {
-  const fs::path path = fmt::format("few_of_{}_ranks.h5", world().size());
+  const fs::path path = place(fmt::format("few_of_{}_ranks.h5", world().size()));
   const BlockLayout layout{3, 2};
   write_samples(world(), path, small_header(), layout, test::small_blocks(layout));
   EXPECT_TRUE(same_bits(SampleReader(path).read(0, 3).values, small_rows(0, 3)));
+  world().barrier();
+  world().on_root([&] { fs::remove(path); });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ import tempfile
 import unittest
 import urllib.parse
 
+import numpy as np
 import support
 import make_database
 from report_test import Page
@@ -102,6 +103,18 @@ svg.dispatchEvent(new MouseEvent("mousemove", {clientX: box.left + box.width / 2
         self.assertAlmostEqual(float(beside[1]["median"]), make_database.median(0.32, 1.8, 0.6, "overturned", 0.5, "upper"), delta=1e-5)
         self.assertRegex(page, r'class="readout"[^>]*>PGV = [\d.]+ m/s: shelf_mu30_upper [\d.]+ \[[\d.]+, [\d.]+\]; shelf_mu60_upper')
         self.assertEqual(len(re.findall(r'<tr data-at="\d+"', page)), 2)
+
+    @unittest.skipUnless(support.BROWSER, "no chromium (apt-get install chromium)")
+    def test_in_a_browser_a_curve_without_a_lognormal_is_straight_between_its_points(self):
+        chosen = urllib.parse.urlencode({"class": "display case", "mu": 0.3, "floor": "ground", "demand": "peak_slip_m", "capacity": 0.1, "im": "pgv_mps", "at": 56})
+        page = re.sub(r"<script.*?</script>", "", support.browse(f"{(self.folder / 'report.html').resolve().as_uri()}#{chosen}"), flags=re.S)
+        at = 0.1 * 30**0.56
+        points = next(c["points"] for c in self.curves if self.entries[c["entry"]]["id"] == "case_mu30_ground" and (c["demand"], c["capacity"]) == ("peak_slip_m", 0.1))
+        wanted = [float(np.interp(at, [p[0] for p in points], [p[k] for p in points])) for k in (1, 2, 3)]
+        found = re.search(r"case_mu30_ground: P\([^)]*\) = ([\d.]+) \(([\d.]+) to ([\d.]+)\) at PGV", page)
+        for text, value in zip(found.groups(), wanted):
+            self.assertAlmostEqual(float(text), value, delta=0.00051)
+        self.assertIn("case_mu30_ground is read by straight lines between its points", page)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import support
 import h5py
 import make_decisions
 import numpy as np
-from freestand_post import decisions_report, designs, halved, pictures, reading, style
+from freestand_post import decisions_report, designs, halved, pictures, reading, reading_decisions, style
 from freestand_post.command import read
 from freestand_post.problem import Problem
 from freestand_post.report import page
@@ -105,6 +105,16 @@ class Rates(InFolder):
         self.assertEqual(text, "B has the lowest annual rate of “overturned”: 2.0×10⁻⁴, 5.0 times below a; not parted by more than their bands from c")
 
 
+    def test_what_pairs_of_samples_part_is_not_called_the_same(self):
+        """Bands of the rates overlap; the medians of the same motions differ by more than chance: the table's verdict is the headline's."""
+        found = self.sweeps(self.design("a", 2.0), self.design("b", 2.1, width=0.9, of_own=1))
+        self.assertEqual(designs.verdict(found.rows[0].ratio[1]), "yes")
+        risks = [reading_decisions.read_risk(make_decisions.make_risk(self.folder / f"r{name}", sweep=name, times=times)) for name, times in (("a", 1), ("b", 0.95))]
+        text = decisions_report.rates(found, risks)["finding"]
+        self.assertNotIn("not parted", text)
+        self.assertIn("do not part it from width 0.6\u00a0m, but the medians differ by more than chance", text)
+
+
 class Halved(unittest.TestCase):
     """Rates that fall as the width to the power -4 halve at 2^(1/4) of it."""
 
@@ -121,6 +131,13 @@ class Halved(unittest.TestCase):
         drop = 4 * np.log(0.7 / 0.6) + np.log(1.2)
         self.assertIn(f"({0.6 * (0.7 / 0.6)**(np.log(2) / drop):.2f} to {0.6 * (2 * 1.2)**0.25:.2f})", text)
         self.assertIn("of width 0.6\u00a0m", text)
+
+    def test_a_band_that_goes_beyond_the_designs_has_a_number_all_the_same(self):
+        (text,) = self.sentences(["0.6", "0.75"], lambda width: width**-4, 1.4)
+        drop = 4 * np.log(0.75 / 0.6) + np.log(1.4)
+        self.assertIn(f"({0.6 * (0.75 / 0.6)**(np.log(2) / drop):.2f} to beyond 0.75\u00a0m, the largest of the designs) halves", text)
+        (text,) = self.sentences(["0.9", "0.7"], lambda width: width**4, 1.8)
+        self.assertIn("(below 0.7\u00a0m, the smallest of the designs, to 0.8", text)
 
     def test_where_no_design_goes_so_far_it_says_so(self):
         (text,) = self.sentences(["0.6", "0.65"], lambda width: width**-4)
@@ -145,6 +162,17 @@ class Pages(InFolder):
             self.assertIn(words, text)
         self.assertEqual(text.count("<svg"), 3)
         self.assertNotIn("nan", text.split("<body>")[1].split("<svg")[0])
+
+    def test_what_the_fits_warn_of_stands_on_the_page_but_for_other_demands(self):
+        folders = [self.design("a", 2.0), self.design("b", 3.0, width=0.9)]
+        path = folders[1] / "summary.json"
+        summary = json.loads(path.read_text())
+        lead, other = list(summary["edps"])[:2]
+        summary["warnings"] = [f"{lead}: bins are empty.", f"{other}: bins are emptier."]
+        path.write_text(json.dumps(summary))
+        text = self.text(*folders)
+        self.assertIn(f"Width 0.9\u00a0m: {lead}: bins are empty.", text)
+        self.assertNotIn("emptier", text)
 
     def test_the_width_that_halves_a_rate_is_that_of_the_designs_which_the_risks_are_of(self):
         """In whatever order they are given; of risks that are of other sweeps nothing is said."""

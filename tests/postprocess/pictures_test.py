@@ -141,6 +141,13 @@ class Pictures(unittest.TestCase):
         sweep.summary["ranking"].update(samples=65536, swept=100000)
         self.assertIn("Of the first 65\u202f536 samples", next(intensities.pictures(sweep)).caption)
         self.assertIn(words.intensity("pgv_mps"), picture.finding)
+        # The demand that the study names first is the title's; what is not parted from the best has its number all the same.
+        sweep.edps.reverse()
+        falls[1]["behind_best"], falls[1]["behind_best_se"] = 0.3, 0.2
+        (picture,) = intensities.pictures(sweep)
+        self.assertIn("parts best what happened (overturned) (0.50)", picture.finding)
+        self.assertIn(f"{words.intensity(own)} (0.20) no worse", picture.finding)
+        self.assertIn("deviance explained", picture.figure.axes[0].get_xlabel())
 
     def test_half_is_where_the_title_says(self):
         sweep = reading.read_sweep(support.sweep())
@@ -188,6 +195,17 @@ class Pictures(unittest.TestCase):
         (picture,) = [picture for picture in pictures.draw(sweep) if picture.name == "overturning"]
         self.assertIn("one curve is too simple", picture.caption)
         self.assertIn("an extrapolation", style.take_headline(picture.figure)[1])
+
+    def test_medians_by_curve_and_by_counts_are_told_apart(self):
+        sweep = reading.read_sweep(support.sweep())
+        bins = next(edp.bins for edp in sweep.edps if edp.name == "overturned")
+        bins["p_over"][:] = np.linspace(0, 0.96, bins["p_over"].size)
+        (picture,) = [picture for picture in pictures.draw(sweep) if picture.name == "overturning"]
+        said = " ".join(style.take_headline(picture.figure))
+        half = words.quantity(np.interp(0.5, bins["p_over"], sweep.centre), sweep.im_unit)
+        self.assertIn(f"the counted shares reach one half at {half}", said)
+        self.assertIn("motions as the unit", picture.caption)
+        self.assertNotIn("bars: exact", picture.caption + said)
 
     def test_failed_bins_are_marked(self):
         sweep = reading.read_sweep(support.sweep())

@@ -58,6 +58,16 @@ TEST(DamageStates, AnOverturnedBlockIsBeyondEveryCapacityAndAFailedSampleHasNoSt
   EXPECT_EQ(options[0].name, "door");
 }
 
+TEST(DamageStates, ThoseThatHoldForEveryBlockThatOverturnedAreNamed) {
+  const DamageStates states(study(
+      "  edp: [overturned]\n  damage: {door: peak_slip_m > 0.1, near: peak_slip_m < 0.1, both: peak_slip_m > 0.1 or "
+      "overturned, stays: residual_slip_m > 0.1 and not overturned, broken: connection_failed or peak_slip_m < 0.1, "
+      "any: "
+      "connection_failed or overturned}\n",
+      "chain: {stiffness_npm: 1e4, strength_n: 2736, wall_gap_m: 0.1}\n"));
+  EXPECT_THAT(states.with_overturned(), testing::ElementsAre("door", "both", "any"));
+}
+
 // P(d > C) of a lognormal capacity is Phi(ln(d/median)/dispersion). With 20000 independent draws its standard error is at
 // most 0.0036, here 4.5 of them.
 TEST(DamageStates, ACapacityThatIsADistributionIsExceededAsOftenAsItSays) {

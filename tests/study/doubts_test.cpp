@@ -25,6 +25,8 @@ TEST(Doubts, NumbersInAnotherUnit) {
       ElementsAre("block.width_m is 620: is it in metres?", "block.height_m is 2286: is it in metres?",
                   "friction.mu is 15: is it a friction coefficient?", "motion.period_s is 550: is it in seconds?",
                   "motion.peak_acceleration_g is 20: is it in g?"));
+  EXPECT_THAT(doubts(parse("block: {width_m: 24, height_m: 72, mass_kg: 386}\n" + friction + motions + rest)),
+              ElementsAre("block.width_m is 24: is it in metres?", "block.height_m is 72: is it in metres?"));
   EXPECT_THAT(doubts(parse("block: {slenderness_rad: 1.5, size_m: 1, mass_kg: 1}\n" + friction + motions + rest)),
               ElementsAre(HasSubstr("is it in radians")));
 }
@@ -60,6 +62,28 @@ TEST(Doubts, RecordsInAnotherUnit) {
   EXPECT_THAT(doubts(study, set(0.01, 9)), IsEmpty());
   EXPECT_THAT(doubts(study, set(0.01, 300)), ElementsAre(HasSubstr("the floor of some.csv reaches 61.2 g")));
   EXPECT_THAT(doubts(study, set(5, 9)), testing::Contains(HasSubstr("the time step of some.csv is 5 s")));
+}
+
+// A record turned round is as likely a motion, and another one for what stands on one side.
+TEST(Doubts, RecordsOfOneSignBesideAWallOnOneSide) {
+  const auto said = [](const std::string& more, const sampling::Distribution& scale, bool records = true) {
+    Study study = parse(block + friction + motions + rest + more);
+    MotionSource& source = study.motions[0];
+    if (records) source.kind = MotionSource::Kind::records;
+    source.records = "some/*.csv";
+    source.amplitude = Quantity{.name = "motion.scale", .unit = "1", .value = scale};
+    return doubts(study);
+  };
+  const std::string right = "effects: [{name: wall_impact, gap_m: 0.05}]\n",
+                    both = "effects: [{name: wall_impact, gap_m: {uniform: [-0.05, 0.05]}}]\n",
+                    behind = "chain: {stiffness_npm: 1e4, strength_n: 2736, wall_gap_m: 0.1}\n";
+  EXPECT_THAT(said(right, sampling::Fixed{1}),
+              ElementsAre(HasSubstr("the wall of wall_impact is on one side, and some/*.csv")));
+  EXPECT_THAT(said(behind, sampling::Fixed{1}), ElementsAre(HasSubstr("scale: {choice: [-1, 1]}")));
+  EXPECT_THAT(said(right, sampling::Uniform{-1, 1}), IsEmpty());
+  EXPECT_THAT(said(both, sampling::Fixed{1}), IsEmpty());
+  EXPECT_THAT(said("", sampling::Fixed{1}), IsEmpty());
+  EXPECT_THAT(said(right, sampling::Fixed{1}, false), IsEmpty());
 }
 
 // Friction that falls below zero somewhere that the block may never reach.

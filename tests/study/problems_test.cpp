@@ -50,5 +50,16 @@ TEST(Problems, AllAreThrownTogetherInTheOrderOfTheFile) {
   }
 }
 
+TEST(Problems, WhatIsTheSameOfManyIsToldOnce) {
+  std::vector<Refusal> refusals;
+  for (const char* name : {"a.csv", "b.csv", "c.csv", "d.csv", "e.csv", "f.csv"})
+    refusals.push_back({name, std::string(name) + ": its unit is not known", std::string("INDEX.csv:") + name[0]});
+  refusals.push_back({"g.csv", "g.csv:7: no number"});
+  EXPECT_EQ(told_once(refusals),
+            (std::vector<std::string>{
+                "INDEX.csv:a: a.csv: its unit is not known; and the same of b.csv, c.csv, d.csv and 2 more",
+                "g.csv:7: no number"}));
+}
+
 }  // namespace
 }  // namespace freestand::study

@@ -99,5 +99,15 @@ TEST_F(ScaleTo, DrawsAreThoseOfAnAmplitude) {
               testing::Pointwise(testing::DoubleNear(1e-12), by_peak));
 }
 
+// As with peaks and factors.
+TEST_F(ScaleTo, ANegativeIntensityMirrorsTheMotion) {
+  const auto scale = [&](const std::string& target) {
+    const Study swept = study("{records: records/a.csv, scale_to: {pgv_mps: " + target + "}}");
+    return Realiser(swept, load_motions(swept))(0).shaking.scale;
+  };
+  EXPECT_GT(scale("0.3"), 0);
+  EXPECT_EQ(scale("-0.3"), -scale("0.3"));
+}
+
 }  // namespace
 }  // namespace freestand::study::scale_to_test

@@ -33,8 +33,17 @@ def _picture(sweep, edp):
            xlabel=words.with_unit(sweep.im_symbol, sweep.im_unit), ylabel=f"P({edp.label})")
     style.grid(ax)
     finding = _finding(sweep, edp, p)
-    style.headline(fig, finding, f"Share of the samples of each bin, with {sweep.level} intervals.")
+    style.headline(fig, finding, f"Share of the samples of each bin, with {sweep.level} intervals." + _beside(sweep, edp))
     return Picture(f"happening_{edp.name}", fig, finding, CAPTION.format(level=sweep.level), "sweep")
+
+
+def _beside(sweep, edp):
+    """The median of the fitted curve, which tables and exports give, and why it is another number than where the shares reach one half."""
+    curve = edp.functions[0] if edp.functions else {}
+    if not curve.get("median", np.nan) > 0:
+        return ""
+    return (f" One lognormal over all bins has its median at {words.quantity(curve['median'], sweep.im_unit)}"
+            + (", and is adequate." if curve["adequate"] else ": it smooths over the bins and is not known to be adequate, so the shares count."))
 
 
 def _finding(sweep, edp, p):
@@ -45,6 +54,6 @@ def _finding(sweep, edp, p):
         return f"{what} in none of the samples"
     half = crossing(sweep.centre, p, 0.5)
     if np.isfinite(half):
-        return f"{what} in half of the samples once {sweep.im_symbol} reaches {words.quantity(half, sweep.im_unit)}"
+        return f"{what} in half of the samples, as counted, once {sweep.im_symbol} reaches {words.quantity(half, sweep.im_unit)}"
     top = int(np.nanargmax(p))
     return f"{what} in at most {words.percent(p[top])} of the samples, {words.is_(f'at {sweep.im_symbol}', sweep.centre[top], sweep.im_unit)}"

@@ -9,7 +9,7 @@ from . import Picture
 order = 57
 SHOWN = 12
 DOUBT = 0.05
-CAPTION = ("Left or alone: standard deviation of ln demand about a line over ln intensity, of the samples that moved and stood; of what "
+CAPTION = ("Scatter: standard deviation of ln demand about a line over ln intensity, of the samples that moved and stood; of what "
            "happens or not: share of the deviance that a lognormal curve over the intensity explains. Bars: one standard error, motions as "
            "the unit. Filled: the best and those that these motions do not part from it (two standard errors of the difference). A ring "
            "around a point: what is left depends on the period of the pulse (p < 0.05), so that the answer hangs on which motions were "
@@ -26,9 +26,11 @@ def pictures(results):
 def _of(sweep, own):
     """own: the intensities over which there is a fit."""
     demands = [edp for edp in sweep.edps if sweep.summary.get("ranking", {}).get("demands", {}).get(edp.name)]
-    shown = [edp for edp in demands if edp.kind != "binary"][:1] + [edp for edp in demands if edp.name == "overturned"]
-    if shown or demands:
-        yield _picture(sweep, shown or demands[:1], own)
+    if demands:
+        # The demand that the study names first, and beside it one of the other kind: overturning where it is there.
+        others = [edp for edp in demands[1:] if (edp.kind == "binary") != (demands[0].kind == "binary")]
+        beside = [edp for edp in others if edp.name == "overturned"] or others
+        yield _picture(sweep, demands[:1] + beside[:1], own)
 
 
 def _figure_of(edp):
@@ -90,10 +92,11 @@ def _panel(ax, edp, rows, own):
 
 def _finding(sweep, edp, rows):
     best, key = rows[0], _figure_of(edp)
-    what = "parts best what happened" if edp.kind == "binary" else f"foretells {edp.label} best"
+    what = f"parts best what happened ({words.happening(edp.name)})" if edp.kind == "binary" else f"foretells {edp.label} best"
     own = next((row for row in rows if row["im"] == sweep.im_name), None)
     if own is None or own is best:
         return f"{words.intensity(best['im'])} {what}: {words.number(best[key])}"
     if _rival(own):
-        return f"{words.intensity(best['im'])} {what}, and {sweep.im_symbol} no worse as far as these motions tell"
+        return (f"{words.intensity(best['im'])} {what} ({words.number(best[key])}), and {sweep.im_symbol} ({words.number(own[key])}) no worse as far as "
+                "these motions tell")
     return f"{words.intensity(best['im'])} {what}: {words.number(best[key])} against {words.number(own[key])} over {sweep.im_symbol}"

@@ -1,12 +1,14 @@
-"""Probability of overturning against intensity: one lognormal curve over all bins, and the counted shares with exact intervals."""
+"""Probability of overturning against intensity: one lognormal curve over all bins, and the counted shares with their intervals."""
 import numpy as np
 
 from .. import style, words
+from ..model import crossing
 from ..reading import Sweep
 from . import Picture
 
 order = 50
-POINTS = "Points: share of overturned samples in each bin; bars: exact binomial {level} interval."
+POINTS = ("Points: share of overturned samples in each bin; bars: {level} interval, with motions as the unit, of which each may make many "
+          "samples, and never narrower than the exact binomial one.")
 CURVE = (" Line and band: lognormal curve fitted to all bins at once by maximum likelihood; errors and band from resampled motions.")
 
 
@@ -38,7 +40,7 @@ def _picture(sweep, bins):
     if drawn and sweep.view[0] < curve["median"] < sweep.view[1] and ax.get_ylim()[1] > 0.5:
         ax.plot([curve["median"]] * 2 + [sweep.view[0]], [0, 0.5, 0.5], color=style.MUTED, lw=0.8, ls=(0, (1, 2)))
     finding = _finding(sweep, bins, curve, drawn, im)
-    style.headline(fig, finding, _subtitle(sweep, curve, drawn))
+    style.headline(fig, finding, _subtitle(sweep, bins, curve, drawn))
     return Picture("overturning", fig, finding, _caption(sweep, curve, drawn), "sweep")
 
 
@@ -62,10 +64,16 @@ def _finding(sweep, bins, curve, drawn, im):
             f"where {words.percent(bins['p_over'][top])} of the specimens fall")
 
 
-def _subtitle(sweep, curve, drawn):
+def _counted(sweep, bins):
+    """Where the shares of the bins themselves reach one half, which is another number than the median of one curve through all of them."""
+    half = crossing(sweep.centre, bins["p_over"], 0.5)
+    return f"; the counted shares reach one half at {words.quantity(half, sweep.im_unit)}" if np.isfinite(half) else ""
+
+
+def _subtitle(sweep, bins, curve, drawn):
     if not drawn:
-        return f"Counted shares with exact binomial {sweep.level} intervals; no curve could be fitted."
+        return f"Counted shares with {sweep.level} intervals; no curve could be fitted."
     beyond = " (beyond the range swept: an extrapolation)" if curve["extrapolated"] else ""
     text = (f"Lognormal curve: median {words.plus_minus(curve['median'], curve['median_se'])}{beyond}, dispersion "
-            f"{words.plus_minus(curve['dispersion'], curve['dispersion_se'])} (standard errors)")
-    return text + ("; penalised, since the outcomes separate." if curve["penalised"] else f"; bars: exact {sweep.level} intervals.")
+            f"{words.plus_minus(curve['dispersion'], curve['dispersion_se'])} (standard errors){_counted(sweep, bins)}")
+    return text + ("; penalised, since the outcomes separate." if curve["penalised"] else f"; bars: {sweep.level} intervals.")
