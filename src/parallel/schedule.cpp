@@ -14,10 +14,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// All ranks together tell what they have counted a thousand times a second.
+constexpr std::chrono::milliseconds pause_per_rank{1};
+
 // Integers in a window of rank 0 that every rank can add to; with one rank, plain integers.
 class SharedCounters {
  public:
-  enum Slot : int { next, samples, overturned, failed, slots };
+  enum Slot : int { tickets, samples, overturned, failed, slots };
 
   explicit SharedCounters(const Communicator& world) {
     if (world.size() == 1) return;
@@ -49,7 +52,7 @@ class SharedCounters {
   }
 
   void add(const Counts& counts) {
-    fetch_add(samples, counts.samples);
+    if (counts.samples) fetch_add(samples, counts.samples);
     if (counts.overturned) fetch_add(overturned, counts.overturned);
     if (counts.failed) fetch_add(failed, counts.failed);
   }
@@ -71,6 +74,17 @@ class SharedCounters {
 
 }  // namespace
 
+BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, std::int64_t ranks) {
+  std::int64_t first = 0;
+  for (; first < total; ticket -= ranks) {
+    const std::int64_t size = std::max<std::int64_t>(1, (total - first) / (2 * ranks));
+    if (ticket < ranks || size == 1)
+      return {std::min(first + ticket * size, total), std::min(first + (ticket + 1) * size, total)};
+    first += ranks * size;
+  }
+  return {total, total};
+}
+
 bool for_each_block(const Communicator& world, const std::vector<std::int64_t>& todo, const BlockFunction& compute,
                     Progress* progress) {
   const auto total = static_cast<std::int64_t>(todo.size());
@@ -86,15 +100,27 @@ bool for_each_block(const Communicator& world, const std::vector<std::int64_t>& 
     last = Clock::now();
   };
 
+  Counts told_later;
+  auto told = Clock::now();
+  const auto tell_counts = [&] {
+    counters.add(std::exchange(told_later, {}));
+    told = Clock::now();
+  };
   Words done{0};
+  BlockRange mine;
   while (!stop_requested()) {
-    const std::int64_t i = counters.fetch_add(SharedCounters::next, 1);
-    if (i >= total) break;
-    counters.add(compute(todo[static_cast<std::size_t>(i)], beat));
+    if (mine.empty()) mine = blocks_of_ticket(counters.fetch_add(SharedCounters::tickets, 1), total, world.size());
+    if (mine.empty()) break;
+    const Counts counts = compute(todo[static_cast<std::size_t>(mine.first++)], beat);
+    told_later.samples += counts.samples;
+    told_later.overturned += counts.overturned;
+    told_later.failed += counts.failed;
     ++done[0];
+    if (Clock::now() - told >= world.size() * pause_per_rank) tell_counts();
     beat();
   }
-  if (stop_requested()) counters.fetch_add(SharedCounters::next, total);
+  tell_counts();
+  if (stop_requested()) counters.fetch_add(SharedCounters::tickets, total);  // more than there are
   if (world.size() > 1)
     wait([](MPI_Request* request) { return MPI_Ibarrier(MPI_COMM_WORLD, request); },
          [&] {

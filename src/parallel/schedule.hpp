@@ -1,8 +1,9 @@
 // Handing out blocks of samples to ranks.
 //
 // The counter of blocks handed out lies in a window of rank 0 and is raised by MPI_Fetch_and_op. On one node the window
-// is shared memory: a rank takes a block without rank 0 taking part. Between nodes without remote atomics, rank 0
-// serves the others each time it calls the beat; so blocks call it between samples.
+// is shared memory: a rank takes blocks without rank 0 taking part. Between nodes without remote atomics, rank 0
+// serves the others each time it calls the beat; so blocks call it between samples. Ranks take many blocks at a time while
+// many are left, and single ones at the end, so that 10^4 ranks ask for a million blocks a hundred thousand times.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,17 @@ using Beat = std::function<void()>;
 // Computes one block and stores it. What it counted goes into the progress report.
 using BlockFunction = std::function<Counts(std::int64_t block, const Beat& beat)>;
 
+// Which of `total` blocks are taken at the ticket-th raise of the counter; none beyond the last. In rounds: in each every rank takes an
+// equal part of half of what is left, in the last ones single blocks (factoring: S. F. Hummel, E. Schonberg and L. E. Flynn,
+// Communications of the ACM 35, 1992).
+struct BlockRange {
+  std::int64_t first = 0, end = 0;
+  bool empty() const { return first >= end; }
+};
+BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, std::int64_t ranks);
+
 // Calls compute(block, beat) once for each block of `todo` (the same list on every rank), each on one rank, whichever
-// is free, in the order of the list. Returns true when all blocks are done; false when a stop was requested on any rank
+// is free, about in the order of the list (with one rank, just so). Returns true when all blocks are done; false when a stop was requested on any rank
 // (stop.hpp): open blocks are then finished and no more are taken. The same answer on every rank. Collective.
 // `progress`, on rank 0, is shown what is done.
 bool for_each_block(const Communicator&, const std::vector<std::int64_t>& todo, const BlockFunction& compute,
