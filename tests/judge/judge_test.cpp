@@ -28,6 +28,20 @@ TEST(Judge, AgreesWithTheKernelOnEveryEffectInEveryMode) {
   EXPECT_GT(tally.total().compared, tally.total().samples * 9 / 10);
 }
 
+// Bouc-Wen's contact, with every effect that goes with it, alone and in pairs.
+TEST(Judge, AgreesWithTheKernelOnABoucWenContact) {
+  Tally tally;
+  for (std::uint64_t number = 0; number < recipes(Family::bouc_wen).size(); ++number) {
+    const JudgedCase c = judged_case(1, number, Family::bouc_wen);
+    const Judgement judgement = judge(c);
+    tally.add(c, judgement);
+    EXPECT_NE(judgement.finding, Finding::disagrees) << c.text() << "\n  " << judgement.what;
+  }
+  std::printf("%s", tally.table().c_str());
+  EXPECT_THAT(tally.empty_cells(Family::bouc_wen), testing::IsEmpty());
+  EXPECT_GT(tally.total().compared, tally.total().samples * 9 / 10);
+}
+
 // Legs and a throw: SUNDIALS looks for the root on which it stands, finds none of its own on either side, and gives up.
 TEST(Judge, TheReferenceGoesOnFromTheRoundOffOfASlipThatStarts) {
   const Judgement judgement = judge(judged_case(2, 208));

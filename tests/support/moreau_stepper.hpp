@@ -38,6 +38,7 @@
 #include <optional>
 
 #include "support/contact_laws.hpp"
+#include "support/floor_line.hpp"
 
 namespace freestand::test {
 
@@ -52,13 +53,6 @@ struct ContactBody {
   bool can_slip = true, can_tip = true;
   bool housner = false;      // impact law; else plastic impulses
   double impact_factor = 1;  // on Housner's rate
-};
-
-// Acceleration of the floor during a step, linear in time [m/s2].
-struct FloorLine {
-  double start_s = 0, a = 0, v = 0, a_rate = 0, v_rate = 0;
-  double horizontal(double t) const { return a + a_rate * (t - start_s); }
-  double vertical(double t) const { return v + v_rate * (t - start_s); }
 };
 
 class MoreauStepper {
