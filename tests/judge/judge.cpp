@@ -13,7 +13,7 @@ namespace freestand::test {
 namespace {
 
 constexpr double step_s = 1e-4, accuracy = 1e-6, accuracy_on_contact = 1e-9, free_vibration_s = 1, margin = 6,
-                 fanned_out = 1e-4, edge = 1e-7;
+                 fanned_out = 1e-4, edge = 1e-7, finest = finest_step_s / step_s;
 
 using Integrator = Response (*)(const Specimen&, const freestand::Shaking&, const Settings&, History*);
 
@@ -77,7 +77,8 @@ Evidence evidence(const JudgedCase& c, double step) {
   return e;
 }
 
-// The same on floors a little weaker and stronger, which move the history as little unless it stands on an edge.
+// The same on floors a little weaker and stronger, and with a wall that touches the block a nanometre off it, which move
+// the history as little unless it stands on an edge.
 void doubt_edges(Evidence& evidence, const JudgedCase& c, double step) {
   for (const double factor : {1 - edge, 1 + edge}) {
     FloorSamples floor = c.floor;
@@ -85,6 +86,13 @@ void doubt_edges(Evidence& evidence, const JudgedCase& c, double step) {
     for (double& v : floor.vertical_mps2) v *= factor;
     doubt(evidence, simulate(c.truth, floor, 0.5 * step));
   }
+  constexpr double off_m = 1e-9;
+  Truth truth = c.truth;
+  bool touches = false;
+  for (TruthEffect& effect : truth.effects)
+    if (effect.name == "wall_impact" && effect.parameters.at("gap_m") == 0)
+      touches = true, effect.parameters["gap_m"] = off_m;
+  if (touches) doubt(evidence, simulate(truth, c.floor, 0.5 * step));
 }
 
 // First time at which it came down from flight so flat that which corner came first is below what anyone computes [s].
@@ -184,8 +192,8 @@ std::string difference_on_contact(const Evidence& e, const Answer& a, double yie
   return difference_of_residuals(e, a, yield_m);
 }
 
-// Empty: within what is allowed.
-std::string difference(const JudgedCase& c, const Evidence& e, const Answer& a) {
+// Empty: within what is allowed. parted_s: when they do, if that can be told.
+std::string difference(const JudgedCase& c, const Evidence& e, const Answer& a, double& parted_s) {
   const bool on_contact = c.family == Family::bouc_wen;
   const double allowed = on_contact ? accuracy_on_contact : accuracy;
   const TruthHistory& h = e.history;
@@ -202,10 +210,12 @@ std::string difference(const JudgedCase& c, const Evidence& e, const Answer& a) 
     if (h.outcome == "overturned" && a.response.outcome == Outcome::overturned && std::abs(h.rotation_rad[i]) > pi / 2)
       return "";  // both lie
     const double off = std::max(std::abs(h.slip_m[i] - p.slip_m), std::abs(h.rotation_rad[i] - p.rotation_rad));
-    if (!(off <= allowed + margin * e.own[i]))
+    if (!(off <= allowed + margin * e.own[i])) {
+      parted_s = p.time_s;
       return fmt::format(
           "{} ({}) at {:.3f} s: slip {:.7f} against {:.7f} m, rotation {:.7f} against {:.7f} rad, own {:.1e}", a.who,
           name(p.mode), p.time_s, p.slip_m, h.slip_m[i], p.rotation_rad, h.rotation_rad[i], e.own[i]);
+    }
   }
   if (on_contact) return e.own.size() < h.slip_m.size() ? "" : difference_on_contact(e, a, c.truth.contact.yield_m);
   if (e.own.size() < h.slip_m.size() || undecided_s < a.response.end_time_s || h.outcome != "moved") return "";
@@ -218,14 +228,14 @@ std::string difference(const JudgedCase& c, const Evidence& e, const Answer& a) 
 Judgement judge(const JudgedCase& judged) try {
   const Answer answers[] = {answer(judged, "respond", respond), answer(judged, "respond_reference", respond_reference)};
   const JudgedCase c = judged.family == Family::bouc_wen ? rung_out(judged) : judged;
+  Judgement result;
   const auto first_difference = [&](const Evidence& e) {
     for (const Answer& a : answers)
-      if (std::string text = difference(c, e, a); !text.empty()) return text;
+      if (std::string text = difference(c, e, a, result.parted_s); !text.empty()) return text;
     return std::string();
   };
   Evidence e = evidence(c, step_s);
-  Judgement result;
-  for (const double part : {1.0, 1.0 / 4, 1.0 / 64}) {
+  for (const double part : {1.0, 1.0 / 4, finest}) {
     if (part < 1) {
       e = evidence(c, part * step_s);
       doubt(e, simulate(c.truth, c.floor, 0.7 * part * step_s));

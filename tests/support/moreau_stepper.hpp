@@ -19,6 +19,9 @@
 // tries to stick with mu_s, and reverses with mu_k otherwise. Both corners closed and stuck: only the sum of the two
 // friction forces is determined, and it is bounded by mu_s times the sum of the normal forces.
 //
+// Where friction is so strong that a corner could as well go on carrying as leave the floor (beyond Painleve's paradox, or where
+// pressure_friction makes it grow without bounds as the pressure falls), it goes on as it does.
+//
 // A block that cannot slip lifts off from both corners only; on one of them it turns about a hinge, as Housner's does.
 //
 // With legs the corner is that of the block over them and the foot under them slips: stuck, its force is that of the
