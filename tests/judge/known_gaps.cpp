@@ -21,7 +21,7 @@ const TruthEffect* find(const JudgedCase& c, const char* name) {
   return found == c.truth.effects.end() ? nullptr : &*found;
 }
 
-// Before the disagreement the floor fell away from under the block while it hardly shook sideways: from where its push tips the
+// When it last fell away before the disagreement, the floor hardly shook sideways: from where its push tips the
 // block, which is where b g' = h |a|, to where g' = 0, passed no more than the stepper's finest step. A block that has begun to
 // turn there hangs on a hinge, one that has not flies: which of them the stepper cannot see.
 bool tips_and_flies_at_once(const JudgedCase& c, const Judgement& judgement) {
@@ -32,13 +32,14 @@ bool tips_and_flies_at_once(const JudgedCase& c, const Judgement& judgement) {
   const double gravity = standard_gravity_mps2 * std::cos(angle), push = standard_gravity_mps2 * std::sin(angle);
   const auto& v = c.floor.vertical_mps2;
   const auto& a = c.floor.horizontal_mps2;
+  bool at_once = false;
   for (std::size_t i = 0; i + 1 < v.size() && static_cast<double>(i) * c.floor.dt_s < judgement.parted_s; ++i) {
     if (!(v[i] > -gravity && v[i + 1] <= -gravity)) continue;
     const double rate = (v[i] - v[i + 1]) / c.floor.dt_s, share = (v[i] + gravity) / (v[i] - v[i + 1]);
     const double pushes = a[i] + share * (a[i + 1] - a[i]) + push;
-    if (lever * std::abs(pushes) / rate < finest_step_s) return true;
+    at_once = pushes != 0 && lever * std::abs(pushes) / rate < finest_step_s;
   }
-  return false;
+  return at_once;
 }
 
 const std::vector<Gap>& gaps() {
