@@ -35,8 +35,8 @@ struct Response {
   double slid_path_m = 0;        // integral of |slip speed of the contact|
   double peak_rotation_rad = 0;  // max |theta|
   double residual_rotation_rad = 0;
-  double peak_acceleration_mps2 =
-      0;                           // max of the vector sum of the centre of mass's total acceleration, impacts left out
+  // Max of the vector sum of the centre of mass's total acceleration; impacts, and hops within the tolerance, left out.
+  double peak_acceleration_mps2 = 0;
   bool connection_failed = false;  // of a chain to the wall
   int impacts = 0;                 // rocking impacts and landings
   int wall_hits = 0;               // blows of walls

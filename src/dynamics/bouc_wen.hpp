@@ -13,8 +13,8 @@
 // A floor that falls faster than g' = 0 lets go of the block: no force acts then, and z follows u as before.
 //
 // Effects (bouc_wen_laws.hpp) act on the friction, as forces, or as contents that move; walls and legs do not go with the
-// model. With them, or on a tilted floor, there is no closed form of the ringing: the sample ends when a swing slips less
-// than a millionth of u_y, and the residual slip is the middle of that swing.
+// model. With them, or on a tilted floor, there is no closed form of the ringing: the sample ends when two swings in a row
+// slip less than a millionth of u_y each, and the residual slip is the middle of the last one.
 #pragma once
 
 #include <freestand/simulate.hpp>

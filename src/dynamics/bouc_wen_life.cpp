@@ -94,12 +94,15 @@ void BoucWenLife::turn() {
   last_turn_slip_ = slip;
 }
 
-// With forces besides the floor's the ringing has no closed form. It is left when a swing slips no more than this, over u_y: the swings to
-// come slip less and less, to either side in turn, so that what is left out is less than the last one.
+// With forces besides the floor's the ringing has no closed form. It is left when two swings, one each way, slip no more than this, over
+// u_y: the swings to come slip less and less. One swing alone tells nothing: where a slope or a spring leans on the contact, the
+// swing against it gives back what the contact holds, without a slip, and the next one creeps.
 bool BoucWenLife::settled() {
   constexpr double settled_slip = 1e-6;
   const double since = std::max(shaking.duration_s(), last_slide_s_) + (laws ? laws->settling_s : 0);
-  return cursor.time() > since && std::abs(slip - last_turn_slip_) <= settled_slip * contact.yield;
+  const double swing = std::abs(slip - last_turn_slip_), before = last_swing_slip_;
+  last_swing_slip_ = swing;
+  return cursor.time() > since && std::max(swing, before) <= settled_slip * contact.yield;
 }
 
 // All that follows is symmetric: the swings begin against the side on which the block turned.

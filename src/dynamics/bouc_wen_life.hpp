@@ -3,6 +3,7 @@
 #pragma once
 
 #include <freestand/simulate.hpp>
+#include <limits>
 #include <optional>
 
 #include "dynamics/bouc_wen_contact.hpp"
@@ -75,6 +76,7 @@ class BoucWenLife {
   long turns_ = 0;
   bool slides_ = false, moved_ = false, finished_ = false;
   double last_slide_s_ = 0, last_turn_u_ = 0, last_turn_slip_ = 0;
+  double last_swing_slip_ = std::numeric_limits<double>::infinity();
   std::optional<double> residual_;
   Outcome failure_ = Outcome::moved;
 };

@@ -124,11 +124,16 @@ class Reference {
     if (side_ == sigma_ && std::abs(life_.zeta) > life_.contact.sliding) life_.begin_slide(life_.cursor.time());
     return sigma_ != 0;
   }
-  // Nothing moves; looked at again at least every millisecond where a law may begin to.
+  // Nothing moves; looked at again at least every millisecond where a law may begin to, and where the floor lets go or
+  // comes back.
   void stand() {
     record();
-    const double h = std::min(life_.time_left(), life_.next_output());
-    life_.stand(life_.laws && !life_.cursor.motion_over() ? std::min(h, 1e-3) : h);
+    double h = std::min(life_.time_left(), life_.next_output()), at = 0;
+    if (life_.laws && !life_.cursor.motion_over()) h = std::min(h, 1e-3);
+    const ZeroTolerance zero{0, life_.force_zero()};
+    const double side = sign_after(floor_.g, zero) > 0 ? 1 : -1;
+    if (life_.vertical && first_root(scaled(side, floor_.g), std::min(h, 1e3), zero, at) && at > 0) h = std::min(h, at);
+    life_.stand(h);
   }
   double z_now() const { return life_.zeta * strongest_; }
 

@@ -89,6 +89,10 @@ bool keeps_slipping(const Rig& rig) { return !rig.laws || rig.laws->legs.frequen
 bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
   const double slip = slip_speed(rig, state);
   if (slip != 0 && stands(rig, cursor, state, Mode::slide, 0, direction(slip))) return true;
+  // A slip that goes on while the block tips: before a foot under legs is asked whether it would hold if it stood still.
+  if (slip != 0 && rig.can_rock)
+    for (const int pivot : {1, -1})
+      if (stands(rig, cursor, state, Mode::slide_rock, pivot, direction(slip))) return true;
   const bool any_way = slip == 0 || !keeps_slipping(rig);
   if (any_way) {
     if (stands(rig, cursor, state, Mode::rest, 0, 0)) return true;
@@ -100,10 +104,10 @@ bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
     for (const int sigma : {1, -1})
       if (stands(rig, cursor, state, Mode::slide, 0, sigma)) return true;
   }
-  if (!rig.can_rock) return false;
+  if (!rig.can_rock || !any_way) return false;
   for (const int pivot : {1, -1})
     for (const int sigma : {1, -1})
-      if ((any_way || sigma == direction(slip)) && stands(rig, cursor, state, Mode::slide_rock, pivot, sigma))
+      if (sigma != (slip == 0 ? 0 : direction(slip)) && stands(rig, cursor, state, Mode::slide_rock, pivot, sigma))
         return true;
   return false;
 }

@@ -309,6 +309,14 @@ TEST(BoucWenAgainstReference, Pulses) {
   }
 }
 
+// A floor that falls away faster than g lets go of a block that stands still: it is weightless then, and feels g and no more.
+TEST_P(BoucWen, AFloorThatFallsAwayPullsAtNothing) {
+  const FloorMotion drop = piecewise_linear("drop", 0.2, {0, 0, 0, 0}, {0, -1.5 * g, 0, 0});
+  const Response r = GetParam()(on_contact(0.3, 0.1 * inch, 20), {&drop, 1, 1, 1}, {}, nullptr);
+  EXPECT_EQ(r.outcome, Outcome::at_rest);
+  EXPECT_NEAR(r.peak_acceleration_mps2, g, 1e-9);
+}
+
 TEST_P(BoucWen, BadInputIsAnOutcome) {
   const FloorMotion push = rectangular_pulse(4, 0.2);
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -49,6 +49,28 @@ TEST(BoucWenEffects, StiffContactsSlideAsCoulombsBlockWithTheSameEffect) {
   }
 }
 
+// On a slope the contact carries a share of its strength, about which it rings. A swing uphill gives that share back and leaves
+// no slip, the next one downhill creeps, for ever less but without end: a sample is not over before both leave none, or time
+// is up. A floor that says itself that it is still, for 20 s, is waited for.
+TEST(BoucWenEffects, ASwingUphillWithoutSlipIsNotTheLastOne) {
+  const FloorMotion floors[] = {piecewise_linear("short", 0.2, {0, 1, -1, 0}, {}),
+                                piecewise_linear("long", 0.2,
+                                                 [] {
+                                                   std::vector<double> a(104, 0.0);
+                                                   a[1] = 1, a[2] = -1;
+                                                   return a;
+                                                 }(),
+                                                 {})};
+  for (const Solver& solver : both_solvers)
+    for (const double exponent : {1.6, 3.0}) {
+      const Specimen block = on_contact(0.2, 0.005, exponent, {effect("floor_tilt", {0.1})});
+      const Response r = solver(block, {&floors[0]}, {.free_vibration_s = 30}),
+                     waited_for = solver(block, {&floors[1]}, {.free_vibration_s = 10});
+      EXPECT_NEAR(r.residual_slip_m, waited_for.residual_slip_m, 1e-4 * 0.005) << solver.name << " " << exponent;
+      EXPECT_NEAR(r.peak_slip_m, waited_for.peak_slip_m, 1e-9) << solver.name << " " << exponent;
+    }
+}
+
 TEST(BoucWenEffects, VanishAtTheirNeutralParameters) {
   int compared = 0;
   for (const auto& e : effects::all()) {

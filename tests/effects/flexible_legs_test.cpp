@@ -1,4 +1,6 @@
 // Law: massless foot, legs of stiffness m W^2 and damping ratio z.
+#include <algorithm>
+
 #include "effects/effect_fixture.hpp"
 
 namespace freestand::test {
@@ -64,6 +66,26 @@ TEST(FlexibleLegs, OfARockingBlockSlipAndHoldThroughImpacts) {
       EXPECT_NEAR(fast.peak_slip_m, reference.peak_slip_m, 1e-5) << f << " " << z;
       EXPECT_NEAR(fast.peak_rotation_rad, reference.peak_rotation_rad, 1e-5) << f << " " << z;
     }
+}
+
+// Friction that grows as the contact wears tips a block while its foot slips: nothing jumps there, so that the foot slips on,
+// though mu_s would hold it if it stood still.
+TEST(FlexibleLegs, AFootSlipsOnWhenItsBlockTips) {
+  const double mu = 0.4;
+  const FloorMotion push = rectangular_pulse(0.8 * g, 1);
+  const Specimen block{Block::rectangular(0.5, 1, 100),
+                       {1.2 * mu, mu},
+                       {},
+                       Model::slide_rock,
+                       {effect("flexible_legs", {3, 0.01}), effect("friction_wear", {1.5, 0.2})}};
+  for (const Solver& solver : both_solvers) {
+    History history;
+    solver(block, {&push}, {}, &history);
+    const auto tips = std::find_if(history.events.begin(), history.events.end(),
+                                   [](const Event& event) { return event.from == Mode::slide; });
+    ASSERT_NE(tips, history.events.end()) << solver.name;
+    EXPECT_EQ(tips->to, Mode::slide_rock) << solver.name << " at " << tips->time_s;
+  }
 }
 
 }  // namespace

@@ -84,5 +84,39 @@ TEST(HiddenEffectGenerator, RefusesEffectsAndParametersThatDoNotExist) {
   EXPECT_THROW(simulate(rectangular_truth(1, 1, 0.2, {{"floor_tilt", {{"angle", 1}}}}), floor), std::invalid_argument);
 }
 
+// Far below its yield a contact is a spring, w^2 = mu g/u_y: u = -(a/w^2)(1 - cos wt).
+TEST(HiddenEffectGenerator, RingsOnABoucWenContact) {
+  const double mu = 0.3, yield = 0.002, a = 0.2 * mu * g, w = std::sqrt(mu * g / yield);
+  Truth truth = rectangular_truth(1, 1, mu);
+  truth.model = TruthModel::bouc_wen;
+  truth.contact = {yield, 40, 0.5, 0.5};
+  const TruthHistory h = simulate(truth, pushed(a, 190, 1));
+  for (std::size_t i = 0; i < 190; ++i)
+    ASSERT_NEAR(h.slip_m[i], -a / (w * w) * (1 - std::cos(w * dt_s * static_cast<double>(i))), 1e-8 * yield);
+  EXPECT_EQ(h.outcome, "at_rest");
+}
+
+// n = 1: z = 1 - exp(-u/u_y) in loading, and what push and contact do in work is the speed of the block. While it goes one way
+// the path is what remains of the slip.
+TEST(HiddenEffectGenerator, YieldsOnABoucWenContactAsTheExponentialSays) {
+  const double mu = 0.3, yield = 0.01, a = 2 * mu * g;
+  Truth truth = rectangular_truth(1, 1, mu);
+  truth.model = TruthModel::bouc_wen;
+  for (const double gamma : {0.5, 0.7}) {
+    truth.contact = {yield, 1, gamma, 1 - gamma};
+    const TruthHistory h = simulate(truth, pushed(a, 50, 1));
+    for (std::size_t i = 1; i < 50; ++i) {
+      const double u = -h.slip_m[i], z = 1 - std::exp(-u / yield);
+      ASSERT_NEAR(-h.remaining_m[i], u - yield * z, 1e-7 * yield);
+      ASSERT_NEAR(h.path_m[i], u - yield * z, 1e-7 * yield);
+      ASSERT_NEAR(h.block_acceleration_mps2[i], mu * g * z, 1e-6);
+      if (i == 1 || i == 49) continue;
+      const double speed = (h.slip_m[i - 1] - h.slip_m[i + 1]) / (2 * dt_s);
+      ASSERT_NEAR(0.5 * speed * speed, a * u - mu * g * (u - yield * z), 0.01 * a * u);
+    }
+    EXPECT_EQ(h.outcome, "moved");
+  }
+}
+
 }  // namespace
 }  // namespace freestand::test

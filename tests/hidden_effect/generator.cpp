@@ -5,6 +5,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "support/bouc_wen_stepper.hpp"
 #include "support/moreau_stepper.hpp"
 
 namespace freestand::test {
@@ -162,6 +163,51 @@ std::vector<std::string> names(std::size_t from, std::size_t to) {
   return result;
 }
 
+FloorLine line_of(const FloorSamples& floor, std::size_t i) {
+  const auto& a = floor.horizontal_mps2;
+  const auto& v = floor.vertical_mps2;
+  FloorLine line{static_cast<double>(i) * floor.dt_s, a[i], 0, (a[i + 1] - a[i]) / floor.dt_s, 0};
+  if (!v.empty()) line.v = v[i], line.v_rate = (v[i + 1] - v[i]) / floor.dt_s;
+  return line;
+}
+
+TruthHistory on_bouc_wen(const Rules& rules, const TruthContact& contact, const FloorSamples& floor, double step_s) {
+  constexpr double usual_step_s = 1e-4, usual_tolerance = 1e-10, least_tolerance = 3e-14;
+  const double tolerance = std::max(least_tolerance, usual_tolerance * squared(step_s / usual_step_s));
+  BoucWenStepper stepper({contact.yield_m, contact.exponent, contact.gamma, contact.beta}, rules.laws, step_s,
+                         tolerance);
+  TruthHistory history;
+  history.dt_s = floor.dt_s;
+  history.outcome = "at_rest";
+  const auto note = [&] {
+    const bool slides = stepper.share_plastic() > 0.75;
+    if (slides) history.outcome = "moved";
+    history.deeds.push_back((slides ? slid : 0U) | (stepper.chain_broken() ? broke_the_chain : 0U));
+    history.slip_m.push_back(stepper.slip());
+    history.rotation_rad.push_back(0);
+    history.block_acceleration_mps2.push_back(stepper.acceleration());
+    history.remaining_m.push_back(stepper.remaining());
+    history.path_m.push_back(stepper.path());
+    history.peak_slip_m = std::max(history.peak_slip_m, stepper.furthest());
+    history.peak_acceleration_mps2 = std::max(history.peak_acceleration_mps2, stepper.felt());
+  };
+  note();
+  for (std::size_t i = 0; i + 1 < floor.horizontal_mps2.size(); ++i) {
+    if (!stepper.go_to(static_cast<double>(i + 1) * floor.dt_s, line_of(floor, i))) {
+      history.outcome = "not_finite";
+      return history;
+    }
+    note();
+  }
+  history.residual_slip_m = stepper.slip();
+  history.slid_path_m = stepper.path();
+  for (const BoucWenStepper::Turn& turn : stepper.turns()) {
+    history.turns_s.push_back(turn.time_s);
+    history.turns_m.push_back(turn.slip_m);
+  }
+  return history;
+}
+
 class Run {
  public:
   Run(const Rules& rules, const FloorSamples& floor, double step_s)
@@ -182,11 +228,8 @@ class Run {
  private:
   // False: the run is over.
   bool interval(std::size_t i) {
-    const auto& a = floor_.horizontal_mps2;
-    const auto& v = floor_.vertical_mps2;
     const double dt = floor_.dt_s, t = static_cast<double>(i) * dt;
-    FloorLine line{t, a[i], 0, (a[i + 1] - a[i]) / dt, 0};
-    if (!v.empty()) line.v = v[i], line.v_rate = (v[i + 1] - v[i]) / dt;
+    const FloorLine line = line_of(floor_, i);
     deeds_ = 0;
     if (stepper_.rest(line, t, dt)) return feel();
     for (double k = 0; k < splits_; ++k) {
@@ -246,6 +289,7 @@ Truth rectangular_truth(double width_m, double height_m, double mu, std::vector<
 }
 
 TruthHistory simulate(const Truth& truth, const FloorSamples& floor, double step_s) {
+  if (truth.model == TruthModel::bouc_wen) return on_bouc_wen(rules_of(truth), truth.contact, floor, step_s);
   return Run(rules_of(truth), floor, step_s)();
 }
 

@@ -1,6 +1,6 @@
 // Generator of measurements with a hidden effect: what a specimen that obeys a known truth does on a shaken floor.
 //
-// It steps contact impulses (support/moreau_stepper.hpp) and shares nothing with src/dynamics and src/effects: the
+// It steps contact impulses (support/moreau_stepper.hpp), model bouc_wen's contact by Runge-Kutta, and shares nothing with src/dynamics and src/effects: the
 // program does not mark its own homework. The laws are those of PHYSICS section 5, their names and the keys of their
 // parameters as well, and four that stand in no catalogue:
 //   rough_floor      mu (1 + r sin(2 pi u/L)): ratio, length_m
@@ -17,12 +17,17 @@
 
 namespace freestand::test {
 
-enum class TruthModel { slide, rock, slide_rock };
+enum class TruthModel { slide, rock, slide_rock, bouc_wen };
 enum class TruthImpact { housner, coulomb };
 
 struct TruthEffect {
   std::string name;
   std::map<std::string, double> parameters;  // missing ones: the defaults of PHYSICS, or an error
+};
+
+// Of model bouc_wen: support/bouc_wen_stepper.hpp.
+struct TruthContact {
+  double yield_m = 0.00254, exponent = 2, gamma = 0.5, beta = 0.5;
 };
 
 struct Truth {
@@ -32,6 +37,7 @@ struct Truth {
   TruthImpact impact = TruthImpact::housner;
   double impact_factor = 1;
   std::vector<TruthEffect> effects;
+  TruthContact contact;
 };
 
 // Uniform rectangle.
@@ -66,9 +72,13 @@ struct TruthHistory {
   std::string outcome;  // at_rest | moved | overturned | painleve; the last two hold the values of their last instant
   double peak_acceleration_mps2 = 0;  // of the centre of mass, without gravity, blows left out
   double peak_slip_m = 0, residual_slip_m = 0, slid_path_m = 0, peak_rotation_rad = 0;
+  // Of model bouc_wen, whose deeds are `slid` where more than three quarters of a further displacement would remain.
+  std::vector<double> remaining_m, path_m;  // what would remain of the slip at each of the times, and its path so far
+  std::vector<double> turns_s, turns_m;     // when and where it turned
 };
 
-// step_s: of the stepper, at most; it divides the floor's. Throws std::invalid_argument on effects and parameters that
+// step_s: of the stepper, at most; it divides the floor's. Model bouc_wen has steps of their own and errors that fall with
+// the square of step_s. Throws std::invalid_argument on effects and parameters that
 // do not exist.
 TruthHistory simulate(const Truth& truth, const FloorSamples& floor, double step_s = 2e-5);
 

@@ -34,13 +34,14 @@ inline EffectUse chain_use(const TruthEffect& truth, const Block& block) {
 }
 
 inline Specimen specimen_of(const Truth& truth) {
-  static constexpr Model models[] = {Model::slide, Model::rock, Model::slide_rock};
+  static constexpr Model models[] = {Model::slide, Model::rock, Model::slide_rock, Model::bouc_wen};
   Specimen specimen;
   specimen.block = {truth.left_m, truth.right_m, truth.height_m, truth.gyration2_m2, 1};
   specimen.friction = {truth.mu_s, truth.mu_k};
   specimen.model = models[static_cast<int>(truth.model)];
   specimen.impact = {truth.impact == TruthImpact::housner ? ImpactLaw::housner : ImpactLaw::coulomb,
                      truth.impact_factor};
+  specimen.bouc_wen = {truth.contact.yield_m, truth.contact.exponent, truth.contact.gamma, truth.contact.beta};
   for (const TruthEffect& effect : truth.effects)
     specimen.effects.push_back(effect.name == "chain" ? chain_use(effect, specimen.block) : effect_use(effect));
   return specimen;

@@ -12,7 +12,8 @@
 namespace freestand::test {
 namespace {
 
-constexpr double step_s = 1e-4, accuracy = 1e-6, margin = 6, fanned_out = 1e-4, edge = 1e-7;
+constexpr double step_s = 1e-4, accuracy = 1e-6, accuracy_on_contact = 1e-9, free_vibration_s = 1, margin = 6,
+                 fanned_out = 1e-4, edge = 1e-7, finest = finest_step_s / step_s;
 
 using Integrator = Response (*)(const Specimen&, const freestand::Shaking&, const Settings&, History*);
 
@@ -28,7 +29,7 @@ Answer answer(const JudgedCase& c, const char* who, Integrator integrate) {
   const FloorMotion motion = motion_of(c.floor);
   const freestand::Shaking shaking{&motion, 1, 1, 0};
   Settings settings;
-  settings.free_vibration_s = 1;
+  settings.free_vibration_s = free_vibration_s;
   for (settings.tolerance = 1e-12;; settings.tolerance *= 10) {
     Answer a{who, {}, {}};
     a.history.step_s = c.floor.dt_s;
@@ -45,7 +46,9 @@ Answer answer(const JudgedCase& c, const char* who, Integrator integrate) {
 struct Evidence {
   TruthHistory history;
   double own_path_m = 0, own_acceleration_mps2 = 0;  // of the path slid and of the largest acceleration
-  std::vector<double> own;                           // up to where it has fanned out
+  double own_peak_m = 0;                             // of the largest slip
+  bool one_outcome = true;
+  std::vector<double> own = {};  // up to where it has fanned out
 };
 
 double distance(const TruthHistory& a, const TruthHistory& b, std::size_t i) {
@@ -57,6 +60,8 @@ void doubt(Evidence& evidence, const TruthHistory& other) {
   evidence.own_path_m = std::max(evidence.own_path_m, std::abs(h.slid_path_m - other.slid_path_m));
   evidence.own_acceleration_mps2 =
       std::max(evidence.own_acceleration_mps2, std::abs(h.peak_acceleration_mps2 - other.peak_acceleration_mps2));
+  evidence.own_peak_m = std::max(evidence.own_peak_m, std::abs(h.peak_slip_m - other.peak_slip_m));
+  evidence.one_outcome = evidence.one_outcome && h.outcome == other.outcome;
   double own = 0;
   for (std::size_t i = 0; i < evidence.own.size(); ++i) {
     own = std::max(own, distance(evidence.history, other, i));
@@ -66,13 +71,14 @@ void doubt(Evidence& evidence, const TruthHistory& other) {
 }
 
 Evidence evidence(const JudgedCase& c, double step) {
-  Evidence e{simulate(c.truth, c.floor, 0.5 * step), 0, 0, {}};
+  Evidence e{simulate(c.truth, c.floor, 0.5 * step)};
   e.own.assign(c.floor.horizontal_mps2.size(), 0);
   doubt(e, simulate(c.truth, c.floor, step));
   return e;
 }
 
-// The same on floors a little weaker and stronger, which move the history as little unless it stands on an edge.
+// The same on floors a little weaker and stronger, and with a wall that touches the block a nanometre off it, which move
+// the history as little unless it stands on an edge.
 void doubt_edges(Evidence& evidence, const JudgedCase& c, double step) {
   for (const double factor : {1 - edge, 1 + edge}) {
     FloorSamples floor = c.floor;
@@ -80,6 +86,13 @@ void doubt_edges(Evidence& evidence, const JudgedCase& c, double step) {
     for (double& v : floor.vertical_mps2) v *= factor;
     doubt(evidence, simulate(c.truth, floor, 0.5 * step));
   }
+  constexpr double off_m = 1e-9;
+  Truth truth = c.truth;
+  bool touches = false;
+  for (TruthEffect& effect : truth.effects)
+    if (effect.name == "wall_impact" && effect.parameters.at("gap_m") == 0)
+      touches = true, effect.parameters["gap_m"] = off_m;
+  if (touches) doubt(evidence, simulate(truth, c.floor, 0.5 * step));
 }
 
 // First time at which it came down from flight so flat that which corner came first is below what anyone computes [s].
@@ -123,13 +136,72 @@ std::string difference_at_the_end(const Evidence& e, const Answer& a) {
   return "";
 }
 
-// Empty: within what is allowed.
-std::string difference(const Evidence& e, const Answer& a) {
+// On a Bouc-Wen contact it rings for ever: the stepper goes on for as long as the kernel may.
+JudgedCase rung_out(JudgedCase c) {
+  const std::size_t samples =
+      c.floor.horizontal_mps2.size() + static_cast<std::size_t>(free_vibration_s / c.floor.dt_s);
+  c.floor.horizontal_mps2.resize(samples);
+  c.floor.vertical_mps2.resize(samples);
+  return c;
+}
+
+// The slip at which it rings out, where that has shown: between its last two turns, or where it is if time is up.
+std::string difference_of_residuals(const Evidence& e, const Answer& a, double yield_m) {
+  constexpr std::size_t quiet = 100, enough = 3;  // samples at the end; middles of swings in them
+  constexpr double unseen_m = 1e-7;
+  const TruthHistory& h = e.history;
+  const double given = a.response.residual_slip_m, last_s = static_cast<double>(h.slip_m.size() - 1) * h.dt_s;
+  if (a.response.end_time_s > last_s - 1e-9) {
+    if (std::abs(given - h.residual_slip_m) <= unseen_m + margin * e.own.back()) return "";
+    return fmt::format("{}: residual slip {:.8f} against {:.8f} m", a.who, given, h.residual_slip_m);
+  }
+  // The middles of its last swings, which contents that hang inside move to and fro.
+  std::vector<double> middles;
+  for (std::size_t i = 1; i < h.turns_m.size(); ++i)
+    if (h.turns_s[i - 1] > last_s - static_cast<double>(quiet) * h.dt_s)
+      middles.push_back(0.5 * (h.turns_m[i - 1] + h.turns_m[i]));
+  if (middles.size() < enough) return "";
+  const auto [least, most] = std::minmax_element(h.remaining_m.end() - quiet, h.remaining_m.end());
+  const auto [first, last] = std::minmax_element(middles.begin(), middles.end());
+  const double slips_on = *most - *least, sways = *last - *first;
+  if (slips_on + sways > 0.01 * yield_m) return "";
+  const auto [low, high] = std::minmax({h.turns_m.back(), h.turns_m[h.turns_m.size() - 2]});
+  if (std::max(low - given, given - high) <= unseen_m + slips_on + sways + margin * e.own.back()) return "";
+  return fmt::format("{}: residual slip {:.8f} m, but it swings from {:.8f} to {:.8f} m", a.who, given, low, high);
+}
+
+// On a Bouc-Wen contact: of what is told of the whole sample.
+std::string difference_on_contact(const Evidence& e, const Answer& a, double yield_m) {
+  constexpr double unseen_mps2 = 0.02, unseen_m = 1e-7;
+  const TruthHistory& h = e.history;
+  const Response& r = a.response;
+  if (broke_off(r) || (e.one_outcome && h.outcome != name(r.outcome)))
+    return fmt::format("{}: outcome {} against {}", a.who, name(r.outcome), h.outcome);
+  if (std::abs(r.peak_slip_m - h.peak_slip_m) > unseen_m + margin * e.own_peak_m)
+    return fmt::format("{}: peak slip {:.8f} against {:.8f} m, own {:.1e}", a.who, r.peak_slip_m, h.peak_slip_m,
+                       e.own_peak_m);
+  const std::size_t before = std::min(static_cast<std::size_t>(r.end_time_s / h.dt_s), h.path_m.size() - 1),
+                    after = std::min(before + 1, h.path_m.size() - 1);
+  const double path_error = unseen_m + margin * e.own_path_m;
+  if (r.slid_path_m < h.path_m[before] - path_error || r.slid_path_m > h.path_m[after] + path_error)
+    return fmt::format("{}: slid path {:.8f} against {:.8f} to {:.8f} m, own {:.1e}", a.who, r.slid_path_m,
+                       h.path_m[before], h.path_m[after], e.own_path_m);
+  if (std::abs(r.peak_acceleration_mps2 - h.peak_acceleration_mps2) > unseen_mps2 + margin * e.own_acceleration_mps2)
+    return fmt::format("{}: peak acceleration {:.4f} against {:.4f} m/s2, own {:.1e}", a.who, r.peak_acceleration_mps2,
+                       h.peak_acceleration_mps2, e.own_acceleration_mps2);
+  return difference_of_residuals(e, a, yield_m);
+}
+
+// Empty: within what is allowed. parted_s: when they do, if that can be told.
+std::string difference(const JudgedCase& c, const Evidence& e, const Answer& a, double& parted_s) {
+  const bool on_contact = c.family == Family::bouc_wen;
+  const double allowed = on_contact ? accuracy_on_contact : accuracy;
   const TruthHistory& h = e.history;
   const double undecided_s = landing_nearly_flat(e, a);
   for (std::size_t i = 0; i < e.own.size(); ++i) {
     if (static_cast<double>(i) * h.dt_s > undecided_s) return "";
     if (i >= a.history.points.size()) {
+      if (on_contact) break;
       if (!broke_off(a.response) || h.outcome == "painleve" || e.own[i] > accuracy) return "";
       return fmt::format("{} broke off ({}) at {:.4f} s, the stepper goes on", a.who, name(a.response.outcome),
                          a.response.end_time_s);
@@ -138,11 +210,14 @@ std::string difference(const Evidence& e, const Answer& a) {
     if (h.outcome == "overturned" && a.response.outcome == Outcome::overturned && std::abs(h.rotation_rad[i]) > pi / 2)
       return "";  // both lie
     const double off = std::max(std::abs(h.slip_m[i] - p.slip_m), std::abs(h.rotation_rad[i] - p.rotation_rad));
-    if (!(off <= accuracy + margin * e.own[i]))
+    if (!(off <= allowed + margin * e.own[i])) {
+      parted_s = p.time_s;
       return fmt::format(
           "{} ({}) at {:.3f} s: slip {:.7f} against {:.7f} m, rotation {:.7f} against {:.7f} rad, own {:.1e}", a.who,
           name(p.mode), p.time_s, p.slip_m, h.slip_m[i], p.rotation_rad, h.rotation_rad[i], e.own[i]);
+    }
   }
+  if (on_contact) return e.own.size() < h.slip_m.size() ? "" : difference_on_contact(e, a, c.truth.contact.yield_m);
   if (e.own.size() < h.slip_m.size() || undecided_s < a.response.end_time_s || h.outcome != "moved") return "";
   if (broke_off(a.response)) return fmt::format("{}: outcome {} against moved", a.who, name(a.response.outcome));
   return difference_at_the_end(e, a);
@@ -150,16 +225,17 @@ std::string difference(const Evidence& e, const Answer& a) {
 
 }  // namespace
 
-Judgement judge(const JudgedCase& c) try {
-  const Answer answers[] = {answer(c, "respond", respond), answer(c, "respond_reference", respond_reference)};
+Judgement judge(const JudgedCase& judged) try {
+  const Answer answers[] = {answer(judged, "respond", respond), answer(judged, "respond_reference", respond_reference)};
+  const JudgedCase c = judged.family == Family::bouc_wen ? rung_out(judged) : judged;
+  Judgement result;
   const auto first_difference = [&](const Evidence& e) {
     for (const Answer& a : answers)
-      if (std::string text = difference(e, a); !text.empty()) return text;
+      if (std::string text = difference(c, e, a, result.parted_s); !text.empty()) return text;
     return std::string();
   };
   Evidence e = evidence(c, step_s);
-  Judgement result;
-  for (const double part : {1.0, 1.0 / 4, 1.0 / 64}) {
+  for (const double part : {1.0, 1.0 / 4, finest}) {
     if (part < 1) {
       e = evidence(c, part * step_s);
       doubt(e, simulate(c.truth, c.floor, 0.7 * part * step_s));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "effects/effects.hpp"
 #include "hidden_effect/draw_truth.hpp"
@@ -26,7 +27,7 @@ bool go_together(const std::string& a, const std::string& b) {
 }
 
 const char* model_name(TruthModel model) {
-  static constexpr const char* names[] = {"slide", "rock", "slide_rock"};
+  static constexpr const char* names[] = {"slide", "rock", "slide_rock", "bouc_wen"};
   return names[static_cast<int>(model)];
 }
 
@@ -44,6 +45,8 @@ bool possible(const Recipe& recipe) {
       return goes_with(recipe.effects, TruthModel::slide);
     case Setting::rock:
       return goes_with(recipe.effects, TruthModel::rock);
+    case Setting::bouc_wen:
+      return goes_with(recipe.effects, TruthModel::bouc_wen);
     case Setting::thrown:
       return !holds("vertical_shaking");  // it is in there anyway
     case Setting::on_a_slope:
@@ -61,6 +64,8 @@ TruthModel draw_model(KeyedRandom& random, const Recipe& recipe) {
       return TruthModel::rock;
     case Setting::slide_rock:
       return TruthModel::slide_rock;
+    case Setting::bouc_wen:
+      return TruthModel::bouc_wen;
     default:
       break;
   }
@@ -74,7 +79,7 @@ TruthModel draw_model(KeyedRandom& random, const Recipe& recipe) {
 Truth draw_block(KeyedRandom& random, TruthModel model, bool chained) {
   const double height_m = random.log_uniform(0.6, 2.4), slenderness = random.log_uniform(0.12, 1.2);
   double mu = slenderness * random.log_uniform(0.5, 2);
-  if (model == TruthModel::slide) mu = random.log_uniform(0.08, 0.6);
+  if (model == TruthModel::slide || model == TruthModel::bouc_wen) mu = random.log_uniform(0.08, 0.6);
   Truth truth = rectangular_truth(slenderness * height_m, height_m, std::min(mu, most_mu));
   if (!chained && random.chance(0.25)) {  // a chain's face is told by the width alone
     truth.left_m *= random.uniform(0.75, 1.2);
@@ -85,6 +90,18 @@ Truth draw_block(KeyedRandom& random, TruthModel model, bool chained) {
   truth.model = model;
   truth.impact = random.chance(0.4) ? TruthImpact::coulomb : TruthImpact::housner;
   return truth;
+}
+
+// From the report's stiffest contact, 1e-5 in, to a soft one. Other than gamma = beta it unloads along a curve.
+TruthContact draw_contact(KeyedRandom& random) {
+  TruthContact contact;
+  contact.yield_m = random.chance(0.1) ? 2.54e-7 : random.log_uniform(1e-5, 1e-2);
+  contact.exponent = random.chance(0.4) ? std::floor(random.uniform(1, 4)) : random.log_uniform(1, 40);
+  if (random.chance(0.4)) {
+    contact.gamma = random.uniform(0.3, 1);
+    contact.beta = contact.gamma * random.uniform(-0.6, 1);
+  }
+  return contact;
 }
 
 // A second tether or wall stands on the other side.
@@ -125,9 +142,11 @@ std::vector<TruthEffect> draw_effects(KeyedRandom& random, const Recipe& recipe,
   const auto holds = [&](const char* name) {
     return std::any_of(drawn.begin(), drawn.end(), [&](const TruthEffect& effect) { return effect.name == name; });
   };
-  if (recipe.setting == Setting::thrown && !holds("vertical_shaking")) drawn.push_back({"vertical_shaking", {}});
-  if (recipe.setting == Setting::on_a_slope && !holds("floor_tilt"))
-    drawn.push_back({"floor_tilt", {{"angle_rad", random.uniform(-0.15, 0.15)}}});
+  const bool contact = recipe.setting == Setting::bouc_wen;
+  const bool thrown = recipe.setting == Setting::thrown || (contact && random.chance(0.25));
+  const bool on_a_slope = recipe.setting == Setting::on_a_slope || (contact && random.chance(0.25));
+  if (thrown && !holds("vertical_shaking")) drawn.push_back({"vertical_shaking", {}});
+  if (on_a_slope && !holds("floor_tilt")) drawn.push_back({"floor_tilt", {{"angle_rad", random.uniform(-0.15, 0.15)}}});
   return drawn;
 }
 
@@ -145,16 +164,22 @@ FloorSamples draw_floor(KeyedRandom& random, const Truth& truth, Setting setting
                        : truth.model == TruthModel::rock ? tips
                                                          : std::min(truth.mu_s, tips);
   const double sign = random.chance(0.5) ? 1 : -1, peak = sign * moves * g * random.log_uniform(0.75, 5);
-  const double up = g * (setting == Setting::thrown ? random.uniform(1.1, 2.5) : random.uniform(0.1, 0.8));
+  const bool thrown = setting == Setting::thrown || (setting == Setting::bouc_wen && random.chance(0.5));
+  const double up = g * (thrown ? random.uniform(1.1, 2.5) : random.uniform(0.1, 0.8));
   for (double& a : floor.horizontal_mps2) a *= peak;
   for (double& v : floor.vertical_mps2) v *= up;
+  if (setting == Setting::bouc_wen) {  // what follows it begins without a jump
+    floor.horizontal_mps2.push_back(0);
+    floor.vertical_mps2.push_back(0);
+  }
   return floor;
 }
 
 }  // namespace
 
 const char* name(Setting setting) {
-  static constexpr const char* names[setting_count] = {"slide", "rock", "slide_rock", "thrown", "on_a_slope"};
+  static constexpr const char* names[setting_count] = {"slide",  "rock",       "slide_rock",
+                                                       "thrown", "on_a_slope", "bouc_wen"};
   return names[static_cast<int>(setting)];
 }
 
@@ -167,16 +192,22 @@ const std::vector<std::string>& judged_effects() {
   return all;
 }
 
-std::vector<Recipe> recipes() {
+std::vector<Recipe> recipes(Family family) {
+  const int first = family == Family::rigid ? 0 : static_cast<int>(Setting::bouc_wen);
+  const int settings = family == Family::rigid ? rigid_setting_count : 1;
   std::vector<Recipe> all;
   const auto add = [&](std::vector<std::string> effects, int setting) {
-    Recipe recipe{std::move(effects), static_cast<Setting>(setting % setting_count)};
+    Recipe recipe{std::move(effects), static_cast<Setting>(first + setting % settings)};
     if (possible(recipe)) all.push_back(std::move(recipe));
   };
-  const std::vector<std::string>& effects = judged_effects();
-  for (int setting = 0; setting < setting_count; ++setting) add({}, setting);
+  const auto stands = [&](const std::string& effect) {
+    return family == Family::rigid || goes_with({effect}, TruthModel::bouc_wen);
+  };
+  std::vector<std::string> effects;
+  std::copy_if(judged_effects().begin(), judged_effects().end(), std::back_inserter(effects), stands);
+  for (int setting = 0; setting < settings; ++setting) add({}, setting);
   for (const std::string& effect : effects)
-    for (int setting = 0; setting < setting_count; ++setting) add({effect}, setting);
+    for (int setting = 0; setting < settings; ++setting) add({effect}, setting);
   int turn = 0;
   for (std::size_t i = 0; i < effects.size(); ++i)
     for (std::size_t j = i; j < effects.size(); ++j)
@@ -193,6 +224,9 @@ std::string JudgedCase::text() const {
       fmt::format("{}: {}, {}, left {:.6g} m, right {:.6g} m, height {:.6g} m, k2 {:.6g} m2, mu_s {:.6g}, mu_k {:.6g}",
                   number, model_name(truth.model), truth.impact == TruthImpact::housner ? "housner" : "coulomb",
                   truth.left_m, truth.right_m, truth.height_m, truth.gyration2_m2, truth.mu_s, truth.mu_k);
+  if (truth.model == TruthModel::bouc_wen)
+    line += fmt::format(", u_y {:.6g} m, n {:.6g}, gamma {:.6g}, beta {:.6g}", truth.contact.yield_m,
+                        truth.contact.exponent, truth.contact.gamma, truth.contact.beta);
   for (const TruthEffect& effect : truth.effects) {
     line += ", " + effect.name + " {";
     for (const auto& [key, value] : effect.parameters) line += fmt::format(" {}: {:.6g}", key, value);
@@ -204,12 +238,13 @@ std::string JudgedCase::text() const {
 namespace {
 
 // A pair comes in another setting each time that its turn comes.
-Recipe recipe_of(std::uint64_t number) {
-  static const std::vector<Recipe> all = recipes();
+Recipe recipe_of(std::uint64_t number, Family family) {
+  static const std::vector<Recipe> rigid = recipes(), on_a_contact = recipes(Family::bouc_wen);
+  const std::vector<Recipe>& all = family == Family::rigid ? rigid : on_a_contact;
   Recipe recipe = all[number % all.size()];
-  if (recipe.effects.size() < 2) return recipe;
+  if (recipe.effects.size() < 2 || family == Family::bouc_wen) return recipe;
   const auto next = [&] {
-    recipe.setting = static_cast<Setting>((static_cast<int>(recipe.setting) + 1) % setting_count);
+    recipe.setting = static_cast<Setting>((static_cast<int>(recipe.setting) + 1) % rigid_setting_count);
   };
   for (std::uint64_t turns = number / all.size(); turns > 0; --turns) {
     next();
@@ -220,12 +255,13 @@ Recipe recipe_of(std::uint64_t number) {
 
 }  // namespace
 
-JudgedCase judged_case(std::uint64_t seed, std::uint64_t number) {
+JudgedCase judged_case(std::uint64_t seed, std::uint64_t number, Family family) {
   KeyedRandom random(seed, number);
-  JudgedCase result{seed, number, recipe_of(number), {}, {}};
+  JudgedCase result{seed, number, family, recipe_of(number, family), {}, {}};
   const auto& about = result.recipe.effects;
   const bool chained = std::find(about.begin(), about.end(), "chain") != about.end();
   result.truth = draw_block(random, draw_model(random, result.recipe), chained);
+  if (family == Family::bouc_wen) result.truth.contact = draw_contact(random);
   result.truth.effects = draw_effects(random, result.recipe, result.truth);
   result.floor = draw_floor(random, result.truth, result.recipe.setting);
   return result;

@@ -15,9 +15,10 @@ enum class Setting {
   rock,        // model rock
   slide_rock,  // model slide_rock
   thrown,      // the floor shakes vertically as well, strongly enough to throw the block up; any model
-  on_a_slope   // floor_tilt as well; any model
+  on_a_slope,  // floor_tilt as well; any model
+  bouc_wen     // model bouc_wen; thrown up or on a slope by chance
 };
-inline constexpr int setting_count = 5;
+inline constexpr int rigid_setting_count = 5, setting_count = 6;
 const char* name(Setting setting);
 
 // The catalogue, and the chain.
@@ -29,12 +30,16 @@ struct Recipe {
   Setting setting = Setting::slide_rock;
 };
 
+// What the block stands on. Each family has recipes and numbers of its own.
+enum class Family { rigid, bouc_wen };
+
 // Every effect alone in every setting that it goes with, then every pair of effects that go together (slack_tether and
-// wall_impact with themselves too, one a side); the settings of pairs take turns.
-std::vector<Recipe> recipes();
+// wall_impact with themselves too, one a side); the settings of pairs take turns. On a Bouc-Wen contact there is one setting.
+std::vector<Recipe> recipes(Family family = Family::rigid);
 
 struct JudgedCase {
   std::uint64_t seed = 0, number = 0;
+  Family family = Family::rigid;
   Recipe recipe;
   Truth truth;
   FloorSamples floor;
@@ -42,6 +47,6 @@ struct JudgedCase {
 };
 
 // Number `number` is of recipe number mod recipes().size(), a pair in the next setting each time that its turn comes.
-JudgedCase judged_case(std::uint64_t seed, std::uint64_t number);
+JudgedCase judged_case(std::uint64_t seed, std::uint64_t number, Family family = Family::rigid);
 
 }  // namespace freestand::test

@@ -1,5 +1,6 @@
-// judge [--cases 5000] [--first 0] [--seed 1] [--show N --from S --to S]: the kernel before the contact time-stepper. A
-// table per effect and setting, and every disagreement as a case that can be repeated. Exit 1 if there is any.
+// judge [--cases 5000] [--first 0] [--seed 1] [--bouc-wen] [--show FROM TO]: the kernel before the contact time-stepper, or on
+// Bouc-Wen's contact before Runge-Kutta steps. A table per effect and setting, and every disagreement as a case that can
+// be repeated. Exit 1 if there is any.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -16,6 +17,7 @@ namespace {
 struct Options {
   std::uint64_t seed = 1, first = 0, cases = 5000;
   int threads = 1;
+  Family family = Family::rigid;
   std::vector<double> show_s;
 };
 
@@ -25,7 +27,7 @@ Tally judge_all(const Options& options) {
   std::atomic<std::uint64_t> next{options.first};
   const auto work = [&] {
     for (std::uint64_t n = next++; n < options.first + options.cases; n = next++) {
-      const JudgedCase c = judged_case(options.seed, n);
+      const JudgedCase c = judged_case(options.seed, n, options.family);
       const Judgement judgement = judge(c);
       const std::lock_guard<std::mutex> lock(one_at_a_time);
       tally.add(c, judgement);
@@ -55,9 +57,12 @@ int main(int count, char** words) {
   parser.add_option("--threads", options.threads, "side by side")->check(CLI::Range(1, 1024));
   parser.add_option("--show", options.show_s, "from, to [s]: both histories of the first case, and no judgement")
       ->expected(2);
+  bool bouc_wen = false;
+  parser.add_flag("--bouc-wen", bouc_wen, "cases of model bouc_wen, which have numbers of their own");
   CLI11_PARSE(parser, count, words);
+  if (bouc_wen) options.family = freestand::test::Family::bouc_wen;
   if (!options.show_s.empty()) {
-    const freestand::test::JudgedCase c = freestand::test::judged_case(options.seed, options.first);
+    const freestand::test::JudgedCase c = freestand::test::judged_case(options.seed, options.first, options.family);
     fmt::print("{}\n{}", c.text(), freestand::test::side_by_side(c, options.show_s[0], options.show_s[1]));
     return 0;
   }

@@ -72,11 +72,18 @@ int Tally::visits(const std::string& effect, const std::string& deed) const {
   return cell == row->second.end() ? 0 : cell->second;
 }
 
-std::vector<std::string> Tally::empty_cells() const {
+std::vector<std::string> Tally::empty_cells(Family family) const {
   std::vector<std::string> empty;
   const auto look = [&](const std::string& effect, const std::string& deed) {
     if (visits(effect, deed) == 0) empty.push_back(effect + ": " + deed);
   };
+  if (family == Family::bouc_wen) {
+    for (const Recipe& recipe : recipes(family))
+      for (const std::string& effect : recipe.effects)
+        if (recipe.effects.size() == 1) look(effect, "slid");
+    look("chain", "broken");
+    return empty;
+  }
   for (const std::string& effect : judged_effects())
     for (const auto& [bit, deed] : deeds) look(effect, deed);
   for (const auto& [bit, deed] : wall_deeds) look("wall_impact", deed);

@@ -19,8 +19,8 @@ class Tally {
   };
   const Count& total() const { return total_; }
   std::string table() const;
-  // Effects and modes that no compared history visited, and that can be: "wall_impact: slide_rock".
-  std::vector<std::string> empty_cells() const;
+  // Effects and modes that no compared history visited, and that can be: "wall_impact: slide_rock". For cases of one family.
+  std::vector<std::string> empty_cells(Family family = Family::rigid) const;
 
  private:
   int visits(const std::string& effect, const std::string& deed) const;

@@ -277,8 +277,9 @@ bool MoreauStepper::allowed(const Step& step, const State& state, Contacts conta
 
 bool MoreauStepper::choose(const Step& step, State& state, Case& chosen, bool closing, Refused& refused) const {
   std::array<Grip, 4> order{Grip::none, Grip::stuck, Grip::to_right, Grip::to_left};
-  if (!closing && state.grip == Grip::to_right) order = {Grip::none, Grip::to_right, Grip::stuck, Grip::to_left};
-  if (!closing && state.grip == Grip::to_left) order = {Grip::none, Grip::to_left, Grip::stuck, Grip::to_right};
+  if (!closing && state.grip == Grip::stuck) order = {Grip::stuck, Grip::none, Grip::to_right, Grip::to_left};
+  if (!closing && state.grip == Grip::to_right) order = {Grip::to_right, Grip::none, Grip::stuck, Grip::to_left};
+  if (!closing && state.grip == Grip::to_left) order = {Grip::to_left, Grip::none, Grip::stuck, Grip::to_right};
   static constexpr std::array<std::array<bool, 2>, 4> sets{
       {{false, false}, {true, true}, {true, false}, {false, true}}};
   for (const Grip grip : order)

@@ -19,6 +19,9 @@
 // tries to stick with mu_s, and reverses with mu_k otherwise. Both corners closed and stuck: only the sum of the two
 // friction forces is determined, and it is bounded by mu_s times the sum of the normal forces.
 //
+// Where friction is so strong that a corner could as well go on carrying as leave the floor (beyond Painleve's paradox, or where
+// pressure_friction makes it grow without bounds as the pressure falls), it goes on as it does.
+//
 // A block that cannot slip lifts off from both corners only; on one of them it turns about a hinge, as Housner's does.
 //
 // With legs the corner is that of the block over them and the foot under them slips: stuck, its force is that of the
@@ -38,6 +41,7 @@
 #include <optional>
 
 #include "support/contact_laws.hpp"
+#include "support/floor_line.hpp"
 
 namespace freestand::test {
 
@@ -52,13 +56,6 @@ struct ContactBody {
   bool can_slip = true, can_tip = true;
   bool housner = false;      // impact law; else plastic impulses
   double impact_factor = 1;  // on Housner's rate
-};
-
-// Acceleration of the floor during a step, linear in time [m/s2].
-struct FloorLine {
-  double start_s = 0, a = 0, v = 0, a_rate = 0, v_rate = 0;
-  double horizontal(double t) const { return a + a_rate * (t - start_s); }
-  double vertical(double t) const { return v + v_rate * (t - start_s); }
 };
 
 class MoreauStepper {
