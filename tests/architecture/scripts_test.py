@@ -9,7 +9,7 @@ import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCRIPTS = [*(ROOT / "jobs").glob("*"), ROOT / "tests/run", ROOT / "tests/memcheck", ROOT / "tests/faults/run", ROOT / ".ci/run"]
+SCRIPTS = [*(path for path in (ROOT / "jobs").glob("*") if path.suffix != ".md"), ROOT / "tests/run", ROOT / "tests/memcheck", ROOT / "tests/faults/run", ROOT / ".ci/run"]
 
 
 def packages(optional=False):
@@ -218,6 +218,19 @@ class Slurm(Stage):
             self.assertEqual(self.submit("s.yaml", "results").returncode, code)
         self.assertEqual(self.called("scontrol"), [])
         self.assertEqual(self.submit().returncode, 2)
+
+    def test_in_an_array_the_next_job_goes_on_instead(self):
+        self.environment.update(CODE="75", SLURM_ARRAY_JOB_ID="70")
+        self.assertEqual(self.submit("s.yaml", "results").returncode, 75)
+        self.assertEqual(self.called("scontrol"), [])
+
+    def test_a_catalogue_goes_on_by_itself(self):
+        (self.folder / "results").mkdir()
+        self.stand_in("srun", "date +%N >results/words.json")
+        self.assertEqual(self.submit("c.yaml", "results", "catalogue").returncode, 0)
+        (step,) = self.called("srun")
+        self.assertTrue(step.endswith(" catalogue c.yaml -o results"))
+        self.assertEqual(self.submit("c.yaml", "results", "query").returncode, 2)
 
     def test_a_cancelled_job_does_not_come_back(self):
         self.environment.update(CODE="75", STATE="COMPLETING")

@@ -8,8 +8,9 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
 
+from catalogue_test import HEAD
 from cluster import Cluster, why_not
-from support import FREESTAND, InFolder, finished_blocks, result, slow_fit, study_text
+from support import FREESTAND, InFolder, datasets, finished_blocks, result, slow_fit, study_text
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "jobs/freestand.slurm"
 
@@ -24,9 +25,9 @@ class Slurm(InFolder):
         self.folder.chmod(0o755)
         self.out, self.log = self.folder / "out", self.folder / "log"
 
-    def submit(self, study, *options):
+    def submit(self, study, *options, verb=()):
         sent = self.cluster.run("sbatch", "--parsable", "--nodes=2", "--ntasks-per-node=2", "--time=10", f"--output={self.log}", *options, SCRIPT,
-                                study, self.out, cwd=self.folder, env={**self.cluster.environment, "FREESTAND": FREESTAND})
+                                study, self.out, *verb, cwd=self.folder, env={**self.cluster.environment, "FREESTAND": FREESTAND})
         self.assertEqual(sent.returncode, 0, sent.stderr)
         self.job = sent.stdout.strip()
 
@@ -80,6 +81,32 @@ class Slurm(InFolder):
         whole = self.folder / "whole"
         self.succeed(["run", study, "-o", whole, "--quiet"], 3)
         self.assertEqual(result(self.out), result(whole))
+
+    def nothing_is_queued(self):
+        return not self.cluster.run("squeue", "--noheader", "--states=all", f"--job={self.job}", "--Format=State").stdout.replace("COMPLETED", "").replace("FAILED", "").split()
+
+    def test_short_jobs_of_an_array_go_on_where_the_last_one_ended(self):
+        study = self.folder / "study.yaml"
+        study.write_text(study_text(samples=16000) + "keep: none\n")
+        self.submit(study, "--array=1-2%1", "--open-mode=append")
+        self.wait_until(lambda: list(self.out.glob("blocks/run-0001.*.sums")), "counts")
+        time.sleep(1)
+        self.cluster.run("scancel", "--signal=TERM", f"{self.job}_1")
+        self.wait_until(self.nothing_is_queued, "the end of the array")
+        self.assertIn("the next job of the array goes on", self.log.read_text())
+        whole = self.folder / "whole"
+        self.succeed(["run", study, "-o", whole, "--quiet"], 3)
+        self.assertEqual(result(self.out), result(whole))
+        self.assertEqual(datasets(self.out / "tally.h5"), datasets(whole / "tally.h5"))
+
+    def test_a_catalogue(self):
+        entries = HEAD + "".join(f"  - {{id: box-{i}, class: box, block: {{width_m: 0.{i}, height_m: 2}}, friction: {{mu: 0.3}}}}\n" for i in (5, 6))
+        catalogue = self.folder / "catalogue.yaml"
+        catalogue.write_text(entries)
+        self.submit(catalogue, verb=["catalogue"])
+        self.ends("COMPLETED", 0)
+        self.succeed(["catalogue", catalogue, "-o", self.folder / "here"], 3)
+        self.assertEqual((self.out / "curves.csv").read_text(), (self.folder / "here/curves.csv").read_text())
 
     def test_what_is_cancelled_or_has_to_be_cured_does_not_come_back(self):
         study = self.folder / "study.yaml"
