@@ -2,7 +2,7 @@
 //
 // The counter of blocks handed out lies in a window of rank 0 and is raised by MPI_Fetch_and_op. On one node the window
 // is shared memory: a rank takes blocks without rank 0 taking part. Between nodes without remote atomics, rank 0
-// serves the others each time it calls the beat; so blocks call it between samples. Ranks take many blocks at a time while
+// serves the others each time it calls the beat; so blocks call it between samples. Many ranks take many blocks at a time while
 // many are left, and single ones at the end, so that 10^4 ranks ask for a million blocks a hundred thousand times.
 #pragma once
 
@@ -23,7 +23,8 @@ using BlockFunction = std::function<Counts(std::int64_t block, const Beat& beat)
 
 // Which of `total` blocks are taken at the ticket-th raise of the counter; none beyond the last. In rounds: in each every rank takes an
 // equal part of half of what is left, in the last ones single blocks (factoring: S. F. Hummel, E. Schonberg and L. E. Flynn,
-// Communications of the ACM 35, 1992).
+// Communications of the ACM 35, 1992); but no more than keeps the counter from being asked too often, which with fewer than 128
+// ranks is one: blocks may take much longer than others, and ranks too.
 struct BlockRange {
   std::int64_t first = 0, end = 0;
   bool empty() const { return first >= end; }

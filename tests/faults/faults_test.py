@@ -66,7 +66,7 @@ class Faults:
                             FAULT_RANK=str(rank) if self.ranks > 1 else "", FAULT_TOLD=str(told))
             reached = told.exists()
             wrong = self.wrong(out, kind, done)
-            return (f"{name}: {wrong}\n    {done.returncode}: {done.stderr.split('---')[0].strip()[-400:]}" if wrong else "") if reached or wrong else None
+            return (f"{name}: {wrong}\n    {done.returncode}: {(done.stdout + done.stderr).strip()[-1500:]}" if wrong else "") if reached or wrong else None
         except subprocess.TimeoutExpired:
             return f"{name}: hangs"
         finally:

@@ -65,7 +65,7 @@ def cut_off(test, text):
         test.skipTest("no chromium is installed")
     frames = "".join(f'<iframe style="border: 0; width: {width}px; height: 900px" srcdoc="{html.escape(text)}"></iframe>' for width in (1300, 420))
     page = pathlib.Path(_kept.name) / "frames.html"
-    page.write_text(f"<title></title>{frames}{MEASURE}", encoding="utf-8")
+    page.write_text(f"<meta charset=\"utf-8\"><title></title>{frames}{MEASURE}", encoding="utf-8")
     title = html.unescape(re.search("<title>(.*?)</title>", browse(page.as_uri(), "--window-size=1400,1000"), re.S).group(1))
     return {width: (tables, cut) for width, tables, cut in json.loads(title)}
 

@@ -106,7 +106,7 @@ class Slurm(InFolder):
         self.submit(catalogue, verb=["catalogue"])
         self.ends("COMPLETED", 0)
         self.succeed(["catalogue", catalogue, "-o", self.folder / "here"], 3)
-        self.assertEqual((self.out / "curves.csv").read_text(), (self.folder / "here/curves.csv").read_text())
+        self.assertEqual((self.out / "fragility.csv").read_text(), (self.folder / "here/fragility.csv").read_text())
 
     def test_what_is_cancelled_or_has_to_be_cured_does_not_come_back(self):
         study = self.folder / "study.yaml"
