@@ -2,9 +2,12 @@
 
 import csv
 import json
+import os
+import pty
+import subprocess
 import unittest
 
-from support import InFolder, h5py, study_text
+from support import InFolder, command, h5py, slow_fit, study_text
 
 
 class Fit(InFolder):
@@ -17,6 +20,23 @@ class Fit(InFolder):
         text = path.read_text()
         self.assertIn(old, text)
         path.write_text(text.replace(old, new))
+
+    def test_on_a_terminal_it_tells_how_far_it_is_and_at_the_end_how_long_it_took(self):
+        out = self.folder / "out"
+        self.succeed(["sweep", self.write("slow.yaml", slow_fit(study_text(samples=9000))), "-o", out, "--quiet"], 2)
+        ours, its = pty.openpty()
+        process = subprocess.Popen(command(["fit", out]), stdout=subprocess.PIPE, stderr=its, text=True)
+        os.close(its)
+        told = b""
+        while True:
+            try:
+                told += os.read(ours, 4096)
+            except OSError:  # the other end is closed
+                break
+        said, _ = process.communicate(timeout=100)
+        os.close(ours)
+        self.assertRegex(told.decode(), r"fit\w*: \d+/\d+, \S+ s so far")
+        self.assertRegex(said, r"9000 samples fitted over \w+ in \d")
 
     def test_an_edited_study_is_used_or_refused_and_it_says_so(self):
         self.sweep()
