@@ -19,6 +19,7 @@ PACKAGES = (
     (r"pugixml\.hpp", "pugixml"), (r"csv\.h", "csv"))
 # Packages that one folder keeps to itself, whatever others link.
 ONLY_IN = {"mpi": {"parallel"}, "hdf5": {"io"}, "yaml": {"study"}, "cli11": {"app"}, "sundials": {"dynamics"}}
+KERNEL = ("dynamics", "effects")  # what is judged
 # Who may never see effects: the physics.
 PHYSICS = ("base", "motion", "sampling", "dynamics", "edp", "intensity", "fragility")
 POSIX = ("unistd.h", "pthread.h", "fcntl.h", "signal.h", "dirent.h", "errno.h", "glob.h")
@@ -182,6 +183,24 @@ def _helper(folder, file):
     return any(file.stem.startswith(header.stem + "_") for header in folder.glob("*.hpp"))
 
 
+def judge_problems(root):
+    """The integrators that judge the kernel, and whatever they include, share nothing with it."""
+    found, seen = [], set()
+    open_ = [root / "tests" / name for name in ("hidden_effect/generator.cpp", "hidden_effect/default_effects.cpp", "support/moreau_stepper.cpp",
+                                                "support/moreau_events.cpp", "support/moreau_impulses.cpp", "support/bouc_wen_stepper.cpp")]
+    while open_:
+        file = open_.pop()
+        if file in seen or not file.exists():
+            continue
+        seen.add(file)
+        for match in INCLUDE.finditer(file.read_text(encoding="utf-8")):
+            header = match.group(2)
+            if header.split("/")[0] in KERNEL:
+                found.append(f'{file.relative_to(root)}: includes "{header}": what judges the kernel shares nothing with it')
+            open_ += [root / "tests" / header, root / "src" / header]
+    return found
+
+
 def leftovers(root):
     """Result files in the root of the tree, where a test that was started there has left them."""
     return [f"{file.name}: a result file in the root: remove it, and let what writes it use a folder of its own" for file in sorted(root.glob("*.h5"))]
@@ -189,7 +208,7 @@ def leftovers(root):
 
 def problems(root):
     root = pathlib.Path(root)
-    return leftovers(root) + graph_problems(root) + include_problems(root) + text_problems(root) + registry_problems(root)
+    return leftovers(root) + graph_problems(root) + include_problems(root) + text_problems(root) + registry_problems(root) + judge_problems(root)
 
 
 if __name__ == "__main__":

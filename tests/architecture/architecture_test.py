@@ -31,7 +31,9 @@ CLEAN = {
     "src/io/file.cpp": '#include <hdf5.h>\n#include "build_info.hpp"\n',
     "src/study/read.cpp": '#include <yaml-cpp/yaml.h>\n#include "edp/edp.hpp"\n// #include "app/main.hpp" is no include\n',
     "src/app/main.cpp": '#include <CLI/CLI.hpp>\n#include "base/units.hpp"\n',
-    "tests/base/units_test.cpp": "// fine\n",
+    "tests/base/units_test.cpp": '#include "dynamics/step.hpp"\n',
+    "tests/hidden_effect/generator.cpp": '#include "support/floor.hpp"\n#include "base/units.hpp"\n',
+    "tests/support/floor.hpp": "#include <vector>\n",
 }
 
 
@@ -51,6 +53,10 @@ class Planted(unittest.TestCase):
         self.assertEqual(len(found), 1, found)
         for needle in needles:
             self.assertIn(needle, found[0])
+
+    def test_the_judge_shares_nothing_with_the_kernel(self):
+        self.expect({"tests/support/floor.hpp": '#include "dynamics/step.hpp"\n'}, "tests/support/floor.hpp", "dynamics/step.hpp", "shares nothing")
+        self.expect({"tests/hidden_effect/generator.cpp": '#include "effects/x.hpp"\n'}, "tests/hidden_effect/generator.cpp", "effects/x.hpp")
 
     def test_clean_tree_has_no_problem(self):
         self.assertEqual(self.problems(), [])
