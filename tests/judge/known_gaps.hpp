@@ -1,4 +1,4 @@
-// Where the kernel is known not to follow the physics yet. Disagreements there are counted by name and printed; nothing
+// Where two answers are as good: the laws, or the stepper, leave open which one holds. Disagreements there are counted by name and printed; nothing
 // else is excused. A gap that is mended is taken out.
 #pragma once
 
