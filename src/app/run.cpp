@@ -37,8 +37,7 @@ Exit check(const Context& context, const RunOptions& options) {
   const study::Study study = read(context, options);
   context.world.on_root([&] { study::load_motions(study); });
   const study::MotionSet motions = study::load_motions(study);
-  const study::Evaluator evaluator(study, motions,
-                                   study::summarize_together(context.world, study, motions, nullptr));
+  const study::Evaluator evaluator(study, motions, study::summarize_together(context.world, study, motions, nullptr));
   std::string size;
   context.world.on_root([&] {
     const study::SweepSize found = study::size_of(study, study::Target(study), evaluator);

@@ -81,7 +81,8 @@ class SharedCounters {
 BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, std::int64_t ranks) {
   std::int64_t first = 0;
   for (; first < total; ticket -= ranks) {
-    const std::int64_t size = std::max<std::int64_t>(1, std::min((total - first) / (2 * ranks), ranks / asks_in_a_block));
+    const std::int64_t size =
+        std::max<std::int64_t>(1, std::min((total - first) / (2 * ranks), ranks / asks_in_a_block));
     if (ticket < ranks || size == 1)
       return {std::min(first + ticket * size, total), std::min(first + (ticket + 1) * size, total)};
     first += ranks * size;

@@ -60,9 +60,9 @@ SweepSize size_of(const Study& study, const Target& target, const Evaluator& eva
   const fragility::MotionGroups groups(options);
   const fragility::TallyLayout layout(options, static_cast<std::size_t>(groups.count()));
   const RankingCounts ranking(study, target, evaluator.motions().groups(), evaluator.summaries());
-  size.counts_bytes = word_bytes * (static_cast<double>(layout.count_size) +
-                                    words_of_a_sum * static_cast<double>(layout.sum_size) +
-                                    static_cast<double>(ranking.words().size()));
+  size.counts_bytes =
+      word_bytes * (static_cast<double>(layout.count_size) + words_of_a_sum * static_cast<double>(layout.sum_size) +
+                    static_cast<double>(ranking.words().size()));
   size.memory_bytes = copies * size.counts_bytes;
   return size;
 }
@@ -80,10 +80,10 @@ std::string told(const SweepSize& size) {
 void refuse_too_large(const SweepSize& size) {
   const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (size.memory_bytes <= memory) return;
-  throw Error(
-      fmt::format("what is counted takes {} in each rank, and this machine has {}: take fewer bins, capacities, second axes or "
-                  "demands",
-                  bytes_text(size.memory_bytes), bytes_text(memory)));
+  throw Error(fmt::format(
+      "what is counted takes {} in each rank, and this machine has {}: take fewer bins, capacities, second axes or "
+      "demands",
+      bytes_text(size.memory_bytes), bytes_text(memory)));
 }
 
 std::string room_told(const SweepSize& size, const std::filesystem::path& folder) {
@@ -92,7 +92,8 @@ std::string room_told(const SweepSize& size, const std::filesystem::path& folder
   const double wanted = size.samples_bytes + size.blocks_bytes + 2 * size.counts_bytes;
   if (error || room >= wanted) return "";
   return fmt::format(
-      "{} has room for {}, and the sweep will take {} (keep: {{thin: 100}} or none takes less): it will stop when the disk "
+      "{} has room for {}, and the sweep will take {} (keep: {{thin: 100}} or none takes less): it will stop when the "
+      "disk "
       "is full, and go on with --resume when there is more room",
       folder.string(), bytes_text(room), bytes_text(wanted));
 }

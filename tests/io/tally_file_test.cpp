@@ -15,7 +15,8 @@ namespace {
 
 TEST(TallyFile, ReadsBackToTheBit) {
   const test::Scratch scratch;
-  TallyContent content{provenance_here("freestand run", 3), "0123abcd", {0, -1, std::numeric_limits<std::int64_t>::max()}};
+  TallyContent content{
+      provenance_here("freestand run", 3), "0123abcd", {0, -1, std::numeric_limits<std::int64_t>::max()}};
   content.provenance.samples = std::int64_t{1} << 40;
   write_tally(scratch.folder() / "tally.h5", content);
   const TallyContent again = read_tally(scratch.folder() / "tally.h5");

@@ -63,7 +63,7 @@ class Slurm(InFolder):
     def test_signalled_in_every_phase_it_ends_with_the_bits_of_mpirun(self):
         """The limit's SIGTERM goes to the step, as by --signal=TERM@..., or to the script, as by --signal=B:..."""
         study = self.folder / "study.yaml"
-        study.write_text(slow_fit(study_text(samples=16000)))
+        study.write_text(slow_fit(study_text(samples=60000)))
         self.submit(study)
         for times, options in ((1, ["--signal=TERM"]), (2, ["--batch", "--signal=USR1"])):
             before = self.blocks()
@@ -87,10 +87,9 @@ class Slurm(InFolder):
 
     def test_short_jobs_of_an_array_go_on_where_the_last_one_ended(self):
         study = self.folder / "study.yaml"
-        study.write_text(study_text(samples=16000) + "keep: none\n")
+        study.write_text(study_text(samples=100000) + "keep: none\n")
         self.submit(study, "--array=1-2%1", "--open-mode=append")
         self.wait_until(lambda: list(self.out.glob("blocks/run-0001.*.sums")), "counts")
-        time.sleep(1)
         self.cluster.run("scancel", "--signal=TERM", f"{self.job}_1")
         self.wait_until(self.nothing_is_queued, "the end of the array")
         self.assertIn("the next job of the array goes on", self.log.read_text())

@@ -53,11 +53,13 @@ std::vector<std::string> studies() {
     texts.push_back(block + friction + fmt::format("effects: [{{name: vertical_shaking, scale: 6}}{}]\n", more) +
                     records);
   // On a slope a contact with a loose yield rings on; a foot under legs slips while its block tips.
-  texts.push_back(block + friction + "model: bouc_wen\nbouc_wen: {yield_displacement_m: 0.005, exponent: 1.6}\neffects: " +
+  texts.push_back(block + friction +
+                  "model: bouc_wen\nbouc_wen: {yield_displacement_m: 0.005, exponent: 1.6}\neffects: " +
                   "[{name: floor_tilt, angle_rad: 0.1}]\n" + records);
   texts.push_back(
       "block: {width_m: 0.5, height_m: 1, mass_kg: 100}\nfriction: {mu_k: {uniform: [0.35, 0.45]}, static_ratio: 1.2}\n"
-      "effects: [{name: flexible_legs, frequency_hz: 3, damping: 0.01}, {name: friction_wear, ratio: 1.5, path_m: 0.2}]\n"
+      "effects: [{name: flexible_legs, frequency_hz: 3, damping: 0.01}, {name: friction_wear, ratio: 1.5, path_m: "
+      "0.2}]\n"
       "motions: [{pulse: [A, B], period_s: {uniform: [2, 4]}, peak_acceleration_g: {uniform: [0.6, 1]}}]\n");
   for (const char* design : {"monte_carlo", "latin_hypercube"})
     texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
