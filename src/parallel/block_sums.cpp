@@ -190,6 +190,12 @@ void BlockSums::begin(const Communicator& world) {
 
 bool BlockSums::has(std::int64_t block) const { return bit(before_.blocks, block); }
 
+std::int64_t BlockSums::end() const {
+  std::int64_t block = blocks_;
+  while (block > 0 && !has(block - 1)) --block;
+  return block;
+}
+
 void BlockSums::add(std::span<const std::int64_t> blocks, std::span<const std::int64_t> words) {
   Content due;
   {

@@ -36,6 +36,7 @@ class BlockSums {
   void begin(const Communicator&);
 
   bool has(std::int64_t block) const;  // since before begin()
+  std::int64_t end() const;            // behind the last of those; 0 without any
 
   // Adds words that were counted over these blocks, none of which is in the sums. Where it is time, the calling rank writes
   // the node's file too: about every ten seconds, and so seldom that it costs less than a hundredth. Throws Error: a full disk

@@ -99,6 +99,10 @@ void Checkpoint::share() {
   counted_->sums.write(world_);
 }
 
+std::int64_t Checkpoint::least_counted() const {
+  return counted_ ? std::min(counted_->sums.end() * layout_.block_size, layout_.samples) : 0;
+}
+
 parallel::Words Checkpoint::counted() { return counted_->counts.normal(counted_->sums.total(world_)); }
 
 }  // namespace freestand::study

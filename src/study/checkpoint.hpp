@@ -50,6 +50,9 @@ class Checkpoint {
   const SampleCounts* counts() const { return counted_ ? &counted_->counts : nullptr; }
   parallel::Words counted();  // what was counted so far. Collective.
 
+  // How many of the first samples hold all that earlier runs have counted: no answer about fewer can be given any more.
+  std::int64_t least_counted() const;
+
  private:
   struct Counted {
     SampleCounts counts;

@@ -92,6 +92,7 @@ class Sweep {
     take_stock();
     folder_.begin();
     std::int64_t samples = std::max(first_round(), earlier_.rows());
+    while (samples < checkpoint_->least_counted()) samples = std::min(total(), 2 * samples);  // those were too few
     compute(samples);
     while (samples < total() && !known_well_enough(samples)) {
       samples = std::min(total(), 2 * samples);

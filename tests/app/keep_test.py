@@ -76,6 +76,25 @@ class Keep(InFolder):
         samples = json.loads((self.folder / "none" / "summary.json").read_text())["samples"]
         self.assertTrue(4096 < samples < 40000, samples)
 
+    def test_with_until_a_run_that_was_stopped_ends_where_it_would_have(self):
+        """What was counted in a later round is not taken for the answer of an earlier one."""
+        study = self.write("study.yaml", study_text().replace("samples: 3000", "until: {half_width: 0.006, at_most: 1000000}") + "keep: none\n")
+        whole, out = self.folder / "whole", self.folder / "out"
+        self.succeed(["run", study, "-o", whole, "--quiet"], 2)
+        samples = json.loads((whole / "summary.json").read_text())["samples"]
+        self.assertTrue(100000 < samples < 1000000, samples)
+        launcher = subprocess.Popen(command(["run", study, "-o", out, "--quiet"], 2), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        while summed_blocks(out) * 64 < 0.6 * samples and launcher.poll() is None:
+            time.sleep(0.01)
+        for rank in ranks_of(launcher.pid):
+            os.kill(rank, signal.SIGTERM)
+        launcher.communicate(timeout=60)
+        self.assertEqual(launcher.returncode, 75)
+        self.assertLess(summed_blocks(out) * 64, samples)
+        self.succeed(["run", study, "-o", out, "--resume", "--quiet"], 2)
+        self.assertEqual(json.loads((out / "summary.json").read_text())["samples"], samples)
+        self.assertEqual(tables(out), tables(whole))
+
     def test_killed_and_stopped_it_goes_on_to_the_same_bits(self):
         study = self.study("none", samples=200000)
         whole = self.folder / "whole"
