@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/durable_file.hpp"
+#include "base/folder.hpp"
 #include "io/folder_lock.hpp"
 #include "io/own_files.hpp"
 #include "parallel/finished_blocks.hpp"
@@ -23,20 +24,6 @@ constexpr const char* results[] = {"samples.h5",     "tally.h5",     "fragility.
 
 void check(const std::error_code& error, const char* action, const fs::path& path) {
   if (error) throw file_error(action, path, error.value());
-}
-
-void remove_file(const fs::path& path) {
-  std::error_code error;
-  fs::remove(path, error);
-  check(error, "remove", path);
-}
-
-std::vector<fs::path> paths_in(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> paths;
-  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) paths.push_back(i->path());
-  check(error, "read folder", folder);
-  return paths;
 }
 
 bool is_used(const fs::path& folder) {
@@ -63,7 +50,7 @@ std::string used_text(const fs::path& folder) {
 
 void remove_results(const fs::path& folder) {
   for (const char* name : results) remove_file(folder / name);
-  remove_leftovers(folder);
+  remove_asides(folder);
   parallel::remove_finished_blocks(folder / blocks_name);
 }
 
@@ -86,11 +73,6 @@ void prepare_output_folder(const fs::path& folder, Existing existing, const std:
   write_durably(aside_name(probe), "freestand\n");
   remove_file(aside_name(probe));
   if (existing == Existing::overwrite) remove_results(folder);
-}
-
-void remove_leftovers(const fs::path& folder) {
-  for (const fs::path& path : paths_in(folder))
-    if (is_aside_name(path)) remove_file(path);
 }
 
 void write_text(const fs::path& path, std::string_view text) { write_durably(path, text); }

@@ -29,9 +29,6 @@ void make_output_folder(const std::filesystem::path& folder, Existing, const std
 // `overwrite` the results in it are removed.
 void prepare_output_folder(const std::filesystem::path& folder, Existing, const std::vector<std::string>& writes = {});
 
-// Removes what runs that were killed have left half written in a folder. Only while nobody writes there.
-void remove_leftovers(const std::filesystem::path& folder);
-
 // Text file, whole or not there (durable_file.hpp).
 void write_text(const std::filesystem::path& path, std::string_view text);
 

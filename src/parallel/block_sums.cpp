@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/durable_file.hpp"
+#include "base/folder.hpp"
 #include "parallel/block_log.hpp"
 #include "parallel/progress.hpp"
 #include "parallel/run_files.hpp"
@@ -174,11 +175,7 @@ void BlockSums::begin(const Communicator& world) {
     std::copy(before_.sums.begin(), before_.sums.end(),
               std::copy(before_.blocks.begin(), before_.blocks.end(), numbers.begin() + set));
     write_file(before_);
-    for (const RunFile& file : run_files(folder_, extension)) {
-      std::error_code error;
-      if (file.run < run_ && !fs::remove(file.path, error) && error)
-        throw file_error("remove", file.path, error.value());
-    }
+    remove_run_files(folder_, extension, run_);
   });
   before_.sums.clear();
   if (world.rank() == memory_->node()) {

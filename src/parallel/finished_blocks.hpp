@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 
+#include "base/folder.hpp"
 #include "parallel/block_log.hpp"
 #include "parallel/block_sums.hpp"
 #include "parallel/run_files.hpp"

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,11 +21,9 @@ std::filesystem::path run_file(const std::filesystem::path& folder, std::int64_t
                                const std::string& extension);
 std::vector<RunFile> run_files(const std::filesystem::path& folder, const std::string& extension);
 
-// Those of any run and node. Throws what file_error() makes.
-void remove_run_files(const std::filesystem::path& folder, const std::string& extension);
-
-// What a program has left that died while it wrote such a file aside.
-void remove_asides(const std::filesystem::path& folder);
+// Those of runs before this one, on any node; without it of all. Throws what file_error() makes.
+void remove_run_files(const std::filesystem::path& folder, const std::string& extension,
+                      std::int64_t before_run = std::numeric_limits<std::int64_t>::max());
 
 // FNV-1a, for checksums.
 std::uint64_t fnv1a(std::span<const std::byte> bytes);

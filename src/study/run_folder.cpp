@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/folder.hpp"
 #include "io/own_files.hpp"
 #include "parallel/finished_blocks.hpp"
 #include "study/sweep.hpp"
@@ -74,7 +75,7 @@ void RunFolder::refuse_other_folders() const {
 
 void RunFolder::begin() {
   world_.on_root([&] {
-    io::remove_leftovers(folder_);
+    remove_asides(folder_);
     finished_ = finished_in(folder_);
     std::ifstream note(note_path(folder_));
     std::string signature;

@@ -1,0 +1,30 @@
+#include "base/folder.hpp"
+
+#include <system_error>
+
+#include "base/durable_file.hpp"
+
+namespace freestand {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> paths_in(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> paths;
+  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) paths.push_back(i->path());
+  if (error && error != std::errc::no_such_file_or_directory) throw file_error("read folder", folder, error.value());
+  return paths;
+}
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error) throw file_error("remove", path, error.value());
+}
+
+void remove_asides(const fs::path& folder) {
+  for (const fs::path& path : paths_in(folder))
+    if (is_aside_name(path)) remove_file(path);
+}
+
+}  // namespace freestand
