@@ -40,6 +40,14 @@ Dimensions read_dimensions(Section& file, const Dimensions& fallback) {
   if (const auto width = section.optional_number("width_m", size_range)) dimensions.width_m = width;
   if (const auto height = section.optional_number("height_m", size_range)) dimensions.height_m = height;
   if (const auto mass = section.optional_number("mass_kg", size_range)) dimensions.mass_kg = mass;
+  if (const auto centre = section.optional_number("centre_height_m", size_range)) dimensions.centre_height_m = centre;
+  if (const auto radius = section.optional_number("gyration_radius_m", size_range))
+    dimensions.gyration_radius_m = radius;
+  if (dimensions.centre_height_m && dimensions.height_m && *dimensions.centre_height_m >= *dimensions.height_m)
+    section.problem(
+        "centre_height_m",
+        fmt::format("{} is {:g}, of a block {:g} m high (the centre of mass lies within the block): correct one",
+                    section.name("centre_height_m"), *dimensions.centre_height_m, *dimensions.height_m));
   section.finish();
   return dimensions;
 }
@@ -136,6 +144,20 @@ void read_input(Section& section, const Dataset& set, Test& test) {
                                       section.name("id"), joined(peak_keys)));
 }
 
+Start read_start(Section& test) {
+  Start start;
+  const YAML::Node* node = test.find("start");
+  if (!node) return start;
+  Section section(*node, test.name("start"), test.line("start"), test.problems());
+  start.rotation_rad = section.number(
+      "rotation_rad", 0, {.lower = -pi / 2, .upper = pi / 2, .why = "a block that leans further has fallen"});
+  start.rotation_rate_radps = section.number("rotation_rate_radps", 0);
+  start.slip_m = section.number("slip_m", 0);
+  start.slip_velocity_mps = section.number("slip_velocity_mps", 0);
+  section.finish();
+  return start;
+}
+
 Test read_test(const YAML::Node& node, std::size_t i, int line, const Dataset& set, Problems& problems) {
   Section section(node, fmt::format("tests[{}]", i), line, problems);
   Test test;
@@ -145,6 +167,7 @@ Test read_test(const YAML::Node& node, std::size_t i, int line, const Dataset& s
                                         section.name("role")));
   test.role = static_cast<measurement::Role>(section.choice("role", {"calibration", "holdout"}, 0));
   test.specimen = read_dimensions(section, set.specimen);
+  test.start = read_start(section);
   if (node.IsMap()) read_input(section, set, test);
   section.finish();
   return test;
