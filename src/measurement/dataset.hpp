@@ -15,7 +15,7 @@ enum class Role { calibration, holdout };  // holdout: never used by a fit
 // Of a specimen, as far as they were measured.
 struct Dimensions {
   std::optional<double> width_m, height_m, mass_kg;
-  std::optional<double> centre_height_m, gyration_radius_m;  // not given: those of a uniform rectangle
+  std::optional<double> centre_height_m = {}, gyration_radius_m = {};  // not given: those of a uniform rectangle
 
   bool operator==(const Dimensions&) const = default;
 };

@@ -27,8 +27,8 @@ constexpr Range tolerance_range = {.lower = 0,
                                    .lower_open = false,
                                    .why = "it is a standard deviation over what is stated, 0.01 is 1 %"};
 constexpr Range noise_range = {.lower = 0, .why = "errors are told in units of it, so that it must be above zero"};
-const std::vector<std::string> peak_keys = {"peak_slip_m", "residual_slip_m", "peak_rotation_rad",
-                                            "peak_acceleration_g", "overturned"};
+const std::vector<std::string> peak_keys = {"peak_slip_m",         "residual_slip_m",           "peak_rotation_rad",
+                                            "peak_acceleration_g", "block_peak_acceleration_g", "overturned"};
 
 }  // namespace
 
@@ -78,13 +78,21 @@ measurement::Tolerance read_tolerance(Section& file) {
 
 namespace {
 
-// With a pulse, peak_acceleration_g is the pulse's, whose sign is its direction; the block's own peak is then not given.
+// With a pulse, peak_acceleration_g is the pulse's, whose sign is its direction; the block's own peak has a key of its own.
 void read_peaks(Section& section, measurement::Peaks& peaks) {
   peaks.peak_slip_m = section.optional_number("peak_slip_m", range::not_negative);
   peaks.residual_slip_m = section.optional_number("residual_slip_m", range::any);
   peaks.peak_rotation_rad = section.optional_number("peak_rotation_rad", range::not_negative);
   if (!section.has("pulse"))
     peaks.peak_acceleration_g = section.optional_number("peak_acceleration_g", range::not_negative);
+  if (const auto own = section.optional_number("block_peak_acceleration_g", range::not_negative)) {
+    if (peaks.peak_acceleration_g)
+      section.problem(
+          "block_peak_acceleration_g",
+          fmt::format("{} and peak_acceleration_g are both given (without a pulse they are the same): remove one",
+                      section.name("block_peak_acceleration_g")));
+    peaks.peak_acceleration_g = own;
+  }
   if (section.has("overturned")) peaks.overturned = section.flag("overturned", false);
 }
 

@@ -183,10 +183,13 @@ Realiser::Parts::Parts(const Study& study, MotionSet set)
 
 Block Realiser::Parts::block(const std::vector<double>& values) const {
   const double mass = *value(values, "block.mass_kg");
-  if (const auto width = value(values, "block.width_m")) {
-    auto gyration_radius = value(values, "block.gyration_radius_m");
-    if (const auto inertia = value(values, "block.inertia_kgm2")) gyration_radius = std::sqrt(*inertia / mass);
-    return Block::of_outline(*width, *value(values, "block.height_m"), mass, value(values, "block.centre_height_m"),
+  const BlockPart& part = model.block;
+  if (part.width) {
+    std::optional<double> centre_height, gyration_radius;
+    if (part.centre_height) centre_height = value(values, "block.centre_height_m");
+    if (part.gyration_radius) gyration_radius = value(values, "block.gyration_radius_m");
+    if (part.inertia) gyration_radius = std::sqrt(*value(values, "block.inertia_kgm2") / mass);
+    return Block::of_outline(*value(values, "block.width_m"), *value(values, "block.height_m"), mass, centre_height,
                              gyration_radius);
   }
   const double alpha = *value(values, "block.slenderness_rad"), diagonal = 2 * *value(values, "block.size_m");
@@ -278,9 +281,12 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
   out.specimen.effects = parts.effects(out.draws);
   out.slip_factor = parts.value(out.draws, "discrepancy.slip").value_or(1);
   if (parts.model.chain) out.specimen.effects.push_back(parts.chain(out.draws, out.specimen.block));
-  const auto start = [&](const char* name) { return parts.value(out.draws, name).value_or(0); };
-  out.specimen.start = {start("start.rotation_rad"), start("start.rotation_rate_radps"), start("start.slip_m"),
-                        start("start.slip_velocity_mps")};
+  const auto start = [&](const std::optional<Quantity>& part) {
+    return part ? *parts.value(out.draws, part->name.c_str()) : 0.0;
+  };
+  const StartPart& begins = parts.model.start;
+  out.specimen.start = {start(begins.rotation), start(begins.rotation_rate), start(begins.slip),
+                        start(begins.slip_velocity)};
   parts.shake(sample, out);
 
   const Block& block = out.specimen.block;
