@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
-#include "effects/effects.hpp"
+#include "effects/effect_fixture.hpp"
 #include "support/floor_motions.hpp"
 #include "support/random_cases.hpp"
 #include "support/rocking.hpp"
@@ -89,7 +89,9 @@ TEST_P(FollowedPoint, ForcesOfTheFloorMakeTheMomentumAndKeepTheCone) {
       if (c.specimen.model == Model::rock || p.mode == Mode::overturned) continue;
       const double most = (slides ? c.specimen.friction.mu_k : c.specimen.friction.mu_s) * p.contact_y_mps2;
       EXPECT_LE(std::abs(p.contact_x_mps2), most + 1e-6);
-      if (slides) EXPECT_GE(std::abs(p.contact_x_mps2), most - 1e-6);
+      if (slides) {
+        EXPECT_GE(std::abs(p.contact_x_mps2), most - 1e-6);
+      }
       slips += slides;
     }
   }
@@ -117,7 +119,7 @@ TEST_P(FollowedPoint, FeelsTheBlowOfAnImpact) {
 // A sliding block that meets a wall at v comes back at e v: the jump is (1 + e) v at any height.
 TEST_P(FollowedPoint, FeelsTheBlowOfAWall) {
   Specimen specimen{Block::rectangular(2, 1, 100), {0, 0}, {}, Model::slide};
-  specimen.effects = {{&effects::find("wall_impact"), {0.1, 0.4}}};
+  specimen.effects = {effects::test::effect("wall_impact", {0.1, 0.4})};
   specimen.start.slip_velocity_mps = 0.5;
   Settings settings;
   settings.acceleration_height_m = 0.8;
@@ -139,8 +141,9 @@ TEST(FollowedPointOfNone, IsNotANumberAndBlocksOfSamplesFollowItToo) {
   respond_batch({&c.specimen, 1}, {&c.shaking, 1}, settings, {&in_block, 1});
   const Response single = respond(c.specimen, c.shaking, settings);
   EXPECT_EQ(in_block.peak_acceleration_at_height_mps2, single.peak_acceleration_at_height_mps2);
-  if (c.specimen.block.left_m == c.specimen.block.right_m)
+  if (c.specimen.block.left_m == c.specimen.block.right_m) {
     EXPECT_NEAR(single.peak_acceleration_at_height_mps2, single.peak_acceleration_mps2, 1e-9);
+  }
 }
 
 // The floor's acceleration in a history is that of the record, on a slope too, by Bouc-Wen's contact as by Coulomb's.
@@ -148,7 +151,7 @@ TEST_P(FollowedPoint, HistoriesHoldTheAccelerationOfTheRecord) {
   const FloorMotion push = rectangular_pulse(1.5, 0.5);
   for (const Model model : {Model::slide, Model::bouc_wen}) {
     Specimen specimen{Block::rectangular(2, 1, 100), {0.3, 0.3}, {}, model};
-    specimen.effects = {{&effects::find("floor_tilt"), {0.05}}};
+    specimen.effects = {effects::test::effect("floor_tilt", {0.05})};
     History history;
     history.step_s = 0.1;
     GetParam()(specimen, {&push}, {}, &history);
