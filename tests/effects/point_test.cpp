@@ -22,7 +22,8 @@ FREESTAND_ON_BOTH_SOLVERS(FollowedPoint);
 double middle_height(const Block& block, double theta) { return block.half_base_m() * std::abs(std::sin(theta)); }
 
 // A point z above the middle of the base is at u + z sin(theta) beside it and z cos(theta) over it. Second differences of
-// three points of a history, where no event lies between them.
+// three points of a history, where no event and no knot of the record lies between them: there they miss the acceleration by
+// dt^2/12 of its second derivative, 1e-4 for 1200 m/s4.
 void expect_differences_of_the_positions(const Specimen& specimen, const Shaking& shaking, const History& history,
                                          double z, int& compared) {
   const double dt = history.step_s;
@@ -35,11 +36,15 @@ void expect_differences_of_the_positions(const Specimen& specimen, const Shaking
     const bool event = std::any_of(history.events.begin(), history.events.end(), [&](const Event& e) {
       return e.time_s >= before.time_s - dt && e.time_s <= after.time_s + dt;
     });
-    if (event || now.mode == Mode::flight || before.mode != after.mode || after.time_s > shaking.duration_s()) continue;
+    const auto& knots = shaking.motion->knot_s;
+    const auto knot = std::upper_bound(knots.begin(), knots.end(), before.time_s + 1e-9);
+    const bool kink = knot != knots.end() && *knot < after.time_s - 1e-9;
+    if (event || kink || now.mode == Mode::flight || before.mode != after.mode || after.time_s > shaking.duration_s())
+      continue;
     const double ax = (x(after) - 2 * x(now) + x(before)) / (dt * dt) + now.floor_acceleration_mps2;
     const double ay = (y(after) - 2 * y(now) + y(before)) / (dt * dt) + vertical_acceleration(shaking, now.time_s);
-    ASSERT_NEAR(now.acceleration_mps2, ax, 2e-3) << name(now.mode) << " at " << now.time_s;
-    ASSERT_NEAR(now.vertical_acceleration_mps2, ay, 2e-3) << name(now.mode) << " at " << now.time_s;
+    ASSERT_NEAR(now.acceleration_mps2, ax, 1e-4) << name(now.mode) << " at " << now.time_s;
+    ASSERT_NEAR(now.vertical_acceleration_mps2, ay, 1e-4) << name(now.mode) << " at " << now.time_s;
     ++compared;
   }
 }
@@ -67,7 +72,7 @@ TEST_P(FollowedPoint, HasTheAccelerationOfItsPosition) {
     // Between two points no polynomial of a record changes by more than a jump at an event, which both count.
     EXPECT_LE(r.peak_acceleration_at_height_mps2, 1.5 * most + 1);
   }
-  EXPECT_GT(compared, 4000);
+  EXPECT_GT(compared, 2000);
 }
 
 // Momentum: what the floor does to the block, and its weight, make the acceleration of the centre of mass. Friction is
@@ -119,7 +124,7 @@ TEST_P(FollowedPoint, FeelsTheBlowOfAnImpact) {
 // A sliding block that meets a wall at v comes back at e v: the jump is (1 + e) v at any height.
 TEST_P(FollowedPoint, FeelsTheBlowOfAWall) {
   Specimen specimen{Block::rectangular(2, 1, 100), {0, 0}, {}, Model::slide};
-  specimen.effects = {effects::test::effect("wall_impact", {0.1, 0.4})};
+  specimen.effects = {effect("wall_impact", {0.1, 0.4})};
   specimen.start.slip_velocity_mps = 0.5;
   Settings settings;
   settings.acceleration_height_m = 0.8;
@@ -151,7 +156,7 @@ TEST_P(FollowedPoint, HistoriesHoldTheAccelerationOfTheRecord) {
   const FloorMotion push = rectangular_pulse(1.5, 0.5);
   for (const Model model : {Model::slide, Model::bouc_wen}) {
     Specimen specimen{Block::rectangular(2, 1, 100), {0.3, 0.3}, {}, model};
-    specimen.effects = {effects::test::effect("floor_tilt", {0.05})};
+    specimen.effects = {effect("floor_tilt", {0.05})};
     History history;
     history.step_s = 0.1;
     GetParam()(specimen, {&push}, {}, &history);

@@ -129,7 +129,7 @@ TEST_P(Start, WhatTheModelCannotDoIsNotFinite) {
   EXPECT_EQ(outcome(Model::rock, {.slip_velocity_mps = 0.1}), Outcome::not_finite);
   EXPECT_EQ(outcome(Model::bouc_wen, {.slip_m = 0.1}), Outcome::not_finite);
   // Beyond a wall 0.1 m away: by its base, and by its upper edge alone.
-  const std::vector<EffectUse> wall{effects::test::effect("wall_impact", {0.1, 0.5})};
+  const std::vector<EffectUse> wall{effect("wall_impact", {0.1, 0.5})};
   EXPECT_EQ(outcome(Model::slide_rock, {.slip_m = 0.2}, wall), Outcome::not_finite);
   EXPECT_EQ(outcome(Model::slide_rock, {.rotation_rad = 0.1}, wall), Outcome::not_finite);
   EXPECT_EQ(outcome(Model::slide_rock, {.rotation_rad = -0.1}, wall), Outcome::moved);
