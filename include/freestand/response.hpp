@@ -37,6 +37,10 @@ struct Response {
   double residual_rotation_rad = 0;
   // Max of the vector sum of the centre of mass's total acceleration; impacts, and hops within the tolerance, left out.
   double peak_acceleration_mps2 = 0;
+  // The same of the point at Settings::acceleration_height_m, and the largest jump of its velocity in a blow of the floor or of
+  // a wall; without that height nan.
+  double peak_acceleration_at_height_mps2 = std::numeric_limits<double>::quiet_NaN();
+  double largest_blow_mps = std::numeric_limits<double>::quiet_NaN();
   bool connection_failed = false;  // of a chain to the wall
   int impacts = 0;                 // rocking impacts and landings
   int wall_hits = 0;               // blows of walls
@@ -57,6 +61,11 @@ struct Event {
 struct HistoryPoint {
   double time_s, floor_acceleration_mps2, slip_m, slip_velocity_mps, rotation_rad, rotation_rate_radps;
   Mode mode;
+  // Total acceleration of the block's point at Settings::acceleration_height_m, else of its centre of mass: to the right, and up.
+  double acceleration_mps2 = 0, vertical_acceleration_mps2 = 0;
+  // Force of the floor on the block over its mass, to the right and up, both corners together; of model bouc_wen with the
+  // forces of laws.
+  double contact_x_mps2 = 0, contact_y_mps2 = 0;
 };
 
 struct History {

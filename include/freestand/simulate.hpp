@@ -4,6 +4,7 @@
 #include <freestand/floor_motion.hpp>
 #include <freestand/response.hpp>
 #include <freestand/specimen.hpp>
+#include <limits>
 #include <span>
 
 namespace freestand {
@@ -13,6 +14,9 @@ struct Settings {
   double free_vibration_s = 60;  // integration goes on until the block is at rest, at most this long after the motion
   int event_limit = 100000;
   bool slip_by_side = false;  // the peak slip to each side too; then only samples with laws go in packs
+  // The acceleration of the block's point at this height over the base, above the middle of its width, is followed too; nan:
+  // of none. Then no sample goes in packs.
+  double acceleration_height_m = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Taylor integrator of the sweep. Never throws, never allocates unless `history` is given. What cannot be integrated (a

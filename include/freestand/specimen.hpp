@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace freestand {
@@ -25,10 +26,16 @@ struct Block {
   double height_m = 0;      // h: centre of mass above the base, > 0
   double gyration2_m2 = 0;  // k^2 = I/m about the centre of mass, > 0
   double mass_kg = 1;
+  double top_m = 0;  // H: the upper edges over the base, where walls and chains reach; 0: 2 h, as of the uniform block
 
   // Uniform rectangle of width W and height H: b = W/2, h = H/2, I = m R^2/3.
   static Block rectangular(double width_m, double height_m, double mass_kg);
+  // The same outline with the centre of mass in the middle of the width at another height, and with the given radius of
+  // gyration about it, k; what is not given is that of the uniform rectangle.
+  static Block of_outline(double width_m, double height_m, double mass_kg, std::optional<double> centre_height_m,
+                          std::optional<double> gyration_radius_m);
 
+  double full_height_m() const { return top_m > 0 ? top_m : 2 * height_m; }
   double base_m() const { return left_m + right_m; }
   double half_base_m() const { return 0.5 * (left_m + right_m); }
   // Slenderness of the weaker side, alpha = atan(min(b_l, b_r)/h) [rad].
@@ -72,6 +79,19 @@ struct EffectUse {
   std::vector<double> parameters;
 };
 
+// How the block is when the floor begins to move: on one corner where it is rotated or turns, which takes a model that rocks.
+// Goes neither with model bouc_wen nor with effect flexible_legs.
+struct Start {
+  double rotation_rad = 0;  // within pi/2
+  double rotation_rate_radps = 0;
+  double slip_m = 0;             // of the midpoint of the base, as it is reported
+  double slip_velocity_mps = 0;  // of the corner that carries, along the floor; of the base where the block is upright
+
+  bool upright_at_rest() const {
+    return rotation_rad == 0 && rotation_rate_radps == 0 && slip_m == 0 && slip_velocity_mps == 0;
+  }
+};
+
 struct Specimen {
   Block block;
   Friction friction;
@@ -79,6 +99,7 @@ struct Specimen {
   Model model = Model::slide_rock;
   std::vector<EffectUse> effects = {};
   BoucWen bouc_wen = {};  // of model bouc_wen
+  Start start = {};
 };
 
 }  // namespace freestand

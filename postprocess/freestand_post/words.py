@@ -10,6 +10,8 @@ DEMANDS = {
     "peak_rotation_over_alpha": "peak rotation over slenderness θ/α",
     "impacts": "number of impacts",
     "peak_acceleration": "peak equipment acceleration PEA",
+    "peak_acceleration_at_height": "peak acceleration at the chosen height",
+    "largest_blow": "largest jump of velocity in a blow, at the chosen height",
 }
 # name in the files -> symbol.
 # name in the files -> what specimens do beyond a capacity, for titles.
@@ -21,6 +23,8 @@ BEYOND = {
     "peak_rotation_over_alpha": "rock beyond {} of their slenderness",
     "impacts": "take more than {} impacts",
     "peak_acceleration": "feel more than {}",
+    "peak_acceleration_at_height": "feel more than {} at the chosen height",
+    "largest_blow": "take a blow of more than {}",
 }
 # name in the files -> what happens, for titles, of demands that happen or not.
 HAPPENINGS = {

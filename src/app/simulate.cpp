@@ -25,7 +25,8 @@ Exit simulate(const SimulateOptions& options) {
   io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse, {"case.yaml"});
   const study::Simulation result = study::simulate(c, options.reference);
   for (const std::string& doubt : result.doubts) fmt::print(stderr, "doubtful: {}\n", doubt);
-  io::write_text(folder / "history.csv", io::history_csv(result.history));
+  io::write_text(folder / "history.csv",
+                 io::history_csv(result.history, result.floor_displacement_m, result.specimen.block.mass_kg));
   nlohmann::ordered_json summary = io::response_summary(result.response);
   summary["accuracy"] = study::accuracy_json(c.study.tolerance, result.response, result.tighter);
   io::write_text(folder / "summary.json", io::json_text(summary));

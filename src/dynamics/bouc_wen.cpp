@@ -6,6 +6,7 @@
 
 #include "base/units.hpp"
 #include "dynamics/bouc_wen_life.hpp"
+#include "dynamics/integration.hpp"
 #include "dynamics/roots.hpp"
 
 namespace freestand::dynamics {
@@ -198,11 +199,12 @@ bool admissible_bouc_wen(const Specimen& specimen, const Shaking& shaking, const
                             settings.tolerance, floor.gravity_factor})
     if (!(size > 0) || !std::isfinite(size)) return false;
   const auto& [mu_s, mu_k] = specimen.friction;
-  return law.exponent >= 1 && mu_k >= 0 && mu_s >= mu_k && std::isfinite(mu_s) && specimen.impact.factor >= 0 &&
-         specimen.impact.factor <= 1 && std::isfinite(law.exponent) && std::abs(law.beta) <= law.gamma &&
-         settings.free_vibration_s >= 0 && std::isfinite(settings.free_vibration_s) && std::isfinite(floor.push_mps2) &&
-         std::isfinite(shaking.scale) && std::isfinite(shaking.vertical_scale) && shaking.motion &&
-         shaking.motion->degree >= 0 && shaking.motion->degree <= max_floor_degree;
+  return can_start(specimen) && law.exponent >= 1 && mu_k >= 0 && mu_s >= mu_k && std::isfinite(mu_s) &&
+         specimen.impact.factor >= 0 && specimen.impact.factor <= 1 && std::isfinite(law.exponent) &&
+         std::abs(law.beta) <= law.gamma && settings.free_vibration_s >= 0 &&
+         std::isfinite(settings.free_vibration_s) && std::isfinite(floor.push_mps2) && std::isfinite(shaking.scale) &&
+         std::isfinite(shaking.vertical_scale) && shaking.motion && shaking.motion->degree >= 0 &&
+         shaking.motion->degree <= max_floor_degree;
 }
 
 Response respond_bouc_wen(const Setup& setup, const Settings& settings, History* history) {

@@ -186,6 +186,10 @@ Response BoucWenLife::result() {
   response_.residual_slip_m = residual_.value_or(displacement());
   response_.connection_failed = laws && laws->broken(law_state.sides);
   response_.end_time_s = cursor.time();
+  if (!std::isnan(settings.acceleration_height_m)) {  // it does not turn, and meets no blows
+    response_.peak_acceleration_at_height_mps2 = response_.peak_acceleration_mps2;
+    response_.largest_blow_mps = 0;
+  }
   return response_;
 }
 

@@ -96,12 +96,16 @@ void BoucWenLife::arrive(const BoucWenArc<N>& arc, const Floor<double, N>& floor
   record(tau, [&](double t) {
     const double z = arc.zeta.at(t);
     return HistoryPoint{cursor.time() + t,
-                        floor.a.at(t),
+                        floor.a.at(t) - push,
                         slip + s * (arc.slip.at(t) + contact.yield * z),
                         s * arc.v.at(t),
                         0,
                         0,
-                        loading && z > contact.sliding ? Mode::slide : Mode::rest};
+                        loading && z > contact.sliding ? Mode::slide : Mode::rest,
+                        -s * arc.hold.at(t) - push,
+                        floor.g.at(t) - gravity,
+                        -s * arc.hold.at(t),
+                        floor.g.at(t)};
   });
   if (!simple()) {
     Series<double, N> square, along = arc.hold, lift = floor.g;

@@ -190,8 +190,20 @@ class Reference {
     constexpr double now = 1e-9;
     life_.record(now, [&](double t) {
       const bool slides = sigma_ * life_.zeta > life_.contact.sliding;
-      return HistoryPoint{life_.cursor.time() + t,          a(t), life_.displacement(), life_.v, 0, 0,
-                          slides ? Mode::slide : Mode::rest};
+      double rates[state_size];
+      derivatives(0, N_VGetArrayPointer(y_.get()), rates);
+      const double held = rates[v] + a(0);
+      return HistoryPoint{life_.cursor.time() + t,
+                          a(t) - life_.push,
+                          life_.displacement(),
+                          life_.v,
+                          0,
+                          0,
+                          slides ? Mode::slide : Mode::rest,
+                          held - life_.push,
+                          floor_.g.at(t) - life_.gravity,
+                          held,
+                          floor_.g.at(t)};
     });
   }
 

@@ -1,13 +1,15 @@
-// A chain from the block's top to the wall behind it: a one-sided spring with slack, and a connection that can fail.
+// Chains from the block's top to the wall behind it: one-sided springs with slack, and connections that can fail.
 // [KM05 ch. 9]
 //
-//   wall |~~~~~~~~~o_____        stretch = s (u + z sin(theta) - s b (cos(theta) - 1)) - |slack|,  s = side held back
-//        |         |     |       P = k max(stretch, 0) until P exceeds the strength; then the connection has failed and
-//        |         |     |           nothing holds any more
-//        |         |_____|       force -s P at the chain's point: it pulls at the block, and turns it
+//   wall |~~~~~~~~~o_____        x = s (u + z sin(theta)) - b (cos(theta) - 1): of the chains' point, s = side held back
+//        |         |     |       stretch = x cos(beta) - slack
+//        |         |     |       P = k stretch + c d(stretch)/dt, where it is stretched and pulls, in each of n chains, until P
+//        |         |_____|           exceeds the strength; then the connections have failed and nothing holds any more
+//                                force -s n P cos(beta) at the chains' point: it pulls at the block, and turns it
 //
-// z: height of the chain's point over the base, at the block's face towards the wall. A block that moves or tips towards the
-// wall meets it.
+// z: height of the chains' point over the base, at the block's face towards the wall. beta: in plan, to the direction of the
+// shaking; chains at an angle come in pairs that cross, whose pulls across cancel. A block that moves or tips towards the wall
+// meets it.
 #pragma once
 
 #include <optional>
@@ -18,10 +20,13 @@ namespace freestand::dynamics {
 
 struct Chain {
   double slack_m = 0;                     // >= 0
-  double stiffness_npm = 0;               // N/m
-  double strength_n = 0;                  // of the connection; infinity: never fails
+  double stiffness_npm = 0;               // of each, N/m
+  double strength_n = 0;                  // of each connection; infinity: never fails
   double height_m = 0;                    // z
   int side = 1;                           // +1: holds the block back when it moves to the right
+  double number = 1;                      // n, all stretched alike
+  double plan_angle_rad = 0;              // beta
+  double damping_nspm = 0;                // c, of each, N s/m
   std::optional<double> wall_gap_m = {};  // to the wall behind, which gives nothing back; none: no wall is met
 };
 

@@ -21,18 +21,39 @@ class HistoryRecorder {
   void record(const State& state, const Arc<double, N>& arc, const Floor<double, N>& floor, double start, double tau) {
     if (!wanted()) return;
     const auto u = midpoint(rig_, state, arc);
+    const PointAcceleration<N> beside(followed(), arc.theta[0], arc.omega);
     each_point(start, tau, [&](double t) {
       const double theta = arc.theta.at(t), omega = arc.omega.at(t);
-      return HistoryPoint{start + t, floor.a.at(t) - rig_.push,
-                          u.at(t),   arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega,
-                          theta,     omega,
-                          state.mode};
+      return HistoryPoint{start + t,
+                          floor.a.at(t) - rig_.push,
+                          u.at(t),
+                          arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega,
+                          theta,
+                          omega,
+                          state.mode,
+                          pull(arc).at(t) + beside.x.at(t) - rig_.push,
+                          arc.fy.at(t) + beside.y.at(t) - rig_.g,
+                          arc.fx.at(t),
+                          arc.fy.at(t)};
     });
   }
 
   template <int N>
-  void record(const State&, const Flight<double, N>& flight, const Floor<double, N>& floor, double start, double tau) {
+  void record(const State& state, const LawFlight<N>& flight, const Floor<double, N>& floor, double start, double tau) {
+    record(state, flight, floor, start, tau, flight.ax);
+  }
+  template <int N>
+  void record(const State& state, const Flight<double, N>& flight, const Floor<double, N>& floor, double start,
+              double tau) {
+    record(state, flight, floor, start, tau, Series<double, N>::zero());
+  }
+
+  // pull: what laws add to the acceleration of the centre of mass.
+  template <int N>
+  void record(const State&, const Flight<double, N>& flight, const Floor<double, N>& floor, double start, double tau,
+              const Series<double, N>& pull) {
     if (!wanted()) return;
+    const PointAcceleration<N> beside(followed(), flight.theta[0], flight.omega);
     const double d = 0.5 * (rig_.right - rig_.left);
     each_point(start, tau, [&](double t) {
       const double theta = flight.theta.at(t), omega = flight.omega.at(t);
@@ -42,7 +63,11 @@ class HistoryRecorder {
                           flight.vx.at(t) - (rig_.h * std::cos(theta) + d * std::sin(theta)) * omega,
                           theta,
                           omega,
-                          Mode::flight};
+                          Mode::flight,
+                          pull.at(t) + beside.x.at(t) - rig_.push,
+                          beside.y.at(t) - rig_.g,
+                          0,
+                          0};
     });
   }
 
@@ -50,21 +75,36 @@ class HistoryRecorder {
   template <int N>
   void rest(const State& state, const Floor<double, N>& floor, double start, double tau) {
     each_point(start, tau, [&](double t) {
-      return HistoryPoint{start + t, floor.a.at(t) - rig_.push, state.xi, 0.0, state.theta, 0.0, state.mode};
+      const double a = floor.a.at(t), g = floor.g.at(t);
+      return HistoryPoint{start + t,     a - rig_.push, state.xi, 0.0, state.theta, 0.0, state.mode,
+                          a - rig_.push, g - rig_.g,    a,        g};
     });
   }
 
   // The last state, held to the end of the motion: what rests, or has fallen, stays.
   void hold(const State& state, double slip, double end, const Shaking& shaking) {
     if (!wanted()) return;
-    for (; next_time() <= end; ++next_)
+    for (; next_time() <= end; ++next_) {
+      const double a = horizontal_acceleration(shaking, next_time()), v = vertical_acceleration(shaking, next_time());
       history_->points.push_back(
-          {next_time(), horizontal_acceleration(shaking, next_time()), slip, 0.0, state.theta, 0.0, state.mode});
+          {next_time(), a, slip, 0.0, state.theta, 0.0, state.mode, a, v, a + rig_.push, v + rig_.g});
+    }
   }
 
   bool wanted() const { return history_ && history_->step_s > 0; }
 
  private:
+  Point followed() const { return rig_.point.value_or(Point{}); }
+  // Total acceleration of the centre of mass along the floor, gravity along a tilted floor included.
+  template <int N>
+  static const Series<double, N>& pull(const Arc<double, N>& arc) {
+    return arc.fx;
+  }
+  template <int N>
+  static const Series<double, N>& pull(const LawArc<N>& arc) {
+    return arc.ax;
+  }
+
   double next_time() const { return static_cast<double>(next_) * history_->step_s; }
 
   template <class Point>

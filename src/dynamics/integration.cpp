@@ -1,5 +1,7 @@
 #include "dynamics/integration.hpp"
 
+#include <algorithm>
+
 #include "dynamics/impact.hpp"
 #include "dynamics/law_values.hpp"
 #include "dynamics/overturned.hpp"
@@ -22,7 +24,45 @@ double centre_speed(const Rig& rig, const State& state) {
   const double lever = rig.offset(pivot) * rotation.sine + rig.h * rotation.cosine;
   return state.w + lever * state.omega;
 }
+
+// Velocity relative to the floor of the point that is followed.
+Velocity<double> point_velocity(const Rig& rig, const State& state) {
+  const Rotation<double> rotation = rotation_by(state.theta);
+  double vx = state.vx, vy = state.vy;
+  if (state.mode != Mode::flight) {
+    vx = centre_speed(rig, state);
+    const int pivot = state.pivot == 0 ? 1 : state.pivot;
+    vy = -(rig.h * rotation.sine - rig.offset(pivot) * rotation.cosine) * state.omega;
+    if (state.pivot == 0) vy = 0;
+  }
+  const double qx = rig.point->across * rotation.cosine + rig.point->up * rotation.sine;
+  const double qy = rig.point->up * rotation.cosine - rig.point->across * rotation.sine;
+  return {vx + state.omega * qy, vy - state.omega * qx, state.omega};
+}
+
+// Of a side face that comes flat each edge throws the other one at the wall, ever more slowly, until it lies against it. A blow
+// at arm l of the centre of mass gives the edge at arm l' on its other side |l l' - k^2|/(k^2 + l^2) of the speed: so many blows
+// leave a millionth, and twenty of a uniform block, of which each leaves a half at most. What is left then lies against it, as
+// it would after the last of them.
+int blows_of_a_face(const Rig& rig) {
+  const double upper = rig.top - rig.h, lower = rig.h, k2 = rig.k2;
+  const double left = std::abs(upper * lower - k2) / std::sqrt((k2 + upper * upper) * (k2 + lower * lower));
+  constexpr double of_uniform = 20, millionth = 1e-6, most = 1e4;
+  return static_cast<int>(left > 0.5 ? std::fmin(std::ceil(std::log(millionth) / std::log(left)), most) : of_uniform);
+}
 }  // namespace
+
+bool can_start(const Specimen& specimen) {
+  const Start& start = specimen.start;
+  for (const double number : {start.rotation_rad, start.rotation_rate_radps, start.slip_m, start.slip_velocity_mps})
+    if (!std::isfinite(number)) return false;
+  if (start.upright_at_rest()) return true;
+  const bool turns = start.rotation_rad != 0 || start.rotation_rate_radps != 0, slips = start.slip_velocity_mps != 0;
+  const bool on_legs = std::any_of(specimen.effects.begin(), specimen.effects.end(),
+                                   [](const EffectUse& use) { return static_cast<bool>(use.effect->legs); });
+  return std::abs(start.rotation_rad) < 0.5 * pi && !on_legs && specimen.model != Model::bouc_wen &&
+         !(turns && specimen.model == Model::slide) && !(slips && specimen.model == Model::rock);
+}
 
 bool admissible(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings) {
   const Block& b = specimen.block;
@@ -35,8 +75,8 @@ bool admissible(const Specimen& specimen, const Shaking& shaking, const FloorInp
   for (const double number :
        {specimen.friction.mu_s, specimen.friction.mu_k, specimen.impact.factor, settings.free_vibration_s})
     if (!(number >= 0) || !std::isfinite(number)) return false;
-  return std::isfinite(shaking.scale) && std::isfinite(shaking.vertical_scale) && shaking.motion &&
-         shaking.motion->degree >= 0 && shaking.motion->degree <= max_floor_degree &&
+  return can_start(specimen) && std::isfinite(shaking.scale) && std::isfinite(shaking.vertical_scale) &&
+         shaking.motion && shaking.motion->degree >= 0 && shaking.motion->degree <= max_floor_degree &&
          specimen.friction.mu_s >= specimen.friction.mu_k && specimen.impact.factor <= 1;
 }
 
@@ -45,12 +85,41 @@ Integration::Integration(const Setup& setup, const Settings& settings_, History*
       shaking(setup.shaking),
       settings(settings_),
       cursor(shaking, rig.g, rig.push),
-      peaks(settings.slip_by_side),
+      peaks(settings),
       recorder(history, rig),
       p_(setup.specimen.block.p_radps()) {
-  if (!rig.laws) return;
-  if (!rig.laws->sound()) stop(Outcome::not_finite);
-  state.sides = rig.laws->initial_sides();
+  if (rig.laws && !rig.laws->sound()) stop(Outcome::not_finite);
+  if (rig.laws) state.sides = rig.laws->initial_sides();
+  if (!finished_ && !setup.specimen.start.upright_at_rest()) start_from(setup.specimen.start);
+}
+
+void Integration::start_from(const Start& start) {
+  state.theta = start.rotation_rad;
+  state.omega = start.rotation_rate_radps;
+  state.w = start.slip_velocity_mps;
+  const double leads = state.theta != 0 ? state.theta : state.omega;
+  state.pivot = (leads > 0) - (leads < 0);
+  state.xi = start.slip_m - state.pivot * rig.half_base() * rotation_by(state.theta).versine;
+  state.mode = state.pivot == 0 ? Mode::slide : Mode::slide_rock;
+  if (beyond_a_wall()) return stop(Outcome::not_finite);
+  if (rig.laws) state.sides = law_values(rig, state, 0, state.w < 0 ? -1 : 1).sides;
+  moved_ = true;
+  peaks.response().peak_slip_m = std::abs(start.slip_m);
+  peaks.response().peak_rotation_rad = std::abs(start.rotation_rad);
+  if (settings.slip_by_side) {
+    peaks.response().peak_slip_right_m = std::fmax(start.slip_m, 0.0);
+    peaks.response().peak_slip_left_m = std::fmax(-start.slip_m, 0.0);
+  }
+  if (touches_wall(rig, state) && !meet_walls_too()) return stop_without_mode();
+  if (!choose_mode(rig, cursor, state) && !choose_beside_wall()) stop_without_mode();
+}
+
+bool Integration::beyond_a_wall() const {
+  if (!rig.laws) return false;
+  for (const int side : {1, -1})
+    for (const Edge edge : {Edge::lower, Edge::upper})
+      if (rig.laws->walls.on(side).stands && edge_now(rig, state, side, edge).gap < -touching(rig)) return true;
+  return false;
 }
 
 Rig::AtRest Integration::laws_at_rest() const {
@@ -139,15 +208,13 @@ bool Integration::meet_wall(int side, Edge edge) {
   return true;
 }
 
-// What a blow has turned towards a wall that it touches meets that wall at once. Of a side face that comes flat each edge
-// throws the other one at the wall, ever more slowly, until it lies against it: of a uniform block, k^2 >= h^2/3, a blow gives the
-// other edge (h^2 - k^2)/(h^2 + k^2) <= 1/2 of the speed, so that twenty leave a millionth.
+// What a blow has turned towards a wall that it touches meets that wall at once.
 bool Integration::meet_walls_too() {
-  constexpr int blows_of_a_face = 20;
+  const int most = blows_of_a_face(rig);
   for (const int side : sides(state)) {
     if (!rig.laws->walls.on(side).stands) continue;
     bool met = true;
-    for (int pass = 0; met && pass < blows_of_a_face; ++pass) {
+    for (int pass = 0; met && pass < most; ++pass) {
       met = false;
       for (const Edge edge : {Edge::upper, Edge::lower}) {
         const EdgeNow now = edge_now(rig, state, side, edge);
@@ -235,6 +302,11 @@ void Integration::resolve(Witness witness) {
     regular = strike_floor();
   }
   if (impact && regular && rig.laws && rig.laws->walls.any()) regular = meet_walls_too();
+  if (impact && rig.point) {
+    const Velocity<double> before = point_velocity(rig, from), after = point_velocity(rig, state);
+    double& most = peaks.response().largest_blow_mps;
+    most = std::fmax(most, std::hypot(after.vx - before.vx, after.vy - before.vy));
+  }
   if (impact && rig.laws) keep_contents_velocity(speed_before);
   if (impact) state.left_kinks();  // speeds jump, and what was about to turn may turn back
   if (!regular) return stop_without_mode();

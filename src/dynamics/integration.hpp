@@ -11,6 +11,8 @@
 
 namespace freestand::dynamics {
 
+// The model can start so.
+bool can_start(const Specimen&);
 // Sizes, friction, scales, effects and settings that can be integrated at all.
 bool admissible(const Specimen&, const Shaking&, const FloorInput&, const Settings&);
 inline bool admissible(const Setup& setup, const Settings& settings) {
@@ -110,6 +112,8 @@ class Integration {
   HistoryRecorder recorder;
 
  private:
+  void start_from(const Start&);
+  bool beyond_a_wall() const;
   double slip() const;
   template <int N>
   bool look_ahead(const Rig::AtRest& rest);

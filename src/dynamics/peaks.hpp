@@ -6,6 +6,7 @@
 #include "dynamics/contact.hpp"
 #include "dynamics/law_arc.hpp"
 #include "dynamics/law_flight.hpp"
+#include "dynamics/point.hpp"
 #include "dynamics/rig.hpp"
 #include "dynamics/roots.hpp"
 
@@ -49,8 +50,10 @@ template <class Real, int N>
 
 class Peaks {
  public:
-  explicit Peaks(bool slip_by_side) {
-    if (slip_by_side) response_.peak_slip_right_m = response_.peak_slip_left_m = 0;
+  explicit Peaks(const Settings& settings) {
+    if (settings.slip_by_side) response_.peak_slip_right_m = response_.peak_slip_left_m = 0;
+    if (!std::isnan(settings.acceleration_height_m))
+      response_.peak_acceleration_at_height_mps2 = response_.largest_blow_mps = 0;
   }
 
   template <int N>
@@ -61,6 +64,7 @@ class Peaks {
       if (state.sigma != 0) response_.slid_path_m += std::abs(arc.xi.at(tau) - arc.xi[0]);
     }
     observe_acceleration(rig, arc.fx, arc.fy, tau);
+    observe_point(rig, arc.theta[0], arc.omega, arc.fx, arc.fy, tau);
   }
 
   template <int N>
@@ -69,29 +73,33 @@ class Peaks {
     if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
     response_.slid_path_m += arc.path.at(tau) - arc.path[0];
     observe_acceleration(rig, arc.ax, arc.fy, tau);
+    observe_point(rig, arc.theta[0], arc.omega, arc.ax, arc.fy, tau);
   }
 
   template <int N>
   void observe(const Rig& rig, const State&, const Flight<double, N>& flight, double tau) {
     observe_flight(rig, flight, tau);
     observe_acceleration(rig, Series<double, N>::zero(), Series<double, N>::zero(), tau);
+    observe_point(rig, flight.theta[0], flight.omega, Series<double, N>::zero(), Series<double, N>::zero(), tau);
   }
 
   template <int N>
   void observe(const Rig& rig, const State&, const LawFlight<N>& flight, double tau) {
     observe_flight(rig, flight, tau);
     observe_acceleration(rig, flight.ax, Series<double, N>::zero(), tau);
+    observe_point(rig, flight.theta[0], flight.omega, flight.ax, Series<double, N>::zero(), tau);
   }
 
   // At rest the block has the acceleration of the floor.
   template <int N>
   void observe_rest(const Rig& rig, const Floor<double, N>& floor, double tau) {
     observe_acceleration(rig, floor.a, floor.g, tau);
+    observe_point(rig, 0, Series<double, N>::zero(), floor.a, floor.g, tau);
   }
 
   // Would a total acceleration within these bounds be a new peak?
   bool may_exceed(double a, double v) const {
-    const double peak = response_.peak_acceleration_mps2;
+    const double peak = std::fmin(response_.peak_acceleration_mps2, response_.peak_acceleration_at_height_mps2);
     return !(a * a + v * v <= peak * peak);
   }
 
@@ -100,6 +108,22 @@ class Peaks {
   bool finite() const { return finite_; }
 
  private:
+  // Of the point that is followed; by the forces on the block but gravity, as below.
+  template <int N>
+  void observe_point(const Rig& rig, double theta, const Series<double, N>& omega, Series<double, N> fx,
+                     Series<double, N> lift, double tau) {
+    if (!rig.point) return;
+    const PointAcceleration<N> beside(*rig.point, theta, omega);
+    for (int k = 0; k < N; ++k) {
+      fx[k] += beside.x[k];
+      lift[k] += beside.y[k];
+    }
+    fx[0] -= rig.push;
+    lift[0] -= rig.g;
+    double& peak = response_.peak_acceleration_at_height_mps2;
+    peak = std::sqrt(max_abs(squared_length(fx, lift), tau, peak * peak));
+  }
+
   template <int N>
   void observe_slip(const Series<double, N>& u, double tau) {
     response_.peak_slip_m = max_abs(u, tau, response_.peak_slip_m);

@@ -12,12 +12,13 @@
 #include "dynamics/contact.hpp"
 #include "dynamics/kinks.hpp"
 #include "dynamics/laws.hpp"
+#include "dynamics/point.hpp"
 
 namespace freestand::dynamics {
 
 struct Rig {
   double right, left, h, k2;  // [m], [m2]
-  double top;                 // height of the upper edges over the base: that of a uniform block [m]
+  double top;                 // height of the upper edges over the base [m]
   double mu_s, mu_k;
   bool can_slip, can_rock;
   Impact impact;
@@ -25,20 +26,21 @@ struct Rig {
   double push;               // gravity along the floor [m/s2]
   std::optional<Laws> laws;  // of effects within the equations of motion; on a tilted floor too, where they may be none
   // Thresholds, all scaled by the block.
-  double force_zero;     // accelerations smaller than this are round-off [m/s2]
-  double turn_zero;      // angular accelerations smaller than this are round-off [rad/s2]
-  double rest_rotation;  // a hop of less than this rotation ends the rocking [rad]
-  double rest_height;    // a rebound from a wall slower than a fall from this height stays at the wall [m]
-  double told_rotation;  // an impact after a rotation of less than this is not counted [rad]
-  double instant_s;      // what is closer together happens at once: events are located no better [s]
-  double told_speed;     // nor a blow of a wall that comes slower than this [m/s]
+  double force_zero;           // accelerations smaller than this are round-off [m/s2]
+  double turn_zero;            // angular accelerations smaller than this are round-off [rad/s2]
+  double rest_rotation;        // a hop of less than this rotation ends the rocking [rad]
+  double rest_height;          // a rebound from a wall slower than a fall from this height stays at the wall [m]
+  double told_rotation;        // an impact after a rotation of less than this is not counted [rad]
+  std::optional<Point> point;  // whose acceleration is followed
+  double instant_s;            // what is closer together happens at once: events are located no better [s]
+  double told_speed;           // nor a blow of a wall that comes slower than this [m/s]
 
   Rig(const Specimen& specimen, const Settings& settings, const FloorInput& floor = {})
       : right(specimen.block.right_m),
         left(specimen.block.left_m),
         h(specimen.block.height_m),
         k2(specimen.block.gyration2_m2),
-        top(2 * h),
+        top(specimen.block.full_height_m()),
         mu_s(specimen.friction.mu_s),
         mu_k(specimen.friction.mu_k),
         can_slip(specimen.model != Model::rock),
@@ -57,6 +59,7 @@ struct Rig {
         instant_s(1e-14 / specimen.block.p_radps()),
         told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()) {
     if (has_laws(specimen) || push != 0) laws.emplace(specimen);
+    if (!std::isnan(settings.acceleration_height_m)) point = {0.5 * (right - left), settings.acceleration_height_m - h};
   }
 
   // What laws that do not change while the block rests do to it: the largest force and moment, the least friction factor.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/units.hpp"
@@ -52,29 +53,40 @@ Json provenance_json(const Provenance& from) {
 
 }  // namespace
 
-std::string history_csv(const History& history) {
-  std::string text = "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode\n";
-  for (const HistoryPoint& p : history.points)
-    text += fmt::format("{},{},{},{},{},{},{}\n", p.time_s, p.floor_acceleration_mps2, p.slip_m, p.slip_velocity_mps,
-                        p.rotation_rad, p.rotation_rate_radps, name(p.mode));
+std::string history_csv(const History& history, const std::vector<double>& floor_displacement_m, double mass_kg) {
+  std::string text =
+      "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode,"
+      "floor_displacement_m,acceleration_mps2,vertical_acceleration_mps2,contact_horizontal_n,contact_vertical_n\n";
+  for (std::size_t i = 0; i < history.points.size(); ++i) {
+    const HistoryPoint& p = history.points[i];
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.time_s, p.floor_acceleration_mps2, p.slip_m,
+                        p.slip_velocity_mps, p.rotation_rad, p.rotation_rate_radps, name(p.mode),
+                        floor_displacement_m.at(i), p.acceleration_mps2, p.vertical_acceleration_mps2,
+                        mass_kg * p.contact_x_mps2, mass_kg * p.contact_y_mps2);
+  }
   return text;
 }
 
 Json response_summary(const Response& response) {
-  return {{"format", response_format},
-          {"peak_slip_m", response.peak_slip_m},
-          {"residual_slip_m", response.residual_slip_m},
-          {"slid_path_m", response.slid_path_m},
-          {"peak_rotation_rad", response.peak_rotation_rad},
-          {"overturned", response.outcome == Outcome::overturned},
-          {"outcome", name(response.outcome)},
-          {"peak_acceleration_g", response.peak_acceleration_mps2 / standard_gravity_mps2},
-          {"events", response.events},
-          {"impacts", response.impacts},
-          {"wall_hits", response.wall_hits},
-          {"wall_speed_mps", response.wall_speed_mps},
-          {"residual_rotation_rad", response.residual_rotation_rad},
-          {"end_time_s", response.end_time_s}};
+  Json json = {{"format", response_format},
+               {"peak_slip_m", response.peak_slip_m},
+               {"residual_slip_m", response.residual_slip_m},
+               {"slid_path_m", response.slid_path_m},
+               {"peak_rotation_rad", response.peak_rotation_rad},
+               {"overturned", response.outcome == Outcome::overturned},
+               {"outcome", name(response.outcome)},
+               {"peak_acceleration_g", response.peak_acceleration_mps2 / standard_gravity_mps2},
+               {"events", response.events},
+               {"impacts", response.impacts},
+               {"wall_hits", response.wall_hits},
+               {"wall_speed_mps", response.wall_speed_mps},
+               {"connection_failed", response.connection_failed},
+               {"residual_rotation_rad", response.residual_rotation_rad},
+               {"end_time_s", response.end_time_s}};
+  if (std::isnan(response.peak_acceleration_at_height_mps2)) return json;
+  json["peak_acceleration_at_height_g"] = response.peak_acceleration_at_height_mps2 / standard_gravity_mps2;
+  json["largest_blow_mps"] = response.largest_blow_mps;
+  return json;
 }
 
 Json fragility_summary(const Provenance& provenance, const fragility::Result& result) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <freestand/floor_motion.hpp>
+#include <freestand/specimen.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ enum class Role { calibration, holdout };  // holdout: never used by a fit
 // Of a specimen, as far as they were measured.
 struct Dimensions {
   std::optional<double> width_m, height_m, mass_kg;
+  std::optional<double> centre_height_m = {}, gyration_radius_m = {};  // not given: those of a uniform rectangle
+
+  bool operator==(const Dimensions&) const = default;
 };
 
 // Standard deviations of the sensors; 0: not given.
@@ -38,6 +42,7 @@ struct Test {
   Role role = Role::calibration;
   std::string source;   // file, or words for a pulse, as messages name it
   Dimensions specimen;  // the data set's, with the test's own over it
+  Start start;          // how the specimen was when the floor began to move
   FloorMotion motion;   // as measured; or a pulse of unit peak acceleration and unit period
   double scale = 1;     // on the motion
   double stretch = 1;   // of time: the period of a pulse

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/chain.hpp"
+
 namespace freestand::measurement {
 namespace {
 
@@ -27,7 +29,9 @@ bool ModelSpec::has(const std::string& name) const {
 }
 
 Specimen specimen(const ModelSpec& model, const Test& test, std::span<const double> x) {
-  return specimen(model, test.specimen, x);
+  Specimen s = specimen(model, test.specimen, x);
+  s.start = test.start;
+  return s;
 }
 
 Specimen specimen(const ModelSpec& model, const Dimensions& measured, std::span<const double> x) {
@@ -39,7 +43,12 @@ Specimen specimen(const ModelSpec& model, const Dimensions& measured, std::span<
     height = 2 * model.size->of(x) * std::cos(model.slenderness->of(x));
   }
   width *= model.width_factor.of(x);
-  s.block = Block::rectangular(width, height, dimension(model.mass, measured.mass_kg, x, 1));
+  const double mass = dimension(model.mass, measured.mass_kg, x, 1);
+  auto centre_height = measured.centre_height_m, gyration_radius = measured.gyration_radius_m;
+  if (model.centre_height) centre_height = model.centre_height->of(x);
+  if (model.gyration_radius) gyration_radius = model.gyration_radius->of(x);
+  if (model.inertia) gyration_radius = std::sqrt(model.inertia->of(x) / mass);
+  s.block = Block::of_outline(width, height, mass, centre_height, gyration_radius);
   s.friction.mu_k = model.mu_k.of(x);
   s.friction.mu_s = s.friction.mu_k;
   if (model.mu_s) s.friction.mu_s = std::max(s.friction.mu_k, model.mu_s->of(x));
@@ -55,10 +64,23 @@ Specimen specimen(const ModelSpec& model, const Dimensions& measured, std::span<
     for (const Number& number : term.parameters) use.parameters.push_back(number.of(x));
     s.effects.push_back(std::move(use));
   }
+  if (const auto& chain = model.chain)
+    s.effects.push_back(
+        dynamics::use({.slack_m = chain->slack.of(x),
+                       .stiffness_npm = chain->stiffness.of(x),
+                       .strength_n = chain->strength.of(x),
+                       .height_m = chain->height ? chain->height->of(x) : s.block.full_height_m(),
+                       .side = chain->side,
+                       .number = chain->number.of(x),
+                       .plan_angle_rad = chain->plan_angle.of(x),
+                       .damping_nspm = chain->damping.of(x),
+                       .wall_gap_m = chain->wall_gap ? std::optional(chain->wall_gap->of(x)) : std::nullopt},
+                      s.block));
   return s;
 }
 
 std::string missing_dimension(const ModelSpec& model, const Test& test) {
+  if (model.chain && !model.mass && !test.specimen.mass_kg) return "mass_kg";  // its forces are in newtons
   if (model.slenderness && model.size) return {};
   if (!model.width && !test.specimen.width_m) return "width_m";
   if (!model.height && !test.specimen.height_m) return "height_m";

@@ -34,9 +34,19 @@ struct EffectTerm {
   std::vector<Number> parameters;
 };
 
+// Chains to the wall behind (dynamics/chain.hpp).
+struct ChainTerm {
+  Number slack, stiffness, strength;
+  std::optional<Number> height;  // absent: the block's
+  Number number{.value = 1}, plan_angle, damping;
+  std::optional<Number> wall_gap;
+  int side = 1;
+};
+
 struct ModelSpec {
   // Sides, or slenderness atan(W/H) with half the diagonal; absent: the specimen's of the test.
   std::optional<Number> width, height, slenderness, size, mass;
+  std::optional<Number> centre_height, gyration_radius, inertia;  // absent, and not measured: of a uniform rectangle
   // What the laboratory may have read wrongly, over what it states: width, friction of one test, the floor's acceleration.
   Number width_factor{.value = 1}, friction_factor{.value = 1}, floor_gain{.value = 1};
   Number mu_k;
@@ -46,6 +56,7 @@ struct ModelSpec {
   ImpactLaw impact_law = ImpactLaw::housner;
   Number impact_factor{.value = 1};
   std::vector<EffectTerm> effects;
+  std::optional<ChainTerm> chain;
   // Outcomes only: standard deviation of ln(width) from test to test, since no two placements are alike (placements.hpp).
   std::optional<Number> placement_scatter;
   std::vector<Free> free;

@@ -88,6 +88,7 @@ std::vector<std::uint64_t> outcomes(const Bench& bench, const std::vector<std::s
       Dimensions own = bench.test(i).specimen;
       own.width_m = *own.width_m * std::exp(places.at(k));
       specimens.push_back(specimen(model, own, x));
+      specimens.back().start = bench.test(i).start;
     }
   std::vector<Response> responses(specimens.size());
   respond_batch(specimens, shakings, {.tolerance = 1e-8}, responses);

@@ -42,7 +42,8 @@ class Doubter {
         say("the floor's channel of test {} stays at its extreme value for several samples: the sensor looks clipped",
             test.id);
       offsets(i);
-      if (moves_before_floor(bench_, i, Channel::slip) || moves_before_floor(bench_, i, Channel::rotation))
+      if (test.start.upright_at_rest() &&
+          (moves_before_floor(bench_, i, Channel::slip) || moves_before_floor(bench_, i, Channel::rotation)))
         early_.add(test.id, 0);
     }
     tell();
@@ -96,6 +97,8 @@ class Doubter {
     const bool moved = rotated || greatest(test.slip_m) > 8 * bench_.noise(Channel::slip);
     if (peak_g > strongest_floor_g)
       strong_.add(test.id, peak_g);
+    else if (!test.start.upright_at_rest())
+      return;
     else if (moved && (peak_g < weakest_floor_g || faster(test, rotated, impossibly_fast)))
       weak_.add(test.id, peak_g);
     else if (moved && faster(test, rotated, strangely_fast))
@@ -110,8 +113,10 @@ class Doubter {
       seen.add(test.id, std::abs(offset));
       spoilt |= std::abs(offset) > least;
     };
-    see(late_slips_, start_offset(bench_, i, Channel::slip), 8 * bench_.noise(Channel::slip));
-    see(late_rotations_, start_offset(bench_, i, Channel::rotation), 8 * bench_.noise(Channel::rotation));
+    if (test.start.upright_at_rest()) {
+      see(late_slips_, start_offset(bench_, i, Channel::slip), 8 * bench_.noise(Channel::slip));
+      see(late_rotations_, start_offset(bench_, i, Channel::rotation), 8 * bench_.noise(Channel::rotation));
+    }
     const std::vector<double> floor = test.pulse.empty() ? floor_samples(test) : std::vector<double>{};
     see(floors_, floor_offset_mps2(floor), 0.02 * greatest(floor));
     out_.spoilt_tests += spoilt;

@@ -45,7 +45,7 @@ double floor_at(const Test& test, std::size_t i) {
 double floor_that_moves(const Dataset& data) {
   double least = std::numeric_limits<double>::infinity();
   for (const Test& test : data.tests) {
-    if (test.role == Role::holdout || !test.has_history()) continue;
+    if (test.role == Role::holdout || !test.has_history() || !test.start.upright_at_rest()) continue;
     const std::vector<bool> moves = motion_of(data, test, surely);
     double reached = 0;
     std::size_t i = 0;
@@ -69,6 +69,8 @@ std::vector<QuietStretch> quiet_stretches(const Dataset& data, Channel channel) 
     const std::vector<double>& samples = history(test, channel);
     if (samples.empty() || test.role == Role::holdout || test.dt_s <= 0) continue;
     std::vector<bool> moves = motion_of(data, test);
+    if (!test.start.upright_at_rest())  // on its way from the first sample on, also where it turns round
+      std::fill(moves.begin(), std::find(moves.rbegin(), moves.rend(), true).base(), true);
     const std::size_t half = half_window_samples(half_window_s, test.dt_s);
     for (std::size_t i = 0; i < samples.size(); ++i)
       if (floor_at(test, i) > loud)

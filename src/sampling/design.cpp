@@ -13,7 +13,7 @@ namespace {
 
 // One line a dimension, in an order that never changes: new names go to the end. Names on one line exclude each other
 // in any one sample. Effects by their fixed names.
-constexpr std::array<std::array<std::string_view, 4>, 36> catalogue = {{
+constexpr std::array<std::array<std::string_view, 4>, 42> catalogue = {{
     {"motion.peak_acceleration_g", "motion.peak_velocity_mps", "motion.pta_g", "motion.scale"},
     {"friction.mu", "friction.mu_k"},
     {"motion.period_s"},
@@ -50,6 +50,12 @@ constexpr std::array<std::array<std::string_view, 4>, 36> catalogue = {{
     {"effects.impact_loss.factor"},
     {"effects.reduced_base.ratio"},
     {"effects.offset_mass.eccentricity"},
+    {"block.centre_height_m"},
+    {"block.gyration_radius_m", "block.inertia_kgm2"},
+    {"start.rotation_rad"},
+    {"start.rotation_rate_radps"},
+    {"start.slip_m"},
+    {"start.slip_velocity_mps"},
 }};
 static_assert(catalogue.size() <= sobol_dimensions);
 

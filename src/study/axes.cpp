@@ -14,10 +14,13 @@ void block_axes(const BlockPart& block, std::vector<AxisChoice>& axes) {
   axes.push_back({"block.width_m", varies(block.width) || angle || size});
   axes.push_back({"block.height_m", varies(block.height) || angle || size});
   axes.push_back({"block.mass_kg", varies(block.mass)});
+  for (const auto& q : {block.centre_height, block.gyration_radius, block.inertia})
+    if (q) axes.push_back({q->name, varies(q)});
+  const bool centre = varies(block.centre_height), inertia = varies(block.gyration_radius) || varies(block.inertia);
   if (block.slenderness) axes.push_back({"block.slenderness_rad", angle});
-  axes.push_back({"block.alpha_rad", shape || angle});
-  axes.push_back({"block.size_m", shape || size});
-  axes.push_back({"block.p_radps", shape || size});
+  axes.push_back({"block.alpha_rad", shape || angle || centre});
+  axes.push_back({"block.size_m", shape || size || centre});
+  axes.push_back({"block.p_radps", shape || size || centre || inertia});
 }
 
 void friction_axes(const FrictionPart& friction, std::vector<AxisChoice>& axes) {
@@ -40,6 +43,8 @@ std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<M
     for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) axes.push_back({q.name, varies(q)});
   for (const auto& effect : model.effects)
     for (const auto& parameter : effect.parameters) axes.push_back({parameter.name, varies(parameter)});
+  for (const auto& q : {model.start.rotation, model.start.rotation_rate, model.start.slip, model.start.slip_velocity})
+    if (q) axes.push_back({q->name, varies(q)});
   const bool several = motions.size() > 1;
   const auto any = [&](const auto& test) { return std::any_of(motions.begin(), motions.end(), test); };
   const bool pulses = any([](const MotionSource& s) { return s.kind == MotionSource::Kind::pulses; });

@@ -51,6 +51,7 @@ std::string block_text(const BlockPart& block) {
   Mapping m;
   for (const auto& quantity : {block.width, block.height, block.slenderness, block.size}) m.add(quantity);
   m.add(block.mass);
+  for (const auto& quantity : {block.centre_height, block.gyration_radius, block.inertia}) m.add(quantity);
   return m.flow();
 }
 
@@ -100,10 +101,22 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
   if (!chain) return "";
   Mapping m;
   for (const auto& quantity : {chain->slack, chain->stiffness, chain->strength}) m.add(quantity);
-  m.add(chain->height);
+  for (const auto& quantity : {chain->height, chain->number, chain->plan_angle, chain->damping}) m.add(quantity);
   m.add(chain->wall_gap);
   m.add("side", chain->side > 0 ? "right" : "left");
   return "chain: " + m.flow() + "\n";
+}
+
+std::string start_text(const StartPart& start) {
+  Mapping m;
+  for (const auto& quantity : {start.rotation, start.rotation_rate, start.slip, start.slip_velocity}) m.add(quantity);
+  return m.flow() == "{}" ? "" : "start: " + m.flow() + "\n";
+}
+
+std::string height_text(const Study& study) {
+  return study.acceleration_height_m
+             ? fmt::format("acceleration_height_m: {}\n", number_text(*study.acceleration_height_m))
+             : "";
 }
 
 std::string discrepancy_text(const std::optional<Quantity>& slip) {
@@ -217,11 +230,12 @@ std::string samples_text(const Study& study) {
     text += fmt::format("samples: {}\n", study.samples);
   if (study.keep.one_in != 1) text += fmt::format("keep: {}\n", keep_text(study.keep));
   text += fmt::format("design: {}\n", name(study.design));
+  text += height_text(study);
   if (study.slip_by_side) text += "slip_by_side: true\n";
   if (study.scrambles > 1) text += fmt::format("scrambles: {}\n", study.scrambles);
   text += fmt::format("block_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", study.block_size,
                       number_text(study.tolerance), number_text(study.free_vibration_s));
-  return text + model_text(study.model) + chain_text(study.model.chain) +
+  return text + model_text(study.model) + chain_text(study.model.chain) + start_text(study.model.start) +
          discrepancy_text(study.model.slip_discrepancy) + motions_text(study.motions);
 }
 
@@ -246,8 +260,8 @@ std::string expanded(const Case& one, const std::filesystem::path& folder) {
   return paths_from(study, folder) +
          fmt::format("name: {}\ntolerance: {}\nfree_vibration_s: {}\n", text_value(study.name),
                      number_text(study.tolerance), number_text(study.free_vibration_s)) +
-         model_text(study.model) + chain_text(study.model.chain) + "motion:\n" +
-         source_mapping(study.motions.front(), "file", "vertical_file").block() +
+         height_text(study) + model_text(study.model) + chain_text(study.model.chain) + start_text(study.model.start) +
+         "motion:\n" + source_mapping(study.motions.front(), "file", "vertical_file").block() +
          fmt::format("output_step_s: {}\n", number_text(one.output_step_s));
 }
 

@@ -31,15 +31,18 @@ std::vector<FittedNumber> numbers_of(const ModelFit& fit, const std::string& tab
 void write_block(YAML::Node root, const Prepared& p) {
   YAML::Node model = root["model"];
   const Dimensions& d = p.data.specimen;
-  const bool own = std::any_of(p.data.tests.begin(), p.data.tests.end(), [&](const Test& t) {
-    return t.specimen.width_m != d.width_m || t.specimen.height_m != d.height_m || t.specimen.mass_kg != d.mass_kg;
-  });
+  const bool own =
+      std::any_of(p.data.tests.begin(), p.data.tests.end(), [&](const Test& t) { return t.specimen != d; });
   if (own) return;
   YAML::Node block = model["block"];
   if (!block) model["block"] = block = YAML::Node(YAML::NodeType::Map);
   if (!p.validation.width_given && d.width_m) block["width_m"] = number(*d.width_m);
   if (!p.validation.height_given && d.height_m) block["height_m"] = number(*d.height_m);
   if (!p.validation.mass_given && d.mass_kg) block["mass_kg"] = number(*d.mass_kg);
+  if (!p.validation.model.block.centre_height && d.centre_height_m)
+    block["centre_height_m"] = number(*d.centre_height_m);
+  if (!p.validation.model.block.gyration_radius && !p.validation.model.block.inertia && d.gyration_radius_m)
+    block["gyration_radius_m"] = number(*d.gyration_radius_m);
   block.SetStyle(YAML::EmitterStyle::Flow);
 }
 

@@ -249,12 +249,13 @@ class Importer {
 
   std::string dataset_text() const {
     std::string text = fmt::format("format: freestand-measurements/1\nname: {}\n", lab_.name);
-    if (lab_.specimen.width_m || lab_.specimen.height_m || lab_.specimen.mass_kg) text += "specimen:\n";
+    if (lab_.specimen != measurement::Dimensions{}) text += "specimen:\n";
     const auto put = [&](const char* key, const std::optional<double>& value) {
       if (value) text += fmt::format("  {}: {}\n", key, *value);
     };
     put("width_m", lab_.specimen.width_m), put("height_m", lab_.specimen.height_m),
-        put("mass_kg", lab_.specimen.mass_kg);
+        put("mass_kg", lab_.specimen.mass_kg), put("centre_height_m", lab_.specimen.centre_height_m),
+        put("gyration_radius_m", lab_.specimen.gyration_radius_m);
     text += fmt::format("sampling_dt_s: {}\nnoise:\n", step_s_);
     const auto noise = [&](const char* key, double value) {
       if (value > 0) text += fmt::format("  {}: {:.4g}\n", key, value);

@@ -11,6 +11,7 @@ std::vector<Quantity> quantities(const ModelPart& model) {
   };
   for (const auto& q : {model.block.width, model.block.height, model.block.slenderness, model.block.size}) add(q);
   add(model.block.mass);
+  for (const auto& q : {model.block.centre_height, model.block.gyration_radius, model.block.inertia}) add(q);
   for (const auto& q : {model.friction.mu, model.friction.mu_k, model.friction.mu_s, model.friction.static_ratio})
     add(q);
   if (const auto& b = model.bouc_wen)
@@ -21,9 +22,12 @@ std::vector<Quantity> quantities(const ModelPart& model) {
   add(model.slip_discrepancy);
   if (model.chain) {
     for (const auto& q : {model.chain->slack, model.chain->stiffness, model.chain->strength}) add(q);
-    add(model.chain->height);
+    for (const auto& q : {model.chain->height, model.chain->number, model.chain->plan_angle, model.chain->damping})
+      add(q);
     add(model.chain->wall_gap);
   }
+  const StartPart& start = model.start;
+  for (const auto& q : {start.rotation, start.rotation_rate, start.slip, start.slip_velocity}) add(q);
   return all;
 }
 

@@ -27,8 +27,8 @@ constexpr Range tolerance_range = {.lower = 0,
                                    .lower_open = false,
                                    .why = "it is a standard deviation over what is stated, 0.01 is 1 %"};
 constexpr Range noise_range = {.lower = 0, .why = "errors are told in units of it, so that it must be above zero"};
-const std::vector<std::string> peak_keys = {"peak_slip_m", "residual_slip_m", "peak_rotation_rad",
-                                            "peak_acceleration_g", "overturned"};
+const std::vector<std::string> peak_keys = {"peak_slip_m",         "residual_slip_m",           "peak_rotation_rad",
+                                            "peak_acceleration_g", "block_peak_acceleration_g", "overturned"};
 
 }  // namespace
 
@@ -40,6 +40,14 @@ Dimensions read_dimensions(Section& file, const Dimensions& fallback) {
   if (const auto width = section.optional_number("width_m", size_range)) dimensions.width_m = width;
   if (const auto height = section.optional_number("height_m", size_range)) dimensions.height_m = height;
   if (const auto mass = section.optional_number("mass_kg", size_range)) dimensions.mass_kg = mass;
+  if (const auto centre = section.optional_number("centre_height_m", size_range)) dimensions.centre_height_m = centre;
+  if (const auto radius = section.optional_number("gyration_radius_m", size_range))
+    dimensions.gyration_radius_m = radius;
+  if (dimensions.centre_height_m && dimensions.height_m && *dimensions.centre_height_m >= *dimensions.height_m)
+    section.problem(
+        "centre_height_m",
+        fmt::format("{} is {:g}, of a block {:g} m high (the centre of mass lies within the block): correct one",
+                    section.name("centre_height_m"), *dimensions.centre_height_m, *dimensions.height_m));
   section.finish();
   return dimensions;
 }
@@ -70,13 +78,21 @@ measurement::Tolerance read_tolerance(Section& file) {
 
 namespace {
 
-// With a pulse, peak_acceleration_g is the pulse's, whose sign is its direction; the block's own peak is then not given.
+// With a pulse, peak_acceleration_g is the pulse's, whose sign is its direction; the block's own peak has a key of its own.
 void read_peaks(Section& section, measurement::Peaks& peaks) {
   peaks.peak_slip_m = section.optional_number("peak_slip_m", range::not_negative);
   peaks.residual_slip_m = section.optional_number("residual_slip_m", range::any);
   peaks.peak_rotation_rad = section.optional_number("peak_rotation_rad", range::not_negative);
   if (!section.has("pulse"))
     peaks.peak_acceleration_g = section.optional_number("peak_acceleration_g", range::not_negative);
+  if (const auto own = section.optional_number("block_peak_acceleration_g", range::not_negative)) {
+    if (peaks.peak_acceleration_g)
+      section.problem(
+          "block_peak_acceleration_g",
+          fmt::format("{} and peak_acceleration_g are both given (without a pulse they are the same): remove one",
+                      section.name("block_peak_acceleration_g")));
+    peaks.peak_acceleration_g = own;
+  }
   if (section.has("overturned")) peaks.overturned = section.flag("overturned", false);
 }
 
@@ -136,6 +152,20 @@ void read_input(Section& section, const Dataset& set, Test& test) {
                                       section.name("id"), joined(peak_keys)));
 }
 
+Start read_start(Section& test) {
+  Start start;
+  const YAML::Node* node = test.find("start");
+  if (!node) return start;
+  Section section(*node, test.name("start"), test.line("start"), test.problems());
+  start.rotation_rad = section.number(
+      "rotation_rad", 0, {.lower = -pi / 2, .upper = pi / 2, .why = "a block that leans further has fallen"});
+  start.rotation_rate_radps = section.number("rotation_rate_radps", 0);
+  start.slip_m = section.number("slip_m", 0);
+  start.slip_velocity_mps = section.number("slip_velocity_mps", 0);
+  section.finish();
+  return start;
+}
+
 Test read_test(const YAML::Node& node, std::size_t i, int line, const Dataset& set, Problems& problems) {
   Section section(node, fmt::format("tests[{}]", i), line, problems);
   Test test;
@@ -145,6 +175,7 @@ Test read_test(const YAML::Node& node, std::size_t i, int line, const Dataset& s
                                         section.name("role")));
   test.role = static_cast<measurement::Role>(section.choice("role", {"calibration", "holdout"}, 0));
   test.specimen = read_dimensions(section, set.specimen);
+  test.start = read_start(section);
   if (node.IsMap()) read_input(section, set, test);
   section.finish();
   return test;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/units.hpp"
 #include "study/read_parts.hpp"
@@ -30,6 +31,37 @@ void missing(Section& section, const std::string& key, const std::string& other)
   section.problem(key, fmt::format("{} is missing (the study cannot do without it): add {}", section.name(key), other));
 }
 
+// The centre of mass lies within the block, and no mass lies farther from it than the farthest corner, in any sample. Numbers
+// are drawn independently, so that their ranges are compared.
+void check_mass_distribution(Section& section, const BlockPart& block) {
+  if (!block.width || !block.height) return;
+  const auto width = support(block.width->value), height = support(block.height->value);
+  const auto centre = block.centre_height ? support(block.centre_height->value)
+                                          : sampling::Support{0.5 * height.lower, 0.5 * height.upper};
+  if (block.centre_height && !(centre.upper < height.lower))
+    section.problem(
+        "centre_height_m",
+        fmt::format("block.centre_height_m goes up to {}, block.height_m down to {} (the centre of mass lies "
+                    "within the block): narrow the one or the other, by min and max where it is a distribution",
+                    number_text(centre.upper), number_text(height.lower)));
+  if (block.gyration_radius && block.inertia)
+    both(section, "gyration_radius_m", "inertia_kgm2", "one determines the other");
+  if (block.inertia && block.mass.line == 0)
+    section.problem("inertia_kgm2",
+                    "block.inertia_kgm2 needs the mass (k^2 = I/m): add block.mass_kg, or give gyration_radius_m");
+  if (!block.gyration_radius && !block.inertia) return;
+  const double least = block.gyration_radius
+                           ? support(block.gyration_radius->value).lower
+                           : std::sqrt(support(block.inertia->value).lower / support(block.mass.value).upper);
+  const double farthest = std::hypot(0.5 * width.upper, std::max(centre.upper, height.upper - centre.lower));
+  if (least > farthest)
+    section.problem(
+        block.gyration_radius ? "gyration_radius_m" : "inertia_kgm2",
+        fmt::format("the radius of gyration is {:.4g} m or more (no point of the block is farther than {:.4g} m "
+                    "from its centre of mass): is it about the centre of mass, and in {}?",
+                    least, farthest, block.gyration_radius ? "metres" : "kg m2"));
+}
+
 BlockPart read_block(Section& file) {
   BlockPart block;
   const YAML::Node* node = file.find("block");
@@ -43,6 +75,9 @@ BlockPart read_block(Section& file) {
   block.slenderness = section.quantity("block", "slenderness_rad", slenderness_range);
   block.size = section.quantity("block", "size_m", above_zero);
   block.mass = section.quantity("block", "mass_kg", {.lower = 0, .why = "a mass must be above zero"}, 1);
+  block.centre_height = section.quantity("block", "centre_height_m", above_zero);
+  block.gyration_radius = section.quantity("block", "gyration_radius_m", above_zero);
+  block.inertia = section.quantity("block", "inertia_kgm2", {.lower = 0, .why = "an inertia must be above zero"});
   section.finish();
   if (!node->IsMap()) return block;
 
@@ -59,6 +94,13 @@ BlockPart read_block(Section& file) {
     if (!section.has("width_m")) missing(section, "width_m", "width_m, or slenderness_rad and size_m");
     if (!section.has("height_m")) missing(section, "height_m", "height_m");
   }
+  if (angles)
+    for (const char* key : {"centre_height_m", "gyration_radius_m", "inertia_kgm2"})
+      if (section.has(key))
+        section.problem(key, fmt::format("{} does not go with slenderness_rad and size_m (they are those of a uniform "
+                                         "block): give width_m and height_m",
+                                         section.name(key)));
+  check_mass_distribution(section, block);
   return block;
 }
 
@@ -176,6 +218,14 @@ std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
   chain.stiffness = section.quantity("chain", "stiffness_npm", range::positive, 0);
   chain.strength = section.quantity("chain", "strength_n", range::positive, 0);
   chain.height = section.quantity("chain", "height_m", above_zero);
+  chain.number = section.quantity(
+      "chain", "number", {.lower = 1, .lower_open = false, .why = "fewer chains than one are none: remove chain"});
+  chain.plan_angle = section.quantity("chain", "plan_angle_rad",
+                                      {.lower = 0,
+                                       .upper = pi / 2,
+                                       .lower_open = false,
+                                       .why = "chains stand at less than a right angle to the shaking"});
+  chain.damping = section.quantity("chain", "damping_nspm", range::not_negative);
   if (const std::string without = knows_no_walls(model); without.empty())
     chain.wall_gap = section.quantity("chain", "wall_gap_m", range::not_negative, 0);
   else if (section.find("wall_gap_m"))
@@ -187,6 +237,36 @@ std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
   for (const char* key : {"stiffness_npm", "strength_n"})
     if (!section.has(key)) missing(section, key, std::string(key) + ", of the chain and its connection");
   return chain;
+}
+
+constexpr Range leaning = {.lower = -pi / 2, .upper = pi / 2, .why = "a block that leans further has fallen"};
+
+StartPart read_start(Section& file, const ModelPart& model) {
+  StartPart start;
+  const YAML::Node* node = file.find("start");
+  if (!node) return start;
+  Section section(*node, "start", file.line("start"), file.problems());
+  start.rotation = section.quantity("start", "rotation_rad", leaning);
+  start.rotation_rate = section.quantity("start", "rotation_rate_radps", range::any);
+  start.slip = section.quantity("start", "slip_m", range::any);
+  start.slip_velocity = section.quantity("start", "slip_velocity_mps", range::any);
+  section.finish();
+  const auto refuse = [&](const char* key, const char* why) {
+    if (section.has(key))
+      section.problem(key, fmt::format("{} does not go with model {}: remove it, or choose model: slide_rock",
+                                       section.name(key), why));
+  };
+  if (model.model == Model::slide)
+    for (const char* key : {"rotation_rad", "rotation_rate_radps"}) refuse(key, "slide (which does not tip)");
+  if (model.model == Model::rock) refuse("slip_velocity_mps", "rock (which does not slip)");
+  if (model.model == Model::bouc_wen)
+    file.problem("start",
+                 "start does not go with model bouc_wen (what its contact has gone through is not known): remove it");
+  for (const EffectPart& effect : model.effects)
+    if (effect.name == "flexible_legs")
+      file.problem("start",
+                   "start does not go with effect flexible_legs (how far its legs are bent is not known): remove one");
+  return start;
 }
 
 std::optional<Quantity> read_discrepancy(Section& file) {
@@ -215,6 +295,7 @@ ModelPart read_model(Section& file) {
                    "remove the effect, or use housner");
   model.slip_discrepancy = read_discrepancy(file);
   model.chain = read_chain(file, model);
+  model.start = read_start(file, model);
   if (const std::string text = no_room_for(model.effects, model.chain);
       model.chain && !text.empty() && no_room_for(model.effects, {}).empty())
     file.problem("chain", text);

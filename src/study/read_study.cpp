@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <tuple>
 
 #include "dynamics/effect.hpp"
@@ -28,7 +29,15 @@ void read_common(Section& file, const std::filesystem::path& path, Study& study,
                    .upper_open = false,
                    .why = "it must lie between 1e-12, below which round-off is the greater error, and 0.01"});
   study.free_vibration_s = file.number("free_vibration_s", study.free_vibration_s, range::not_negative);
+  study.acceleration_height_m = file.optional_number("acceleration_height_m", range::not_negative);
   study.model = read_model(file);
+  const BlockPart& block = study.model.block;
+  const double top = block.height ? support(block.height->value).lower : std::numeric_limits<double>::infinity();
+  if (study.acceleration_height_m && *study.acceleration_height_m > top)
+    file.problem("acceleration_height_m",
+                 fmt::format("acceleration_height_m is {:g}, and the block as low as {:g} m (nothing is there to be "
+                             "accelerated): lower it",
+                             *study.acceleration_height_m, top));
 }
 
 // 1/1000 of the samples, a power of two between 256 and 8192: enough blocks to share among ranks, and whole nets of the
@@ -132,6 +141,10 @@ std::string refusal(const KnownEdp& edp, const Study& study) {
     return edp.name +
            " is followed only where the study says so (it takes several times as long): add slip_by_side: true, and "
            "sweep with it";
+  if (edp.wants == edp::Wants::height && !study.acceleration_height_m)
+    return edp.name +
+           " is followed only where the study says at which height (it takes several times as long): add "
+           "acceleration_height_m: 1.5, and sweep with it";
   if (edp.wants == edp::Wants::wall && !wall)
     return edp.name +
            " would be 0 for every sample (no wall stands in this study): remove it, or add the effect "

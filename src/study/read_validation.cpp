@@ -98,10 +98,10 @@ void read_all(const YAML::Node& root, Validation& v, Problems& problems) {
   v.model = read_model(section);
   v.placement_scatter = section.optional_number("placement_scatter", range::not_negative);
   section.finish();
-  if (v.model.chain)
-    problems.add(section.line("chain"),
-                 "chain does not go with measurements (its force is no effect "
-                 "of the catalogue): use slack_tether");
+  if (section.has("start"))
+    problems.add(section.line("start"),
+                 "start is of a test (each begins in its own way): write it in dataset.yaml, beside the "
+                 "test's id");
   check_fixed(v.model, problems);
   check_ranges(v, file.line("model"), problems);
   v.ladder = read_ladder(file);
@@ -181,6 +181,9 @@ ModelSpec model_spec(const Validation& v, bool as_fitted) {
   spec.slenderness = number(m.block.slenderness);
   spec.size = number(m.block.size);
   if (v.mass_given) spec.mass = number(m.block.mass);
+  spec.centre_height = number(m.block.centre_height);
+  spec.gyration_radius = number(m.block.gyration_radius);
+  spec.inertia = number(m.block.inertia);
   spec.mu_k = number(m.friction.mu ? *m.friction.mu : *m.friction.mu_k);
   spec.mu_s = number(m.friction.mu_s);
   spec.static_ratio = number(m.friction.static_ratio);
@@ -197,6 +200,18 @@ ModelSpec model_spec(const Validation& v, bool as_fitted) {
     measurement::EffectTerm term{.effect = part.effect.get(), .parameters = {}};
     for (const Quantity& q : part.parameters) term.parameters.push_back(number(q));
     spec.effects.push_back(std::move(term));
+  }
+  if (const auto& chain = m.chain) {
+    measurement::ChainTerm term{.slack = number(chain->slack),
+                                .stiffness = number(chain->stiffness),
+                                .strength = number(chain->strength),
+                                .height = number(chain->height),
+                                .side = chain->side};
+    if (chain->number) term.number = number(*chain->number);
+    if (chain->plan_angle) term.plan_angle = number(*chain->plan_angle);
+    if (chain->damping) term.damping = number(*chain->damping);
+    term.wall_gap = number(chain->wall_gap);
+    spec.chain = term;
   }
   return spec;
 }

@@ -183,8 +183,15 @@ Realiser::Parts::Parts(const Study& study, MotionSet set)
 
 Block Realiser::Parts::block(const std::vector<double>& values) const {
   const double mass = *value(values, "block.mass_kg");
-  if (const auto width = value(values, "block.width_m"))
-    return Block::rectangular(*width, *value(values, "block.height_m"), mass);
+  const BlockPart& part = model.block;
+  if (part.width) {
+    std::optional<double> centre_height, gyration_radius;
+    if (part.centre_height) centre_height = value(values, "block.centre_height_m");
+    if (part.gyration_radius) gyration_radius = value(values, "block.gyration_radius_m");
+    if (part.inertia) gyration_radius = std::sqrt(*value(values, "block.inertia_kgm2") / mass);
+    return Block::of_outline(*value(values, "block.width_m"), *value(values, "block.height_m"), mass, centre_height,
+                             gyration_radius);
+  }
   const double alpha = *value(values, "block.slenderness_rad"), diagonal = 2 * *value(values, "block.size_m");
   return Block::rectangular(diagonal * std::sin(alpha), diagonal * std::cos(alpha), mass);
 }
@@ -210,8 +217,11 @@ EffectUse Realiser::Parts::chain(const std::vector<double>& values, const Block&
   return dynamics::use({.slack_m = *value(values, "chain.slack_m"),
                         .stiffness_npm = *value(values, "chain.stiffness_npm"),
                         .strength_n = *value(values, "chain.strength_n"),
-                        .height_m = value(values, "chain.height_m").value_or(2 * block.height_m),
+                        .height_m = value(values, "chain.height_m").value_or(block.full_height_m()),
                         .side = model.chain->side,
+                        .number = value(values, "chain.number").value_or(1),
+                        .plan_angle_rad = value(values, "chain.plan_angle_rad").value_or(0),
+                        .damping_nspm = value(values, "chain.damping_nspm").value_or(0),
                         .wall_gap_m = value(values, "chain.wall_gap_m")},
                        block);
 }
@@ -271,10 +281,16 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
   out.specimen.effects = parts.effects(out.draws);
   out.slip_factor = parts.value(out.draws, "discrepancy.slip").value_or(1);
   if (parts.model.chain) out.specimen.effects.push_back(parts.chain(out.draws, out.specimen.block));
+  const auto start = [&](const std::optional<Quantity>& part) {
+    return part ? *parts.value(out.draws, part->name.c_str()) : 0.0;
+  };
+  const StartPart& begins = parts.model.start;
+  out.specimen.start = {start(begins.rotation), start(begins.rotation_rate), start(begins.slip),
+                        start(begins.slip_velocity)};
   parts.shake(sample, out);
 
   const Block& block = out.specimen.block;
-  const double derived[] = {block.base_m(),  2 * block.height_m,         block.alpha_rad(),         block.size_m(),
+  const double derived[] = {block.base_m(),  block.full_height_m(),      block.alpha_rad(),         block.size_m(),
                             block.p_radps(), out.specimen.friction.mu_k, out.specimen.friction.mu_s};
   for (std::size_t i = 0; i < parts.derived_wanted.size(); ++i)
     if (parts.derived_wanted[i]) out.draws.push_back(derived[i]);
@@ -298,6 +314,7 @@ Settings integration_settings(const Study& study) {
   settings.tolerance = study.tolerance;
   settings.free_vibration_s = study.free_vibration_s;
   settings.slip_by_side = study.slip_by_side;
+  settings.acceleration_height_m = study.acceleration_height_m.value_or(not_known);
   return settings;
 }
 

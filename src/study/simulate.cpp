@@ -4,6 +4,7 @@
 
 #include <freestand/error.hpp>
 
+#include "motion/floor_displacement.hpp"
 #include "study/accuracy.hpp"
 #include "study/doubts.hpp"
 #include "study/realise.hpp"
@@ -36,6 +37,9 @@ Simulation simulate(const Case& c, bool reference) {
   const auto solve = reference ? respond_reference : respond;
   Settings settings = integration_settings(c.study);
   out.response = solve(sample.specimen, sample.shaking, settings, &out.history);
+  const motion::FloorDisplacement floor(*sample.shaking.motion);
+  for (const HistoryPoint& point : out.history.points)
+    out.floor_displacement_m.push_back(floor(sample.shaking, point.time_s));
   out.still_moving = out.response.outcome == Outcome::moved &&
                      out.response.end_time_s >= sample.shaking.duration_s() + settings.free_vibration_s;
   settings.tolerance = tighter(settings.tolerance);

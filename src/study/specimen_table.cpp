@@ -21,7 +21,8 @@ const std::map<std::string, std::string>& places() {
   static const std::map<std::string, std::string> all = [] {
     std::map<std::string, std::string> made;
     for (const char* name : {"id", "class", "description", "source", "floor", "friction"}) made[name] = name;
-    for (const char* name : {"width_m", "height_m", "slenderness_rad", "size_m", "mass_kg"})
+    for (const char* name : {"width_m", "height_m", "slenderness_rad", "size_m", "mass_kg", "centre_height_m",
+                             "gyration_radius_m", "inertia_kgm2"})
       made[name] = std::string("block.") + name;
     for (const char* name : {"mu", "mu_k", "mu_s", "static_ratio"}) made[name] = std::string("friction.") + name;
     for (const char* name : {"source", "id", "intensity", "demand", "capacity", "median", "dispersion"})

@@ -37,11 +37,14 @@ struct Quantity {
   }
 };
 
-// Either width and height, or slenderness alpha = atan(W/H) and size R = half the diagonal.
+// Either width and height, or slenderness alpha = atan(W/H) and size R = half the diagonal. Beside the sides, what is not that
+// of a uniform rectangle: where the centre of mass is, and the inertia about it.
 struct BlockPart {
-  std::optional<Quantity> width, height;      // block.width_m, block.height_m
-  std::optional<Quantity> slenderness, size;  // block.slenderness_rad, block.size_m
-  Quantity mass;                              // block.mass_kg
+  std::optional<Quantity> width, height;             // block.width_m, block.height_m
+  std::optional<Quantity> slenderness, size;         // block.slenderness_rad, block.size_m
+  Quantity mass;                                     // block.mass_kg
+  std::optional<Quantity> centre_height;             // block.centre_height_m, over the base
+  std::optional<Quantity> gyration_radius, inertia;  // block.gyration_radius_m, or block.inertia_kgm2
 };
 
 // Either mu for both coefficients, or mu_k with mu_s, or mu_k with static_ratio = mu_s/mu_k >= 1 (default 1).
@@ -63,10 +66,12 @@ struct EffectPart {
   std::shared_ptr<const dynamics::Effect> effect = {};
 };
 
-// A chain from the top of the block to the wall behind it; forces in newtons, so that the mass matters.
+// Chains from the top of the block to the wall behind it; forces in newtons, so that the mass matters.
 struct ChainPart {
   Quantity slack, stiffness, strength;  // chain.slack_m, chain.stiffness_npm, chain.strength_n
   std::optional<Quantity> height;       // chain.height_m, the block's height where it is not given
+  // chain.number, chain.plan_angle_rad, chain.damping_nspm; one chain along the shaking, without damping, where not given
+  std::optional<Quantity> number, plan_angle, damping;
   std::optional<Quantity> wall_gap;  // chain.wall_gap_m, 0 where it is not given; none where the model knows no walls
   int side = 1;                      // +1: holds back what moves to the right
 };
@@ -74,6 +79,12 @@ struct ChainPart {
 // The contact of model bouc_wen.
 struct BoucWenPart {
   Quantity yield_displacement, exponent, gamma, beta;  // bouc_wen.yield_displacement_m, bouc_wen.exponent ...
+};
+
+// How the block is when the floor begins to move (freestand/specimen.hpp); what is not given is zero.
+struct StartPart {
+  std::optional<Quantity> rotation, rotation_rate;  // start.rotation_rad, start.rotation_rate_radps
+  std::optional<Quantity> slip, slip_velocity;      // start.slip_m, start.slip_velocity_mps
 };
 
 struct ModelPart {
@@ -84,6 +95,7 @@ struct ModelPart {
   ImpactPart impact;
   std::vector<EffectPart> effects;
   std::optional<ChainPart> chain;
+  StartPart start;
   std::optional<Quantity>
       slip_discrepancy;  // discrepancy.slip: measured slips over those of the model, of which no law is known
 };
@@ -197,6 +209,8 @@ struct Study {
       1;  // independent designs, from whose differences errors come where every sample is a motion of its own
   double tolerance = 1e-9;
   double free_vibration_s = 60;
+  std::optional<double> acceleration_height_m =
+      {};                        // over the base: accelerations there are computed too, in more time
   bool slip_by_side = false;     // the peak slip to each side is computed too, in more time
   std::uint64_t block_size = 0;  // samples a work unit; default: samples/1000 as a power of two within 256 and 8192
   ModelPart model;

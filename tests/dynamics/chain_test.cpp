@@ -100,6 +100,58 @@ TEST(Chain, MirroredMotionAndSideGiveTheMirrorImage) {
   EXPECT_EQ(a.peak_acceleration_mps2, b.peak_acceleration_mps2);
 }
 
+// n chains at an angle beta are one along the shaking: of stiffness n k cos^2(beta), slack / cos(beta) and n cos(beta) times the
+// strength.
+TEST(Chain, SeveralThatCrossAreOneOfTheirSum) {
+  const FloorMotion motion = rectangular_pulse(-6, 0.4);
+  const double number = 2, beta = 15 * pi / 180;
+  for (const double strength : {1e9, 900.0}) {
+    Specimen one = chained(0.2, strength, Model::slide_rock), crossed = one;
+    crossed.effects = {dynamics::use({.slack_m = slack * std::cos(beta),
+                                      .stiffness_npm = stiffness / (number * std::cos(beta) * std::cos(beta)),
+                                      .strength_n = strength / (number * std::cos(beta)),
+                                      .height_m = 1.81,
+                                      .number = number,
+                                      .plan_angle_rad = beta},
+                                     one.block)};
+    for (const auto& [name, solve] : both) {
+      const Response a = solve(one, {&motion}, {}, nullptr), b = solve(crossed, {&motion}, {}, nullptr);
+      EXPECT_EQ(a.connection_failed, strength < 1e6) << name;
+      EXPECT_EQ(b.connection_failed, a.connection_failed) << name;
+      EXPECT_NEAR(a.peak_slip_m, b.peak_slip_m, 1e-8) << name;
+      EXPECT_NEAR(a.peak_rotation_rad, b.peak_rotation_rad, 1e-8) << name;
+    }
+  }
+}
+
+// x = (v/D) e^(-z W t) sin(D t), D = W sqrt(1 - z^2): the mass on ice turns round at tan(D t) = D/(z W), and is let go where the
+// chain would push, W^2 x + 2 z W x' = 0: D t = pi - 2 asin(z).
+TEST(Chain, DampsAsADashpotThatOnlyPulls) {
+  const double a = 1.5, t1 = 0.1, v = a * t1, W = std::sqrt(stiffness / mass), z = 0.2, D = W * std::sqrt(1 - z * z);
+  const FloorMotion motion = rectangular_pulse(-a, t1);
+  const auto displacement = [&](double t) { return v / D * std::exp(-z * W * t) * std::sin(D * t); };
+  const auto velocity = [&](double t) {
+    return v * std::exp(-z * W * t) * (std::cos(D * t) - z * W / D * std::sin(D * t));
+  };
+  for (const auto& [name, solve] : both) {
+    Specimen specimen = chained(0, 1e9);
+    specimen.effects = {dynamics::use({.slack_m = slack,
+                                       .stiffness_npm = stiffness,
+                                       .strength_n = 1e9,
+                                       .height_m = 1.81,
+                                       .damping_nspm = 2 * z * W * mass},
+                                      specimen.block)};
+    Settings settings;
+    settings.free_vibration_s = 0.25;
+    settings.tolerance = 1e-12;
+    History history;
+    history.step_s = 0.001;
+    const Response r = solve(specimen, {&motion}, settings, &history);
+    EXPECT_NEAR(r.peak_slip_m, slack + displacement(std::atan(D / (z * W)) / D), 1e-9) << name;
+    EXPECT_NEAR(history.points.at(330).slip_velocity_mps, velocity((pi - 2 * std::asin(z)) / D), 1e-8) << name;
+  }
+}
+
 // The centre of mass stands a part of the half width off the middle, as an effect that changes the block puts it.
 const dynamics::Effect off_the_middle{.name = "off_the_middle", .specimen = [](Specimen& s, const auto& p) {
                                         s.block.right_m *= 1 - p[0];

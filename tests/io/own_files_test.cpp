@@ -56,7 +56,7 @@ TEST_F(OwnFiles, ResultsByTheirFormat) {
   EXPECT_FALSE(own("summary.json", "{\"mine\": 1}\n"));
   EXPECT_TRUE(own("bins.csv", bins_csv({})));
   EXPECT_TRUE(own("surface.csv", surface_csv({})));
-  EXPECT_TRUE(own("history.csv", history_csv({})));
+  EXPECT_TRUE(own("history.csv", history_csv({}, {}, 1)));
   EXPECT_TRUE(own("summary.json", json_text(response_summary({}))));
   EXPECT_FALSE(own("history.csv", "time_s,floor_acceleration_mps2\n"));
   EXPECT_TRUE(own("report.html", "<!DOCTYPE html>\n<meta name=\"generator\" content=\"freestand\">\n"));

@@ -13,12 +13,17 @@ TEST(HistoryCsv, HasTheColumnsAndReadsBackToTheBit) {
   History history;
   const HistoryPoint point{0.1 + 0.2, -1.0 / 3, 1e-310, -0.0, M_PI, 6.02e23, Mode::slide_rock};
   history.points = {{0, 0, 0, 0, 0, 0, Mode::rest}, point};
-  std::istringstream lines(history_csv(history));
+  history.points[1].acceleration_mps2 = -1.0 / 7, history.points[1].vertical_acceleration_mps2 = 1e-5;
+  history.points[1].contact_x_mps2 = 0.5, history.points[1].contact_y_mps2 = 9.75;
+  std::istringstream lines(history_csv(history, {0, 0.3}, 200));
   std::string line;
   std::getline(lines, line);
-  EXPECT_EQ(line, "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode");
+  EXPECT_EQ(
+      line,
+      "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode,"
+      "floor_displacement_m,acceleration_mps2,vertical_acceleration_mps2,contact_horizontal_n,contact_vertical_n");
   std::getline(lines, line);
-  EXPECT_EQ(line.substr(line.rfind(',') + 1), "rest");
+  EXPECT_NE(line.find(",rest,"), std::string::npos);
   std::getline(lines, line);
   std::istringstream cells(line);
   for (const double expected : {point.time_s, point.floor_acceleration_mps2, point.slip_m, point.slip_velocity_mps,
@@ -29,8 +34,12 @@ TEST(HistoryCsv, HasTheColumnsAndReadsBackToTheBit) {
     EXPECT_EQ(back, expected);
     EXPECT_EQ(std::signbit(back), std::signbit(expected));
   }
-  std::getline(cells, line);
+  std::getline(cells, line, ',');
   EXPECT_EQ(line, "slide_rock");
+  for (const double expected : {0.3, -1.0 / 7, 1e-5, 100.0, 1950.0}) {
+    std::getline(cells, line, ',');
+    EXPECT_EQ(std::strtod(line.c_str(), nullptr), expected);
+  }
 }
 
 TEST(ResponseSummary, HasTheKeysOfTheContract) {
