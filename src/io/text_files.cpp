@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/units.hpp"
@@ -53,15 +54,21 @@ Json provenance_json(const Provenance& from) {
 }  // namespace
 
 std::string history_csv(const History& history) {
-  std::string text = "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode\n";
-  for (const HistoryPoint& p : history.points)
-    text += fmt::format("{},{},{},{},{},{},{}\n", p.time_s, p.floor_acceleration_mps2, p.slip_m, p.slip_velocity_mps,
+  std::string text = "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode";
+  if (history.cross) text += ",cross_slip_m,cross_slip_velocity_mps,floor_cross_acceleration_mps2";
+  text += '\n';
+  for (const HistoryPoint& p : history.points) {
+    text += fmt::format("{},{},{},{},{},{},{}", p.time_s, p.floor_acceleration_mps2, p.slip_m, p.slip_velocity_mps,
                         p.rotation_rad, p.rotation_rate_radps, name(p.mode));
+    if (history.cross)
+      text += fmt::format(",{},{},{}", p.cross_slip_m, p.cross_slip_velocity_mps, p.floor_cross_acceleration_mps2);
+    text += '\n';
+  }
   return text;
 }
 
-Json response_summary(const Response& response) {
-  return {{"format", response_format},
+Json response_summary(const Response& response, bool cross) {
+  Json json = {{"format", response_format},
           {"peak_slip_m", response.peak_slip_m},
           {"residual_slip_m", response.residual_slip_m},
           {"slid_path_m", response.slid_path_m},
@@ -75,6 +82,11 @@ Json response_summary(const Response& response) {
           {"wall_speed_mps", response.wall_speed_mps},
           {"residual_rotation_rad", response.residual_rotation_rad},
           {"end_time_s", response.end_time_s}};
+  if (!cross) return json;
+  json["residual_slip_m"] = std::hypot(response.residual_slip_m, response.residual_cross_slip_m);
+  json["residual_slip_along_m"] = response.residual_slip_m;
+  json["residual_slip_across_m"] = response.residual_cross_slip_m;
+  return json;
 }
 
 Json fragility_summary(const Provenance& provenance, const fragility::Result& result) {

@@ -15,12 +15,14 @@ inline constexpr const char* summary_format = "freestand-summary/1";
 inline constexpr const char* response_format = "freestand-response/1";
 
 // Text of history.csv: time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode.
-// Numbers read back to the same bits.
+// and, where History::cross, cross_slip_m,cross_slip_velocity_mps,floor_cross_acceleration_mps2. Numbers read back to the same bits.
 std::string history_csv(const History&);
 
 // summary.json of one simulated sample: format, peak_slip_m, residual_slip_m, slid_path_m, peak_rotation_rad, overturned,
 // outcome, peak_acceleration_g, events, and impacts, residual_rotation_rad, end_time_s.
-nlohmann::ordered_json response_summary(const Response&);
+// cross: the floor moves in both horizontal directions; residual_slip_m is then the size of the vector, whose components are
+// residual_slip_along_m and residual_slip_across_m.
+nlohmann::ordered_json response_summary(const Response&, bool cross = false);
 
 // summary.json of a sweep: format, study_name, samples, seed, outcomes, im, edps, warnings, provenance. The caller adds
 // timing and files.

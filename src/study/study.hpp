@@ -125,6 +125,9 @@ struct MotionSource {
   std::vector<std::string> ungrouped;         // columns by which a table could group its records, and does not
   std::optional<double> dt_s;                 // the rest as motion::ReadOptions, where a row does not say it
   std::string unit, format, channel;
+  std::string cross_records;  // the other horizontal components, paired as the vertical ones
+
+  bool in_plane() const;  // any record has a second horizontal channel
 };
 
 enum class Spacing { equal_width, equal_count, log };

@@ -33,6 +33,23 @@ TEST(HistoryCsv, HasTheColumnsAndReadsBackToTheBit) {
   EXPECT_EQ(line, "slide_rock");
 }
 
+TEST(HistoryCsv, HasTheOtherDirectionAtItsEnd) {
+  History history;
+  history.cross = true;
+  history.points = {{0, 1, 2, 3, 0, 0, Mode::slide, 4, 5, 6}};
+  EXPECT_EQ(history_csv(history),
+            "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode,"
+            "cross_slip_m,cross_slip_velocity_mps,floor_cross_acceleration_mps2\n0,1,2,3,0,0,slide,4,5,6\n");
+  Response response;
+  response.residual_slip_m = -3;
+  response.residual_cross_slip_m = 4;
+  EXPECT_EQ(response_summary(response)["residual_slip_m"], -3);
+  const auto plane = response_summary(response, true);
+  EXPECT_EQ(plane["residual_slip_m"], 5);
+  EXPECT_EQ(plane["residual_slip_along_m"], -3);
+  EXPECT_EQ(plane["residual_slip_across_m"], 4);
+}
+
 TEST(ResponseSummary, HasTheKeysOfTheContract) {
   Response response;
   response.outcome = Outcome::overturned;
