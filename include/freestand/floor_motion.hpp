@@ -25,7 +25,7 @@ struct FloorMotion {
   int degree = 1;
   std::vector<double> horizontal_mps2;  // n * (degree + 1)
   std::vector<double> vertical_mps2;    // the same, up positive; empty where there is no vertical channel
-  std::vector<double> cross_mps2;       // the same, across the horizontal channel; empty where the floor moves in a plane
+  std::vector<double> cross_mps2;  // the same, across the horizontal channel; empty where it moves along a line
 
   // Bounds of |a| over runs of `run_length` segments, from index_runs(): an integrator passes over the runs that cannot
   // move the block. Empty: not indexed, every segment is looked at.

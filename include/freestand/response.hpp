@@ -32,10 +32,10 @@ struct Response {
   // max u and max -u, of a sample with Settings::slip_by_side; else nan.
   double peak_slip_right_m = std::numeric_limits<double>::quiet_NaN();
   double peak_slip_left_m = std::numeric_limits<double>::quiet_NaN();
-  double residual_slip_m = 0;    // u at the end (signed)
+  double residual_slip_m = 0;        // u at the end (signed)
   double residual_cross_slip_m = 0;  // the same across it, of a floor that moves in both horizontal directions
-  double slid_path_m = 0;        // integral of |slip speed of the contact|
-  double peak_rotation_rad = 0;  // max |theta|
+  double slid_path_m = 0;            // integral of |slip speed of the contact|
+  double peak_rotation_rad = 0;      // max |theta|
   double residual_rotation_rad = 0;
   // Max of the vector sum of the centre of mass's total acceleration; impacts, and hops within the tolerance, left out.
   double peak_acceleration_mps2 = 0;

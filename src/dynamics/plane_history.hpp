@@ -64,8 +64,7 @@ class PlaneHistory {
   }
 
   void point(double time, const PlaneFloor& floor, double t, const PlaneVector& u, const PlaneVector& w, Mode mode) {
-    history_->points.push_back(
-        {time, floor.ax.at(t), u.x, w.x, 0, 0, mode, u.y, w.y, floor.ay.at(t)});
+    history_->points.push_back({time, floor.ax.at(t), u.x, w.x, 0, 0, mode, u.y, w.y, floor.ay.at(t)});
   }
 
   History* history_;

@@ -6,6 +6,7 @@
 #include "dynamics/floor_cursor.hpp"
 #include "dynamics/integration.hpp"
 #include "dynamics/plane_history.hpp"
+#include "dynamics/plane_peaks.hpp"
 #include "dynamics/plane_slip.hpp"
 #include "dynamics/roots.hpp"
 
@@ -14,12 +15,12 @@ namespace {
 
 constexpr int N = plane_order;
 
-// A slip is thought to follow the drive where the drive turns by little while the direction settles, |w|/A: so many times faster
-// than the floor's polynomials last.
+// A slip follows the drive where its direction settles, in the time |w|/A, this many times faster than the step lasts: then
+// the terms of its series that are left out, each N |w|/(A h) times the last, vanish.
 constexpr double settles_in = 0.25 / N;
 // The floor may change by this share of F - A during what slip_end() computes with a floor that holds still.
 constexpr double still_enough = 0.1;
-// A step in s takes the speed down, or up, by about this factor's exponent at most.
+// A step in s changes the speed by the factor e^2 at most.
 constexpr double longest_exponent = 2;
 constexpr int most_steps_a_segment = 1000000;
 
@@ -35,8 +36,10 @@ class PlaneSlide {
         length_(setup.specimen.block.size_m()),
         speed_(length_ * setup.specimen.block.p_radps()),
         own_time_(1 / setup.specimen.block.p_radps()),
+        instant_s_(1e-9 * own_time_),
         along_(shaking_, g_),
         across_(FloorCursor::across(shaking_)),
+        peaks_(g_, mu_k_),
         history_(history, shaking_) {}
 
   Response run() {
@@ -95,7 +98,7 @@ class PlaneSlide {
     const std::vector<double>& runs = shaking_.motion->cross_run_mps2;
     const bool passed = along_.pass_over([&](const FloorCursor::Bound& floor) {
       const double cross = std::abs(shaking_.scale) * runs[along_.segment() / FloorMotion::run_length];
-      const double push = std::hypot(floor.a, cross), peak = response_.peak_acceleration_mps2;
+      const double push = std::hypot(floor.a, cross), peak = peaks_.response().peak_acceleration_mps2;
       return push < mu_s_ * (g_ - floor.v) && push * push + floor.v * floor.v <= peak * peak;
     });
     if (!passed) return;
@@ -123,7 +126,7 @@ class PlaneSlide {
   }
 
   void go_at_rest(double tau) {
-    observe_acceleration(squared_push(), tau);
+    peaks_.observe_rest(floor_, tau);
     history_.rest(floor_, u_, along_.time(), tau);
     advance(tau);
   }
@@ -137,7 +140,7 @@ class PlaneSlide {
     if (lifts && found == 0) return take_off();
     if (lifts) limit = found;
     if (ends_within(limit) || follows_drive(limit)) return;
-    if (size(w_) == 0) return go_at_rest(std::fmin(limit, 1e-9 * own_time_));  // no floor acceleration gives a direction
+    if (size(w_) == 0) return come_to_rest(std::fmin(limit, instant_s_));  // no floor acceleration gives a direction
     step_in_s(limit);
   }
 
@@ -151,17 +154,15 @@ class PlaneSlide {
     }
     if (!(A < F())) return false;
     const SlipEnd end = slip_end(floor_.a(), F(), w_);
-    const double changes =
-        (std::hypot(floor_.ax[1], floor_.ay[1]) + mu_k_ * std::abs(floor_.g[1])) * end.after_s;
-    const bool still = along_.motion_over() || (v * end.after_s <= settings_.tolerance * length_ &&
-                                                changes <= still_enough * (F() - A));
+    const double changes = (std::hypot(floor_.ax[1], floor_.ay[1]) + mu_k_ * std::abs(floor_.g[1])) * end.after_s;
+    const bool still = along_.motion_over() ||
+                       (v * end.after_s <= settings_.tolerance * length_ && changes <= still_enough * (F() - A));
     if (!still || end.after_s > limit) return false;
     history_.end(floor_, u_, w_, end.covers_m, along_.time(), end.after_s);
-    observe_acceleration(squared_friction(), end.after_s);
+    peaks_.observe_friction(floor_, end.after_s);
     u_.x += end.covers_m.x;
     u_.y += end.covers_m.y;
-    response_.slid_path_m += end.path_m;
-    response_.peak_slip_m = std::fmax(response_.peak_slip_m, size(u_));
+    peaks_.observe_end(end, u_);
     come_to_rest(end.after_s);
     return true;
   }
@@ -172,7 +173,7 @@ class PlaneSlide {
     read_floor();
     const bool slips = sign_after(grip(), grip_zero()) < 0;
     change(slips ? Mode::slide : Mode::rest);
-    response_.events += slips;  // it starts again at once
+    peaks_.response().events += slips;  // it starts again at once
   }
 
   // A step in time of a slip that follows the drive.
@@ -187,8 +188,9 @@ class PlaneSlide {
     double h = limit;
     for (int turn = 0;; ++turn) {
       const double fastest = std::abs(driven.slip.v[0]) + size_of_rest<1>(driven.slip.v, h);
-      const double missed = (std::abs(driven.slip.v[N]) * std::pow(h, N) +
-                             fastest * std::abs(driven.last_angle) * std::pow(h, N - 1)) / (tolerance * speed_);
+      const double missed =
+          (std::abs(driven.slip.v[N]) * std::pow(h, N) + fastest * std::abs(driven.last_angle) * std::pow(h, N - 1)) /
+          (tolerance * speed_);
       if (missed <= 1) break;
       if (turn == 20) return false;
       h *= 0.95 * std::pow(missed, -1.0 / N);
@@ -197,8 +199,7 @@ class PlaneSlide {
     double found = 0;
     const bool stops = first_root(driven.slip.v, h, ZeroTolerance{1, 0.0}, found);
     if (stops && found == 0) {  // it does not start
-      w_ = {};
-      go_at_rest(std::fmin(h, 1e-9 * own_time_));
+      come_to_rest(std::fmin(h, instant_s_));
       return true;
     }
     if (stops) h = found;
@@ -221,9 +222,9 @@ class PlaneSlide {
     if (M < N && x * x * x > 720 * settings_.tolerance * speed_ / size(w_)) return false;
     const SlipSeries slip = slip_series(floor_, mu_k_, w_, u_, M);
     double h = longest_exponent / (size(floor_.a()) + std::abs(F()));
-    const double last = std::fmax(
-        std::fmax(std::hypot(slip.wx[M], slip.wy[M]), std::abs(slip.v[M])) / speed_,
-        std::fmax(std::hypot(slip.ux[M], slip.uy[M]) / length_, std::abs(slip.t[M]) / own_time_));
+    const double last =
+        std::fmax(std::fmax(std::hypot(slip.wx[M], slip.wy[M]), std::abs(slip.v[M])) / speed_,
+                  std::fmax(std::hypot(slip.ux[M], slip.uy[M]) / length_, std::abs(slip.t[M]) / own_time_));
     if (last > 0) h = std::fmin(h, std::pow(settings_.tolerance / last, 1.0 / M));
     double tau = slip.t.at(h);
     if (!(tau < limit)) {
@@ -238,8 +239,8 @@ class PlaneSlide {
 
   // To the place h of the series, at time tau.
   void step_along(const SlipSeries& slip, double h, double tau) {
-    observe_acceleration(squared_friction(), tau);
-    observe_slip(slip, h);
+    peaks_.observe_friction(floor_, tau);
+    peaks_.observe_slip(slip, h);
     history_.along(slip, floor_, along_.time(), h, tau, Mode::slide);
     w_ = {slip.wx.at(h), slip.wy.at(h)};
     u_ = {slip.ux.at(h), slip.uy.at(h)};
@@ -265,10 +266,8 @@ class PlaneSlide {
     double tau = left_, found = 0;
     const bool lands = first_root(y, tau, ZeroTolerance{2, force_zero_}, found);
     if (lands) tau = found;
-    observe_slip(path, tau);
-    PlaneSeries weight = PlaneSeries::zero();
-    weight[0] = g_ * g_;
-    observe_acceleration(weight, tau);
+    peaks_.observe_flight(path, tau);
+    peaks_.observe_fall();
     history_.along(path, floor_, along_.time(), tau, tau, Mode::flight);
     w_ = {path.wx.at(tau), path.wy.at(tau)};
     u_ = {path.ux.at(tau), path.uy.at(tau)};
@@ -283,7 +282,7 @@ class PlaneSlide {
     const double push = std::abs(vy_), v = size(w_);
     const double kept = v <= mu_s_ * push ? 0.0 : std::fmax(v - mu_k_ * push, 0.0) / v;
     w_ = {w_.x * kept, w_.y * kept};
-    ++response_.impacts;
+    ++peaks_.response().impacts;
     read_floor();
     const bool slips = kept > 0 || sign_after(grip(), grip_zero()) < 0;
     if (sign_after(floor_.g, weight_zero()) < 0)
@@ -292,46 +291,12 @@ class PlaneSlide {
       change(slips ? Mode::slide : Mode::rest, true);
   }
 
-  // What is told.
-
-  PlaneSeries squared_lift() const {
-    PlaneSeries lift = floor_.g;
-    lift[0] -= g_;
-    PlaneSeries squared;
-    for (int k = 0; k <= N; ++k) squared[k] = product(lift, lift, k);
-    return squared;
-  }
-  // At rest the block has the acceleration of the floor; slipping, that of friction.
-  PlaneSeries squared_push() const {
-    PlaneSeries squared = squared_lift();
-    for (int k = 0; k <= N; ++k) squared[k] += product(floor_.ax, floor_.ax, k) + product(floor_.ay, floor_.ay, k);
-    return squared;
-  }
-  PlaneSeries squared_friction() const {
-    PlaneSeries squared = squared_lift();
-    for (int k = 0; k <= N; ++k) squared[k] += mu_k_ * mu_k_ * product(floor_.g, floor_.g, k);
-    return squared;
-  }
-  void observe_acceleration(const PlaneSeries& squared, double tau) {
-    const double peak = response_.peak_acceleration_mps2;
-    if (surely_within(squared, tau, peak * peak)) return;
-    response_.peak_acceleration_mps2 = std::sqrt(max_of(squared, tau, peak * peak));
-  }
-  void observe_slip(const SlipSeries& slip, double h) {
-    const double path = slip.path.at(h), peak = response_.peak_slip_m;
-    response_.slid_path_m += path;
-    if (mode_ == Mode::slide && size(u_) + path <= peak) return;
-    PlaneSeries squared;
-    for (int k = 0; k <= N; ++k) squared[k] = product(slip.ux, slip.ux, k) + product(slip.uy, slip.uy, k);
-    response_.peak_slip_m = std::fmax(peak, std::sqrt(max_of(squared, h, peak * peak)));
-  }
-
   // Life.
 
   void change(Mode to, bool impact = false) {
     history_.event({along_.time(), mode_, to, 0, impact});
     if (to == Mode::rest) w_ = {};
-    if (to != mode_ || impact) ++response_.events;
+    if (to != mode_ || impact) ++peaks_.response().events;
     moved_ = moved_ || to != Mode::rest;
     mode_ = to;
     if (++changes_ >= settings_.event_limit) stop(Outcome::step_limit);
@@ -341,30 +306,30 @@ class PlaneSlide {
     finished_ = true;
   }
   void stop_when_done() {
-    for (const double value : {u_.x, u_.y, w_.x, w_.y, y_, vy_, response_.peak_acceleration_mps2})
+    for (const double value : {u_.x, u_.y, w_.x, w_.y, y_, vy_, peaks_.response().peak_acceleration_mps2})
       if (!(std::abs(value) < beyond_all_bounds)) return stop(Outcome::not_finite);
     if (finished_ || !along_.motion_over()) return;
     if (mode_ == Mode::rest || along_.time() >= end_s()) stop(moved_ ? Outcome::moved : Outcome::at_rest);
   }
   Response result() {
-    response_.outcome = outcome_;
-    response_.residual_slip_m = u_.x;
-    response_.residual_cross_slip_m = u_.y;
-    response_.end_time_s = along_.time();
+    peaks_.response().outcome = outcome_;
+    peaks_.response().residual_slip_m = u_.x;
+    peaks_.response().residual_cross_slip_m = u_.y;
+    peaks_.response().end_time_s = along_.time();
     if (outcome_ == Outcome::at_rest || outcome_ == Outcome::moved) history_.hold(u_, mode_);
-    return response_;
+    return peaks_.response();
   }
 
   const Shaking shaking_;
   const Settings settings_;
-  const double mu_s_, mu_k_, g_, force_zero_, length_, speed_, own_time_;
+  const double mu_s_, mu_k_, g_, force_zero_, length_, speed_, own_time_, instant_s_;
   FloorCursor along_, across_;
   PlaneFloor floor_;
   double left_ = 0;  // to the next knot, or to the end of the time given [s]
   Mode mode_ = Mode::rest;
   PlaneVector u_, w_;
   double y_ = 0, vy_ = 0;  // height over the floor in flight
-  Response response_;
+  PlanePeaks peaks_;
   PlaneHistory history_;
   Outcome outcome_ = Outcome::moved;
   bool finished_ = false, moved_ = false;
@@ -374,8 +339,7 @@ class PlaneSlide {
 }  // namespace
 
 std::string refusal_in_plane(const Specimen& specimen) {
-  if (specimen.model != Model::slide)
-    return "a block is followed in both horizontal directions where it only slides";
+  if (specimen.model != Model::slide) return "a block is followed in both horizontal directions where it only slides";
   Specimen plain = specimen;
   for (const EffectUse& use : specimen.effects) {
     plain.effects = {use};

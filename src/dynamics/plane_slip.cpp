@@ -155,9 +155,8 @@ SlipEnd slip_end(const PlaneVector& a, double F, const PlaneVector& w) {
   const double b = dot(ahead, w), m = dot(aside, w), left = (F - A) * (F + A);
   const double x = (2 * F * v * b - A * (b * b + v * v)) / (4 * left);
   const double z = (2 * F * v * m - A * b * m) / (4 * F * F - A * A);
-  return {(F * v - A * b) / left,
-          (v * v - 2 * A * x) / (2 * F),
-          {ahead.x * x + aside.x * z, ahead.y * x + aside.y * z}};
+  return {
+      (F * v - A * b) / left, (v * v - 2 * A * x) / (2 * F), {ahead.x * x + aside.x * z, ahead.y * x + aside.y * z}};
 }
 
 bool driven_slip(const PlaneFloor& floor, double mu_k, const PlaneVector& w, const PlaneVector& u, double zero,

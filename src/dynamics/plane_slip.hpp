@@ -23,7 +23,8 @@
 
 namespace freestand::dynamics {
 
-inline constexpr int plane_order = 10, short_order = 6;  // of series; where a knot is near, the shorter ones are as good
+inline constexpr int plane_order = 10,
+                     short_order = 6;   // of series; where a knot is near, the shorter ones are as good
 inline constexpr int plane_degree = 5;  // of the floor's polynomials, at most: the square of |a| is searched for roots
 
 struct PlaneVector {

@@ -6,7 +6,8 @@ const Register peak_slip{{
     .name = "peak_slip_m",
     .unit = "m",
     .symbol = "U",
-    .summary = "largest displacement of the middle of the base relative to the floor; size of the vector where the floor moves in "
+    .summary = "largest displacement of the middle of the base relative to the floor; size of the vector where the "
+               "floor moves in "
                "both horizontal directions",
     .source = "[KM05 ch. 5]",
     .still = 1e-4,

@@ -8,7 +8,8 @@ const Register residual_slip{{
     .name = "residual_slip_m",
     .unit = "m",
     .symbol = "|u_res|",
-    .summary = "displacement of the middle of the base that remains, without its sign; size of the vector where the floor moves in "
+    .summary = "displacement of the middle of the base that remains, without its sign; size of the vector where the "
+               "floor moves in "
                "both horizontal directions",
     .source = "[KM05 ch. 4]",
     .still = 1e-4,

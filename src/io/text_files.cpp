@@ -69,19 +69,19 @@ std::string history_csv(const History& history) {
 
 Json response_summary(const Response& response, bool cross) {
   Json json = {{"format", response_format},
-          {"peak_slip_m", response.peak_slip_m},
-          {"residual_slip_m", response.residual_slip_m},
-          {"slid_path_m", response.slid_path_m},
-          {"peak_rotation_rad", response.peak_rotation_rad},
-          {"overturned", response.outcome == Outcome::overturned},
-          {"outcome", name(response.outcome)},
-          {"peak_acceleration_g", response.peak_acceleration_mps2 / standard_gravity_mps2},
-          {"events", response.events},
-          {"impacts", response.impacts},
-          {"wall_hits", response.wall_hits},
-          {"wall_speed_mps", response.wall_speed_mps},
-          {"residual_rotation_rad", response.residual_rotation_rad},
-          {"end_time_s", response.end_time_s}};
+               {"peak_slip_m", response.peak_slip_m},
+               {"residual_slip_m", response.residual_slip_m},
+               {"slid_path_m", response.slid_path_m},
+               {"peak_rotation_rad", response.peak_rotation_rad},
+               {"overturned", response.outcome == Outcome::overturned},
+               {"outcome", name(response.outcome)},
+               {"peak_acceleration_g", response.peak_acceleration_mps2 / standard_gravity_mps2},
+               {"events", response.events},
+               {"impacts", response.impacts},
+               {"wall_hits", response.wall_hits},
+               {"wall_speed_mps", response.wall_speed_mps},
+               {"residual_rotation_rad", response.residual_rotation_rad},
+               {"end_time_s", response.end_time_s}};
   if (!cross) return json;
   json["residual_slip_m"] = std::hypot(response.residual_slip_m, response.residual_cross_slip_m);
   json["residual_slip_along_m"] = response.residual_slip_m;

@@ -23,9 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Columns that say how to read a record, and are no intensities.
-constexpr std::string_view own_columns[] = {"file",    "folder", "suite",     "dt_s",     "unit",  "format",
-                                            "channel", "group",  "component", "vertical", "event", "station",
-                                            "cross"};
+constexpr std::string_view own_columns[] = {"file",  "folder",    "suite",    "dt_s",  "unit",    "format", "channel",
+                                            "group", "component", "vertical", "event", "station", "cross"};
 // First words of columns that no scaling of the record changes, whatever their unit; their units are not those of shaking.
 constexpr std::string_view properties[] = {"magnitude", "mw",       "distance",  "depth", "vs30",
                                            "elevation", "duration", "rjb",       "rrup",  "rhypo",

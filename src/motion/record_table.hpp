@@ -32,7 +32,7 @@ struct RecordRow {
   std::filesystem::path file, vertical;  // vertical: empty where there is none
   std::optional<double> dt_s;
   std::string unit, format, channel, group;
-  std::vector<double> numbers;  // one for each RecordTable::numbers; nan where the cell is empty
+  std::vector<double> numbers;       // one for each RecordTable::numbers; nan where the cell is empty
   std::filesystem::path cross = {};  // the other horizontal component; empty where there is none
 };
 

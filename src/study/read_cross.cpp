@@ -32,8 +32,8 @@ void check_cross(Section& file, const Study& study) {
   if (std::none_of(study.motions.begin(), study.motions.end(), [](const auto& source) { return source.in_plane(); }))
     return;
   const auto refuse = [&](const char* key, const std::string& why, const char* cure) {
-    file.problem(key, fmt::format("{} does not go with a second horizontal channel of the records ({}): {}", key, why,
-                                  cure));
+    file.problem(
+        key, fmt::format("{} does not go with a second horizontal channel of the records ({}): {}", key, why, cure));
   };
   const ModelPart& model = study.model;
   if (model.model != Model::slide)
@@ -41,10 +41,8 @@ void check_cross(Section& file, const Study& study) {
            "set model: slide, or give one component of each record");
   else if (const std::string why = dynamics::refusal_in_plane(kind_of(model)); !why.empty())
     refuse("effects", why, "remove the effect, or give one component of each record");
-  if (model.chain)
-    refuse("chain", "it pulls along one line", "remove it, or give one component of each record");
-  if (study.slip_by_side)
-    refuse("slip_by_side", "the peak slip is that of a vector, which has no sides", "remove it");
+  if (model.chain) refuse("chain", "it pulls along one line", "remove it, or give one component of each record");
+  if (study.slip_by_side) refuse("slip_by_side", "the peak slip is that of a vector, which has no sides", "remove it");
 }
 
 }  // namespace freestand::study

@@ -1,5 +1,5 @@
 // Sliding in the plane of the floor: closed forms, lines, turns, energy, convergence.
-#include "dynamics/plane_slip.hpp"
+#include "dynamics/plane_slide.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <freestand/simulate.hpp>
 
 #include "base/units.hpp"
-#include "dynamics/plane_slide.hpp"
+#include "dynamics/plane_slip.hpp"
 #include "support/floor_motions.hpp"
 #include "support/plane_motions.hpp"
 
@@ -32,8 +32,15 @@ Shaking shaking_of(const FloorMotion& motion, double vertical_scale = 0) {
 
 // What of a sample is compared to the bit.
 std::vector<double> numbers(const Response& r) {
-  return {r.peak_slip_m, r.residual_slip_m, r.residual_cross_slip_m, r.slid_path_m, r.peak_acceleration_mps2,
-          r.end_time_s, static_cast<double>(r.outcome), static_cast<double>(r.events), static_cast<double>(r.impacts)};
+  return {r.peak_slip_m,
+          r.residual_slip_m,
+          r.residual_cross_slip_m,
+          r.slid_path_m,
+          r.peak_acceleration_mps2,
+          r.end_time_s,
+          static_cast<double>(r.outcome),
+          static_cast<double>(r.events),
+          static_cast<double>(r.impacts)};
 }
 
 // A slip across a constant drive: at first w = (v0, 0), the floor accelerates by A along y. With chi the angle between w and -a,
@@ -60,8 +67,7 @@ TEST(PlaneSlide, ADriveThatTurnsByARightAngle) {
   for (const double mu : {0.1, 0.3})
     for (const double turned_over_grip : {0.3, 0.9, 1.3, 4.0}) {
       const double F = mu * g, first = 2 * F, T1 = 0.2, T2 = 0.15, A = turned_over_grip * F;
-      const FloorMotion motion =
-          in_plane(staircase({T1, T2}, {first, 0}), staircase({T1, T2}, {0, A}));
+      const FloorMotion motion = in_plane(staircase({T1, T2}, {first, 0}), staircase({T1, T2}, {0, A}));
       const double v1 = (first - F) * T1, u1 = 0.5 * v1 * T1;
       const AcrossDrive drive{A, F / A, v1};
       // Slower than it may, A < F, it stops within T2 or not; p = 0 is the stop.
@@ -281,7 +287,8 @@ TEST(PlaneSlide, FliesAndLands) {
   FloorMotion motion = in_plane(staircase({T1, T2, 1}, {0, 0, 0}, {0, up, 0}), staircase({T1, T2, 1}, {2 * F, 0, 0}));
   const double v = F * T1, u = 0.5 * v * T1;
   // y'' = 0.5 g for T2, then -g: back at 0 after T2 + tau, vy = 0.5 g T2 - g tau.
-  const double rise = 0.5 * g * T2, height = 0.5 * rise * T2, tau = (rise + std::sqrt(rise * rise + 2 * g * height)) / g;
+  const double rise = 0.5 * g * T2, height = 0.5 * rise * T2,
+               tau = (rise + std::sqrt(rise * rise + 2 * g * height)) / g;
   const double fall = g * tau - rise, after = std::fmax(v - mu * fall, 0.0);
   const Response r = respond(sliding_block(mu, mu), shaking_of(motion, 1), {.tolerance = 1e-12});
   EXPECT_NEAR(r.residual_cross_slip_m, -(u + v * (T2 + tau) + after * after / (2 * F)), 1e-11);

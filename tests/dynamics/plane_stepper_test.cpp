@@ -1,5 +1,7 @@
 // Sliding in the plane against a time-stepper that shares nothing with it (tests/support/plane_stepper.hpp). A few of the random
 // motions; more of them with FREESTAND_PLANE_CASES=400 in the environment.
+#include "support/plane_stepper.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 
 #include "base/units.hpp"
 #include "support/plane_motions.hpp"
-#include "support/plane_stepper.hpp"
 
 namespace freestand::test::plane_stepper_test {
 namespace {
@@ -40,8 +41,8 @@ TEST(PlaneSlide, AgreesWithTheTimeStepper) {
     const double end = std::max(r.end_time_s, motion.duration_s()) + 0.01, scale = std::max(r.slid_path_m, 1e-4);
     double differs = 1, error = 0;
     for (long steps = 100000; steps <= 6400000; steps *= 4) {
-      const PlaneAnswer p = step_in_plane_twice({c.specimen.friction.mu_s, c.specimen.friction.mu_k,
-                                                 standard_gravity_mps2}, floor, end, steps, error);
+      const PlaneAnswer p = step_in_plane_twice(
+          {c.specimen.friction.mu_s, c.specimen.friction.mu_k, standard_gravity_mps2}, floor, end, steps, error);
       differs = std::max({std::abs(p.peak_slip_m - r.peak_slip_m), std::abs(p.residual_x_m - r.residual_slip_m),
                           std::abs(p.residual_y_m - r.residual_cross_slip_m), std::abs(p.path_m - r.slid_path_m)});
       if (differs <= 2e-5 * scale) break;

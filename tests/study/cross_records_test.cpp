@@ -43,8 +43,9 @@ class CrossRecords : public testing::Test {
     for (int i = 0; i < rows; ++i) file << i * dt << ',' << value(i * dt) << '\n';
   }
   Study study(const std::string& motion, const std::string& more = "model: slide\n") const {
-    return parse_study(block + friction + samples + "fragility: {edp: [peak_slip_m]}\nmotions: [" + motion + "]\n" + more,
-                       folder_ / "s.yaml", known());
+    return parse_study(
+        block + friction + samples + "fragility: {edp: [peak_slip_m]}\nmotions: [" + motion + "]\n" + more,
+        folder_ / "s.yaml", known());
   }
   Case one(const std::string& text) const {
     return parse_case(block + friction + "model: slide\n" + text, folder_ / "c.yaml");
@@ -114,8 +115,10 @@ TEST_F(CrossRecords, PairsThatAreNoneAreRefusedByBothNames) {
   };
   EXPECT_EQ(told(), "");
   write("across/a.csv", 150, [](double t) { return t; });
-  EXPECT_THAT(told(), testing::AllOf(HasSubstr("along/a.csv"), HasSubstr("across/a.csv"), HasSubstr("200 and 150 samples")));
-  write("across/a.csv", 200, [](double t) { return t; }, 0.02);
+  EXPECT_THAT(told(),
+              testing::AllOf(HasSubstr("along/a.csv"), HasSubstr("across/a.csv"), HasSubstr("200 and 150 samples")));
+  write(
+      "across/a.csv", 200, [](double t) { return t; }, 0.02);
   EXPECT_THAT(told(), testing::AllOf(HasSubstr("across/a.csv"), HasSubstr("their steps are 0.01 s and 0.02 s")));
   EXPECT_THAT(text_of([&] { study("{records: \"along/*\", cross_records: across/a.csv}"); }),
               HasSubstr("cross_records matches 1 files but records matches 2"));
