@@ -50,8 +50,8 @@ class PlaneHistory {
   void hold(const PlaneVector& u, Mode mode) {
     if (!wanted()) return;
     for (; next_time() <= shaking_.duration_s(); ++next_)
-      history_->points.push_back({next_time(), horizontal_acceleration(shaking_, next_time()), u.x, 0, 0, 0, mode, u.y,
-                                  0, cross_acceleration(shaking_, next_time())});
+      add(next_time(), {horizontal_acceleration(shaking_, next_time()), cross_acceleration(shaking_, next_time())}, u,
+          {}, mode);
   }
 
  private:
@@ -64,7 +64,15 @@ class PlaneHistory {
   }
 
   void point(double time, const PlaneFloor& floor, double t, const PlaneVector& u, const PlaneVector& w, Mode mode) {
-    history_->points.push_back({time, floor.ax.at(t), u.x, w.x, 0, 0, mode, u.y, w.y, floor.ay.at(t)});
+    add(time, {floor.ax.at(t), floor.ay.at(t)}, u, w, mode);
+  }
+
+  void add(double time, const PlaneVector& a, const PlaneVector& u, const PlaneVector& w, Mode mode) {
+    HistoryPoint point{time, a.x, u.x, w.x, 0, 0, mode};
+    point.cross_slip_m = u.y;
+    point.cross_slip_velocity_mps = w.y;
+    point.floor_cross_acceleration_mps2 = a.y;
+    history_->points.push_back(point);
   }
 
   History* history_;

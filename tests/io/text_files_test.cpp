@@ -36,7 +36,11 @@ TEST(HistoryCsv, HasTheColumnsAndReadsBackToTheBit) {
 TEST(HistoryCsv, HasTheOtherDirectionAtItsEnd) {
   History history;
   history.cross = true;
-  history.points = {{0, 1, 2, 3, 0, 0, Mode::slide, 4, 5, 6}};
+  HistoryPoint point{0, 1, 2, 3, 0, 0, Mode::slide};
+  point.cross_slip_m = 4;
+  point.cross_slip_velocity_mps = 5;
+  point.floor_cross_acceleration_mps2 = 6;
+  history.points = {point};
   EXPECT_EQ(history_csv(history),
             "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode,"
             "cross_slip_m,cross_slip_velocity_mps,floor_cross_acceleration_mps2\n0,1,2,3,0,0,slide,4,5,6\n");
