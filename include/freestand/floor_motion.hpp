@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,11 +25,15 @@ struct FloorMotion {
   int degree = 1;
   std::vector<double> horizontal_mps2;  // n * (degree + 1)
   std::vector<double> vertical_mps2;    // the same, up positive; empty where there is no vertical channel
+  std::vector<double> cross_mps2;  // the same, across the horizontal channel; empty where it moves along a line
 
   // Bounds of |a| over runs of `run_length` segments, from index_runs(): an integrator passes over the runs that cannot
   // move the block. Empty: not indexed, every segment is looked at.
   static constexpr std::size_t run_length = 32;
-  std::vector<double> horizontal_run_mps2, vertical_run_mps2;
+  std::vector<double> horizontal_run_mps2, vertical_run_mps2, cross_run_mps2;
+  // The cross channel is this times the horizontal one throughout, to round-off, and the floor shakes along one line; nan: it
+  // is not. From index_runs().
+  double cross_over_horizontal = std::numeric_limits<double>::quiet_NaN();
   // Integrals and more of the horizontal channel, from index_runs(); null where the motion is not piecewise linear with
   // a constant step.
   std::shared_ptr<const MotionTable> table;
@@ -41,7 +46,7 @@ struct FloorMotion {
 // `stretch` is the pulse period for the unit pulses and 1 for records.
 struct Shaking {
   const FloorMotion* motion = nullptr;  // not owned
-  double scale = 1.0;                   // on the horizontal channel; its sign mirrors the motion
+  double scale = 1.0;                   // on the horizontal channels; its sign mirrors the motion
   double stretch = 1.0;                 // > 0
   double vertical_scale = 0.0;          // on the vertical channel; 0: vertical shaking is ignored
 
@@ -52,6 +57,8 @@ struct Shaking {
 double horizontal_acceleration(const Shaking& shaking, double t);
 double vertical_acceleration(const Shaking& shaking, double t);
 
+double cross_acceleration(const Shaking& shaking, double t);
+
 // Fills the bounds of the runs from the coefficients.
 void index_runs(FloorMotion& motion);
 
@@ -59,5 +66,8 @@ void index_runs(FloorMotion& motion);
 // samples, unequal lengths, a step that is not positive, or a value that is not finite.
 FloorMotion piecewise_linear(std::string name, double dt_s, const std::vector<double>& horizontal_mps2,
                              const std::vector<double>& vertical_mps2 = {});
+
+// Gives such a motion a second horizontal channel, at the same instants. Throws Error as above.
+void add_cross(FloorMotion& motion, double dt_s, const std::vector<double>& cross_mps2);
 
 }  // namespace freestand

@@ -27,13 +27,15 @@ const char* failure(Outcome outcome);  // why the computation broke off, in word
 struct Response {
   Outcome outcome = Outcome::at_rest;
   double peak_slip_m = 0;  // max |u|, u = displacement of the base's midpoint relative to the floor; of a block that
-                           // overturned without its fall (dynamics/overturned.hpp)
+                           // overturned without its fall (dynamics/overturned.hpp); the size of the vector where the
+                           // floor moves in both horizontal directions
   // max u and max -u, of a sample with Settings::slip_by_side; else nan.
   double peak_slip_right_m = std::numeric_limits<double>::quiet_NaN();
   double peak_slip_left_m = std::numeric_limits<double>::quiet_NaN();
-  double residual_slip_m = 0;    // u at the end (signed)
-  double slid_path_m = 0;        // integral of |slip speed of the contact|
-  double peak_rotation_rad = 0;  // max |theta|
+  double residual_slip_m = 0;        // u at the end (signed)
+  double residual_cross_slip_m = 0;  // the same across it, of a floor that moves in both horizontal directions
+  double slid_path_m = 0;            // integral of |slip speed of the contact|
+  double peak_rotation_rad = 0;      // max |theta|
   double residual_rotation_rad = 0;
   // Max of the vector sum of the centre of mass's total acceleration; impacts, and hops within the tolerance, left out.
   double peak_acceleration_mps2 = 0;
@@ -66,12 +68,14 @@ struct HistoryPoint {
   // Force of the floor on the block over its mass, to the right and up, both corners together; of model bouc_wen with the
   // forces of laws.
   double contact_x_mps2 = 0, contact_y_mps2 = 0;
+  double cross_slip_m = 0, cross_slip_velocity_mps = 0, floor_cross_acceleration_mps2 = 0;  // where History::cross
 };
 
 struct History {
   double step_s = 0.005;  // output step; 0: events only
   std::vector<HistoryPoint> points;
   std::vector<Event> events;
+  bool cross = false;  // the floor moves in both horizontal directions, and slip is a vector
 };
 
 }  // namespace freestand

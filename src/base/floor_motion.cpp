@@ -2,6 +2,7 @@
 #include <cmath>
 #include <freestand/error.hpp>
 #include <freestand/floor_motion.hpp>
+#include <limits>
 
 #include "base/motion_table.hpp"
 
@@ -45,6 +46,30 @@ std::vector<double> linear_coefficients(double dt_s, const std::vector<double>& 
   return c;
 }
 
+// cross / horizontal where they are proportional throughout, to round-off of the largest cross acceleration; else nan.
+// Coefficients of degree k count over their segment's length^k.
+double ratio_of_channels(const FloorMotion& motion) {
+  constexpr double independent = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double>&along = motion.horizontal_mps2, &across = motion.cross_mps2;
+  if (across.empty() || across.size() != along.size()) return independent;
+  const auto stride = static_cast<std::size_t>(motion.degree) + 1;
+  std::size_t largest = 0;
+  double peak = 0;
+  for (std::size_t i = 0; i < along.size(); i += stride) {
+    if (std::abs(along[i]) > std::abs(along[largest])) largest = i;
+    peak = std::max(peak, std::abs(across[i]));
+  }
+  if (along[largest] == 0) return independent;
+  const double ratio = across[largest] / along[largest];
+  const double round_off = 8 * std::numeric_limits<double>::epsilon() * peak;
+  for (std::size_t i = 0; i < along.size(); ++i) {
+    const double h = motion.knot_s[i / stride + 1] - motion.knot_s[i / stride];
+    const double length = std::pow(h, static_cast<double>(i % stride));
+    if (!(std::abs(across[i] - ratio * along[i]) * length <= round_off)) return independent;
+  }
+  return ratio;
+}
+
 bool all_finite(const std::vector<double>& samples) {
   return std::all_of(samples.begin(), samples.end(), [](double x) { return std::isfinite(x); });
 }
@@ -59,9 +84,15 @@ double vertical_acceleration(const Shaking& shaking, double t) {
   return shaking.vertical_scale * evaluate(*shaking.motion, shaking.motion->vertical_mps2, t / shaking.stretch);
 }
 
+double cross_acceleration(const Shaking& shaking, double t) {
+  return shaking.scale * evaluate(*shaking.motion, shaking.motion->cross_mps2, t / shaking.stretch);
+}
+
 void index_runs(FloorMotion& motion) {
   motion.horizontal_run_mps2 = run_bounds(motion, motion.horizontal_mps2);
   motion.vertical_run_mps2 = run_bounds(motion, motion.vertical_mps2);
+  motion.cross_run_mps2 = run_bounds(motion, motion.cross_mps2);
+  motion.cross_over_horizontal = ratio_of_channels(motion);
   motion.table = tabulate(motion);
 }
 
@@ -85,6 +116,16 @@ FloorMotion piecewise_linear(std::string name, double dt_s, const std::vector<do
   if (!vertical_mps2.empty()) motion.vertical_mps2 = linear_coefficients(dt_s, vertical_mps2);
   index_runs(motion);
   return motion;
+}
+
+void add_cross(FloorMotion& motion, double dt_s, const std::vector<double>& cross_mps2) {
+  if (cross_mps2.size() != motion.knot_s.size() || motion.degree != 1 || !all_finite(cross_mps2))
+    throw Error("motion " + motion.name +
+                    " cannot be used (its second horizontal channel has another length, or a value that is not a "
+                    "finite number): check the record",
+                Exit::data);
+  motion.cross_mps2 = linear_coefficients(dt_s, cross_mps2);
+  index_runs(motion);
 }
 
 }  // namespace freestand

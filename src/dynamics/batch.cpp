@@ -13,6 +13,7 @@
 #include "dynamics/integration.hpp"
 #include "dynamics/law_lanes.hpp"
 #include "dynamics/overturned.hpp"
+#include "dynamics/simulate.hpp"
 
 namespace freestand::dynamics {
 
@@ -280,17 +281,8 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
     (lanes ? under_laws : alone).push_back(i);
   }
   if (!under_laws.empty()) respond_in_law_lanes(*kernels, specimens, shakings, settings, under_laws, responses);
-  for (const std::size_t i : alone) responses[i] = respond(specimens[i], shakings[i], settings);
+  for (const std::size_t i : alone) responses[i] = respond_on_line(specimens[i], shakings[i], settings, nullptr);
   return alone.size();
 }
 
 }  // namespace freestand::dynamics
-
-namespace freestand {
-
-void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking> shakings, const Settings& settings,
-                   std::span<Response> responses) {
-  dynamics::respond_and_count(specimens, shakings, settings, responses);
-}
-
-}  // namespace freestand

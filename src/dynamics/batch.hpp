@@ -50,7 +50,7 @@ struct BatchKernels {
 // none, every sample is computed alone.
 const BatchKernels* batch_kernels();
 
-// respond_batch; says how many samples were computed alone.
+// Samples on floors that move along a line, as respond_batch; says how many were computed alone.
 std::size_t respond_and_count(std::span<const Specimen>, std::span<const Shaking>, const Settings&,
                               std::span<Response>);
 

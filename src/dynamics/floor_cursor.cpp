@@ -22,6 +22,13 @@ FloorCursor::FloorCursor(const Shaking& shaking, double g, double push)
       g_(g),
       push_(push) {}
 
+FloorCursor FloorCursor::across(const Shaking& shaking) {
+  FloorCursor cursor(shaking, 0);
+  cursor.horizontal_ = shaking.motion->cross_mps2.data();
+  cursor.vertical_ = nullptr;
+  return cursor;
+}
+
 double FloorCursor::left() const {
   if (motion_over()) return std::numeric_limits<double>::infinity();
   return std::max(0.0, knots_[segment_ + 1] * stretch_ - start_ - offset_);

@@ -16,6 +16,8 @@ class FloorCursor {
  public:
   // g: gravity across the floor, push: gravity along it [m/s2].
   FloorCursor(const Shaking& shaking, double g, double push = 0);
+  // Along the motion's second horizontal channel, as local().a.
+  static FloorCursor across(const Shaking& shaking);
 
   double time() const { return start_ + offset_; }
   double left() const;  // to the end of the segment [s]; infinite after the motion

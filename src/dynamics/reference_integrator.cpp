@@ -15,9 +15,9 @@
 #include "dynamics/bouc_wen.hpp"
 #include "dynamics/integration.hpp"
 #include "dynamics/reference_state.hpp"
+#include "dynamics/simulate.hpp"
 
-namespace freestand {
-namespace dynamics {
+namespace freestand::dynamics {
 namespace {
 
 constexpr int witness_slots = 12 + max_kinks;
@@ -360,14 +360,13 @@ class ReferenceIntegrator {
 };
 
 }  // namespace
-}  // namespace dynamics
 
-Response respond_reference(const Specimen& specimen, const Shaking& shaking, const Settings& settings,
-                           History* history) {
-  const dynamics::Setup setup = dynamics::set_up(specimen, shaking);
-  if (specimen.model == Model::bouc_wen) return dynamics::respond_bouc_wen_reference(setup, settings, history);
-  if (!dynamics::admissible(setup, settings)) return Response{.outcome = Outcome::not_finite};
-  return dynamics::ReferenceIntegrator(setup, settings, history).run();
+Response respond_reference_on_line(const Specimen& specimen, const Shaking& shaking, const Settings& settings,
+                                   History* history) {
+  const Setup setup = set_up(specimen, shaking);
+  if (specimen.model == Model::bouc_wen) return respond_bouc_wen_reference(setup, settings, history);
+  if (!admissible(setup, settings)) return Response{.outcome = Outcome::not_finite};
+  return ReferenceIntegrator(setup, settings, history).run();
 }
 
-}  // namespace freestand
+}  // namespace freestand::dynamics

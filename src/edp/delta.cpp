@@ -6,7 +6,7 @@ const Register delta{{
     .name = "delta",
     .unit = "1",
     .symbol = "Δ",
-    .summary = "peak slip over the size of the pulse, U w_p^2/PTA",
+    .summary = "peak slip over the size of the pulse, U w_p^2/PTA, PTA of the first horizontal direction",
     .source = "[KM05 5.7]",
     .still = 1e-3,
     .default_capacities = {0.5, 1, 2, 3},

@@ -7,7 +7,9 @@ const Register peak_acceleration{{
     .name = "peak_acceleration_g",
     .unit = "g",
     .symbol = "PEA",
-    .summary = "largest total acceleration of the centre of mass, vector sum, impacts left out",
+    .summary = "largest total acceleration of the centre of mass, vector sum, of both horizontal directions where the "
+               "floor moves in both; "
+               "impacts left out",
     .source = "[KM05 ch. 9]",
     .default_capacities = {0.25, 0.5, 1, 2},
     .value = [](const Input& in) { return in.response.peak_acceleration_mps2 / standard_gravity_mps2; },

@@ -56,18 +56,22 @@ Json provenance_json(const Provenance& from) {
 std::string history_csv(const History& history, const std::vector<double>& floor_displacement_m, double mass_kg) {
   std::string text =
       "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode,"
-      "floor_displacement_m,acceleration_mps2,vertical_acceleration_mps2,contact_horizontal_n,contact_vertical_n\n";
+      "floor_displacement_m,";
+  text += history.cross ? "cross_slip_m,cross_slip_velocity_mps,floor_cross_acceleration_mps2\n"
+                        : "acceleration_mps2,vertical_acceleration_mps2,contact_horizontal_n,contact_vertical_n\n";
   for (std::size_t i = 0; i < history.points.size(); ++i) {
     const HistoryPoint& p = history.points[i];
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", p.time_s, p.floor_acceleration_mps2, p.slip_m,
-                        p.slip_velocity_mps, p.rotation_rad, p.rotation_rate_radps, name(p.mode),
-                        floor_displacement_m.at(i), p.acceleration_mps2, p.vertical_acceleration_mps2,
-                        mass_kg * p.contact_x_mps2, mass_kg * p.contact_y_mps2);
+    text += fmt::format("{},{},{},{},{},{},{},{},", p.time_s, p.floor_acceleration_mps2, p.slip_m, p.slip_velocity_mps,
+                        p.rotation_rad, p.rotation_rate_radps, name(p.mode), floor_displacement_m.at(i));
+    text += history.cross
+                ? fmt::format("{},{},{}\n", p.cross_slip_m, p.cross_slip_velocity_mps, p.floor_cross_acceleration_mps2)
+                : fmt::format("{},{},{},{}\n", p.acceleration_mps2, p.vertical_acceleration_mps2,
+                              mass_kg * p.contact_x_mps2, mass_kg * p.contact_y_mps2);
   }
   return text;
 }
 
-Json response_summary(const Response& response) {
+Json response_summary(const Response& response, bool cross) {
   Json json = {{"format", response_format},
                {"peak_slip_m", response.peak_slip_m},
                {"residual_slip_m", response.residual_slip_m},
@@ -83,9 +87,14 @@ Json response_summary(const Response& response) {
                {"connection_failed", response.connection_failed},
                {"residual_rotation_rad", response.residual_rotation_rad},
                {"end_time_s", response.end_time_s}};
-  if (std::isnan(response.peak_acceleration_at_height_mps2)) return json;
-  json["peak_acceleration_at_height_g"] = response.peak_acceleration_at_height_mps2 / standard_gravity_mps2;
-  json["largest_blow_mps"] = response.largest_blow_mps;
+  if (!std::isnan(response.peak_acceleration_at_height_mps2)) {
+    json["peak_acceleration_at_height_g"] = response.peak_acceleration_at_height_mps2 / standard_gravity_mps2;
+    json["largest_blow_mps"] = response.largest_blow_mps;
+  }
+  if (!cross) return json;
+  json["residual_slip_m"] = std::hypot(response.residual_slip_m, response.residual_cross_slip_m);
+  json["residual_slip_along_m"] = response.residual_slip_m;
+  json["residual_slip_across_m"] = response.residual_cross_slip_m;
   return json;
 }
 

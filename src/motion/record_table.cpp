@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Columns that say how to read a record, and are no intensities.
-constexpr std::string_view own_columns[] = {"file",    "folder", "suite",     "dt_s",     "unit",  "format",
-                                            "channel", "group",  "component", "vertical", "event", "station"};
+constexpr std::string_view own_columns[] = {"file",  "folder",    "suite",    "dt_s",  "unit",    "format", "channel",
+                                            "group", "component", "vertical", "event", "station", "cross"};
 // First words of columns that no scaling of the record changes, whatever their unit; their units are not those of shaking.
 constexpr std::string_view properties[] = {"magnitude", "mw",       "distance",  "depth", "vs30",
                                            "elevation", "duration", "rjb",       "rrup",  "rhypo",
@@ -127,8 +127,10 @@ class Reader {
                      {},
                      {},
                      {},
+                     {},
                      {}};
     if (const double step = number(row, "dt_s"); !std::isnan(step)) record.dt_s = step;
+    record.cross = path(row, "cross");
     record.unit = text(row, "unit");
     record.format = text(row, "format");
     record.channel = text(row, "channel");

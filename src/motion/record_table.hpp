@@ -7,6 +7,7 @@
 //   component  000, NS, UD ...; vertical ones are left out
 //   vertical   path of the vertical component, as file; without that column, the row of a vertical component with the same
 //              suite, event and station is taken, where vertical components are asked for
+//   cross      path of the other horizontal component, as file: the floor then moves in both directions
 //   numbers    any column with a unit at its end, and magnitude, magnitude_mw, vs30_mps and the like, is an intensity
 #pragma once
 
@@ -31,7 +32,8 @@ struct RecordRow {
   std::filesystem::path file, vertical;  // vertical: empty where there is none
   std::optional<double> dt_s;
   std::string unit, format, channel, group;
-  std::vector<double> numbers;  // one for each RecordTable::numbers; nan where the cell is empty
+  std::vector<double> numbers;       // one for each RecordTable::numbers; nan where the cell is empty
+  std::filesystem::path cross = {};  // the other horizontal component; empty where there is none
 };
 
 struct RecordTable {

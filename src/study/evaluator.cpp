@@ -27,7 +27,7 @@ struct Evaluator::Parts {
 
   void append(const Realisation& drawn, Response response, std::vector<double>& values) const {
     for (double* slip : {&response.peak_slip_m, &response.peak_slip_right_m, &response.peak_slip_left_m,
-                         &response.residual_slip_m, &response.slid_path_m})
+                         &response.residual_slip_m, &response.residual_cross_slip_m, &response.slid_path_m})
       *slip *= drawn.slip_factor;
     values.insert(values.end(), drawn.draws.begin(), drawn.draws.end());
     const edp::Input input{response, drawn.specimen, drawn.pta_g * standard_gravity_mps2,

@@ -110,7 +110,7 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
 std::string start_text(const StartPart& start) {
   Mapping m;
   for (const auto& quantity : {start.rotation, start.rotation_rate, start.slip, start.slip_velocity}) m.add(quantity);
-  return m.flow() == "{}" ? "" : "start: " + m.flow() + "\n";
+  return start.any() ? "start: " + m.flow() + "\n" : "";
 }
 
 std::string height_text(const Study& study) {
@@ -134,8 +134,11 @@ void add_amplitude(const MotionSource& source, Mapping& m) {
   m.add("scale_to", target.flow());
 }
 
-// file, vertical_file: the keys of recorded motions.
-Mapping source_mapping(const MotionSource& source, const char* file, const char* vertical_file) {
+// The keys of recorded motions.
+struct FileKeys {
+  const char *file, *vertical, *cross;
+};
+Mapping source_mapping(const MotionSource& source, const FileKeys& keys) {
   Mapping m;
   if (source.kind == MotionSource::Kind::pulses) {
     m.add("pulse", to_string(source.pulses));
@@ -143,8 +146,9 @@ Mapping source_mapping(const MotionSource& source, const char* file, const char*
     add_amplitude(source, m);
     if (!source.scale_to) m.add("scale", number_text(source.pulse_scale));
   } else {
-    m.add(file, text_value(source.records));
-    if (!source.vertical_records.empty()) m.add(vertical_file, text_value(source.vertical_records));
+    m.add(keys.file, text_value(source.records));
+    if (!source.vertical_records.empty()) m.add(keys.vertical, text_value(source.vertical_records));
+    if (!source.cross_records.empty()) m.add(keys.cross, text_value(source.cross_records));
     add_amplitude(source, m);
     if (source.dt_s) m.add("dt_s", number_text(*source.dt_s));
     if (!source.unit.empty()) m.add("unit", text_value(source.unit));
@@ -156,7 +160,7 @@ Mapping source_mapping(const MotionSource& source, const char* file, const char*
 }
 
 std::string source_text(const MotionSource& source) {
-  Mapping m = source_mapping(source, "records", "vertical_records");
+  Mapping m = source_mapping(source, {"records", "vertical_records", "cross_records"});
   m.add("weight", number_text(source.weight));
   return m.item();
 }
@@ -167,7 +171,7 @@ bool has_relative_paths(const Study& study) {
     return !path.empty() && !std::filesystem::path(path).is_absolute();
   };
   return std::any_of(study.motions.begin(), study.motions.end(), [&](const MotionSource& source) {
-    return relative(source.records) || relative(source.vertical_records);
+    return relative(source.records) || relative(source.vertical_records) || relative(source.cross_records);
   });
 }
 
@@ -261,7 +265,7 @@ std::string expanded(const Case& one, const std::filesystem::path& folder) {
          fmt::format("name: {}\ntolerance: {}\nfree_vibration_s: {}\n", text_value(study.name),
                      number_text(study.tolerance), number_text(study.free_vibration_s)) +
          height_text(study) + model_text(study.model) + chain_text(study.model.chain) + start_text(study.model.start) +
-         "motion:\n" + source_mapping(study.motions.front(), "file", "vertical_file").block() +
+         "motion:\n" + source_mapping(study.motions.front(), {"file", "vertical_file", "cross_file"}).block() +
          fmt::format("output_step_s: {}\n", number_text(one.output_step_s));
 }
 

@@ -45,6 +45,8 @@ motion::ReadOptions read_options(const MotionSource& source, const motion::Recor
   options.channel = row.channel.empty() ? source.channel : row.channel;
   options.component = motion::Component::horizontal;
   options.vertical_file = row.vertical.string();
+  options.cross_file = row.cross.string();
+  options.keep_cross = true;
   return options;
 }
 
@@ -176,6 +178,7 @@ std::string MotionSet::fingerprint() const {
     hash_values(motion.knot_s, hash);
     hash_values(motion.horizontal_mps2, hash);
     hash_values(motion.vertical_mps2, hash);
+    if (!motion.cross_mps2.empty()) hash_values(motion.cross_mps2, hash);
   }
   return fmt::format("{:016x}", hash);
 }

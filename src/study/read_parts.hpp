@@ -23,12 +23,15 @@ std::optional<Quantity> read_scale_to(Section& section, MotionSource& source);
 
 // What an entry of `motions` says of records; `key`: records, or file of a case.
 struct RecordKeys {
-  std::string key, vertical_key;
+  std::string key, vertical_key, cross_key;
   std::filesystem::path folder;
   Files look;
   bool vertical;
 };
 void read_records(Section& section, MotionSource& source, const RecordKeys&);
+
+// Problems of motions with a second horizontal channel in a study of which something does not go with one.
+void check_cross(Section& file, const Study&);
 
 // `motion` of a case: one pulse or one file.
 MotionSource read_motion(Section& file, const std::filesystem::path& folder);

@@ -180,6 +180,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   read_common(file, path, study, look);
   read_design(file, study);
   study.motions = read_motions(file, study.folder, look, shakes_vertically(study.model));
+  check_cross(file, study);
   // What the study draws is known only when its parts are sound.
   const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
   study.fragility = read_fragility(file, known_of(study, known, look), choices);
@@ -208,6 +209,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path) {
     read_common(file, path, one.study);
     one.study.samples = one.study.block_size = 1;
     one.study.motions = {read_motion(file, one.study.folder)};
+    check_cross(file, one.study);
     one.output_step_s = file.number("output_step_s", one.output_step_s, range::positive);
     refuse_distributions(one.study, problems);
     if (one.study.model.slip_discrepancy)

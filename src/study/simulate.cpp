@@ -4,6 +4,7 @@
 
 #include <freestand/error.hpp>
 
+#include "dynamics/simulate.hpp"
 #include "motion/floor_displacement.hpp"
 #include "study/accuracy.hpp"
 #include "study/doubts.hpp"
@@ -31,6 +32,8 @@ Simulation simulate(const Case& c, bool reference) {
   const Realiser realise(c.study, motions);
   const Realisation sample = realise(0);
   check_rows(c, sample.shaking.duration_s());
+  if (reference && dynamics::moves_in_plane(*sample.shaking.motion))
+    throw Error("--reference integrates along one line (this floor moves in both horizontal directions): leave it out");
   Simulation out{
       .specimen = sample.specimen, .response = {}, .tighter = {}, .history = {}, .doubts = doubts(c.study, motions)};
   out.history.step_s = c.output_step_s;

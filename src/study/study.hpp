@@ -85,6 +85,8 @@ struct BoucWenPart {
 struct StartPart {
   std::optional<Quantity> rotation, rotation_rate;  // start.rotation_rad, start.rotation_rate_radps
   std::optional<Quantity> slip, slip_velocity;      // start.slip_m, start.slip_velocity_mps
+
+  bool any() const { return rotation || rotation_rate || slip || slip_velocity; }
 };
 
 struct ModelPart {
@@ -137,6 +139,9 @@ struct MotionSource {
   std::vector<std::string> ungrouped;         // columns by which a table could group its records, and does not
   std::optional<double> dt_s;                 // the rest as motion::ReadOptions, where a row does not say it
   std::string unit, format, channel;
+  std::string cross_records;  // the other horizontal components, paired as the vertical ones
+
+  bool in_plane() const;  // any record has a second horizontal channel
 };
 
 enum class Spacing { equal_width, equal_count, log };

@@ -30,7 +30,8 @@ class SameBits(InFolder):
                    "  - {name: moving_contents, mass_ratio: 0.2, frequency_hz: 2}\n")
         text = study_text(samples=600, block_size=48).replace("impact: {law: coulomb}\n", "")
         text = text[:text.index("motions:")] + records + text[text.index("fragility:"):]
-        for name, study in (("packs", text), ("effects", text + effects)):
+        plane = text.replace('"floor*.csv"', "floor0.csv, cross_records: floor1.csv").replace("fragility:", "model: slide\nfragility:")
+        for name, study in (("packs", text), ("effects", text + effects), ("plane", plane)):
             results = {}
             for ranks in (1, 2, 3):
                 folder = self.folder / f"{name}-{ranks}"

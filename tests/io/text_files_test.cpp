@@ -42,6 +42,28 @@ TEST(HistoryCsv, HasTheColumnsAndReadsBackToTheBit) {
   }
 }
 
+TEST(HistoryCsv, HasTheOtherDirectionAtItsEnd) {
+  History history;
+  history.cross = true;
+  HistoryPoint point{0, 1, 2, 3, 0, 0, Mode::slide};
+  point.cross_slip_m = 4;
+  point.cross_slip_velocity_mps = 5;
+  point.floor_cross_acceleration_mps2 = 6;
+  history.points = {point};
+  EXPECT_EQ(history_csv(history, {7}, 1),
+            "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,rotation_rate_radps,mode,"
+            "floor_displacement_m,cross_slip_m,cross_slip_velocity_mps,floor_cross_acceleration_mps2\n"
+            "0,1,2,3,0,0,slide,7,4,5,6\n");
+  Response response;
+  response.residual_slip_m = -3;
+  response.residual_cross_slip_m = 4;
+  EXPECT_EQ(response_summary(response)["residual_slip_m"], -3);
+  const auto plane = response_summary(response, true);
+  EXPECT_EQ(plane["residual_slip_m"], 5);
+  EXPECT_EQ(plane["residual_slip_along_m"], -3);
+  EXPECT_EQ(plane["residual_slip_across_m"], 4);
+}
+
 TEST(ResponseSummary, HasTheKeysOfTheContract) {
   Response response;
   response.outcome = Outcome::overturned;

@@ -1,0 +1,51 @@
+// Floors that move in both horizontal directions: what does not go with them.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "dynamics/plane_slide.hpp"
+#include "study/read_parts.hpp"
+
+namespace freestand::study {
+namespace {
+
+// The specimen as far as its kind goes: effects with values that are met in practice, so that none vanishes.
+Specimen kind_of(const ModelPart& model) {
+  Specimen specimen;
+  specimen.model = model.model;
+  for (const EffectPart& part : model.effects) {
+    specimen.effects.push_back({part.effect.get(), {}});
+    for (const dynamics::Parameter& parameter : part.effect->parameters)
+      specimen.effects.back().parameters.push_back(parameter.fitted ? parameter.low : parameter.fallback.value_or(1));
+  }
+  return specimen;
+}
+
+}  // namespace
+
+bool MotionSource::in_plane() const {
+  return !cross_records.empty() ||
+         std::any_of(files.begin(), files.end(), [](const motion::RecordRow& row) { return !row.cross.empty(); });
+}
+
+void check_cross(Section& file, const Study& study) {
+  if (std::none_of(study.motions.begin(), study.motions.end(), [](const auto& source) { return source.in_plane(); }))
+    return;
+  const auto refuse = [&](const char* key, const std::string& why, const char* cure) {
+    file.problem(
+        key, fmt::format("{} does not go with a second horizontal channel of the records ({}): {}", key, why, cure));
+  };
+  const ModelPart& model = study.model;
+  if (model.model != Model::slide)
+    refuse("model", "in both directions a block is followed only where it slides and does nothing else",
+           "set model: slide, or give one component of each record");
+  else if (const std::string why = dynamics::refusal_in_plane(kind_of(model)); !why.empty())
+    refuse("effects", why, "remove the effect, or give one component of each record");
+  if (model.chain) refuse("chain", "it pulls along one line", "remove it, or give one component of each record");
+  if (model.start.any()) refuse("start", "there it begins at rest", "remove it, or give one component of each record");
+  if (study.acceleration_height_m)
+    refuse("acceleration_height_m", "a block that only slides has one acceleration", "remove it");
+  if (study.slip_by_side) refuse("slip_by_side", "the peak slip is that of a vector, which has no sides", "remove it");
+}
+
+}  // namespace freestand::study
