@@ -58,7 +58,6 @@ struct Sheet {
 };
 
 struct Item {
-  std::string finding;  // one sentence
   std::vector<Number> numbers = {};
   std::vector<Statement> statements = {};
   std::vector<Sheet> sheets = {};

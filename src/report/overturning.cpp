@@ -20,7 +20,6 @@ class Shaken {
       : block_(block), specimen_(block.specimen()), type_(pulse), period_s_(2 * pi / (frequency * block.p_radps)) {}
 
   Response at(double amplitude) { return respond(specimen_, pulses_.shaking_g(type_, period_s_, amplitude * block_.alpha_rad)); }
-  bool falls(double amplitude) { return at(amplitude).outcome == Outcome::overturned; }
 
  private:
   SpectrumBlock block_;
@@ -30,13 +29,30 @@ class Shaken {
   double period_s_;
 };
 
-// Between an amplitude of one outcome and one of the other.
-Boundary narrowed(Shaken& shaken, double low, double high, bool falls_above) {
-  while (high / low > 1 + 1e-8) {
-    const double middle = std::sqrt(low * high);
-    (shaken.falls(middle) == falls_above ? high : low) = middle;
+constexpr int stands = -1;
+
+// How it ends: it stands, or falls after so many impacts.
+int ending(const Response& response) { return response.outcome == Outcome::overturned ? response.impacts : stands; }
+
+constexpr double located = 1 + 1e-8;
+
+// Every change between two amplitudes that end differently, from below: the last one first found, then those below it.
+void locate(Shaken& shaken, double low, int at_low, double high, int at_high, std::vector<Boundary>& found) {
+  if (at_low == at_high) return;
+  double below = low, above = high;
+  int at_below = at_low;
+  while (above / below > located) {
+    const double middle = std::sqrt(below * above);
+    const int at_middle = ending(shaken.at(middle));
+    if (at_middle == at_high) {
+      above = middle;
+    } else {
+      below = middle;
+      at_below = at_middle;
+    }
   }
-  return {std::sqrt(low * high), falls_above, shaken.at(falls_above ? high : low).impacts};
+  locate(shaken, low, at_low, below, at_below, found);
+  if ((at_below == stands) != (at_high == stands)) found.push_back({std::sqrt(below * above), at_high != stands, std::max(at_below, at_high)});
 }
 
 Cape cape_of(const Spectrum& spectrum) {
@@ -83,11 +99,11 @@ std::vector<Boundary> boundaries(const SpectrumBlock& block, const std::string& 
   Shaken shaken(block, pulse, frequency);
   std::vector<Boundary> found;
   double below = std::tan(block.alpha_rad) / block.alpha_rad;  // lifts a corner
-  bool fell = false;
+  int at_below = stands;
   for (double amplitude = below * amplitude_step; amplitude <= most; amplitude *= amplitude_step) {
-    const bool falls = shaken.falls(amplitude);
-    if (falls != fell) found.push_back(narrowed(shaken, below, amplitude, falls));
-    fell = falls;
+    const int now = ending(shaken.at(amplitude));
+    locate(shaken, below, at_below, amplitude, now, found);
+    at_below = now;
     below = amplitude;
   }
   return found;
