@@ -1,5 +1,5 @@
 """The page of `freestand reproduce`: ours beside the print, one picture for each table or figure that has one."""
-import html
+import math
 
 from . import words
 from .reading_reproduce import AGREES, ALONE, DISAGREES, WITH_ITSELF, number
@@ -26,8 +26,9 @@ def _lead(found):
     if found.own_peaks:
         return ("Demand Δ = U ω²/PTA over intensity IM = PTA/(μ g) − 1, as Konstantinidis and Makris (2005) treat their own peaks: mean and standard deviation grow with IM "
                 "through the origin, and a lognormal with these moments gives the fragility.")
-    return ("D. Konstantinidis and N. Makris, PEER report 2005/07, computed again from its own printed tables, and by freestand where a computation is told. A number agrees where "
-            "the print's last digit reaches ours, or what ours becomes while its printed inputs go through all that they may have been before they were rounded (a thousand draws)."
+    return ("Konstantinidis and Makris (PEER report 2005/07), computed again: what follows from its printed tables by its own equations, and what freestand's simulations give. A number "
+            "agrees where the print's last digit reaches ours, or reaches what ours becomes while the printed inputs go through all that they may have been before they were rounded (a "
+            "thousand draws)."
             + ("" if found.records else " Without --records the outcomes of table 7.1 are computed under the report's pulses alone."))
 
 
@@ -43,7 +44,7 @@ def _place(place, figures):
     printed = place.printed()
     agree = sum(item["verdict"] == AGREES for item in printed)
     return {"id": place.id, "place": place.place, "what": words.capitalised(place.what), "count": f"{agree} of {len(printed)}" if printed else "–", "all": agree == len(printed),
-            "figures": [figure for figure in figures if figure["section"] == place.id], "rows": rows, "folded": len(rows) > SHOWN_OPEN, "left_out": [words.capitalised(text) for text in place.left_out],
+            "figures": [figure for figure in figures if figure["section"] == place.id], "rows": rows, "folded": len(rows) > SHOWN_OPEN, "left_out": place.left_out,
             "alone": not printed and all(row["print"] == "–" for row in rows)}
 
 
@@ -53,9 +54,14 @@ def _row(item, place):
                 "words": True, "off": item["verdict"] in (DISAGREES, WITH_ITSELF)}
     unit = item["unit"]
     ours, printed = number(item["ours"]), number(item["print"])
-    return {"what": words.capitalised(item["what"]), "place": place.place, "ours": words.number(ours, 4) + _unit(unit), "print": words.plain(printed) + _unit(unit) if printed == printed else "–",
+    return {"what": words.capitalised(item["what"]), "place": place.place, "ours": words.number(ours, 4) + _unit(unit), "print": _as_printed(printed, item["print_unit"]) + _unit(unit) if math.isfinite(printed) else "–",
             "difference": words.number(number(item["difference"]), 2), "verdict": VERDICT[item["verdict"]], "why": item["why"], "words": False, "off": item["verdict"] in (DISAGREES, WITH_ITSELF)}
 
 
+def _as_printed(value, last):
+    """With as many decimals as the print has."""
+    return words.fixed(value, max(0, round(-math.log10(last)))) if last and last < 1 else words.plain(value)
+
+
 def _unit(unit):
-    return "" if unit == "1" else f"\u00a0{html.unescape(words.UNITS.get(unit, unit))}"
+    return "" if unit == "1" else f"\u00a0{words.UNITS.get(unit, unit)}"

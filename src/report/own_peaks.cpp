@@ -55,7 +55,7 @@ class OwnTable {
     return table_.texts(column);
   }
 
-  void wrong(std::size_t row, const std::string& what) { problems_ += (problems_.empty() ? "" : "\n") + csv_.at(csv_.rows[row]) + what; }
+  void wrong(std::size_t row, const std::string& what) { problems_.append(problems_.empty() ? "" : "\n").append(csv_.at(csv_.rows[row])).append(what); }
   void throw_if_wrong() const {
     if (!problems_.empty()) throw Error(problems_, Exit::data);
   }

@@ -24,7 +24,7 @@ def pictures(results):
 
 
 def _strength(rows):
-    fig = style.figure(5.6, 3.6)
+    fig = style.figure(7.4, 3.4)
     ax = fig.subplots()
     kinds = list(dict.fromkeys(row["series"] for row in rows))
     told = []

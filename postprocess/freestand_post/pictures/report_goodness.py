@@ -21,7 +21,7 @@ def pictures(results):
 
 
 def _picture(place, rows):
-    fig = style.figure(5.6, 4.2)
+    fig = style.figure(7.4, 4.4)
     ax = fig.subplots()
     u = np.concatenate([[0], np.repeat(column(rows, "probability_below"), 2), [1]])
     share = np.concatenate([[0], np.column_stack([column(rows, "share_before"), column(rows, "share_after")]).ravel(), [1]])

@@ -24,7 +24,7 @@ def _picture(place):
     items = place.printed()
     ours, printed = np.array([number(item["ours"]) for item in items]), np.array([number(item["print"]) for item in items])
     good = np.array([item["verdict"] == AGREES for item in items])
-    fig = style.figure(5.6, 4.2)
+    fig = style.figure(7.4, 4.4)
     ax = fig.subplots()
     limits = [0.8 * min(ours.min(), printed.min()), 1.25 * max(ours.max(), printed.max())]
     ax.plot(limits, limits, color=style.MUTED, lw=0.8)

@@ -15,7 +15,7 @@ def pictures(results):
     rows = results.table("shake_table") if isinstance(results, Reproduction) else []
     if not rows:
         return
-    fig = style.figure(5.6, 4.4)
+    fig = style.figure(7.4, 4.6)
     ax = fig.subplots()
     measured = column(rows, "measured_slip_m")
     limits = np.array([0.4 * measured.min(), 2.5 * measured.max()])

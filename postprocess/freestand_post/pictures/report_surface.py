@@ -29,7 +29,8 @@ def _picture(place, rows):
     ax.clabel(lines, fmt=lambda value: f"{value:g}", fontsize=8.5)
     fig.colorbar(colours, ax=ax, label="P(Δ > capacity)", ticks=[0, 0.2, 0.4, 0.6, 0.8, 1])
     ax.set(xlabel="IM = PTA/(μ g) − 1", ylabel="capacity Δ")
-    half = place.value("slope")
-    finding = f"At IM = 2 the mean demand is {words.number(2 * half)}: more than that is exceeded in fewer than half of the cases, since the lognormal leans"
+    at = im[im.size // 2]
+    half = float(np.interp(-0.5, -probability[:, im.size // 2], capacity))
+    finding = f"At IM = {words.plain(at)} half of the cases exceed Δ = {words.number(half)}, one in twenty {words.number(float(np.interp(-0.05, -probability[:, im.size // 2], capacity)))}"
     style.headline(fig, finding, f"{words.capitalised(named(place))}.")
     return Picture(f"report_surface_{place.id}", fig, finding, CAPTION, place.id)
