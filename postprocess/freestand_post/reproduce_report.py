@@ -50,12 +50,21 @@ def _place(place, figures):
 
 def _row(item, place):
     if item["kind"] == "statement":
-        return {"what": words.capitalised(item["what"]), "place": place.place, "ours": item["ours"], "print": item["print"] or "–", "difference": "", "verdict": VERDICT[item["verdict"]], "why": item["why"],
+        return {"what": _sentence(item["what"]), "place": place.place, "ours": item["ours"], "print": item["print"] or "–", "difference": "", "verdict": VERDICT[item["verdict"]], "why": item["why"],
                 "words": True, "off": item["verdict"] in (DISAGREES, WITH_ITSELF)}
     unit = item["unit"]
     ours, printed = number(item["ours"]), number(item["print"])
-    return {"what": words.capitalised(item["what"]), "place": place.place, "ours": words.number(ours, 4) + _unit(unit), "print": _as_printed(printed, item["print_unit"]) + _unit(unit) if math.isfinite(printed) else "–",
+    return {"what": _sentence(item["what"]), "place": place.place, "ours": _digits(ours) + _unit(unit), "print": _as_printed(printed, item["print_unit"]) + _unit(unit) if math.isfinite(printed) else "–",
             "difference": words.number(number(item["difference"]), 2), "verdict": VERDICT[item["verdict"]], "why": item["why"], "words": False, "off": item["verdict"] in (DISAGREES, WITH_ITSELF)}
+
+
+def _sentence(text):
+    """A capital at its start, where that is a word and no symbol."""
+    return text if len(text.split(" ")[0]) < 3 and text[0] in "pr" else words.capitalised(text)
+
+
+def _digits(value):
+    return words.plain(value) if math.isfinite(value) and value == round(value) and abs(value) < 1e4 else words.number(value, 4)
 
 
 def _as_printed(value, last):

@@ -24,11 +24,11 @@ struct Boundary {
   int impacts = 0;           // before it falls, on the side where it does
 };
 
-// From the amplitude that lifts a corner up to `most`, in steps of 1 %. Between two steps that differ in outcome, or in the
+// From the amplitude that lifts a corner up to `most`, in steps of 2 %. Between two steps that differ in outcome, or in the
 // number of impacts before the fall, each change in between is located, to 1e-8 of the amplitude: so a cape narrower than a step
 // is seen too, since it parts falls after an impact from falls without one. What comes and goes within a step between two alike
 // ends is not. frequency: w_p/p.
-inline constexpr double amplitude_step = 1.01;
+inline constexpr double amplitude_step = 1.02;
 std::vector<Boundary> boundaries(const SpectrumBlock&, const std::string& pulse, double frequency, double most);
 
 // The least amplitude, over alpha g, that overturns; nan where none up to `most` does.

@@ -140,7 +140,7 @@ std::vector<std::pair<Entry, Item>> own_peaks(const std::filesystem::path& file,
     const std::string name = columns.size() == 1 ? "own" : "own_" + column;
     found.push_back({Entry{.name = name, .place = file.filename().string(), .what = fmt::format("{} measured peaks, intensity by {}", peaks.im.size(), column)}, item_of(name, peaks, jobs)});
   }
-  if (const auto unused = table.unused(); !unused.empty()) found.back().second.left_out.push_back(fmt::format("columns that are not used: {}", fmt::join(unused, ", ")));
+  if (const auto unused = table.unused(); !unused.empty()) found.back().second.left_out.push_back(fmt::format("these columns of the table are not needed: {}", fmt::join(unused, ", ")));
   return found;
 }
 

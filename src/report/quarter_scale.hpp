@@ -42,7 +42,7 @@ struct Prediction {
   double likelihood(bool along) const;
   double mixed(double parallel_weight) const;
 };
-inline constexpr std::size_t ensemble_members = 2000;  // under each component
+inline constexpr std::size_t ensemble_members = 400;  // under each component
 
 // Of the tests that have a station. Throws Error (Exit::data) where a record is missing.
 std::vector<Prediction> predict(const Sources&, const std::filesystem::path& records, double half_power_hz, double Sides::*width);

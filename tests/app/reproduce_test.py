@@ -54,16 +54,16 @@ class Report(InFolder):
             self.skipTest(done.stderr)
         self.assertEqual(done.returncode, 0, done.stderr)
         text = (out / "report.html").read_text()
-        self.assertIn(f"<h1>{title}</h1>", text)
+        self.assertEqual(re.search("<h1>(.*?)</h1>", text).group(1), title)
         self.assertEqual(re.findall(r'(?:src|href)="(?!#)[^"]*"', re.sub(r"<svg.*?</svg>", "", text, flags=re.S)), [])  # nothing is fetched
-        self.assertNotIn("nan", re.sub(r"<svg.*?</svg>|<style>.*?</style>", "", text, flags=re.S))
+        self.assertIsNone(re.search(r"\bnan\b", re.sub(r"<svg.*?</svg>", "", text, flags=re.S)))
         for figure in json.loads((out / "reproduce.json").read_text())["figures"]:
             section = text[text.index(f'<section id="of-{figure["id"]}">'):].split("</section>")[0]
-            self.assertIn("<figure", section, figure["id"])
+            self.assertTrue("<figure" in section, figure["id"])
 
 
 class OwnPeaks(InFolder):
-    def test_the_same_on_any_number_of_ranks_and_a_page(self):
+    def test_the_same_on_any_number_of_ranks(self):
         table = self.write("peaks.csv", (TABLES / "table_8_1.csv").read_text())
         texts = []
         for ranks in (1, 2):
@@ -77,7 +77,6 @@ class OwnPeaks(InFolder):
         best = next(figure for figure in json.loads(texts[0][0])["figures"] if figure["id"] == "own_mu_best_fit")
         slope = next(item["ours"] for item in best["items"] if item["id"].endswith(".slope"))
         self.assertAlmostEqual(slope, 0.380, delta=0.0006)
-        Report.page(self, self.folder / "own2", "Measured peaks of peaks.csv: line, bins, fit and fragility")
 
 
 class Mistakes(InFolder):

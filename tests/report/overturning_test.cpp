@@ -28,7 +28,9 @@ TEST(OverturningSearch, BoundariesAreThoseOfAnIntegrationOfItsOwn) {
       EXPECT_EQ(own(one.amplitude * (1 - 2e-5), frequency), !one.falls_above) << frequency << ' ' << one.amplitude;
       EXPECT_EQ(own(one.amplitude * (1 + 2e-5), frequency), one.falls_above) << frequency << ' ' << one.amplitude;
     }
-    if (frequency < 3) EXPECT_LT(found[2].amplitude / found[1].amplitude, amplitude_step);  // no step of the search lies in it
+    if (frequency < 3) {
+      EXPECT_LT(found[2].amplitude / found[1].amplitude, amplitude_step);  // narrower than a step of the search
+    }
   }
 }
 

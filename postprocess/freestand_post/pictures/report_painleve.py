@@ -17,10 +17,10 @@ def pictures(results):
     ax = fig.subplots()
     curve = [row for row in rows if row["series"] == "any block"]
     ax.plot(column(curve, "alpha_rad"), column(curve, "friction"), color=style.BLUE)
-    for row in rows:
-        if row["series"] != "any block":
-            ax.plot([row["alpha_rad"]], [row["friction"]], "o", ms=6, color=style.VERMILION, mec="white")
-            ax.annotate(row["series"], (row["alpha_rad"], row["friction"]), xytext=(5, 6), textcoords="offset points", weight="bold", color=style.VERMILION)
+    for i, row in enumerate(row for row in rows if row["series"] != "any block"):
+        ax.plot([row["alpha_rad"]], [row["friction"]], "o", ms=6, color=style.VERMILION, mec="white")
+        ax.annotate(row["series"], (row["alpha_rad"], row["friction"]), xytext=(40 + 12 * i, 62 - 20 * i), textcoords="offset points", weight="bold", color=style.VERMILION,
+                    arrowprops={"arrowstyle": "-", "color": style.VERMILION, "lw": 0.7})
     ax.set(xlabel="slenderness α (rad)", ylabel="friction coefficient", ylim=(1.2, 3.6))
     style.grid(ax)
     style.headline(fig, FINDING)
