@@ -19,8 +19,9 @@ def pictures(results):
     ax.plot(column(curve, "alpha_rad"), column(curve, "friction"), color=style.BLUE)
     for i, row in enumerate(row for row in rows if row["series"] != "any block"):
         ax.plot([row["alpha_rad"]], [row["friction"]], "o", ms=6, color=style.VERMILION, mec="white")
-        ax.annotate(row["series"], (row["alpha_rad"], row["friction"]), xytext=(40 + 12 * i, 62 - 20 * i), textcoords="offset points", weight="bold", color=style.VERMILION,
-                    arrowprops={"arrowstyle": "-", "color": style.VERMILION, "lw": 0.7})
+        label = (0.34 + 0.02 * i, 2.6 - 0.32 * i)
+        ax.plot([row["alpha_rad"], label[0]], [row["friction"], label[1]], color=style.VERMILION, lw=0.7)
+        ax.text(*label, f" {row['series']}", va="center", weight="bold", color=style.VERMILION)
     ax.set(xlabel="slenderness α (rad)", ylabel="friction coefficient", ylim=(1.2, 3.6))
     style.grid(ax)
     style.headline(fig, FINDING)
