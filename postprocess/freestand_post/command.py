@@ -13,9 +13,9 @@ def _arguments(what, argv):
         "report": "Writes DIR/report.html, one self-contained page, from a result folder."}[what] + " Several folders: a "
         "validation, as compared, diagnosed and compared again, in the order of the ladder, and the sweeps before and after; or several "
         "sweeps, which stand side by side, or one sweep fitted over several intensities; and what `freestand risk` found of them."
-        + (" Or one database of `freestand catalogue`, alone." if what == "report" else ""))
+        + " Or the one folder of `freestand reproduce`." + (" Or one database of `freestand catalogue`, alone." if what == "report" else ""))
     parser.add_argument("folders", metavar="DIR", type=pathlib.Path, nargs="+",
-                        help="folder written by freestand run, fit, risk, simulate, compare or diagnose" + (", or a database of catalogue" if what == "report" else ""))
+                        help="folder written by freestand run, fit, risk, simulate, compare, diagnose or reproduce" + (", or a database of catalogue" if what == "report" else ""))
     parser.add_argument("--history", metavar="DIR", type=pathlib.Path, help="folder of one freestand simulate, shown beside the sweep")
     parser.add_argument("-o", "--output", metavar="PATH", type=pathlib.Path,
                         help="where to write (default: figures or report.html in the last DIR)")
@@ -28,6 +28,7 @@ def read(folders, history=None):
     from . import over_intensities, reading
     from .database import is_database, read_database
     from .reading_decisions import RISK, SENSITIVITY, read_risk, read_sensitivity
+    from .reading_reproduce import REPRODUCE, read_reproduction
     from .reading_validation import COMPARISON, DIAGNOSIS, read_comparison, read_diagnosis
     from .validation import Validation
     folders = [reading.existing_folder(folder) for folder in folders]
@@ -35,6 +36,10 @@ def read(folders, history=None):
         if len(folders) > 1 or history is not None:
             raise Problem("a database stands on a page of its own (it holds many sweeps already): give its folder alone", USAGE)
         return [read_database(folders[0])]
+    if any((folder / REPRODUCE).exists() for folder in folders):
+        if len(folders) > 1 or history is not None:
+            raise Problem("the report computed again stands on a page of its own: give the folder of `freestand reproduce` alone", USAGE)
+        return [read_reproduction(folders[0])]
     held, found = Validation(), []
     for folder in folders:
         compared, diagnosed = (folder / COMPARISON).exists(), (folder / DIAGNOSIS).exists()

@@ -7,12 +7,13 @@ import jinja2
 import numpy as np
 from markupsafe import Markup
 
-from . import decisions_report, over_intensities, pictures, style, validation, validation_report, words
+from . import decisions_report, over_intensities, pictures, reproduce_report, style, validation, validation_report, words
 from .designs import Designs
 from .model import kept_fits
 from .pictures.coverage import classes, swept
 from .reading import COUNTED, FITTED, OUTCOMES, REJECTED, TOO_FEW, History, Sweep
 from .reading_decisions import Risk
+from .reading_reproduce import Reproduction
 from .validation import Validation
 
 HERE = pathlib.Path(__file__).parent
@@ -27,6 +28,8 @@ def page(results):
     if isinstance(results[0], Validation):
         figures += [_figure(picture) for picture in _of_one_sweep(results[0])]
         return _render("validation.html", validation_report.content(results[0], figures))
+    if isinstance(results[0], Reproduction):
+        return _render("reproduce.html", reproduce_report.content(results[0], figures))
     if isinstance(results[0], Designs):
         return _render("designs.html", decisions_report.designs(results[0], [r for r in results if isinstance(r, Risk)], figures))
     if isinstance(results[0], over_intensities.Intensities):

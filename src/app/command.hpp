@@ -50,5 +50,6 @@ void add_query(CLI::App& parser, Work& work);
 void add_export(CLI::App& parser, Work& work);
 void add_risk(CLI::App& parser, Work& work);
 void add_sensitivity(CLI::App& parser, Work& work);
+void add_reproduce(CLI::App& parser, Work& work);
 
 }  // namespace freestand::app

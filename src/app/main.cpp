@@ -56,6 +56,7 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
   freestand::app::add_export(parser, work);
   freestand::app::add_risk(parser, work);
   freestand::app::add_sensitivity(parser, work);
+  freestand::app::add_reproduce(parser, work);
   try {
     parser.parse(argc, argv);
     return static_cast<int>(work({world, freestand::io::command_line(argc, argv)}));

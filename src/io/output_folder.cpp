@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* results[] = {"samples.h5",     "tally.h5",     "fragility.h5", "bins.csv",
                                    "surface.csv",    "summary.json", "history.csv",  "comparison.json",
-                                   "diagnosis.json", "report.html",  begun_name};
+                                   "diagnosis.json", "report.html",  "reproduce.json", begun_name};
 
 void check(const std::error_code& error, const char* action, const fs::path& path) {
   if (error) throw file_error(action, path, error.value());

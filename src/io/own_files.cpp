@@ -46,7 +46,7 @@ bool has_own_columns(const std::string& text) {
   for (const std::string_view columns :
        {"edp,unit,im", "edp,capacity,probability", "edp,unit,capacity,axis", "edp,rank,im", "rotation_rate_radps,mode",
         "id,width_m,height_m", "id,intensity,demand,capacity", "parameter,share,share_se",
-        "annual_rate,annual_rate_lower"})
+        "annual_rate,annual_rate_lower", "figure,series,"})
     if (header.find(columns) != std::string_view::npos) return true;
   return false;
 }

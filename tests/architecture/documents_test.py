@@ -84,7 +84,7 @@ class WithProgram(unittest.TestCase):
         told = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, timeout=60).stdout
         verbs = set(re.findall(r"^  (\w+)  ", told[told.index("Subcommands"):], re.M))
         table = text("README.md")[text("README.md").index("| verb |"):].split("\n\n")[0]
-        named = set(re.findall(r"`(\w+) \[?[A-Z]", table))
+        named = set(re.findall(r"`(\w+) (?:\[?[A-Z]|-o )", table))
         self.assertEqual(named, verbs)
 
 
