@@ -12,8 +12,8 @@ def _arguments(what, argv):
         "figures": "Draws every picture of a result folder into DIR/figures, as SVG and PNG.",
         "report": "Writes DIR/report.html, one self-contained page, from a result folder."}[what] + " Several folders: a "
         "validation, as compared, diagnosed and compared again, in the order of the ladder, and the sweeps before and after; or several "
-        "sweeps, which stand side by side, or one sweep fitted over several intensities; and what `freestand risk` found of them."
-        + " Or the one folder of `freestand reproduce`." + (" Or one database of `freestand catalogue`, alone." if what == "report" else ""))
+        "sweeps, which stand side by side, or one sweep or several fitted over several intensities; and what `freestand risk` found of them."
+        " Or the one folder of `freestand reproduce`." + (" Or one database of `freestand catalogue`, alone." if what == "report" else ""))
     parser.add_argument("folders", metavar="DIR", type=pathlib.Path, nargs="+",
                         help="folder written by freestand run, fit, risk, simulate, compare, diagnose or reproduce" + (", or a database of catalogue" if what == "report" else ""))
     parser.add_argument("--history", metavar="DIR", type=pathlib.Path, help="folder of one freestand simulate, shown beside the sweep")
@@ -23,7 +23,7 @@ def _arguments(what, argv):
 
 
 def read(folders, history=None):
-    """What there is to draw: one Validation where a folder holds a comparison or a diagnosis, else the Designs or Intensities of several
+    """What there is to draw: one Validation where a folder holds a comparison or a diagnosis, else the Designs (over each intensity) or Intensities of several
     sweeps, or a Sweep with its Sensitivity, and History and Risk values."""
     from . import over_intensities, reading
     from .database import is_database, read_database
@@ -63,7 +63,7 @@ def read(folders, history=None):
         held.comparisons.sort(key=lambda comparison: len(comparison.effects))
         return [held] + found
     if len(held.sweeps) > 1:
-        return [over_intensities.compare(held.sweeps)] + found
+        return over_intensities.compare(held.sweeps) + found
     return held.sweeps + found
 
 

@@ -5,6 +5,7 @@ import pathlib
 from . import words
 from .designs import ratio, verdict, warnings
 from .halved import halving
+from .pictures import designs as designs_picture
 from .reading_decisions import Risk, Sensitivity
 
 
@@ -65,15 +66,25 @@ def alone(results):
             "provenance": []}
 
 
-def designs(found, risk_results, figures):
-    """The page of several designs."""
+def designs(over, risk_results, figures):
+    """The page of several designs; `over`: their Designs over each intensity."""
+    found = over[0]
     names = list(dict.fromkeys(str(sweep.summary.get("study_name") or "") for sweep in found.sweeps))
     title = words.capitalised(names[0]) if len(names) == 1 and names[0] else "Several designs"
-    return {"title": f"{title}: side by side", "lead": "; ".join(words.capitalised(label) for label in found.labels) + ".",
-            "headline": _headline(found), "figures": [figure for figure in figures if figure["section"] == "designs"],
-            "differing": found.differing, "folders": [sweep.folder.resolve().name for sweep in found.sweeps], "im": found.im_symbol,
-            "im_unit": words.UNITS.get(found.sweeps[0].im_unit, found.sweeps[0].im_unit), "level": words.level(found.level), "paired": found.paired,
-            "warnings": warnings(found.sweeps, found.labels), "rates": rates(found, risk_results), "medians": _medians(found), "risks": risks(risk_results, figures, named=True), "provenance": _provenance(found)}
+    drawn = iter([figure for figure in figures if figure["section"] == "designs"])
+    parts = [{"im": one.im_symbol, "im_unit": words.UNITS.get(one.sweeps[0].im_unit, one.sweeps[0].im_unit), "figures": [next(drawn)] if designs_picture.panels(one) else [],
+              "rates": rates(one, [risk for risk in risk_results if len(over) == 1 or risk.im_symbol == one.im_symbol]), "medians": _medians(one)} for one in over]
+    finding = next((part["rates"]["finding"] for part in parts if part["rates"]), "")
+    return {"title": f"{title}: side by side", "lead": "; ".join(words.capitalised(label) for label in found.labels) + ".", "finding": finding,
+            "headline": [number for one in over for number in _headline(one)], "parts": parts,
+            "differing": found.differing, "folders": [sweep.folder.resolve().name for sweep in found.sweeps],
+            "level": words.level(found.level), "paired": found.paired, "warnings": _warnings(over),
+            "risks": risks(risk_results, figures, named=True), "provenance": [line for one in over for line in _provenance(one, len(over) > 1)]}
+
+
+def _warnings(over):
+    return [text for one in over
+            for text in warnings(one.sweeps, [f"{label}, over {one.im_symbol}" for label in one.labels] if len(over) > 1 else one.labels)]
 
 
 def rates(found, risk_results):
@@ -160,6 +171,6 @@ def _medians(found):
     return rows
 
 
-def _provenance(found):
-    return [(label, f"{sweep.folder.resolve().name}: {words.count(sweep.samples)} samples, seed {sweep.attributes.get('seed', '–')}, "
+def _provenance(found, several):
+    return [(f"{label}, over {found.im_symbol}" if several else label, f"{sweep.folder.resolve().name}: {words.count(sweep.samples)} samples, seed {sweep.attributes.get('seed', '–')}, "
              f"freestand {sweep.attributes.get('version', '–')}, {sweep.attributes.get('created_utc', '')}") for sweep, label in zip(found.sweeps, found.labels)]

@@ -48,8 +48,8 @@ def compare(sweeps):
     for sweep in sweeps[1:]:
         if (sweep.im_name, sweep.im_unit) != (first.im_name, first.im_unit):
             raise Problem(f"{first.folder} was fitted over {first.im_name} and {sweep.folder} over {sweep.im_name}: several designs do not fit into "
-                          f"one axis so; fit both over the same (freestand fit DIR --im {first.im_name} -o DIR2); several designs over several intensities are a catalogue, "
-                          "whose page holds them all", USAGE)
+                          f"one axis so; fit both over the same (freestand fit DIR --im {first.im_name} -o DIR2), or give every design over every intensity, in the "
+                          "same order", USAGE)
     differing = _differing([_flat(sweep) for sweep in sweeps])
     paired = all(_motions(sweep) == _motions(first) for sweep in sweeps)
     level = float(first.attributes.get("confidence", 0.95))
@@ -69,6 +69,11 @@ def warnings(sweeps, labels):
 def same_study(sweeps):
     """Are they of one design? What was computed of it, and how it was analysed, may differ."""
     return not _differing([_flat(sweep) for sweep in sweeps])
+
+
+def same_designs(sweeps, others):
+    """Are they fits of the same designs, in the same order?"""
+    return len(sweeps) == len(others) and all(same_study([one, other]) for one, other in zip(sweeps, others))
 
 
 def _motions(sweep):

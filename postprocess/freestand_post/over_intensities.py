@@ -15,10 +15,17 @@ class Intensities:
 
 
 def compare(sweeps):
-    """Intensities where the sweeps are of one study over several intensities, else what designs.compare() makes of them."""
-    if len({sweep.im_name for sweep in sweeps}) < len(sweeps) or not designs.same_study(sweeps):
-        return designs.compare(sweeps)
-    return Intensities(sweeps, list(designs.curves(sweeps)))
+    """What several sweeps are, as a list: Intensities where they are of one study, each over its own intensity; else the Designs over each
+    intensity, where every design was fitted over every one; else what designs.compare() makes of them."""
+    if len({sweep.im_name for sweep in sweeps}) == len(sweeps) and designs.same_study(sweeps):
+        return [Intensities(sweeps, list(designs.curves(sweeps)))]
+    over = {}
+    for sweep in sweeps:
+        over.setdefault((sweep.im_name, sweep.im_unit), []).append(sweep)
+    groups = list(over.values())
+    if any(len(group) < 2 for group in groups) or not all(designs.same_designs(groups[0], group) for group in groups[1:]):
+        return [designs.compare(sweeps)]
+    return [designs.compare(group) for group in groups]
 
 
 def content(found, figures, risks):

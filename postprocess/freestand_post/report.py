@@ -31,7 +31,7 @@ def page(results):
     if isinstance(results[0], Reproduction):
         return _render("reproduce.html", reproduce_report.content(results[0], figures))
     if isinstance(results[0], Designs):
-        return _render("designs.html", decisions_report.designs(results[0], [r for r in results if isinstance(r, Risk)], figures))
+        return _render("designs.html", decisions_report.designs([r for r in results if isinstance(r, Designs)], [r for r in results if isinstance(r, Risk)], figures))
     if isinstance(results[0], over_intensities.Intensities):
         return _render("intensities.html", over_intensities.content(results[0], figures, decisions_report.risks(results, figures, named=True)))
     sweep = next((result for result in results if isinstance(result, Sweep)), None)

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fragility/clusters.hpp"
+#include "fragility/share_interval.hpp"
 #include "fragility/surface.hpp"
 
 namespace freestand::fragility {
@@ -28,7 +28,7 @@ class Cell {
   Interval band(Eigen::Index c, std::size_t records, double confidence) const {
     std::vector<GroupShare> shares;
     for (Eigen::Index g = 0; g < table_.rows(); ++g) shares.push_back({table_(g, 0), table_(g, 1 + c)});
-    return clustered_interval(shares, records, confidence);
+    return share_interval(shares, records, confidence);
   }
 
  private:

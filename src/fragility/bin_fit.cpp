@@ -5,6 +5,7 @@
 #include "fragility/bin_sums.hpp"
 #include "fragility/histogram.hpp"
 #include "fragility/lognormal.hpp"
+#include "fragility/share_interval.hpp"
 
 namespace freestand::fragility {
 namespace {
@@ -75,7 +76,7 @@ class Bin {
     }
     if (!(n > 0)) return;
     p = hits / n;
-    const Interval interval = clustered_interval(groups, records_, options_.confidence);
+    const Interval interval = share_interval(groups, records_, options_.confidence);
     lower = interval.lower;
     upper = interval.upper;
   }

@@ -18,20 +18,6 @@ namespace {
 constexpr int most_drawn = 256;
 constexpr double far = 8;  // standard deviations; one normal number in 10^15 lies further out
 
-// Sum over a stratum of (e - mean e)^2 G/(G - 1), e = hits - p n.
-double between(std::span<const GroupShare> groups, double p, int& there) {
-  double count = 0, sum = 0, squares = 0;
-  for (const GroupShare& g : groups) {
-    if (!(g.n > 0)) continue;
-    const double e = g.hits - p * g.n;
-    ++count;
-    sum += e;
-    squares += e * e;
-  }
-  there += static_cast<int>(count);
-  return count > 1 ? (squares - sum * sum / count) * count / (count - 1) : 0;
-}
-
 // One stream of uniforms and normals.
 class Draws {
  public:
@@ -228,33 +214,6 @@ Simulated of_many(const Clustering& c, double cut, Draws& draws) {
 }
 
 }  // namespace
-
-Interval clustered_interval(std::span<const GroupShare> groups, std::size_t record_groups, double confidence) {
-  double n = 0, hits = 0, single = 0;
-  int records = 0;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    n += groups[g].n;
-    hits += groups[g].hits;
-    if (g >= record_groups)
-      single += groups[g].n;
-    else if (groups[g].n > 0)
-      ++records;
-  }
-  if (!(n > 0)) return {0, 1};
-  const double p = hits / n;
-  if (hits <= 0 || hits >= n) {
-    const double trials = single + records;
-    return exact_interval(p * trials, trials, confidence);
-  }
-  int there = 0;
-  const double variance =
-      (between(groups.first(record_groups), p, there) + between(groups.subspan(record_groups), p, there)) / (n * n);
-  if (there < 2) return {0, 1};
-  const double tail = (1 - confidence) / 2;
-  const double ratio = gsl_cdf_tdist_Qinv(tail, n - 1) / gsl_cdf_tdist_Qinv(tail, there - 1);
-  const double effective = std::min(n, p * (1 - p) / variance * ratio * ratio);
-  return exact_interval(p * effective, effective, confidence);
-}
 
 double Clustering::n() const { return std::accumulate(sizes.begin(), sizes.end(), single); }
 

@@ -1,25 +1,11 @@
-// Samples that share a record: intervals of shares, and the null distribution of S, with motions as the unit.
+// Samples that share a record: how alike they are, and the null distribution of S, with motions as the unit.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "fragility/intervals.hpp"
-
 namespace freestand::fragility {
-
-// Of one group: samples, and those above (or still, or overturned).
-struct GroupShare {
-  double n, hits;
-};
-
-// Interval of a probability from counts by group, of which the first record_groups are groups of records and the others
-// hold samples that are motions of their own: the exact binomial limits at the effective number of samples
-//   n* = p (1 - p)/var(p) (t_{n-1}/t_{G-1})^2,   at most n     (E. Korn & B. Graubard, Survey Methodology 24, 1998)
-// with var(p) from the differences between the groups. Where none or all hit, nothing shows how alike the samples of a
-// group are; then each group of records counts as one sample. [0, 1] with fewer than two groups.
-Interval clustered_interval(std::span<const GroupShare> groups, std::size_t record_groups, double confidence);
 
 // How a number (ln demand) varies: samples of one group of records are correlated by `correlation`.
 struct Clustering {

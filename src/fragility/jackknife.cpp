@@ -7,24 +7,9 @@
 #include <limits>
 #include <numeric>
 
+#include "fragility/variance_sum.hpp"
+
 namespace freestand::fragility {
-namespace {
-
-// k4/k2^2 of unbiased cumulants (R. A. Fisher, Proc. London Math. Soc. 30, 1930); 0 of fewer than four, or where all are alike.
-// The plain moments' m4/m2^2 - 3 of normal numbers is -6/(n + 1) on average, and of others too small by (n - 2)(n - 3)/(n^2 - 1) besides.
-double excess_kurtosis(const std::vector<double>& values) {
-  const double n = static_cast<double>(values.size());
-  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  double second = 0, fourth = 0;
-  for (const double value : values) {
-    second += std::pow(value - mean, 2) / n;
-    fourth += std::pow(value - mean, 4) / n;
-  }
-  if (n < 4 || !(second > 0)) return 0;
-  return (n - 1) / ((n - 2) * (n - 3)) * ((n + 1) * (fourth / (second * second) - 3) + 6);
-}
-
-}  // namespace
 
 double jackknife_variance(const std::vector<double>& left_out) {
   const double groups = static_cast<double>(left_out.size());
@@ -82,19 +67,17 @@ Estimate jackknife_share(double whole, const LeftOut& left_out, double confidenc
 }
 
 PositiveLimits::PositiveLimits(double whole, LeftOut left_out) : whole_(whole) {
-  double variance = 0, variance_of_it = 0, most = 0;
+  VarianceSum variance;
+  double most = 0;
   for (std::vector<double>& stratum : left_out) {
     if (stratum.size() < 2) continue;
-    const double groups = static_cast<double>(stratum.size());
     for (double& one : stratum) one = one > 0 ? std::log(one) : std::numeric_limits<double>::quiet_NaN();
-    const double own = jackknife_variance(stratum);
-    variance += own;
-    variance_of_it += own * own * (2 / (groups - 1) + std::max(excess_kurtosis(stratum), 0.0) / groups);
-    most += groups - 1;
+    variance.add(jackknife_variance(stratum), stratum);
+    most += static_cast<double>(stratum.size()) - 1;
   }
-  if (most == 0 || !(whole > 0) || std::isnan(variance)) return;
-  se_ = std::sqrt(variance);
-  freedom_ = variance > 0 ? 2 * variance * variance / variance_of_it : most;
+  if (most == 0 || !(whole > 0) || std::isnan(variance.value())) return;
+  se_ = std::sqrt(variance.value());
+  freedom_ = variance.value() > 0 ? variance.freedom() : most;
 }
 
 double PositiveLimits::upper(double tail) const { return whole_ * std::exp(se_ * gsl_cdf_tdist_Qinv(tail, freedom_)); }

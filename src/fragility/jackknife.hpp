@@ -36,10 +36,8 @@ Estimate jackknife_share(double whole, const LeftOut& left_out, double confidenc
 
 // Limits of a positive number that scatters as a lognormal does (a rate), about `whole` and laid in its logarithm:
 //   ln whole -+ t_f se,   se^2 = sum_s V_s,   V_s = (G_s - 1)/G_s sum_g (ln left out - mean)^2
-//   f = 2 (sum_s V_s)^2/sum_s var(V_s),   var(V_s) = V_s^2 (2/(G_s - 1) + k_s/G_s)      (F. E. Satterthwaite, Biometrics Bulletin 2, 1946)
-// with k_s the excess kurtosis of the logarithms in the stratum, by the ratio of unbiased cumulants and not below 0: where few groups make
-// most of the number, se is known worse than from as many normal ones. Not known where no stratum has two groups, or where whole or one
-// left out is not above 0 (or not known).
+// with the degrees of freedom f that the logarithms show (variance_sum.hpp). Not known where no stratum has two groups, or where whole or
+// one left out is not above 0 (or not known).
 class PositiveLimits {
  public:
   PositiveLimits(double whole, LeftOut left_out);

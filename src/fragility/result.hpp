@@ -33,7 +33,7 @@ struct BinFit {
   int motions = 0;           // groups of motions that have samples here
   double im_mean = unknown;  // of the n samples
 
-  // Intervals with motions as the unit (clusters.hpp).
+  // Intervals with motions as the unit (share_interval.hpp).
   double p_still = unknown, p_still_lower = unknown,
          p_still_upper = unknown;                                           // n_still/(n - n_over), given that it stood
   double p_over = unknown, p_over_lower = unknown, p_over_upper = unknown;  // n_over/n

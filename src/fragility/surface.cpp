@@ -6,6 +6,7 @@
 #include "fragility/bin_sums.hpp"
 #include "fragility/intervals.hpp"
 #include "fragility/lognormal.hpp"
+#include "fragility/share_interval.hpp"
 
 namespace freestand::fragility {
 namespace {
@@ -22,7 +23,7 @@ Point empirical_point(const Eigen::MatrixXd& groups, const Eigen::MatrixXd& tota
                       Eigen::Index column, std::size_t records, double confidence) {
   std::vector<GroupShare> shares;
   for (Eigen::Index g = 0; g < groups.rows(); ++g) shares.push_back({groups(g, 0), groups(g, column)});
-  const Interval band = clustered_interval(shares, records, confidence);
+  const Interval band = share_interval(shares, records, confidence);
   const auto shares_of = [&](const Eigen::MatrixXd& all) {
     std::vector<double> found;
     for (Eigen::Index r = 0; r < all.rows(); ++r) found.push_back(all(r, column) / all(r, 0));

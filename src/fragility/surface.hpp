@@ -12,7 +12,7 @@ namespace freestand::fragility {
 // (with Options::empirical_fallback) fails goodness of fit, or empty where it has too few samples. Also sets the
 // standard errors of the bins by resampling.
 //
-// A row of plain fractions has the interval of a share with motions as the unit (clusters.hpp). A fitted row in which nothing overturned
+// A row of plain fractions has the interval of a share with motions as the unit (share_interval.hpp). A fitted row in which nothing overturned
 // (or nothing stood still) also holds what may have gone unseen (largest_beside_nothing), where overturning censors the demand; what of
 // its tail that limit does not need is the other's (unused_tail). By simulation, nominal 90 %, 40 records of 25 samples, half of the
 // variance between records, 300 repeats (error 0.017): a fitted row of P = 0.16 holds the truth in 0.90 of the cases where nothing can

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "fragility/bin_fit.hpp"
 #include "fragility/lognormal.hpp"
@@ -15,7 +14,7 @@
 namespace freestand::fragility {
 namespace {
 
-using test::counted, test::fitted, test::options, test::Study;
+using test::counted, test::fitted, test::options, test::repeats_asked, test::Study;
 
 // Share of repeats whose band at capacity 2 holds the truth.
 double coverage(const Study& study, bool group_by_record, double& mean_width) {
@@ -65,11 +64,6 @@ TEST(Bands, StandardErrorsByMotionSeeWhatTheOthersDoNot) {
   EXPECT_NEAR(independent.lambda_se / (0.6 / std::sqrt(400)), 1, 0.25);
   EXPECT_NEAR(independent.omega_se / (0.6 / std::sqrt(800)), 1, 0.3);
   EXPECT_EQ(independent.correlation, 0);
-}
-
-int repeats_asked(int otherwise) {
-  const char* asked = std::getenv("FREESTAND_REPEATS");
-  return asked ? std::atoi(asked) : otherwise;
 }
 
 void expect_ninety(double covered, const char* what) {

@@ -12,24 +12,6 @@
 namespace freestand::fragility {
 namespace {
 
-TEST(ClusteredInterval, OfIndependentSamplesIsTheExactBinomialOne) {
-  const std::vector<GroupShare> none{{50, 0}, {50, 0}}, single{{100, 0}};
-  EXPECT_NEAR(clustered_interval(none, 0, 0.95).upper, 1 - std::pow(0.025, 1 / 100.0), 1e-12);
-  // Of two records nothing more is known than that it did not happen in two.
-  EXPECT_NEAR(clustered_interval(none, 2, 0.95).upper, 1 - std::pow(0.025, 1 / 2.0), 1e-12);
-  EXPECT_EQ(clustered_interval({}, 0, 0.95).upper, 1);
-}
-
-// Twenty records of ten, all of a record alike: worth twenty samples, and a little less since that is estimated.
-TEST(ClusteredInterval, OfRecordsThatAreAllAlikeCountsRecords) {
-  std::vector<GroupShare> groups;
-  for (int g = 0; g < 20; ++g) groups.push_back({10, g < 6 ? 10.0 : 0.0});
-  const Interval found = clustered_interval(groups, 20, 0.9), twenty = exact_interval(6, 20, 0.9);
-  EXPECT_LT(found.lower, twenty.lower + 0.01);
-  EXPECT_GT(found.upper, twenty.upper - 0.01);
-  EXPECT_NEAR(found.upper - found.lower, twenty.upper - twenty.lower, 0.03);
-}
-
 // One-way analysis of variance by hand: groups {1, 3}, {5, 7}: B = 16, W = 2, (16 - 2)/(16 + 2) = 7/9.
 TEST(Clustering, IsTheTextbooksAnalysisOfVariance) {
   const std::vector<GroupMoments> groups{{2, 4, 10}, {2, 12, 74}, {0, 0, 0}, {5, 1, 1}};

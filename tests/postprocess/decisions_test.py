@@ -224,6 +224,20 @@ class Pages(InFolder):
         with self.assertRaisesRegex(Problem, "sa_g:0.2 and .* over sa_g:1"):
             self.sweeps(*folders)
 
+    def test_several_designs_over_several_intensities_stand_on_one_page(self):
+        def both(name, median, width):
+            first = self.design(name, median, width=width)
+            second = self.over(self.design(name + "_pga", 2 * median, width=width), "pga_g", "g")
+            return first, second
+        narrow, wide = both("narrow", 1.2, 0.6), both("wide", 1.8, 0.9)
+        text = self.text(narrow[0], wide[0], narrow[1], wide[1])
+        for words in ("Medians, over PTA/(μg)\u00a0−\u00a01", "Medians, over PGA", "median PGA of overturning: width 0.9\u00a0m", "width 0.9\u00a0m, over PGA"):
+            self.assertIn(words, text)
+        found = page(read([narrow[0], wide[0], narrow[1], wide[1]]))
+        self.assertEqual([found.count(f'id="designs-{im}-clip') > 0 for im in ("report", "pga-g")], [True, True])
+        with self.assertRaisesRegex(Problem, "every design over every intensity"):
+            read([narrow[0], wide[0], narrow[1]])
+
     def test_other_intensities_of_other_designs_do_not_fit_into_one_axis(self):
         other = self.over(self.design("b", 3.0, width=0.9), "pga_g", "g")
         done = support.run("report", self.design("a", 2.0), other)

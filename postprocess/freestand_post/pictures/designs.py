@@ -1,4 +1,6 @@
 """Fragility of several designs in one axis: overturning, and the main demand above two capacities."""
+import re
+
 import numpy as np
 
 from .. import style, words
@@ -67,7 +69,7 @@ def _picture(designs):
     level = words.level(designs.level)
     style.headline(fig, finding, ("Each sample has the same motion and draws in every design: differences are of pairs. " if designs.paired
                                   else "The sweeps have other motions: differences are of independent samples. ") + f"Bands: {level}.")
-    return Picture("designs", fig, finding, CAPTION.format(level=level), "designs")
+    return Picture(f"designs_{re.sub(r'[^A-Za-z0-9_]', '_', designs.sweeps[0].im_name)}", fig, finding, CAPTION.format(level=level), "designs")
 
 
 def _view(designs):

@@ -1,0 +1,89 @@
+#include "fragility/share_interval.hpp"
+
+#include <gsl/gsl_cdf.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace freestand::fragility {
+namespace {
+
+TEST(ShareInterval, OfIndependentSamplesIsTheExactBinomialOne) {
+  const std::vector<GroupShare> none{{50, 0}, {50, 0}}, single{{100, 0}};
+  EXPECT_NEAR(share_interval(none, 0, 0.95).upper, 1 - std::pow(0.025, 1 / 100.0), 1e-12);
+  // Of two records nothing more is known than that it did not happen in two.
+  EXPECT_NEAR(share_interval(none, 2, 0.95).upper, 1 - std::pow(0.025, 1 / 2.0), 1e-12);
+  EXPECT_EQ(share_interval({}, 0, 0.95).upper, 1);
+}
+
+double odds_limit(double p, double distance) { return 1 / (1 + (1 - p) / p * std::exp(-distance)); }
+
+// Twenty records of ten, all of a record alike: worth twenty samples. Two values scatter less than normal ones, so with 19 degrees of
+// freedom.
+TEST(ShareInterval, OfRecordsThatAreAllAlikeCountsRecords) {
+  std::vector<GroupShare> groups;
+  for (int g = 0; g < 20; ++g) groups.push_back({10, g < 6 ? 10.0 : 0.0});
+  const Interval found = share_interval(groups, 20, 0.9), exact = exact_interval(6, 20, 0.9);
+  const double reach = gsl_cdf_tdist_Qinv(0.05, 19) / std::sqrt(0.21 * 19);
+  EXPECT_NEAR(found.lower, odds_limit(0.3, -reach), 1e-12);
+  EXPECT_NEAR(found.upper, odds_limit(0.3, reach), 1e-12);
+  EXPECT_LT(found.upper - found.lower, exact.upper - exact.lower);  // those hold the truth oftener than they say
+}
+
+// Two pairs that are alike show no scatter at all: as independent samples.
+TEST(ShareInterval, OfRecordsWithoutScatterIsThatOfIndependentSamples) {
+  const std::vector<GroupShare> groups(8, {10, 5});
+  const double reach = gsl_cdf_ugaussian_Qinv(0.05) / std::sqrt(80 * 0.25);
+  EXPECT_NEAR(share_interval(groups, 8, 0.9).upper, odds_limit(0.5, reach), 1e-12);
+}
+
+// One sample of one record exceeds. Of Student's t with the freedom of one outlier among fourteen, 2/(2/13 + 14/14), the upper limit is at
+// most that of none, which takes its place; the lower limit has what the upper one leaves of both tails.
+TEST(ShareInterval, OfOneRecordHasTheUpperLimitOfNone) {
+  std::vector<GroupShare> groups(14, {1000, 0});
+  groups[3].hits = 1;
+  const Interval found = share_interval(groups, 14, 0.9);
+  const double of_none = 1 - std::pow(0.05, 1 / 14.0), p = 1 / 14e3, freedom = 2 / (2 / 13.0 + 1), se = 1;
+  EXPECT_NEAR(found.upper, of_none, 1e-12);
+  const double reached = gsl_cdf_tdist_Q(std::log(of_none / (1 - of_none) * (1 - p) / p) / se, freedom);
+  EXPECT_NEAR(found.lower / odds_limit(p, -gsl_cdf_tdist_Qinv(0.1 - reached, freedom)), 1, 2e-3);
+  groups[3].hits = 0;
+  EXPECT_NEAR(share_interval(groups, 14, 0.9).upper, of_none, 1e-12);
+}
+
+TEST(ShareInterval, OfMissesIsTheMirror) {
+  const std::vector<std::vector<GroupShare>> sets{
+      {{10, 1}, {20, 3}, {10, 0}, {5, 2}}, {{10, 0}, {20, 13}, {10, 0}, {5, 0}}, {{4, 4}, {4, 0}}, {{9, 9}, {9, 9}}};
+  for (std::vector<GroupShare> groups : sets) {
+    const std::size_t records = groups.size();
+    const Interval found = share_interval(groups, records, 0.9);
+    for (GroupShare& g : groups) g.hits = g.n - g.hits;
+    const Interval mirrored = share_interval(groups, records, 0.9);
+    EXPECT_NEAR(found.lower, 1 - mirrored.upper, 1e-9);
+    EXPECT_NEAR(found.upper, 1 - mirrored.lower, 1e-9);
+    EXPECT_LE(found.lower, found.upper);
+  }
+}
+
+// Twenty records all alike, and beside them as many samples that are motions of their own, whose scatter is binomial and known.
+TEST(ShareInterval, AddsWhatSamplesOfTheirOwnScatter) {
+  std::vector<GroupShare> groups;
+  for (int g = 0; g < 20; ++g) groups.push_back({10, g < 10 ? 10.0 : 0.0});
+  for (int g = 0; g < 4; ++g) groups.push_back({50, 25});
+  const double records = 0.25 / 19 / 4, own = 0.25 / 200 / 4, freedom = std::pow(records + own, 2) / (records * records / 19);
+  const double reach = gsl_cdf_tdist_Qinv(0.05, freedom) * std::sqrt(records + own) / 0.25;
+  EXPECT_NEAR(share_interval(groups, 20, 0.9).upper, odds_limit(0.5, reach), 1e-12);
+}
+
+TEST(ShareInterval, OfOneRecordIsAllOrAsOneSample) {
+  const std::vector<GroupShare> alone{{30, 12}}, beside{{30, 12}, {30, 12}};
+  EXPECT_EQ(share_interval(alone, 1, 0.9).lower, 0);
+  EXPECT_EQ(share_interval(alone, 1, 0.9).upper, 1);
+  const Interval found = share_interval(beside, 1, 0.9);
+  const double se = std::sqrt(0.24 * (0.25 + 0.25 / 30)) / 0.24;
+  EXPECT_NEAR(found.upper, odds_limit(0.4, gsl_cdf_ugaussian_Qinv(0.05) * se), 1e-12);
+}
+
+}  // namespace
+}  // namespace freestand::fragility
