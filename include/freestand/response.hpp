@@ -35,7 +35,8 @@ struct Response {
   double slid_path_m = 0;        // integral of |slip speed of the contact|
   double peak_rotation_rad = 0;  // max |theta|
   double residual_rotation_rad = 0;
-  // Max of the vector sum of the centre of mass's total acceleration; impacts, and hops within the tolerance, left out.
+  // Max of the vector sum of the centre of mass's total acceleration over all times but the instants of blows: the hops with which a block
+  // comes to stand count however short they are, so that it does not go with the tolerance.
   double peak_acceleration_mps2 = 0;
   bool connection_failed = false;  // of a chain to the wall
   int impacts = 0;                 // rocking impacts and landings

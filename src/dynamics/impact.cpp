@@ -177,6 +177,22 @@ bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& f
   return true;
 }
 
+bool strike_and_hop(const Rig& rig, State& state, double time) {
+  const int from = state.pivot, to = -from;
+  state.theta = 0;
+  state.wall = 0;
+  if (rig.impact.law == ImpactLaw::housner) {
+    state.omega *= kept_rate(rig, from, to);
+  } else {
+    Velocity<double> after{};
+    const Velocity<double> before = at_centre(arm(rig, from, 0.0), state.w, state.omega);
+    if (!plastic(grip(rig, state, time), arm(rig, to, 0.0), before, after, state.w)) return false;
+    state.omega = after.omega;
+  }
+  state.pivot = to;
+  return state.omega * to > 0;
+}
+
 bool land(const Rig& rig, State& state, int pivot, double time) {
   const Velocity<double> before{state.vx, state.vy, state.omega};
   const bool flat = state.theta == 0 && state.omega == 0;
