@@ -35,8 +35,7 @@ struct Response {
   double slid_path_m = 0;        // integral of |slip speed of the contact|
   double peak_rotation_rad = 0;  // max |theta|
   double residual_rotation_rad = 0;
-  // Max of the vector sum of the centre of mass's total acceleration over all times but the instants of blows: the hops with which a block
-  // comes to stand count however short they are, so that it does not go with the tolerance.
+  // Max of the vector sum of the centre of mass's total acceleration; blows left out, but no hop, however short (small_hops.cpp).
   double peak_acceleration_mps2 = 0;
   bool connection_failed = false;  // of a chain to the wall
   int impacts = 0;                 // rocking impacts and landings

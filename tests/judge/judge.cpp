@@ -19,12 +19,13 @@ using Integrator = Response (*)(const Specimen&, const freestand::Shaking&, cons
 
 struct Answer {
   const char* who;
+  double accuracy;  // of slips and rotations [m], [rad]
   Response response;
   History history;
 };
 
 // The tolerance also ends the endless rows of hops, with an error in speed that goes with its root: the judge looks at the tightest,
-// which the reference says where it cannot keep, and at the usual one, whose rows must be felt as well.
+// and the reference says where it cannot keep it; and less closely at that of a sweep, whose rows must be felt as well.
 constexpr double tightest = 1e-12, usual = Settings{}.tolerance;
 
 Answer answer(const JudgedCase& c, const char* who, Integrator integrate, double tolerance = tightest) {
@@ -33,7 +34,7 @@ Answer answer(const JudgedCase& c, const char* who, Integrator integrate, double
   Settings settings;
   settings.free_vibration_s = free_vibration_s;
   for (settings.tolerance = tolerance;; settings.tolerance *= 10) {
-    Answer a{who, {}, {}};
+    Answer a{who, accuracy * std::sqrt(tolerance / tightest), {}, {}};
     a.history.step_s = c.floor.dt_s;
     try {
       a.response = integrate(specimen_of(c.truth), shaking, settings, &a.history);
@@ -123,8 +124,8 @@ std::string difference_at_the_end(const Evidence& e, const Answer& a) {
   if (h.deeds.size() < quiet ||
       std::any_of(h.deeds.end() - quiet, h.deeds.end(), [](unsigned deed) { return deed != 0; }))
     return "";
-  if (std::abs(r.residual_slip_m - h.slip_m.back()) > accuracy) return "";  // it went on after the motion
-  if (std::abs(r.slid_path_m - h.slid_path_m) > 10 * accuracy + margin * e.own_path_m)
+  if (std::abs(r.residual_slip_m - h.slip_m.back()) > a.accuracy) return "";  // it went on after the motion
+  if (std::abs(r.slid_path_m - h.slid_path_m) > 10 * a.accuracy + margin * e.own_path_m)
     return fmt::format("{}: slid path {:.7f} against {:.7f} m, own {:.1e}", a.who, r.slid_path_m, h.slid_path_m,
                        e.own_path_m);
   // Of a block that rattles at a wall the stepper's last rebounds are shorter than its step: it leans there, and feels the wall.
@@ -197,7 +198,7 @@ std::string difference_on_contact(const Evidence& e, const Answer& a, double yie
 // Empty: within what is allowed. parted_s: when they do, if that can be told.
 std::string difference(const JudgedCase& c, const Evidence& e, const Answer& a, double& parted_s) {
   const bool on_contact = c.family == Family::bouc_wen;
-  const double allowed = on_contact ? accuracy_on_contact : accuracy;
+  const double allowed = on_contact ? accuracy_on_contact : a.accuracy;
   const TruthHistory& h = e.history;
   const double undecided_s = landing_nearly_flat(e, a);
   for (std::size_t i = 0; i < e.own.size(); ++i) {
@@ -230,8 +231,7 @@ std::string difference(const JudgedCase& c, const Evidence& e, const Answer& a, 
 Judgement judge(const JudgedCase& judged) try {
   const bool on_contact = judged.family == Family::bouc_wen;  // whose accuracy only the tightest gives
   const Answer answers[] = {answer(judged, "respond, tolerance of a sweep", respond, on_contact ? tightest : usual),
-                            answer(judged, "respond", respond),
-                            answer(judged, "respond_reference", respond_reference)};
+                            answer(judged, "respond", respond), answer(judged, "respond_reference", respond_reference)};
   const JudgedCase c = on_contact ? rung_out(judged) : judged;
   Judgement result;
   const auto first_difference = [&](const Evidence& e) {
