@@ -37,7 +37,7 @@ struct Response {
   double slid_path_m = 0;            // integral of |slip speed of the contact|
   double peak_rotation_rad = 0;      // max |theta|
   double residual_rotation_rad = 0;
-  // Max of the vector sum of the centre of mass's total acceleration; impacts, and hops within the tolerance, left out.
+  // Max of the vector sum of the centre of mass's total acceleration; blows left out, but no hop, however short (small_hops.cpp).
   double peak_acceleration_mps2 = 0;
   // The same of the point at Settings::acceleration_height_m, and the largest jump of its velocity in a blow of the floor or of
   // a wall; without that height nan.

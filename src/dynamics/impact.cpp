@@ -89,24 +89,30 @@ bool tips(const Grip& grip, State& state, const Velocity<double>& before) {
   return true;
 }
 
-// Slip speed at the end of the endless row of hops that starts on `pivot` with `rate`, impacts leaving the slip as it
-// is. A hop turns rate r into -r, and with it the slip by 2 h r + 2 sigma mu_k |c| |r| (its friction beyond that of
-// sliding): two geometric series, one hop on either corner in turn.
-double slip_after_hops(const Grip& grip, int pivot, double rate, double w) {
+bool on_legs(const Rig& rig) { return rig.laws && rig.laws->legs.frequency_radps > 0; }
+
+// Slip speed at the end of the endless row of hops that starts in `state`, impacts leaving the slip as it is. A hop turns rate r
+// into -r, and with it the slip by 2 h r + 2 sigma mu_k |c| |r| (its friction beyond that of sliding): two geometric
+// series, one hop on either corner in turn. On legs the same goes for the base, whose motion no friction ends: it is the foot
+// that slips, and that hands on its friction as long as it does.
+double slip_after_hops(const Grip& grip, const State& state, double time) {
   const Rig& rig = grip.rig;
-  const double ratio = kept_rate(rig, pivot, -pivot);  // rate of the second hop to that of the first
-  const double rows = 1 / (1 - ratio * kept_rate(rig, -pivot, pivot));
-  const int sigma = w > 0 ? 1 : -1;
-  const double arms = std::abs(rig.offset(pivot)) + ratio * std::abs(rig.offset(-pivot));
-  const double after =
-      w + rows * (2 * rig.h * rate * (1 - ratio) + 2 * sigma * grip.mu_k(sigma) * arms * std::abs(rate));
-  return sigma * after > 0 ? after : 0;
+  const double ratio = kept_rate(rig, state.pivot, -state.pivot);  // rate of the second hop to that of the first
+  const double rows = 1 / (1 - ratio * kept_rate(rig, -state.pivot, state.pivot));
+  const double slip = slip_speed(rig, state), rate = state.omega;
+  const int sigma = slip > 0 ? 1 : -1;
+  const double mu_k = !on_legs(rig) ? grip.mu_k(sigma)
+                      : slip == 0   ? 0
+                                    : rig.mu_k * law_values(rig, state, time, sigma).factor;
+  const double arms = std::abs(rig.offset(state.pivot)) + ratio * std::abs(rig.offset(-state.pivot));
+  const double after = state.w + rows * (2 * rig.h * rate * (1 - ratio) + 2 * sigma * mu_k * arms * std::abs(rate));
+  return on_legs(rig) || sigma * after > 0 ? after : 0;
 }
 
 // The row of hops starts in `state`, slipping. On legs the base always moves, and what slips is the foot.
 bool slip_outlasts_hops(const Grip& friction, State state, double time, const Floor<double, 1>& floor) {
   const Rig& rig = friction.rig;
-  if (state.omega == 0 || (rig.laws && rig.laws->legs.frequency_radps > 0)) return true;
+  if (state.omega == 0 || on_legs(rig)) return true;
   state.mode = Mode::slide_rock;
   const auto start = [&](int pivot, double w) {
     state.pivot = pivot;
@@ -150,9 +156,7 @@ bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& f
     state.omega = kept_rate(rig, old_pivot, new_pivot) * omega;
     if (state.w != 0 && rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation) {
       state.pivot = new_pivot;
-      state.w = slip_outlasts_hops(friction, state, time, floor)
-                    ? slip_after_hops(friction, new_pivot, state.omega, state.w)
-                    : 0;
+      state.w = slip_outlasts_hops(friction, state, time, floor) ? slip_after_hops(friction, state, time) : 0;
     }
   } else {
     const Velocity<double> before = at_centre(arm(rig, old_pivot, 0.0), state.w, omega);
@@ -175,6 +179,22 @@ bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& f
   if (rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation) state.omega = 0;
   state.pivot = state.omega == 0 ? 0 : new_pivot;
   return true;
+}
+
+bool strike_and_hop(const Rig& rig, State& state, double time) {
+  const int from = state.pivot, to = -from;
+  state.theta = 0;
+  state.wall = 0;
+  if (rig.impact.law == ImpactLaw::housner) {
+    state.omega *= kept_rate(rig, from, to);
+  } else {
+    Velocity<double> after{};
+    const Velocity<double> before = at_centre(arm(rig, from, 0.0), state.w, state.omega);
+    if (!plastic(grip(rig, state, time), arm(rig, to, 0.0), before, after, state.w)) return false;
+    state.omega = after.omega;
+  }
+  state.pivot = to;
+  return state.omega * to > 0;
 }
 
 bool land(const Rig& rig, State& state, int pivot, double time) {

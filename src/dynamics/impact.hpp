@@ -21,6 +21,10 @@ namespace freestand::dynamics {
 // ends within the row. floor: at the instant.
 bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& floor);
 
+// The same blow, and of however small a hop its start: omega and w after it, on the corner that struck. False: both corners
+// stay down, or Painleve's paradox.
+bool strike_and_hop(const Rig& rig, State& state, double time);
+
 // Housner's ratio of the rates after and before an impact in which corner `from` gives over to `to`.
 double kept_rate(const Rig& rig, int from, int to);
 

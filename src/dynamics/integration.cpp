@@ -252,14 +252,11 @@ void Integration::keep_contents_velocity(double speed_before) {
 
 // Another event may fall on the very instant of a stop, or of an impact.
 void Integration::stop_slip() {
-  if (!rig.laws || rig.laws->legs.frequency_radps == 0) state.w = 0;
+  stand_still(rig, state);
   // An edge of a leaning block stops with the slip, unless it is at the floor itself but for round-off of the height.
   const bool leans = state.pivot != 0 && state.at_wall();
   if (leans && edge_now(rig, state, state.wall, state.edge).height > 1e-6 * rig.top) state.omega = 0;
-  state.foot = 0;
 }
-
-bool Integration::strike_floor() { return strike(rig, state, cursor.time(), cursor.local<1>()); }
 
 bool Integration::strikes_too() const {
   return state.pivot != 0 && state.pivot * state.theta <= 0 && state.pivot * state.omega < 0;

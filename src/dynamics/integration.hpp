@@ -54,6 +54,12 @@ void go_to(const Rig& rig, State& state, const LawFlight<N>& flight, double tau)
   for (int i = 0; i < rig.laws->states; ++i) state.states[static_cast<std::size_t>(i)] = flight.states[i].at(tau);
 }
 
+// The contact slips no more; on legs the base moves on.
+inline void stand_still(const Rig& rig, State& state) {
+  if (!rig.laws || rig.laws->legs.frequency_radps == 0) state.w = 0;
+  state.foot = 0;
+}
+
 inline constexpr double beyond_all_bounds = 1e6;  // [m], [rad] and per second: a law feeds the motion
 
 class Integration {
@@ -130,6 +136,8 @@ class Integration {
   void keep_contents_velocity(double speed_before);
   void stop_slip();
   bool strike_floor();
+  void feel_row_of_hops(State from);
+  bool feel_hop(State& hop);
   Rig::AtRest laws_at_rest() const;
   bool forces_have_values() const;
   bool strikes_too() const;

@@ -140,6 +140,11 @@ class ReferenceIntegrator {
       else if (flag == ARK_ROOT_RETURN && !integrate_again(from, before, tau))
         integrate_again(from, before, tau = before);
       arrive(from, tau);
+      // A steady slip slower than the errors of the steps is turned by them, not by the motion: at the place there is no zero.
+      if (slips && tau > before + instant_ && !ends_at(static_cast<int>(slot), tau)) {
+        restart(ark, tau, h);
+        continue;
+      }
       if (slot < witness_slots) {
         life_.cursor.advance(tau);
         life_.resolve(slots_[slot]);
@@ -230,6 +235,12 @@ class ReferenceIntegrator {
     }
     integrate_again(from, before, before);
     return before;
+  }
+
+  // Whether the witness is zero within the time that is told from nothing; Newton's method has gone there.
+  bool ends_at(int slot, double tau) {
+    double g[root_count];
+    return roots(tau, y_.get(), g, this) != 0 || !(std::abs(g[slot]) > shortest_ * std::abs(rate_[slot]));
   }
 
   double leg_length() const {

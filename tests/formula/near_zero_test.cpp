@@ -86,6 +86,23 @@ TEST(NearZero, LawsThatAUserWritesHaveAnAnswer) {
   }
 }
 
+// Under such friction a slip may be steady at 1e-11 m/s, below what the steps of the reference miss: their errors turn it, the motion
+// does not, and a reference that believed them stopped it ten thousand times, and gave up.
+TEST(NearZero, ASteadySlipSlowerThanTheErrorsOfStepsGoesOn) {
+  test::CaseFamily family;
+  family.seed = 21;
+  family.alpha_high = 0.6;
+  family.duration_high_s = 6;
+  const dynamics::Effect law = effect("law", "0.3 + 0.2*speed^0.2", "", {});
+  test::RandomCase c = test::random_case(family, 15);
+  c.specimen.effects = {{&law, {}}};
+  const Response fast = respond(c.specimen, c.shaking), reference = respond_reference(c.specimen, c.shaking);
+  EXPECT_EQ(fast.outcome, Outcome::moved);
+  EXPECT_EQ(reference.outcome, Outcome::moved);
+  EXPECT_NEAR(fast.peak_slip_m, reference.peak_slip_m, 1e-7);
+  EXPECT_NEAR(fast.slid_path_m, reference.slid_path_m, 1e-7);
+}
+
 // Kinks that stand at one place and cancel: v, written with two. They are met together, and again at each impact.
 TEST(NearZero, KinksAtOnePlaceAreMetTogether) {
   const dynamics::Effect plain = effect("plain", "", "-5*v", {}),

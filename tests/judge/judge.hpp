@@ -2,7 +2,8 @@
 //
 // The stepper's error is measured by its step: run again with half of it, its history changes by `own`. The kernel may be
 // off by a micrometre and six times the largest `own` so far (its error falls at least with the step, so that half a
-// step leaves at most what it changed; six for what a change can hide). Where `own` has passed 0.1 mm the history is
+// step leaves at most what it changed; six for what a change can hide). The largest acceleration is held to that of the stepper at the
+// tolerance of a sweep too, whatever hops it goes through. Where `own` has passed 0.1 mm the history is
 // chaotic, and nothing after it is compared. A disagreement is one only if steppers 4 and 64 times as fine still see it, whose
 // error is told by three runs (steps that are no halves of each other do not err alike by chance): what lasts shorter than a
 // step, a foot under legs that stops and goes on, halved steps may miss alike. And it is none if the stepper's own history on a floor

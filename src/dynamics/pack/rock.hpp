@@ -247,7 +247,8 @@ class RockPool : RockHops {
                    left4;
     r_.peak[i] = 0.5 * pi;
     ++lane.events;
-    const double knots = (lane.after ? c.table->knots - 1 : 0) + knot(i) + 1 - left + left * hi;
+    const double intervals = knot(i) + 1 - left + left * hi, knots = (lane.after ? c.table->knots - 1 : 0) + intervals;
+    if (lane.after && c.table->step_s * intervals > c.free_vibration_s) return decline(i);
     finish(i, Outcome::overturned, c.table->step_s * knots, r_.side[i] * 0.5 * pi);
     refill(i);
   }

@@ -108,6 +108,7 @@ class RockHops : public RockLanes {
     Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
     const double rate = r_.omega[i];
+    if (rests && rate != 0) feel_row_of_hops(i);
     if (lane.after) {
       const double inertia = c.k2 + c.h * c.h + c.right * c.left;
       const double alpha = c.g * 0.5 * (c.left + c.right) / inertia, speed = magnitude(rate) / c.table->step_s;
@@ -125,6 +126,16 @@ class RockHops : public RockLanes {
       return go_on(i);
     }
     if (!leave_rest(i, knot(i), 1 - r_.left[i])) refill(i);
+  }
+
+  // As in dynamics/small_hops.cpp. Ends on the corner where it began.
+  void feel_row_of_hops(int i) {
+    const int side = r_.side[i] > 0 ? 1 : -1;
+    r_.omega[i] = 0;
+    feel(i);
+    stand_on(i, -side);
+    feel(i);
+    stand_on(i, side);
   }
 
   // The hops that follow end before the floor could make one larger: then they are counted, and the block rests.

@@ -217,11 +217,20 @@ class RockLanes {
     if (lane.after || lane.sample->free_vibration_s > patience * lane.sample->table->step_s) {
       return decline(i);
     }
+    feel(i);  // with the last of the record
     lane.after = true;
     r_.a[i] = 0;
     r_.left[i] = 1;
     r_.next[i] = still_ground + 1;
     go_on(i);
+  }
+
+  // What a block feels where it is.
+  void feel(int i) {
+    const double omega2 = r_.omega[i] * r_.omega[i], alpha = r_.rx[i] * r_.gravity[i] - r_.ry[i] * r_.push[i] * r_.a[i];
+    const double fx = r_.ry[i] * alpha - r_.rx[i] * omega2 + r_.weight[i] * r_.a[i];
+    const double fy = r_.rx[i] * alpha + r_.ry[i] * omega2;
+    r_.force2[i] = larger(r_.force2[i], fx * fx + fy * fy);
   }
 
   // A lane as the marching group takes it and gives it back.

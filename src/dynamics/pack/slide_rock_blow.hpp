@@ -18,7 +18,6 @@ struct Blow {
 // The block, which rocked on `from` with the rate `omega` while its corner slipped with `w`, strikes with `to`.
 inline Blow coulomb_blow(const BatchCase& c, const Ground& from, const Ground& to, double omega, double w) {
   const double vx = w + c.h * omega, vy = from.arm * omega, way = to.arm > 0 ? 1 : -1;  // of the centre of mass
-  if (w == 0 && omega * omega < to.rests) return {Blow::Ends::flat, 0, 0, 0};
   Blow after{Blow::Ends::regular, (c.k2 * omega + c.h * vx + to.arm * vy) * to.per_inertia, 0, 0};
   const double px = c.h * after.omega - vx, py = to.arm * after.omega - vy;
   if (!(magnitude(px) <= c.mu_s * py)) {

@@ -186,27 +186,77 @@ class SlideRockLife : public SlideRockHops {
     event();
     if (hop(side_, omega_) >= c_.told_rotation) ++impacts_;
     const int from = side_, to = -side_;
+    const double slip = w_;
     double omega = on(from).kept * omega_;
     if (c_.coulomb && (w_ != 0 || !sticks_)) {
+      if (w_ == 0 && omega_ * omega_ < on(to).rests) return end_hops(from, slip);
       const Blow blow = coulomb_blow(c_, on(from), on(to), omega_, w_);
       if (blow.ends == Blow::Ends::painleve) return decline();
       w_ = blow.w;
       if (blow.ends == Blow::Ends::flat) {
         w_ = blow.hops() && !slip_outlasts_hops(to, blow.omega) ? 0 : blow.flat;
-        return choose_flat();
+        return end_hops(from, slip);
       }
       omega = blow.omega;
     }
     const bool ends = hop(to, omega) < c_.rest_rotation;
     if (ends) {
       if (w_ != 0 && omega != 0) w_ = slip_outlasts_hops(to, omega) ? slip_after_hops(to, omega) : 0;
-      return choose_flat();
+      return end_hops(from, slip);
     }
     stand(mode_, to);
     omega_ = omega;
     if (w_ == 0 && sticks_ && dies_out()) return stand(Mode::rest, 0);
     choose_on_corner();
     hops_ = sticks_ && mode_ == Mode::rock && small_hops();
+  }
+
+  // The row of hops that starts now, where corner `from` carried until now and slipped with `slip`, is over within the tolerance: it is felt
+  // as in dynamics/small_hops.cpp.
+  void end_hops(int from, double slip) {
+    feel_row_of_hops(from, omega_, slip);
+    if (slip != 0 && w_ == 0) feel_row_of_hops(from, omega_, 0);
+    choose_flat();
+  }
+  void feel_row_of_hops(int from, double omega, double w) {
+    constexpr int hops = 2;
+    for (int i = 0; i < hops; ++i, from = -from)
+      if (!strike_and_hop(from, omega, w) || !feel_hop(-from, omega, w)) return;
+  }
+  bool strike_and_hop(int from, double& omega, double& w) const {
+    if (c_.coulomb && (w != 0 || !sticks_)) {
+      const Blow blow = coulomb_blow(c_, on(from), on(-from), omega, w);
+      omega = blow.hops() ? blow.omega : 0;
+      w = blow.w;
+    } else {
+      omega *= on(from).kept;
+    }
+    return omega != 0;
+  }
+  bool feel_hop(int side, double& omega, double& w) {
+    constexpr int pieces = 3;
+    double height = 0, rate = side * omega;
+    for (int i = 0; i < pieces; ++i) {
+      Forces f = rocking(-arm(side), c_.h, 0.0, field());
+      const bool grips = w == 0 && magnitude(f.fx) <= c_.mu_s * f.fy;
+      sigma_ = grips ? 0 : w > 0 || (w == 0 && f.fx < 0) ? 1 : -1;
+      if (!grips) f = slipping(-arm(side), c_.h, 0.0, field(), w);
+      const double bend = 0.5 * side * f.alpha;
+      if (!(f.fy > 0)) return false;
+      feel(f.fx, f.fy);
+      if (!(bend < 0)) return false;
+      const double fall = (rate + std::sqrt(rate * rate - 4 * bend * height)) / (-2 * bend), stops = -w / f.slip;
+      const bool slips_on = grips || !(stops > 0 && stops < fall);
+      const double time = slips_on ? fall : stops;
+      height += time * (rate + time * bend);
+      rate += 2 * bend * time;
+      w = slips_on ? w + time * f.slip : 0;
+      if (slips_on) {
+        omega = side * rate;
+        return true;
+      }
+    }
+    return false;
   }
 
   // The row of hops starts on `side`.
