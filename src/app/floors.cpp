@@ -15,7 +15,8 @@ namespace {
 constexpr double floor_periods_s[] = {0.1, 0.2, 0.5, 1.0, 2.0};
 
 void refuse_outside_the_band(const FloorMotion& ground, const std::vector<motion::Mode>& modes) {
-  if (const std::string why = motion::outside_the_band(ground, modes); !why.empty()) throw Error(why, Exit::data);
+  if (const std::string why = motion::outside_the_band(ground, modes); !why.empty())
+    throw Error(fmt::format("{}: {}", ground.name, why), Exit::data);
 }
 
 std::string modes_text(const motion::Building& building, const std::vector<motion::Mode>& modes) {
@@ -41,7 +42,7 @@ std::string floors_text(const FloorMotion& ground, const motion::Building& build
   for (int storey = building.floors(); storey >= 0; --storey) {
     const FloorMotion floor = response.floor(storey, ground.name);
     const motion::MotionPeaks peaks = motion::peaks(floor);
-    const auto height = building.height_m(storey);
+    const auto height = building.height_m(building.floors()) ? building.height_m(storey) : std::nullopt;
     text += fmt::format("    {:>6}  {:>8}  {:>6.4f}  {:>6.3f}  {:>7.4f}  {:>6.3f}  {:>30}", storey,
                         height ? fmt::format("{:.2f}", *height) : "", peaks.pga_mps2 / standard_gravity_mps2,
                         peaks.pga_mps2 / below.pga_mps2, peaks.pgv_mps, peaks.pgv_mps / below.pgv_mps, "");

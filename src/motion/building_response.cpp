@@ -171,11 +171,12 @@ std::string outside_the_band(const FloorMotion& ground, const std::vector<Mode>&
   });
   if (excited) return "";
   return fmt::format(
-      "no mode of the building lies in the band of {} (its periods reach from {:.3g} to {:.3g} s; a record with a step "
-      "of {:.3g} s and "
-      "{:.4g} s long holds periods from {:.3g} to {:.4g} s): correct the building's period, or take other records",
-      ground.name, modes.back().period_s(), modes.front().period_s(), step, ground.duration_s(), 2 * step,
-      ground.duration_s());
+      "no mode of the building lies in the record's band (its periods reach from {:.3g} to {:.3g} s; a record with a "
+      "step "
+      "of {:.3g} s and {:.4g} s long holds periods from {:.3g} to {:.4g} s): correct the building's period, or take "
+      "other "
+      "records",
+      modes.back().period_s(), modes.front().period_s(), step, ground.duration_s(), 2 * step, ground.duration_s());
 }
 
 }  // namespace freestand::motion

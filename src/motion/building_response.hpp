@@ -10,9 +10,9 @@
 
 namespace freestand::motion {
 
-// How far a floor's acceleration may lie off the straight lines between its samples, over its peak; and from what share of its peak
-// on it counts as still. Its peak is met as well as that.
-inline constexpr double usual_straightness = 1e-3;
+// How far a floor's acceleration may lie off the straight lines between its samples, over its peak; and below what share of its peak
+// it counts as still behind the record. Its peak is met as well as that.
+inline constexpr double usual_straightness = 5e-3;
 
 // Absolute acceleration of floor i: -sum_m G_m phi_im (2 z_m w_m q_m' + w_m^2 q_m), building.hpp. The ground's record is a line from
 // sample to sample, for which each mode is solved in closed form (oscillator.hpp), exact to rounding at the samples; these
@@ -44,7 +44,7 @@ class BuildingResponse {
   std::map<int, Histories> known_;  // by parts of a step of the record
 };
 
-// "" where a mode can be excited by the record: a period of at least two of its steps, and no longer than it is. Else why not.
+// "" where a mode can be excited by the record: a period of at least two of its steps, and no longer than it is. Else why not, without its name.
 std::string outside_the_band(const FloorMotion& ground, const std::vector<Mode>& modes);
 
 }  // namespace freestand::motion

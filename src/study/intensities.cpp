@@ -65,17 +65,6 @@ void refuse_columns_that_no_table_has(const std::string& name, const MotionSumma
       name, columns.empty() ? "they give none" : "they give " + fmt::format("{}", fmt::join(columns, ", "))));
 }
 
-// ground.NAME of a sweep in which nothing stands in a building.
-void refuse_the_ground_of_no_building(const intensity::Measure& measure, const MotionSummaries& motions) {
-  const bool building =
-      std::any_of(motions.begin(), motions.end(), [](const auto& motion) { return motion.ground != nullptr; });
-  if (building || !measure.of_the_ground) return;
-  throw Error(fmt::format(
-      "{} is of the ground under a building (in this sweep no records had the keys building and storey): name "
-      "another intensity, or sweep again with them",
-      measure.name));
-}
-
 }  // namespace
 
 const std::vector<std::string>& SampleIntensity::columns() {
@@ -87,7 +76,6 @@ const std::vector<std::string>& SampleIntensity::columns() {
 SampleIntensity::SampleIntensity(const IntensityPart& part, const MotionSummaries& motions)
     : measure_(intensity::find(part.name)), parameter_(intensity::parameter_of(measure_, part.period_s)) {
   refuse_columns_that_no_table_has(part.name, motions);
-  refuse_the_ground_of_no_building(measure_, motions);
   for (const motion::MotionSummary& floor : motions) {
     const motion::MotionSummary& summary = measure_.of_the_ground ? motion::ground_of(floor) : floor;
     if (!measure_.parameter) {

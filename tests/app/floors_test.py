@@ -47,7 +47,7 @@ class Floors(InFolder):
         self.fail_with(2, floor + ["--storey", 5], "it has 4 floors above the ground")
         self.fail_with(2, ["motion", self.record, "--storey", 1], "add --floor building.yaml")
         self.fail_with(2, ["motion", self.record, "--floor", self.write("bad.yaml", "storeys: 4\nperiod: 0.5\n")], "bad.yaml:2:", "write period_s")
-        self.fail_with(3, ["motion", self.record, "--floor", self.write("stiff.yaml", "storeys: 1\nperiod_s: 0.01\n")], "no mode of the building lies in the band")
+        self.fail_with(3, ["motion", self.record, "--floor", self.write("stiff.yaml", "storeys: 1\nperiod_s: 0.01\n")], "no mode of the building lies in the record's band")
         self.assertFalse((self.folder / "x.csv").exists())
 
     def test_a_sweep_upstairs_goes_by_the_ground(self):

@@ -93,8 +93,8 @@ TEST_F(Upstairs, SamplesAreShakenByTheFloorAndScaledByTheGround) {
     EXPECT_EQ(up.shaking.motion->horizontal_mps2, motion::BuildingResponse(record, modes).floor(3, "").horizontal_mps2);
     EXPECT_EQ(motions.ground(up.motion), 2 * down.motion);
     EXPECT_NEAR(up.pta_g, up.shaking.scale * motion::peaks(*up.shaking.motion).pga_mps2 / standard_gravity_mps2, 1e-12);
-    EXPECT_EQ(by_sa.shaking.scale * motion::spectral_acceleration_mps2(record, 0.5) / standard_gravity_mps2,
-              down.shaking.scale * motion::peaks(record).pga_mps2 / standard_gravity_mps2);
+    const double sa = by_sa.shaking.scale * motion::spectral_acceleration_mps2(record, 0.5);
+    EXPECT_NEAR(sa, down.shaking.scale * motion::peaks(record).pga_mps2, 1e-14 * sa);
     EXPECT_EQ(up.draws.back(), 3);
   }
   EXPECT_EQ(realise.draw_columns().back().name, "storey");
@@ -122,7 +122,9 @@ TEST_F(Upstairs, StoreysAreDrawnByTheirWeights) {
   std::vector<std::string> names;
   for (const Sampled& one : sampled(swept, 6, {0, 0, 0, 3, 3, 3})) {
     names.push_back(one.parameter.name);
-    if (names.back() == "motion") EXPECT_EQ(one.class_of(0, 5), 3);
+    if (names.back() == "motion") {
+      EXPECT_EQ(one.class_of(0, 5), 3);
+    }
   }
   EXPECT_THAT(names, testing::ElementsAre("motion.storey", "motion"));
 }
@@ -153,10 +155,22 @@ TEST_F(Upstairs, IntensitiesOfTheGroundAreThoseOfTheRecord) {
     EXPECT_NE(motion::spectral_acceleration_mps2(floor, 0.7), motion::spectral_acceleration_mps2(record, 0.7));
   }
   EXPECT_THAT(motion_rows(motions, summaries).table.columns.back().name, "storey");
-  const Study plain = study("scale: 1", "report");
-  const MotionSummaries none = summarize(load_motions(plain), {1.0});
-  EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { SampleIntensity({"ground.pga_g"}, none); }),
-              HasSubstr("no records had the keys building and storey"));
+}
+
+// On the ground of a building the ground's intensities are the motion's own.
+TEST_F(Upstairs, StoreyZeroIsTheGround) {
+  const MotionSet motions = load_motions(study("building: museum.yaml, storey: 0"));
+  EXPECT_EQ(motions.size(), 2U);
+  EXPECT_FALSE(motions.has_floors());
+  const MotionSummaries summaries = summarize(motions, {1.0});
+  const Table row{{{"motion", "1", ""},
+                   {"scale", "1", ""},
+                   {"pulse_period_s", "s", ""},
+                   {"block_alpha_rad", "rad", ""},
+                   {"block_p_radps", "rad/s", ""},
+                   {"friction_mu_k", "1", ""}},
+                  {1, 2, std::nan(""), 0.3, 2, 0.2}};
+  EXPECT_EQ(SampleIntensity({"ground.pga_g"}, summaries)(row), SampleIntensity({"pga_g"}, summaries)(row));
 }
 
 TEST_F(Upstairs, WhatIsNoBuildingIsRefusedWithItsLine) {
@@ -196,7 +210,7 @@ TEST_F(Upstairs, ABuildingOutsideTheRecordsBandIsRefused) {
     const std::string text = freestand::test::error_text(Exit::data, [&] {
       load_motions(study(std::string("building: {storeys: 3, period_s: ") + period + "}, storey: 1"));
     });
-    EXPECT_THAT(text, HasSubstr("no mode of the building lies in the band of a.csv"));
+    EXPECT_THAT(text, HasSubstr("a.csv: no mode of the building lies in the record's band"));
     EXPECT_THAT(text, HasSubstr("the same of"));
   }
 }
