@@ -61,7 +61,7 @@ class Sweep:
     draws: dict              # column -> values; empty without samples.h5
     outcome: np.ndarray      # [sample] int
     motions: list            # names
-    is_record: np.ndarray    # [motion] 1: a record, 0: a family of pulses
+    is_record: np.ndarray    # [motion] 1: a record, 0: a family of pulses, 2: what a floor of a building does under a record
 
     @property
     def level(self):
@@ -253,6 +253,8 @@ def _samples(path):
         motions = [_text(item) for item in root["motions/name"][()]] if "motions/name" in root else []
         group = _numbers(root["motions"], "group") if "motions/group" in root else np.zeros(0)  # -1: pulses
         is_record = (group >= 0).astype(int)
+        if "ground" in root["motions"]:
+            is_record[_numbers(root["motions"], "ground") != np.arange(len(motions))] = 2
     return {name: values for name, values in draws.items() if values.shape == outcome.shape}, outcome, motions, is_record
 
 

@@ -179,11 +179,13 @@ def _computed(sweep):
 
 def _motions(sweep):
     """"one of 26 records or a pulse of 2 kinds (A, B)": what a sample is shaken by. Records named in several entries count once."""
-    records = {name for name, record in zip(sweep.motions, sweep.is_record) if record}
+    records = {name for name, record in zip(sweep.motions, sweep.is_record) if record == 1}
     pulses = [name for name, record in zip(sweep.motions, sweep.is_record) if not record]
     found = []
     if records:
-        found.append(f"one of {words.plural(len(records), 'record')}" if len(records) > 1 else "one record")
+        storeys = sorted({int(storey) for storey in sweep.draws.get("storey", [])})
+        upstairs = "" if storeys in ([], [0]) else f" of the ground, on storey {words.listing([str(storey) for storey in storeys], 'or')} of a building"
+        found.append((f"one of {words.plural(len(records), 'record')}" if len(records) > 1 else "one record") + upstairs)
     if pulses:
         found.append(f"a pulse of {words.plural(len(pulses), 'kind')} ({', '.join(pulses)})" if len(pulses) > 1 else f"a pulse {pulses[0]}")
     return " or ".join(found)

@@ -93,6 +93,8 @@ def happening(name):
 
 def intensity(name, symbol=""):
     """Symbol of an intensity measure: "pga_g", "sa_g:0.5"."""
+    if name.startswith("ground.") and not symbol:
+        return "ground " + intensity(name.removeprefix("ground."))
     name, _, period = name.partition(":")
     if period:
         return f"Sa({period}\u00a0s)"

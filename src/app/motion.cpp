@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "app/command.hpp"
+#include "app/floors.hpp"
 #include "base/units.hpp"
 #include "io/output_folder.hpp"
 #include "motion/component.hpp"
@@ -11,13 +13,15 @@
 #include "motion/peaks.hpp"
 #include "motion/record.hpp"
 #include "motion/spectrum.hpp"
+#include "study/read_building.hpp"
 
 namespace freestand::app {
 namespace {
 
 struct MotionOptions {
   std::vector<std::string> files;
-  std::string unit, channel, convert;
+  std::string unit, channel, convert, floor;
+  int storey = -1;
   double dt_s = 0;
   bool overwrite = false;
 };
@@ -76,6 +80,19 @@ Exit show(const MotionOptions& options) {
   if (!options.convert.empty() && options.files.size() != 1)
     throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
                 "): convert them one by one");
+  if (options.storey >= 0 && options.floor.empty())
+    throw Error(fmt::format("--storey {} is of no building (the record is taken as it is): add --floor building.yaml",
+                            options.storey));
+  std::optional<motion::Building> building;
+  if (!options.floor.empty()) building = study::read_building_file(options.floor);
+  if (building && options.storey > building->floors())
+    throw Error(
+        fmt::format("--storey {} is none of {} (it has {} floors above the ground, which is 0): name one of these",
+                    options.storey, building->name, building->floors()));
+  if (building && options.storey < 0 && !options.convert.empty())
+    throw Error(fmt::format(
+        "--convert writes the motion of one floor (of {}, which has {}, and of the ground, 0): add --storey {}",
+        building->name, building->floors(), building->floors()));
   motion::ReadOptions read;
   if (options.dt_s > 0) read.dt_s = options.dt_s;
   read.unit = options.unit;
@@ -85,7 +102,8 @@ Exit show(const MotionOptions& options) {
     fmt::print("{}", description(motion));
     if (const std::string sign = motion::vertical_sign(file); !sign.empty())
       fmt::print("  a vertical component: {}\n", sign);
-    if (!options.convert.empty()) convert(motion, options);
+    if (building) fmt::print("{}", floors_text(motion, *building));
+    if (!options.convert.empty()) convert(building ? floor_of(motion, *building, options.storey) : motion, options);
   }
   return Exit::done;
 }
@@ -100,6 +118,10 @@ void add_motion(CLI::App& parser, Work& work) {
   verb->add_option("--unit", options->unit, "unit of plain columns: g, m/s2, cm/s2 ...");
   verb->add_option("--channel", options->channel, "channel of files that hold several");
   verb->add_option("--convert", options->convert, "write the record as floor motion csv to this file");
+  verb->add_option("--floor", options->floor,
+                   "building.yaml: the record is of the ground; tells what each floor of it does");
+  verb->add_option("--storey", options->storey, "with --convert: how many floors above the ground (0: the ground)")
+      ->check(CLI::NonNegativeNumber);
   verb->add_flag("--overwrite", options->overwrite, "replace that file if it is there");
   verb->callback([options, &work] {
     work = [options](const Context& context) {

@@ -17,6 +17,7 @@ inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 struct Intensity {
   std::string name, unit;
   double period_s = unknown;  // of sa_g
+  bool of_a_floor = false;    // known to be: the sweep had records of the ground, and the equipment stood in a building
 };
 
 // One bin of intensity as the surface has it.

@@ -19,7 +19,7 @@ std::vector<const Measure*> all() {
 
 namespace {
 
-constexpr std::string_view of_records = "record.";
+constexpr std::string_view of_records = "record.", ground_prefix = "ground.";
 
 // Made when it is first asked for; the references stay good.
 const Measure* record_measure(const std::string& name) {
@@ -42,10 +42,51 @@ const Measure* record_measure(const std::string& name) {
   return &made.try_emplace(name, std::move(measure)).first->second;
 }
 
+// Of a block's shape or friction, or the floor by its very name: no measure of the ground.
+bool of_the_motion_alone(const Measure& measure) { return measure.unit != "1" && measure.name != "pta_g"; }
+
+Measure moved_to_the_ground(const Measure& of_floor) {
+  Measure measure = of_floor;
+  measure.name = std::string(ground_prefix) + of_floor.name;
+  measure.symbol = "ground " + of_floor.symbol;
+  measure.summary = "of the ground under the building: " + of_floor.summary;
+  measure.proportional = false;  // motions are scaled to those of the ground as they are
+  measure.of_the_ground = true;
+  measure.value = [value = of_floor.value](const Input& in) {
+    return value({.motion = motion::ground_of(in.motion),
+                  .scale = in.scale,
+                  .stretch = in.stretch,
+                  .alpha_rad = in.alpha_rad,
+                  .p_radps = in.p_radps,
+                  .mu_k = in.mu_k,
+                  .parameter = in.parameter});
+  };
+  return measure;
+}
+
+// Made when they are first asked for, after main has begun.
+const std::vector<Measure>& ground_measures() {
+  static const std::vector<Measure> measures = [] {
+    std::vector<Measure> made;
+    for (const Measure& measure : registry<Measure>())
+      if (of_the_motion_alone(measure)) made.push_back(moved_to_the_ground(measure));
+    return made;
+  }();
+  return measures;
+}
+
 }  // namespace
+
+std::vector<const Measure*> of_the_ground() {
+  std::vector<const Measure*> measures;
+  for (const Measure& measure : ground_measures()) measures.push_back(&measure);
+  return measures;
+}
 
 const Measure& find(const std::string& name) {
   if (const Measure* of_record = record_measure(name)) return *of_record;
+  for (const Measure& measure : ground_measures())
+    if (measure.name == name) return measure;
   std::string known;
   for (const Measure& measure : registry<Measure>()) {
     if (measure.name == name) return measure;

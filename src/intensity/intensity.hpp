@@ -44,7 +44,12 @@ struct Measure {
   std::function<double(const Input&)> value = {};  // undefined ones (no friction in PTA/(mu_k g) - 1) are +inf
   bool proportional = false;                       // to the scale of the motion: a motion can be scaled to it
   bool spectral = false;                           // reads the spectrum
+  bool of_the_ground = false;                      // ground.NAME
 };
+
+// ground.NAME of each measure NAME that is of the motion alone: the same of the ground under the building, MotionSummary::ground.
+// Sorted by name.
+std::vector<const Measure*> of_the_ground();
 
 // The measure of that name, or throws Error that lists the names there are. record.COLUMN is what tables of records give, at
 // the scale of the sample (motion/record_table.hpp); nan for motions of which none does.

@@ -111,6 +111,15 @@ OscillatorState Oscillator::advance(const Polynomial& a, double length, Oscillat
   return here;
 }
 
+OscillatorState Oscillator::after(const Polynomial& a, double length, OscillatorState from) {
+  if (std::abs(length - whole_length_) > 1e-11 * length || a.degree != whole_degree_) {
+    whole_ = map_at(length, a.degree);
+    whole_length_ = length;
+    whole_degree_ = a.degree;
+  }
+  return apply(whole_, a, from);
+}
+
 double Oscillator::free_peak(OscillatorState from) const {
   const double wd = w_ * std::sqrt(1 - z_ * z_);
   double angle = std::atan2(from.v * wd, w_ * w_ * from.u + z_ * w_ * from.v);  // of the first zero of v

@@ -19,6 +19,9 @@ class Oscillator {
   // State after `length` under input a, and the highest |u| on the way, which raises `peak` where it is higher.
   OscillatorState advance(const Polynomial& a, double length, OscillatorState from, double& peak);
 
+  // That state alone, in one step of any length.
+  OscillatorState after(const Polynomial& a, double length, OscillatorState from);
+
   // Highest |u| of the free vibration from this state on.
   double free_peak(OscillatorState from) const;
 
@@ -36,7 +39,10 @@ class Oscillator {
   double w_, z_;
   double length_ = -1;  // of the segment the maps are for
   int degree_ = -1;
-  std::vector<Map> maps_;  // at the end of each substep
+  std::vector<Map> maps_;     // at the end of each substep
+  double whole_length_ = -1;  // of the segment whole_ is for
+  int whole_degree_ = -1;
+  Map whole_ = {};  // at the end of a segment
 };
 
 }  // namespace freestand::motion

@@ -26,6 +26,9 @@ struct MotionSummary {
   std::shared_ptr<const FloorMotion> unit_pulse;           // null for records, and where a pulse's table will do
   std::vector<std::pair<std::string, double>> given = {};  // what a table of records says of it, at scale 1; by column
 
+  std::shared_ptr<const MotionSummary> ground =
+      {};  // of a floor of a building: the ground's; null: it is the ground's itself
+
   double given_value(const std::string& column) const;  // nan where nothing gives it
 };
 
@@ -37,6 +40,9 @@ struct SummaryRequest {
 };
 MotionSummary summarize(const FloorMotion& record, const SummaryRequest& request = {});
 MotionSummary summarize(const Pulse& pulse);
+
+// Of the ground under the building; of a motion that is of no floor, itself.
+inline const MotionSummary& ground_of(const MotionSummary& motion) { return motion.ground ? *motion.ground : motion; }
 
 // Of motion(t / stretch), 5 % damping; stretch is 1 for records. The spectral acceleration of a pulse is that of its
 // closed form (null: of its table), of a record that of its spectrum. Throw Error where that was not asked for, or the period lies outside.

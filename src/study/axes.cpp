@@ -53,6 +53,8 @@ std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<M
   const bool amplitude = any([](const MotionSource& s) { return varies(s.amplitude); });
   const bool period = any([](const MotionSource& s) { return varies(s.period); });
   if (pulses) axes.push_back({"motion.period_s", period || several});
+  if (any([](const MotionSource& s) { return s.building.has_value(); }))
+    axes.push_back({"motion.storey", several || any([](const MotionSource& s) { return varies(s.storey); })});
   axes.push_back({"motion.pta_g", amplitude || period || records || several});
   return axes;
 }

@@ -176,7 +176,8 @@ std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& 
     const MotionSource& source = study.motions[s];
     if (source.kind != MotionSource::Kind::records) continue;
     const bool as_it_is = source.amplitude && !source.scale_to;
-    for (const std::size_t entry : motions.of_source[s]) {
+    for (const std::size_t item : motions.of_source[s]) {
+      const std::size_t entry = motions.ground(item);
       const FloorMotion& motion = motions.motion(entry);
       const double step = motion.duration_s() / static_cast<double>(motion.segments());
       if (step > coarsest_step_s)

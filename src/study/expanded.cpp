@@ -6,6 +6,7 @@
 
 #include "base/random.hpp"
 #include "study/paths.hpp"
+#include "study/read_building.hpp"
 #include "study/read_parts.hpp"
 #include "study/study.hpp"
 
@@ -155,6 +156,8 @@ Mapping source_mapping(const MotionSource& source, const FileKeys& keys) {
     if (!source.format.empty()) m.add("format", text_value(source.format));
     if (!source.channel.empty()) m.add("channel", text_value(source.channel));
     if (!source.group.empty()) m.add("group", text_value(source.group));
+    if (source.building) m.add("building", building_text(*source.building));
+    m.add(source.storey);
   }
   return m;
 }

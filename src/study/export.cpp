@@ -58,8 +58,10 @@ fragility::Result convertible(fragility::Result result, const Study& study, cons
   return exports::as_pta(std::move(result), *mu);
 }
 
-exports::Intensity intensity_of(const fragility::Result& result, const ExportRequest& request) {
-  if (!request.period_s) return {result.im_name, result.im_unit, result.im_period_s.value_or(exports::unknown)};
+exports::Intensity intensity_of(const fragility::Result& result, const Study& study, const ExportRequest& request) {
+  if (!request.period_s)
+    return {result.im_name, result.im_unit, result.im_period_s.value_or(exports::unknown),
+            is_of_a_floor(result.im_name, study)};
   if (result.im_name != "record.sa_g")
     throw Error(fmt::format(
         "--period {} is not for these results (they are over {}{}; it says that of record.sa_g): leave it out",
@@ -158,7 +160,7 @@ ReadyModel ready_model(const ExportRequest& request, const exports::Format& form
   exports::Request what = request.what;
   if (what.id.empty()) what.id = usual_id(from.study_name);
   if (what.description.empty()) what.description = usual_description(from, result);
-  ReadyModel found_model{exports::select(result, intensity_of(result, request), what, format), {}};
+  ReadyModel found_model{exports::select(result, intensity_of(result, study, request), what, format), {}};
   exports::Model& model = found_model.model;
   if (request.mu) model.notes.push_back(fmt::format("PTA = {} g (1 + IM) of the report", *request.mu));
   if (format.refuse) format.refuse(model);

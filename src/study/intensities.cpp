@@ -76,7 +76,8 @@ const std::vector<std::string>& SampleIntensity::columns() {
 SampleIntensity::SampleIntensity(const IntensityPart& part, const MotionSummaries& motions)
     : measure_(intensity::find(part.name)), parameter_(intensity::parameter_of(measure_, part.period_s)) {
   refuse_columns_that_no_table_has(part.name, motions);
-  for (const motion::MotionSummary& summary : motions) {
+  for (const motion::MotionSummary& floor : motions) {
+    const motion::MotionSummary& summary = measure_.of_the_ground ? motion::ground_of(floor) : floor;
     if (!measure_.parameter) {
       motions_.push_back(summary);
       continue;
@@ -89,7 +90,8 @@ SampleIntensity::SampleIntensity(const IntensityPart& part, const MotionSummarie
                       part.name, parameter_, kept.empty() ? 0 : kept.front(), kept.empty() ? 0 : kept.back()));
     motions_.push_back(with_one_period(summary, parameter_));
   }
-  if (measure_.parameter) interpolation_ = interpolation_told(part, parameter_, motions);
+  if (measure_.parameter)
+    interpolation_ = interpolation_told(part, parameter_, motions);  // those of the ground are among them
 }
 
 std::vector<double> SampleIntensity::operator()(const Table& rows) const {

@@ -9,15 +9,13 @@ Known registries() {
   Known known;
   for (const auto& edp : edp::all())
     known.edps.push_back({edp.name, edp.binary, edp.default_capacities, edp.by_default, edp.still, edp.wants});
-  for (const auto* measure : intensity::all()) {
-    KnownIntensity intensity{measure->name, "", 0};
-    if (measure->parameter) {
-      intensity.parameter = measure->parameter->name;
-      intensity.fallback = measure->parameter->fallback;
-    }
-    known.intensities.push_back(std::move(intensity));
-  }
+  for (const auto* measure : intensity::all()) known.intensities.push_back(known_intensity(*measure));
   return known;
+}
+
+KnownIntensity known_intensity(const intensity::Measure& measure) {
+  if (!measure.parameter) return {measure.name, "", 0};
+  return {measure.name, measure.parameter->name, measure.parameter->fallback};
 }
 
 Study parse_stored(const std::string& expanded, const std::filesystem::path& origin) {

@@ -33,7 +33,7 @@ const Entry& named(const std::vector<const Entry*>& all, const std::string& name
     names.push_back(entry->name);
   }
   if constexpr (std::is_same_v<Entry, Measure>)
-    if (name.starts_with("record.")) return intensity::find(name);
+    if (name.starts_with("record.") || name.starts_with("ground.")) return intensity::find(name);
   throw Error(
       fmt::format("{} {} is not in the catalogue ({}): see `freestand {}`", kind, name, hint(name, names), verb));
 }
@@ -132,7 +132,9 @@ MeasurePages intensities_catalogue() {
       intensity::all(), "intensity", "im",
       "`freestand im NAME` tells more. A finished sweep holds all of them: `freestand fit DIR --im NAME -o "
       "DIR2`\nneeds no new one.\nA table of records (`records: INDEX.csv`) adds its own columns as record.COLUMN: "
-      "record.pga_g, record.magnitude_mw.\n");
+      "record.pga_g, record.magnitude_mw.\nWhere "
+      "records go through a building (`building`, `storey`), those of the ground under it are there too: ground.pga_g, "
+      "ground.sa_g.\n");
 }
 
 MeasurePages demands_catalogue() {

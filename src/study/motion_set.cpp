@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/random.hpp"
+#include "motion/building_response.hpp"
 #include "motion/peaks.hpp"
 #include "motion/pulse.hpp"
 #include "motion/record.hpp"
@@ -23,7 +24,7 @@ constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
 
 Entry load_pulse(const std::string& name) {
   const motion::Pulse pulse = motion::find_pulse(name);
-  Entry entry{motion::pulse_motion(pulse), true, 1, pulse.peak_velocity, {}, {}};
+  Entry entry{motion::pulse_motion(pulse), true, 1, pulse.peak_velocity};
   entry.motion.name = pulse.name;
   return entry;
 }
@@ -50,12 +51,16 @@ motion::ReadOptions read_options(const MotionSource& source, const motion::Recor
   return options;
 }
 
-Entry load_record(const MotionSource& source, const motion::RecordRow& row, const std::filesystem::path& folder) {
-  Entry entry{motion::read_record(row.file, read_options(source, row)), false, 0, 0, row.group, {}};
-  entry.motion.name = record_name(row.file, source, folder);
+void take_peaks(Entry& entry) {
   const motion::MotionPeaks peaks = motion::peaks(entry.motion);
   entry.peak_mps2 = peaks.pga_mps2;
   entry.peak_mps = peaks.pgv_mps;
+}
+
+Entry load_record(const MotionSource& source, const motion::RecordRow& row, const std::filesystem::path& folder) {
+  Entry entry{motion::read_record(row.file, read_options(source, row)), false, 0, 0, row.group};
+  entry.motion.name = record_name(row.file, source, folder);
+  take_peaks(entry);
   if (!(entry.peak_mps2 > 0))
     throw Error(
         fmt::format("{} is zero throughout (nothing would shake, whatever its scale): leave it out, or get it again",
@@ -84,7 +89,10 @@ class Loader {
       try {
         entries_.push_back(load_record(source, row, study_.folder));
         add_numbers(source, row, entries_.back());
-        items.push_back(entries_.size() - 1);
+        if (source.building)
+          add_floors(source, items);
+        else
+          items.push_back(entries_.size() - 1);
       } catch (const Error& error) {
         const std::string what = error.what();
         const bool named = what.find(row.file.string()) != std::string::npos;
@@ -117,6 +125,24 @@ class Loader {
     if (known != pulses_.end()) return known->second;
     entries_.push_back(load_pulse(name));
     return pulses_[name] = entries_.size() - 1;
+  }
+
+  // Of the last record, in its building.
+  void add_floors(const MotionSource& source, std::vector<std::size_t>& items) {
+    const std::size_t ground = entries_.size() - 1;
+    const FloorMotion record = entries_.back().motion;
+    const std::vector<motion::Mode> modes = motion::modes(*source.building);
+    if (const std::string why = motion::outside_the_band(record, modes); !why.empty()) throw Error(why, Exit::data);
+    motion::BuildingResponse response(record, modes);
+    for (const int storey : source.storeys()) {
+      items.push_back(storey == 0 ? ground : entries_.size());
+      if (storey == 0) continue;
+      const std::string name = fmt::format("{} {} storey {}", record.name, source.building->name, storey);
+      Entry floor{response.floor(storey, name), false,  0,     0, entries_[ground].group,
+                  entries_[ground].numbers,     ground, storey};
+      take_peaks(floor);
+      entries_.push_back(std::move(floor));
+    }
   }
 
   // Tables with the same column mean the same number.
@@ -156,6 +182,11 @@ std::vector<std::string> MotionSet::names() const {
   return names;
 }
 
+bool MotionSet::has_floors() const {
+  return std::any_of(entries->begin(), entries->end(), [](const Entry& entry) { return entry.ground.has_value(); });
+}
+
+// Floors of one record are no more independent than the record is of itself.
 std::vector<int> MotionSet::groups() const {
   std::map<std::string, std::string> group_of;  // of each record that stands in one, for wherever it stands again
   for (const Entry& entry : *entries)
@@ -163,8 +194,9 @@ std::vector<int> MotionSet::groups() const {
   std::map<std::string, int> first;
   std::vector<int> groups;
   for (const Entry& entry : *entries) {
-    const auto known = group_of.find(entry.motion.name);
-    const std::string group = known == group_of.end() ? "record " + entry.motion.name : known->second;
+    const std::string& record = entry.ground ? (*entries)[*entry.ground].motion.name : entry.motion.name;
+    const auto known = group_of.find(record);
+    const std::string group = known == group_of.end() ? "record " + record : known->second;
     groups.push_back(entry.pulse ? -1 : first.try_emplace(group, static_cast<int>(groups.size())).first->second);
   }
   return groups;

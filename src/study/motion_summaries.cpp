@@ -1,7 +1,10 @@
 #include "study/motion_summaries.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
+#include <freestand/error.hpp>
 #include <string_view>
 
 #include "intensity/intensity.hpp"
@@ -79,11 +82,28 @@ std::vector<double> periods_of(const Study& study) {
   return periods;
 }
 
+// Each floor gets the ground's, which stands among them.
+void give_grounds(MotionSummaries& summaries, const std::vector<std::size_t>& ground) {
+  const MotionSummaries own = summaries;
+  for (std::size_t i = 0; i < summaries.size(); ++i)
+    if (ground[i] != i) summaries[i].ground = std::make_shared<const motion::MotionSummary>(own[ground[i]]);
+}
+
+// Column of sweeps in a building: of each motion the one of the ground.
+constexpr const char* ground_column = "ground";
+
+std::vector<std::size_t> grounds(const MotionSet& motions) {
+  std::vector<std::size_t> ground;
+  for (std::size_t i = 0; i < motions.size(); ++i) ground.push_back(motions.ground(i));
+  return ground;
+}
+
 }  // namespace
 
 MotionSummaries summarize(const MotionSet& motions, const std::vector<double>& sa_period_s) {
   MotionSummaries summaries;
   for (std::size_t i = 0; i < motions.size(); ++i) summaries.push_back(summary_of(motions, i, sa_period_s));
+  give_grounds(summaries, grounds(motions));
   return summaries;
 }
 
@@ -112,6 +132,7 @@ MotionSummaries summarize_together(const parallel::Communicator& world, const St
                                             : record_summary(row, periods, row + columns().size()));
     if (!motions.is_pulse(i)) summaries.back().given = given_of(motions, i);
   }
+  give_grounds(summaries, grounds(motions));
   return summaries;
 }
 
@@ -125,16 +146,45 @@ io::MotionRows motion_rows(const MotionSet& motions, const MotionSummaries& summ
   for (const motion::RecordNumber& number : motions.numbers)
     rows.table.columns.push_back({std::string(given_prefix) + number.name, number.unit,
                                   intensity::find("record." + number.name).summary + "; here at scale 1"});
+  const bool floors = motions.has_floors();
+  if (floors) {
+    rows.table.columns.push_back(
+        {ground_column, "1",
+         "number of the motion of the ground under the building; of a motion that is of no floor, its own",
+         ColumnKind::integer});
+    rows.table.columns.push_back({"storey", "1", "how many floors above the ground", ColumnKind::integer});
+  }
   for (const motion::MotionSummary& s : summaries)
     if (!s.is_pulse) rows.sa_period_s = s.spectrum.period_s;
-  for (const motion::MotionSummary& s : summaries) {
+  for (std::size_t i = 0; i < summaries.size(); ++i) {
+    const motion::MotionSummary& s = summaries[i];
     std::vector<double> values = row_of(s);
     for (const motion::RecordNumber& number : motions.numbers) values.push_back(s.given_value(number.name));
+    if (floors)
+      values.insert(values.end(),
+                    {static_cast<double>(motions.ground(i)), static_cast<double>((*motions.entries)[i].storey)});
     rows.table.values.insert(rows.table.values.end(), values.begin(), values.end());
     for (const double period : rows.sa_period_s)
       rows.sa_mps2.push_back(motion::spectral_acceleration_mps2(s, period, 1));
   }
   return rows;
+}
+
+std::vector<std::size_t> grounds(const io::MotionRows& rows) {
+  std::vector<std::size_t> ground;
+  const std::vector<Column>& columns = rows.table.columns;
+  const auto found =
+      std::find_if(columns.begin(), columns.end(), [](const Column& c) { return c.name == ground_column; });
+  for (std::size_t i = 0; i < rows.names.size(); ++i) {
+    const double number = found == columns.end() ? static_cast<double>(i)
+                                                 : rows.table.at(i, static_cast<std::size_t>(found - columns.begin()));
+    if (!(number >= 0 && number < static_cast<double>(rows.names.size())))
+      throw Error(fmt::format("motion {} stands on the ground of motion {} (there are {}): the samples are damaged", i,
+                              number, rows.names.size()),
+                  Exit::data);
+    ground.push_back(static_cast<std::size_t>(number));
+  }
+  return ground;
 }
 
 MotionSummaries motion_summaries(const io::MotionRows& rows) {
@@ -154,6 +204,7 @@ MotionSummaries motion_summaries(const io::MotionRows& rows) {
       if (const std::string& name = rows.table.columns[column].name; name.starts_with(given_prefix))
         summaries.back().given.emplace_back(name.substr(given_prefix.size()), rows.table.at(i, column));
   }
+  give_grounds(summaries, grounds(rows));
   return summaries;
 }
 

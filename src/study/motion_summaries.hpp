@@ -27,4 +27,7 @@ MotionSummaries summarize_together(const parallel::Communicator&, const Study&, 
 io::MotionRows motion_rows(const MotionSet&, const MotionSummaries&);
 MotionSummaries motion_summaries(const io::MotionRows&);
 
+// Of each motion the one of the ground under its building; of one that is of no floor itself.
+std::vector<std::size_t> grounds(const io::MotionRows&);
+
 }  // namespace freestand::study

@@ -46,13 +46,16 @@ std::vector<IntensityPart> candidates(const Study& study, const MotionSummaries&
   std::vector<IntensityPart> parts;
   for (const std::string& column : given_columns(summaries))
     if (scales(column)) parts.push_back({"record." + column});
-  for (const intensity::Measure* measure : intensity::all()) {
-    if (measure->name == "pta_g") continue;
-    if (!measure->parameter)
-      parts.push_back({measure->name});
+  const auto add = [&](const intensity::Measure& measure) {
+    if (!measure.parameter)
+      parts.push_back({measure.name});
     else
-      for (const double period : usual_periods_s) parts.push_back({measure->name, measure->parameter->name, period});
-  }
+      for (const double period : usual_periods_s) parts.push_back({measure.name, measure.parameter->name, period});
+  };
+  for (const intensity::Measure* measure : intensity::all())
+    if (measure->name != "pta_g") add(*measure);
+  if (std::any_of(summaries.begin(), summaries.end(), [](const auto& summary) { return summary.ground != nullptr; }))
+    for (const intensity::Measure* measure : intensity::of_the_ground()) add(*measure);
   const IntensityPart& own = study.fragility.im;
   const bool there =
       std::any_of(parts.begin(), parts.end(), [&](const IntensityPart& part) { return same(part, own); });

@@ -64,6 +64,13 @@ IntensityPart read_intensity(Section& section, const Known& known) {
   const auto found = std::find_if(known.intensities.begin(), known.intensities.end(),
                                   [&](const auto& k) { return k.name == im.name; });
   if (found == known.intensities.end() && known.any_record && im.name.starts_with("record.")) return im;
+  const bool building = std::any_of(names.begin(), names.end(), [](const auto& n) { return n.starts_with("ground."); });
+  if (found == known.intensities.end() && im.name.starts_with("ground.") && !building) {
+    section.problem("im", fmt::format("{} is {} (no records of this study have the keys building and storey: what is "
+                                      "under the equipment is the record itself): take {}, or give building and storey",
+                                      section.name("im"), im.name, im.name.substr(7)));
+    return im;
+  }
   if (found == known.intensities.end()) {
     if (!im.name.empty())
       section.problem("im",

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "motion/pulse.hpp"
+#include "study/read_building.hpp"
 #include "study/read_parts.hpp"
 
 namespace freestand::study {
@@ -60,11 +61,19 @@ void read_pulses(Section& section, MotionSource& source) {
                                  " has no amplitude (how strong is it?): add peak_acceleration_g, peak_velocity_mps "
                                  "or scale_to");
   out_of_place(section, record_keys, "pulse");
+  for (const char* key : {"building", "storey"})
+    if (section.find(key))
+      section.problem(
+          key,
+          fmt::format("{} does not go with pulse (its period differs from sample to sample, and the floors' motion "
+                      "with it): give records of the ground, or take the pulse for the floor's and remove it",
+                      section.name(key)));
 }
 
 void read_any_records(Section& section, MotionSource& source, const RecordKeys& keys) {
   source.kind = MotionSource::Kind::records;
   read_records(section, source, keys);
+  read_building(section, source, keys.folder, keys.look);
   out_of_place(section, pulse_keys, keys.key);
 }
 
@@ -83,7 +92,7 @@ MotionSource read_source(Section& section, const RecordKeys& keys) {
     section.problem("pulse",
                     fmt::format("a motion has neither pulse nor {} (nothing would shake): add one of them", file_key));
   if (pulse == file)
-    for (const auto& known : {pulse_keys, record_keys, {"scale", "scale_to"}})
+    for (const auto& known : {pulse_keys, record_keys, {"scale", "scale_to", "building", "storey"}})
       for (const auto& key : known) section.find(key);
   section.finish();
   return source;

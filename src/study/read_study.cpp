@@ -8,8 +8,10 @@
 
 #include "dynamics/effect.hpp"
 #include "fragility/options.hpp"
+#include "intensity/intensity.hpp"
 #include "study/accuracy.hpp"
 #include "study/calibrate_keys.hpp"
+#include "study/known.hpp"
 #include "study/paths.hpp"
 #include "study/posterior_tables.hpp"
 #include "study/read_parts.hpp"
@@ -122,6 +124,7 @@ void refuse_distributions(const Study& study, Problems& problems) {
   for (const auto& source : study.motions) {
     check(source.amplitude);
     check(source.period);
+    check(source.storey);
   }
 }
 
@@ -163,6 +166,9 @@ Known known_of(const Study& study, Known known, Files look) {
   for (const MotionSource& source : study.motions)
     for (const motion::RecordNumber& number : source.numbers)
       known.intensities.push_back({"record." + number.name, "", 0});
+  if (in_a_building(study))
+    for (const intensity::Measure* measure : intensity::of_the_ground())
+      known.intensities.push_back(known_intensity(*measure));
   return known;
 }
 

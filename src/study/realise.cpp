@@ -46,7 +46,7 @@ Amplitude amplitude_of(const MotionSource& source) {
   return source.scale_to ? Amplitude::intensity : Amplitude::factor;
 }
 
-// The intensity that a motion is scaled to.
+// The intensity that a motion is scaled to: of a floor, that of the ground under its building.
 struct ScaleTarget {
   const intensity::Measure* measure = nullptr;
   double parameter = 0;
@@ -60,7 +60,7 @@ struct ScaleTarget {
     if (measure->spectral) request.sa_period_s = {measure->parameter ? parameter : 1.0};
     for (const std::size_t item : items)
       summaries.push_back(motions.is_pulse(item) ? motion::summarize(motion::find_pulse(motions.motion(item).name))
-                                                 : motion::summarize(motions.motion(item), request));
+                                                 : motion::summarize(motions.motion(motions.ground(item)), request));
   }
 
   // Of a motion at scale 1.
@@ -82,14 +82,26 @@ struct Source {
         amplitude(plan, *from.amplitude),
         target(from, motions, items),
         period(drawn(plan, from.period)),
+        storey(drawn(plan, from.storey)),
+        storeys(from.storeys()),
         item(plan, from.kind == MotionSource::Kind::pulses ? "motion.pulse" : "motion.record") {}
 
   MotionSource part;
   Amplitude amplitude_kind;
   Drawn amplitude;
   ScaleTarget target;
-  std::optional<Drawn> period;
+  std::optional<Drawn> period, storey;
+  std::vector<int> storeys;
   Stream item;
+
+  // The item of a sample: a pulse or a record, and with a building one of the record's floors.
+  std::size_t pick(std::uint64_t sample, std::size_t items) const {
+    const std::size_t floors = std::max<std::size_t>(1, storeys.size()), motions = items / floors;
+    const std::size_t one = motions == 1 ? 0 : sampling::pick(motions, part.pulses.weights, item(sample));
+    if (floors == 1) return one;
+    const auto floor = std::find(storeys.begin(), storeys.end(), static_cast<int>((*storey)(sample)));
+    return one * floors + static_cast<std::size_t>(floor - storeys.begin());
+  }
 };
 
 std::string column_name(std::string dotted) {
@@ -119,6 +131,9 @@ const std::vector<Column>& motion_columns() {
   };
   return columns;
 }
+
+const Column storey_column = {"storey", "1", "how many floors above the ground the equipment stands",
+                              ColumnKind::integer};
 
 std::size_t position(const std::vector<Quantity>& quantities, const std::string& name) {
   const auto found = std::find_if(quantities.begin(), quantities.end(), [&](const auto& q) { return q.name == name; });
@@ -179,6 +194,7 @@ Realiser::Parts::Parts(const Study& study, MotionSet set)
     if (!there) columns.push_back(column);
   }
   columns.insert(columns.end(), motion_columns().begin(), motion_columns().end());
+  if (in_a_building(study)) columns.push_back(storey_column);
 }
 
 Block Realiser::Parts::block(const std::vector<double>& values) const {
@@ -230,10 +246,10 @@ void Realiser::Parts::shake(std::uint64_t sample, Realisation& out) const {
   const std::size_t chosen = sources.size() == 1 ? 0 : sampling::pick(sources.size(), weights, source_stream(sample));
   const Source& source = sources[chosen];
   const auto& items = motions.of_source[chosen];
-  const std::size_t item =
-      items.size() == 1 ? 0 : sampling::pick(items.size(), source.part.pulses.weights, source.item(sample));
+  const std::size_t item = source.pick(sample, items.size());
   out.motion = items[item];
-  const MotionSet::Entry& entry = (*motions.entries)[out.motion];
+  const MotionSet::Entry &entry = (*motions.entries)[out.motion],
+                         &ground = (*motions.entries)[motions.ground(out.motion)];
 
   const double amplitude = source.amplitude(sample);
   out.pulse_period_s = source.period ? (*source.period)(sample) : not_known;
@@ -248,7 +264,7 @@ void Realiser::Parts::shake(std::uint64_t sample, Realisation& out) const {
       shaking.scale = amplitude / (out.pulse_period_s * entry.peak_mps);
       break;
     case Amplitude::pta_g:
-      shaking.scale = amplitude * standard_gravity_mps2 / entry.peak_mps2;
+      shaking.scale = amplitude * standard_gravity_mps2 / ground.peak_mps2;
       break;
     case Amplitude::intensity:
       shaking.scale = amplitude / source.target.unscaled(item, shaking.stretch, out.specimen);
@@ -296,6 +312,7 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
     if (parts.derived_wanted[i]) out.draws.push_back(derived[i]);
   for (const double x : {static_cast<double>(out.motion), out.shaking.scale, out.pta_g, out.pulse_period_s})
     out.draws.push_back(x);
+  if (parts.columns.back().name == storey_column.name) out.draws.push_back((*parts.motions.entries)[out.motion].storey);
   return out;
 }
 
@@ -306,6 +323,7 @@ const MotionSet& Realiser::motions() const { return parts_->motions; }
 std::string Realiser::column_of(const std::string& dotted) {
   if (dotted == "motion.period_s") return "pulse_period_s";
   if (dotted == "motion.pta_g") return "pta_g";
+  if (dotted == "motion.storey") return "storey";
   return column_name(dotted);
 }
 

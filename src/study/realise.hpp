@@ -6,6 +6,7 @@
 #include <freestand/simulate.hpp>
 #include <freestand/specimen.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,17 +21,25 @@ struct MotionSet {
   struct Entry {
     FloorMotion motion;
     bool pulse = false;
-    double peak_mps2 = 1;              // of the horizontal channel
-    double peak_mps = 0;               // velocity of a unit pulse; v_p = scale * period * peak_mps
-    std::string group = {};            // of a record; empty: by itself
-    std::vector<double> numbers = {};  // one for each of MotionSet::numbers, nan where nothing gives it
+    double peak_mps2 = 1;                    // of the horizontal channel
+    double peak_mps = 0;                     // velocity of a unit pulse; v_p = scale * period * peak_mps
+    std::string group = {};                  // of a record; empty: by itself
+    std::vector<double> numbers = {};        // one for each of MotionSet::numbers, nan where nothing gives it
+    std::optional<std::size_t> ground = {};  // of a floor: the entry of the record, under its building
+    int storey = 0;                          // of a floor: how many above the ground
   };
   std::vector<motion::RecordNumber> numbers;  // intensities that tables of records bring
   std::shared_ptr<const std::vector<Entry>> entries;
-  std::vector<std::vector<std::size_t>> of_source;  // per source of the study: its items -> entries
+  // Per source of the study: its items -> entries; records in a building by each of the storeys in turn. Records of the ground
+  // stand in the set too.
+  std::vector<std::vector<std::size_t>> of_source;
 
   std::size_t size() const { return entries->size(); }
   const FloorMotion& motion(std::size_t i) const { return (*entries)[i].motion; }
+  std::size_t ground(std::size_t i) const {
+    return (*entries)[i].ground.value_or(i);
+  }  // itself where it is of no floor
+  bool has_floors() const;
   bool is_pulse(std::size_t i) const { return (*entries)[i].pulse; }
   std::vector<std::string> names() const;
   std::vector<int> groups() const;  // fragility::Options::motion_group: each record its own, -1 pulses
@@ -60,7 +69,7 @@ class Realiser {
 
   // Columns of Realisation::draws: every quantity of the study by its dotted name with '.' -> '_' (block_width_m), then
   // what follows from them and is not already there (block_alpha_rad, block_p_radps, friction_mu_k, friction_mu_s ...),
-  // then motion, scale, pta_g, pulse_period_s.
+  // then motion, scale, pta_g, pulse_period_s, and in a building storey.
   const std::vector<Column>& draw_columns() const;
   const MotionSet& motions() const;
 

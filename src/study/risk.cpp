@@ -30,6 +30,7 @@ std::vector<std::string> measures(const fragility::Result& swept) {
   std::vector<std::string> names;
   for (const intensity::Measure* measure : intensity::all())
     if (measure->unit != "1") names.push_back(measure->name);
+  for (const intensity::Measure* measure : intensity::of_the_ground()) names.push_back(measure->name);
   for (const char* of_ground : {"pga_g", "pgv_mps", "pgd_m", "sa_g"}) names.push_back(of_records + of_ground);
   if (std::find(names.begin(), names.end(), swept.im_name) == names.end() && swept.im_unit != "1")
     names.push_back(swept.im_name);
@@ -49,11 +50,10 @@ io::FragilityFile fragility_of(const std::filesystem::path& folder) {
 // The period of the sweep's intensity, which the curve must share.
 double period_of(const io::FragilityFile& fragility, const RiskOptions& options, const decision::HazardCurve& hazard) {
   const std::string& im = fragility.result.im_name;
-  const auto all = intensity::all();
-  const auto measure = std::find_if(all.begin(), all.end(), [&](const auto* one) { return one->name == im; });
-  if (measure == all.end() || !(*measure)->parameter) return 0;
+  const intensity::Measure& measure = intensity::find(im);
+  if (!measure.parameter) return 0;
   const FragilityPart part = parse_stored(fragility.provenance.study, options.folder).fragility;
-  const double period = part.im.period_s.value_or((*measure)->parameter->fallback);
+  const double period = part.im.period_s.value_or(measure.parameter->fallback);
   if (hazard.period_s > 0 && std::abs(hazard.period_s / period - 1) > 1e-6)
     throw Error(fmt::format(
         "{} is of {} at {} s, the sweep was fitted over it at {} s: fit the sweep at {} s, or give the curve at {} s",
@@ -71,25 +71,37 @@ std::vector<std::string> with_overturned(const io::FragilityFile& fragility, con
   return names;
 }
 
-void refuse_another_intensity(const decision::HazardCurve& hazard, const fragility::Result& swept,
+void refuse_another_intensity(const decision::HazardCurve& hazard, const io::FragilityFile& fragility,
                               const RiskOptions& options) {
-  if (hazard.measure == swept.im_name) return;
+  const fragility::Result& swept = fragility.result;
+  const Study study = parse_stored(fragility.provenance.study, options.folder);
+  if (hazard.measure == swept.im_name && is_of_a_floor(swept.im_name, study))
+    throw Error(
+        fmt::format("{0}:1: the curve is over {1}, and {2} was fitted over the {1} of the floor on which the equipment "
+                    "stands (a hazard curve is "
+                    "of the ground under the building): fit the sweep over ground.{1} (freestand fit {2} --im "
+                    "ground.{1} -o FOLDER)",
+                    options.hazard.string(), hazard.measure, options.folder.string()));
+  if (hazard.measure == swept.im_name || "ground." + hazard.measure == swept.im_name) return;
   if (swept.im_name == of_records + hazard.measure)
     throw Error(fmt::format(
         "{0}:1: the curve is over {1}, but {2} was fitted over {3} (the {1} of the motion under the equipment is "
         "another one, on "
         "a floor): where the curve is of the ground, as that of the table of records is, name its column {3}",
         options.hazard.string(), hazard.measure, options.folder.string(), swept.im_name));
+  const bool said = hazard.measure.find('.') != std::string::npos;  // whose it is
+  const std::string wanted = said || !in_a_building(study) ? hazard.measure : "ground." + hazard.measure;
   throw Error(fmt::format(
       "{}:1: the curve is over {}, but {} was fitted over {}: fit the sweep over {} (freestand fit {} --im {} -o "
       "FOLDER){}{}",
-      options.hazard.string(), hazard.measure, options.folder.string(), swept.im_name, hazard.measure,
-      options.folder.string(), hazard.measure,
-      hazard.measure.starts_with(of_records) ? ""
-                                             : fmt::format(", or, for equipment on a floor of a building and a curve "
-                                                           "of the ground, over {0}{1} out of the table of "
-                                                           "records, with the curve's column called {0}{1}",
-                                                           of_records, hazard.measure),
+      options.hazard.string(), hazard.measure, options.folder.string(), swept.im_name, wanted, options.folder.string(),
+      wanted,
+      said || in_a_building(study)
+          ? ""
+          : fmt::format(", or, for equipment on a floor of a building and a curve "
+                        "of the ground, give the records a building, or fit over {0}{1} out of the table of "
+                        "records, with the curve's column called {0}{1}",
+                        of_records, hazard.measure),
       swept.im_unit == "1" ? "" : fmt::format(", or give a curve over {}", swept.im_name)));
 }
 
@@ -138,7 +150,7 @@ RiskAnswer risk(const RiskOptions& options) {
   const io::FragilityFile fragility = fragility_of(options.folder);
   const decision::HazardCurve hazard =
       decision::parse_hazard(read_text(options.hazard), options.hazard.string(), measures(fragility.result));
-  refuse_another_intensity(hazard, fragility.result, options);
+  refuse_another_intensity(hazard, fragility, options);
   RiskAnswer answer{hazard, decision::risk(fragility.result, hazard, with_overturned(fragility, options.folder)),
                     fragility.provenance.study_name, period_of(fragility, options, hazard)};
   if (answer.period_s > 0 && hazard.period_s == 0)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <numeric>
+#include <set>
 
 namespace freestand::study {
 namespace {
@@ -57,13 +58,15 @@ Sampled of_model(const Study& study, const Quantity& quantity) {
   return one;
 }
 
-Sampled of_motion(std::size_t motions) {
+Sampled of_motion(std::size_t motions, const std::vector<std::size_t>& ground) {
   Sampled one;
   one.parameter.name = "motion";
   one.parameter.classes = static_cast<int>(motions);
   one.parameter.ordered = false;
   one.streams = {"motion.source", "motion.pulse", "motion.record"};
-  one.class_of = [](std::uint64_t, std::size_t motion) { return static_cast<int>(motion); };
+  one.class_of = [ground](std::uint64_t, std::size_t motion) {
+    return static_cast<int>(ground.empty() ? motion : ground[motion]);
+  };
   return one;
 }
 
@@ -118,13 +121,15 @@ void add_of_motions(const Study& study, std::optional<Quantity> MotionSource::*n
 
 }  // namespace
 
-std::vector<Sampled> sampled(const Study& study, std::size_t motions) {
+std::vector<Sampled> sampled(const Study& study, std::size_t motions, const std::vector<std::size_t>& ground) {
   std::vector<Sampled> all;
   for (const Quantity& quantity : quantities(study.model))
     if (!is_fixed(quantity.value)) all.push_back(of_model(study, quantity));
   add_of_motions(study, &MotionSource::amplitude, "motion.amplitude", all);
   add_of_motions(study, &MotionSource::period, "motion.period_s", all);
-  if (motions > 1) all.push_back(of_motion(motions));
+  add_of_motions(study, &MotionSource::storey, "motion.storey", all);
+  const std::size_t different = ground.empty() ? motions : std::set<std::size_t>(ground.begin(), ground.end()).size();
+  if (different > 1) all.push_back(of_motion(motions, ground));
   return all;
 }
 

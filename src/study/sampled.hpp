@@ -20,7 +20,8 @@ struct Sampled {
 };
 
 // Numbers of the model by their names in the study; motion.* by the entry that a sample takes; `motion`, where there are several
-// (`motions`: how many).
-std::vector<Sampled> sampled(const Study&, std::size_t motions);
+// (`motions`: how many; `ground`: of each the one that it is the floor of, which counts for it, since motion.storey is a number of
+// its own; empty: itself).
+std::vector<Sampled> sampled(const Study&, std::size_t motions, const std::vector<std::size_t>& ground = {});
 
 }  // namespace freestand::study

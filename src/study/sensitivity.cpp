@@ -51,7 +51,7 @@ class Shares {
         study_(analysed_study(options.folder, reader_)),
         motions_(group_options(reader_, study_)),
         groups_(motions_),
-        sampled_(sampled(study_, reader_.motions().names.size())),
+        sampled_(sampled(study_, reader_.motions().names.size(), grounds(reader_.motions()))),
         damage_(study_),
         answers_(study_.fragility, with_damage(reader_.columns())) {
     if (sampled_.empty())

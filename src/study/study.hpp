@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "edp/edp.hpp"
+#include "motion/building.hpp"
 #include "motion/record_table.hpp"
 #include "sampling/design.hpp"
 #include "sampling/distribution.hpp"
@@ -105,6 +106,14 @@ struct ModelPart {
 // Every number of the model, in the order of its columns.
 std::vector<Quantity> quantities(const ModelPart&);
 
+struct Study;
+
+// Does the equipment stand in a building, on records of the ground?
+bool in_a_building(const Study&);
+
+// Is an intensity of its results known to be that of a floor, and not of the ground under the building?
+bool is_of_a_floor(const std::string& im, const Study&);
+
 // Does it feel vertical components (effect vertical_shaking)?
 bool shakes_vertically(const ModelPart&);
 
@@ -140,8 +149,11 @@ struct MotionSource {
   std::optional<double> dt_s;                 // the rest as motion::ReadOptions, where a row does not say it
   std::string unit, format, channel;
   std::string cross_records;  // the other horizontal components, paired as the vertical ones
-
   bool in_plane() const;  // any record has a second horizontal channel
+  // Where the records are of the ground and the equipment stands in a building; amplitudes stay those of the ground.
+  std::optional<motion::Building> building;
+  std::optional<Quantity> storey;    // motion.storey: a whole number of floors above the ground, or a choice of them
+  std::vector<int> storeys() const;  // its values; none without a building
 };
 
 enum class Spacing { equal_width, equal_count, log };

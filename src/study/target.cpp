@@ -19,7 +19,8 @@ using sampling::Distribution;
 std::vector<Quantity> targetable(const Study& study) {
   std::vector<Quantity> all = quantities(study.model);
   if (study.motions.size() != 1) return all;
-  for (const auto& quantity : {study.motions.front().amplitude, study.motions.front().period})
+  for (const auto& quantity :
+       {study.motions.front().amplitude, study.motions.front().period, study.motions.front().storey})
     if (quantity) all.push_back(*quantity);
   return all;
 }

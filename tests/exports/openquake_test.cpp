@@ -54,6 +54,9 @@ TEST(OpenQuake, IntensitiesOfTheGroundFromATableGoOutAsTheGroundIs) {
     EXPECT_THAT(text(made), HasSubstr(name));
     EXPECT_THAT(made.notes, testing::Contains(HasSubstr("what the table of records gives")));
   }
+  const Model under = model("openquake", request(), made_results(), Intensity{"ground.sa_g", "g", 0.5});
+  EXPECT_THAT(text(under), HasSubstr("imt=\"SA(0.5)\""));
+  EXPECT_THAT(under.notes, testing::Contains(HasSubstr("of the ground under the building")));
   const auto refusal = [](const Intensity& im) {
     try {
       text(model("openquake", request(), made_results(), im));
@@ -64,6 +67,8 @@ TEST(OpenQuake, IntensitiesOfTheGroundFromATableGoOutAsTheGroundIs) {
   };
   EXPECT_THAT(refusal({"record.sa_g", "g"}), HasSubstr("add --period"));
   EXPECT_THAT(refusal({"record.magnitude_mw", "1"}), HasSubstr("record.pga_g"));
+  EXPECT_THAT(refusal({"pga_g", "g", unknown, true}), HasSubstr("fit the sweep over ground.pga_g"));
+  EXPECT_THAT(refusal({"ground.housner_m", "m"}), HasSubstr("no name for the intensity ground.housner_m"));
 }
 
 // The very text of a user's file, read by the check, with values from tables of the normal distribution.

@@ -28,6 +28,34 @@ double value_of(const Measure& measure, Input input, std::optional<double> param
   return measure.value(input);
 }
 
+// A floor's measures look at the floor, ground.NAME at what lies under the building.
+TEST(OfTheGround, MeasuresOfTheMotionAloneLookUnderTheBuilding) {
+  motion::MotionSummary ground, floor;
+  ground.peaks = {2, 0.3, 0.1};
+  floor.peaks = {5, 0.4, 0.15};
+  ground.spectrum = {{1.0}, {3.0}};
+  floor.spectrum = {{1.0}, {8.0}};
+  floor.ground = std::make_shared<const motion::MotionSummary>(ground);
+  const auto on = [](const motion::MotionSummary& motion) { return refrigerator_on(motion, -1.5, 1); };
+  EXPECT_NEAR(value_of(find("ground.pga_g"), on(floor)), 3 / g, 1e-15);
+  EXPECT_NEAR(value_of(find("pga_g"), on(floor)), 7.5 / g, 1e-15);
+  EXPECT_NEAR(value_of(find("ground.pgv_mps"), on(floor)), 0.45, 1e-15);
+  EXPECT_NEAR(value_of(find("ground.sa_g"), on(floor), 1.0), 4.5 / g, 1e-15);
+  EXPECT_NEAR(value_of(find("ground.pga_g"), on(ground)), 3 / g, 1e-15);  // it stands on the ground
+  std::vector<std::string> names;
+  for (const Measure* measure : of_the_ground()) {
+    names.push_back(measure->name);
+    EXPECT_EQ(measure->unit, find(measure->name.substr(7)).unit);
+    EXPECT_TRUE(measure->of_the_ground);
+    EXPECT_FALSE(measure->proportional);
+  }
+  EXPECT_THAT(names, testing::IsSupersetOf(
+                         {"ground.housner_m", "ground.pga_g", "ground.pgd_m", "ground.pgv_mps", "ground.sa_g"}));
+  EXPECT_THAT(names, testing::Not(testing::Contains("ground.report")));
+  EXPECT_THROW(find("ground.report"), Error);
+  for (const Measure* measure : all()) EXPECT_FALSE(measure->of_the_ground) << measure->name;
+}
+
 class OfAPulse : public testing::Test {
  protected:
   const motion::Pulse pulse = motion::find_pulse("C1");
