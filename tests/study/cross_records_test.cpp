@@ -169,7 +169,7 @@ TEST_F(CrossRecords, ACaseHasItsHistoryInBothDirections) {
   EXPECT_EQ(last.cross_slip_m, result.response.residual_cross_slip_m);
   EXPECT_NE(last.cross_slip_m, 0);
   EXPECT_NEAR(result.response.peak_slip_m, result.tighter.peak_slip_m, 1e-7 * result.response.peak_slip_m);
-  EXPECT_THAT(expanded(both, folder_), HasSubstr("cross_file: across/a.csv"));
+  EXPECT_THAT(expanded(both, folder_.folder()), HasSubstr("cross_file: across/a.csv"));
   EXPECT_THAT(text_of([&] { simulate(both, true); }), HasSubstr("--reference integrates along one line"));
   EXPECT_FALSE(simulate(one("motion: {file: along/a.csv}\n"), false).history.cross);
 }
