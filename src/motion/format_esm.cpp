@@ -7,6 +7,8 @@
 namespace freestand::motion::format_esm {
 namespace {
 
+constexpr std::string_view first_sample = "DATE_TIME_FIRST_SAMPLE_YYYYMMDD_HHMMSS";
+
 // Line and value of a key of the header.
 struct Entry {
   std::size_t line;
@@ -42,6 +44,7 @@ RawRecord read(const RecordText& text) {
   RawRecord record{text.number(step.line, step.value), std::string(unit.value), {RawChannel{}}};
   record.channels[0].values = text.block(line, count);
   text.ends_at(line, count);
+  if (text.find(first_sample) < text.size()) record.start = std::string(entry(text, first_sample).value);
   return record;
 }
 

@@ -58,7 +58,8 @@ RawRecord read(const RecordText& text) {
   text.ends_at(line, count);
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   for (double& value : values) value = (value - mean) * factor;
-  return {1 / frequency, "gal", {RawChannel{"", false, std::move(values)}}};
+  return {
+      1 / frequency, "gal", {RawChannel{"", false, std::move(values)}}, std::string(entry(text, "Record Time").value)};
 }
 
 const RegisteredFormat here{{.name = "knet",

@@ -110,6 +110,7 @@ std::vector<double> in_mps2(std::vector<double> values, double unit) {
 struct Samples {
   double dt_s;
   std::vector<double> horizontal, vertical;
+  std::string start = {};
 };
 
 Samples read_samples(const std::filesystem::path& path, const ReadOptions& options) {
@@ -118,7 +119,7 @@ Samples read_samples(const std::filesystem::path& path, const ReadOptions& optio
   const RawChannel& chosen = choose_channel(text, raw, options);
   if (chosen.values.size() < 2) text.fail("fewer than two samples (no motion): get the whole file");
   const double unit = choose_unit(text, raw, options);
-  Samples samples{choose_step(text, raw, options), in_mps2(chosen.values, unit), {}};
+  Samples samples{choose_step(text, raw, options), in_mps2(chosen.values, unit), {}, raw.start};
   for (const RawChannel& channel : raw.channels)
     if (channel.vertical && &channel != &chosen && channel.values.size() == chosen.values.size() &&
         samples.vertical.empty())
@@ -142,10 +143,53 @@ void add_vertical(Samples& samples, const ReadOptions& options) {
   samples.vertical.resize(size, 0.0);
 }
 
+// Components that do not begin together make a motion that never was.
+void check_pair(const std::filesystem::path& path, const Samples& one, const ReadOptions& options,
+                const Samples& other) {
+  const auto refuse = [&](const std::string& why, const char* cure) {
+    throw Error(
+        fmt::format("{} and {} are no pair of components ({}): {}", path.string(), options.cross_file, why, cure),
+        Exit::data);
+  };
+  if (std::abs(other.dt_s - one.dt_s) > 1e-6 * one.dt_s)
+    refuse(fmt::format("their steps are {} s and {} s", one.dt_s, other.dt_s), "resample one of them");
+  if (one.start != other.start)
+    refuse(fmt::format("they begin at {} and at {}", one.start.empty() ? "an unknown time" : shown(one.start),
+                       other.start.empty() ? "an unknown time" : shown(other.start)),
+           "cut the earlier one");
+  if (one.start.empty() && one.horizontal.size() != other.horizontal.size())
+    refuse(fmt::format("they have {} and {} samples, and nothing tells whether they begin together",
+                       one.horizontal.size(), other.horizontal.size()),
+           "cut both to the same instants");
+}
+
+// Cosine of an angle in degrees, exact at right angles.
+double cosine(double angle_deg) {
+  const double turn = std::abs(std::remainder(angle_deg, 360.0));
+  return turn == 90 ? 0 : turn == 180 ? -1 : std::cos(turn * (pi / 180));
+}
+
+void turn(const std::filesystem::path& path, Samples& samples, const ReadOptions& options) {
+  ReadOptions own = options;
+  own.cross_file.clear();
+  own.vertical_file.clear();
+  own.component = Component::horizontal;
+  Samples other = read_samples(options.cross_file, own);
+  check_pair(path, samples, options, other);
+  const std::size_t size = std::max({samples.horizontal.size(), other.horizontal.size(), samples.vertical.size()});
+  samples.horizontal.resize(size, 0.0);
+  other.horizontal.resize(size, 0.0);
+  if (!samples.vertical.empty()) samples.vertical.resize(size, 0.0);
+  const double along = cosine(options.rotate_deg), across = cosine(options.rotate_deg - 90);
+  for (std::size_t i = 0; i < size; ++i)
+    samples.horizontal[i] = along * samples.horizontal[i] + across * other.horizontal[i];
+}
+
 }  // namespace
 
 FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& options) {
   Samples samples = read_samples(path, options);
+  if (!options.cross_file.empty()) turn(path, samples, options);
   if (!options.vertical_file.empty()) add_vertical(samples, options);
   return piecewise_linear(path.string(), samples.dt_s, samples.horizontal, samples.vertical);
 }

@@ -21,6 +21,7 @@ struct RawRecord {
   std::optional<double> dt_s;
   std::string unit;
   std::vector<RawChannel> channels;
+  std::string start = {};  // time of the first sample, in the file's words; "" where it does not say
 };
 
 struct RecordFormat {

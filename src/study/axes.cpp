@@ -48,6 +48,7 @@ std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<M
   const bool amplitude = any([](const MotionSource& s) { return varies(s.amplitude); });
   const bool period = any([](const MotionSource& s) { return varies(s.period); });
   if (pulses) axes.push_back({"motion.period_s", period || several});
+  axes.push_back({"motion.pulse_period_s", period || records || several});
   axes.push_back({"motion.pta_g", amplitude || period || records || several});
   return axes;
 }

@@ -121,8 +121,26 @@ void add_amplitude(const MotionSource& source, Mapping& m) {
   m.add("scale_to", target.flow());
 }
 
-// file, vertical_file: the keys of recorded motions.
-Mapping source_mapping(const MotionSource& source, const char* file, const char* vertical_file) {
+void add_processing(const motion::Processing& processing, Mapping& m) {
+  constexpr const char* baselines[] = {"linear", "quadratic"};
+  if (processing.baseline) m.add("baseline", baselines[static_cast<int>(*processing.baseline)]);
+  if (processing.band) m.add("band_pass_hz", list({processing.band->low_hz, processing.band->high_hz}));
+  if (!processing.scale) return;
+  m.add("time_scale", number_text(processing.scale->time));
+  m.add("length_scale", number_text(processing.scale->length));
+}
+
+void add_turn(const std::optional<TurnPart>& turn, Mapping& m) {
+  if (!turn) return;
+  if (turn->to == TurnPart::To::angle) return m.add("rotate_deg", number_text(turn->angle_deg));
+  m.add("rotate", turn->to == TurnPart::To::fault_normal ? "fault_normal" : "fault_parallel");
+}
+
+// The keys of recorded motions.
+struct FileKeys {
+  const char *file, *vertical, *cross;
+};
+Mapping source_mapping(const MotionSource& source, const FileKeys& keys) {
   Mapping m;
   if (source.kind == MotionSource::Kind::pulses) {
     m.add("pulse", to_string(source.pulses));
@@ -130,20 +148,25 @@ Mapping source_mapping(const MotionSource& source, const char* file, const char*
     add_amplitude(source, m);
     if (!source.scale_to) m.add("scale", number_text(source.pulse_scale));
   } else {
-    m.add(file, text_value(source.records));
-    if (!source.vertical_records.empty()) m.add(vertical_file, text_value(source.vertical_records));
+    m.add(keys.file, text_value(source.records));
+    if (!source.vertical_records.empty()) m.add(keys.vertical, text_value(source.vertical_records));
+    if (!source.cross_records.empty()) m.add(keys.cross, text_value(source.cross_records));
     add_amplitude(source, m);
     if (source.dt_s) m.add("dt_s", number_text(*source.dt_s));
     if (!source.unit.empty()) m.add("unit", text_value(source.unit));
     if (!source.format.empty()) m.add("format", text_value(source.format));
     if (!source.channel.empty()) m.add("channel", text_value(source.channel));
     if (!source.group.empty()) m.add("group", text_value(source.group));
+    if (!source.pulse.type.empty()) m.add("pulse_type", source.pulse.type);
+    if (source.pulse.period_s) m.add("pulse_period_s", number_text(*source.pulse.period_s));
+    add_turn(source.turn, m);
+    add_processing(source.processing, m);
   }
   return m;
 }
 
 std::string source_text(const MotionSource& source) {
-  Mapping m = source_mapping(source, "records", "vertical_records");
+  Mapping m = source_mapping(source, {"records", "vertical_records", "cross_records"});
   m.add("weight", number_text(source.weight));
   return m.item();
 }
@@ -154,7 +177,7 @@ bool has_relative_paths(const Study& study) {
     return !path.empty() && !std::filesystem::path(path).is_absolute();
   };
   return std::any_of(study.motions.begin(), study.motions.end(), [&](const MotionSource& source) {
-    return relative(source.records) || relative(source.vertical_records);
+    return relative(source.records) || relative(source.vertical_records) || relative(source.cross_records);
   });
 }
 
@@ -247,7 +270,7 @@ std::string expanded(const Case& one, const std::filesystem::path& folder) {
          fmt::format("name: {}\ntolerance: {}\nfree_vibration_s: {}\n", text_value(study.name),
                      number_text(study.tolerance), number_text(study.free_vibration_s)) +
          model_text(study.model) + chain_text(study.model.chain) + "motion:\n" +
-         source_mapping(study.motions.front(), "file", "vertical_file").block() +
+         source_mapping(study.motions.front(), {"file", "vertical_file", "cross_file"}).block() +
          fmt::format("output_step_s: {}\n", number_text(one.output_step_s));
 }
 

@@ -23,12 +23,25 @@ std::optional<Quantity> read_scale_to(Section& section, MotionSource& source);
 
 // What an entry of `motions` says of records; `key`: records, or file of a case.
 struct RecordKeys {
-  std::string key, vertical_key;
+  std::string key, vertical_key, cross_key;
   std::filesystem::path folder;
   Files look;
   bool vertical;
 };
 void read_records(Section& section, MotionSource& source, const RecordKeys&);
+
+// Into which direction pairs are turned; what is wrong with that where records come without a table; the rows of a table as
+// pairs.
+std::optional<TurnPart> read_turn(Section& section);
+void check_turn(Section& section, const MotionSource& source, const RecordKeys&);
+void pair_rows(Section& section, const TurnPart& turn, motion::RecordTable& table);
+
+// What is known of the pulse of a record.
+motion::KnownPulse read_known_pulse(Section& section);
+
+// What is to be done to a record; every key of it.
+motion::Processing read_processing(Section& section);
+const std::vector<std::string>& processing_keys();
 
 // `motion` of a case: one pulse or one file.
 MotionSource read_motion(Section& file, const std::filesystem::path& folder);

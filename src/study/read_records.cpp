@@ -64,25 +64,32 @@ void read_amplitude(Section& section, MotionSource& source) {
   source.amplitude = target ? *target : factor;
 }
 
+// Partners in the order of names: vertical components, or the other horizontal ones. Empty where there are none, or others than
+// records.
+Paths read_partners(Section& section, const std::string& key, const std::string& pattern, const RecordKeys& keys,
+                    MotionSource& source, const Paths& files) {
+  Paths partners = find_files(section, key, pattern, keys);
+  leave_out_others(section, key, pattern, keys.folder, source, partners);
+  if (partners.empty() || partners.size() == files.size()) return partners;
+  section.problem(key,
+                  fmt::format("{} matches {} files but {} matches {} (they are paired in the order of their names): {}",
+                              section.name(key), partners.size(), keys.key, files.size(),
+                              "make the two patterns match the same records"));
+  return {};
+}
+
 // By a pattern: files in the order of their names, and vertical components likewise.
 void read_pattern(Section& section, MotionSource& source, const RecordKeys& keys) {
   Paths files = find_files(section, keys.key, source.records, keys);
   leave_out_others(section, keys.key, source.records, keys.folder, source, files);
   leave_out_vertical(section, keys.key, source, files);
-  Paths vertical = find_files(section, keys.vertical_key, source.vertical_records, keys);
-  leave_out_others(section, keys.vertical_key, source.vertical_records, keys.folder, source, vertical);
-  if (!vertical.empty() && vertical.size() != files.size()) {
-    section.problem(
-        keys.vertical_key,
-        fmt::format("{} matches {} files but {} matches {} (they are paired in the order of their names): {}",
-                    section.name(keys.vertical_key), vertical.size(), keys.key, files.size(),
-                    "make the two patterns match the same records"));
-    return;
-  }
+  const Paths vertical = read_partners(section, keys.vertical_key, source.vertical_records, keys, source, files);
+  const Paths cross = read_partners(section, keys.cross_key, source.cross_records, keys, source, files);
   for (std::size_t i = 0; i < files.size(); ++i) {
     motion::RecordRow row;
     row.file = files[i];
     if (!vertical.empty()) row.vertical = vertical[i];
+    if (!cross.empty()) row.cross = cross[i];
     row.group = source.group;
     source.files.push_back(std::move(row));
   }
@@ -95,8 +102,14 @@ void read_table(Section& section, MotionSource& source, const RecordKeys& keys) 
                     fmt::format("{} does not go with a table of records (it names them itself): give "
                                 "the table a column vertical",
                                 section.name(keys.vertical_key)));
+  if (!source.cross_records.empty())
+    section.problem(keys.cross_key,
+                    fmt::format("{} does not go with a table of records (rows of one station are a pair): "
+                                "remove it",
+                                section.name(keys.cross_key)));
   try {
     motion::RecordTable table = motion::read_record_table(keys.folder / source.records, source.group, keys.vertical);
+    if (source.turn) pair_rows(section, *source.turn, table);
     source.files = std::move(table.rows);
     source.numbers = std::move(table.numbers);
     source.left_out = std::move(table.left_out);
@@ -116,8 +129,14 @@ void read_records(Section& section, MotionSource& source, const RecordKeys& keys
   source.format = section.text("format", "");
   source.channel = section.text("channel", "");
   source.group = section.text("group", "");
+  source.processing = read_processing(section);
+  source.pulse = read_known_pulse(section);
+  source.cross_records = section.text(keys.cross_key, "");
+  source.turn = read_turn(section);
   read_amplitude(section, source);
-  if (keys.look == Files::look && motion::is_record_table(keys.folder / source.records))
+  const bool table = keys.look == Files::look && motion::is_record_table(keys.folder / source.records);
+  if (keys.look == Files::look && !table) check_turn(section, source, keys);
+  if (table)
     read_table(section, source, keys);
   else
     read_pattern(section, source, keys);

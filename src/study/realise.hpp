@@ -20,10 +20,11 @@ struct MotionSet {
   struct Entry {
     FloorMotion motion;
     bool pulse = false;
-    double peak_mps2 = 1;              // of the horizontal channel
-    double peak_mps = 0;               // velocity of a unit pulse; v_p = scale * period * peak_mps
-    std::string group = {};            // of a record; empty: by itself
-    std::vector<double> numbers = {};  // one for each of MotionSet::numbers, nan where nothing gives it
+    double peak_mps2 = 1;                 // of the horizontal channel
+    double peak_mps = 0;                  // velocity of a unit pulse; v_p = scale * period * peak_mps
+    std::string group = {};               // of a record; empty: by itself
+    std::vector<double> numbers = {};     // one for each of MotionSet::numbers, nan where nothing gives it
+    motion::KnownPulse known_pulse = {};  // of a record: what the study or its table says of its pulse
   };
   std::vector<motion::RecordNumber> numbers;  // intensities that tables of records bring
   std::shared_ptr<const std::vector<Entry>> entries;

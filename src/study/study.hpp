@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "edp/edp.hpp"
+#include "motion/processing.hpp"
 #include "motion/record_table.hpp"
 #include "sampling/design.hpp"
 #include "sampling/distribution.hpp"
@@ -101,6 +102,14 @@ struct IntensityPart {
   std::optional<double> period_s = {};  // the number; the measure's own default where the study gives none
 };
 
+// Into which direction pairs of horizontal components are turned: by this angle from the first of a pair towards the other; of a
+// table of records to this azimuth, clockwise from north, or by the strike that it gives.
+struct TurnPart {
+  enum class To { angle, fault_normal, fault_parallel };
+  To to = To::angle;
+  double angle_deg = 0;
+};
+
 // One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
 struct MotionSource {
   enum class Kind { pulses, records };
@@ -125,6 +134,10 @@ struct MotionSource {
   std::vector<std::string> ungrouped;         // columns by which a table could group its records, and does not
   std::optional<double> dt_s;                 // the rest as motion::ReadOptions, where a row does not say it
   std::string unit, format, channel;
+  motion::KnownPulse pulse;       // of each record whose row does not say it
+  std::string cross_records;      // the other horizontal components, paired as the vertical ones
+  std::optional<TurnPart> turn;   // of each pair
+  motion::Processing processing;  // of each record, before it is scaled to an amplitude
 };
 
 enum class Spacing { equal_width, equal_count, log };

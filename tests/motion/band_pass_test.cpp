@@ -1,0 +1,85 @@
+#include "motion/band_pass.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "motion/peaks.hpp"
+#include "record_fixture.hpp"
+#include "support/error_text.hpp"
+
+namespace freestand::motion::band_pass_test {
+namespace {
+
+constexpr double step = 0.01, duration = 160;
+constexpr BandPass band{0.5, 10};
+
+std::vector<double> sine(double frequency_hz) {
+  std::vector<double> a;
+  for (int i = 0; i <= static_cast<int>(duration / step); ++i)
+    a.push_back(std::sin(2 * std::numbers::pi * frequency_hz * i * step));
+  return a;
+}
+
+// The squared gain of the fourth-order Butterworth filter, from its poles: |H(i w)|^2 = product of |pole|^2/|i w - pole|^2.
+double squared_gain(double ratio) {
+  double gain = 1;
+  for (int k = 0; k < 4; ++k) {
+    const double angle = std::numbers::pi * (2 * k + 5) / 8, re = std::cos(angle), im = std::sin(angle);
+    gain /= re * re + (ratio - im) * (ratio - im);
+  }
+  return gain;
+}
+
+// Far from the ends a sine comes out as itself, without a shift, times the filter's squared gain.
+TEST(BandPassFilter, SinesComeOutTimesTheSquaredGain) {
+  for (const double frequency : {0.2, 0.4, 0.5, 0.9, 2.0, 6.0, 10.0, 13.0, 25.0}) {
+    const std::vector<double> in = sine(frequency), out = samples(band_pass(piecewise_linear("sine", step, in), band));
+    ASSERT_EQ(out.size(), in.size());
+    const double gain = squared_gain(band.low_hz / frequency) * squared_gain(frequency / band.high_hz);
+    double most = 0;
+    for (std::size_t i = 6000; i < 10001; ++i) most = std::max(most, std::abs(out[i] - gain * in[i]));
+    EXPECT_LT(most, 1e-6) << frequency << " Hz, gain " << gain;
+    EXPECT_NEAR(band_pass_gain(band, frequency), gain, 1e-12 * gain);
+  }
+  EXPECT_NEAR(band_pass_gain(band, 0.5), 0.5, 1e-9);
+  EXPECT_EQ(band_pass_gain(band, 0), 0);
+}
+
+// Zeros behind the record keep its end out of its beginning: what shakes at the end alone leaves the start at rest, and what
+// comes out of a record and of the same with more zeros behind is the same.
+TEST(BandPassFilter, EndsDoNotMeet) {
+  std::vector<double> late(static_cast<std::size_t>(duration / step) + 1, 0.0);
+  for (std::size_t i = late.size() - 200; i < late.size(); ++i) late[i] = 1;
+  const std::vector<double> out = samples(band_pass(piecewise_linear("late", step, late), band));
+  double most = 0;
+  for (std::size_t i = 0; i < 4000; ++i) most = std::max(most, std::abs(out[i]));
+  EXPECT_LT(most, 1e-7);
+  std::vector<double> longer = late;
+  longer.resize(5 * late.size(), 0.0);
+  const std::vector<double> of_longer = samples(band_pass(piecewise_linear("longer", step, longer), band));
+  for (std::size_t i = 0; i < out.size(); ++i) ASSERT_NEAR(out[i], of_longer[i], 1e-7);
+}
+
+TEST(BandPassFilter, TreatsBothChannelsAlikeAndNothingElse) {
+  const std::vector<double> a = sine(2), v = sine(3);
+  const FloorMotion both = band_pass(piecewise_linear("both", step, a, v), band);
+  EXPECT_EQ(both.horizontal_mps2, band_pass(piecewise_linear("a", step, a), band).horizontal_mps2);
+  EXPECT_EQ(both.vertical_mps2, band_pass(piecewise_linear("v", step, v), band).horizontal_mps2);
+  EXPECT_EQ(both.name, "both");
+}
+
+TEST(BandPassFilter, WhatTheRecordCannotHoldIsRefused) {
+  const FloorMotion record = piecewise_linear("short.AT2", 0.02, std::vector<double>(251, 1.0));  // 5 s
+  const auto refusal = [&](const BandPass& asked) {
+    return freestand::test::error_text(Exit::data, [&] { band_pass(record, asked); });
+  };
+  EXPECT_THAT(refusal({0.5, 25}), testing::HasSubstr("short.AT2: no band up to 25 Hz (its step of 0.02 s"));
+  EXPECT_THAT(refusal({0.1, 20}), testing::HasSubstr("a period of 10 s is longer than the record, 5 s"));
+}
+
+}  // namespace
+}  // namespace freestand::motion::band_pass_test
