@@ -20,7 +20,7 @@ struct MotionOptions {
   std::vector<double> band_hz;
   double dt_s = 0;
   std::optional<double> rotate_deg, time_scale, length_scale;
-  bool overwrite = false;
+  bool overwrite = false, begin_together = false;
 };
 
 motion::ReadOptions read_options(const MotionOptions& options) {
@@ -35,6 +35,7 @@ motion::ReadOptions read_options(const MotionOptions& options) {
   read.channel = options.channel;
   read.cross_file = options.cross;
   read.rotate_deg = options.rotate_deg.value_or(0);
+  read.begin_together = options.begin_together;
   return read;
 }
 
@@ -83,6 +84,7 @@ void show(const MotionOptions& options) {
 void add_processing(CLI::App& verb, MotionOptions& options) {
   verb.add_option("--cross", options.cross, "the other horizontal component of one record, which begins with it");
   verb.add_option("--rotate", options.rotate_deg, "turn the pair by so many degrees from the record towards --cross");
+  verb.add_flag("--begin-together", options.begin_together, "the two begin together, though they end at other times");
   verb.add_option("--baseline", options.baseline, "take this off the velocity: linear or quadratic")
       ->check(CLI::IsMember({"linear", "quadratic"}));
   verb.add_option("--band-pass", options.band_hz, "corners in Hz, as 0.1 25; Butterworth, without shift of phase")

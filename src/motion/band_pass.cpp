@@ -13,7 +13,8 @@
 namespace freestand::motion {
 namespace {
 
-// What a corner's filter makes of a blow dies out as exp(-2 pi f sin(pi/(2n)) t), by the pole next to the axis: to 1e-8 in
+// What the lower corner's filter makes of a blow dies out as exp(-2 pi f sin(pi/(2n)) t), by the pole next to the axis: to 1e-8
+// in this time.
 double zeros_s(double low_hz) { return std::log(1e8) / (2 * pi * low_hz * std::sin(pi / (2 * band_pass_order))); }
 
 // Samples of a piecewise linear channel.
@@ -39,9 +40,12 @@ void check(const FloorMotion& record, const BandPass& band, double step_s) {
         Exit::data);
 }
 
-std::vector<double> filtered(std::vector<double> values, double step_s, const BandPass& band) {
+// With so many zeros kept at each end.
+std::vector<double> filtered(std::vector<double> values, std::size_t zeros, double step_s, const BandPass& band) {
+  values.insert(values.begin(), zeros, 0.0);
+  values.insert(values.end(), zeros, 0.0);
   const std::size_t size = values.size();
-  const RealTransform transform(transform_size(size + static_cast<std::size_t>(zeros_s(band.low_hz) / step_s)));
+  const RealTransform transform(transform_size(size));
   RealTransform::Spectrum spectrum = transform.forward(values);
   const double resolution_hz = 1 / (static_cast<double>(transform.size()) * step_s);
   for (std::size_t k = 0; k < spectrum.size(); ++k)
@@ -63,8 +67,9 @@ double band_pass_gain(const BandPass& band, double frequency_hz) {
 FloorMotion band_pass(const FloorMotion& record, const BandPass& band) {
   const double step_s = record.duration_s() / static_cast<double>(record.segments());
   check(record, band, step_s);
+  const auto zeros = static_cast<std::size_t>(std::ceil(zeros_s(band.low_hz) / step_s));
   const auto channel = [&](const std::vector<double>& coefficients) {
-    return coefficients.empty() ? std::vector<double>{} : filtered(samples(record, coefficients), step_s, band);
+    return coefficients.empty() ? std::vector<double>{} : filtered(samples(record, coefficients), zeros, step_s, band);
   };
   return piecewise_linear(record.name, step_s, channel(record.horizontal_mps2), channel(record.vertical_mps2));
 }

@@ -153,14 +153,14 @@ void check_pair(const std::filesystem::path& path, const Samples& one, const Rea
   };
   if (std::abs(other.dt_s - one.dt_s) > 1e-6 * one.dt_s)
     refuse(fmt::format("their steps are {} s and {} s", one.dt_s, other.dt_s), "resample one of them");
-  if (one.start != other.start)
+  if (one.start != other.start && !(options.begin_together && (one.start.empty() || other.start.empty())))
     refuse(fmt::format("they begin at {} and at {}", one.start.empty() ? "an unknown time" : shown(one.start),
                        other.start.empty() ? "an unknown time" : shown(other.start)),
            "cut the earlier one");
-  if (one.start.empty() && one.horizontal.size() != other.horizontal.size())
+  if (one.start.empty() && !options.begin_together && one.horizontal.size() != other.horizontal.size())
     refuse(fmt::format("they have {} and {} samples, and nothing tells whether they begin together",
                        one.horizontal.size(), other.horizontal.size()),
-           "cut both to the same instants");
+           "cut both to the same instants, or say that they do (begin_together)");
 }
 
 // Cosine of an angle in degrees, exact at right angles.

@@ -25,12 +25,13 @@ struct ReadOptions {
   // is read is this * cos + other * sin, each to the bit at 0 and 90 degrees.
   std::string cross_file = {};
   double rotate_deg = 0;
+  bool begin_together = false;  // the user says it of a pair: files of other lengths end at other times
 };
 
 // Reads a record. The motion's name is the path as given. Files that hold a vertical channel beside the horizontal one
 // (floor csv, CSMIP V2) keep it. Throws Error (Exit::data) that names file and line; Error (Exit::usage) when an option
 // is missing, unknown or contradicts the file. A pair of horizontal components must begin together: same step, and the same
-// stated start of time, or, where the files state none, the same length; else Error (Exit::data) names both.
+// stated start of time, or, where the files state none, the same length, unless the user says that they do; else Error (Exit::data) names both.
 FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& options = {});
 
 // Files that a pattern (`*`, `?`, `[...]`) matches, or the files of a folder, sorted by name; a relative pattern starts

@@ -69,7 +69,9 @@ std::string figures_csv(const std::vector<ToldRecord>& records, const std::files
       "file,dt_s,unit,channel,samples,duration_s,pga_g,pgv_mps,pgd_m,arias_mps,cav_mps,significant_5_75_s,"
       "significant_5_95_s,bracketed_0.05g_s";
   for (const double period : figure_periods_s()) text += fmt::format(",sa_{:g}s_g", period);
-  text += ",pulse_type,pulse_period_s,pulse_velocity_mps,pulse_start_s,pulse_explained\n";
+  text +=
+      ",identified_pulse,identified_pulse_period_s,identified_pulse_velocity_mps,identified_pulse_start_s,"
+      "identified_pulse_explained\n";
   for (const auto& [file, unit, channel, f] : records) {
     const std::filesystem::path here =
         std::filesystem::absolute(file).lexically_proximate(std::filesystem::absolute(folder));

@@ -160,6 +160,7 @@ Mapping source_mapping(const MotionSource& source, const FileKeys& keys) {
     if (!source.pulse.type.empty()) m.add("pulse_type", source.pulse.type);
     if (source.pulse.period_s) m.add("pulse_period_s", number_text(*source.pulse.period_s));
     add_turn(source.turn, m);
+    if (source.begin_together) m.add("begin_together", "true");
     add_processing(source.processing, m);
   }
   return m;

@@ -57,6 +57,7 @@ motion::ReadOptions read_options(const MotionSource& source, const motion::Recor
   options.component = motion::Component::horizontal;
   options.vertical_file = row.vertical.string();
   options.cross_file = row.cross.string();
+  options.begin_together = source.begin_together;
   if (source.turn) options.rotate_deg = angle_deg(*source.turn, row);
   return options;
 }

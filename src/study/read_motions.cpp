@@ -13,8 +13,8 @@ constexpr Range weight_range = {.lower = 0, .why = "a weight must be above zero"
 
 const std::vector<std::string> pulse_keys = {"period_s", "peak_acceleration_g", "peak_velocity_mps"};
 const std::vector<std::string> record_keys = {
-    "dt_s",          "unit",       "format", "channel",    "vertical_records", "vertical_file", "group",
-    "cross_records", "cross_file", "rotate", "rotate_deg", "pulse_type",       "pulse_period_s"};
+    "dt_s",          "unit",       "format", "channel",    "vertical_records", "vertical_file",  "group",
+    "cross_records", "cross_file", "rotate", "rotate_deg", "pulse_type",       "pulse_period_s", "begin_together"};
 
 // Keys of the other kind of source are not unknown, but out of place.
 void out_of_place(Section& section, const std::vector<std::string>& keys, const std::string& with) {

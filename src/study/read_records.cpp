@@ -133,6 +133,7 @@ void read_records(Section& section, MotionSource& source, const RecordKeys& keys
   source.pulse = read_known_pulse(section);
   source.cross_records = section.text(keys.cross_key, "");
   source.turn = read_turn(section);
+  source.begin_together = section.flag("begin_together", false);
   read_amplitude(section, source);
   const bool table = keys.look == Files::look && motion::is_record_table(keys.folder / source.records);
   if (keys.look == Files::look && !table) check_turn(section, source, keys);

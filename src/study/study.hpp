@@ -137,6 +137,7 @@ struct MotionSource {
   motion::KnownPulse pulse;       // of each record whose row does not say it
   std::string cross_records;      // the other horizontal components, paired as the vertical ones
   std::optional<TurnPart> turn;   // of each pair
+  bool begin_together = false;    // the user says that the two of each pair do
   motion::Processing processing;  // of each record, before it is scaled to an amplitude
 };
 

@@ -65,9 +65,12 @@ TEST_F(Rotation, OfWhatDoesNotBeginTogetherIsRefusedWithBothNames) {
   };
   EXPECT_THAT(refusal(write("long.AT2", at2("  .1 .2 .3 .4\n", "NPTS=    4, DT= .01000 SEC\n"))),
               HasSubstr("3 and 4 samples, and nothing tells whether they begin together"));
+  const FloorMotion told =
+      read_record(a_, {.cross_file = (folder_ / "long.AT2").string(), .rotate_deg = 90, .begin_together = true});
+  EXPECT_THAT(samples(told), testing::Pointwise(testing::DoubleNear(1e-14), {.1 * g, .2 * g, .3 * g, .4 * g}));
   EXPECT_THAT(refusal(write("slow.AT2", at2(other, "NPTS=    3, DT= .02000 SEC\n"))),
               HasSubstr("their steps are 0.01 s and 0.02 s"));
-  EXPECT_THAT(refusal(folder_ / "none.AT2"), HasSubstr("none.AT2"));
+  EXPECT_THAT(problem(a_, {.cross_file = (folder_ / "none.AT2").string()}).first, HasSubstr("none.AT2"));
 }
 
 std::string esm(const std::string& start, int count, const std::string& values) {
@@ -134,16 +137,14 @@ TEST(RealPairs, OfCorralitosAreTurnedAndThoseOfLosGatosRefused) {
   FREESTAND_NEEDS_RECORDS();
   const auto folder = test::records_dir() / "peer_ngawest2_corralitos";
   const auto first = folder / "RSN753_LOMAP_CLS000.AT2", second = folder / "RSN753_LOMAP_CLS090.AT2";
-  const auto turned = [&](double azimuth) {
-    return samples(read_record(first, {.cross_file = second.string(), .rotate_deg = azimuth}));
+  const auto turned = [&](double azimuth) {  // the second file goes on for four samples more
+    return samples(read_record(first, {.cross_file = second.string(), .rotate_deg = azimuth, .begin_together = true}));
   };
   const std::vector<double> normal = turned(38), parallel = turned(128);  // strike 128
-  const std::vector<double> a = samples(read_record(first)), b = samples(read_record(second));
   double of_turned = 0, of_both = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    of_turned += normal[i] * normal[i] + parallel[i] * parallel[i];
-    of_both += a[i] * a[i] + b[i] * b[i];
-  }
+  for (std::size_t i = 0; i < normal.size(); ++i) of_turned += normal[i] * normal[i] + parallel[i] * parallel[i];
+  for (const auto& file : {first, second})
+    for (const double value : samples(read_record(file))) of_both += value * value;
   EXPECT_NEAR(of_turned, of_both, 1e-10 * of_both);
   const auto cut = test::records_dir() / "slammer" / "Loma_Prieta_1989";
   EXPECT_THAT(freestand::test::error_text(

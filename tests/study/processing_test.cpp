@@ -49,8 +49,8 @@ class Processed : public testing::Test {
 
 TEST_F(Processed, IsWhatTheFunctionsGiveInTheirOrder) {
   const FloorMotion raw = motions("records: a.csv").motion(0);
-  const FloorMotion level = remove_baseline(raw, motion::Baseline::quadratic);
-  const FloorMotion passed = band_pass(level, {0.5, 20});
+  const FloorMotion level = motion::remove_baseline(raw, motion::Baseline::quadratic);
+  const FloorMotion passed = motion::band_pass(level, {0.5, 20});
   EXPECT_EQ(values("records: a.csv, baseline: quadratic"), level.horizontal_mps2);
   EXPECT_EQ(values("records: a.csv, baseline: quadratic, band_pass_hz: [0.5, 20]"), passed.horizontal_mps2);
   EXPECT_EQ(values("records: a.csv, baseline: quadratic, band_pass_hz: [0.5, 20], time_scale: 0.5"),
@@ -71,6 +71,8 @@ TEST_F(Processed, StandsInTheExpandedStudy) {
   EXPECT_THAT(again("records: a.csv, cross_records: b.csv, rotate_deg: 38"),
               AllOf(HasSubstr("cross_records: b.csv"), HasSubstr("rotate_deg: 38")));
   EXPECT_THAT(again("records: INDEX.csv, rotate: fault_parallel"), HasSubstr("rotate: fault_parallel"));
+  EXPECT_THAT(again("records: a.csv, cross_records: short.csv, rotate_deg: 38, begin_together: true"),
+              HasSubstr("begin_together: true"));
   const Case one =
       parse_case(block + friction + "motion: {file: a.csv, cross_file: b.csv, rotate_deg: 90}\n", folder_ / "c.yaml");
   EXPECT_THAT(expanded(one, folder_.folder()), HasSubstr("cross_file: b.csv"));
