@@ -44,6 +44,7 @@ DRAWS = {
     "block_alpha_rad": "slenderness α (rad)",
     "block_size_m": "size R (m)",
     "pulse_period_s": "pulse period (s)",
+    "motion_pulse_period_s": "period of the motion's pulse (s)",
     "pta_g": "peak acceleration PTA (g)",
     "pta": "peak acceleration PTA",
     "scale": "scale factor",

@@ -1,18 +1,17 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "app/command.hpp"
 #include "app/floors.hpp"
-#include "base/units.hpp"
 #include "io/output_folder.hpp"
 #include "motion/component.hpp"
-#include "motion/identify.hpp"
-#include "motion/peaks.hpp"
+#include "motion/processing.hpp"
 #include "motion/record.hpp"
-#include "motion/spectrum.hpp"
+#include "motion/record_figures.hpp"
 #include "study/read_building.hpp"
 
 namespace freestand::app {
@@ -20,66 +19,16 @@ namespace {
 
 struct MotionOptions {
   std::vector<std::string> files;
-  std::string unit, channel, convert, floor;
+  std::string unit, channel, convert, floor, csv, cross, baseline;
+  std::vector<double> band_hz;
   int storey = -1;
   double dt_s = 0;
-  bool overwrite = false;
+  std::optional<double> rotate_deg, time_scale, length_scale;
+  bool overwrite = false, begin_together = false;
 };
 
-constexpr double spectrum_periods_s[] = {0.1, 0.2, 0.3, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0};
-constexpr double damping = 0.05;
-
-std::string description(const FloorMotion& motion) {
-  const motion::MotionPeaks peaks = motion::peaks(motion);
-  const motion::IdentifiedPulse pulse = motion::identify_pulse(motion);
-  std::string text = fmt::format("{}\n", motion.name);
-  text += fmt::format("  {} samples, step {:g} s, {:g} s, {}\n", motion.knot_s.size(),
-                      motion.duration_s() / static_cast<double>(motion.segments()), motion.duration_s(),
-                      motion.vertical_mps2.empty() ? "horizontal" : "horizontal and vertical");
-  text += fmt::format("  PGA {:.4f} g   PGV {:.4f} m/s   PGD {:.4f} m\n", peaks.pga_mps2 / standard_gravity_mps2,
-                      peaks.pgv_mps, peaks.pgd_m);
-  if (!pulse.type.empty())
-    text += fmt::format(
-        "  pulse {}: period {:.3f} s, velocity {:.3f} m/s, from {:.2f} s, explains {:.0f} % of the velocity\n",
-        pulse.type, pulse.period_s, pulse.velocity_mps, pulse.start_s, 100 * pulse.explained);
-  text += fmt::format("  Sa, {:.0f} % damped:", 100 * damping);
-  for (const double period : spectrum_periods_s)
-    text += fmt::format("  {:g} s {:.3f} g", period,
-                        motion::spectral_acceleration_mps2(motion, period, damping) / standard_gravity_mps2);
-  return text + "\n";
-}
-
-// Floor motion csv of the samples; the step of a record is constant.
-std::string floor_csv(const FloorMotion& motion) {
-  const bool vertical = !motion.vertical_mps2.empty();
-  std::string text = vertical ? "time_s,floor_acceleration_mps2,floor_vertical_acceleration_mps2\n"
-                              : "time_s,floor_acceleration_mps2\n";
-  const auto stride = static_cast<std::size_t>(motion.degree) + 1;
-  for (std::size_t i = 0; i < motion.knot_s.size(); ++i) {
-    const bool last = i == motion.segments();  // the end of the last segment
-    const auto at = [&](const std::vector<double>& c) {
-      return last ? c[(i - 1) * stride] + c[(i - 1) * stride + 1] * (motion.knot_s[i] - motion.knot_s[i - 1])
-                  : c[i * stride];
-    };
-    text += fmt::format("{},{}", motion.knot_s[i], at(motion.horizontal_mps2));
-    text += vertical ? fmt::format(",{}\n", at(motion.vertical_mps2)) : "\n";
-  }
-  return text;
-}
-
-void convert(const FloorMotion& motion, const MotionOptions& options) {
-  const std::filesystem::path target = options.convert;
-  if (std::filesystem::exists(target) && !std::filesystem::is_regular_file(target))
-    throw Error(target.string() + " is no plain file (it would be replaced by one): give the name of a file");
-  if (std::filesystem::exists(target) && !options.overwrite)
-    throw Error(target.string() + " exists already (it would be lost): choose another name, or give --overwrite");
-  io::write_text(target, floor_csv(motion));
-}
-
-Exit show(const MotionOptions& options) {
-  if (!options.convert.empty() && options.files.size() != 1)
-    throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
-                "): convert them one by one");
+// The building under which the record is, if any.
+std::optional<motion::Building> building_of(const MotionOptions& options) {
   if (options.storey >= 0 && options.floor.empty())
     throw Error(fmt::format("--storey {} is of no building (the record is taken as it is): add --floor building.yaml",
                             options.storey));
@@ -93,36 +42,103 @@ Exit show(const MotionOptions& options) {
     throw Error(fmt::format(
         "--convert writes the motion of one floor (of {}, which has {}, and of the ground, 0): add --storey {}",
         building->name, building->floors(), building->floors()));
+  return building;
+}
+
+motion::ReadOptions read_options(const MotionOptions& options) {
+  if (options.rotate_deg.has_value() == options.cross.empty())
+    throw Error("--rotate and --cross go together (a pair of components is turned): give both, or neither");
+  if (!options.cross.empty() && options.files.size() != 1)
+    throw Error("--cross takes one record (there are " + std::to_string(options.files.size()) +
+                "): turn the pairs one by one");
   motion::ReadOptions read;
   if (options.dt_s > 0) read.dt_s = options.dt_s;
   read.unit = options.unit;
   read.channel = options.channel;
+  read.cross_file = options.cross;
+  read.rotate_deg = options.rotate_deg.value_or(0);
+  read.begin_together = options.begin_together;
+  return read;
+}
+
+motion::Processing processing(const MotionOptions& options) {
+  motion::Processing wanted;
+  if (!options.baseline.empty())
+    wanted.baseline = options.baseline == "linear" ? motion::Baseline::linear : motion::Baseline::quadratic;
+  if (!options.band_hz.empty()) {
+    wanted.band = motion::BandPass{options.band_hz.at(0), options.band_hz.at(1)};
+    if (!(wanted.band->low_hz > 0 && wanted.band->low_hz < wanted.band->high_hz))
+      throw Error("--band-pass is no band (two frequencies above zero, the lower first): give --band-pass 0.1 25");
+  }
+  if (options.time_scale || options.length_scale)
+    wanted.scale = motion::similitude(options.time_scale, options.length_scale);
+  return wanted;
+}
+
+void check_target(const std::filesystem::path& target, bool overwrite) {
+  if (target.empty() || !std::filesystem::exists(target)) return;
+  if (!std::filesystem::is_regular_file(target))
+    throw Error(target.string() + " is no plain file (it would be replaced by one): give the name of a file");
+  if (!overwrite)
+    throw Error(target.string() + " exists already (it would be lost): choose another name, or give --overwrite");
+}
+
+void show(const MotionOptions& options) {
+  if (!options.convert.empty() && options.files.size() != 1)
+    throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
+                "): convert them one by one");
+  for (const std::string& target : {options.convert, options.csv}) check_target(target, options.overwrite);
+  const std::optional<motion::Building> building = building_of(options);
+  const motion::ReadOptions read = read_options(options);
+  const motion::Processing wanted = processing(options);
+  std::vector<motion::ToldRecord> told;
   for (const std::string& file : options.files) {
-    const FloorMotion motion = motion::read_record(file, read);
-    fmt::print("{}", description(motion));
+    const FloorMotion motion = motion::processed(motion::read_record(file, read), wanted);
+    told.push_back({file, options.unit, options.channel, motion::record_figures(motion)});
+    fmt::print("{}\n{}", file, motion::figures_text(told.back().figures));
     if (const std::string sign = motion::vertical_sign(file); !sign.empty())
       fmt::print("  a vertical component: {}\n", sign);
     if (building) fmt::print("{}", floors_text(motion, *building));
-    if (!options.convert.empty()) convert(building ? floor_of(motion, *building, options.storey) : motion, options);
+    if (!options.convert.empty())
+      io::write_text(options.convert,
+                     motion::floor_csv(building ? floor_of(motion, *building, options.storey) : motion));
   }
-  return Exit::done;
+  const std::filesystem::path csv = options.csv;
+  if (!csv.empty()) io::write_text(csv, motion::figures_csv(told, csv.has_parent_path() ? csv.parent_path() : "."));
+}
+
+void add_processing(CLI::App& verb, MotionOptions& options) {
+  verb.add_option("--cross", options.cross, "the other horizontal component of one record, which begins with it");
+  verb.add_option("--rotate", options.rotate_deg, "turn the pair by so many degrees from the record towards --cross");
+  verb.add_flag("--begin-together", options.begin_together, "the two begin together, though they end at other times");
+  verb.add_option("--baseline", options.baseline, "take this off the velocity: linear or quadratic")
+      ->check(CLI::IsMember({"linear", "quadratic"}));
+  verb.add_option("--band-pass", options.band_hz, "corners in Hz, as 0.1 25; Butterworth, without shift of phase")
+      ->expected(2);
+  verb.add_option("--time-scale", options.time_scale, "of a model: times go with it")->check(CLI::PositiveNumber);
+  verb.add_option("--length-scale", options.length_scale,
+                  "of a model: lengths go with it; by itself times with its root")
+      ->check(CLI::PositiveNumber);
 }
 
 }  // namespace
 
 void add_motion(CLI::App& parser, Work& work) {
   auto options = std::make_shared<MotionOptions>();
-  CLI::App* verb = parser.add_subcommand("motion", "what is in a record: step, peaks, spectrum, identified pulse");
+  CLI::App* verb = parser.add_subcommand(
+      "motion", "what is in a record: step, peaks, Arias intensity, durations, spectrum, identified pulse");
   verb->add_option("files", options->files, "records")->required();
   verb->add_option("--dt", options->dt_s, "time step in s, for plain columns")->check(CLI::PositiveNumber);
   verb->add_option("--unit", options->unit, "unit of plain columns: g, m/s2, cm/s2 ...");
   verb->add_option("--channel", options->channel, "channel of files that hold several");
+  verb->add_option("--csv", options->csv, "write all of it to this file, one row a record: a table of records");
   verb->add_option("--convert", options->convert, "write the record as floor motion csv to this file");
   verb->add_option("--floor", options->floor,
                    "building.yaml: the record is of the ground; tells what each floor of it does");
   verb->add_option("--storey", options->storey, "with --convert: how many floors above the ground (0: the ground)")
       ->check(CLI::NonNegativeNumber);
-  verb->add_flag("--overwrite", options->overwrite, "replace that file if it is there");
+  verb->add_flag("--overwrite", options->overwrite, "replace these files if they are there");
+  add_processing(*verb, *options);
   verb->callback([options, &work] {
     work = [options](const Context& context) {
       context.world.on_root([&] { show(*options); });

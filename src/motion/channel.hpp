@@ -17,6 +17,14 @@ inline Polynomial segment(const FloorMotion& motion, const std::vector<double>& 
   return p;
 }
 
+// The channels that a motion has: what is done to a record is done to each.
+inline std::vector<std::vector<double>*> channels(FloorMotion& motion) {
+  std::vector<std::vector<double>*> there;
+  for (std::vector<double>* channel : {&motion.horizontal_mps2, &motion.vertical_mps2})
+    if (!channel->empty()) there.push_back(channel);
+  return there;
+}
+
 inline double length(const FloorMotion& motion, std::size_t i) { return motion.knot_s[i + 1] - motion.knot_s[i]; }
 
 inline const std::vector<double>& coefficients(const FloorMotion& motion, Channel channel) {

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double shortest_s = 0.2, longest_s = 15;
 constexpr int periods_per_octave = 9, points_per_period = 16;  // at the short end of an octave
+constexpr int points_of_known = 256;                           // of a period that is known
 
 // The record's velocity at the steps of one octave of periods, with its transform.
 struct Octave {
@@ -73,23 +74,50 @@ std::vector<PulseFit> best_starts(const FloorMotion& motion, const std::vector<P
   return best;
 }
 
+// The best start of each pulse at a period that is known.
+std::vector<PulseFit> starts_at(double period_s, const FloorMotion& motion, const std::vector<Pulse>& pulses) {
+  const Octave record = octave(motion, period_s / points_of_known);
+  std::vector<PulseFit> best;
+  for (const Pulse& pulse : pulses) best.push_back(best_start(record, pulse, period_s));
+  return best;
+}
+
+std::vector<Pulse> candidates(const KnownPulse& known) {
+  std::vector<Pulse> pulses;
+  for (const std::string& type : pulse_types())
+    if (known.type.empty() || known.type == type) pulses.push_back(find_pulse(type));
+  return pulses;
+}
+
 }  // namespace
 
-IdentifiedPulse identify_pulse(const FloorMotion& motion) {
-  IdentifiedPulse found;
+const std::vector<std::string>& pulse_types() {
+  static const std::vector<std::string> types = {"A", "B", "C1", "C2"};
+  return types;
+}
+
+IdentifiedPulse identify_pulse(const FloorMotion& motion, const KnownPulse& known) {
+  IdentifiedPulse found{.type = known.type, .period_s = known.period_s.value_or(0)};
+  found.type_given = !known.type.empty();
+  found.period_given = known.period_s.has_value();
   if (motion.segments() == 0) return found;
   const FloorVelocity velocity(motion);
   const double energy = velocity.energy(), duration = motion.duration_s();
   if (!(energy > 0)) return found;
-  const std::vector<Pulse> pulses = {find_pulse("A"), find_pulse("B"), find_pulse("C1"), find_pulse("C2")};
-  const std::vector<PulseFit> starts = best_starts(motion, pulses);
+  const std::vector<Pulse> pulses = candidates(known);
+  const std::vector<PulseFit> starts =
+      known.period_s ? starts_at(*known.period_s, motion, pulses) : best_starts(motion, pulses);
   double most = 0;
   for (std::size_t k = 0; k < pulses.size(); ++k) {
     if (starts[k].gain <= 0) continue;
-    const PulseFit fit = refine(velocity, duration, pulses[k], starts[k]);
+    const PulseFit fit = known.period_s ? starts[k] : refine(velocity, duration, pulses[k], starts[k]);
     if (fit.gain <= most) continue;
     most = fit.gain;
-    found = {pulses[k].name, fit.period_s, fit.velocity_mps, fit.start_s, std::clamp(fit.gain / energy, 0.0, 1.0)};
+    found.type = pulses[k].name;
+    found.period_s = fit.period_s;
+    found.velocity_mps = fit.velocity_mps;
+    found.start_s = fit.start_s;
+    found.explained = std::clamp(fit.gain / energy, 0.0, 1.0);
   }
   return found;
 }

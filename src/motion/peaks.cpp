@@ -7,39 +7,6 @@
 #include "motion/channel.hpp"
 
 namespace freestand::motion {
-namespace {
-
-// Integral of f over [0, length], exact for polynomials up to degree 13 (Gauss-Legendre, 7 points).
-template <class F>
-double gauss(double length, const F& f) {
-  constexpr double node[] = {0.0, 0.405845151377397166907, 0.741531185599394439864, 0.949107912342758524526};
-  constexpr double weight[] = {0.417959183673469387755, 0.381830050505118944950, 0.279705391489276667901,
-                               0.129484966168869693271};
-  const double half = length / 2;
-  double sum = weight[0] * f(half);
-  for (int i = 1; i < 4; ++i) sum += weight[i] * (f(half * (1 - node[i])) + f(half * (1 + node[i])));
-  return half * sum;
-}
-
-// Slope of the line through 0 that fits the velocity best: integral of v t over integral of t^2.
-double velocity_trend(const FloorMotion& motion, const std::vector<double>& coefficients) {
-  double moment = 0, speed = 0;
-  for (std::size_t i = 0; i < motion.segments(); ++i) {
-    const double start = motion.knot_s[i];
-    const Polynomial v = integral(segment(motion, coefficients, i), speed);
-    moment += gauss(length(motion, i), [&](double tau) { return v(tau) * (start + tau); });
-    speed = v(length(motion, i));
-  }
-  const double duration = motion.duration_s();
-  return moment / (duration * duration * duration / 3);
-}
-
-void subtract(std::vector<double>& coefficients, int degree, double acceleration) {
-  for (std::size_t i = 0; i < coefficients.size(); i += static_cast<std::size_t>(degree) + 1)
-    coefficients[i] -= acceleration;
-}
-
-}  // namespace
 
 MotionPeaks peaks(const FloorMotion& motion, Channel channel) {
   MotionPeaks peaks;
@@ -84,14 +51,6 @@ FloorHistory floor_history(const FloorMotion& motion, double step_s, Channel cha
     place = u(h);
   }
   return history;
-}
-
-FloorMotion remove_velocity_trend(FloorMotion motion) {
-  if (motion.segments() == 0) return motion;
-  for (std::vector<double>* c : {&motion.horizontal_mps2, &motion.vertical_mps2})
-    if (!c->empty()) subtract(*c, motion.degree, velocity_trend(motion, *c));
-  index_runs(motion);
-  return motion;
 }
 
 }  // namespace freestand::motion

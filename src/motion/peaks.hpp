@@ -26,8 +26,4 @@ struct FloorHistory {
 };
 FloorHistory floor_history(const FloorMotion& motion, double step_s, Channel channel = Channel::horizontal);
 
-// The motion less the constant acceleration whose velocity (a straight line from 0) fits the floor's velocity best in
-// the least-squares sense; both channels. Asked for by name only: no reader and no summary does it by itself.
-FloorMotion remove_velocity_trend(FloorMotion motion);
-
 }  // namespace freestand::motion

@@ -153,17 +153,23 @@ void check_pair(const std::filesystem::path& path, const Samples& one, const Rea
   };
   if (std::abs(other.dt_s - one.dt_s) > 1e-6 * one.dt_s)
     refuse(fmt::format("their steps are {} s and {} s", one.dt_s, other.dt_s), "resample one of them");
-  if (one.start != other.start)
+  if (one.start != other.start && !(options.begin_together && (one.start.empty() || other.start.empty())))
     refuse(fmt::format("they begin at {} and at {}", one.start.empty() ? "an unknown time" : shown(one.start),
                        other.start.empty() ? "an unknown time" : shown(other.start)),
            "cut the earlier one");
-  if (one.start.empty() && one.horizontal.size() != other.horizontal.size())
+  if (one.start.empty() && !options.begin_together && one.horizontal.size() != other.horizontal.size())
     refuse(fmt::format("they have {} and {} samples, and nothing tells whether they begin together",
                        one.horizontal.size(), other.horizontal.size()),
-           "cut both to the same instants");
+           "cut both to the same instants, or say that they do (begin_together)");
 }
 
-// The other horizontal component; the shorter of the two ends at rest.
+// Cosine of an angle in degrees, exact at right angles.
+double cosine(double angle_deg) {
+  const double turn = std::abs(std::remainder(angle_deg, 360.0));
+  return turn == 90 ? 0 : turn == 180 ? -1 : std::cos(turn * (pi / 180));
+}
+
+// The other horizontal component.
 std::vector<double> read_cross(const std::filesystem::path& path, const Samples& samples, const ReadOptions& options) {
   ReadOptions own = options;
   own.cross_file.clear();
@@ -174,12 +180,25 @@ std::vector<double> read_cross(const std::filesystem::path& path, const Samples&
   return std::move(other.horizontal);
 }
 
+void turn(Samples& samples, std::vector<double> cross, double angle_deg) {
+  const std::size_t size = std::max({samples.horizontal.size(), cross.size(), samples.vertical.size()});
+  samples.horizontal.resize(size, 0.0);
+  cross.resize(size, 0.0);
+  if (!samples.vertical.empty()) samples.vertical.resize(size, 0.0);
+  const double along = cosine(angle_deg), across = cosine(angle_deg - 90);
+  for (std::size_t i = 0; i < size; ++i) samples.horizontal[i] = along * samples.horizontal[i] + across * cross[i];
+}
+
 }  // namespace
 
 FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& options) {
   Samples samples = read_samples(path, options);
   std::vector<double> cross;
-  if (options.keep_cross && !options.cross_file.empty()) cross = read_cross(path, samples, options);
+  if (!options.cross_file.empty()) cross = read_cross(path, samples, options);
+  if (!cross.empty() && !options.keep_cross) {
+    turn(samples, std::move(cross), options.rotate_deg);
+    cross.clear();
+  }
   if (!options.vertical_file.empty()) add_vertical(samples, options);
   if (cross.empty()) return piecewise_linear(path.string(), samples.dt_s, samples.horizontal, samples.vertical);
   const std::size_t size = std::max(samples.horizontal.size(), cross.size());

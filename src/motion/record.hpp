@@ -21,15 +21,19 @@ struct ReadOptions {
   // Of files that hold several channels: `horizontal` refuses a vertical one, `vertical` takes that first.
   Component component = Component::any;
   std::string vertical_file = {};  // record of the vertical component, same step; the shorter of the two ends at rest
-  // Record of the other horizontal component; `keep_cross`: it becomes the motion's second channel.
+  // Record of the other horizontal component. `keep_cross`: it becomes the motion's second channel. Else the motion is turned by
+  // this angle from this component towards that one: what is read is this * cos + other * sin, each to the bit at 0 and 90
+  // degrees.
   std::string cross_file = {};
   bool keep_cross = false;
+  double rotate_deg = 0;
+  bool begin_together = false;  // the user says it of a pair: files of other lengths end at other times
 };
 
 // Reads a record. The motion's name is the path as given. Files that hold a vertical channel beside the horizontal one
 // (floor csv, CSMIP V2) keep it. Throws Error (Exit::data) that names file and line; Error (Exit::usage) when an option
 // is missing, unknown or contradicts the file. A pair of horizontal components must begin together: same step, and the same
-// stated start of time, or, where the files state none, the same length; else Error (Exit::data) names both.
+// stated start of time, or, where the files state none, the same length, unless the user says that they do; else Error (Exit::data) names both.
 FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& options = {});
 
 // Files that a pattern (`*`, `?`, `[...]`) matches, or the files of a folder, sorted by name; a relative pattern starts

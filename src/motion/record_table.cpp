@@ -23,14 +23,20 @@ namespace {
 namespace fs = std::filesystem;
 
 // Columns that say how to read a record, and are no intensities.
-constexpr std::string_view own_columns[] = {"file",  "folder",    "suite",    "dt_s",  "unit",    "format", "channel",
-                                            "group", "component", "vertical", "event", "station", "cross"};
+constexpr std::string_view own_columns[] = {
+    "file",     "folder", "suite",   "dt_s",        "unit",       "format",     "channel",        "group", "component",
+    "vertical", "event",  "station", "azimuth_deg", "strike_deg", "pulse_type", "pulse_period_s", "cross"};
 // First words of columns that no scaling of the record changes, whatever their unit; their units are not those of shaking.
 constexpr std::string_view properties[] = {"magnitude", "mw",       "distance",  "depth", "vs30",
                                            "elevation", "duration", "rjb",       "rrup",  "rhypo",
                                            "repi",      "latitude", "longitude", "period"};
-constexpr std::string_view amplitude_units[] = {"g",    "gal", "m/s2", "cm/s2", "m/s", "cm/s",
-                                                "in/s", "m",   "cm",   "mm",    "in"};
+// Units of accelerations, velocities and displacements, which go with L T^time at another scale.
+struct Amplitudes {
+  int time;
+  std::vector<std::string_view> units;
+};
+const Amplitudes amplitudes[] = {
+    {-2, {"g", "gal", "m/s2", "cm/s2"}}, {-1, {"m/s", "cm/s", "in/s"}}, {0, {"m", "cm", "mm", "in"}}};
 
 template <class Words>
 bool holds(const Words& words, std::string_view word) {
@@ -101,9 +107,31 @@ class Reader {
     return nothing;
   }
 
+  std::optional<double> given(const CsvTable::Row& row, const std::string& column) {
+    const double value = number(row, column);
+    return std::isnan(value) ? std::nullopt : std::optional(value);
+  }
+
+  std::optional<double> azimuth(const CsvTable::Row& row) {
+    if (has("azimuth_deg")) return given(row, "azimuth_deg");
+    const std::string component = lower_case(text(row, "component"));
+    if (component == "n" || component == "ns" || component == "n-s") return 0;
+    if (component == "e" || component == "ew" || component == "e-w") return 90;
+    double value = 0;
+    const auto [end, error] = std::from_chars(component.data(), component.data() + component.size(), value);
+    const bool degrees = error == std::errc() && end == component.data() + component.size() && component.size() >= 2;
+    return degrees && value >= 0 && value <= 360 ? std::optional(value) : std::nullopt;
+  }
+
   void check(const CsvTable::Row& row, const RecordRow& record) {
     if (text(row, "file").empty()) wrong(row, "file is empty (which record is it?): name it");
     if (record.dt_s && !(*record.dt_s > 0)) wrong(row, "dt_s is not above zero (a time step is): correct it");
+    if (record.pulse.period_s && !(*record.pulse.period_s > 0))
+      wrong(row, "pulse_period_s is not above zero (a period is): correct it");
+    if (!record.pulse.type.empty() && !holds(pulse_types(), record.pulse.type))
+      wrong(row,
+            fmt::format("pulse_type is \"{}\" (a record's pulse is one of {}): correct it, or leave the cell empty",
+                        shown(record.pulse.type), fmt::format("{}", fmt::join(pulse_types(), ", "))));
     if (record.unit.empty()) return;
     try {
       acceleration_unit_mps2(record.unit);
@@ -119,18 +147,15 @@ class Reader {
   }
 
   void add(const CsvTable::Row& row) {
-    RecordRow record{fmt::format("{}:{}", table_.file.string(), row.line),
-                     path(row, "file"),
-                     path(row, "vertical"),
-                     {},
-                     {},
-                     {},
-                     {},
-                     {},
-                     {},
-                     {}};
-    if (const double step = number(row, "dt_s"); !std::isnan(step)) record.dt_s = step;
+    RecordRow record;
+    record.where = fmt::format("{}:{}", table_.file.string(), row.line);
+    record.file = path(row, "file");
+    record.vertical = path(row, "vertical");
     record.cross = path(row, "cross");
+    record.dt_s = given(row, "dt_s");
+    record.pulse = {text(row, "pulse_type"), given(row, "pulse_period_s")};
+    record.azimuth_deg = azimuth(row);
+    record.strike_deg = given(row, "strike_deg");
     record.unit = text(row, "unit");
     record.format = text(row, "format");
     record.channel = text(row, "channel");
@@ -143,6 +168,7 @@ class Reader {
       if (has("station")) verticals_[station] = record.file;
       return;
     }
+    if (has("station")) record.station = station;
     found_.rows.push_back(std::move(record));
     stations_.push_back(station);
   }
@@ -162,10 +188,17 @@ std::optional<RecordNumber> record_number(const std::string& column) {
   if (holds(own_columns, column)) return {};
   const std::string first = lower_case(column.substr(0, column.find('_')));
   const std::string unit = column.ends_with("_km") ? "km" : unit_of(column);
-  if (holds(properties, first)) return RecordNumber{column, unit, 0};
-  if (first == "arias" && unit != "1") return RecordNumber{column, unit, 2};
+  const int time = unit == "s" ? 1 : 0;  // durations and periods
+  if (holds(properties, first)) return RecordNumber{column, unit, 0, 0, time};
+  if (first == "arias" && unit != "1") return RecordNumber{column, unit, 2, 2, -3};  // integral of a^2 over g
   if (unit == "1") return {};
-  return RecordNumber{column, unit, holds(amplitude_units, unit) ? 1 : 0};
+  for (const Amplitudes& like : amplitudes)
+    if (holds(like.units, unit)) return RecordNumber{column, unit, 1, 1, like.time};
+  return RecordNumber{column, unit, 0, 0, time};
+}
+
+double RecordNumber::at_scale(double value, const Similitude& scale) const {
+  return value * std::pow(scale.length, length) * std::pow(scale.time, time);
 }
 
 bool is_record_table(const fs::path& file) {

@@ -8,6 +8,9 @@
 //   vertical   path of the vertical component, as file; without that column, the row of a vertical component with the same
 //              suite, event and station is taken, where vertical components are asked for
 //   cross      path of the other horizontal component, as file: the floor then moves in both directions
+//   pulse_type, pulse_period_s   what is known of the record's pulse (identify.hpp): A, B, C1, C2, and its T_p
+//   azimuth_deg  of a horizontal component, clockwise from north; without that column, the component where it is a number, N or E
+//   strike_deg   of the fault
 //   numbers    any column with a unit at its end, and magnitude, magnitude_mw, vs30_mps and the like, is an intensity
 #pragma once
 
@@ -16,12 +19,19 @@
 #include <string>
 #include <vector>
 
+#include "motion/identify.hpp"
+#include "motion/similitude.hpp"
+
 namespace freestand::motion {
 
 // A column of numbers: what it is multiplied with when its record is scaled is |scale|^power.
 struct RecordNumber {
-  std::string name, unit;  // "pga_g", "g"
-  int power = 1;           // 1 an amplitude; 2 Arias intensity; 0 a property: magnitude, distance, duration, site
+  std::string name, unit;    // "pga_g", "g"
+  int power = 1;             // 1 an amplitude; 2 Arias intensity; 0 a property: magnitude, distance, duration, site
+  int length = 0, time = 0;  // at another scale (similitude.hpp) it is multiplied with L^length T^time
+
+  // The number at that scale. What a column says of a period (sa_g at 1 s) is then that of the period times T.
+  double at_scale(double value, const Similitude&) const;
 };
 
 // The column of a table as such a number; nothing where it is none.
@@ -32,8 +42,13 @@ struct RecordRow {
   std::filesystem::path file, vertical;  // vertical: empty where there is none
   std::optional<double> dt_s;
   std::string unit, format, channel, group;
-  std::vector<double> numbers;       // one for each RecordTable::numbers; nan where the cell is empty
-  std::filesystem::path cross = {};  // the other horizontal component; empty where there is none
+  std::vector<double> numbers;  // one for each RecordTable::numbers; nan where the cell is empty
+  KnownPulse pulse = {};
+  std::string station = {};  // what the records of one station and event share
+  std::optional<double> azimuth_deg = {}, strike_deg = {};
+  // The other horizontal component, empty where there is none; of a pair (record_pairs.hpp) 90 degrees clockwise (1) or counterclockwise (-1) from this.
+  std::filesystem::path cross = {};
+  int cross_side = 1;
 };
 
 struct RecordTable {

@@ -5,6 +5,7 @@
 #include <freestand/error.hpp>
 
 #include "base/units.hpp"
+#include "motion/cumulative.hpp"
 
 namespace freestand::motion {
 namespace {
@@ -25,12 +26,18 @@ double unit_pulse_acceleration_mps2(const MotionSummary& summary, double period_
   return summary.spectrum.at(std::clamp(period_s, known.front(), known.back()));
 }
 
+void add_sums(const FloorMotion& motion, MotionSummary& summary) {
+  summary.arias_mps = arias_intensity_mps(motion);
+  summary.cav_mps = cumulative_absolute_velocity_mps(motion);
+}
+
 }  // namespace
 
 MotionSummary summarize(const FloorMotion& record, const SummaryRequest& request) {
   MotionSummary summary;
   summary.peaks = peaks(record);
-  if (request.pulse) summary.pulse = identify_pulse(record);
+  add_sums(record, summary);
+  if (request.pulse) summary.pulse = identify_pulse(record, request.known_pulse);
   if (request.sa_period_s.empty()) return summary;
   summary.spectrum = response_spectrum(record, request.sa_period_s);
   summary.housner_m = housner_intensity_m(record);
@@ -43,6 +50,7 @@ MotionSummary summarize(const Pulse& pulse) {
   summary.is_pulse = true;
   summary.pulse = {pulse.name, 1, pulse.velocity_amplitude, 0, 1};
   summary.unit_pulse = std::make_shared<const FloorMotion>(pulse_motion(pulse));
+  add_sums(*summary.unit_pulse, summary);
   summary.spectrum = response_spectrum(*summary.unit_pulse, periods_of_a_unit_pulse());
   return summary;
 }

@@ -19,8 +19,10 @@ namespace freestand::motion {
 // All of the motion as it stands: scale 1, stretch 1.
 struct MotionSummary {
   MotionPeaks peaks;
+  double arias_mps = std::numeric_limits<double>::quiet_NaN();  // Arias intensity
+  double cav_mps = std::numeric_limits<double>::quiet_NaN();    // cumulative absolute velocity
   bool is_pulse = false;
-  IdentifiedPulse pulse;  // of a unit pulse: itself, with period 1 s; of a record: the fit, where asked for
+  IdentifiedPulse pulse;  // of a unit pulse: itself, with period 1 s; of a record: given or the fit, where asked for
   double housner_m = std::numeric_limits<double>::quiet_NaN();  // of a record, with the spectrum
   ResponseSpectrum spectrum;  // of a record: where asked for; of a unit pulse: fine enough to integrate it
   std::shared_ptr<const FloorMotion> unit_pulse;           // null for records, and where a pulse's table will do
@@ -32,9 +34,10 @@ struct MotionSummary {
   double given_value(const std::string& column) const;  // nan where nothing gives it
 };
 
-// Of a record: its peaks, and what else is asked for.
+// Of a record: its peaks, what its acceleration adds up to, and what else is asked for.
 struct SummaryRequest {
-  bool pulse = false;  // identify its pulse (needed by pulse_frequency_radps)
+  bool pulse = false;           // identify its pulse (needed by pulse_frequency_radps)
+  KnownPulse known_pulse = {};  // what the user says of it
   std::vector<double> sa_period_s =
       {};  // spectrum at these periods, increasing, and Housner's intensity; empty: neither
 };
@@ -49,8 +52,8 @@ inline const MotionSummary& ground_of(const MotionSummary& motion) { return moti
 double spectral_acceleration_mps2(const MotionSummary& summary, double period_s, double stretch);
 double housner_intensity_m(const MotionSummary& summary, double stretch);
 
-// w_p = 2 pi / T_p [rad/s] of Delta = U w_p^2 / PTA [KM05 5.7]: of the pulse itself, or of the pulse identified in the
-// record. nan when the record's pulse was not asked for or there is none.
+// w_p = 2 pi / T_p [rad/s] of Delta = U w_p^2 / PTA [KM05 5.7]: of the pulse itself, or of the record's, given or identified.
+// nan when the record's pulse was not asked for or there is none.
 double pulse_frequency_radps(const MotionSummary& summary, double stretch);
 
 }  // namespace freestand::motion

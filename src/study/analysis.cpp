@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <freestand/error.hpp>
 
 #include "edp/edp.hpp"
@@ -21,7 +22,7 @@ std::vector<double> column(const Table& first, const std::string& name, const Ta
   const std::size_t index = column_index(first.columns, name);
   std::vector<double> values;
   for (std::size_t row = 0; row < first.rows(); ++row)
-    if (target.keeps(row)) values.push_back(first.at(row, index));
+    if (target.keeps(row) && !std::isnan(first.at(row, index))) values.push_back(first.at(row, index));
   return values;
 }
 
@@ -141,7 +142,8 @@ std::vector<std::string> analysed_columns(const FragilityPart& part) {
   for (const std::string& edp : part.edp) names.push_back("edp_" + edp);
   for (const DamagePart& state : part.damage)
     for (const std::string& demand : state.demands) names.push_back("edp_" + demand);
-  for (const AxisPart& axis : part.axes) names.push_back(Realiser::column_of(axis.name));
+  for (const AxisPart& axis : part.axes)
+    if (const std::string name = Realiser::column_of(axis.name); name != motion_pulse_column) names.push_back(name);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;

@@ -55,6 +55,7 @@ std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<M
   if (pulses) axes.push_back({"motion.period_s", period || several});
   if (any([](const MotionSource& s) { return s.building.has_value(); }))
     axes.push_back({"motion.storey", several || any([](const MotionSource& s) { return varies(s.storey); })});
+  axes.push_back({"motion.pulse_period_s", period || records || several});
   axes.push_back({"motion.pta_g", amplitude || period || records || several});
   return axes;
 }

@@ -113,7 +113,8 @@ void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
     doubter.said.push_back(fmt::format("{} is 0: nothing will shake", source.amplitude->name));
   const bool spectral = source.scale_to && source.scale_to->period_s;  // may be larger than any peak
   if (source.amplitude->unit == "g" && !spectral) doubter.ask(source.amplitude, strongest_g, "is it in g?");
-  if (source.amplitude->unit == "m/s") doubter.ask(source.amplitude, fastest_mps, "is it in m/s?");
+  const bool sum = source.scale_to && source.scale_to->name == "cav_mps";  // of minutes of shaking
+  if (source.amplitude->unit == "m/s" && !sum) doubter.ask(source.amplitude, fastest_mps, "is it in m/s?");
 }
 
 // What stands on one side only; "" of nothing.

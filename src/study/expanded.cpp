@@ -135,6 +135,21 @@ void add_amplitude(const MotionSource& source, Mapping& m) {
   m.add("scale_to", target.flow());
 }
 
+void add_processing(const motion::Processing& processing, Mapping& m) {
+  constexpr const char* baselines[] = {"linear", "quadratic"};
+  if (processing.baseline) m.add("baseline", baselines[static_cast<int>(*processing.baseline)]);
+  if (processing.band) m.add("band_pass_hz", list({processing.band->low_hz, processing.band->high_hz}));
+  if (!processing.scale) return;
+  m.add("time_scale", number_text(processing.scale->time));
+  m.add("length_scale", number_text(processing.scale->length));
+}
+
+void add_turn(const std::optional<TurnPart>& turn, Mapping& m) {
+  if (!turn) return;
+  if (turn->to == TurnPart::To::angle) return m.add("rotate_deg", number_text(turn->angle_deg));
+  m.add("rotate", turn->to == TurnPart::To::fault_normal ? "fault_normal" : "fault_parallel");
+}
+
 // The keys of recorded motions.
 struct FileKeys {
   const char *file, *vertical, *cross;
@@ -158,6 +173,11 @@ Mapping source_mapping(const MotionSource& source, const FileKeys& keys) {
     if (!source.group.empty()) m.add("group", text_value(source.group));
     if (source.building) m.add("building", building_text(*source.building));
     m.add(source.storey);
+    if (!source.pulse.type.empty()) m.add("pulse_type", source.pulse.type);
+    if (source.pulse.period_s) m.add("pulse_period_s", number_text(*source.pulse.period_s));
+    add_turn(source.turn, m);
+    if (source.begin_together) m.add("begin_together", "true");
+    add_processing(source.processing, m);
   }
   return m;
 }

@@ -178,6 +178,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     io::write_text(folder / "ranking.csv", ranking_csv(ranking));
     if (elsewhere) io::write_text(study_path(folder), io::signed_text(expanded(study, folder)));
     nlohmann::ordered_json summary = summary_of(study, provenance, result, told);
+    summary["record_pulses"] = record_pulses_json(motion_summaries(reader.motions()));
     summary["ranking"] = ranking_json(ranking);
     summary["timing"] = timing_json(options.sweep, so_far(), world.size());
     if (elsewhere) summary["samples_in"] = way_between(folder, options.from);

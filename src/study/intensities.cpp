@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <freestand/error.hpp>
+#include <limits>
 
 namespace freestand::study {
 namespace {
@@ -28,6 +29,11 @@ double missed(const motion::ResponseSpectrum& spectrum, double period_s) {
   without.sa_mps2.erase(without.sa_mps2.begin() + above);
   const auto i = static_cast<std::size_t>(above);
   return std::abs(without.at(periods[i]) / spectrum.sa_mps2[i] - 1);
+}
+
+// Of the pulse in a record; nan where there is none.
+double pulse_period_s(const motion::MotionSummary& record) {
+  return record.pulse.period_s > 0 ? record.pulse.period_s : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string interpolation_told(const IntensityPart& part, double period_s, const MotionSummaries& motions) {
@@ -118,12 +124,18 @@ std::vector<double> SampleIntensity::operator()(const Table& rows) const {
 Table SampleIntensity::beside(Table rows) const {
   const std::vector<double> intensity = (*this)(rows);
   const std::size_t before = rows.columns.size();
+  const std::size_t motion = column_index(rows.columns, "motion"),
+                    period = column_index(rows.columns, "pulse_period_s");
   Table wider{std::move(rows.columns), {}};
+  wider.columns.push_back({motion_pulse_column, "s", "period T_p of the motion's pulse: its own, given or identified"});
   wider.columns.push_back({"im_" + measure_.name, measure_.unit, measure_.summary});
-  wider.values.reserve(intensity.size() * (before + 1));
+  wider.values.reserve(intensity.size() * (before + 2));
   for (std::size_t row = 0; row < intensity.size(); ++row) {
     const auto first = rows.values.begin() + static_cast<std::ptrdiff_t>(row * before);
     wider.values.insert(wider.values.end(), first, first + static_cast<std::ptrdiff_t>(before));
+    const double own = first[static_cast<std::ptrdiff_t>(period)];
+    const auto index = static_cast<std::size_t>(first[static_cast<std::ptrdiff_t>(motion)]);
+    wider.values.push_back(std::isnan(own) ? pulse_period_s(motions_[index]) : own);
     wider.values.push_back(intensity[row]);
   }
   return wider;

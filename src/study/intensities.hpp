@@ -11,6 +11,8 @@
 
 namespace freestand::study {
 
+inline constexpr const char* motion_pulse_column = "motion_pulse_period_s";
+
 // The intensity that a study asks for, of any sample.
 class SampleIntensity {
  public:
@@ -26,7 +28,7 @@ class SampleIntensity {
   // How well it is known between the periods that are kept of records; empty at a kept period, and where no period matters.
   const std::string& interpolation() const { return interpolation_; }
 
-  // The rows with one column more, im_NAME.
+  // The rows with two columns more: motion_pulse_period_s, of the motion's pulse, and last im_NAME.
   Table beside(Table rows) const;
 
  private:

@@ -10,8 +10,10 @@
 #include "base/random.hpp"
 #include "motion/building_response.hpp"
 #include "motion/peaks.hpp"
+#include "motion/processing.hpp"
 #include "motion/pulse.hpp"
 #include "motion/record.hpp"
+#include "motion/record_pairs.hpp"
 #include "study/problems.hpp"
 #include "study/realise.hpp"
 
@@ -37,6 +39,15 @@ std::string record_name(const std::filesystem::path& file, const MotionSource& s
   return (whole ? file.lexically_normal() : file.lexically_proximate(folder)).generic_string();
 }
 
+// From the first component of the pair.
+double angle_deg(const TurnPart& turn, const motion::RecordRow& row) {
+  if (!row.azimuth_deg) return turn.angle_deg;  // no table
+  const double azimuth = turn.to == TurnPart::To::angle          ? turn.angle_deg
+                         : turn.to == TurnPart::To::fault_normal ? row.strike_deg.value() + 90
+                                                                 : row.strike_deg.value();
+  return motion::angle_to_azimuth_deg(row, azimuth);
+}
+
 // What its row says of a record, and else what the study says of all of them.
 motion::ReadOptions read_options(const MotionSource& source, const motion::RecordRow& row) {
   motion::ReadOptions options;
@@ -47,8 +58,19 @@ motion::ReadOptions read_options(const MotionSource& source, const motion::Recor
   options.component = motion::Component::horizontal;
   options.vertical_file = row.vertical.string();
   options.cross_file = row.cross.string();
-  options.keep_cross = true;
+  options.keep_cross = !source.turn;
+  options.begin_together = source.begin_together;
+  if (source.turn) options.rotate_deg = angle_deg(*source.turn, row);
   return options;
+}
+
+// What its row says of its pulse, and else what the study says; at the scale of the model.
+motion::KnownPulse known_pulse(const MotionSource& source, const motion::RecordRow& row) {
+  motion::KnownPulse known = row.pulse;
+  if (known.type.empty()) known.type = source.pulse.type;
+  if (!known.period_s) known.period_s = source.pulse.period_s;
+  if (known.period_s && source.processing.scale) *known.period_s *= source.processing.scale->time;
+  return known;
 }
 
 void take_peaks(Entry& entry) {
@@ -58,8 +80,10 @@ void take_peaks(Entry& entry) {
 }
 
 Entry load_record(const MotionSource& source, const motion::RecordRow& row, const std::filesystem::path& folder) {
-  Entry entry{motion::read_record(row.file, read_options(source, row)), false, 0, 0, row.group};
+  FloorMotion motion = motion::processed(motion::read_record(row.file, read_options(source, row)), source.processing);
+  Entry entry{std::move(motion), false, 0, 0, row.group};
   entry.motion.name = record_name(row.file, source, folder);
+  entry.known_pulse = known_pulse(source, row);
   take_peaks(entry);
   if (!(entry.peak_mps2 > 0))
     throw Error(
@@ -154,7 +178,8 @@ class Loader {
       const auto place = static_cast<std::size_t>(known - numbers_.begin());
       if (known == numbers_.end()) numbers_.push_back(source.numbers[column]);
       entry.numbers.resize(numbers_.size(), not_given);
-      entry.numbers[place] = row.numbers[column];
+      entry.numbers[place] =
+          numbers_[place].at_scale(row.numbers[column], source.processing.scale.value_or(motion::Similitude{}));
     }
   }
 
@@ -211,6 +236,9 @@ std::string MotionSet::fingerprint() const {
     hash_values(motion.horizontal_mps2, hash);
     hash_values(motion.vertical_mps2, hash);
     if (!motion.cross_mps2.empty()) hash_values(motion.cross_mps2, hash);
+    if (!entry.known_pulse.any()) continue;
+    hash = random::stable_hash(entry.known_pulse.type, hash);
+    hash_values({entry.known_pulse.period_s.value_or(0)}, hash);
   }
   return fmt::format("{:016x}", hash);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <freestand/error.hpp>
+#include <limits>
 #include <string_view>
 
 #include "intensity/intensity.hpp"
@@ -12,8 +13,13 @@
 namespace freestand::study {
 namespace {
 
+// Numbers of the types in the file: none, and those of a record's pulse.
 const std::vector<std::string>& pulse_types() {
-  static const std::vector<std::string> types = {"", "A", "B", "C1", "C2"};
+  static const std::vector<std::string> types = [] {
+    std::vector<std::string> all{""};
+    all.insert(all.end(), motion::pulse_types().begin(), motion::pulse_types().end());
+    return all;
+  }();
   return types;
 }
 
@@ -29,6 +35,11 @@ const std::vector<Column>& columns() {
       {"pulse_velocity_mps", "m/s", "amplitude v_p of the pulse in the record; negative: mirrored"},
       {"pulse_start_s", "s", "when the pulse in the record starts"},
       {"pulse_explained", "1", "share of the integral of velocity^2 that the pulse explains"},
+      {"pulse_given", "1",
+       "of that pulse the study or its table of records gives: 0 nothing, 1 the type, 2 the period, 3 both",
+       ColumnKind::integer},
+      {"arias_mps", "m/s", "Arias intensity at scale 1"},
+      {"cav_mps", "m/s", "cumulative absolute velocity at scale 1"},
   };
   return columns;
 }
@@ -43,7 +54,10 @@ std::vector<double> row_of(const motion::MotionSummary& s) {
           s.pulse.period_s,
           s.pulse.velocity_mps,
           s.pulse.start_s,
-          s.pulse.explained};
+          s.pulse.explained,
+          (s.pulse.type_given ? 1.0 : 0.0) + (s.pulse.period_given ? 2.0 : 0.0),
+          s.arias_mps,
+          s.cav_mps};
 }
 
 // Of a record, from its row and its ordinates.
@@ -52,7 +66,15 @@ motion::MotionSummary record_summary(const double* row, const std::vector<double
   s.peaks = {row[0], row[1], row[2]};
   s.housner_m = row[3];
   const bool known = row[4] >= 0 && row[4] < static_cast<double>(pulse_types().size());
-  s.pulse = {known ? pulse_types()[static_cast<std::size_t>(row[4])] : "", row[5], row[6], row[7], row[8]};
+  s.pulse = {known ? pulse_types()[static_cast<std::size_t>(row[4])] : "",
+             row[5],
+             row[6],
+             row[7],
+             row[8],
+             row[9] == 1 || row[9] == 3,
+             row[9] == 2 || row[9] == 3};
+  s.arias_mps = row[10];
+  s.cav_mps = row[11];
   s.spectrum = {period_s, std::vector<double>(sa_mps2, sa_mps2 + period_s.size())};
   return s;
 }
@@ -67,9 +89,24 @@ std::vector<std::pair<std::string, double>> given_of(const MotionSet& motions, s
   return given;
 }
 
+// Of each column in the file. Files of earlier versions lack the last three.
+constexpr std::size_t absent = std::numeric_limits<std::size_t>::max();
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+std::vector<std::size_t> places(const std::vector<Column>& in_file) {
+  constexpr std::size_t always = 9;
+  std::vector<std::size_t> found;
+  for (const Column& column : columns()) {
+    const bool there =
+        std::any_of(in_file.begin(), in_file.end(), [&](const Column& c) { return c.name == column.name; });
+    found.push_back(there || found.size() < always ? column_index(in_file, column.name) : absent);
+  }
+  return found;
+}
+
 motion::MotionSummary summary_of(const MotionSet& motions, std::size_t i, const std::vector<double>& sa_period_s) {
   if (motions.is_pulse(i)) return motion::summarize(motion::find_pulse(motions.motion(i).name));
-  motion::MotionSummary summary = motion::summarize(motions.motion(i), {.pulse = true, .sa_period_s = sa_period_s});
+  motion::MotionSummary summary = motion::summarize(
+      motions.motion(i), {.pulse = true, .known_pulse = (*motions.entries)[i].known_pulse, .sa_period_s = sa_period_s});
   summary.given = given_of(motions, i);
   return summary;
 }
@@ -136,6 +173,17 @@ MotionSummaries summarize_together(const parallel::Communicator& world, const St
   return summaries;
 }
 
+nlohmann::ordered_json record_pulses_json(const MotionSummaries& summaries) {
+  int records = 0, given = 0, identified = 0;
+  for (const motion::MotionSummary& summary : summaries) {
+    if (summary.is_pulse) continue;
+    ++records;
+    given += summary.pulse.period_given;
+    identified += !summary.pulse.period_given && summary.pulse.period_s > 0;
+  }
+  return {{"records", records}, {"period_given", given}, {"period_identified", identified}};
+}
+
 io::MotionRows motion_rows(const MotionSet& motions, const MotionSummaries& summaries) {
   io::MotionRows rows{.names = motions.names(),
                       .group = motions.groups(),
@@ -188,8 +236,7 @@ std::vector<std::size_t> grounds(const io::MotionRows& rows) {
 }
 
 MotionSummaries motion_summaries(const io::MotionRows& rows) {
-  std::vector<std::size_t> place;
-  for (const Column& column : columns()) place.push_back(column_index(rows.table.columns, column.name));
+  const std::vector<std::size_t> place = places(rows.table.columns);
   MotionSummaries summaries;
   for (std::size_t i = 0; i < rows.names.size(); ++i) {
     if (rows.group[i] < 0) {
@@ -197,7 +244,7 @@ MotionSummaries motion_summaries(const io::MotionRows& rows) {
       continue;
     }
     std::vector<double> row;
-    for (const std::size_t column : place) row.push_back(rows.table.at(i, column));
+    for (const std::size_t column : place) row.push_back(column == absent ? nothing : rows.table.at(i, column));
     summaries.push_back(
         record_summary(row.data(), rows.sa_period_s, rows.sa_mps2.data() + i * rows.sa_period_s.size()));
     for (std::size_t column = 0; column < rows.table.columns.size(); ++column)

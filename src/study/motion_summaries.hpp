@@ -1,6 +1,7 @@
 // What a sweep keeps of its floor motions: enough for any intensity of any sample, without the motions being there.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ MotionSummaries summarize(const MotionSet&, const std::vector<double>& sa_period
 // display: of the root; null: none. Collective.
 MotionSummaries summarize_together(const parallel::Communicator&, const Study&, const MotionSet&,
                                    parallel::StepDisplay* display);
+
+// Whose periods w_p of delta comes from, over the records: {"records": 3, "period_given": 1, "period_identified": 2}.
+nlohmann::ordered_json record_pulses_json(const MotionSummaries&);
 
 // To samples.h5 and back, to the bit. Pulses are known by their names.
 io::MotionRows motion_rows(const MotionSet&, const MotionSummaries&);

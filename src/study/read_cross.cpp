@@ -24,8 +24,10 @@ Specimen kind_of(const ModelPart& model) {
 }  // namespace
 
 bool MotionSource::in_plane() const {
-  return !cross_records.empty() ||
-         std::any_of(files.begin(), files.end(), [](const motion::RecordRow& row) { return !row.cross.empty(); });
+  const bool pairs =
+      !cross_records.empty() ||
+      std::any_of(files.begin(), files.end(), [](const motion::RecordRow& row) { return !row.cross.empty(); });
+  return pairs && !turn;
 }
 
 void check_cross(Section& file, const Study& study) {
@@ -35,6 +37,15 @@ void check_cross(Section& file, const Study& study) {
     file.problem(
         key, fmt::format("{} does not go with a second horizontal channel of the records ({}): {}", key, why, cure));
   };
+  for (const MotionSource& source : study.motions) {
+    if (!source.in_plane()) continue;
+    const motion::Processing& done = source.processing;
+    if (done.baseline || done.band || done.scale)
+      refuse("motions", "baseline, band_pass_hz and scales are of one channel",
+             "treat the files with `freestand motion --convert`, or turn each pair by rotate_deg");
+    if (source.building)
+      refuse("building", "its floors move along one line", "turn each pair by rotate_deg, or remove it");
+  }
   const ModelPart& model = study.model;
   if (model.model != Model::slide)
     refuse("model", "in both directions a block is followed only where it slides and does nothing else",

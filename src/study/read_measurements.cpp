@@ -126,8 +126,16 @@ void read_input(Section& section, const Dataset& set, Test& test) {
     section.problem("id", fmt::format("{} has {} of file, motion and pulse (one says what the floor did): give one",
                                       section.name("id"), given));
     for (const char* key : {"file", "motion", "pulse"}) section.find(key);
+    read_processing(section);
     return;
   }
+  const motion::Processing processing = read_processing(section);
+  if (!section.has("motion"))
+    for (const std::string& key : processing_keys())
+      if (section.has(key))
+        section.problem(key, fmt::format("{} goes with motion alone (what a file holds was measured together, and a "
+                                         "pulse has a period of its own): remove it",
+                                         section.name(key)));
   const auto path = [&](const char* key) { return set.file.parent_path() / section.text(key, ""); };
   try {
     if (section.has("pulse")) read_pulse(section, test);
@@ -137,7 +145,7 @@ void read_input(Section& section, const Dataset& set, Test& test) {
       if (const std::string sign = motion::vertical_sign(file); !sign.empty())
         section.problem("motion", fmt::format("{} is {}, a vertical component ({}): name the horizontal one",
                                               section.name("motion"), file.string(), sign));
-      test.motion = motion::read_record(file);
+      test.motion = motion::processed(motion::read_record(file), processing);
       test.source = file.string();
     }
   } catch (const Error& error) {

@@ -14,7 +14,8 @@ constexpr Range weight_range = {.lower = 0, .why = "a weight must be above zero"
 
 const std::vector<std::string> pulse_keys = {"period_s", "peak_acceleration_g", "peak_velocity_mps"};
 const std::vector<std::string> record_keys = {
-    "dt_s", "unit", "format", "channel", "vertical_records", "vertical_file", "group", "cross_records", "cross_file"};
+    "dt_s",          "unit",       "format", "channel",    "vertical_records", "vertical_file",  "group",
+    "cross_records", "cross_file", "rotate", "rotate_deg", "pulse_type",       "pulse_period_s", "begin_together"};
 
 // Keys of the other kind of source are not unknown, but out of place.
 void out_of_place(Section& section, const std::vector<std::string>& keys, const std::string& with) {
@@ -61,6 +62,7 @@ void read_pulses(Section& section, MotionSource& source) {
                                  " has no amplitude (how strong is it?): add peak_acceleration_g, peak_velocity_mps "
                                  "or scale_to");
   out_of_place(section, record_keys, "pulse");
+  out_of_place(section, processing_keys(), "pulse");
   for (const char* key : {"building", "storey"})
     if (section.find(key))
       section.problem(
@@ -92,7 +94,7 @@ MotionSource read_source(Section& section, const RecordKeys& keys) {
     section.problem("pulse",
                     fmt::format("a motion has neither pulse nor {} (nothing would shake): add one of them", file_key));
   if (pulse == file)
-    for (const auto& known : {pulse_keys, record_keys, {"scale", "scale_to", "building", "storey"}})
+    for (const auto& known : {pulse_keys, record_keys, processing_keys(), {"scale", "scale_to", "building", "storey"}})
       for (const auto& key : known) section.find(key);
   section.finish();
   return source;
@@ -135,6 +137,9 @@ MotionSource read_motion(Section& file, const std::filesystem::path& folder) {
   MotionSource source = read_source(section, {"file", "vertical_file", "cross_file", folder, Files::look, false});
   if (source.pulses.values.size() > 1)
     section.problem("pulse", "motion.pulse is a list (a case is one sample): name one pulse");
+  if (source.pulse.any())
+    section.problem("file",
+                    "motion says pulse_type or pulse_period_s (a case has no demand that looks at them): remove them");
   if (source.files.size() > 1)
     section.problem("file",
                     fmt::format("motion.file matches {} files (a case has one motion): name one", source.files.size()));

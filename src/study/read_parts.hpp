@@ -32,6 +32,18 @@ void read_records(Section& section, MotionSource& source, const RecordKeys&);
 
 // Problems of motions with a second horizontal channel in a study of which something does not go with one.
 void check_cross(Section& file, const Study&);
+// Into which direction pairs are turned; what is wrong with that where records come without a table; the rows of a table as
+// pairs.
+std::optional<TurnPart> read_turn(Section& section);
+void check_turn(Section& section, const MotionSource& source, const RecordKeys&);
+void pair_rows(Section& section, const TurnPart& turn, motion::RecordTable& table);
+
+// What is known of the pulse of a record.
+motion::KnownPulse read_known_pulse(Section& section);
+
+// What is to be done to a record; every key of it.
+motion::Processing read_processing(Section& section);
+const std::vector<std::string>& processing_keys();
 
 // `motion` of a case: one pulse or one file.
 MotionSource read_motion(Section& file, const std::filesystem::path& folder);

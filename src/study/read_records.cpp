@@ -103,11 +103,14 @@ void read_table(Section& section, MotionSource& source, const RecordKeys& keys) 
                                 "the table a column vertical",
                                 section.name(keys.vertical_key)));
   if (!source.cross_records.empty())
-    section.problem(keys.cross_key, fmt::format("{} does not go with a table of records (it names them itself): give "
-                                                "the table a column cross",
-                                                section.name(keys.cross_key)));
+    section.problem(
+        keys.cross_key,
+        fmt::format("{} does not go with a table of records (it names them itself): give the table a column "
+                    "cross, or rotate_deg, by which rows of one station are a pair",
+                    section.name(keys.cross_key)));
   try {
     motion::RecordTable table = motion::read_record_table(keys.folder / source.records, source.group, keys.vertical);
+    if (source.turn) pair_rows(section, *source.turn, table);
     source.files = std::move(table.rows);
     source.numbers = std::move(table.numbers);
     source.left_out = std::move(table.left_out);
@@ -127,9 +130,15 @@ void read_records(Section& section, MotionSource& source, const RecordKeys& keys
   source.format = section.text("format", "");
   source.channel = section.text("channel", "");
   source.group = section.text("group", "");
+  source.processing = read_processing(section);
+  source.pulse = read_known_pulse(section);
   source.cross_records = section.text(keys.cross_key, "");
+  source.turn = read_turn(section);
+  source.begin_together = section.flag("begin_together", false);
   read_amplitude(section, source);
-  if (keys.look == Files::look && motion::is_record_table(keys.folder / source.records))
+  const bool table = keys.look == Files::look && motion::is_record_table(keys.folder / source.records);
+  if (keys.look == Files::look && !table) check_turn(section, source, keys);
+  if (table)
     read_table(section, source, keys);
   else
     read_pattern(section, source, keys);

@@ -14,6 +14,7 @@
 
 #include "edp/edp.hpp"
 #include "motion/building.hpp"
+#include "motion/processing.hpp"
 #include "motion/record_table.hpp"
 #include "sampling/design.hpp"
 #include "sampling/distribution.hpp"
@@ -124,6 +125,14 @@ struct IntensityPart {
   std::optional<double> period_s = {};  // the number; the measure's own default where the study gives none
 };
 
+// Into which direction pairs of horizontal components are turned: by this angle from the first of a pair towards the other; of a
+// table of records to this azimuth, clockwise from north, or by the strike that it gives.
+struct TurnPart {
+  enum class To { angle, fault_normal, fault_parallel };
+  To to = To::angle;
+  double angle_deg = 0;
+};
+
 // One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
 struct MotionSource {
   enum class Kind { pulses, records };
@@ -149,11 +158,15 @@ struct MotionSource {
   std::optional<double> dt_s;                 // the rest as motion::ReadOptions, where a row does not say it
   std::string unit, format, channel;
   std::string cross_records;  // the other horizontal components, paired as the vertical ones
-  bool in_plane() const;  // any record has a second horizontal channel
+  bool in_plane() const;      // any record has a second horizontal channel, and is not turned into one direction
   // Where the records are of the ground and the equipment stands in a building; amplitudes stay those of the ground.
   std::optional<motion::Building> building;
   std::optional<Quantity> storey;    // motion.storey: a whole number of floors above the ground, or a choice of them
   std::vector<int> storeys() const;  // its values; none without a building
+  motion::KnownPulse pulse;          // of each record whose row does not say it
+  std::optional<TurnPart> turn;      // of each pair
+  bool begin_together = false;       // the user says that the two of each pair do
+  motion::Processing processing;     // of each record, before it is scaled to an amplitude
 };
 
 enum class Spacing { equal_width, equal_count, log };

@@ -82,6 +82,19 @@ TEST_F(OfAPulse, DimensionlessMeasuresFollowTheirFormulas) {
   EXPECT_NEAR(value_of("p_pgv_over_g_tan_alpha"), p * value_of("pgv_mps") / (g * tan_alpha), 1e-14);
 }
 
+// A floor of which the motion itself is the scaled one: the sums of squares and of absolute values are its own.
+TEST_F(OfAPulse, SumsOverTimeScaleWithPowersOfTheAmplitude) {
+  FloorMotion floor = motion::pulse_motion(pulse);
+  for (double& knot : floor.knot_s) knot *= 0.8;
+  const auto terms = static_cast<std::size_t>(floor.degree) + 1;
+  for (std::size_t i = 0; i < floor.horizontal_mps2.size(); ++i)
+    floor.horizontal_mps2[i] *= -6 / std::pow(0.8, static_cast<double>(i % terms));
+  const motion::MotionSummary scaled = motion::summarize(floor);
+  EXPECT_NEAR(value_of("arias_mps"), scaled.arias_mps, 1e-9 * scaled.arias_mps);
+  EXPECT_NEAR(value_of("cav_mps"), scaled.cav_mps, 1e-9 * scaled.cav_mps);
+  EXPECT_GT(scaled.arias_mps, 1);
+}
+
 // Whoever says that it is proportional to the scale is, whatever its sign, and whoever is says so.
 TEST_F(OfAPulse, ProportionalOnesSaySo) {
   for (const Measure* measure : all()) {

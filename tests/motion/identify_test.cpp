@@ -71,6 +71,37 @@ TEST_P(HiddenPulse, OfTheMirroredRecordIsTheMirroredPulseToTheBit) {
   EXPECT_EQ(one.explained, other.explained);
 }
 
+// What the user says is taken, and amplitude and start are the best for it.
+TEST_P(HiddenPulse, IsFoundWhereItIsKnown) {
+  const Hidden& hidden = GetParam();
+  const FloorMotion record = record_with(hidden, 0.05 * std::abs(hidden.velocity_mps));
+  const IdentifiedPulse found = identify_pulse(record, {hidden.type, hidden.period_s});
+  EXPECT_EQ(found.type, hidden.type);
+  EXPECT_EQ(found.period_s, hidden.period_s);
+  EXPECT_NEAR(found.velocity_mps, hidden.velocity_mps, 0.03 * std::abs(hidden.velocity_mps));
+  EXPECT_NEAR(found.start_s, hidden.start_s, 0.01 * hidden.period_s);
+  EXPECT_TRUE(found.type_given && found.period_given);
+  EXPECT_LE(found.explained, identify_pulse(record).explained + 1e-3);
+}
+
+// A wrong type or period is taken too, and explains less.
+TEST(Identify, TakesWhatItIsToldAndFindsTheRest) {
+  const FloorMotion record = record_with({"B", 0.8, 1, 3});
+  const IdentifiedPulse best = identify_pulse(record), as_a = identify_pulse(record, {"A", {}}),
+                        long_one = identify_pulse(record, {"", 2.4});
+  EXPECT_EQ(as_a.type, "A");
+  EXPECT_TRUE(as_a.type_given);
+  EXPECT_FALSE(as_a.period_given);
+  EXPECT_LT(as_a.explained, best.explained - 0.1);
+  EXPECT_EQ(long_one.period_s, 2.4);
+  EXPECT_FALSE(long_one.type_given);
+  EXPECT_LT(long_one.explained, best.explained - 0.1);
+  EXPECT_FALSE(best.type_given || best.period_given);
+  const FloorMotion still = piecewise_linear("still", 0.01, std::vector<double>(500, 0.0));
+  EXPECT_EQ(identify_pulse(still, {"B", 0.7}).period_s, 0.7);
+  EXPECT_EQ(identify_pulse(still, {"B", 0.7}).velocity_mps, 0);
+}
+
 TEST(Identify, UnitPulsesThemselvesAreRecognised) {
   for (const char* type : {"A", "B", "C1", "C2"}) {
     const Pulse pulse = find_pulse(type);
@@ -94,6 +125,8 @@ TEST(PulseFrequency, OfPulsesIsTheirOwnAndOfRecordsThatOfTheFit) {
   const FloorMotion record = record_with({"B", 0.5, 1, 3});
   EXPECT_NEAR(pulse_frequency_radps(summarize(record, {.pulse = true}), 1), 4 * std::numbers::pi, 0.1);
   EXPECT_TRUE(std::isnan(pulse_frequency_radps(summarize(record), 1)));
+  const MotionSummary known = summarize(record, {.pulse = true, .known_pulse = {"C1", 0.25}});
+  EXPECT_DOUBLE_EQ(pulse_frequency_radps(known, 1), 8 * std::numbers::pi);
 }
 
 }  // namespace

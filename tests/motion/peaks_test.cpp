@@ -59,26 +59,6 @@ TEST(Peaks, HistoryIsTheIntegralAndReachesTheEnd) {
   EXPECT_THROW(floor_history(table, 0), Error);
 }
 
-// A sensor's offset on a floor that does not move is all trend.
-TEST(Baseline, OffsetIsTakenAwayOnBothChannels) {
-  const std::vector<double> offset(2001, 0.25);
-  const FloorMotion repaired = remove_velocity_trend(piecewise_linear("x", 0.01, offset, offset));
-  EXPECT_NEAR(peaks(repaired).pgv_mps, 0, 1e-12);
-  EXPECT_NEAR(peaks(repaired, Channel::vertical).pgv_mps, 0, 1e-12);
-}
-
-// The line through 0 that fits v = sin(t) over [0, 2 pi] best has the slope integral(t sin t)/integral(t^2) = -6/(8
-// pi^2).
-TEST(Baseline, TrendIsTheLeastSquaresLine) {
-  std::vector<double> cosine;
-  const int n = 4000;
-  const double step = 2 * 3.14159265358979323846 / n;
-  for (int i = 0; i <= n; ++i) cosine.push_back(std::cos(i * step));
-  const FloorMotion before = piecewise_linear("cosine", step, cosine), after = remove_velocity_trend(before);
-  EXPECT_NEAR(after.horizontal_mps2[0] - before.horizontal_mps2[0], 6 / (8 * 9.8696044010893586), 1e-6);
-  EXPECT_EQ(after.horizontal_mps2[1], before.horizontal_mps2[1]);
-}
-
 TEST(Polynomial, RootsOfAChebyshevPolynomialAreAllFound) {
   // T_6(2x - 1) = 2048x^6 - 6144x^5 + 6912x^4 - 3584x^3 + 840x^2 - 72x + 1, roots (1 + cos((2k+1) pi/12))/2.
   Polynomial p;

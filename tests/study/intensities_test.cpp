@@ -116,7 +116,7 @@ TEST_F(SweptIntensities, StandInAColumnOfTheirOwn) {
   ASSERT_EQ(wider.rows(), 3u);
   EXPECT_EQ(wider.columns.back().name, "im_pga_g");
   for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t c = 0; c + 1 < wider.columns.size(); ++c)
+    for (std::size_t c = 0; c < rows.columns.size(); ++c)
       EXPECT_TRUE(std::isnan(rows.at(row, c)) || wider.at(row, c) == rows.at(row, c));
     EXPECT_NEAR(wider.at(row, wider.columns.size() - 1), rows.at(row, column_index(rows.columns, "pta_g")), 1e-12);
   }
