@@ -100,7 +100,7 @@ TEST_F(Processed, WhatCannotBeDoneIsRefusedWithTheReason) {
   EXPECT_THAT(refusal(Exit::data, "records: a.csv, band_pass_hz: [0.5, 60]"),
               AllOf(HasSubstr("a.csv"), HasSubstr("60 Hz")));
   EXPECT_THAT(refusal(Exit::usage, "records: a.csv, rotate_deg: 38"), HasSubstr("one component only"));
-  EXPECT_THAT(refusal(Exit::usage, "records: a.csv, cross_records: b.csv"), HasSubstr("does nothing by itself"));
+  EXPECT_THAT(refusal(Exit::usage, "records: a.csv, cross_records: b.csv"), HasSubstr("second horizontal channel"));
   EXPECT_THAT(refusal(Exit::usage, "records: a.csv, cross_records: b.csv, rotate: fault_normal"),
               HasSubstr("goes with a table of records"));
   EXPECT_THAT(refusal(Exit::usage, "records: INDEX.csv, rotate: fault_normal, rotate_deg: 3"), HasSubstr("both given"));
