@@ -1,5 +1,6 @@
 #include "motion/cumulative.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>

@@ -71,8 +71,11 @@ TEST_F(Figures, AreATableOfRecords) {
 TEST_F(Figures, OfAFloorCsvComeBackFromIt) {
   const FloorMotion motion = piecewise_linear("both", 0.01, {0, 1.5, -0.25, 3}, {1, 2, 3, 4});
   const FloorMotion again = read_record(write("both.csv", floor_csv(motion)));
-  EXPECT_EQ(samples(again), (std::vector<double>{0, 1.5, -0.25, 3}));
-  EXPECT_EQ(samples(again, Channel::vertical), (std::vector<double>{1, 2, 3, 4}));
+  const auto is = [](const std::vector<double>& values) {
+    return testing::Pointwise(testing::DoubleNear(1e-14), values);
+  };
+  EXPECT_THAT(samples(again), is({0, 1.5, -0.25, 3}));
+  EXPECT_THAT(samples(again, Channel::vertical), is({1, 2, 3, 4}));
 }
 
 }  // namespace
