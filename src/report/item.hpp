@@ -17,10 +17,10 @@
 namespace freestand::report {
 
 enum class Verdict {
-  agrees,                      // within rounding
-  disagrees,                   // the program's physics gives another number
-  print_disagrees_with_itself, // the print's own tables and equations give another one
-  not_printed                  // nothing to compare with: ours stands alone
+  agrees,                       // within rounding
+  disagrees,                    // the program's physics gives another number
+  print_disagrees_with_itself,  // the print's own tables and equations give another one
+  not_printed                   // nothing to compare with: ours stands alone
 };
 const char* name(Verdict);
 
@@ -66,14 +66,14 @@ struct Item {
 
 // What the items are computed from.
 struct Sources {
-  std::filesystem::path tables;                   // the printed tables, configs/report
-  std::optional<std::filesystem::path> records;   // the report's records, where there are any
-  Jobs jobs = run_here;                           // the long ones
+  std::filesystem::path tables;                  // the printed tables, configs/report
+  std::optional<std::filesystem::path> records;  // the report's records, where there are any
+  Jobs jobs = run_here;                          // the long ones
 };
 
 struct Entry {
-  std::string name;   // "table_5_1"
-  int order = 0;      // in the report
+  std::string name;  // "table_5_1"
+  int order = 0;     // in the report
   int chapter = 0;
   std::string place;  // "Table 5.1"
   std::string what;   // one line

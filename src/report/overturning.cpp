@@ -19,7 +19,9 @@ class Shaken {
   Shaken(const SpectrumBlock& block, const std::string& pulse, double frequency)
       : block_(block), specimen_(block.specimen()), type_(pulse), period_s_(2 * pi / (frequency * block.p_radps)) {}
 
-  Response at(double amplitude) { return respond(specimen_, pulses_.shaking_g(type_, period_s_, amplitude * block_.alpha_rad)); }
+  Response at(double amplitude) {
+    return respond(specimen_, pulses_.shaking_g(type_, period_s_, amplitude * block_.alpha_rad));
+  }
 
  private:
   SpectrumBlock block_;
@@ -52,7 +54,8 @@ void locate(Shaken& shaken, double low, int at_low, double high, int at_high, st
     }
   }
   locate(shaken, low, at_low, below, at_below, found);
-  if ((at_below == stands) != (at_high == stands)) found.push_back({std::sqrt(below * above), at_high != stands, std::max(at_below, at_high)});
+  if ((at_below == stands) != (at_high == stands))
+    found.push_back({std::sqrt(below * above), at_high != stands, std::max(at_below, at_high)});
 }
 
 Cape cape_of(const Spectrum& spectrum) {
@@ -81,7 +84,8 @@ Sheet spectrum_sheet(const std::string& name, const Spectrum& spectrum) {
   for (std::size_t i = 0; i < spectrum.frequency.size(); ++i)
     for (std::size_t k = 0; k < spectrum.boundaries[i].size(); ++k) {
       const Boundary& b = spectrum.boundaries[i][k];
-      sheet.rows.push_back({"boundary " + std::to_string(k + 1), spectrum.frequency[i], b.amplitude, b.falls_above ? 1.0 : 0.0, static_cast<double>(b.impacts)});
+      sheet.rows.push_back({"boundary " + std::to_string(k + 1), spectrum.frequency[i], b.amplitude,
+                            b.falls_above ? 1.0 : 0.0, static_cast<double>(b.impacts)});
     }
   return sheet;
 }
@@ -115,7 +119,8 @@ double least_overturning(const std::vector<Boundary>& found) {
 
 Spectrum spectrum(const SpectrumBlock& block, const std::string& pulse, const Jobs& jobs) {
   Spectrum made;
-  for (int i = 0; frequency_least + i * frequency_step < frequency_most + 1e-9; ++i) made.frequency.push_back(frequency_least + i * frequency_step);
+  for (int i = 0; frequency_least + i * frequency_step < frequency_most + 1e-9; ++i)
+    made.frequency.push_back(frequency_least + i * frequency_step);
   const auto answers = jobs("overturning under pulse " + pulse, made.frequency.size(), [&](std::size_t i) {
     std::vector<double> flat;
     for (const Boundary& b : boundaries(block, pulse, made.frequency[i], amplitude_most)) {
@@ -134,7 +139,8 @@ Spectrum spectrum(const SpectrumBlock& block, const std::string& pulse, const Jo
   return made;
 }
 
-Item spectrum_item(const Sources& sources, const std::string& name, const std::string& pulse, const std::string& words, const std::string& print) {
+Item spectrum_item(const Sources& sources, const std::string& name, const std::string& pulse, const std::string& words,
+                   const std::string& print) {
   const SpectrumBlock block;
   const Spectrum found = spectrum(block, pulse, sources.jobs);
   const Cape& cape = found.cape;
@@ -143,12 +149,17 @@ Item spectrum_item(const Sources& sources, const std::string& name, const std::s
     item.numbers.push_back({.id = fmt::format("{}.least_{:g}", name, frequency),
                             .what = fmt::format("least a_p/(α g) that overturns at ω_p/p = {:g}, {}", frequency, words),
                             .ours = least_overturning(boundaries(block, pulse, frequency, amplitude_most))});
-  const std::string ours = cape.found ? fmt::format("the block stands again above the lowest overturning curve, at ω_p/p from {:.1f} to {:.1f}; widest at {:.1f}, from a_p/(α g) = "
-                                                    "{:.2f} to {:.2f}",
-                                                    cape.from, cape.to, cape.widest_at, cape.below, cape.above)
+  const std::string ours = cape.found ? fmt::format(
+                                            "the block stands again above the lowest overturning curve, at ω_p/p from "
+                                            "{:.1f} to {:.1f}; widest at {:.1f}, from a_p/(α g) = "
+                                            "{:.2f} to {:.2f}",
+                                            cape.from, cape.to, cape.widest_at, cape.below, cape.above)
                                       : "no safe cape up to ω_p/p = 10";
   item.statements = {{name + ".cape", "a safe cape above the lowest overturning curve?", ours, print,
-                      print.empty() ? Verdict::not_printed : cape.found ? Verdict::agrees : Verdict::disagrees, ""}};
+                      print.empty() ? Verdict::not_printed
+                      : cape.found  ? Verdict::agrees
+                                    : Verdict::disagrees,
+                      ""}};
   item.sheets = {spectrum_sheet(name, found)};
   return item;
 }

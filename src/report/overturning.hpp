@@ -37,7 +37,7 @@ double least_overturning(const std::vector<Boundary>&);
 // Between two frequencies (ends of a grid) the block stands again above its least overturning amplitude.
 struct Cape {
   bool found = false;
-  double from = 0, to = 0;         // w_p/p
+  double from = 0, to = 0;                     // w_p/p
   double widest_at = 0, below = 0, above = 0;  // where, and between which amplitudes, it is widest
 };
 
@@ -49,6 +49,7 @@ struct Spectrum {
 Spectrum spectrum(const SpectrumBlock&, const std::string& pulse, const Jobs&);
 
 // The figure of one pulse: its boundaries, the cape, and the least overturning amplitude at some frequencies.
-Item spectrum_item(const Sources&, const std::string& name, const std::string& pulse, const std::string& words, const std::string& print);
+Item spectrum_item(const Sources&, const std::string& name, const std::string& pulse, const std::string& words,
+                   const std::string& print);
 
 }  // namespace freestand::report

@@ -18,7 +18,8 @@ struct LengthColumn {
   const char* name;
   double metres;
 };
-constexpr LengthColumn slip_columns[] = {{"peak_slip_m", 1}, {"peak_slip_mm", 1e-3}, {"peak_slip_cm", 1e-2}, {"peak_slip_in", inch_m}};
+constexpr LengthColumn slip_columns[] = {
+    {"peak_slip_m", 1}, {"peak_slip_mm", 1e-3}, {"peak_slip_cm", 1e-2}, {"peak_slip_in", inch_m}};
 constexpr const char* period_columns[] = {"pulse_period_s", "period_s"};
 
 class OwnTable {
@@ -33,8 +34,8 @@ class OwnTable {
     std::vector<std::string> known;
     for (const auto& one : names) known.emplace_back(name_of(one));
     if (count != 1)
-      throw Error(fmt::format("{}:1: {} of the columns {} (each row needs {}): give one of them", csv_.file.string(), count == 0 ? "none" : "several",
-                              fmt::join(known, ", "), what));
+      throw Error(fmt::format("{}:1: {} of the columns {} (each row needs {}): give one of them", csv_.file.string(),
+                              count == 0 ? "none" : "several", fmt::join(known, ", "), what));
     const auto& found = *std::find_if(std::begin(names), std::end(names), has);
     used_.emplace_back(name_of(found));
     return found;
@@ -45,7 +46,9 @@ class OwnTable {
     used_.push_back(column);
     const std::vector<double> values = table_.numbers(column);
     for (std::size_t i = 0; i < values.size(); ++i)
-      if (!(values[i] > 0)) wrong(i, fmt::format("{} is {} (it is above 0): correct the line, or leave it out", column, std::isnan(values[i]) ? "empty" : fmt::format("{}", values[i])));
+      if (!(values[i] > 0))
+        wrong(i, fmt::format("{} is {} (it is above 0): correct the line, or leave it out", column,
+                             std::isnan(values[i]) ? "empty" : fmt::format("{}", values[i])));
     return values;
   }
 
@@ -55,7 +58,9 @@ class OwnTable {
     return table_.texts(column);
   }
 
-  void wrong(std::size_t row, const std::string& what) { problems_.append(problems_.empty() ? "" : "\n").append(csv_.at(csv_.rows[row])).append(what); }
+  void wrong(std::size_t row, const std::string& what) {
+    problems_.append(problems_.empty() ? "" : "\n").append(csv_.at(csv_.rows[row])).append(what);
+  }
   void throw_if_wrong() const {
     if (!problems_.empty()) throw Error(problems_, Exit::data);
   }
@@ -84,15 +89,21 @@ class OwnTable {
 
 // The points with one column of intensity or friction.
 Peaks peaks_of(OwnTable& table, const std::string& column) {
-  const auto& slip_column = table.one_of(slip_columns, [](const LengthColumn& one) { return one.name; }, "the peak slip");
-  const auto& period_column = table.one_of(period_columns, [](const char* one) { return one; }, "a period");
-  const auto pta = table.positive("pta_g"), slip = table.positive(slip_column.name), period = table.positive(period_column), given = table.positive(column);
+  const auto& slip_column = table.one_of(
+      slip_columns, [](const LengthColumn& one) { return one.name; }, "the peak slip");
+  const auto& period_column = table.one_of(
+      period_columns, [](const char* one) { return one; }, "a period");
+  const auto pta = table.positive("pta_g"), slip = table.positive(slip_column.name),
+             period = table.positive(period_column), given = table.positive(column);
   const auto specimen = table.names("specimen"), motion = table.names("motion");
   table.throw_if_wrong();
   Peaks peaks;
   for (std::size_t i = 0; i < pta.size(); ++i) {
     const double im = column == "im" ? given[i] : intensity(pta[i], given[i]);
-    if (!(im > 0)) table.wrong(i, fmt::format("IM = PTA/(mu g) - 1 is {:.3g} (with that friction the block does not slide): correct pta_g or {}, or leave the line out", im, column));
+    if (!(im > 0))
+      table.wrong(i, fmt::format("IM = PTA/(mu g) - 1 is {:.3g} (with that friction the block does not slide): correct "
+                                 "pta_g or {}, or leave the line out",
+                                 im, column));
     peaks.im.push_back(im);
     peaks.delta.push_back(demand(slip[i] * slip_column.metres, period[i], pta[i]));
     const std::string number = "row " + std::to_string(i + 1);
@@ -106,7 +117,9 @@ Peaks peaks_of(OwnTable& table, const std::string& column) {
 Item item_of(const std::string& name, const Peaks& peaks, const Jobs& jobs) {
   const PeaksFit fit = fit_peaks(peaks, jobs);
   Item item;
-  const auto add = [&](const char* id, const char* what, double ours) { item.numbers.push_back({.id = name + "." + id, .what = what, .ours = ours}); };
+  const auto add = [&](const char* id, const char* what, double ours) {
+    item.numbers.push_back({.id = name + "." + id, .what = what, .ours = ours});
+  };
   add("n", "tests", static_cast<double>(peaks.im.size()));
   add("slope", "slope of the mean demand over IM, through the origin", fit.line.slope);
   add("slope_se", "its standard error, motions left out in turn", fit.slope_se);
@@ -121,7 +134,8 @@ Item item_of(const std::string& name, const Peaks& peaks, const Jobs& jobs) {
   add("ks_critical_textbook", "5 % value of S by the textbook, nothing fitted", fit.ks_critical_textbook);
   add("ks_critical", "5 % value of S for a line fitted to the same points", fit.ks_critical);
   add("ks_p", "p of S for a line fitted to the same points", fit.ks_p);
-  item.statements = {{name + ".accepted", "does the test of fit reject the line at 5 %?", fit.ks > fit.ks_critical ? "yes: rejected" : "no: accepted", "", Verdict::not_printed, ""}};
+  item.statements = {{name + ".accepted", "does the test of fit reject the line at 5 %?",
+                      fit.ks > fit.ks_critical ? "yes: rejected" : "no: accepted", "", Verdict::not_printed, ""}};
   item.sheets = sheets(name, peaks, fit);
   return item;
 }
@@ -130,17 +144,25 @@ Item item_of(const std::string& name, const Peaks& peaks, const Jobs& jobs) {
 
 std::vector<std::pair<Entry, Item>> own_peaks(const std::filesystem::path& file, const Jobs& jobs) {
   OwnTable table(read_csv_table(file));
-  if (!table.has("pta_g")) throw Error(file.string() + ":1: no column pta_g (the demand is U w^2/PTA): give the peak acceleration of the floor in g");
+  if (!table.has("pta_g"))
+    throw Error(file.string() +
+                ":1: no column pta_g (the demand is U w^2/PTA): give the peak acceleration of the floor in g");
   std::vector<std::string> columns = table.friction_columns();
   if (table.has("im")) columns.insert(columns.begin(), "im");
-  if (columns.empty()) throw Error(file.string() + ":1: no column im, mu or mu_... (the intensity is PTA/(mu g) - 1): give one of them");
+  if (columns.empty())
+    throw Error(file.string() + ":1: no column im, mu or mu_... (the intensity is PTA/(mu g) - 1): give one of them");
   std::vector<std::pair<Entry, Item>> found;
   for (const std::string& column : columns) {
     const Peaks peaks = peaks_of(table, column);
     const std::string name = columns.size() == 1 ? "own" : "own_" + column;
-    found.push_back({Entry{.name = name, .place = file.filename().string(), .what = fmt::format("{} measured peaks, intensity by {}", peaks.im.size(), column)}, item_of(name, peaks, jobs)});
+    found.push_back({Entry{.name = name,
+                           .place = file.filename().string(),
+                           .what = fmt::format("{} measured peaks, intensity by {}", peaks.im.size(), column)},
+                     item_of(name, peaks, jobs)});
   }
-  if (const auto unused = table.unused(); !unused.empty()) found.back().second.left_out.push_back(fmt::format("these columns of the table are not needed: {}", fmt::join(unused, ", ")));
+  if (const auto unused = table.unused(); !unused.empty())
+    found.back().second.left_out.push_back(
+        fmt::format("these columns of the table are not needed: {}", fmt::join(unused, ", ")));
   return found;
 }
 

@@ -1,7 +1,8 @@
 // The mass matrix of slide-rock [KM05 6.42, 6.45]: with theta'' inside f_x it is singular where
 //   mu = (1/3 + sin^2 phi)/(sin phi cos phi),  phi = alpha - |theta|   (Painlevé's paradox; least 4/3, at tan phi = 1/2).
-#include <cmath>
 #include <fmt/format.h>
+
+#include <cmath>
 #include <freestand/specimen.hpp>
 
 #include "base/units.hpp"
@@ -10,13 +11,17 @@
 namespace freestand::report {
 namespace {
 
-double singular_friction(double phi) { return (1.0 / 3 + std::pow(std::sin(phi), 2)) / (std::sin(phi) * std::cos(phi)); }
+double singular_friction(double phi) {
+  return (1.0 / 3 + std::pow(std::sin(phi), 2)) / (std::sin(phi) * std::cos(phi));
+}
 
 // Friction over slenderness, and where the specimens stand.
 Sheet of_slenderness(const std::vector<std::string>& specimens, const std::vector<double>& alpha) {
   Sheet sheet{"painleve", {"alpha_rad", "friction"}, {}};
-  for (int i = 10; i <= 100; ++i) sheet.rows.push_back({std::string("any block"), 0.01 * i, singular_friction(0.01 * i)});
-  for (std::size_t i = 0; i < specimens.size(); ++i) sheet.rows.push_back({specimens[i], alpha[i], singular_friction(alpha[i])});
+  for (int i = 10; i <= 100; ++i)
+    sheet.rows.push_back({std::string("any block"), 0.01 * i, singular_friction(0.01 * i)});
+  for (std::size_t i = 0; i < specimens.size(); ++i)
+    sheet.rows.push_back({specimens[i], alpha[i], singular_friction(alpha[i])});
   return sheet;
 }
 
@@ -31,10 +36,16 @@ Item painleve(const Sources& sources) {
     slenderness.push_back(Block::rectangular(depth[i], height[i], 1).alpha_rad());
     const double mu = singular_friction(slenderness.back());
     if (specimens[i] == "FORMA") forma = mu;
-    item.numbers.push_back({.id = "painleve." + specimens[i], .what = specimens[i] + ", along its depth: friction at which the mass matrix is singular as it lifts off", .ours = mu});
+    item.numbers.push_back(
+        {.id = "painleve." + specimens[i],
+         .what = specimens[i] + ", along its depth: friction at which the mass matrix is singular as it lifts off",
+         .ours = mu});
   }
-  item.numbers.push_back({.id = "painleve.least", .what = "least such friction of any block: 4/3", .ours = singular_friction(std::atan(0.5))});
-  item.statements = {{"painleve.singular", "is the mass matrix of slide-rock ever singular?", fmt::format("at μ = {:.2f} for FORMA", forma), "never [KM05 6.45]",
+  item.numbers.push_back({.id = "painleve.least",
+                          .what = "least such friction of any block: 4/3",
+                          .ours = singular_friction(std::atan(0.5))});
+  item.statements = {{"painleve.singular", "is the mass matrix of slide-rock ever singular?",
+                      fmt::format("at μ = {:.2f} for FORMA", forma), "never [KM05 6.45]",
                       Verdict::print_disagrees_with_itself, "f_x of 6.42 holds θ'', which belongs into the matrix"}};
   item.sheets = {of_slenderness(specimens, slenderness)};
   item.left_out = {"the sign of equation 6.33, which disagrees with 6.3 and 6.34, is no number"};

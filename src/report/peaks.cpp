@@ -84,7 +84,8 @@ void through_bins(PeaksFit& fit) {
     means.push_back(bin.mean);
     deviations.push_back(bin.standard_deviation);
   }
-  const fragility::LinearDemand of_mean = fragility::fit_linear_demand(im, means), of_sd = fragility::fit_linear_demand(im, deviations);
+  const fragility::LinearDemand of_mean = fragility::fit_linear_demand(im, means),
+                                of_sd = fragility::fit_linear_demand(im, deviations);
   fit.bin_slope = of_mean.slope;
   fit.bin_r2 = of_mean.r2;
   fit.bin_sd_slope = of_sd.slope;
@@ -92,21 +93,25 @@ void through_bins(PeaksFit& fit) {
 }
 
 Sheet points_sheet(const std::string& name, const Peaks& peaks, const PeaksFit& fit) {
-  Sheet sheet{name + "_points", {"specimen_and_motion", "im", "delta", "line", "standard_deviation", "probability_below"}, {}};
+  Sheet sheet{
+      name + "_points", {"specimen_and_motion", "im", "delta", "line", "standard_deviation", "probability_below"}, {}};
   for (std::size_t i = 0; i < peaks.im.size(); ++i)
-    sheet.rows.push_back({name, peaks.label[i], peaks.im[i], peaks.delta[i], fit.line.slope * peaks.im[i], fit.line.sd_slope * peaks.im[i],
+    sheet.rows.push_back({name, peaks.label[i], peaks.im[i], peaks.delta[i], fit.line.slope * peaks.im[i],
+                          fit.line.sd_slope * peaks.im[i],
                           fragility::linear_demand_cdf(fit.line, peaks.im[i], peaks.delta[i])});
   return sheet;
 }
 
 // The line, one standard deviation to either side, and the quantiles of the lognormal with these moments.
 Sheet line_sheet(const std::string& name, const PeaksFit& fit, double im_most) {
-  Sheet sheet{name + "_line", {"im", "mean", "mean_less_sigma", "mean_plus_sigma", "median", "fractile_16", "fractile_84"}, {}};
+  Sheet sheet{
+      name + "_line", {"im", "mean", "mean_less_sigma", "mean_plus_sigma", "median", "fractile_16", "fractile_84"}, {}};
   constexpr int steps = 60;
   for (int i = 1; i <= steps; ++i) {
     const double im = 1.15 * im_most * i / steps, m = fit.line.slope * im, s = fit.line.sd_slope * im;
     const auto [lambda, omega] = fragility::lognormal_from_moments(m, s);
-    sheet.rows.push_back({name, im, m, m - s, m + s, std::exp(lambda), std::exp(lambda - omega), std::exp(lambda + omega)});
+    sheet.rows.push_back(
+        {name, im, m, m - s, m + s, std::exp(lambda), std::exp(lambda - omega), std::exp(lambda + omega)});
   }
   return sheet;
 }
@@ -114,7 +119,8 @@ Sheet line_sheet(const std::string& name, const PeaksFit& fit, double im_most) {
 Sheet bins_sheet(const std::string& name, const PeaksFit& fit) {
   Sheet sheet{name + "_bins", {"im_low", "im_high", "im", "n", "mean", "standard_deviation", "lambda", "omega"}, {}};
   for (const PeakBin& b : fit.bins)
-    sheet.rows.push_back({name, b.im_low, b.im_high, b.im, static_cast<double>(b.n), b.mean, b.standard_deviation, b.lambda, b.omega});
+    sheet.rows.push_back(
+        {name, b.im_low, b.im_high, b.im, static_cast<double>(b.n), b.mean, b.standard_deviation, b.lambda, b.omega});
   return sheet;
 }
 
@@ -152,8 +158,8 @@ double demand(double peak_slip_m, double period_s, double pta_g) {
 PeaksFit fit_peaks(const Peaks& peaks, const Jobs& jobs) {
   const std::size_t n = peaks.im.size();
   if (n < 2 * points_per_bin)
-    throw Error("a line and its bins need " + std::to_string(2 * points_per_bin) + " measured peaks (there are " + std::to_string(n) +
-                    "): give more tests in one table",
+    throw Error("a line and its bins need " + std::to_string(2 * points_per_bin) + " measured peaks (there are " +
+                    std::to_string(n) + "): give more tests in one table",
                 Exit::data);
   PeaksFit fit;
   fit.line = fragility::fit_linear_demand(peaks.im, peaks.delta);
@@ -174,8 +180,8 @@ PeaksFit fit_peaks(const Peaks& peaks, const Jobs& jobs) {
 
 std::vector<Sheet> sheets(const std::string& name, const Peaks& peaks, const PeaksFit& fit) {
   const double im_most = *std::max_element(peaks.im.begin(), peaks.im.end());
-  return {points_sheet(name, peaks, fit), line_sheet(name, fit, im_most), bins_sheet(name, fit), ks_sheet(name, peaks, fit),
-          surface_sheet(name, fit, im_most)};
+  return {points_sheet(name, peaks, fit), line_sheet(name, fit, im_most), bins_sheet(name, fit),
+          ks_sheet(name, peaks, fit), surface_sheet(name, fit, im_most)};
 }
 
 }  // namespace freestand::report

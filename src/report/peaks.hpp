@@ -18,8 +18,8 @@ struct Peaks {
   std::vector<double> im = {}, delta = {};  // both > 0
 };
 
-double intensity(double pta_g, double mu);                              // [KM05 5.6]
-double demand(double peak_slip_m, double period_s, double pta_g);       // [KM05 5.7]
+double intensity(double pta_g, double mu);                         // [KM05 5.6]
+double demand(double peak_slip_m, double period_s, double pta_g);  // [KM05 5.7]
 
 // Points of one bin of IM, bins of equal count.
 struct PeakBin {

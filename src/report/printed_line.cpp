@@ -33,7 +33,8 @@ const PrintedLine rare_motions{.name = "rare_motions",
 
 namespace {
 
-const std::string of_its_table = "from the printed table itself, whatever its rounding took away: it is not the print's";
+const std::string of_its_table =
+    "from the printed table itself, whatever its rounding took away: it is not the print's";
 
 // A figure of the line, while PTA and demand go through all that round to what is printed.
 Range reach_of_table(const PrintedTable& table, const PrintedLine& line, double fragility::LinearDemand::*figure) {
@@ -88,13 +89,27 @@ Item line_item(const Sources& sources, const PrintedLine& line) {
     number.id = line.name + "." + number.id;
     item.numbers.push_back(compared(std::move(number), Verdict::print_disagrees_with_itself, of_its_table));
   };
-  const auto alone = [&](const char* id, const char* what, double value) { add({.id = id, .what = what, .ours = value}); };
-  add({.id = "slope", .what = "slope of the mean demand over IM, through the origin", .ours = fit.line.slope, .print = line.slope,
-       .print_unit = slope_unit, .reach = reach_of_table(table, line, &LinearDemand::slope)});
-  add({.id = "r2", .what = "r² of that line, squared correlation", .ours = fit.line.r2, .print = line.r2, .print_unit = r2_unit,
+  const auto alone = [&](const char* id, const char* what, double value) {
+    add({.id = id, .what = what, .ours = value});
+  };
+  add({.id = "slope",
+       .what = "slope of the mean demand over IM, through the origin",
+       .ours = fit.line.slope,
+       .print = line.slope,
+       .print_unit = slope_unit,
+       .reach = reach_of_table(table, line, &LinearDemand::slope)});
+  add({.id = "r2",
+       .what = "r² of that line, squared correlation",
+       .ours = fit.line.r2,
+       .print = line.r2,
+       .print_unit = r2_unit,
        .reach = reach_of_table(table, line, &LinearDemand::r2)});
-  add({.id = "ks", .what = "Kolmogorov–Smirnov S of the printed line", .ours = ks_of(line.slope, line.sd_slope, peaks.im, peaks.delta),
-       .print = line.ks, .print_unit = ks_unit, .reach = reach_of_ks(table, line)});
+  add({.id = "ks",
+       .what = "Kolmogorov–Smirnov S of the printed line",
+       .ours = ks_of(line.slope, line.sd_slope, peaks.im, peaks.delta),
+       .print = line.ks,
+       .print_unit = ks_unit,
+       .reach = reach_of_ks(table, line)});
   alone("determination", "r² as 1 − squares left / squares about the mean", fit.determination);
   alone("sd_slope", "slope of the standard deviation over IM", fit.line.sd_slope);
   alone("slope_se", "standard error of the slope, motions left out in turn", fit.slope_se);
@@ -103,14 +118,19 @@ Item line_item(const Sources& sources, const PrintedLine& line) {
   alone("bin_sd_slope", "slope through the standard deviations of the bins", fit.bin_sd_slope);
   alone("bin_sd_r2", "r² of the bins' standard deviations", fit.bin_sd_r2);
   alone("ks_ours", "S of our line", fit.ks);
-  alone("ks_critical_textbook", "5 % value of S by the textbook, nothing fitted [KM05 5.31, 8.8]", fit.ks_critical_textbook);
+  alone("ks_critical_textbook", "5 % value of S by the textbook, nothing fitted [KM05 5.31, 8.8]",
+        fit.ks_critical_textbook);
   alone("ks_critical", "5 % value of S for a line fitted to the same points", fit.ks_critical);
   alone("ks_p", "p of S for a line fitted to the same points", fit.ks_p);
   item.statements.push_back({line.name + ".accepted", "does the test of fit reject the line at 5 %?",
-                             fit.ks > fit.ks_critical ? "rejected, under the null of this very line" : "accepted, under the null of this very line",
-                             "accepted, by the textbook's value", fit.ks > fit.ks_critical ? Verdict::disagrees : Verdict::agrees, ""});
+                             fit.ks > fit.ks_critical ? "rejected, under the null of this very line"
+                                                      : "accepted, under the null of this very line",
+                             "accepted, by the textbook's value",
+                             fit.ks > fit.ks_critical ? Verdict::disagrees : Verdict::agrees, ""});
   item.sheets = sheets(line.name, peaks, fit);
-  item.left_out = {"the report's own bins and the r² of its sigma lines: their numbers are not among the tables; ours are bins of equal count"};
+  item.left_out = {
+      "the report's own bins and the r² of its sigma lines: their numbers are not among the tables; ours are bins of "
+      "equal count"};
   return item;
 }
 
@@ -119,9 +139,10 @@ double printed_exceedance(const PrintedLine& line, double im, double capacity) {
 }
 
 Range reach_of_exceedance(const PrintedLine& line, double im, double capacity) {
-  return reach(std::vector<Rounded>{{line.slope, slope_unit}, {line.sd_slope, slope_unit}}, [&](std::span<const double> values) {
-    return fragility::linear_demand_exceedance({values[0], values[1], 0}, im, capacity);
-  });
+  return reach(std::vector<Rounded>{{line.slope, slope_unit}, {line.sd_slope, slope_unit}},
+               [&](std::span<const double> values) {
+                 return fragility::linear_demand_exceedance({values[0], values[1], 0}, im, capacity);
+               });
 }
 
 }  // namespace freestand::report

@@ -7,10 +7,10 @@
 namespace freestand::report {
 
 struct PrintedLine {
-  std::string name;       // "best_fit"
-  std::string words;      // "best-fit friction"
-  std::string table;      // "table_5_1.csv"
-  std::string mu_column;  // "mu_best_fit"
+  std::string name;                  // "best_fit"
+  std::string words;                 // "best-fit friction"
+  std::string table;                 // "table_5_1.csv"
+  std::string mu_column;             // "mu_best_fit"
   double slope = 0, r2 = 0, ks = 0;  // as printed
   // sigma of the demand over IM. Not printed; two digits of what the table gives.
   double sd_slope = 0;

@@ -15,10 +15,11 @@ CsvTable read(const std::filesystem::path& file) {
   try {
     return read_csv_table(file);
   } catch (const Error& error) {
-    throw Error(std::string(error.what()) +
-                    "\nfreestand reproduce reads the report's printed tables: give their folder with --tables (configs/report "
-                    "of freestand's source)",
-                Exit::data);
+    throw Error(
+        std::string(error.what()) +
+            "\nfreestand reproduce reads the report's printed tables: give their folder with --tables (configs/report "
+            "of freestand's source)",
+        Exit::data);
   }
 }
 
@@ -29,7 +30,8 @@ PrintedTable::PrintedTable(const Sources& sources, const std::string& file) : ta
 std::size_t PrintedTable::at(const std::string& column) const {
   const std::size_t found = table_.column(column);
   if (found < table_.columns.size()) return found;
-  throw Error(table_.file.string() + " has no column " + column + " (it is another table, or was changed): give the one of freestand's source",
+  throw Error(table_.file.string() + " has no column " + column +
+                  " (it is another table, or was changed): give the one of freestand's source",
               Exit::data);
 }
 

@@ -17,7 +17,8 @@ Sheet pulse_histories() {
     for (int i = 0; i <= steps; ++i) {
       const double t = pulse.duration * i / steps;
       const motion::PulseState at = pulse.at(t);
-      sheet.rows.push_back({std::string(type), t, at.acceleration, at.velocity / pulse.velocity_amplitude, at.displacement / pulse.velocity_amplitude});
+      sheet.rows.push_back({std::string(type), t, at.acceleration, at.velocity / pulse.velocity_amplitude,
+                            at.displacement / pulse.velocity_amplitude});
     }
   }
   return sheet;

@@ -17,7 +17,9 @@ double probability(const BlockTest& test, double width_m, double height_m, const
   std::vector<Specimen> specimens;
   std::vector<Shaking> shakings;
   for (std::size_t i = 0; i < ensemble_members; ++i) {
-    const auto within = [&](std::size_t which, double low, double high) { return low + (high - low) * random::uniform(71, 3 * i + which, stream); };
+    const auto within = [&](std::size_t which, double low, double high) {
+      return low + (high - low) * random::uniform(71, 3 * i + which, stream);
+    };
     const double mu = test.mu * within(0, 0.9, 1.1);
     specimens.push_back({Block::rectangular(width_m, height_m, 10), {mu, mu}, {ImpactLaw::housner, within(1, 0.9, 1)}});
     shakings.push_back({&motion, test.pta_g * standard_gravity_mps2 * within(2, 0.97, 1.03)});
@@ -34,7 +36,8 @@ double probability(const BlockTest& test, double width_m, double height_m, const
 std::vector<BlockTest> sound_tests(const Sources& sources) {
   const PrintedTable table(sources, "table_7_1.csv");
   const auto block = table.texts("prototype"), motion = table.texts("motion");
-  const auto pta = table.numbers("pta_g"), mu = table.numbers("mu"), experiment = table.numbers("experiment_overturned"), model = table.numbers("working_model_overturned"),
+  const auto pta = table.numbers("pta_g"), mu = table.numbers("mu"),
+             experiment = table.numbers("experiment_overturned"), model = table.numbers("working_model_overturned"),
              usable = table.numbers("usable");
   std::vector<BlockTest> tests;
   for (std::size_t i = 0; i < block.size(); ++i)
@@ -48,7 +51,8 @@ std::map<std::string, Sides> quarter_scale_blocks(const Sources& sources) {
   const auto height = table.numbers("height_in"), width = table.numbers("width_in"), depth = table.numbers("depth_in");
   constexpr double unit = inch_m * length_scale;
   std::map<std::string, Sides> blocks;
-  for (std::size_t i = 0; i < name.size(); ++i) blocks[name[i]] = {height[i] * unit, std::min(width[i], depth[i]) * unit, std::max(width[i], depth[i]) * unit};
+  for (std::size_t i = 0; i < name.size(); ++i)
+    blocks[name[i]] = {height[i] * unit, std::min(width[i], depth[i]) * unit, std::max(width[i], depth[i]) * unit};
   return blocks;
 }
 
@@ -57,22 +61,28 @@ double Prediction::likelihood(bool along) const {
   return test.overturned ? p : 1 - p;
 }
 
-double Prediction::mixed(double weight) const { return parallel_only ? parallel : weight * parallel + (1 - weight) * normal; }
+double Prediction::mixed(double weight) const {
+  return parallel_only ? parallel : weight * parallel + (1 - weight) * normal;
+}
 
-std::vector<Prediction> predict(const Sources& sources, const std::filesystem::path& records, double half_power_hz, double Sides::*width) {
+std::vector<Prediction> predict(const Sources& sources, const std::filesystem::path& records, double half_power_hz,
+                                double Sides::*width) {
   const auto folder = station_folder(records);
   const auto blocks = quarter_scale_blocks(sources);
   std::map<const Station*, std::vector<FloorMotion>> motions;
   for (const Station& station : stations)
-    for (const double azimuth : {fault_normal, fault_parallel}) motions[&station].push_back(table_motion(folder, station, azimuth, half_power_hz));
+    for (const double azimuth : {fault_normal, fault_parallel})
+      motions[&station].push_back(table_motion(folder, station, azimuth, half_power_hz));
   std::vector<Prediction> predictions;
   for (const BlockTest& test : sound_tests(sources))
-    if (const Station* station = station_of(test.motion)) predictions.push_back({test, station, test.motion.find(" FP ") != std::string::npos, 0, 0});
+    if (const Station* station = station_of(test.motion))
+      predictions.push_back({test, station, test.motion.find(" FP ") != std::string::npos, 0, 0});
   const auto shares = sources.jobs("table 7.1", predictions.size(), [&](std::size_t i) {
     const Prediction& one = predictions[i];
     const Sides& sides = blocks.at(one.test.block);
     const auto& both = motions.at(one.station);
-    return std::vector{probability(one.test, sides.*width, sides.height_m, both[0]), probability(one.test, sides.*width, sides.height_m, both[1])};
+    return std::vector{probability(one.test, sides.*width, sides.height_m, both[0]),
+                       probability(one.test, sides.*width, sides.height_m, both[1])};
   });
   for (std::size_t i = 0; i < predictions.size(); ++i) {
     predictions[i].normal = shares[i][0];

@@ -45,7 +45,8 @@ struct Prediction {
 inline constexpr std::size_t ensemble_members = 400;  // under each component
 
 // Of the tests that have a station. Throws Error (Exit::data) where a record is missing.
-std::vector<Prediction> predict(const Sources&, const std::filesystem::path& records, double half_power_hz, double Sides::*width);
+std::vector<Prediction> predict(const Sources&, const std::filesystem::path& records, double half_power_hz,
+                                double Sides::*width);
 
 // Weight of the fault-parallel component after the other tests under that motion.
 double weight_after_others(const std::vector<Prediction>& all, const Prediction& one);

@@ -22,11 +22,13 @@ struct Test {
 
 std::vector<Test> tests_of(const PrintedTable& table, TablePulses& pulses) {
   const auto specimen = table.texts("specimen"), motion = table.texts("motion"), type = table.texts("pulse_type");
-  const auto period = table.numbers("pulse_period_s"), velocity = table.numbers("pulse_velocity_in_per_s"), slip = table.numbers("peak_slip_in");
+  const auto period = table.numbers("pulse_period_s"), velocity = table.numbers("pulse_velocity_in_per_s"),
+             slip = table.numbers("peak_slip_in");
   const auto slow = table.numbers("mu_slow_pull"), best = table.numbers("mu_best_fit");
   std::vector<Test> tests;
   for (std::size_t i = 0; i < specimen.size(); ++i)
-    tests.push_back({specimen[i], motion[i], slip[i] * inch_m, slow[i], best[i], pulses.shaking(type[i], period[i], velocity[i])});
+    tests.push_back(
+        {specimen[i], motion[i], slip[i] * inch_m, slow[i], best[i], pulses.shaking(type[i], period[i], velocity[i])});
   return tests;
 }
 
@@ -66,8 +68,12 @@ void add_ratio(Item& item, const std::string& id, const std::string& words, cons
   double sum = 0;
   for (const double r : ln_ratios) sum += r;
   const double mean = sum / static_cast<double>(ln_ratios.size());
-  item.numbers.push_back({.id = "shake_table." + id, .what = "predicted over measured slip, geometric mean, " + words, .ours = std::exp(mean)});
-  item.numbers.push_back({.id = "shake_table." + id + "_scatter", .what = "its scatter, standard deviation of ln, " + words, .ours = fragility::standard_deviation(ln_ratios)});
+  item.numbers.push_back({.id = "shake_table." + id,
+                          .what = "predicted over measured slip, geometric mean, " + words,
+                          .ours = std::exp(mean)});
+  item.numbers.push_back({.id = "shake_table." + id + "_scatter",
+                          .what = "its scatter, standard deviation of ln, " + words,
+                          .ours = fragility::standard_deviation(ln_ratios)});
 }
 
 Item shake_table(const Sources& sources) {
@@ -80,30 +86,37 @@ Item shake_table(const Sources& sources) {
   for (const auto& [specimen, some] : by_specimen) {
     fitted[specimen] = fitted_friction(some);
     if (std::isnan(fitted[specimen]))
-      item.left_out.push_back(specimen + ": no friction makes a sliding block under the pulses slip as far as it did, so none is fitted to its peaks");
+      item.left_out.push_back(
+          specimen +
+          ": no friction makes a sliding block under the pulses slip as far as it did, so none is fitted to its peaks");
     else
-      item.numbers.push_back({.id = "shake_table.mu." + specimen, .what = specimen + ": friction that fits its peak slips under the pulses", .ours = fitted[specimen]});
+      item.numbers.push_back({.id = "shake_table.mu." + specimen,
+                              .what = specimen + ": friction that fits its peak slips under the pulses",
+                              .ours = fitted[specimen]});
   }
   Sheet sheet{"shake_table", {"motion", "measured_slip_m", "slow_pull_slip_m", "best_fit_slip_m", "fitted_slip_m"}, {}};
   std::vector<double> slow, best;
   for (const Test& test : tests) {
     slow.push_back(ln_ratio(test, test.mu_slow_pull));
     best.push_back(ln_ratio(test, test.mu_best_fit));
-    sheet.rows.push_back({test.specimen, test.motion, test.measured_m, slip_m(test, test.mu_slow_pull), slip_m(test, test.mu_best_fit), fitted_slip_m(test, fitted[test.specimen])});
+    sheet.rows.push_back({test.specimen, test.motion, test.measured_m, slip_m(test, test.mu_slow_pull),
+                          slip_m(test, test.mu_best_fit), fitted_slip_m(test, fitted[test.specimen])});
   }
   add_ratio(item, "slow_pull", "friction of the slow pulls", slow);
   add_ratio(item, "best_fit", "friction that fits histories", best);
   item.sheets = {sheet};
-  item.left_out.push_back("the report's predicted histories: they follow from the motions recorded on its table, which are not published");
+  item.left_out.push_back(
+      "the report's predicted histories: they follow from the motions recorded on its table, which are not published");
   return item;
 }
 
-const RegisteredItem shake_table_here{{.name = "shake_table",
-                                       .order = 420,
-                                       .chapter = 4,
-                                       .place = "Tables 4.1 and 5.1",
-                                       .what = "measured peak slips beside those of a sliding block under the fitted pulses",
-                                       .compute = shake_table}};
+const RegisteredItem shake_table_here{
+    {.name = "shake_table",
+     .order = 420,
+     .chapter = 4,
+     .place = "Tables 4.1 and 5.1",
+     .what = "measured peak slips beside those of a sliding block under the fitted pulses",
+     .compute = shake_table}};
 
 }  // namespace
 }  // namespace freestand::report

@@ -30,17 +30,22 @@ Item sliding_pulses(const Sources&) {
       const double im = im_step * i, delta = slid(pulses, type, im, 0.2, 0.6);
       sheet.rows.push_back({std::string(type), im, delta});
       off_similar = std::max(off_similar, std::abs(slid(pulses, type, im, 0.45, 1.7) / delta - 1));
-      if (type == std::string("rectangular")) off_newmark = std::max(off_newmark, std::abs(delta / (2 * pi * pi * im) - 1));
+      if (type == std::string("rectangular"))
+        off_newmark = std::max(off_newmark, std::abs(delta / (2 * pi * pi * im) - 1));
     }
   constexpr double small = 1e-9;  // of the integration
-  const auto text = [](double off) { return off < small ? std::string("to 1e-9 of it") : "off by a share of " + std::to_string(off); };
+  const auto text = [](double off) {
+    return off < small ? std::string("to 1e-9 of it") : "off by a share of " + std::to_string(off);
+  };
   item.statements = {
-      {"sliding_pulses.newmark", "slip under a rectangular pulse is 2π² (a_p/(μ g) − 1) a_p/ω² [KM05 5.10]", text(off_newmark), "closed form",
-       off_newmark < small ? Verdict::agrees : Verdict::disagrees, ""},
-      {"sliding_pulses.similar", "friction, period and amplitude matter by IM alone [KM05 5.6, 5.7]", text(off_similar), "one curve for each type",
-       off_similar < small ? Verdict::agrees : Verdict::disagrees, ""}};
+      {"sliding_pulses.newmark", "slip under a rectangular pulse is 2π² (a_p/(μ g) − 1) a_p/ω² [KM05 5.10]",
+       text(off_newmark), "closed form", off_newmark < small ? Verdict::agrees : Verdict::disagrees, ""},
+      {"sliding_pulses.similar", "friction, period and amplitude matter by IM alone [KM05 5.6, 5.7]", text(off_similar),
+       "one curve for each type", off_similar < small ? Verdict::agrees : Verdict::disagrees, ""}};
   for (const char* type : {"A", "B", "C1", "C2"})
-    item.numbers.push_back({.id = std::string("sliding_pulses.") + type, .what = std::string("Δ of a ") + type + " pulse at IM = 2", .ours = slid(pulses, type, 2, 0.2, 0.6)});
+    item.numbers.push_back({.id = std::string("sliding_pulses.") + type,
+                            .what = std::string("Δ of a ") + type + " pulse at IM = 2",
+                            .ours = slid(pulses, type, 2, 0.2, 0.6)});
   item.sheets = {sheet};
   return item;
 }

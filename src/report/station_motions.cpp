@@ -16,7 +16,8 @@ std::vector<double> component(const std::filesystem::path& folder, const Station
   for (int i = 0; i < 2; ++i) {
     const std::vector<double> part = read_component(folder, station.files[i]);
     sum.resize(std::max(sum.size(), station.begins[i] + part.size()), 0.0);
-    for (std::size_t k = 0; k < part.size(); ++k) sum[station.begins[i] + k] += part[k] * std::cos((azimuth - station.azimuths[i]) * pi / 180);
+    for (std::size_t k = 0; k < part.size(); ++k)
+      sum[station.begins[i] + k] += part[k] * std::cos((azimuth - station.azimuths[i]) * pi / 180);
   }
   return sum;
 }
@@ -34,7 +35,8 @@ std::vector<double> smoothed(const std::vector<double>& samples, double half_pow
   }
   for (std::ptrdiff_t i = 0; i < count; ++i)
     for (std::ptrdiff_t k = std::max(-reach, -i); k <= std::min(reach, count - 1 - i); ++k)
-      out[static_cast<std::size_t>(i)] += weights[static_cast<std::size_t>(k + reach)] / total * samples[static_cast<std::size_t>(i + k)];
+      out[static_cast<std::size_t>(i)] +=
+          weights[static_cast<std::size_t>(k + reach)] / total * samples[static_cast<std::size_t>(i + k)];
   return out;
 }
 
@@ -54,8 +56,8 @@ std::filesystem::path station_folder(const std::filesystem::path& records) {
   for (const Station& station : stations)
     for (const char* file : station.files)
       if (!std::filesystem::exists(folder / file))
-        throw Error((folder / file).string() + " is not there (table 7.1 needs the six records of its stations, in " + event +
-                        "): give the folder that holds them with --records, or leave --records out",
+        throw Error((folder / file).string() + " is not there (table 7.1 needs the six records of its stations, in " +
+                        event + "): give the folder that holds them with --records, or leave --records out",
                     Exit::data);
   return folder;
 }
@@ -67,7 +69,8 @@ std::vector<double> read_component(const std::filesystem::path& folder, const st
   return samples;
 }
 
-FloorMotion table_motion(const std::filesystem::path& folder, const Station& station, double azimuth, double half_power_hz) {
+FloorMotion table_motion(const std::filesystem::path& folder, const Station& station, double azimuth,
+                         double half_power_hz) {
   std::vector<double> samples = component(folder, station, azimuth);
   if (half_power_hz > 0) samples = smoothed(samples, half_power_hz);
   double peak = 0;

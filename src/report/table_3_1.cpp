@@ -44,18 +44,20 @@ Item table_3_1(const Sources& sources) {
                                        .print = printed[i],
                                        .print_unit = table.unit(column.printed),
                                        .reach = reach(std::vector{base[i], height[i]}, f)},
-                                      Verdict::print_disagrees_with_itself, "does not follow from the printed width and height"));
+                                      Verdict::print_disagrees_with_itself,
+                                      "does not follow from the printed width and height"));
     }
   }
   return item;
 }
 
-const RegisteredItem table_3_1_here{{.name = "table_3_1",
-                                     .order = 310,
-                                     .chapter = 3,
-                                     .place = "Table 3.1",
-                                     .what = "size, slenderness and frequency parameter of the specimens, from their dimensions",
-                                     .compute = table_3_1}};
+const RegisteredItem table_3_1_here{
+    {.name = "table_3_1",
+     .order = 310,
+     .chapter = 3,
+     .place = "Table 3.1",
+     .what = "size, slenderness and frequency parameter of the specimens, from their dimensions",
+     .compute = table_3_1}};
 
 }  // namespace
 }  // namespace freestand::report

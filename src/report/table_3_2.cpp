@@ -15,7 +15,8 @@ Statement friction_of_the_tables(const Sources& sources, const PrintedTable& fri
   for (const char* file : {"table_5_1.csv", "table_8_1.csv"}) {
     const PrintedTable peaks(sources, file);
     const auto names = peaks.texts("specimen");
-    for (const auto& [theirs, ours] : {std::pair{"mu_slow_pull", "mu_k_slow_pull"}, {"mu_best_fit", "mu_k_coulomb_fit"}}) {
+    for (const auto& [theirs, ours] :
+         {std::pair{"mu_slow_pull", "mu_k_slow_pull"}, {"mu_best_fit", "mu_k_coulomb_fit"}}) {
       const auto found = peaks.numbers(theirs), printed = friction.numbers(ours);
       for (std::size_t i = 0; i < found.size(); ++i)
         for (std::size_t k = 0; k < specimens.size(); ++k)
@@ -25,9 +26,12 @@ Statement friction_of_the_tables(const Sources& sources, const PrintedTable& fri
           }
     }
   }
-  return {"table_3_2.used", "friction in tables 5.1 and 8.1",
-          std::to_string(same) + " of " + std::to_string(rows) + " entries are those of table 3.2", "as in table 3.2",
-          same == rows ? Verdict::agrees : Verdict::print_disagrees_with_itself, ""};
+  return {"table_3_2.used",
+          "friction in tables 5.1 and 8.1",
+          std::to_string(same) + " of " + std::to_string(rows) + " entries are those of table 3.2",
+          "as in table 3.2",
+          same == rows ? Verdict::agrees : Verdict::print_disagrees_with_itself,
+          ""};
 }
 
 Item table_3_2(const Sources& sources) {
@@ -35,27 +39,38 @@ Item table_3_2(const Sources& sources) {
   const auto specimens = table.texts("specimen");
   const auto weights = dimensions.numbers("weight_lb");
   Item item;
-  Sheet sheet{"table_3_2", {"mu_s_slow_pull", "mu_k_slow_pull", "mu_k_elastoplastic_fit", "mu_s_coulomb_fit", "mu_k_coulomb_fit"}, {}};
+  Sheet sheet{"table_3_2",
+              {"mu_s_slow_pull", "mu_k_slow_pull", "mu_k_elastoplastic_fit", "mu_s_coulomb_fit", "mu_k_coulomb_fit"},
+              {}};
   for (std::size_t i = 0; i < specimens.size(); ++i) {
     const auto at = [&](const char* column) { return table.numbers(column)[i]; };
     const auto add = [&](const char* id, const char* what, const char* unit, double ours) {
-      item.numbers.push_back({.id = "table_3_2." + specimens[i] + "." + id, .what = specimens[i] + ": " + what, .unit = unit, .ours = ours});
+      item.numbers.push_back({.id = "table_3_2." + specimens[i] + "." + id,
+                              .what = specimens[i] + ": " + what,
+                              .unit = unit,
+                              .ours = ours});
     };
-    add("overrated", "kinetic friction of a slow pull over the one that fits histories", "1", at("mu_k_slow_pull") / at("mu_k_coulomb_fit"));
+    add("overrated", "kinetic friction of a slow pull over the one that fits histories", "1",
+        at("mu_k_slow_pull") / at("mu_k_coulomb_fit"));
     add("static_ratio", "static over kinetic friction, slow pull", "1", at("mu_s_slow_pull") / at("mu_k_slow_pull"));
     // Force at yield over displacement at yield.
-    add("stiffness", "stiffness of the contact before it yields, slow pull: μk W/u_y", "lb/in", at("mu_k_slow_pull") * weights[i] / at("u_y_slow_pull_in"));
-    add("slides_from", "least IM at which it slides: μs/μk − 1, slow pull", "1", at("mu_s_slow_pull") / at("mu_k_slow_pull") - 1);
+    add("stiffness", "stiffness of the contact before it yields, slow pull: μk W/u_y", "lb/in",
+        at("mu_k_slow_pull") * weights[i] / at("u_y_slow_pull_in"));
+    add("slides_from", "least IM at which it slides: μs/μk − 1, slow pull", "1",
+        at("mu_s_slow_pull") / at("mu_k_slow_pull") - 1);
     std::vector<Cell> row{specimens[i]};
     for (const std::string& column : sheet.columns) row.emplace_back(table.numbers(column)[i]);
     sheet.rows.push_back(std::move(row));
   }
   item.statements = {friction_of_the_tables(sources, table),
                      {"table_3_2.negative_im", "can a block slide at IM < 0?",
-                      "no: it starts at IM = μs/μk − 1, which is above 0 since μs > μk", "yes, since μs > μ [KM05 ch. 5]",
-                      Verdict::print_disagrees_with_itself, "a block that rests slides once PTA exceeds μs g, and IM counts with the smaller μk"}};
+                      "no: it starts at IM = μs/μk − 1, which is above 0 since μs > μk",
+                      "yes, since μs > μ [KM05 ch. 5]", Verdict::print_disagrees_with_itself,
+                      "a block that rests slides once PTA exceeds μs g, and IM counts with the smaller μk"}};
   item.sheets = {sheet};
-  item.left_out = {"the force-displacement records of the pulls, and the histories under which friction was fitted, are not published as numbers"};
+  item.left_out = {
+      "the force-displacement records of the pulls, and the histories under which friction was fitted, are not "
+      "published as numbers"};
   return item;
 }
 

@@ -4,7 +4,9 @@
 namespace freestand::report {
 namespace {
 
-Item table_5_1(const Sources& sources) { return rows_item(sources, "table_5_1", {"mu_slow_pull", "im_slow_pull_printed"}); }
+Item table_5_1(const Sources& sources) {
+  return rows_item(sources, "table_5_1", {"mu_slow_pull", "im_slow_pull_printed"});
+}
 
 const RegisteredItem table_5_1_here{{.name = "table_5_1",
                                      .order = 505,

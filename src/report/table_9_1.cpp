@@ -17,7 +17,8 @@ Item table_9_1(const Sources& sources) {
   Item item;
   Sheet sheet{"table_9_1", {"test", "strength_lb", "strength_n"}, {}};
   constexpr double unit = 5;  // means and deviations are printed to 5 lb
-  for (const Kind& kind : {Kind{"cross_chained_strength_lb", "cross-chained", 705, 30}, Kind{"straight_chained_strength_lb", "straight-chained", 615, 45}}) {
+  for (const Kind& kind : {Kind{"cross_chained_strength_lb", "cross-chained", 705, 30},
+                           Kind{"straight_chained_strength_lb", "straight-chained", 615, 45}}) {
     const std::vector<double> pulls = table.numbers(kind.column);
     double sum = 0;
     for (std::size_t i = 0; i < pulls.size(); ++i) {
@@ -26,16 +27,26 @@ Item table_9_1(const Sources& sources) {
     }
     const double mean = sum / static_cast<double>(pulls.size());
     const auto add = [&](const char* id, const char* what, double ours, double print) {
-      item.numbers.push_back(compared({.id = fmt::format("table_9_1.{}.{}", kind.words, id), .what = fmt::format("{}: {}", kind.words, what), .unit = "lb",
-                                       .ours = ours, .print = print, .print_unit = unit},
-                                      Verdict::print_disagrees_with_itself, "does not follow from the six pulls of the table"));
+      item.numbers.push_back(compared({.id = fmt::format("table_9_1.{}.{}", kind.words, id),
+                                       .what = fmt::format("{}: {}", kind.words, what),
+                                       .unit = "lb",
+                                       .ours = ours,
+                                       .print = print,
+                                       .print_unit = unit},
+                                      Verdict::print_disagrees_with_itself,
+                                      "does not follow from the six pulls of the table"));
     };
     add("mean", "mean strength of the connection", mean, kind.mean);
     add("sd", "standard deviation of six pulls", fragility::standard_deviation(pulls), kind.deviation);
-    item.numbers.push_back({.id = fmt::format("table_9_1.{}.newton", kind.words), .what = fmt::format("{}: mean strength", kind.words), .unit = "N", .ours = mean * pound_n});
+    item.numbers.push_back({.id = fmt::format("table_9_1.{}.newton", kind.words),
+                            .what = fmt::format("{}: mean strength", kind.words),
+                            .unit = "N",
+                            .ours = mean * pound_n});
   }
-  item.statements = {{"table_9_1.unit", "unit of the strengths", "pounds: read as newtons they would be 4.4 times too small, less than the weight of the lightest specimen",
-                      "pounds in the table", Verdict::agrees, ""}};
+  item.statements = {
+      {"table_9_1.unit", "unit of the strengths",
+       "pounds: read as newtons they would be 4.4 times too small, less than the weight of the lightest specimen",
+       "pounds in the table", Verdict::agrees, ""}};
   item.sheets = {sheet};
   return item;
 }

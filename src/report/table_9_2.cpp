@@ -23,7 +23,8 @@ struct ChainTest {
   const char *motion, *pulse;
   double period_s, velocity_in_per_s, chained_g, free_g, printed_ratio;
 };
-constexpr ChainTest tests[] = {{"Aigion OTE FP", "B", 0.53, 24, 1.57, 0.47, 3.3}, {"Coyote Lake Gilroy #6 FN", "C1", 0.7, 20, 3.22, 0.43, 7.5}};
+constexpr ChainTest tests[] = {{"Aigion OTE FP", "B", 0.53, 24, 1.57, 0.47, 3.3},
+                               {"Coyote Lake Gilroy #6 FN", "C1", 0.7, 20, 3.22, 0.43, 7.5}};
 
 // The Kelvinator along its slender side, with one of the two frictions of table 3.2.
 Specimen kelvinator(const Sources& sources, const std::string& friction_kind) {
@@ -31,13 +32,19 @@ Specimen kelvinator(const Sources& sources, const std::string& friction_kind) {
   const auto names = dimensions.texts("specimen");
   const auto i = static_cast<std::size_t>(std::find(names.begin(), names.end(), "Kelvinator") - names.begin());
   if (i == names.size() || friction.texts("specimen").at(i) != names[i])
-    throw Error("tables 3.1 and 3.2 have no row for the Kelvinator in one place (a table was changed): give the ones of freestand's source", Exit::data);
-  return {Block::rectangular(dimensions.numbers("width_in")[i] * inch_m, dimensions.numbers("height_in")[i] * inch_m, dimensions.numbers("weight_lb")[i] * pound_kg),
+    throw Error(
+        "tables 3.1 and 3.2 have no row for the Kelvinator in one place (a table was changed): give the ones of "
+        "freestand's source",
+        Exit::data);
+  return {Block::rectangular(dimensions.numbers("width_in")[i] * inch_m, dimensions.numbers("height_in")[i] * inch_m,
+                             dimensions.numbers("weight_lb")[i] * pound_kg),
           {friction.numbers("mu_s_" + friction_kind)[i], friction.numbers("mu_k_" + friction_kind)[i]},
           {}};
 }
 
-double pea_g(const Specimen& specimen, const Shaking& shaking) { return respond(specimen, shaking).peak_acceleration_mps2 / standard_gravity_mps2; }
+double pea_g(const Specimen& specimen, const Shaking& shaking) {
+  return respond(specimen, shaking).peak_acceleration_mps2 / standard_gravity_mps2;
+}
 
 // Chain at the top edge, cross-chained connection; stiffness by the frequency of the block on it.
 Specimen chained(Specimen specimen, double slack_m, double frequency_hz) {
@@ -58,10 +65,17 @@ struct Spread {
   bool holds(double value) const { return value > least && value < most; }
 };
 
-Statement held_against(const std::string& id, const std::string& what, const Spread& ours, double print, const char* unit, const char* varied) {
+Statement held_against(const std::string& id, const std::string& what, const Spread& ours, double print,
+                       const char* unit, const char* varied) {
   const bool within = ours.holds(print);
-  return {id, what, fmt::format("{:.2g} to {:.2g} {}, {}", ours.least, ours.most, unit, varied), fmt::format("{} {}", print, unit),
-          within ? Verdict::agrees : Verdict::disagrees, within ? "" : "one connection that tears at 705 lb pushes 352 lb with no more than 2 g beside friction; number, slack and stiffness of the chains and the recorded motion are not among the tables"};
+  return {id,
+          what,
+          fmt::format("{:.2g} to {:.2g} {}, {}", ours.least, ours.most, unit, varied),
+          fmt::format("{} {}", print, unit),
+          within ? Verdict::agrees : Verdict::disagrees,
+          within ? ""
+                 : "one connection that tears at 705 lb pushes 352 lb with no more than 2 g beside friction; number, "
+                   "slack and stiffness of the chains and the recorded motion are not among the tables"};
 }
 
 Item table_9_2(const Sources& sources) {
@@ -81,18 +95,28 @@ Item table_9_2(const Sources& sources) {
             const double held = pea_g(chained(free, slack, frequency), shaking);
             ratios.add(held / loose);
             on_chains.add(held);
-            sheet.rows.push_back({std::string(test.motion), std::string(friction), sign, slack, frequency, held, loose, held / loose});
+            sheet.rows.push_back(
+                {std::string(test.motion), std::string(friction), sign, slack, frequency, held, loose, held / loose});
           }
       }
     const std::string id = std::string("table_9_2.") + test.pulse, name = test.motion;
-    item.numbers.push_back(compared({.id = id + ".measured_ratio", .what = name + ": measured PEA on chains over free", .ours = test.chained_g / test.free_g,
-                                     .print = test.printed_ratio, .print_unit = 0.1},
-                                    Verdict::print_disagrees_with_itself, "does not follow from the two printed accelerations"));
-    item.statements.push_back(held_against(id + ".ratio", name + ": peak acceleration on chains over the free one", ratios, test.printed_ratio, "times", "as slack, stiffness and friction go"));
-    item.statements.push_back(held_against(id + ".chained", name + ": peak acceleration on chains", on_chains, test.chained_g, "g", "as slack, stiffness and friction go"));
-    item.statements.push_back(held_against(id + ".free", name + ": peak acceleration of the free one", freely, test.free_g, "g", "with either friction"));
+    item.numbers.push_back(compared({.id = id + ".measured_ratio",
+                                     .what = name + ": measured PEA on chains over free",
+                                     .ours = test.chained_g / test.free_g,
+                                     .print = test.printed_ratio,
+                                     .print_unit = 0.1},
+                                    Verdict::print_disagrees_with_itself,
+                                    "does not follow from the two printed accelerations"));
+    item.statements.push_back(held_against(id + ".ratio", name + ": peak acceleration on chains over the free one",
+                                           ratios, test.printed_ratio, "times", "as slack, stiffness and friction go"));
+    item.statements.push_back(held_against(id + ".chained", name + ": peak acceleration on chains", on_chains,
+                                           test.chained_g, "g", "as slack, stiffness and friction go"));
+    item.statements.push_back(held_against(id + ".free", name + ": peak acceleration of the free one", freely,
+                                           test.free_g, "g", "with either friction"));
     if (item.statements.back().verdict == Verdict::disagrees)
-      item.statements.back().why = "a rigid block on Coulomb friction is pushed by no more than its friction; the equipment stands on legs, and wobbles";
+      item.statements.back().why =
+          "a rigid block on Coulomb friction is pushed by no more than its friction; the equipment stands on legs, and "
+          "wobbles";
   }
   item.sheets = {sheet};
   item.left_out = {"the other tests of table 9.2, and the histories of chapter 9, are not among the tables"};

@@ -13,7 +13,8 @@ const TablePulses::Made& TablePulses::made(const std::string& type) {
 
 Shaking TablePulses::shaking(const std::string& type, double period_s, double velocity_in_per_s) {
   const Made& one = made(type);
-  return {&one.motion, motion::acceleration_of_velocity_amplitude(one.pulse, velocity_in_per_s * inch_m, period_s), period_s};
+  return {&one.motion, motion::acceleration_of_velocity_amplitude(one.pulse, velocity_in_per_s * inch_m, period_s),
+          period_s};
 }
 
 Shaking TablePulses::shaking_g(const std::string& type, double period_s, double peak_acceleration_g) {

@@ -25,7 +25,11 @@ constexpr const char* json_name = "reproduce.json";
 Json or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
 Json number_json(const report::Number& number) {
-  Json json{{"id", number.id}, {"kind", "number"}, {"what", number.what}, {"unit", number.unit}, {"ours", or_null(number.ours)}};
+  Json json{{"id", number.id},
+            {"kind", "number"},
+            {"what", number.what},
+            {"unit", number.unit},
+            {"ours", or_null(number.ours)}};
   json["print"] = number.print ? Json(*number.print) : Json();
   json["print_unit"] = number.print ? Json(number.print_unit) : Json();
   json["reach"] = number.reach ? Json{number.reach->low, number.reach->high} : Json();
@@ -36,9 +40,13 @@ Json number_json(const report::Number& number) {
 }
 
 Json statement_json(const report::Statement& statement) {
-  return {{"id", statement.id},       {"kind", "statement"}, {"what", statement.what},
-          {"ours", statement.ours},   {"print", statement.print.empty() ? Json() : Json(statement.print)},
-          {"difference", Json()},     {"verdict", name(statement.verdict)},
+  return {{"id", statement.id},
+          {"kind", "statement"},
+          {"what", statement.what},
+          {"ours", statement.ours},
+          {"print", statement.print.empty() ? Json() : Json(statement.print)},
+          {"difference", Json()},
+          {"verdict", name(statement.verdict)},
           {"why", statement.why}};
 }
 
@@ -61,7 +69,8 @@ std::string csv_of(const report::Entry& entry, const report::Sheet& sheet) {
   text += "\n";
   for (const std::vector<report::Cell>& row : sheet.rows) {
     text += entry.name;
-    for (const report::Cell& cell : row) text += "," + std::visit([](const auto& value) { return io::cell(value); }, cell);
+    for (const report::Cell& cell : row)
+      text += "," + std::visit([](const auto& value) { return io::cell(value); }, cell);
     text += "\n";
   }
   return text;
@@ -87,20 +96,24 @@ Reproduced reproduce(const parallel::Communicator& world, const ReproduceOptions
   report::Sources sources{options.tables, options.records, spread_jobs(world, options.quiet)};
   if (options.peaks) return {report::own_peaks(*options.peaks, sources.jobs), true};
   if (options.records && !std::filesystem::is_directory(*options.records))
-    throw Error(fmt::format("{} is no folder (the report's records lie in one): check --records", options.records->string()), Exit::data);
+    throw Error(
+        fmt::format("{} is no folder (the report's records lie in one): check --records", options.records->string()),
+        Exit::data);
   Reproduced found;
   for (const report::Entry& entry : report::entries()) found.items.emplace_back(entry, entry.compute(sources));
   return found;
 }
 
 void prepare(const ReproduceOptions& options) {
-  io::prepare_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse, {json_name});
+  io::prepare_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+                            {json_name});
 }
 
 Json reproduce_json(const Reproduced& found, const ReproduceOptions& options, int ranks) {
   const Agreement counts = agreement(found);
   const io::Provenance from = io::provenance_here(options.command, ranks);
-  Json json{{"format", reproduce_format}, {"own_peaks", options.peaks ? Json(options.peaks->filename().string()) : Json()}};
+  Json json{{"format", reproduce_format},
+            {"own_peaks", options.peaks ? Json(options.peaks->filename().string()) : Json()}};
   json["numbers_printed"] = counts.printed;
   json["numbers_that_agree"] = counts.agree;
   json["numbers_that_disagree"] = counts.disagree;
@@ -108,8 +121,9 @@ Json reproduce_json(const Reproduced& found, const ReproduceOptions& options, in
   json["records"] = options.records.has_value();
   json["figures"] = Json::array();
   for (const auto& [entry, item] : found.items) json["figures"].push_back(figure_json(entry, item));
-  json["provenance"] = {{"version", from.version}, {"git_commit", from.git_commit},         {"compiler", from.compiler}, {"host", from.host},
-                        {"ranks", ranks},          {"created_utc", from.created_utc}, {"command", options.command}};
+  json["provenance"] = {
+      {"version", from.version}, {"git_commit", from.git_commit},   {"compiler", from.compiler}, {"host", from.host},
+      {"ranks", ranks},          {"created_utc", from.created_utc}, {"command", options.command}};
   return json;
 }
 
@@ -119,7 +133,8 @@ void write(const Reproduced& found, const ReproduceOptions& options, int ranks) 
     for (const report::Sheet& sheet : item.sheets) files.push_back(file_of(sheet));
   io::refuse_others(options.output, files);
   for (const auto& [entry, item] : found.items)
-    for (const report::Sheet& sheet : item.sheets) io::write_text(options.output / file_of(sheet), csv_of(entry, sheet));
+    for (const report::Sheet& sheet : item.sheets)
+      io::write_text(options.output / file_of(sheet), csv_of(entry, sheet));
   io::write_text(options.output / json_name, io::json_text(reproduce_json(found, options, ranks)));
 }
 

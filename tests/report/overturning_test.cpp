@@ -13,7 +13,9 @@ namespace {
 
 bool own(double amplitude, double frequency) {
   const SpectrumBlock block;
-  return test::rock_under_one_sine({block.p_radps, block.alpha_rad}, amplitude * block.alpha_rad, frequency * block.p_radps).overturned;
+  return test::rock_under_one_sine({block.p_radps, block.alpha_rad}, amplitude * block.alpha_rad,
+                                   frequency * block.p_radps)
+      .overturned;
 }
 
 TEST(OverturningSearch, BoundariesAreThoseOfAnIntegrationOfItsOwn) {

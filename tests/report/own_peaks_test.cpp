@@ -33,7 +33,9 @@ class OwnPeaks : public testing::Test {
     for (int i = 0; i < rows; ++i) {
       const double pta = 0.4 + 0.05 * i, im = intensity(pta, 0.2), delta = 0.5 * im * (i % 2 ? 1.3 : 0.7);
       const double slip_mm = 1000 * delta * pta * 9.80665 * 0.25 / (4 * 3.14159265358979 * 3.14159265358979);
-      text += i == at ? changed + "\n" : "m" + std::to_string(i % 4) + "," + std::to_string(pta) + ",0.2,0.5," + std::to_string(slip_mm) + "\n";
+      text += i == at ? changed + "\n"
+                      : "m" + std::to_string(i % 4) + "," + std::to_string(pta) + ",0.2,0.5," +
+                            std::to_string(slip_mm) + "\n";
     }
     return text;
   }
@@ -46,7 +48,8 @@ class OwnPeaks : public testing::Test {
     return "";
   }
   void TearDown() override { std::filesystem::remove(file_); }
-  std::filesystem::path file_ = std::filesystem::temp_directory_path() / ("freestand-peaks-" + std::to_string(::getpid()) + ".csv");
+  std::filesystem::path file_ =
+      std::filesystem::temp_directory_path() / ("freestand-peaks-" + std::to_string(::getpid()) + ".csv");
 };
 
 TEST_F(OwnPeaks, TheReportsOwnTableGivesItsLines) {
@@ -76,8 +79,11 @@ TEST_F(OwnPeaks, BadInputIsToldWithItsLine) {
   EXPECT_NE(error(made(20, "m,0.5,x,0.5,2", 4)).find(":6: mu is x"), std::string::npos);
   EXPECT_NE(error(made(9)).find("need 14 measured peaks (there are 9)"), std::string::npos);
   EXPECT_NE(error("pta_g,period_s,peak_slip_m\n1,1,1\n").find("no column im, mu"), std::string::npos);
-  EXPECT_NE(error("pta_g,mu,peak_slip_m\n1,0.2,1\n").find("none of the columns pulse_period_s, period_s"), std::string::npos);
-  EXPECT_NE(error("pta_g,mu,period_s,peak_slip_m,peak_slip_in\n1,0.2,1,1,1\n").find("several of the columns peak_slip_m"), std::string::npos);
+  EXPECT_NE(error("pta_g,mu,peak_slip_m\n1,0.2,1\n").find("none of the columns pulse_period_s, period_s"),
+            std::string::npos);
+  EXPECT_NE(
+      error("pta_g,mu,period_s,peak_slip_m,peak_slip_in\n1,0.2,1,1,1\n").find("several of the columns peak_slip_m"),
+      std::string::npos);
   EXPECT_NE(error("mu,period_s,peak_slip_m\n0.2,1,1\n").find("no column pta_g"), std::string::npos);
 }
 

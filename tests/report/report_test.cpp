@@ -30,14 +30,16 @@ const Item& item(const std::string& name) {
 
 const Number& number(const std::string& place, const std::string& id) {
   const auto& all = item(place).numbers;
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Number& one) { return one.id == place + "." + id; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Number& one) { return one.id == place + "." + id; });
   EXPECT_NE(found, all.end()) << place << '.' << id;
   return *found;
 }
 
 const Statement& statement(const std::string& place, const std::string& id) {
   const auto& all = item(place).statements;
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Statement& one) { return one.id == place + "." + id; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Statement& one) { return one.id == place + "." + id; });
   EXPECT_NE(found, all.end()) << place << '.' << id;
   return *found;
 }
@@ -79,7 +81,8 @@ TEST(Reproduce, LinesThroughTheOrigin) {
 
 // The null of each very line, by a simulation written apart (tests/fragility/report_test.cpp).
 TEST(Reproduce, LinesStandUnderTheirOwnNull) {
-  for (const auto& [line, critical, p] : {std::tuple{"rare_motions", 0.230, 0.20}, {"slow_pull", 0.195, 0.26}, {"best_fit", 0.198, 0.39}}) {
+  for (const auto& [line, critical, p] :
+       {std::tuple{"rare_motions", 0.230, 0.20}, {"slow_pull", 0.195, 0.26}, {"best_fit", 0.198, 0.39}}) {
     expect(line, "ks_critical", critical, 0.003);
     expect(line, "ks_p", p, 0.015);
     EXPECT_EQ(statement(line, "accepted").verdict, Verdict::agrees);
@@ -111,7 +114,8 @@ TEST(Reproduce, ChainsAndQuarterScaleBlocks) {
   expect("table_9_1", "cross-chained.newton", 3139.7, 0.1);
   expect("table_9_2", "B.measured_ratio", 3.34, 0.005);
   expect("table_9_2", "C1.measured_ratio", 7.49, 0.005);
-  for (const char* pulse : {"B", "C1"}) EXPECT_EQ(statement("table_9_2", std::string(pulse) + ".ratio").verdict, Verdict::agrees);
+  for (const char* pulse : {"B", "C1"})
+    EXPECT_EQ(statement("table_9_2", std::string(pulse) + ".ratio").verdict, Verdict::agrees);
   expect("table_7_1", "rows", 18, 0);
   expect("table_7_1", "experiment", 16, 0);
   expect("table_7_1", "working_model", 14, 0);
@@ -127,8 +131,14 @@ TEST(Reproduce, FrictionOfParadox) {
 
 // Which printed numbers do not follow from the print itself: known oddities of tables 4.1 and 5.1, and the slow pull's line.
 TEST(Reproduce, NothingElseDisagrees) {
-  const std::set<std::string> known{"table_4_1.6.forma_face_pta_g", "table_4_1.6.forma_face_peak_slip_in", "table_4_1.10.asp_face_pta_g", "table_4_1.10.asp_face_peak_slip_in",
-                                    "slow_pull.slope", "slow_pull.r2", "slow_pull.ks", "design_example.slow_pull"};
+  const std::set<std::string> known{"table_4_1.6.forma_face_pta_g",
+                                    "table_4_1.6.forma_face_peak_slip_in",
+                                    "table_4_1.10.asp_face_pta_g",
+                                    "table_4_1.10.asp_face_peak_slip_in",
+                                    "slow_pull.slope",
+                                    "slow_pull.r2",
+                                    "slow_pull.ks",
+                                    "design_example.slow_pull"};
   std::set<std::string> found, ids;
   int printed = 0;
   for (const Entry& entry : entries()) {
@@ -180,14 +190,19 @@ class Changed : public testing::Test {
 
 TEST_F(Changed, ASlipOfThePrintIsSeen) {
   const Item changed = compute("table_5_1", with("table_5_1.csv", "2.26,3.34", "2.26,3.44"));
-  const auto off = std::count_if(changed.numbers.begin(), changed.numbers.end(), [](const Number& one) { return one.verdict == Verdict::print_disagrees_with_itself; });
+  const auto off = std::count_if(changed.numbers.begin(), changed.numbers.end(),
+                                 [](const Number& one) { return one.verdict == Verdict::print_disagrees_with_itself; });
   EXPECT_EQ(off, 1);
-  EXPECT_EQ(compute("table_9_1", with("table_9_1.csv", "1,680", "1,780")).numbers.front().verdict, Verdict::print_disagrees_with_itself);
+  EXPECT_EQ(compute("table_9_1", with("table_9_1.csv", "1,680", "1,780")).numbers.front().verdict,
+            Verdict::print_disagrees_with_itself);
 }
 
 TEST_F(Changed, ATableThatCannotBeUsedIsNamed) {
-  EXPECT_NE(error("table_5_1", with("table_5_1.csv", "0.75,6.87", "0.75,six")).find("table_5_1.csv:2: peak_slip_in is six"), std::string::npos);
-  EXPECT_NE(error("table_3_1", with("table_3_1.csv", "height_in", "height_m")).find("has no column height_in"), std::string::npos);
+  EXPECT_NE(
+      error("table_5_1", with("table_5_1.csv", "0.75,6.87", "0.75,six")).find("table_5_1.csv:2: peak_slip_in is six"),
+      std::string::npos);
+  EXPECT_NE(error("table_3_1", with("table_3_1.csv", "height_in", "height_m")).find("has no column height_in"),
+            std::string::npos);
   const Sources all = with("table_3_1.csv", "FORMA", "FORMA");
   std::filesystem::remove(folder_ / "table_9_1.csv");
   EXPECT_NE(error("table_9_1", all).find("--tables"), std::string::npos);

@@ -7,8 +7,6 @@
 //   agree, of 16       2, 6          8, 12   8, 13    the report's own model, under the table's motions: 12
 //
 // Were the two files of Los Gatos added as if they began together, the Brier scores would be 0.43, 0.32 and 0.22.
-#include "report/quarter_scale.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,22 +15,23 @@
 #include <filesystem>
 
 #include "motion/record.hpp"
+#include "report/quarter_scale.hpp"
 #include "support/data.hpp"
 
 namespace freestand::test::table_7_1_test {
 namespace {
 
 using report::BlockTest;
-using report::Prediction;
-using report::Score;
-using report::Sides;
-using report::Sources;
-using report::Station;
 using report::predict;
+using report::Prediction;
 using report::read_component;
 using report::record_dt_s;
+using report::Score;
 using report::score;
+using report::Sides;
 using report::sound_tests;
+using report::Sources;
+using report::Station;
 using report::station_of;
 using report::stations;
 using report::weight_after_others;
@@ -53,8 +52,10 @@ std::size_t arrival(const std::vector<double>& samples) {
 std::vector<Prediction> predicted(double half_power_hz, double Sides::*width) {
   const std::vector<Prediction> all = predict(sources(), records_dir(), half_power_hz, width);
   for (const Prediction& one : all)
-    std::printf("  %-10s %-38s %.2f g  experiment %d, its model %d; normal %.2f, parallel %.2f; after the others %.2f\n", one.test.block.c_str(), one.test.motion.c_str(),
-                one.test.pta_g, one.test.overturned, one.test.working_model_overturned, one.normal, one.parallel, one.mixed(weight_after_others(all, one)));
+    std::printf(
+        "  %-10s %-38s %.2f g  experiment %d, its model %d; normal %.2f, parallel %.2f; after the others %.2f\n",
+        one.test.block.c_str(), one.test.motion.c_str(), one.test.pta_g, one.test.overturned,
+        one.test.working_model_overturned, one.normal, one.parallel, one.mixed(weight_after_others(all, one)));
   return all;
 }
 
@@ -88,7 +89,8 @@ TEST_F(Table7_1, ComponentsOfAStationBeginWhereTheirShakingMeets) {
   for (const Station& station : stations) {
     double begins_s[2];
     for (int i = 0; i < 2; ++i)
-      begins_s[i] = record_dt_s * static_cast<double>(station.begins[i] + arrival(read_component(folder(), station.files[i])));
+      begins_s[i] =
+          record_dt_s * static_cast<double>(station.begins[i] + arrival(read_component(folder(), station.files[i])));
     EXPECT_NEAR(begins_s[0], begins_s[1], 0.2) << station.named;
   }
 }
@@ -120,8 +122,9 @@ TEST_F(Table7_1, OutcomesOfTheEnsembles) {
   for (const Expected& e : expected) {
     std::printf("table that follows up to %.0f Hz (0: the record as it is)\n", e.half_power_hz);
     const Score s = score(predicted(e.half_power_hz, &Sides::narrow_m));
-    std::printf("  Brier %.3f, %d agree; after the others %.3f, %d; the report's model %d; FORMA %.2f, Kelvinator %.2f\n", s.brier, s.agree, s.brier_after_others, s.agree_after_others,
-                s.working_model_agrees, s.forma, s.kelvinator);
+    std::printf(
+        "  Brier %.3f, %d agree; after the others %.3f, %d; the report's model %d; FORMA %.2f, Kelvinator %.2f\n",
+        s.brier, s.agree, s.brier_after_others, s.agree_after_others, s.working_model_agrees, s.forma, s.kelvinator);
     EXPECT_NEAR(s.brier, e.brier, 0.02);
     EXPECT_NEAR(s.brier_after_others, e.brier_after_others, 0.02);
     EXPECT_NEAR(s.agree, e.agree, 1);
