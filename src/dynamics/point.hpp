@@ -24,7 +24,7 @@ struct PointAcceleration {
   Series<double, N> x, y;  // [m/s2]
 
   PointAcceleration(const Point& point, double theta, const Series<double, N>& omega) {
-    Series<double, N> qx, qy, vx, vy;
+    Series<double, N> qx = Series<double, N>::zero(), qy = qx, vx = qx, vy = qx;
     const Rotation<double> rotation = rotation_by(theta);
     qx[0] = point.across * rotation.cosine + point.up * rotation.sine;
     qy[0] = point.up * rotation.cosine - point.across * rotation.sine;
