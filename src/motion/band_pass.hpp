@@ -21,8 +21,8 @@ double band_pass_gain(const BandPass& band, double frequency_hz);
 
 // Both channels of a record, by FFTW with zeros at both ends, so many that what leaves at one end does not come in at the other
 // (a part of 1e-8). These zeros stay, 7.7 periods of the lower corner at each end: they hold what the filter makes before
-// and after the record, without which the floor would drift. Throws Error (Exit::data) where the upper corner is not below half the sampling rate, or the record is shorter than a
-// period of the lower one.
+// and after the record, without which the floor would drift. Throws Error (Exit::data) where the upper corner is not below
+// half the sampling rate, or the record is shorter than a period of the lower one.
 FloorMotion band_pass(const FloorMotion& record, const BandPass& band);
 
 }  // namespace freestand::motion
