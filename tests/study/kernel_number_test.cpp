@@ -61,6 +61,11 @@ std::vector<std::string> studies() {
       "effects: [{name: flexible_legs, frequency_hz: 3, damping: 0.01}, {name: friction_wear, ratio: 1.5, path_m: "
       "0.2}]\n"
       "motions: [{pulse: [A, B], period_s: {uniform: [2, 4]}, peak_acceleration_g: {uniform: [0.6, 1]}}]\n");
+  // On legs a row of hops ends.
+  texts.push_back(
+      "block: {width_m: 0.7, height_m: 1, mass_kg: 100}\nfriction: {mu_k: {uniform: [0.6, 0.9]}}\n"
+      "effects: [{name: flexible_legs, frequency_hz: 4, damping: 0.03}]\n" +
+      records);
   for (const char* design : {"monte_carlo", "latin_hypercube"})
     texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   return texts;
