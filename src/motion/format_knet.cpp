@@ -58,8 +58,10 @@ RawRecord read(const RecordText& text) {
   text.ends_at(line, count);
   const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   for (double& value : values) value = (value - mean) * factor;
-  return {
-      1 / frequency, "gal", {RawChannel{"", false, std::move(values)}}, std::string(entry(text, "Record Time").value)};
+  RawRecord record{1 / frequency, "gal", {RawChannel{"", false, std::move(values)}}};
+  if (text.find("Record Time", 0, header_lines) < std::min(text.size(), header_lines))
+    record.start = entry(text, "Record Time").value;
+  return record;
 }
 
 const RegisteredFormat here{{.name = "knet",
