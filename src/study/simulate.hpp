@@ -13,7 +13,7 @@ struct Simulation {
   Response response;
   Response tighter;  // the same at a hundredth of the tolerance
   History history;
-  std::vector<double> floor_displacement_m;  // one for each point of the history
+  std::vector<double> floor_displacement_m = {};  // one for each point of the history
   std::vector<std::string> doubts;
   bool still_moving = false;  // when its time was over
 };
