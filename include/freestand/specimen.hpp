@@ -84,7 +84,7 @@ struct EffectUse {
 struct Start {
   double rotation_rad = 0;  // within pi/2
   double rotation_rate_radps = 0;
-  double slip_m = 0;             // of the midpoint of the base, as it is reported
+  double slip_m = 0;             // of the corner that carries, from where it stood; of the base where the block is upright
   double slip_velocity_mps = 0;  // of the corner that carries, along the floor; of the base where the block is upright
 
   bool upright_at_rest() const {

@@ -99,16 +99,16 @@ void Integration::start_from(const Start& start) {
   state.w = start.slip_velocity_mps;
   const double leads = state.theta != 0 ? state.theta : state.omega;
   state.pivot = (leads > 0) - (leads < 0);
-  state.xi = start.slip_m - state.pivot * rig.half_base() * rotation_by(state.theta).versine;
+  state.xi = start.slip_m;
   state.mode = state.pivot == 0 ? Mode::slide : Mode::slide_rock;
   if (beyond_a_wall()) return stop(Outcome::not_finite);
   if (rig.laws) state.sides = law_values(rig, state, 0, state.w < 0 ? -1 : 1).sides;
   moved_ = true;
-  peaks.response().peak_slip_m = std::abs(start.slip_m);
+  peaks.response().peak_slip_m = std::abs(slip());
   peaks.response().peak_rotation_rad = std::abs(start.rotation_rad);
   if (settings.slip_by_side) {
-    peaks.response().peak_slip_right_m = std::fmax(start.slip_m, 0.0);
-    peaks.response().peak_slip_left_m = std::fmax(-start.slip_m, 0.0);
+    peaks.response().peak_slip_right_m = std::fmax(slip(), 0.0);
+    peaks.response().peak_slip_left_m = std::fmax(-slip(), 0.0);
   }
   if (touches_wall(rig, state) && !meet_walls_too()) return stop_without_mode();
   if (!choose_mode(rig, cursor, state) && !choose_beside_wall()) stop_without_mode();

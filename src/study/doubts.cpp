@@ -90,7 +90,8 @@ void ask_of_formula(const EffectPart& part, double mu, Doubter& doubter) {
                   part.name, friction(at), where));
 }
 
-void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
+// moves: the block is on its way already.
+void ask_of_source(const MotionSource& source, bool shaken, bool moves, Doubter& doubter) {
   doubter.ask(source.period, longest_period_s, "is it in seconds?");
   for (const auto& quantity : {source.amplitude, source.period}) doubter.ask_dispersion(quantity);
   if (!source.vertical_records.empty() && !shaken)
@@ -109,7 +110,7 @@ void ask_of_source(const MotionSource& source, bool shaken, Doubter& doubter) {
         source.records, joined(source.ungrouped), source.ungrouped.front()));
   if (!source.amplitude) return;
   const sampling::Support amplitudes = support(source.amplitude->value);
-  if (amplitudes.lower == 0 && amplitudes.upper == 0)
+  if (amplitudes.lower == 0 && amplitudes.upper == 0 && !moves)
     doubter.said.push_back(fmt::format("{} is 0: nothing will shake", source.amplitude->name));
   const bool spectral = source.scale_to && source.scale_to->period_s;  // may be larger than any peak
   if (source.amplitude->unit == "g" && !spectral) doubter.ask(source.amplitude, strongest_g, "is it in g?");
@@ -162,7 +163,7 @@ std::vector<std::string> doubts(const Study& study) {
     ask_of_formula(effect, usual(friction.mu ? *friction.mu : *friction.mu_k), doubter);
   const bool shaken = shakes_vertically(study.model);
   for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
-  for (const MotionSource& source : study.motions) ask_of_source(source, shaken, doubter);
+  for (const MotionSource& source : study.motions) ask_of_source(source, shaken, study.model.start.any(), doubter);
   for (const MotionSource& source : study.motions) ask_of_polarity(source, one_sided(study), doubter);
   const auto& chain = study.model.chain;
   if (chain && chain->wall_gap && chain->wall_gap->line == 0)

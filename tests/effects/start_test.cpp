@@ -58,6 +58,9 @@ TEST_P(Start, ABlockThatIsLetGoRocksAsItsCentreOfMassAndInertiaSay) {
       const Response r = GetParam()(specimen, {&still_floor()}, tight(), &history);
       EXPECT_EQ(r.outcome, Outcome::moved);
       EXPECT_NEAR(r.peak_rotation_rad, share * alpha, 1e-12);
+      // Its corner stands where it stood, the middle of its base beside that by b (1 - cos(theta)), and it comes to rest in place.
+      EXPECT_NEAR(r.peak_slip_m, 0.3 * (1 - std::cos(share * alpha)), 1e-12);
+      EXPECT_NEAR(r.residual_slip_m, 0, 1e-12);
       const std::vector<double> found = impacts(history);
       ASSERT_GE(found.size(), 5U);
       for (std::size_t i = 0; i < 5; ++i) {

@@ -32,7 +32,8 @@ TEST_F(MeasuredSpecimens, SayWhereTheirMassIsAndHowTheyBegin) {
   const auto data = read_measurements(
       dataset("width_m: 0.6, height_m: 1.8, mass_kg: 90, centre_height_m: 0.7, gyration_radius_m: 0.5",
               std::string(pulse) + ", start: {rotation_rad: -0.05, slip_m: 0.01}"));
-  const measurement::ModelSpec model{.mu_k = {.value = 0.3}};
+  measurement::ModelSpec model;
+  model.mu_k.value = 0.3;
   const Specimen s = measurement::specimen(model, data.tests.at(0), {});
   EXPECT_EQ(s.block.height_m, 0.7);
   EXPECT_EQ(s.block.full_height_m(), 1.8);
@@ -67,8 +68,9 @@ TEST_F(MeasuredSpecimens, AModelMayHaveChainsAndFitThem) {
   EXPECT_EQ(s.effects[0].parameters[0], 4e5 / 90);
   measurement::ModelSpec unknown = model;
   unknown.mass = {};
-  EXPECT_EQ(measurement::missing_dimension(unknown, {.specimen = {.width_m = 0.6, .height_m = 1.8, .mass_kg = {}}}),
-            "mass_kg");
+  measurement::Test test;
+  test.specimen.width_m = 0.6, test.specimen.height_m = 1.8;
+  EXPECT_EQ(measurement::missing_dimension(unknown, test), "mass_kg");
 }
 
 }  // namespace
