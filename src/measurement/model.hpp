@@ -38,8 +38,8 @@ struct EffectTerm {
 struct ChainTerm {
   Number slack, stiffness, strength;
   std::optional<Number> height;  // absent: the block's
-  Number number{.value = 1}, plan_angle, damping;
-  std::optional<Number> wall_gap;
+  Number number{.value = 1}, plan_angle = {}, damping = {};
+  std::optional<Number> wall_gap = {};
   int side = 1;
 };
 

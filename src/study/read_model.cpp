@@ -37,7 +37,7 @@ void check_mass_distribution(Section& section, const BlockPart& block) {
   if (!block.width || !block.height) return;
   const auto width = support(block.width->value), height = support(block.height->value);
   const auto centre = block.centre_height ? support(block.centre_height->value)
-                                          : sampling::Support{0.5 * height.lower, 0.5 * height.upper};
+                                          : sampling::Support{0.5 * height.lower, 0.5 * height.upper, true, true};
   if (block.centre_height && !(centre.upper < height.lower))
     section.problem(
         "centre_height_m",
