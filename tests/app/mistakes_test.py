@@ -177,7 +177,8 @@ class Mistakes(InFolder):
         self.succeed(["simulate", CONFIGS / "case.yaml", "-o", out])
         header = (out / "history.csv").read_text().splitlines()[0]
         self.assertEqual(header, "time_s,floor_acceleration_mps2,slip_m,slip_velocity_mps,rotation_rad,"
-                                 "rotation_rate_radps,mode")
+                                 "rotation_rate_radps,mode,floor_displacement_m,acceleration_mps2,"
+                                 "vertical_acceleration_mps2,contact_horizontal_n,contact_vertical_n")
         for key in ("peak_slip_m", "residual_slip_m", "slid_path_m", "peak_rotation_rad", "overturned", "outcome",
                     "peak_acceleration_g", "events"):
             self.assertIn(f'"{key}"', (out / "summary.json").read_text())
