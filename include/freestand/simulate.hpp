@@ -31,8 +31,11 @@ Response respond(const Specimen&, const Shaking&, const Settings& = {}, History*
 // tolerances below 1e-10, others below 1e-13. Records under the other effects have the very bits of single samples.
 void respond_batch(std::span<const Specimen>, std::span<const Shaking>, const Settings&, std::span<Response>);
 
+// Where the motion has a second horizontal channel, a block of model slide is followed in the plane of the floor, one by one:
+// slips and accelerations are the sizes of vectors. Other models and effects along one line are not_finite there.
+
 // Event-driven reference on SUNDIALS ARKODE (explicit Runge-Kutta, order 5) with root finding; stops at every knot of
-// the motion. Slow and exact.
+// the motion. Slow and exact. Of no motion in the plane.
 Response respond_reference(const Specimen&, const Shaking&, const Settings& = {}, History* history = nullptr);
 
 }  // namespace freestand
