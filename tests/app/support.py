@@ -1,8 +1,10 @@
 """What the tests of the program share: studies, runs, and the comparison of result files."""
 
+import atexit
 import math
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -16,6 +18,17 @@ except ImportError:
 
 FREESTAND = os.environ["FREESTAND"]
 MPIEXEC = os.environ["MPIEXEC"]
+
+
+def own_session_folder():
+    """A folder in which a launcher keeps its session. Open MPI's own is shared by all of a user: a launcher that starts while another one
+    that ends removes it stops with "mkdir: File exists"."""
+    folder = tempfile.mkdtemp(prefix="fs-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+os.environ["OMPI_MCA_orte_tmpdir_base"] = own_session_folder()
 CONFIGS = pathlib.Path(__file__).resolve().parents[2] / "configs"
 
 STUDY = """\

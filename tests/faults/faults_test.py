@@ -49,13 +49,14 @@ class Faults:
         return result(out), datasets(out / "tally.h5") if self.keep == "none" else {}
 
     def run(self, out, *options, check=False, **settings):
-        environment = {**os.environ, **settings}
         arguments = command(["run", self.study, "-o", out, "--quiet", *options], self.ranks)
         if settings and self.ranks > 1:  # the launcher's own files are not meant
             arguments = arguments[:3] + ["env", f"LD_PRELOAD={LIBRARY}"] + arguments[3:]
         elif settings:
-            environment["LD_PRELOAD"] = LIBRARY
-        return subprocess.run(arguments, env=environment, capture_output=True, text=True, timeout=120, check=check)
+            settings["LD_PRELOAD"] = LIBRARY
+        with tempfile.TemporaryDirectory(prefix="fs-", ignore_cleanup_errors=True) as session:  # two launchers run side by side
+            environment = {**os.environ, **settings, "OMPI_MCA_orte_tmpdir_base": session}
+            return subprocess.run(arguments, env=environment, capture_output=True, text=True, timeout=120, check=check)
 
     def one(self, kind, lasting, rank, call):
         """What is wrong, nothing if all is well; None where the run ended before the call."""
