@@ -63,7 +63,8 @@ struct Event {
 struct HistoryPoint {
   double time_s, floor_acceleration_mps2, slip_m, slip_velocity_mps, rotation_rad, rotation_rate_radps;
   Mode mode;
-  // Total acceleration of the block's point at Settings::acceleration_height_m, else of its centre of mass: to the right, and up.
+  // Where History::forces. Total acceleration of the block's point at Settings::acceleration_height_m, else of its centre of
+  // mass: to the right, and up.
   double acceleration_mps2 = 0, vertical_acceleration_mps2 = 0;
   // Force of the floor on the block over its mass, to the right and up, both corners together; of model bouc_wen with the
   // forces of laws.
@@ -75,6 +76,8 @@ struct History {
   double step_s = 0.005;  // output step; 0: events only
   std::vector<HistoryPoint> points;
   std::vector<Event> events;
+  bool forces =
+      false;  // asked for: accelerations and the force of the floor too, which fits of many histories do without
   bool cross = false;  // the floor moves in both horizontal directions, and slip is a vector
 };
 

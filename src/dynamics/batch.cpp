@@ -93,7 +93,6 @@ bool vertical_covered(const Specimen& specimen, const Shaking& shaking) {
 bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings,
              BatchCase& c, std::optional<SpeedLaw>& law) {
   if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1 || settings.slip_by_side) return false;
-  if (!std::isnan(settings.acceleration_height_m)) return false;
   if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = speed_law(Laws(specimen))))) return false;
   if (law && too_steep(*law, specimen, shaking)) return false;
   const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty();
@@ -251,13 +250,18 @@ void sort_by_record(std::span<const Shaking> shakings, std::vector<std::size_t>&
   for (std::size_t i = 0; i < shakings.size(); ++i) order[starts[bin(i)]++] = i;
 }
 
+// No pack begins on its way, or follows a point.
+bool goes_alone(const Specimen& specimen, const Settings& settings) {
+  return !specimen.start.upright_at_rest() || !std::isnan(settings.acceleration_height_m);
+}
+
 }  // namespace
 
 std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<const Shaking> shakings,
                               const Settings& settings, std::span<Response> responses) {
   const BatchKernels* kernels = batch_kernels();
   Queues queues(std::min(group, specimens.size()));
-  std::vector<std::size_t> single, order;
+  std::vector<std::size_t> single, alone, order;
   BatchCase c{};
   std::optional<SpeedLaw> law;
   for (std::size_t first = 0; first < specimens.size(); first += group) {
@@ -265,8 +269,11 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
     for (const std::size_t place : order) {
       const std::size_t i = first + place;
       law.reset();
-      const bool packs =
-          kernels && specimens[i].start.upright_at_rest() && covered(specimens[i], shakings[i], settings, c, law);
+      if (goes_alone(specimens[i], settings)) {
+        alone.push_back(i);
+        continue;
+      }
+      const bool packs = kernels && covered(specimens[i], shakings[i], settings, c, law);
       if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c, law.has_value()) : nullptr)
         queues.add(kernel, c, law, i);
       else
@@ -274,10 +281,9 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
     }
     queues.compute(responses, single);
   }
-  std::vector<std::size_t> under_laws, alone;
+  std::vector<std::size_t> under_laws;
   for (const std::size_t i : single) {
-    const bool lanes = kernels && specimens[i].start.upright_at_rest() && std::isnan(settings.acceleration_height_m) &&
-                       goes_in_law_lanes(set_up(specimens[i], shakings[i]), settings);
+    const bool lanes = kernels && goes_in_law_lanes(set_up(specimens[i], shakings[i]), settings);
     (lanes ? under_laws : alone).push_back(i);
   }
   if (!under_laws.empty()) respond_in_law_lanes(*kernels, specimens, shakings, settings, under_laws, responses);

@@ -21,20 +21,19 @@ class HistoryRecorder {
   void record(const State& state, const Arc<double, N>& arc, const Floor<double, N>& floor, double start, double tau) {
     if (!wanted()) return;
     const auto u = midpoint(rig_, state, arc);
-    const PointAcceleration<N> beside(followed(), arc.theta[0], arc.omega);
+    const auto beside = beside_the_centre(arc.theta[0], arc.omega);
     each_point(start, tau, [&](double t) {
       const double theta = arc.theta.at(t), omega = arc.omega.at(t);
-      return HistoryPoint{start + t,
-                          floor.a.at(t) - rig_.push,
-                          u.at(t),
-                          arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega,
-                          theta,
-                          omega,
-                          state.mode,
-                          pull(arc).at(t) + beside.x.at(t) - rig_.push,
-                          arc.fy.at(t) + beside.y.at(t) - rig_.g,
-                          arc.fx.at(t),
-                          arc.fy.at(t)};
+      HistoryPoint point{start + t, floor.a.at(t) - rig_.push,
+                         u.at(t),   arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega,
+                         theta,     omega,
+                         state.mode};
+      if (!beside) return point;
+      point.acceleration_mps2 = pull(arc).at(t) + beside->x.at(t) - rig_.push;
+      point.vertical_acceleration_mps2 = arc.fy.at(t) + beside->y.at(t) - rig_.g;
+      point.contact_x_mps2 = arc.fx.at(t);
+      point.contact_y_mps2 = arc.fy.at(t);
+      return point;
     });
   }
 
@@ -53,21 +52,21 @@ class HistoryRecorder {
   void record(const State&, const Flight<double, N>& flight, const Floor<double, N>& floor, double start, double tau,
               const Series<double, N>& pull) {
     if (!wanted()) return;
-    const PointAcceleration<N> beside(followed(), flight.theta[0], flight.omega);
+    const auto beside = beside_the_centre(flight.theta[0], flight.omega);
     const double d = 0.5 * (rig_.right - rig_.left);
     each_point(start, tau, [&](double t) {
       const double theta = flight.theta.at(t), omega = flight.omega.at(t);
-      return HistoryPoint{start + t,
-                          floor.a.at(t) - rig_.push,
-                          midpoint_in_flight(rig_, flight.x.at(t), theta),
-                          flight.vx.at(t) - (rig_.h * std::cos(theta) + d * std::sin(theta)) * omega,
-                          theta,
-                          omega,
-                          Mode::flight,
-                          pull.at(t) + beside.x.at(t) - rig_.push,
-                          beside.y.at(t) - rig_.g,
-                          0,
-                          0};
+      HistoryPoint point{start + t,
+                         floor.a.at(t) - rig_.push,
+                         midpoint_in_flight(rig_, flight.x.at(t), theta),
+                         flight.vx.at(t) - (rig_.h * std::cos(theta) + d * std::sin(theta)) * omega,
+                         theta,
+                         omega,
+                         Mode::flight};
+      if (!beside) return point;
+      point.acceleration_mps2 = pull.at(t) + beside->x.at(t) - rig_.push;
+      point.vertical_acceleration_mps2 = beside->y.at(t) - rig_.g;
+      return point;
     });
   }
 
@@ -94,7 +93,12 @@ class HistoryRecorder {
   bool wanted() const { return history_ && history_->step_s > 0; }
 
  private:
-  Point followed() const { return rig_.point.value_or(Point{}); }
+  // The acceleration of the point that is followed beside that of the centre of mass, where it is asked for.
+  template <int N>
+  std::optional<PointAcceleration<N>> beside_the_centre(double theta, const Series<double, N>& omega) const {
+    if (!history_->forces) return {};
+    return PointAcceleration<N>(rig_.point.value_or(Point{}), theta, omega);
+  }
   // Total acceleration of the centre of mass along the floor, gravity along a tilted floor included.
   template <int N>
   static const Series<double, N>& pull(const Arc<double, N>& arc) {

@@ -28,16 +28,14 @@ double centre_speed(const Rig& rig, const State& state) {
 // Velocity relative to the floor of the point that is followed.
 Velocity<double> point_velocity(const Rig& rig, const State& state) {
   const Rotation<double> rotation = rotation_by(state.theta);
-  double vx = state.vx, vy = state.vy;
+  Velocity<double> centre{state.vx, state.vy, state.omega};
   if (state.mode != Mode::flight) {
-    vx = centre_speed(rig, state);
-    const int pivot = state.pivot == 0 ? 1 : state.pivot;
-    vy = -(rig.h * rotation.sine - rig.offset(pivot) * rotation.cosine) * state.omega;
-    if (state.pivot == 0) vy = 0;
+    const double c = state.pivot == 0 ? 0 : rig.offset(state.pivot);
+    const Arm<double> r{rig.h * rotation.sine - c * rotation.cosine, rig.h * rotation.cosine + c * rotation.sine};
+    centre = at_centre(r, state.w, state.omega);
   }
-  const double qx = rig.point->across * rotation.cosine + rig.point->up * rotation.sine;
-  const double qy = rig.point->up * rotation.cosine - rig.point->across * rotation.sine;
-  return {vx + state.omega * qy, vy - state.omega * qx, state.omega};
+  const double qx = rig.point->qx(rotation), qy = rig.point->qy(rotation);
+  return {centre.vx + state.omega * qy, centre.vy - state.omega * qx, state.omega};
 }
 
 // Of a side face that comes flat each edge throws the other one at the wall, ever more slowly, until it lies against it. A blow

@@ -16,6 +16,9 @@ namespace freestand::dynamics {
 
 struct Point {
   double across = 0, up = 0;  // from the centre of mass of the upright block [m]
+
+  double qx(const Rotation<double>& r) const { return across * r.cosine + up * r.sine; }
+  double qy(const Rotation<double>& r) const { return up * r.cosine - across * r.sine; }
 };
 
 // d2/dt2 q as series of time, of order N - 1; theta and omega: rotation and its rate.
@@ -26,8 +29,8 @@ struct PointAcceleration {
   PointAcceleration(const Point& point, double theta, const Series<double, N>& omega) {
     Series<double, N> qx = Series<double, N>::zero(), qy = qx, vx = qx, vy = qx;
     const Rotation<double> rotation = rotation_by(theta);
-    qx[0] = point.across * rotation.cosine + point.up * rotation.sine;
-    qy[0] = point.up * rotation.cosine - point.across * rotation.sine;
+    qx[0] = point.qx(rotation);
+    qy[0] = point.qy(rotation);
     for (int k = 0; k < N; ++k) {
       qx[k + 1] = product(omega, qy, k) / (k + 1);
       qy[k + 1] = -product(omega, qx, k) / (k + 1);

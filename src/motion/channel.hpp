@@ -1,6 +1,7 @@
 // A motion's segments as polynomials, for the files of this folder.
 #pragma once
 
+#include <algorithm>
 #include <freestand/floor_motion.hpp>
 
 #include "motion/peaks.hpp"
@@ -23,6 +24,12 @@ inline std::vector<std::vector<double>*> channels(FloorMotion& motion) {
   for (std::vector<double>* channel : {&motion.horizontal_mps2, &motion.vertical_mps2})
     if (!channel->empty()) there.push_back(channel);
   return there;
+}
+
+// The segment in which a time within the motion lies.
+inline std::size_t segment_at(const FloorMotion& motion, double t) {
+  const auto next = std::upper_bound(motion.knot_s.begin(), motion.knot_s.end() - 1, t);
+  return static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - motion.knot_s.begin() - 1, 0));
 }
 
 inline double length(const FloorMotion& motion, std::size_t i) { return motion.knot_s[i + 1] - motion.knot_s[i]; }

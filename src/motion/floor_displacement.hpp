@@ -22,8 +22,7 @@ class FloorDisplacement {
 
   double operator()(double t) const {
     if (t >= motion_.duration_s()) return last_ + last_velocity_ * (t - motion_.duration_s());
-    const auto next = std::upper_bound(motion_.knot_s.begin(), motion_.knot_s.end() - 1, t);
-    const auto i = static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - motion_.knot_s.begin() - 1, 0));
+    const std::size_t i = segment_at(motion_, t);
     return pieces_[i](t - motion_.knot_s[i]);
   }
   // Of the floor as one sample feels it [m].

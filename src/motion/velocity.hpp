@@ -20,9 +20,7 @@ class FloorVelocity {
 
   // Within [0, duration].
   double operator()(double t) const {
-    const auto next = std::upper_bound(motion_.knot_s.begin(), motion_.knot_s.end() - 1, t);
-    const std::size_t i =
-        next == motion_.knot_s.begin() ? 0 : static_cast<std::size_t>(next - motion_.knot_s.begin()) - 1;
+    const std::size_t i = segment_at(motion_, t);
     return pieces_[i](t - motion_.knot_s[i]);
   }
 

@@ -110,7 +110,7 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
 
 std::string start_text(const StartPart& start) {
   Mapping m;
-  for (const auto& quantity : {start.rotation, start.rotation_rate, start.slip, start.slip_velocity}) m.add(quantity);
+  for (const auto& quantity : start.given()) m.add(quantity);
   return start.any() ? "start: " + m.flow() + "\n" : "";
 }
 

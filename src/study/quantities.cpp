@@ -4,6 +4,13 @@
 
 namespace freestand::study {
 
+std::vector<Quantity> StartPart::given() const {
+  std::vector<Quantity> all;
+  for (const auto& q : {rotation, rotation_rate, slip, slip_velocity})
+    if (q) all.push_back(*q);
+  return all;
+}
+
 std::vector<Quantity> quantities(const ModelPart& model) {
   std::vector<Quantity> all;
   const auto add = [&](const std::optional<Quantity>& quantity) {
@@ -26,8 +33,7 @@ std::vector<Quantity> quantities(const ModelPart& model) {
       add(q);
     add(model.chain->wall_gap);
   }
-  const StartPart& start = model.start;
-  for (const auto& q : {start.rotation, start.rotation_rate, start.slip, start.slip_velocity}) add(q);
+  for (const auto& q : model.start.given()) add(q);
   return all;
 }
 

@@ -165,8 +165,7 @@ Start read_start(Section& test) {
   const YAML::Node* node = test.find("start");
   if (!node) return start;
   Section section(*node, test.name("start"), test.line("start"), test.problems());
-  start.rotation_rad = section.number(
-      "rotation_rad", 0, {.lower = -pi / 2, .upper = pi / 2, .why = "a block that leans further has fallen"});
+  start.rotation_rad = section.number("rotation_rad", 0, range::leaning);
   start.rotation_rate_radps = section.number("rotation_rate_radps", 0);
   start.slip_m = section.number("slip_m", 0);
   start.slip_velocity_mps = section.number("slip_velocity_mps", 0);

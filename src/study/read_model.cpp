@@ -239,14 +239,12 @@ std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
   return chain;
 }
 
-constexpr Range leaning = {.lower = -pi / 2, .upper = pi / 2, .why = "a block that leans further has fallen"};
-
 StartPart read_start(Section& file, const ModelPart& model) {
   StartPart start;
   const YAML::Node* node = file.find("start");
   if (!node) return start;
   Section section(*node, "start", file.line("start"), file.problems());
-  start.rotation = section.quantity("start", "rotation_rad", leaning);
+  start.rotation = section.quantity("start", "rotation_rad", range::leaning);
   start.rotation_rate = section.quantity("start", "rotation_rate_radps", range::any);
   start.slip = section.quantity("start", "slip_m", range::any);
   start.slip_velocity = section.quantity("start", "slip_velocity_mps", range::any);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/units.hpp"
 #include "study/problems.hpp"
 #include "study/study.hpp"
 
@@ -26,6 +27,7 @@ namespace range {
 inline constexpr Range any = {};
 inline constexpr Range positive = {.lower = 0, .why = "it must be above zero"};
 inline constexpr Range not_negative = {.lower = 0, .lower_open = false, .why = "it must not be negative"};
+inline constexpr Range leaning = {.lower = -pi / 2, .upper = pi / 2, .why = "a block that leans further has fallen"};
 inline constexpr Range fraction = {
     .lower = 0, .upper = 1, .lower_open = false, .upper_open = false, .why = "it must lie between 0 and 1"};
 }  // namespace range

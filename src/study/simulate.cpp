@@ -37,6 +37,7 @@ Simulation simulate(const Case& c, bool reference) {
   Simulation out{
       .specimen = sample.specimen, .response = {}, .tighter = {}, .history = {}, .doubts = doubts(c.study, motions)};
   out.history.step_s = c.output_step_s;
+  out.history.forces = true;
   const auto solve = reference ? respond_reference : respond;
   Settings settings = integration_settings(c.study);
   out.response = solve(sample.specimen, sample.shaking, settings, &out.history);

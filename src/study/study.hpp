@@ -88,6 +88,7 @@ struct StartPart {
   std::optional<Quantity> rotation, rotation_rate;  // start.rotation_rad, start.rotation_rate_radps
   std::optional<Quantity> slip, slip_velocity;      // start.slip_m, start.slip_velocity_mps
 
+  std::vector<Quantity> given() const;
   bool any() const { return rotation || rotation_rate || slip || slip_velocity; }
 };
 

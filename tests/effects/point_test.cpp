@@ -62,6 +62,7 @@ TEST_P(FollowedPoint, HasTheAccelerationOfItsPosition) {
     settings.acceleration_height_m = 1.7 * c.specimen.block.height_m;
     History history;
     history.step_s = 1e-3;
+    history.forces = true;
     const Response r = GetParam()(c.specimen, c.shaking, settings, &history);
     expect_differences_of_the_positions(c.specimen, c.shaking, history, settings.acceleration_height_m, compared);
     double most = 0;
@@ -86,6 +87,7 @@ TEST_P(FollowedPoint, ForcesOfTheFloorMakeTheMomentumAndKeepTheCone) {
     const RandomCase c = random_case(family, i);
     History history;
     history.step_s = 0.01;
+    history.forces = true;
     GetParam()(c.specimen, c.shaking, {}, &history);
     for (const HistoryPoint& p : history.points) {
       EXPECT_NEAR(p.acceleration_mps2, p.contact_x_mps2, 1e-9);
