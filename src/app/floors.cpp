@@ -5,7 +5,6 @@
 #include <freestand/error.hpp>
 
 #include "base/units.hpp"
-#include "motion/building_response.hpp"
 #include "motion/peaks.hpp"
 #include "motion/spectrum.hpp"
 
@@ -14,9 +13,12 @@ namespace {
 
 constexpr double floor_periods_s[] = {0.1, 0.2, 0.5, 1.0, 2.0};
 
-void refuse_outside_the_band(const FloorMotion& ground, const std::vector<motion::Mode>& modes) {
+// Those of the building, some of which the record can excite.
+std::vector<motion::Mode> excited_modes(const FloorMotion& ground, const motion::Building& building) {
+  std::vector<motion::Mode> modes = motion::modes(building);
   if (const std::string why = motion::outside_the_band(ground, modes); !why.empty())
     throw Error(fmt::format("{}: {}", ground.name, why), Exit::data);
+  return modes;
 }
 
 std::string modes_text(const motion::Building& building, const std::vector<motion::Mode>& modes) {
@@ -30,19 +32,19 @@ std::string modes_text(const motion::Building& building, const std::vector<motio
 
 }  // namespace
 
-std::string floors_text(const FloorMotion& ground, const motion::Building& building) {
-  const std::vector<motion::Mode> modes = motion::modes(building);
-  refuse_outside_the_band(ground, modes);
-  motion::BuildingResponse response(ground, modes);
-  std::string text = modes_text(building, modes);
+Floors::Floors(const FloorMotion& ground, const motion::Building& building)
+    : ground_(ground), building_(building), modes_(excited_modes(ground, building)), response_(ground, modes_) {}
+
+std::string Floors::text() {
+  std::string text = modes_text(building_, modes_);
   text += "    storey  height m   PFA g  of PGA  PFV m/s  of PGV   Sa of the floor, 5 % damped, g:";
   for (const double period : floor_periods_s) text += fmt::format("  {:g} s", period);
   text += "  samples\n";
-  const motion::MotionPeaks below = motion::peaks(ground);
-  for (int storey = building.floors(); storey >= 0; --storey) {
-    const FloorMotion floor = response.floor(storey, ground.name);
+  const motion::MotionPeaks below = motion::peaks(ground_);
+  for (int storey = building_.floors(); storey >= 0; --storey) {
+    const FloorMotion floor = response_.floor(storey, ground_.name);
     const motion::MotionPeaks peaks = motion::peaks(floor);
-    const auto height = building.height_m(building.floors()) ? building.height_m(storey) : std::nullopt;
+    const auto height = building_.height_m(building_.floors()) ? building_.height_m(storey) : std::nullopt;
     text += fmt::format("    {:>6}  {:>8}  {:>6.4f}  {:>6.3f}  {:>7.4f}  {:>6.3f}  {:>30}", storey,
                         height ? fmt::format("{:.2f}", *height) : "", peaks.pga_mps2 / standard_gravity_mps2,
                         peaks.pga_mps2 / below.pga_mps2, peaks.pgv_mps, peaks.pgv_mps / below.pgv_mps, "");
@@ -53,11 +55,8 @@ std::string floors_text(const FloorMotion& ground, const motion::Building& build
   return text;
 }
 
-FloorMotion floor_of(const FloorMotion& ground, const motion::Building& building, int storey) {
-  const std::vector<motion::Mode> modes = motion::modes(building);
-  refuse_outside_the_band(ground, modes);
-  return motion::BuildingResponse(ground, modes)
-      .floor(storey, fmt::format("{} {} storey {}", ground.name, building.name, storey));
+FloorMotion Floors::motion_of(int storey) {
+  return response_.floor(storey, fmt::format("{} {} storey {}", ground_.name, building_.name, storey));
 }
 
 }  // namespace freestand::app

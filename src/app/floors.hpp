@@ -3,15 +3,26 @@
 
 #include <freestand/floor_motion.hpp>
 #include <string>
+#include <vector>
 
-#include "motion/building.hpp"
+#include "motion/building_response.hpp"
 
 namespace freestand::app {
 
-// Modes of the building, and a row for each of its floors.
-std::string floors_text(const FloorMotion& ground, const motion::Building& building);
+class Floors {
+ public:
+  // The two outlive it. Throws Error where no mode lies in the record's band.
+  Floors(const FloorMotion& ground, const motion::Building& building);
 
-// The motion of that floor. Throws Error where there is none, or no mode lies in the record's band.
-FloorMotion floor_of(const FloorMotion& ground, const motion::Building& building, int storey);
+  // Modes of the building, and a row for each of its floors.
+  std::string text();
+  FloorMotion motion_of(int storey);
+
+ private:
+  const FloorMotion& ground_;
+  const motion::Building& building_;
+  std::vector<motion::Mode> modes_;
+  motion::BuildingResponse response_;
+};
 
 }  // namespace freestand::app

@@ -98,10 +98,10 @@ void show(const MotionOptions& options) {
     fmt::print("{}\n{}", file, motion::figures_text(told.back().figures));
     if (const std::string sign = motion::vertical_sign(file); !sign.empty())
       fmt::print("  a vertical component: {}\n", sign);
-    if (building) fmt::print("{}", floors_text(motion, *building));
+    std::optional<Floors> floors;
+    if (building) fmt::print("{}", floors.emplace(motion, *building).text());
     if (!options.convert.empty())
-      io::write_text(options.convert,
-                     motion::floor_csv(building ? floor_of(motion, *building, options.storey) : motion));
+      io::write_text(options.convert, motion::floor_csv(floors ? floors->motion_of(options.storey) : motion));
   }
   const std::filesystem::path csv = options.csv;
   if (!csv.empty()) io::write_text(csv, motion::figures_csv(told, csv.has_parent_path() ? csv.parent_path() : "."));

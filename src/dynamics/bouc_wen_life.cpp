@@ -140,8 +140,7 @@ void BoucWenLife::next_segment() {
 }
 
 double BoucWenLife::next_output() const {
-  if (!history_ || !(history_->step_s > 0)) return std::numeric_limits<double>::infinity();
-  return static_cast<double>(points_) * history_->step_s - cursor.time();
+  return times_.wanted() ? times_.next() - cursor.time() : std::numeric_limits<double>::infinity();
 }
 
 void BoucWenLife::begin_slide(double time) {

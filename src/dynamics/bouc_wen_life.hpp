@@ -9,6 +9,7 @@
 #include "dynamics/bouc_wen_contact.hpp"
 #include "dynamics/bouc_wen_laws.hpp"
 #include "dynamics/floor_cursor.hpp"
+#include "dynamics/output_times.hpp"
 #include "dynamics/roots.hpp"
 
 namespace freestand::dynamics {
@@ -72,7 +73,7 @@ class BoucWenLife {
 
   History* history_;
   Response response_;
-  long points_ = 0;
+  OutputTimes times_{history_};
   long turns_ = 0;
   bool slides_ = false, moved_ = false, finished_ = false;
   double last_slide_s_ = 0, last_turn_u_ = 0, last_turn_slip_ = 0;
@@ -83,10 +84,7 @@ class BoucWenLife {
 
 template <class Point>
 void BoucWenLife::record(double tau, Point&& point) {
-  if (!history_ || !(history_->step_s > 0)) return;
-  const double start = cursor.time();
-  const auto next = [&] { return static_cast<double>(points_) * history_->step_s; };
-  for (; next() < start + tau; ++points_) history_->points.push_back(point(std::fmax(next() - start, 0.0)));
+  times_.within(cursor.time(), tau, [&](double t) { history_->points.push_back(point(t)); });
 }
 
 template <int N>

@@ -3,13 +3,14 @@
 
 #include <freestand/response.hpp>
 
+#include "dynamics/output_times.hpp"
 #include "dynamics/peaks.hpp"
 
 namespace freestand::dynamics {
 
 class HistoryRecorder {
  public:
-  HistoryRecorder(History* history, const Rig& rig) : history_(history), rig_(rig) {
+  HistoryRecorder(History* history, const Rig& rig) : history_(history), rig_(rig), times_(history) {
     if (history_) history_->points.clear(), history_->events.clear();
   }
 
@@ -83,14 +84,13 @@ class HistoryRecorder {
   // The last state, held to the end of the motion: what rests, or has fallen, stays.
   void hold(const State& state, double slip, double end, const Shaking& shaking) {
     if (!wanted()) return;
-    for (; next_time() <= end; ++next_) {
-      const double a = horizontal_acceleration(shaking, next_time()), v = vertical_acceleration(shaking, next_time());
-      history_->points.push_back(
-          {next_time(), a, slip, 0.0, state.theta, 0.0, state.mode, a, v, a + rig_.push, v + rig_.g});
-    }
+    times_.up_to(end, [&](double t) {
+      const double a = horizontal_acceleration(shaking, t), v = vertical_acceleration(shaking, t);
+      history_->points.push_back({t, a, slip, 0.0, state.theta, 0.0, state.mode, a, v, a + rig_.push, v + rig_.g});
+    });
   }
 
-  bool wanted() const { return history_ && history_->step_s > 0; }
+  bool wanted() const { return times_.wanted(); }
 
  private:
   // The acceleration of the point that is followed beside that of the centre of mass, where it is asked for.
@@ -109,16 +109,14 @@ class HistoryRecorder {
     return arc.ax;
   }
 
-  double next_time() const { return static_cast<double>(next_) * history_->step_s; }
-
   template <class Point>
   void each_point(double start, double tau, Point&& point) {
-    for (; next_time() < start + tau; ++next_) history_->points.push_back(point(std::fmax(next_time() - start, 0.0)));
+    times_.within(start, tau, [&](double t) { history_->points.push_back(point(t)); });
   }
 
   History* history_;
   const Rig& rig_;
-  long next_ = 0;
+  OutputTimes times_;
 };
 
 }  // namespace freestand::dynamics

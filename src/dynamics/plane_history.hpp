@@ -5,20 +5,21 @@
 #include <freestand/floor_motion.hpp>
 #include <freestand/response.hpp>
 
+#include "dynamics/output_times.hpp"
 #include "dynamics/plane_slip.hpp"
 
 namespace freestand::dynamics {
 
 class PlaneHistory {
  public:
-  PlaneHistory(History* history, const Shaking& shaking) : history_(history), shaking_(shaking) {
+  PlaneHistory(History* history, const Shaking& shaking) : history_(history), shaking_(shaking), times_(history) {
     if (!history_) return;
     history_->points.clear();
     history_->events.clear();
     history_->cross = true;
   }
 
-  bool wanted() const { return history_ && history_->step_s > 0; }
+  bool wanted() const { return times_.wanted(); }
 
   void event(const Event& event) {
     if (history_) history_->events.push_back(event);
@@ -48,19 +49,15 @@ class PlaneHistory {
 
   // The last state, held to the end of the motion.
   void hold(const PlaneVector& u, Mode mode) {
-    if (!wanted()) return;
-    for (; next_time() <= shaking_.duration_s(); ++next_)
-      add(next_time(), {horizontal_acceleration(shaking_, next_time()), cross_acceleration(shaking_, next_time())}, u,
-          {}, mode);
+    times_.up_to(shaking_.duration_s(), [&](double t) {
+      add(t, {horizontal_acceleration(shaking_, t), cross_acceleration(shaking_, t)}, u, {}, mode);
+    });
   }
 
  private:
-  double next_time() const { return static_cast<double>(next_) * history_->step_s; }
-
   template <class Point>
   void each_point(double start, double tau, Point&& point) {
-    if (!wanted()) return;
-    for (; next_time() < start + tau; ++next_) point(std::fmin(std::fmax(next_time() - start, 0.0), tau));
+    times_.within(start, tau, [&](double t) { point(std::fmin(t, tau)); });
   }
 
   void point(double time, const PlaneFloor& floor, double t, const PlaneVector& u, const PlaneVector& w, Mode mode) {
@@ -77,7 +74,7 @@ class PlaneHistory {
 
   History* history_;
   const Shaking& shaking_;
-  long next_ = 0;
+  OutputTimes times_;
 };
 
 }  // namespace freestand::dynamics

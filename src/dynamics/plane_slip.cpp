@@ -71,10 +71,6 @@ struct Follower {
   }
 };
 
-}  // namespace
-
-namespace {
-
 // The first M coefficients; `Shaken`: g' changes with time. Degree: of the floor's polynomials.
 template <int M, int Degree, bool Shaken>
 void slip_to_order(const PlaneFloor& floor, double mu_k, SlipSeries& y) {

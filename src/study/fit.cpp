@@ -139,7 +139,8 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   world.on_root([&] { io::refuse_others(folder, written); });
   const io::SampleReader reader(samples_path(options.from));
   const auto [study, changed] = study_of(world, reader.provenance().study, options);
-  const SampleIntensity intensity(study.fragility.im, motion_summaries(reader.motions()));
+  const MotionSummaries motions = motion_summaries(reader.motions());
+  const SampleIntensity intensity(study.fragility.im, motions);
   FitSummary told{.samples = reader.rows(), .intensity = described(study.fragility.im), .changed = changed};
   if (!intensity.interpolation().empty()) told.notes.push_back(intensity.interpolation());
   const Target target(study);
@@ -150,8 +151,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   fragility::Result result;
   Ranking ranking;
   if (const auto words = counted_words(world, study, reader, options.from)) {
-    const SampleCounts counts(study, target, reader.motions().group, motion_summaries(reader.motions()),
-                              reader.read(0, bin_layout_samples));
+    const SampleCounts counts(study, target, reader.motions().group, motions, reader.read(0, bin_layout_samples));
     result = counts.result(*words, jobs);
     if (world.is_root()) ranking = counts.ranking(*words, swept_samples(reader));
     told.samples = swept_samples(reader);
@@ -178,7 +178,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     io::write_text(folder / "ranking.csv", ranking_csv(ranking));
     if (elsewhere) io::write_text(study_path(folder), io::signed_text(expanded(study, folder)));
     nlohmann::ordered_json summary = summary_of(study, provenance, result, told);
-    summary["record_pulses"] = record_pulses_json(motion_summaries(reader.motions()));
+    summary["record_pulses"] = record_pulses_json(motions);
     summary["ranking"] = ranking_json(ranking);
     summary["timing"] = timing_json(options.sweep, so_far(), world.size());
     if (elsewhere) summary["samples_in"] = way_between(folder, options.from);
