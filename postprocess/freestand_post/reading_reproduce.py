@@ -30,7 +30,14 @@ class Place:
 
     def value(self, name):
         """Our number of that id, without what stands before its last dot."""
-        return next((number(item["ours"]) for item in self.numbers() if item["id"] == f"{self.id}.{name}"), math.nan)
+        return self._number(name, "ours")
+
+    def print(self, name):
+        """The printed number beside it."""
+        return self._number(name, "print")
+
+    def _number(self, name, whose):
+        return next((number(item[whose]) for item in self.numbers() if item["id"] == f"{self.id}.{name}"), math.nan)
 
 
 @dataclass

@@ -7,7 +7,6 @@ from . import Picture
 from .report_peaks import column
 
 order = 260
-PRINTED = {"Aigion OTE FP": 3.3, "Coyote Lake Gilroy #6 FN": 7.5}
 STRENGTH = "Points: six pulls of each kind; bar: mean and standard deviation."
 RATIO = ("Each point is one slack of the chains (0 to 40 mm), one stiffness (by the frequency of the equipment on them, 3 to 20 Hz), one friction and one sign of the pulse. Line: the ratio that was "
          "measured.")
@@ -20,7 +19,8 @@ def pictures(results):
     if pulls:
         yield _strength(pulls)
     if peaks:
-        yield _ratios(peaks)
+        measured = {item["what"].split(":")[0]: item["print"] for item in results.place("table_9_2").printed() if item["id"].endswith("measured_ratio")}
+        yield _ratios(peaks, measured)
 
 
 def _strength(rows):
@@ -40,7 +40,7 @@ def _strength(rows):
     return Picture("report_strength", fig, finding, STRENGTH, "table_9_1")
 
 
-def _ratios(rows):
+def _ratios(rows, measured):
     fig = style.figure(7.4, 3.9)
     kinds = list(dict.fromkeys(row["series"] for row in rows))
     for ax, kind in zip(fig.subplots(1, len(kinds), sharey=True), kinds):
@@ -49,8 +49,8 @@ def _ratios(rows):
         for colour, hz in zip(style.series(np.unique(frequency).size), np.unique(frequency)):
             here = frequency == hz
             ax.plot(1000 * slack[here] + 0.5 * np.log2(hz / 8), ratio[here], "o", ms=4.5, color=colour, mec="white", mew=0.3, label=f"{hz:g} Hz")
-        ax.axhline(PRINTED[kind], color=style.VERMILION, lw=1.4)
-        ax.annotate(f"measured: {PRINTED[kind]}", (40, PRINTED[kind]), xytext=(0, 4), textcoords="offset points", ha="right", color=style.VERMILION, weight="bold", path_effects=style.halo())
+        ax.axhline(measured[kind], color=style.VERMILION, lw=1.4)
+        ax.annotate(f"measured: {measured[kind]}", (40, measured[kind]), xytext=(0, 4), textcoords="offset points", ha="right", color=style.VERMILION, weight="bold", path_effects=style.halo())
         ax.set_title(kind, weight="bold")
         ax.set_xlabel("slack (mm)")
         style.grid(ax)

@@ -1,11 +1,10 @@
 """Friction at which slide-rock has no unique motion, over slenderness."""
-from .. import style
+from .. import style, words
 from ..reading_reproduce import Reproduction
 from . import Picture
 from .report_peaks import column
 
 order = 245
-FINDING = "The mass matrix of slide-rock is singular from a friction of 4/3 on, and at 1.6 for the FORMA"
 CAPTION = "Line: friction at which the matrix is singular while a block of that slenderness lifts off. The report says that it never is."
 
 
@@ -24,5 +23,8 @@ def pictures(results):
         ax.text(*label, f" {row['series']}", va="center", weight="bold", color=style.VERMILION)
     ax.set(xlabel="slenderness α (rad)", ylabel="friction coefficient", ylim=(1.2, 3.6))
     style.grid(ax)
-    style.headline(fig, FINDING)
-    yield Picture("report_painleve", fig, FINDING, CAPTION, "painleve")
+    place = results.place("painleve")
+    finding = (f"The mass matrix of slide-rock is singular from a friction of {words.number(place.value('least'), 3)} on, and at "
+               f"{words.number(place.value('FORMA'), 3)} for the FORMA")
+    style.headline(fig, finding)
+    yield Picture("report_painleve", fig, finding, CAPTION, "painleve")
