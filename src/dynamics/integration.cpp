@@ -326,6 +326,11 @@ void Integration::chose(const State& from, bool impact) {
   if (from.mode != Mode::flight) took_off_from_ = state.x;
   if (from.mode == Mode::flight && state.mode != Mode::flight) flown_ += std::abs(from.x - took_off_from_);
   peaks.response().events += news;
+  if (news && rig.laws && rig.laws->walls.any()) {
+    peaks.came_to(cursor.time(), rig.brief_s);
+    if (peaks.waits() || within_reach_of_wall(rig, state, beside_wall(rig)))
+      peaks.event_beside_wall(cursor.time());
+  }
   if (++resolved_ >= settings.event_limit && !finished_) stop(Outcome::step_limit);
 }
 
@@ -345,6 +350,7 @@ void Integration::stop_when_done() {
   for (const double value : values)
     if (!(std::abs(value) < beyond_all_bounds)) return stop(Outcome::not_finite);
   if (!peaks.finite()) return stop(Outcome::not_finite);
+  peaks.came_to(cursor.time(), rig.brief_s);
   if (steps_++ % steps_watched == 0) {
     if (steps_ > 1 && (cursor.time() - watched_from_) * p_ < least_progress) return stop(Outcome::step_limit);
     watched_from_ = cursor.time();

@@ -34,6 +34,7 @@ struct Rig {
   std::optional<Point> point;  // whose acceleration is followed
   double instant_s;            // what is closer together happens at once: events are located no better [s]
   double told_speed;           // nor a blow of a wall that comes slower than this [m/s]
+  double brief_s;  // beside a wall two blows that are closer together than a throw at that speed are one [s]
 
   Rig(const Specimen& specimen, const Settings& settings, const FloorInput& floor = {})
       : right(specimen.block.right_m),
@@ -57,7 +58,8 @@ struct Rig {
         // motion depends on it.
         told_rotation(1e-3 * specimen.block.alpha_rad()),
         instant_s(1e-14 / specimen.block.p_radps()),
-        told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()) {
+        told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()),
+        brief_s(2 * told_speed / g) {
     if (has_laws(specimen) || push != 0) laws.emplace(specimen);
     if (!std::isnan(settings.acceleration_height_m)) point = {0.5 * (right - left), settings.acceleration_height_m - h};
   }
