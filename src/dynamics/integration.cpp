@@ -251,6 +251,8 @@ void Integration::resolve(Witness witness) {
       break;
   }
   if (is_kink(witness) && state.sigma * slip_speed(rig, state) <= 0) stop_slip();
+  // A corner that begins to rise is at the floor, or under it by round-off.
+  if (state.pivot * state.theta < 0 && state.pivot * state.omega >= 0) state.theta = 0;
   if (regular && !at_floor && strikes_too()) {
     impact = true;
     regular = strike_floor();
@@ -329,7 +331,7 @@ void Integration::chose(const State& from, bool impact) {
   if (news && rig.laws && rig.laws->walls.any()) {
     peaks.came_to(cursor.time(), rig.brief_s);
     if (peaks.waits() || within_reach_of_wall(rig, state, beside_wall(rig)))
-      peaks.event_beside_wall(cursor.time());
+      peaks.event_beside_wall(impact, cursor.time());
   }
   if (++resolved_ >= settings.event_limit && !finished_) stop(Outcome::step_limit);
 }

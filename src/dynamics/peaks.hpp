@@ -104,14 +104,15 @@ class Peaks {
   }
 
   // Beside a wall a block comes to stand in blows of floor and wall that follow one another ever faster, in an order that
-  // hangs on the last digit of its motion. What it feels between two events there that are closer together than `brief_s`
-  // does not count: from an event on, at a time [s], it waits for the next one.
-  void event_beside_wall(double time) {
-    if (waits_) {
+  // hangs on the last digit of its motion. What it feels between a blow and the event before or after it, when they are closer
+  // together than `brief_s`, does not count: from an event on, at a time [s], it waits for the next one.
+  void event_beside_wall(bool blow, double time) {
+    if (waits_ && (blow || waits_since_blow_)) {
       response_.peak_acceleration_mps2 = before_[0];
       response_.peak_acceleration_at_height_mps2 = before_[1];
     }
     waits_ = true;
+    waits_since_blow_ = blow;
     waits_since_ = time;
     before_[0] = response_.peak_acceleration_mps2;
     before_[1] = response_.peak_acceleration_at_height_mps2;
@@ -183,7 +184,8 @@ class Peaks {
 
   Response response_;
   bool finite_ = true;
-  bool waits_ = false;      // since an event beside a wall
+  bool waits_ = false;  // since an event beside a wall
+  bool waits_since_blow_ = false;
   double waits_since_ = 0;  // [s]
   double before_[2] = {};   // largest accelerations until then
 };

@@ -16,6 +16,10 @@
 
 namespace freestand::dynamics {
 
+// On legs a row of hops is gone through to this rotation [rad]: while it lasts the foot slips, which it does not where the row is cut
+// off and the foot is stuck. What is left then lasts some 1e-7 s, in which friction changes the base's speed by less than 1e-7 m/s.
+inline constexpr double hop_over_legs = 1e-15;
+
 struct Rig {
   double right, left, h, k2;  // [m], [m2]
   double top;                 // height of the upper edges over the base [m]
@@ -61,6 +65,7 @@ struct Rig {
         told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()),
         brief_s(2 * told_speed / g) {
     if (has_laws(specimen) || push != 0) laws.emplace(specimen);
+    if (laws && laws->legs.frequency_radps > 0) rest_rotation = std::fmin(rest_rotation, hop_over_legs);
     if (!std::isnan(settings.acceleration_height_m)) point = {0.5 * (right - left), settings.acceleration_height_m - h};
   }
 
