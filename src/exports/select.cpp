@@ -218,7 +218,7 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
   if (request.form && std::find(format.forms.begin(), format.forms.end(), *request.form) == format.forms.end())
     throw Error(fmt::format("{} has no {} (it cannot hold that form): leave --form out, or use --form discrete",
                             format.name, *request.form == Form::parts ? "formulas for the three parts" : "lognormals"));
-  std::vector<Wanted> wanted = wanted_states(result, request.states);
+  std::vector<Wanted> wanted = wanted_states(result, request.states, format.table);
   if (format.last_only) wanted = {wanted.back()};
   Model fresh{request.id, request.description, request.asset_category, request.loss_category, im, unknown, unknown, {},
               {}};
