@@ -146,6 +146,7 @@ const Register here{
      .summary = "a fragility set for IN-CORE: lognormals, levels, or the three parts as they are",
      .file = "fragility.json",
      .forms = {Form::lognormal, Form::parts, Form::discrete},
+     .fixed_number = true,
      .notes_on = [](const Model& model) -> std::vector<std::string> { return {of_the_ground(model.im, "IN-CORE")}; },
      .usual_category = usual_category,
      .refuse = refuse,

@@ -224,7 +224,8 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
               {}};
   for (const Wanted& one : wanted) fresh.states.push_back(state_of(result, im, one, request, format.table));
   std::vector<std::string> left_out;
-  if (request.states.empty() && !format.table) left_out = leave_out_what_never_happened(fresh, wanted);
+  if (request.states.empty() && !format.table && !format.fixed_number)
+    left_out = leave_out_what_never_happened(fresh, wanted);
   if (fresh.asset_category.empty() && format.usual_category)
     fresh.asset_category = format.usual_category(fresh.states.size());
   take_range(fresh, wanted);

@@ -70,6 +70,11 @@ TEST(LimitStates, ThatNeverHappenedAreLeftOutWhereNobodyAskedForThem) {
   ASSERT_EQ(usual.states.size(), 2u);
   EXPECT_THAT(usual.notes, testing::Contains(HasSubstr("left out: overturned never happened up to 1.9 g")));
   EXPECT_THAT(usual.notes, testing::Not(testing::Contains(HasSubstr("left out: overturned (--limit-state"))));
+  // IN-CORE takes three, no fewer.
+  const Model three = model("incore", request(), results);
+  ASSERT_EQ(three.states.size(), 3u);
+  EXPECT_THAT(three.notes, testing::Contains(HasSubstr("overturned never happened up to 1.9 g: its probability is 0")));
+  EXPECT_EQ(error_of([&] { find("incore").refuse(three); }), "");
   Request asked = request({"peak_slip_m:0.05", "overturned"});
   asked.form = Form::discrete;
   const Model zeros = model("openquake", asked, results);

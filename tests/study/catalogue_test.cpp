@@ -152,7 +152,8 @@ TEST_F(CatalogueTest, ACommonBlockIsWhatEachEntryDoesNotSay) {
               AllOf(HasSubstr("some.yaml:5: unknown key mas_kg"), Not(HasSubstr("t.csv"))));
   EXPECT_THAT(refusal(common + "block: {centre_height_m: 1.7, height_m: 2}\ntable: t.csv\n"),
               AllOf(HasSubstr("t.csv:2: block.centre_height_m"), Not(HasSubstr("t.csv:3"))));
-  EXPECT_THAT(refusal(common + "block: {mass_kg: 120}\ntable: t.csv\n"), HasSubstr("t.csv:3: block.height_m is missing"));
+  EXPECT_THAT(refusal(common + "block: {mass_kg: 120}\ntable: t.csv\n"),
+              HasSubstr("t.csv:3: block.height_m is missing"));
 }
 
 TEST_F(CatalogueTest, AMassThatNobodyGaveIsNotKnown) {
