@@ -96,8 +96,7 @@ struct BandCase {
 
 class RiskBands : public testing::TestWithParam<BandCase> {};
 
-// Wanted of 90 % intervals with shared records: 87 to 93 %, and figures of many repeats in risk.hpp. Of fewer than 40 records by counts
-// the limit is missed on one side alone, and there at most as often as asked: up to 0.96 is granted. FREESTAND_REPEATS for more.
+// Wanted of 90 % intervals with shared records: 87 to 93 %, and figures of many repeats in risk.hpp. FREESTAND_REPEATS for more.
 TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
   const BandCase& at = GetParam();
   Sweep sweep;
