@@ -246,7 +246,7 @@ class Pages(InFolder):
         self.assertEqual([row["best"].split(":")[0] for row in told["rows"]], ["PGD", "PGD"])
         self.assertRegex(told["finding"], "depends on the design: PGA for width 0.6\u00a0m and PTA/.* for width 0.9")
         results[0].sweeps[0].summary["ranking"]["demands"][results[0].sweeps[0].edps[0].name][2].update(deviance_explained=0.5, scatter=0.5)
-        self.assertRegex(best_intensity.table(results)["finding"], "^PTA/.* better than PGA, in each of the designs")
+        self.assertRegex(best_intensity.table(results)["finding"], "^PTA/.* better than PGA, in each of the designs; by no more than two standard errors for width 0.9")
         for one in results:
             for sweep in one.sweeps:
                 sweep.summary["warnings"] = ["few motions"]
