@@ -23,6 +23,7 @@
 #include "study/edited_study.hpp"
 #include "study/fit.hpp"
 #include "study/kernel_number.hpp"
+#include "study/problems.hpp"
 #include "study/realise.hpp"
 #include "study/sweep.hpp"
 
