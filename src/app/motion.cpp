@@ -7,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "app/floors.hpp"
+#include "app/synthetic_motions.hpp"
 #include "io/output_folder.hpp"
 #include "motion/component.hpp"
 #include "motion/processing.hpp"
@@ -20,6 +21,7 @@ namespace {
 struct MotionOptions {
   std::vector<std::string> files;
   std::string unit, channel, convert, floor, csv, cross, baseline;
+  SyntheticOptions synthetic;
   std::vector<double> band_hz;
   int storey = -1;
   double dt_s = 0;
@@ -83,7 +85,22 @@ void check_target(const std::filesystem::path& target, bool overwrite) {
     throw Error(target.string() + " exists already (it would be lost): choose another name, or give --overwrite");
 }
 
+// Motions of a set, which are made and not read.
+void show_set(const MotionOptions& options) {
+  if (!options.files.empty() || !options.floor.empty())
+    throw Error("--synthetic takes no records and no building (its motions are made): write them with --convert first");
+  for (const std::string& target : {options.synthetic.number >= 0 ? options.convert : "", options.csv})
+    check_target(target, options.overwrite);
+  SyntheticOptions wanted = options.synthetic;
+  wanted.convert = options.convert;
+  wanted.csv = options.csv;
+  show_synthetic(wanted);
+}
+
 void show(const MotionOptions& options) {
+  if (!options.synthetic.file.empty()) return show_set(options);
+  if (options.files.empty())
+    throw Error("motion names no record (nothing is there to be told): name one, or --synthetic FILE");
   if (!options.convert.empty() && options.files.size() != 1)
     throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
                 "): convert them one by one");
@@ -127,7 +144,7 @@ void add_motion(CLI::App& parser, Work& work) {
   auto options = std::make_shared<MotionOptions>();
   CLI::App* verb = parser.add_subcommand(
       "motion", "what is in a record: step, peaks, Arias intensity, durations, spectrum, identified pulse");
-  verb->add_option("files", options->files, "records")->required();
+  verb->add_option("files", options->files, "records");
   verb->add_option("--dt", options->dt_s, "time step in s, for plain columns")->check(CLI::PositiveNumber);
   verb->add_option("--unit", options->unit, "unit of plain columns: g, m/s2, cm/s2 ...");
   verb->add_option("--channel", options->channel, "channel of files that hold several");
@@ -136,6 +153,11 @@ void add_motion(CLI::App& parser, Work& work) {
   verb->add_option("--floor", options->floor,
                    "building.yaml: the record is of the ground; tells what each floor of it does");
   verb->add_option("--storey", options->storey, "with --convert: how many floors above the ground (0: the ground)")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--synthetic", options->synthetic.file,
+                   "synthetic.yaml: a set of synthetic motions in place of records; --convert writes them to a folder");
+  verb->add_option("--seed", options->synthetic.seed, "with --synthetic: of the study that draws them (1)");
+  verb->add_option("--number", options->synthetic.number, "with --synthetic: this motion alone, the first is 0")
       ->check(CLI::NonNegativeNumber);
   verb->add_flag("--overwrite", options->overwrite, "replace these files if they are there");
   add_processing(*verb, *options);

@@ -16,7 +16,8 @@ namespace freestand::motion {
 namespace {
 
 constexpr double left_out = 1e-5;  // of the Arias intensity
-constexpr double at_rest = 16.7;   // w_c t after which a free critically damped oscillator has (1 + w_c t) exp(-w_c t) = 1e-6
+constexpr double at_rest =
+    16.7;  // w_c t after which a free critically damped oscillator has (1 + w_c t) exp(-w_c t) = 1e-6
 
 // Above the filter's frequency f its spectrum falls as (f/frequency)^-4, to 1/256 of it where the samples end (half of their
 // rate), beyond which it would be folded back.
@@ -97,12 +98,14 @@ std::string refused_frequency(const SyntheticParameters& p) {
     const char* key = p.frequency_slope_hzps != 0 ? "frequency_slope_hzps" : "frequency_hz";
     if (f > highest)
       return fmt::format(
-          "a filter at {:.3g} Hz at {:.3g} s (samples every {:g} s hold a spectrum about {:g} Hz at most): lower {}, or "
+          "a filter at {:.3g} Hz at {:.3g} s (samples every {:g} s hold a spectrum about {:g} Hz at most): lower {}, "
+          "or "
           "step_s",
           f, t, p.step_s, highest, key);
     if (f <= p.corner_hz)
       return fmt::format(
-          "a filter at {:.3g} Hz at {:.3g} s (corner_hz, {:g}, takes away all below it): correct {}, or lower corner_hz",
+          "a filter at {:.3g} Hz at {:.3g} s (corner_hz, {:g}, takes away all below it): correct {}, or lower "
+          "corner_hz",
           f, t, p.corner_hz, key);
   }
   return "";
@@ -128,9 +131,10 @@ std::string refusal(const SyntheticParameters& p) {
       return fmt::format("a pulse {} (it leaves the floor moving, for ever): name another type", pulse.name);
   }
   if (samples_of(p) > most_samples)
-    return fmt::format("a motion of {} samples (each is held in memory, {} at most): lower duration_s or middle_s, or "
-                       "raise step_s or corner_hz",
-                       samples_of(p), most_samples);
+    return fmt::format(
+        "a motion of {} samples (each is held in memory, {} at most): lower duration_s or middle_s, or "
+        "raise step_s or corner_hz",
+        samples_of(p), most_samples);
   return "";
 }
 

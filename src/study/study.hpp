@@ -134,15 +134,30 @@ struct TurnPart {
   double angle_deg = 0;
 };
 
-// One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
+// Realisations of the stochastic model of motion/synthetic.hpp, each with parameters of its own, drawn by its number.
+struct SyntheticPart {
+  struct Pulse {
+    sampling::Names types;
+    Quantity period, peak_velocity, middle;  // synthetic.pulse.period_s, ...peak_velocity_mps, ...middle_s
+  };
+  std::string name = "synthetic";  // of the set; part of the key of its draws
+  int count = 100;
+  // synthetic.arias_mps, .duration_s, .middle_s, .frequency_hz, .frequency_slope_hzps, .bandwidth, .corner_hz
+  Quantity arias, duration, middle, frequency, slope, bandwidth, corner;
+  double step_s = 0.01;
+  std::optional<Pulse> pulse;
+};
+
+// One entry of `motions`: pulses, records or synthetic motions, taken with probability weight / (sum of weights).
 struct MotionSource {
-  enum class Kind { pulses, records };
+  enum class Kind { pulses, records, synthetic };
   Kind kind = Kind::pulses;
   double weight = 1;
   // Pulses: motion.peak_acceleration_g or motion.peak_velocity_mps (the true peak of the floor's velocity); records:
   // motion.scale (a factor); negative ones mirror. Either: the intensity that the motion is scaled to, motion.sa_g.
   std::optional<Quantity> amplitude;
   std::optional<IntensityPart> scale_to;  // of such an amplitude
+  std::optional<SyntheticPart> synthetic;
   // Pulses.
   sampling::Names pulses;
   std::optional<Quantity> period;  // motion.period_s

@@ -58,7 +58,9 @@ TEST(GammaEnvelope, HasTheIntensityAndTheTimesThatItIsGiven) {
     const GammaEnvelope q(1.7, duration, middle);
     const double end = q.time_of_share(1 - 1e-9);
     constexpr int steps = 100'000;
-    const auto time = [&](auto i) { return end * std::pow(static_cast<double>(i) / steps, 3); };  // dense at the beginning
+    const auto time = [&](auto i) {
+      return end * std::pow(static_cast<double>(i) / steps, 3);
+    };                             // dense at the beginning
     std::vector<double> arias{0};  // by trapezoids
     for (int i = 1; i <= steps; ++i) {
       const double a = q(time(i - 1)), b = q(time(i));
@@ -85,8 +87,7 @@ struct Impulses {
       double sum = 0;
       for (std::size_t i = 0; i < j; ++i) {
         const double at = p.step_s * static_cast<double>(i), since = p.step_s * static_cast<double>(j - i);
-        const double hz =
-            p.frequency_hz + p.frequency_slope_hzps * (std::min(std::max(at, first), last) - p.middle_s);
+        const double hz = p.frequency_hz + p.frequency_slope_hzps * (std::min(std::max(at, first), last) - p.middle_s);
         const double w = 2 * pi * hz, wd = w * std::sqrt(1 - p.bandwidth * p.bandwidth);
         part[j][i] = w * w / wd * std::exp(-p.bandwidth * w * since) * std::sin(wd * since);
         sum += part[j][i] * part[j][i];
@@ -289,8 +290,14 @@ TEST(Synthetic, WhatCannotBeIsRefused) {
   EXPECT_THAT(why([](auto& p) { p.frequency_slope_hzps = -1; }), HasSubstr("correct frequency_slope_hzps"));
   EXPECT_THAT(why([](auto& p) { p.frequency_hz = 7; }), HasSubstr("lower frequency_slope_hzps, or step_s"));
   EXPECT_THAT(why([](auto& p) { p.corner_hz = 3; }), HasSubstr("or lower corner_hz"));
-  EXPECT_THAT(why([](auto& p) { p.pulse = SyntheticPulse{"B", 4, 1, 1.5}; }), HasSubstr("raise pulse.middle_s to 2.02"));
-  EXPECT_THAT(why([](auto& p) { p.pulse = SyntheticPulse{"rectangular", 1, 1, 5}; }), HasSubstr("leaves the floor moving"));
+  EXPECT_THAT(why([](auto& p) {
+                p.pulse = SyntheticPulse{"B", 4, 1, 1.5};
+              }),
+              HasSubstr("raise pulse.middle_s to 2.02"));
+  EXPECT_THAT(why([](auto& p) {
+                p.pulse = SyntheticPulse{"rectangular", 1, 1, 5};
+              }),
+              HasSubstr("leaves the floor moving"));
   EXPECT_THAT(why([](auto& p) { p.corner_hz = 1e-4; }), HasSubstr("samples"));
   SyntheticParameters late = usual;
   late.duration_s = 15;
