@@ -30,11 +30,11 @@ struct MotionOptions {
 };
 
 // The building under which the record is, if any.
-std::optional<motion::Building> building_of(const MotionOptions& options) {
+std::optional<study::BuildingPart> building_of(const MotionOptions& options) {
   if (options.storey >= 0 && options.floor.empty())
     throw Error(fmt::format("--storey {} is of no building (the record is taken as it is): add --floor building.yaml",
                             options.storey));
-  std::optional<motion::Building> building;
+  std::optional<study::BuildingPart> building;
   if (!options.floor.empty()) building = study::read_building_file(options.floor);
   if (building && options.storey > building->floors())
     throw Error(
@@ -105,7 +105,10 @@ void show(const MotionOptions& options) {
     throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
                 "): convert them one by one");
   for (const std::string& target : {options.convert, options.csv}) check_target(target, options.overwrite);
-  const std::optional<motion::Building> building = building_of(options);
+  const std::optional<study::BuildingPart> building = building_of(options);
+  if (building && (building->drawn_period || building->drawn_damping))
+    fmt::print("{} at the median of what is a distribution of it: period {:.4g} s, damping {:.4g}\n", building->name,
+               building->period_s.value_or(motion::modes(*building).front().period_s()), building->damping);
   const motion::ReadOptions read = read_options(options);
   const motion::Processing wanted = processing(options);
   std::vector<motion::ToldRecord> told;

@@ -163,7 +163,7 @@ Mapping source_mapping(const MotionSource& source, const FileKeys& keys) {
     add_amplitude(source, m);
     if (!source.scale_to) m.add("scale", number_text(source.pulse_scale));
   } else if (source.kind == MotionSource::Kind::synthetic) {
-    m.add("synthetic", synthetic_text(*source.synthetic));
+    if (source.synthetic) m.add("synthetic", synthetic_text(*source.synthetic));
     add_amplitude(source, m);
     if (source.building) m.add("building", building_text(*source.building));
     m.add(source.storey);

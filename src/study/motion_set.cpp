@@ -14,6 +14,7 @@
 #include "motion/pulse.hpp"
 #include "motion/record.hpp"
 #include "motion/record_pairs.hpp"
+#include "study/drawn_building.hpp"
 #include "study/problems.hpp"
 #include "study/realise.hpp"
 #include "study/synthetic_set.hpp"
@@ -189,7 +190,7 @@ class Loader {
   void add_floors(const MotionSource& source, std::vector<std::size_t>& items) {
     const std::size_t ground = entries_.size() - 1;
     const FloorMotion record = entries_.back().motion;
-    const std::vector<motion::Mode> modes = motion::modes(*source.building);
+    const std::vector<motion::Mode> modes = motion::modes(drawn(*source.building, study_.seed, record.name));
     if (const std::string why = motion::outside_the_band(record, modes); !why.empty()) throw Error(why, Exit::data);
     motion::BuildingResponse response(record, modes);
     for (const int storey : source.storeys()) {
@@ -204,7 +205,9 @@ class Loader {
   }
 
   // Tables with the same column mean the same number.
-  void add_numbers(const MotionSource& source, const std::vector<double>& values, Entry& entry) {
+  void add_numbers(const MotionSource& source, std::vector<double> values, Entry& entry) {
+    if (source.building && source.building->drawn_period)
+      values.push_back(*drawn(*source.building, study_.seed, entry.motion.name).period_s);
     for (std::size_t column = 0; column < source.numbers.size(); ++column) {
       const auto known = std::find_if(numbers_.begin(), numbers_.end(), [&](const motion::RecordNumber& number) {
         return number.name == source.numbers[column].name;

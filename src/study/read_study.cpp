@@ -126,6 +126,8 @@ void refuse_distributions(const Study& study, Problems& problems) {
     check(source.amplitude);
     check(source.period);
     check(source.storey);
+    if (source.building) check(source.building->drawn_period);
+    if (source.building) check(source.building->drawn_damping);
   }
 }
 

@@ -126,6 +126,12 @@ struct IntensityPart {
   std::optional<double> period_s = {};  // the number; the measure's own default where the study gives none
 };
 
+// A building of which period and damping may be known by a distribution; the rest of it, and all of it at medians, is the base.
+struct BuildingPart : motion::Building {
+  std::optional<Quantity> drawn_period,
+      drawn_damping;  // building.period_s, building.damping, where they are no numbers
+};
+
 // Into which direction pairs of horizontal components are turned: by this angle from the first of a pair towards the other; of a
 // table of records to this azimuth, clockwise from north, or by the strike that it gives.
 struct TurnPart {
@@ -176,7 +182,7 @@ struct MotionSource {
   std::string cross_records;  // the other horizontal components, paired as the vertical ones
   bool in_plane() const;      // any record has a second horizontal channel, and is not turned into one direction
   // Where the records are of the ground and the equipment stands in a building; amplitudes stay those of the ground.
-  std::optional<motion::Building> building;
+  std::optional<BuildingPart> building;
   std::optional<Quantity> storey;    // motion.storey: a whole number of floors above the ground, or a choice of them
   std::vector<int> storeys() const;  // its values; none without a building
   motion::KnownPulse pulse;          // of each record whose row does not say it

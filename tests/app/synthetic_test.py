@@ -26,7 +26,7 @@ class Synthetic(InFolder):
 
     def test_a_sweep_has_the_same_bits_on_any_number_of_ranks_and_from_its_own_study(self):
         one, three, again = (self.folder / name for name in ("one", "three", "again"))
-        study = self.write("study.yaml", study_text(samples=1500).replace(PULSES, MADE))
+        study = self.write("study.yaml", study_text(samples=400).replace(PULSES, MADE))
         self.succeed(["run", study, "-o", one, "--quiet"])
         self.succeed(["run", study, "-o", three, "--quiet"], 3)
         self.set.unlink()
