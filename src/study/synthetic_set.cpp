@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <freestand/error.hpp>
+
 #include "base/random.hpp"
 #include "motion/pulse.hpp"
 
