@@ -12,6 +12,9 @@ DEMANDS = {
     "peak_acceleration": "peak equipment acceleration PEA",
     "peak_acceleration_at_height": "peak acceleration at the chosen height",
     "largest_blow": "largest jump of velocity in a blow, at the chosen height",
+    "peak_contact_horizontal_over_weight": "largest force along the floor over the weight F_x/W",
+    "peak_contact_vertical_over_weight": "largest force on the floor over the weight F_y/W",
+    "peak_chain_force": "largest pull of a chain P",
 }
 # name in the files -> symbol.
 # name in the files -> what specimens do beyond a capacity, for titles.
@@ -25,6 +28,9 @@ BEYOND = {
     "peak_acceleration": "feel more than {}",
     "peak_acceleration_at_height": "feel more than {} at the chosen height",
     "largest_blow": "take a blow of more than {}",
+    "peak_contact_horizontal_over_weight": "push the floor sideways by more than {} of their weight",
+    "peak_contact_vertical_over_weight": "press on the floor by more than {} of their weight",
+    "peak_chain_force": "pull at a chain by more than {}",
 }
 # name in the files -> what happens, for titles, of demands that happen or not.
 HAPPENINGS = {

@@ -27,7 +27,8 @@ Exit simulate(const SimulateOptions& options) {
   for (const std::string& doubt : result.doubts) fmt::print(stderr, "doubtful: {}\n", doubt);
   io::write_text(folder / "history.csv",
                  io::history_csv(result.history, result.floor_displacement_m, result.specimen.block.mass_kg));
-  nlohmann::ordered_json summary = io::response_summary(result.response, result.history.cross);
+  nlohmann::ordered_json summary =
+      io::response_summary(result.response, result.history.cross, result.specimen.block.mass_kg);
   summary["accuracy"] = study::accuracy_json(c.study.tolerance, result.response, result.tighter);
   io::write_text(folder / "summary.json", io::json_text(summary));
   io::write_text(folder / "case.yaml", io::signed_text(study::expanded(c, folder)));

@@ -21,17 +21,20 @@ Value stretch_rate(const At& at, const Parameters& p) {
 }
 
 // Of one chain that has not failed.
-Value tension(const At& at, const Parameters& p) {
+Value pull_if_whole(const At& at, const Parameters& p) {
   const Value stretched = stretch(at, p);
   if (p[damping] == 0) return p[stiffness] * positive(stretched);
   const Value pulled = positive(p[stiffness] * stretched + p[damping] * stretch_rate(at, p));
   return where(stretched, pulled, 0.0 * pulled);
 }
 
-Value force(const At& at, const Parameters& p) {
-  const Value pull = tension(at, p);
-  return -(p[side] * p[number] * p[along]) * (pull * latch(p[strength] - pull));
+// Of one chain, until its connection fails.
+Value tension(const At& at, const Parameters& p) {
+  const Value pull = pull_if_whole(at, p);
+  return pull * latch(p[strength] - pull);
 }
+
+Value force(const At& at, const Parameters& p) { return -(p[side] * p[number] * p[along]) * tension(at, p); }
 
 // Arm: height of the chain's point over the centre of mass, which effects may have moved off the middle of the base.
 Value moment(const At& at, const Parameters& p) {
@@ -53,6 +56,7 @@ const Effect& law() {
                              .parameters = {},
                              .force = force,
                              .moment = moment,
+                             .tension = tension,
                              .wall = wall};
   return effect;
 }

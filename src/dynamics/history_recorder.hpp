@@ -20,22 +20,11 @@ class HistoryRecorder {
 
   template <int N>
   void record(const State& state, const Arc<double, N>& arc, const Floor<double, N>& floor, double start, double tau) {
-    if (!wanted()) return;
-    const auto u = midpoint(rig_, state, arc);
-    const auto beside = beside_the_centre(arc.theta[0], arc.omega);
-    each_point(start, tau, [&](double t) {
-      const double theta = arc.theta.at(t), omega = arc.omega.at(t);
-      HistoryPoint point{start + t, floor.a.at(t) - rig_.push,
-                         u.at(t),   arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega,
-                         theta,     omega,
-                         state.mode};
-      if (!beside) return point;
-      point.acceleration_mps2 = pull(arc).at(t) + beside->x.at(t) - rig_.push;
-      point.vertical_acceleration_mps2 = arc.fy.at(t) + beside->y.at(t) - rig_.g;
-      point.contact_x_mps2 = arc.fx.at(t);
-      point.contact_y_mps2 = arc.fy.at(t);
-      return point;
-    });
+    record_contact(state, arc, arc.fx, floor, start, tau);
+  }
+  template <int N>
+  void record(const State& state, const LawArc<N>& arc, const Floor<double, N>& floor, double start, double tau) {
+    record_contact(state, arc, arc.ax, floor, start, tau);
   }
 
   template <int N>
@@ -99,14 +88,26 @@ class HistoryRecorder {
     if (!history_->forces) return {};
     return PointAcceleration<N>(rig_.point.value_or(Point{}), theta, omega);
   }
-  // Total acceleration of the centre of mass along the floor, gravity along a tilted floor included.
-  template <int N>
-  static const Series<double, N>& pull(const Arc<double, N>& arc) {
-    return arc.fx;
-  }
-  template <int N>
-  static const Series<double, N>& pull(const LawArc<N>& arc) {
-    return arc.ax;
+  // pull: total acceleration of the centre of mass along the floor, gravity along a tilted floor included.
+  template <class ContactArc, int N>
+  void record_contact(const State& state, const ContactArc& arc, const Series<double, N>& pull,
+                      const Floor<double, N>& floor, double start, double tau) {
+    if (!wanted()) return;
+    const auto u = midpoint(rig_, state, arc);
+    const auto beside = beside_the_centre(arc.theta[0], arc.omega);
+    each_point(start, tau, [&](double t) {
+      const double theta = arc.theta.at(t), omega = arc.omega.at(t);
+      HistoryPoint point{start + t, floor.a.at(t) - rig_.push,
+                         u.at(t),   arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega,
+                         theta,     omega,
+                         state.mode};
+      if (!beside) return point;
+      point.acceleration_mps2 = pull.at(t) + beside->x.at(t) - rig_.push;
+      point.vertical_acceleration_mps2 = arc.fy.at(t) + beside->y.at(t) - rig_.g;
+      point.contact_x_mps2 = floor_force_at(rig_, state, arc, t);
+      point.contact_y_mps2 = arc.fy.at(t);
+      return point;
+    });
   }
 
   template <class Point>

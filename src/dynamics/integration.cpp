@@ -92,7 +92,7 @@ Rig::AtRest Integration::laws_at_rest() const {
 void Integration::wait() {
   const Rig::AtRest rest = laws_at_rest();
   while (!cursor.motion_over()) {
-    if (!recorder.wanted() && rest.constant) {
+    if (!recorder.wanted() && !peaks.follow_rest() && rest.constant) {
       const auto quiet = [&](const FloorCursor::Bound& floor) {
         return !peaks.may_exceed(floor.shaken, floor.v) && rig.stays_put(floor.a, floor.v, rest);
       };
@@ -111,7 +111,7 @@ template <int N>
 bool Integration::look_ahead(const Rig::AtRest& rest) {
   const FloorCursor::Bound bound = cursor.segment_bound();
   const Floor<double, N> floor = cursor.local<N>();
-  if (rig.stays_put(bound.a, bound.v, rest)) {
+  if (!peaks.follow_rest() && rig.stays_put(bound.a, bound.v, rest)) {
     peaks.observe_rest(rig, floor, cursor.left());
     if (recorder.wanted()) recorder.rest(state, floor, cursor.time(), cursor.left());
     next_segment();
@@ -380,7 +380,16 @@ double Integration::slip() const {
   return state.xi - sway + side * rig.half_base() * rotation_by(state.theta).versine;
 }
 
+// What stands presses on the floor, though nothing happens to it any more.
+void Integration::feel_standing() {
+  if (!peaks.follow_rest() || state.mode == Mode::flight || state.mode == Mode::overturned) return;
+  if (outcome_ != Outcome::at_rest && outcome_ != Outcome::moved) return;
+  with_contact_arc<1>(rig, state, cursor.time(), cursor.local<1>(),
+                      [&](const auto& arc) { peaks.observe(rig, state, arc, 0); });
+}
+
 Response Integration::result() {
+  feel_standing();
   Response& response = peaks.response();
   response.outcome = outcome_;
   response.residual_slip_m = slip();

@@ -137,6 +137,7 @@ class Integration {
   void stop_slip();
   bool strike_floor();
   void feel_row_of_hops(State from);
+  void feel_standing();
   bool feel_hop(State& hop);
   Rig::AtRest laws_at_rest() const;
   bool forces_have_values() const;

@@ -59,6 +59,7 @@ void Laws::record(const Specimen& specimen) {
   const auto sum = [](Value a, Value b) { return a + b; };
   combine(&Effect::force, force, sum);
   combine(&Effect::moment, moment, sum);
+  combine(&Effect::tension, tension, sum);
   forces_end = tape.size();
   tape.begin_section();
   combine(&Effect::friction, friction, [](Value a, Value b) { return a * b; });

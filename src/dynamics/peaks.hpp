@@ -4,6 +4,7 @@
 #include <freestand/response.hpp>
 
 #include "dynamics/contact.hpp"
+#include "dynamics/force_peaks.hpp"
 #include "dynamics/law_arc.hpp"
 #include "dynamics/law_flight.hpp"
 #include "dynamics/point.hpp"
@@ -50,7 +51,7 @@ template <class Real, int N>
 
 class Peaks {
  public:
-  explicit Peaks(const Settings& settings) {
+  explicit Peaks(const Settings& settings) : forces_(settings, response_) {
     if (settings.slip_by_side) response_.peak_slip_right_m = response_.peak_slip_left_m = 0;
     if (!std::isnan(settings.acceleration_height_m))
       response_.peak_acceleration_at_height_mps2 = response_.largest_blow_mps = 0;
@@ -58,22 +59,26 @@ class Peaks {
 
   template <int N>
   void observe(const Rig& rig, const State& state, const Arc<double, N>& arc, double tau) {
+    const Series<double, N> u = midpoint(rig, state, arc);
     if (state.mode != Mode::rest) {
-      observe_slip(midpoint(rig, state, arc), tau);
+      observe_slip(u, tau);
       if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
       if (state.sigma != 0) response_.slid_path_m += std::abs(arc.xi.at(tau) - arc.xi[0]);
     }
     observe_acceleration(rig, arc.fx, arc.fy, tau);
     observe_point(rig, arc.theta[0], arc.omega, arc.fx, arc.fy, tau);
+    forces_.on_floor(rig, state, arc, u, tau, response_);
   }
 
   template <int N>
   void observe(const Rig& rig, const State& state, const LawArc<N>& arc, double tau) {
-    observe_slip(midpoint(rig, state, arc), tau);
+    const Series<double, N> u = midpoint(rig, state, arc);
+    observe_slip(u, tau);
     if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
     response_.slid_path_m += arc.path.at(tau) - arc.path[0];
     observe_acceleration(rig, arc.ax, arc.fy, tau);
     observe_point(rig, arc.theta[0], arc.omega, arc.ax, arc.fy, tau);
+    forces_.on_floor(rig, state, arc, u, tau, response_);
   }
 
   template <int N>
@@ -84,11 +89,15 @@ class Peaks {
   }
 
   template <int N>
-  void observe(const Rig& rig, const State&, const LawFlight<N>& flight, double tau) {
-    observe_flight(rig, flight, tau);
+  void observe(const Rig& rig, const State& state, const LawFlight<N>& flight, double tau) {
+    const Series<double, N> u = observe_flight(rig, flight, tau);
+    forces_.in_flight(rig, state, flight, u, tau, response_);
     observe_acceleration(rig, flight.ax, Series<double, N>::zero(), tau);
     observe_point(rig, flight.theta[0], flight.omega, flight.ax, Series<double, N>::zero(), tau);
   }
+
+  // What the block feels at rest is looked at step by step.
+  bool follow_rest() const { return forces_.followed(); }
 
   // At rest the block has the acceleration of the floor.
   template <int N>
@@ -150,8 +159,9 @@ class Peaks {
     response_.peak_slip_left_m = max_of(scaled(-1.0, u), tau, response_.peak_slip_left_m);
   }
 
+  // The displacement of the middle of the base.
   template <int N>
-  void observe_flight(const Rig& rig, const Flight<double, N>& flight, double tau) {
+  Series<double, N> observe_flight(const Rig& rig, const Flight<double, N>& flight, double tau) {
     response_.peak_rotation_rad = max_abs(flight.theta, tau, response_.peak_rotation_rad);
     Series<double, N> u = flight.x;
     const double d = 0.5 * (rig.right - rig.left);
@@ -166,6 +176,7 @@ class Peaks {
     }
     u[0] = midpoint_in_flight(rig, flight.x[0], flight.theta[0]);
     observe_slip(u, tau);
+    return u;
   }
 
   // Total acceleration of the centre of mass, by the forces on it but gravity: (f_x - g sin(beta), f_y - g cos(beta)), beta
@@ -183,6 +194,7 @@ class Peaks {
   }
 
   Response response_;
+  ForcePeaks forces_;
   bool finite_ = true;
   bool waits_ = false;  // since an event beside a wall
   bool waits_since_blow_ = false;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dynamics/contact.hpp"
+#include "dynamics/floor_force.hpp"
 #include "dynamics/law_flight.hpp"
 #include "dynamics/law_step.hpp"
 #include "dynamics/rig.hpp"
@@ -121,11 +122,6 @@ struct Stance {
   Real over_height;          // 1/h [1/m]
 };
 
-// Sides to which a wall that an upright block touches holds it: it neither slips nor tips that way.
-struct Held {
-  bool right = false, left = false;
-};
-
 // The inequalities of contact under laws, of one sample or of those of a pack: friction's limits differ by direction.
 //
 // Calls visit(Witness, const Series&).
@@ -167,7 +163,7 @@ void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, 
   const Stance<double> stance{!upright,          state.sigma != 0,    rig.can_slip,
                               rig.can_rock,      double(state.pivot), double(state.sigma),
                               rig.right / rig.h, rig.left / rig.h,    1 / rig.h};
-  const Held held{upright && touches_upright(rig, state, 1), upright && touches_upright(rig, state, -1)};
+  const Held held = held_by_walls(rig, state);
   visit_contact(stance, held, arc, [&](Witness witness, const Series<double, N>& series) {
     const bool turns = witness == Witness::impact || witness == Witness::upright;
     visit(witness, series,

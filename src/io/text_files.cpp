@@ -71,7 +71,7 @@ std::string history_csv(const History& history, const std::vector<double>& floor
   return text;
 }
 
-Json response_summary(const Response& response, bool cross) {
+Json response_summary(const Response& response, bool cross, double mass_kg) {
   Json json = {{"format", response_format},
                {"peak_slip_m", response.peak_slip_m},
                {"residual_slip_m", response.residual_slip_m},
@@ -90,6 +90,11 @@ Json response_summary(const Response& response, bool cross) {
   if (!std::isnan(response.peak_acceleration_at_height_mps2)) {
     json["peak_acceleration_at_height_g"] = response.peak_acceleration_at_height_mps2 / standard_gravity_mps2;
     json["largest_blow_mps"] = response.largest_blow_mps;
+  }
+  if (!std::isnan(response.peak_contact_vertical_mps2)) {
+    json["peak_contact_horizontal_over_weight"] = response.peak_contact_horizontal_mps2 / standard_gravity_mps2;
+    json["peak_contact_vertical_over_weight"] = response.peak_contact_vertical_mps2 / standard_gravity_mps2;
+    json["peak_chain_force_n"] = response.peak_chain_force_mps2 * mass_kg;
   }
   if (!cross) return json;
   json["residual_slip_m"] = std::hypot(response.residual_slip_m, response.residual_cross_slip_m);

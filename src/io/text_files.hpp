@@ -23,8 +23,9 @@ std::string history_csv(const History&, const std::vector<double>& floor_displac
 // summary.json of one simulated sample: format, peak_slip_m, residual_slip_m, slid_path_m, peak_rotation_rad, overturned,
 // outcome, peak_acceleration_g, events, and impacts, residual_rotation_rad, end_time_s.
 // cross: the floor moves in both horizontal directions; residual_slip_m is then the size of the vector, whose components are
-// residual_slip_along_m and residual_slip_across_m.
-nlohmann::ordered_json response_summary(const Response&, bool cross = false);
+// residual_slip_along_m and residual_slip_across_m. Accelerations at a height, and forces of a block of mass_kg, where they were
+// followed.
+nlohmann::ordered_json response_summary(const Response&, bool cross = false, double mass_kg = 1);
 
 // summary.json of a sweep: format, study_name, samples, seed, outcomes, im, edps, warnings, provenance. The caller adds
 // timing and files.

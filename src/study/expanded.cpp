@@ -253,6 +253,8 @@ std::string keep_text(const KeepPart& keep) {
   return keep.one_in == 0 ? "none" : fmt::format("{{thin: {}}}", keep.one_in);
 }
 
+std::string forces_text(const Study& study) { return study.contact_forces ? "contact_forces: true\n" : ""; }
+
 // What makes the samples: all but the name and the fragility block.
 std::string samples_text(const Study& study) {
   std::string text = fmt::format("seed: {}\n", study.seed);
@@ -263,7 +265,7 @@ std::string samples_text(const Study& study) {
     text += fmt::format("samples: {}\n", study.samples);
   if (study.keep.one_in != 1) text += fmt::format("keep: {}\n", keep_text(study.keep));
   text += fmt::format("design: {}\n", name(study.design));
-  text += height_text(study);
+  text += height_text(study) + forces_text(study);
   if (study.slip_by_side) text += "slip_by_side: true\n";
   if (study.scrambles > 1) text += fmt::format("scrambles: {}\n", study.scrambles);
   text += fmt::format("block_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", study.block_size,
@@ -293,8 +295,9 @@ std::string expanded(const Case& one, const std::filesystem::path& folder) {
   return paths_from(study, folder) +
          fmt::format("name: {}\ntolerance: {}\nfree_vibration_s: {}\n", text_value(study.name),
                      number_text(study.tolerance), number_text(study.free_vibration_s)) +
-         height_text(study) + model_text(study.model) + chain_text(study.model.chain) + start_text(study.model.start) +
-         "motion:\n" + source_mapping(study.motions.front(), {"file", "vertical_file", "cross_file"}).block() +
+         height_text(study) + forces_text(study) + model_text(study.model) + chain_text(study.model.chain) +
+         start_text(study.model.start) + "motion:\n" +
+         source_mapping(study.motions.front(), {"file", "vertical_file", "cross_file"}).block() +
          fmt::format("output_step_s: {}\n", number_text(one.output_step_s));
 }
 

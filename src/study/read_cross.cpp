@@ -56,6 +56,7 @@ void check_cross(Section& file, const Study& study) {
   if (model.start.any()) refuse("start", "there it begins at rest", "remove it, or give one component of each record");
   if (study.acceleration_height_m)
     refuse("acceleration_height_m", "a block that only slides has one acceleration", "remove it");
+  if (study.contact_forces) refuse("contact_forces", "forces are followed along one line", "remove it");
   if (study.slip_by_side) refuse("slip_by_side", "the peak slip is that of a vector, which has no sides", "remove it");
 }
 

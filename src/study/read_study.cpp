@@ -33,7 +33,12 @@ void read_common(Section& file, const std::filesystem::path& path, Study& study,
                    .why = "it must lie between 1e-12, below which round-off is the greater error, and 0.01"});
   study.free_vibration_s = file.number("free_vibration_s", study.free_vibration_s, range::not_negative);
   study.acceleration_height_m = file.optional_number("acceleration_height_m", range::not_negative);
+  study.contact_forces = file.flag("contact_forces", false);
   study.model = read_model(file);
+  if (study.contact_forces && study.model.model == Model::bouc_wen)
+    file.problem("contact_forces",
+                 "contact_forces does not go with model bouc_wen (the forces of its contact are not followed): remove "
+                 "it, or set another model");
   const BlockPart& block = study.model.block;
   const double top = block.height ? support(block.height->value).lower : std::numeric_limits<double>::infinity();
   if (study.acceleration_height_m && *study.acceleration_height_m > top)
@@ -151,11 +156,15 @@ std::string refusal(const KnownEdp& edp, const Study& study) {
     return edp.name +
            " is followed only where the study says at which height (it takes several times as long): add "
            "acceleration_height_m: 1.5, and sweep with it";
+  if ((edp.wants == edp::Wants::forces || edp.wants == edp::Wants::chain_force) && !study.contact_forces)
+    return edp.name +
+           " is followed only where the study says so (it takes several times as long): add contact_forces: true, and "
+           "sweep with it";
   if (edp.wants == edp::Wants::wall && !wall)
     return edp.name +
            " would be 0 for every sample (no wall stands in this study): remove it, or add the effect "
            "wall_impact or a chain, and sweep with it";
-  if (edp.wants == edp::Wants::chain && !chain)
+  if ((edp.wants == edp::Wants::chain || edp.wants == edp::Wants::chain_force) && !chain)
     return edp.name +
            " would be 0 for every sample (no chain holds the block of this study): remove it, or add chain, "
            "and sweep with it";

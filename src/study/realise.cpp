@@ -332,6 +332,7 @@ Settings integration_settings(const Study& study) {
   settings.tolerance = study.tolerance;
   settings.free_vibration_s = study.free_vibration_s;
   settings.slip_by_side = study.slip_by_side;
+  settings.contact_forces = study.contact_forces;
   settings.acceleration_height_m = study.acceleration_height_m.value_or(not_known);
   return settings;
 }

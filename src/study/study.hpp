@@ -263,6 +263,7 @@ struct Study {
   double free_vibration_s = 60;
   std::optional<double> acceleration_height_m =
       {};                        // over the base: accelerations there are computed too, in more time
+  bool contact_forces = false;   // peaks of the forces of floor and chain are computed too, in more time
   bool slip_by_side = false;     // the peak slip to each side is computed too, in more time
   std::uint64_t block_size = 0;  // samples a work unit; default: samples/1000 as a power of two within 256 and 8192
   ModelPart model;

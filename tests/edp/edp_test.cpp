@@ -73,6 +73,18 @@ TEST(Edp, AnUnknownNameIsToldWithTheNamesThereAre) {
   }
 }
 
+// Of a block of 150 kg.
+TEST(Edp, ForcesAreOverTheWeightAndOfAChainInNewton) {
+  Response response;
+  EXPECT_TRUE(std::isnan(value_of("peak_contact_horizontal_over_weight", response)));
+  response.peak_contact_horizontal_mps2 = 0.3 * standard_gravity_mps2;
+  response.peak_contact_vertical_mps2 = 1.4 * standard_gravity_mps2;
+  response.peak_chain_force_mps2 = 2;
+  EXPECT_DOUBLE_EQ(value_of("peak_contact_horizontal_over_weight", response), 0.3);
+  EXPECT_DOUBLE_EQ(value_of("peak_contact_vertical_over_weight", response), 1.4);
+  EXPECT_DOUBLE_EQ(value_of("peak_chain_force_n", response), 300);
+}
+
 TEST(Edp, BlowsOfWallsAreAskedForAsTheyAreTold) {
   Response response;
   EXPECT_EQ(value_of("wall_hit", response), 0);

@@ -76,6 +76,45 @@ TEST_P(FollowedPoint, HasTheAccelerationOfItsPosition) {
   EXPECT_GT(compared, 2000);
 }
 
+// The same where effects push: their forces are no part of what the floor does, and of what moves the point.
+TEST_P(FollowedPoint, HasTheAccelerationOfItsPositionUnderForcesOfEffects) {
+  CaseFamily family;
+  family.seed = 5;
+  family.duration_low_s = 1, family.duration_high_s = 2;
+  for (const auto& [use, least] :
+       {std::pair{effect("centering_spring", {0.8}), 500}, {effect("viscous_drag", {2}), 500}}) {
+    int compared = 0;
+    for (std::uint64_t i = 0; i < 4; ++i) {
+      RandomCase c = random_case(family, i);
+      c.specimen.effects.push_back(use);
+      Settings settings;
+      settings.tolerance = 1e-12;
+      settings.free_vibration_s = 0;
+      settings.acceleration_height_m = 1.7 * c.specimen.block.height_m;
+      History history;
+      history.step_s = 5e-4;  // the accelerations bend more
+      history.forces = true;
+      GetParam()(c.specimen, c.shaking, settings, &history);
+      expect_differences_of_the_positions(c.specimen, c.shaking, history, settings.acceleration_height_m, compared);
+    }
+    EXPECT_GT(compared, least);
+  }
+}
+
+// Pressed against a wall that it touches, the base takes what friction can, and the wall the rest: m a = mu m g + wall.
+TEST_P(FollowedPoint, AWallTakesWhatFrictionCannot) {
+  Specimen specimen{Block::rectangular(2, 1, 100), {0.2, 0.2}, {}, Model::slide};
+  specimen.effects = {effect("wall_impact", {0, 0.4})};
+  const FloorMotion push = rectangular_pulse(-4, 0.2);
+  History history;
+  history.step_s = 0.05;
+  history.forces = true;
+  GetParam()(specimen, {&push}, {}, &history);
+  EXPECT_EQ(history.points.at(2).slip_m, 0);
+  EXPECT_NEAR(history.points.at(2).acceleration_mps2, -4, 1e-12);
+  EXPECT_NEAR(history.points.at(2).contact_x_mps2, -0.2 * g, 1e-12);
+}
+
 // Momentum: what the floor does to the block, and its weight, make the acceleration of the centre of mass. Friction is
 // within its cone, and at its edge where the contact slips.
 TEST_P(FollowedPoint, ForcesOfTheFloorMakeTheMomentumAndKeepTheCone) {

@@ -354,6 +354,14 @@ TEST(StudyMistakes, DemandsComeWithWhatMakesThem) {
   };
   for (const Demand& demand :
        {Demand{"peak_slip_right_m", "peak_slip_right_m > 0.05", "followed only where", {"slip_by_side: true\n"}},
+        Demand{"peak_contact_vertical_over_weight",
+               "peak_contact_vertical_over_weight > 1.5",
+               "add contact_forces: true",
+               {"contact_forces: true\n"}},
+        Demand{"peak_chain_force_n",
+               "peak_chain_force_n > 100",
+               "followed only where",
+               {"contact_forces: true\n" + chain}},
         Demand{"wall_hit", "wall_hit", "0 for every sample (no wall stands in this study)", {wall, chain}},
         Demand{"connection_failed", "connection_failed", "0 for every sample (no chain holds", {chain}}}) {
     const std::string sound = block + friction + samples + motions + "fragility:\n  im: report\n  edp: [delta";
@@ -370,6 +378,18 @@ TEST(StudyMistakes, DemandsComeWithWhatMakesThem) {
       problems(block + friction + samples + motions + chain +
                "model: bouc_wen\nbouc_wen: {yield_displacement_m: 0.001, exponent: 2}\nfragility: {edp: [wall_hit]}\n"),
       HasSubstr("no wall stands in this study"));
+}
+
+TEST(StudyMistakes, ForcesAreFollowedWhereTheyAreKnown) {
+  EXPECT_THAT(problems(block + friction + samples + motions + fragility +
+                       "contact_forces: true\nmodel: bouc_wen\nbouc_wen: {yield_displacement_m: 0.001, exponent: 2}\n"),
+              HasSubstr("contact_forces does not go with model bouc_wen"));
+  EXPECT_THAT(
+      problems(block + friction + samples + motions + "contact_forces: true\nfragility: {edp: [peak_chain_force_n]}\n"),
+      HasSubstr("no chain holds"));
+  const Study study = parse("contact_forces: true\n" + block + friction + samples + motions + fragility);
+  EXPECT_EQ(expanded(parse(expanded(study))), expanded(study));
+  EXPECT_THAT(expanded(study), HasSubstr("contact_forces: true"));
 }
 
 TEST(CaseMistakes, ACaseIsOneSample) {
