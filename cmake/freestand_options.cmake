@@ -2,6 +2,7 @@
 option(FREESTAND_TESTS "build the tests" ON)
 option(FREESTAND_BENCHMARKS "build the benchmark of the kernel (needs Google Benchmark and Boost)" OFF)
 option(FREESTAND_BATCHES "compile the sources of a target in batches: a third of the work for a whole build" ON)
+option(FREESTAND_FUZZ "build what a fuzzer runs (needs clang)" OFF)
 option(FREESTAND_WERROR "warnings are errors" OFF)
 set(FREESTAND_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
 set(FREESTAND_ARCH "x86-64-v2" CACHE STRING "instruction set, as -march= takes it")
@@ -46,6 +47,6 @@ endif()
 function(freestand_batches TARGET SIZE)
   if(FREESTAND_BATCHES)
     set_target_properties(${TARGET} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${SIZE})
-    target_compile_options(${TARGET} PRIVATE -Wno-subobject-linkage)  # takes each file of a batch for a header
+    target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)  # takes each file of a batch for a header
   endif()
 endfunction()

@@ -38,6 +38,7 @@ struct Response {
   double peak_rotation_rad = 0;      // max |theta|
   double residual_rotation_rad = 0;
   // Max of the vector sum of the centre of mass's total acceleration; blows left out, but no hop, however short (small_hops.cpp).
+  // Beside a wall what lasts less than 1.5e-3/p before or after a blow is left out too (Peaks::event_beside_wall).
   double peak_acceleration_mps2 = 0;
   // The same of the point at Settings::acceleration_height_m, and the largest jump of its velocity in a blow of the floor or of
   // a wall; without that height nan.

@@ -96,7 +96,8 @@ def _headline(database):
     floors, frictions = set(entries["floor"]) - {""}, np.round(entries["mu_k"], 6)
     if len(floors) > 1:
         numbers.append((words.count(len(floors)), "floors"))
-    numbers.append((f"{words.number(frictions.min())} to {words.number(frictions.max())}", "friction μ"))
+    ends = [words.number(end) for end in (frictions.min(), frictions.max())]
+    numbers.append((" to ".join(dict.fromkeys(ends)), "friction μ"))
     return numbers
 
 

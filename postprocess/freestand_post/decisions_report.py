@@ -2,7 +2,7 @@
 import math
 import pathlib
 
-from . import words
+from . import best_intensity, words
 from .designs import ratio, verdict, warnings
 from .halved import halving
 from .pictures import designs as designs_picture
@@ -76,15 +76,15 @@ def designs(over, risk_results, figures):
               "rates": rates(one, [risk for risk in risk_results if len(over) == 1 or risk.im_symbol == one.im_symbol]), "medians": _medians(one)} for one in over]
     finding = next((part["rates"]["finding"] for part in parts if part["rates"]), "")
     return {"title": f"{title}: side by side", "lead": "; ".join(words.capitalised(label) for label in found.labels) + ".", "finding": finding,
-            "headline": [number for one in over for number in _headline(one)], "parts": parts,
+            "headline": [number for one in over for number in _headline(one)], "parts": parts, "best": best_intensity.table(over),
             "differing": found.differing, "folders": [sweep.folder.resolve().name for sweep in found.sweeps],
             "level": words.level(found.level), "paired": found.paired, "warnings": _warnings(over),
             "risks": risks(risk_results, figures, named=True), "provenance": [line for one in over for line in _provenance(one, len(over) > 1)]}
 
 
 def _warnings(over):
-    return [text for one in over
-            for text in warnings(one.sweeps, [f"{label}, over {one.im_symbol}" for label in one.labels] if len(over) > 1 else one.labels)]
+    labels = [f"{label}, over {one.im_symbol}" if len(over) > 1 else label for one in over for label in one.labels]
+    return warnings([sweep for one in over for sweep in one.sweeps], labels)
 
 
 def rates(found, risk_results):

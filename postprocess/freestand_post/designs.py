@@ -58,12 +58,15 @@ def compare(sweeps):
 
 
 def warnings(sweeps, labels):
-    """What the fits warn of, but for what concerns other demands than the first of each: "label: warning"."""
-    found = []
+    """What the fits warn of, but for what concerns other demands than the first of each: "label; label: warning"; without a label what all
+    of them do."""
+    told_by = {}
     for sweep, label in zip(sweeps, labels):
         others = tuple(f"{edp.name}: " for edp in sweep.edps[1:])
-        found += [f"{words.capitalised(label)}: {text}" for text in map(str, sweep.summary.get("warnings", [])) if not text.startswith(others)]
-    return found
+        for text in dict.fromkeys(map(str, sweep.summary.get("warnings", []))):
+            if not text.startswith(others):
+                told_by.setdefault(text, []).append(label)
+    return [words.capitalised(text if len(told) == len(labels) else f"{'; '.join(told)}: {text}") for text, told in told_by.items()]
 
 
 def same_study(sweeps):

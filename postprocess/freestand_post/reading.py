@@ -62,6 +62,7 @@ class Sweep:
     outcome: np.ndarray      # [sample] int
     motions: list            # names
     is_record: np.ndarray    # [motion] 1: a record, 0: a family of pulses, 2: what a floor of a building does under a record
+    amplification: dict      # storey -> peak acceleration of that floor over the ground's, one for each record; empty without a building
 
     @property
     def level(self):
@@ -237,9 +238,9 @@ def _json(path):
 
 
 def _samples(path):
-    """Draws, outcomes, motion names and which of them are records, of samples.h5; empty where the file is not there."""
+    """Draws, outcomes, motion names, which of them are records, and floors, of samples.h5; empty where the file is not there."""
     if not path.exists():
-        return {}, np.zeros(0, int), [], np.zeros(0, int)
+        return {}, np.zeros(0, int), [], np.zeros(0, int), {}
     with _open(path, "freestand-samples/2") as root:
         if "samples" not in root or "outcome" not in root["samples"]:
             raise Problem(f"{path} has no /samples/outcome: it is incomplete; finish it with `freestand sweep --resume`")
@@ -255,7 +256,15 @@ def _samples(path):
         is_record = (group >= 0).astype(int)
         if "ground" in root["motions"]:
             is_record[_numbers(root["motions"], "ground") != np.arange(len(motions))] = 2
-    return {name: values for name, values in draws.items() if values.shape == outcome.shape}, outcome, motions, is_record
+        amplification = _amplification(root["motions"]) if "ground" in root.get("motions", {}) else {}
+    return ({name: values for name, values in draws.items() if values.shape == outcome.shape}, outcome, motions, is_record,
+            amplification)
+
+
+def _amplification(group):
+    storey, ground, peak = (_numbers(group, name) for name in ("storey", "ground", "pga_mps2"))
+    ratio = peak / peak[ground.astype(int)]
+    return {int(k): ratio[storey == k] for k in np.unique(storey) if k > 0}
 
 
 def read_sweep(folder):
@@ -286,10 +295,10 @@ def _read_sweep(folder):
     names = attributes.get("outcome_names", OUTCOMES)
     names = names.split() if isinstance(names, str) else names
     outcomes = dict(zip(names, np.atleast_1d(attributes.get("outcome_counts", [])).astype(int).tolist()))
-    draws, outcome, motions, is_record = _samples(folder / summary.get("samples_in", "") / "samples.h5")
+    draws, outcome, motions, is_record, amplification = _samples(folder / summary.get("samples_in", "") / "samples.h5")
     return Sweep(folder, attributes, summary, outcomes or summary.get("outcomes", {}), str(attributes.get("im", "im")),
                  str(attributes.get("im_unit", "1")), edge, centre, _in_order(edps, summary), overturning, draws, outcome, motions,
-                 is_record)
+                 is_record, amplification)
 
 
 def _in_order(edps, summary):

@@ -95,7 +95,8 @@ void add_export(CLI::App& parser, Work& work) {
   verb->add_option(
           "--limit-state,--demand", request.what.states,
           "DEMAND:CAPACITY, or DEMAND for all its capacities, each with =NAME behind it if wanted; least severe "
-          "first; repeat it (usual: the first demand with capacities, then overturned)")
+          "first; repeat it (usual: the first demand with capacities, then overturned; wall_hit or the like alone "
+          "where the study names it first; all in csv)")
       ->allow_extra_args(false);
   verb->add_option(
           "--form", options->form,

@@ -7,6 +7,7 @@
 
 #include "app/command.hpp"
 #include "app/floors.hpp"
+#include "app/synthetic_motions.hpp"
 #include "io/output_folder.hpp"
 #include "motion/component.hpp"
 #include "motion/processing.hpp"
@@ -20,6 +21,7 @@ namespace {
 struct MotionOptions {
   std::vector<std::string> files;
   std::string unit, channel, convert, floor, csv, cross, baseline;
+  SyntheticOptions synthetic;
   std::vector<double> band_hz;
   int storey = -1;
   double dt_s = 0;
@@ -28,11 +30,11 @@ struct MotionOptions {
 };
 
 // The building under which the record is, if any.
-std::optional<motion::Building> building_of(const MotionOptions& options) {
+std::optional<study::BuildingPart> building_of(const MotionOptions& options) {
   if (options.storey >= 0 && options.floor.empty())
     throw Error(fmt::format("--storey {} is of no building (the record is taken as it is): add --floor building.yaml",
                             options.storey));
-  std::optional<motion::Building> building;
+  std::optional<study::BuildingPart> building;
   if (!options.floor.empty()) building = study::read_building_file(options.floor);
   if (building && options.storey > building->floors())
     throw Error(
@@ -83,12 +85,30 @@ void check_target(const std::filesystem::path& target, bool overwrite) {
     throw Error(target.string() + " exists already (it would be lost): choose another name, or give --overwrite");
 }
 
+// Motions of a set, which are made and not read.
+void show_set(const MotionOptions& options) {
+  if (!options.files.empty() || !options.floor.empty())
+    throw Error("--synthetic takes no records and no building (its motions are made): write them with --convert first");
+  for (const std::string& target : {options.synthetic.number >= 0 ? options.convert : "", options.csv})
+    check_target(target, options.overwrite);
+  SyntheticOptions wanted = options.synthetic;
+  wanted.convert = options.convert;
+  wanted.csv = options.csv;
+  show_synthetic(wanted);
+}
+
 void show(const MotionOptions& options) {
+  if (!options.synthetic.file.empty()) return show_set(options);
+  if (options.files.empty())
+    throw Error("motion names no record (nothing is there to be told): name one, or --synthetic FILE");
   if (!options.convert.empty() && options.files.size() != 1)
     throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
                 "): convert them one by one");
   for (const std::string& target : {options.convert, options.csv}) check_target(target, options.overwrite);
-  const std::optional<motion::Building> building = building_of(options);
+  const std::optional<study::BuildingPart> building = building_of(options);
+  if (building && (building->drawn_period || building->drawn_damping))
+    fmt::print("{} at the median of what is a distribution of it: period {:.4g} s, damping {:.4g}\n", building->name,
+               building->period_s.value_or(motion::modes(*building).front().period_s()), building->damping);
   const motion::ReadOptions read = read_options(options);
   const motion::Processing wanted = processing(options);
   std::vector<motion::ToldRecord> told;
@@ -127,7 +147,7 @@ void add_motion(CLI::App& parser, Work& work) {
   auto options = std::make_shared<MotionOptions>();
   CLI::App* verb = parser.add_subcommand(
       "motion", "what is in a record: step, peaks, Arias intensity, durations, spectrum, identified pulse");
-  verb->add_option("files", options->files, "records")->required();
+  verb->add_option("files", options->files, "records");
   verb->add_option("--dt", options->dt_s, "time step in s, for plain columns")->check(CLI::PositiveNumber);
   verb->add_option("--unit", options->unit, "unit of plain columns: g, m/s2, cm/s2 ...");
   verb->add_option("--channel", options->channel, "channel of files that hold several");
@@ -136,6 +156,11 @@ void add_motion(CLI::App& parser, Work& work) {
   verb->add_option("--floor", options->floor,
                    "building.yaml: the record is of the ground; tells what each floor of it does");
   verb->add_option("--storey", options->storey, "with --convert: how many floors above the ground (0: the ground)")
+      ->check(CLI::NonNegativeNumber);
+  verb->add_option("--synthetic", options->synthetic.file,
+                   "synthetic.yaml: a set of synthetic motions in place of records; --convert writes them to a folder");
+  verb->add_option("--seed", options->synthetic.seed, "with --synthetic: of the study that draws them (1)");
+  verb->add_option("--number", options->synthetic.number, "with --synthetic: this motion alone, the first is 0")
       ->check(CLI::NonNegativeNumber);
   verb->add_flag("--overwrite", options->overwrite, "replace these files if they are there");
   add_processing(*verb, *options);

@@ -14,11 +14,11 @@ struct Suffix {
 
 // Longer suffixes before the shorter ones that they end with. Units that freestand does not use stand here so that a
 // key such as width_mm is recognised as a width.
-constexpr std::array<Suffix, 23> suffixes = {{
+constexpr std::array<Suffix, 24> suffixes = {{
     {"_per_s", "1/s"}, {"_radps", "rad/s"}, {"_mps2", "m/s2"}, {"_cmps2", "cm/s2"}, {"_mps", "m/s"}, {"_cmps", "cm/s"},
     {"_inps", "in/s"}, {"_rad", "rad"},     {"_deg", "deg"},   {"_mm", "mm"},       {"_cm", "cm"},   {"_in", "in"},
     {"_ft", "ft"},     {"_kg", "kg"},       {"_lb", "lb"},     {"_hz", "Hz"},       {"_ms", "ms"},   {"_min", "min"},
-    {"_gal", "gal"},   {"_m", "m"},         {"_s", "s"},       {"_g", "g"},         {"_n", "N"},
+    {"_gal", "gal"},   {"_m", "m"},         {"_s", "s"},       {"_g", "g"},         {"_n", "N"},   {"_hzps", "Hz/s"},
 }};
 
 const Suffix* suffix_of(std::string_view name) {

@@ -251,6 +251,8 @@ void Integration::resolve(Witness witness) {
       break;
   }
   if (is_kink(witness) && state.sigma * slip_speed(rig, state) <= 0) stop_slip();
+  // A corner that begins to rise is at the floor, or under it by round-off.
+  if (state.pivot * state.theta < 0 && state.pivot * state.omega >= 0) state.theta = 0;
   if (regular && !at_floor && strikes_too()) {
     impact = true;
     regular = strike_floor();
@@ -326,6 +328,11 @@ void Integration::chose(const State& from, bool impact) {
   if (from.mode != Mode::flight) took_off_from_ = state.x;
   if (from.mode == Mode::flight && state.mode != Mode::flight) flown_ += std::abs(from.x - took_off_from_);
   peaks.response().events += news;
+  if (news && rig.laws && rig.laws->walls.any()) {
+    peaks.came_to(cursor.time(), rig.brief_s);
+    if (peaks.waits() || within_reach_of_wall(rig, state, beside_wall(rig)))
+      peaks.event_beside_wall(impact, cursor.time());
+  }
   if (++resolved_ >= settings.event_limit && !finished_) stop(Outcome::step_limit);
 }
 
@@ -345,6 +352,7 @@ void Integration::stop_when_done() {
   for (const double value : values)
     if (!(std::abs(value) < beyond_all_bounds)) return stop(Outcome::not_finite);
   if (!peaks.finite()) return stop(Outcome::not_finite);
+  peaks.came_to(cursor.time(), rig.brief_s);
   if (steps_++ % steps_watched == 0) {
     if (steps_ > 1 && (cursor.time() - watched_from_) * p_ < least_progress) return stop(Outcome::step_limit);
     watched_from_ = cursor.time();

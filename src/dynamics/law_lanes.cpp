@@ -109,6 +109,7 @@ class Group {
     set(Row::peak_acceleration, peaks.peak_acceleration_mps2);
     set(Row::force_zero, rig.force_zero);
     set(Row::touching, touching(rig));
+    set(Row::beside_wall, beside_wall(rig));
     for (int k = 0; k < laws_.states; ++k) state_row(k)[i] = state.states[static_cast<std::size_t>(k)];
     const Laws& laws = *rig.laws;
     for (int kink = 0; kink < laws.tape.kink_count(); ++kink) {
@@ -201,7 +202,7 @@ bool can_march(const Integration& life) {
   const bool contact = s.mode == Mode::slide || s.mode == Mode::rock || s.mode == Mode::slide_rock ||
                        (s.mode == Mode::rest && !life.waits());
   return contact && !life.cursor.motion_over() && s.wall == 0 && !s.released && s.doubt == 1 && !s.turned &&
-         life.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
+         !life.peaks.waits() && life.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
 }
 
 class Pool {

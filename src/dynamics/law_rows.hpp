@@ -69,9 +69,10 @@ enum class Row : int {
   slid_path,
   peak_rotation,
   peak_acceleration,
-  force_zero,  // as in Rig
-  touching,    // an upright block that is nearer to a wall than this touches it
-  state        // first of the effects' own
+  force_zero,   // as in Rig
+  touching,     // an upright block that is nearer to a wall than this touches it
+  beside_wall,  // as in wall.hpp [m]
+  state         // first of the effects' own
 };
 inline constexpr int row_count = static_cast<int>(Row::state) + max_states;
 

@@ -86,6 +86,21 @@ int direction(double w) { return w > 0 ? 1 : -1; }
 // The foot under legs has no mass: when forces jump, its slip may stop or turn at once.
 bool keeps_slipping(const Rig& rig) { return !rig.laws || rig.laws->legs.frequency_radps == 0; }
 
+// Static friction holds a base that stands still, beyond doubt, against a slip in that direction: where round-off keeps every stuck
+// mode from standing it does not slip instead.
+bool friction_holds(const Rig& rig, const FloorCursor& cursor, State trial, int sigma) {
+  trial.mode = Mode::rest;
+  trial.pivot = trial.sigma = trial.wall = 0;
+  trial.foot = 0;
+  bool holds = false;
+  with_contact_arc<1>(rig, trial, cursor.time(), cursor.local<1>(), [&](const auto& arc) {
+    for_each_witness(rig, trial, arc, [&](Witness witness, const auto& limit, ZeroTolerance zero) {
+      if (witness == (sigma > 0 ? Witness::grip_left : Witness::grip_right)) holds = limit[0] > zero.acceleration;
+    });
+  });
+  return holds;
+}
+
 bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
   const double slip = slip_speed(rig, state);
   if (slip != 0 && stands(rig, cursor, state, Mode::slide, 0, direction(slip))) return true;
@@ -102,7 +117,7 @@ bool choose_flat(const Rig& rig, const FloorCursor& cursor, State& state) {
         if (stands(rig, cursor, state, Mode::rock, pivot, 0)) return true;
     if (!rig.can_slip) return false;
     for (const int sigma : {1, -1})
-      if (stands(rig, cursor, state, Mode::slide, 0, sigma)) return true;
+      if (!friction_holds(rig, cursor, state, sigma) && stands(rig, cursor, state, Mode::slide, 0, sigma)) return true;
   }
   if (!rig.can_rock || !any_way) return false;
   for (const int pivot : {1, -1})

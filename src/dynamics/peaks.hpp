@@ -103,6 +103,24 @@ class Peaks {
     return !(a * a + v * v <= peak * peak);
   }
 
+  // Beside a wall a block comes to stand in blows of floor and wall that follow one another ever faster, in an order that
+  // hangs on the last digit of its motion. What it feels between a blow and the event before or after it, when they are closer
+  // together than `brief_s`, does not count: from an event on, at a time [s], it waits for the next one.
+  void event_beside_wall(bool blow, double time) {
+    if (waits_ && (blow || waits_since_blow_)) {
+      response_.peak_acceleration_mps2 = before_[0];
+      response_.peak_acceleration_at_height_mps2 = before_[1];
+    }
+    waits_ = true;
+    waits_since_blow_ = blow;
+    waits_since_ = time;
+    before_[0] = response_.peak_acceleration_mps2;
+    before_[1] = response_.peak_acceleration_at_height_mps2;
+  }
+  // The motion has gone on to this time: what has lasted counts.
+  void came_to(double time, double brief_s) { waits_ = waits_ && time - waits_since_ < brief_s; }
+  bool waits() const { return waits_; }
+
   Response& response() { return response_; }
   const Response& response() const { return response_; }
   bool finite() const { return finite_; }
@@ -166,6 +184,10 @@ class Peaks {
 
   Response response_;
   bool finite_ = true;
+  bool waits_ = false;  // since an event beside a wall
+  bool waits_since_blow_ = false;
+  double waits_since_ = 0;  // [s]
+  double before_[2] = {};   // largest accelerations until then
 };
 
 }  // namespace freestand::dynamics

@@ -16,6 +16,10 @@
 
 namespace freestand::dynamics {
 
+// On legs a row of hops is gone through to this rotation [rad]: while it lasts the foot slips, which it does not where the row is cut
+// off and the foot is stuck. What is left then lasts some 1e-7 s, in which friction changes the base's speed by less than 1e-7 m/s.
+inline constexpr double hop_over_legs = 1e-15;
+
 struct Rig {
   double right, left, h, k2;  // [m], [m2]
   double top;                 // height of the upper edges over the base [m]
@@ -34,6 +38,7 @@ struct Rig {
   std::optional<Point> point;  // whose acceleration is followed
   double instant_s;            // what is closer together happens at once: events are located no better [s]
   double told_speed;           // nor a blow of a wall that comes slower than this [m/s]
+  double brief_s;  // beside a wall two blows that are closer together than a throw at that speed are one [s]
 
   Rig(const Specimen& specimen, const Settings& settings, const FloorInput& floor = {})
       : right(specimen.block.right_m),
@@ -57,8 +62,10 @@ struct Rig {
         // motion depends on it.
         told_rotation(1e-3 * specimen.block.alpha_rad()),
         instant_s(1e-14 / specimen.block.p_radps()),
-        told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()) {
+        told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()),
+        brief_s(2 * told_speed / g) {
     if (has_laws(specimen) || push != 0) laws.emplace(specimen);
+    if (laws && laws->legs.frequency_radps > 0) rest_rotation = std::fmin(rest_rotation, hop_over_legs);
     if (!std::isnan(settings.acceleration_height_m)) point = {0.5 * (right - left), settings.acceleration_height_m - h};
   }
 

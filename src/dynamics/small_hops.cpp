@@ -4,13 +4,14 @@
 // largest one. In the limit of small hops all that start on one corner are alike, so that two of them tell, one on either corner.
 #include "dynamics/impact.hpp"
 #include "dynamics/integration.hpp"
+#include "dynamics/wall.hpp"
 
 namespace freestand::dynamics {
 
 bool Integration::strike_floor() {
   const State from = state;
   if (!strike(rig, state, cursor.time(), cursor.local<1>())) return false;
-  if (state.omega != 0) return true;
+  if (state.omega != 0 || within_reach_of_wall(rig, state, beside_wall(rig))) return true;
   feel_row_of_hops(from);
   if (slip_speed(rig, from) == 0 || slip_speed(rig, state) != 0) return true;
   State stuck = from;  // its slip ends within the row

@@ -80,13 +80,19 @@ inline EdgeNow edge_now(const Rig& rig, const State& state, int side, Edge edge)
 // leave, and rebounds that reach less are not followed.
 inline double touching(const Rig& rig) { return std::fmax(rig.rest_height, 1e-11 * rig.top); }
 
-inline bool touches_wall(const Rig& rig, const State& state) {
+inline bool within_reach_of_wall(const Rig& rig, const State& state, double reach) {
   if (!rig.laws) return false;
   for (const int side : {1, -1})
     for (const Edge edge : {Edge::lower, Edge::upper})
-      if (rig.laws->walls.on(side).stands && edge_now(rig, state, side, edge).gap <= touching(rig)) return true;
+      if (rig.laws->walls.on(side).stands && edge_now(rig, state, side, edge).gap <= reach) return true;
   return false;
 }
+inline bool touches_wall(const Rig& rig, const State& state) {
+  return within_reach_of_wall(rig, state, touching(rig));
+}
+
+// What is nearer is reached in a brief time at a speed that is not told.
+inline double beside_wall(const Rig& rig) { return rig.told_speed * rig.brief_s; }
 
 // An upright block touches the wall on that side.
 inline bool touches_upright(const Rig& rig, const State& state, int side) {

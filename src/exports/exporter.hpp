@@ -38,6 +38,7 @@ struct Format {
   bool table = false;  // holds results as they are: nothing is pooled, limit states may cross, any intensity will do
   bool one_list_of_states = false;  // files of many have the same limit states for all
   bool last_only = false;           // holds the most severe limit state alone
+  bool fixed_number = false;        // takes so many limit states and no fewer: those that never happened stay
   bool bands = false;               // its files hold the bands of the probabilities too, not the best estimate alone
   std::string note = {};            // a plain sentence that goes with every file of it
   // Plain sentences on what it makes of these curves.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <freestand/error.hpp>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 #include "exports/exporter.hpp"
 #include "exports/ground.hpp"
@@ -69,9 +70,10 @@ void refuse(const Model& model) {
     if (model.asset_category != inventory.name) continue;
     if (model.states.size() == inventory.states) return;
     throw Error(fmt::format(
-        "IN-CORE takes exactly {} limit states for a {}, and these are {} (it has no way from {} to damage states): "
+        "IN-CORE takes exactly {} limit states for {} {}, and these are {} (it has no way from {} to damage states): "
         "choose {} ({}), or name another --asset-category",
-        inventory.states, inventory.name, model.states.size(), model.states.size(),
+        inventory.states, std::string_view("aeiou").find(*inventory.name) == std::string_view::npos ? "a" : "an",
+        inventory.name, model.states.size(), model.states.size(),
         model.states.size() > inventory.states ? fmt::format("{} of them, the most severe among them", inventory.states)
                                                : std::string("them, where the last may stand again under other names"),
         asked_for(model, inventory.states)));
@@ -144,6 +146,7 @@ const Register here{
      .summary = "a fragility set for IN-CORE: lognormals, levels, or the three parts as they are",
      .file = "fragility.json",
      .forms = {Form::lognormal, Form::parts, Form::discrete},
+     .fixed_number = true,
      .notes_on = [](const Model& model) -> std::vector<std::string> { return {of_the_ground(model.im, "IN-CORE")}; },
      .usual_category = usual_category,
      .refuse = refuse,

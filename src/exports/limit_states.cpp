@@ -66,8 +66,18 @@ void add(std::vector<Wanted>& found, const Result& result, const std::string& wo
   for (std::size_t k = first; k < end; ++k) found.push_back({&edp, k, given.empty() ? state_name(edp, k) : given});
 }
 
+std::vector<std::string> every_demand(const Result& result) {
+  std::vector<std::string> words;
+  for (const EdpResult& edp : result.edps) words.push_back(edp.name);
+  return words;
+}
+
+// States of one list, each within the one before it. A demand that happens or not and is named first (wall_hit) stands alone: a block
+// that overturns need not have met it.
 std::vector<std::string> usual_states(const Result& result) {
   std::vector<std::string> words;
+  if (!result.edps.empty() && result.edps.front().binary && result.edps.front().name != "overturned")
+    return {result.edps.front().name};
   const auto capacities = [](const EdpResult& edp) { return !edp.binary; };
   const auto first = std::find_if(result.edps.begin(), result.edps.end(), capacities);
   if (first != result.edps.end()) words.push_back(first->name);
@@ -89,9 +99,10 @@ std::string state_name(const EdpResult& edp, std::size_t capacity) {
   return text;
 }
 
-std::vector<Wanted> wanted_states(const Result& result, const std::vector<std::string>& words) {
+std::vector<Wanted> wanted_states(const Result& result, const std::vector<std::string>& words, bool table) {
   std::vector<Wanted> found;
-  for (const std::string& word : words.empty() ? usual_states(result) : words) add(found, result, word);
+  for (const std::string& word : !words.empty() ? words : table ? every_demand(result) : usual_states(result))
+    add(found, result, word);
   if (found.empty())
     throw Error("these results hold no demand (nothing was fitted): name some under fragility.edp and fit again",
                 Exit::data);

@@ -16,7 +16,7 @@ struct Wanted {
 };
 
 // Words as in Request::states. Throws Error (Exit::usage) that lists what there is.
-std::vector<Wanted> wanted_states(const fragility::Result&, const std::vector<std::string>& words);
+std::vector<Wanted> wanted_states(const fragility::Result&, const std::vector<std::string>& words, bool table);
 
 // Letters, digits and _ in place of anything else: "peak_slip_m_over_0p05".
 std::string state_name(const fragility::EdpResult&, std::size_t capacity);

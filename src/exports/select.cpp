@@ -218,13 +218,14 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
   if (request.form && std::find(format.forms.begin(), format.forms.end(), *request.form) == format.forms.end())
     throw Error(fmt::format("{} has no {} (it cannot hold that form): leave --form out, or use --form discrete",
                             format.name, *request.form == Form::parts ? "formulas for the three parts" : "lognormals"));
-  std::vector<Wanted> wanted = wanted_states(result, request.states);
+  std::vector<Wanted> wanted = wanted_states(result, request.states, format.table);
   if (format.last_only) wanted = {wanted.back()};
   Model fresh{request.id, request.description, request.asset_category, request.loss_category, im, unknown, unknown, {},
               {}};
   for (const Wanted& one : wanted) fresh.states.push_back(state_of(result, im, one, request, format.table));
   std::vector<std::string> left_out;
-  if (request.states.empty() && !format.table) left_out = leave_out_what_never_happened(fresh, wanted);
+  if (request.states.empty() && !format.table && !format.fixed_number)
+    left_out = leave_out_what_never_happened(fresh, wanted);
   if (fresh.asset_category.empty() && format.usual_category)
     fresh.asset_category = format.usual_category(fresh.states.size());
   take_range(fresh, wanted);

@@ -14,7 +14,8 @@ namespace freestand::exports {
 // What was asked for.
 struct Request {
   // Least severe first: "peak_slip_m:0.1", "overturned", "peak_slip_m" (all its capacities), each with "=NAME" behind it
-  // where it should have a name of its own. Empty: the first demand with capacities, and overturned behind it.
+  // where it should have a name of its own. Empty: the first demand with capacities, and overturned behind it; or the first
+  // demand alone, where that is another one that happens or not; in a table all demands.
   std::vector<std::string> states;
   std::optional<Form> form;  // none: the first of the format's that is honest
   bool counted = false;      // discrete from the counted shares alone

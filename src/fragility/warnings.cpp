@@ -88,7 +88,8 @@ std::string capacities(const EdpResult& edp, const Meant& meant, const Number& n
   for (std::size_t c = 0; c < edp.functions.size(); ++c) {
     if (!meant(edp.functions[c])) continue;
     const std::string what =
-        edp.binary ? "it" : fmt::format("{} > {}{}", edp.name, edp.capacity[c], edp.unit == "1" ? "" : " " + edp.unit);
+        edp.binary ? edp.name
+                   : fmt::format("{} > {}{}", edp.name, edp.capacity[c], edp.unit == "1" ? "" : " " + edp.unit);
     text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", what, number(edp.functions[c]));
   }
   return text;

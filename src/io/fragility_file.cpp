@@ -30,7 +30,7 @@ Dataset coordinate(Group& group, const std::string& name, const std::vector<doub
 
 // The two that most groups need: each group holds its own, since readers such as xarray open one group at a time.
 Dataset im_of(Group& group, const Result& result) {
-  return coordinate(group, "im", result.im, result.im_unit, at_mean + result.im_name);
+  return coordinate(group, "im", result.im, result.im_unit, at_mean + im_text(result));
 }
 Dataset capacity_of(Group& group, const EdpResult& edp) {
   return coordinate(group, "capacity", edp.capacity, edp.unit, "capacity");
@@ -146,7 +146,7 @@ void write_functions(Group& parent, const Result& result, const EdpResult& edp) 
     for (const FragilityFunction& curve : edp.functions) values.push_back(field.value(curve));
     group.put(field.name, values).attach(0, capacity).describe(field.of_im ? result.im_unit : "1", field.description);
   }
-  const Dataset grid = coordinate(group, "grid", edp.functions.front().grid, result.im_unit, result.im_name);
+  const Dataset grid = coordinate(group, "grid", edp.functions.front().grid, result.im_unit, im_text(result));
   const Dataset resample = resample_numbers(group, result);
   const auto put = [&](const char* name, const Dataset& columns, const std::string& unit, const char* description,
                        const auto& row_of) {
@@ -217,7 +217,7 @@ void write_overturning(Group& root, const Result& result) {
   Group group = root.make_group("overturning");
   write_intensity(group, result);
   for (const FunctionField& field : function_fields()) group.attribute(field.name, field.value(curve));
-  const Dataset grid = coordinate(group, "grid", curve.grid, result.im_unit, result.im_name);
+  const Dataset grid = coordinate(group, "grid", curve.grid, result.im_unit, im_text(result));
   group.put("probability", curve.probability).attach(0, grid).describe("1", "P(overturning)");
   group.put("lower", curve.lower).attach(0, grid).describe("1", "lower end of the band, from resampled motions");
   group.put("upper", curve.upper).attach(0, grid).describe("1", "upper end of the band, from resampled motions");
@@ -287,8 +287,8 @@ void write_fragility(const std::filesystem::path& path, const Provenance& proven
   Group root = file.root();
   write_root(root, provenance, result);
   Group im = root.make_group("im");
-  coordinate(im, "edge", result.im_edge, result.im_unit, "edges of the bins, " + result.im_name);
-  coordinate(im, "centre", result.im, result.im_unit, at_mean + result.im_name);
+  coordinate(im, "edge", result.im_edge, result.im_unit, "edges of the bins, " + im_text(result));
+  coordinate(im, "centre", result.im, result.im_unit, at_mean + im_text(result));
   Group edps = root.make_group("edp");
   for (const EdpResult& edp : result.edps) write_edp(edps, result, edp);
   write_overturning(root, result);

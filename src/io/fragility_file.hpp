@@ -31,6 +31,9 @@ std::string bins_csv(const fragility::Result&);
 // rows over the intensity alone.
 std::string surface_csv(const fragility::Result&);
 
+// The intensity as `fit --im` takes it: "pga_g", "sa_g:0.5".
+std::string im_text(const fragility::Result&);
+
 // "fitted", "too_few", "rejected", "counts_only"
 const char* name(fragility::BinStatus);
 

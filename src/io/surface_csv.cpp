@@ -15,7 +15,7 @@ using fragility::Result;
 
 // im_name to unit: what stands before the capacity.
 std::string row_start(const Result& result, const EdpResult& edp, std::size_t bin) {
-  return fmt::format("{},{},{},{},{},{},{}", cell(result.im_name), cell(result.im_unit), cell(result.im[bin]),
+  return fmt::format("{},{},{},{},{},{},{}", cell(im_text(result)), cell(result.im_unit), cell(result.im[bin]),
                      cell(result.im_edge[bin]), cell(result.im_edge[bin + 1]), cell(edp.name), cell(edp.unit));
 }
 
@@ -51,6 +51,10 @@ std::string over_axis(const Result& result, const EdpResult& edp, const AxisSurf
 }
 
 }  // namespace
+
+std::string im_text(const Result& result) {
+  return result.im_period_s ? fmt::format("{}:{}", result.im_name, *result.im_period_s) : result.im_name;
+}
 
 std::string surface_csv(const Result& result) {
   std::string text =

@@ -29,7 +29,7 @@ constexpr std::string_view own_columns[] = {
 // First words of columns that no scaling of the record changes, whatever their unit; their units are not those of shaking.
 constexpr std::string_view properties[] = {"magnitude", "mw",       "distance",  "depth", "vs30",
                                            "elevation", "duration", "rjb",       "rrup",  "rhypo",
-                                           "repi",      "latitude", "longitude", "period"};
+                                           "repi",      "latitude", "longitude", "period", "bandwidth"};
 // Units of accelerations, velocities and displacements, which go with L T^time at another scale.
 struct Amplitudes {
   int time;

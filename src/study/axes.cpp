@@ -47,8 +47,9 @@ std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<M
   const bool several = motions.size() > 1;
   const auto any = [&](const auto& test) { return std::any_of(motions.begin(), motions.end(), test); };
   const bool pulses = any([](const MotionSource& s) { return s.kind == MotionSource::Kind::pulses; });
-  const bool records =
-      any([](const MotionSource& s) { return s.kind == MotionSource::Kind::records && s.files.size() != 1; });
+  const bool records = any([](const MotionSource& s) {
+    return s.synthetic ? s.synthetic->count > 1 : s.kind == MotionSource::Kind::records && s.files.size() != 1;
+  });
   const bool amplitude = any([](const MotionSource& s) { return varies(s.amplitude); });
   const bool period = any([](const MotionSource& s) { return varies(s.period); });
   if (pulses) axes.push_back({"motion.period_s", period || several});

@@ -8,6 +8,7 @@
 #include <freestand/error.hpp>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "base/durable_file.hpp"
 #include "io/database_file.hpp"
@@ -22,6 +23,7 @@
 #include "study/edited_study.hpp"
 #include "study/fit.hpp"
 #include "study/kernel_number.hpp"
+#include "study/problems.hpp"
 #include "study/realise.hpp"
 #include "study/sweep.hpp"
 
@@ -123,7 +125,7 @@ void write_study(const Study& study, const fs::path& folder) {
 }
 
 void compute(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder,
-             const CatalogueOptions& options) {
+             const CatalogueOptions& options, std::set<std::string>& doubts_told) {
   const bool quiet = options.quiet || entry.study.samples < many_samples;
   std::vector<std::int64_t> resume{1};
   world.on_root([&] {
@@ -140,7 +142,8 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
   if (work == refit)
     world.on_root([&] { write_study(entry.study, folder); });
   else
-    summary = sweep(world, entry.study, {quiet, options.command}, run_folder);
+    summary = sweep(world, entry.study, {.quiet = quiet, .command = options.command, .doubts_told = &doubts_told},
+                    run_folder);
   fit(world, run_folder,
       {.from = folder, .command = options.command, .quiet = true, .sweep = work == refit ? nullptr : &summary});
   for (const IntensityPart& im : entry.others) {
@@ -280,13 +283,14 @@ CatalogueSummary build_catalogue(const Communicator& world, const Catalogue& cat
   plan.work = world.broadcast(plan.work);
   CatalogueSummary summary;
   {
+    std::set<std::string> doubts_told;
     parallel::StepDisplay display(options.quiet || !world.is_root());
     for (std::size_t i = 0; i < catalogue.entries.size(); ++i) {
       const CatalogueEntry& entry = catalogue.entries[i];
       display.show("entry " + entry.words.id, i + 1, catalogue.entries.size());
       const auto work = static_cast<Work>(plan.work[i]);
       ++(work == keep ? summary.kept : work == refit ? summary.refitted : summary.computed);
-      if (work != keep) compute(world, entry, work, entry_folder(folder, entry.words.id), options);
+      if (work != keep) compute(world, entry, work, entry_folder(folder, entry.words.id), options, doubts_told);
     }
   }
   std::vector<std::int64_t> others{0};

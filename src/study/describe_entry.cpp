@@ -24,7 +24,7 @@ void describe_block(const BlockPart& block, database::Entry& entry) {
     entry.width_m = 2 * radius * std::sin(angle);
     entry.height_m = 2 * radius * std::cos(angle);
   }
-  entry.mass_kg = median(block.mass);
+  if (block.mass.line > 0) entry.mass_kg = median(block.mass);  // else nobody gave it
 }
 
 void describe_friction(const FrictionPart& friction, database::Entry& entry) {

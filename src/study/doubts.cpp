@@ -138,13 +138,14 @@ std::string one_sided(const Study& study) {
 
 // A record that is turned round is as likely a motion of the floor, and does something else to what stands on one side.
 void ask_of_polarity(const MotionSource& source, const std::string& what, Doubter& doubter) {
-  if (what.empty() || source.kind != MotionSource::Kind::records || !source.amplitude) return;
+  const bool one_sign = source.kind == MotionSource::Kind::records || (source.synthetic && source.synthetic->pulse);
+  if (what.empty() || !one_sign || !source.amplitude) return;
   const sampling::Support amplitudes = support(source.amplitude->value);
   if (amplitudes.lower < 0 && amplitudes.upper > 0) return;
   doubter.said.push_back(fmt::format(
       "the {} is on one side, and {} shakes with one sign only: turned round each record is as likely: is that "
       "meant? a range of both signs turns them round too ({})",
-      what, source.records,
+      what, source.synthetic ? source.synthetic->name : source.records,
       source.scale_to ? fmt::format("scale_to: {{{}: {{uniform: [-2, 2]}}}}", source.scale_to->name)
                       : "scale: {choice: [-1, 1]}"));
 }

@@ -8,6 +8,7 @@
 #include "study/paths.hpp"
 #include "study/read_building.hpp"
 #include "study/read_parts.hpp"
+#include "study/read_synthetic.hpp"
 #include "study/study.hpp"
 
 namespace freestand::study {
@@ -161,6 +162,11 @@ Mapping source_mapping(const MotionSource& source, const FileKeys& keys) {
     m.add(source.period);
     add_amplitude(source, m);
     if (!source.scale_to) m.add("scale", number_text(source.pulse_scale));
+  } else if (source.kind == MotionSource::Kind::synthetic) {
+    if (source.synthetic) m.add("synthetic", synthetic_text(*source.synthetic));
+    add_amplitude(source, m);
+    if (source.building) m.add("building", building_text(*source.building));
+    m.add(source.storey);
   } else {
     m.add(keys.file, text_value(source.records));
     if (!source.vertical_records.empty()) m.add(keys.vertical, text_value(source.vertical_records));

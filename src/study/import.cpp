@@ -194,7 +194,6 @@ class Importer {
   }
 
   static std::string changed(const LabColumn& column, const std::string& to) {
-    const std::string unit = to.substr(to.rfind('_') + 1);
     return fmt::format("{} in {}{} is {}", shown(column.name), shown(column.unit),
                        column.factor < 0 ? ", turned round," : "", to);
   }
@@ -205,6 +204,8 @@ class Importer {
     if (lab.slip) columns.push_back(changed(*lab.slip, "slip_m"));
     if (lab.rotation) columns.push_back(changed(*lab.rotation, "rotation_rad"));
     if (lab.block_acceleration) columns.push_back(changed(*lab.block_acceleration, "block_acceleration_mps2"));
+    for (const LabFile* file : {&lab.floor, &lab.response})
+      if (file->time.factor != 1) columns.push_back(changed(file->time, "the time"));
     say(fmt::format("{}: {}", lab.id, fmt::join(columns, "; ")));
     say(
         fmt::format("{}: floor in steps of {:.4g} s, response of {:.4g} s, both now of {:.4g} s; {:.4g} s of {:.4g} s "

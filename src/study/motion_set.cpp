@@ -14,8 +14,10 @@
 #include "motion/pulse.hpp"
 #include "motion/record.hpp"
 #include "motion/record_pairs.hpp"
+#include "study/drawn_building.hpp"
 #include "study/problems.hpp"
 #include "study/realise.hpp"
+#include "study/synthetic_set.hpp"
 
 namespace freestand::study {
 namespace {
@@ -73,6 +75,13 @@ motion::KnownPulse known_pulse(const MotionSource& source, const motion::RecordR
   return known;
 }
 
+// Of the pulse on top of a synthetic motion. Types that a record's pulse cannot have are looked for, at its period.
+motion::KnownPulse known_pulse(const motion::SyntheticPulse& pulse) {
+  const auto& types = motion::pulse_types();
+  const bool of_a_record = std::find(types.begin(), types.end(), pulse.type) != types.end();
+  return {of_a_record ? pulse.type : "", pulse.period_s};
+}
+
 void take_peaks(Entry& entry) {
   const motion::MotionPeaks peaks = motion::peaks(entry.motion);
   entry.peak_mps2 = peaks.pga_mps2;
@@ -109,14 +118,12 @@ class Loader {
       for (const auto& name : source.pulses.values) items.push_back(pulse(name));
       return items;
     }
+    if (source.synthetic) return synthetic(source);
     for (const motion::RecordRow& row : source.files) {
       try {
         entries_.push_back(load_record(source, row, study_.folder));
-        add_numbers(source, row, entries_.back());
-        if (source.building)
-          add_floors(source, items);
-        else
-          items.push_back(entries_.size() - 1);
+        add_numbers(source, row.numbers, entries_.back());
+        add_item(source, items);
       } catch (const Error& error) {
         const std::string what = error.what();
         const bool named = what.find(row.file.string()) != std::string::npos;
@@ -151,11 +158,39 @@ class Loader {
     return pulses_[name] = entries_.size() - 1;
   }
 
+  // Each by itself a motion that no other goes with.
+  std::vector<std::size_t> synthetic(const MotionSource& source) {
+    std::vector<std::size_t> items;
+    for (std::uint64_t n = 0; n < static_cast<std::uint64_t>(source.synthetic->count); ++n) {
+      const motion::SyntheticParameters parameters = synthetic_parameters(*source.synthetic, study_.seed, n);
+      Entry entry{realisation(*source.synthetic, study_.seed, n)};
+      if (const auto& pulse = parameters.pulse) entry.known_pulse = known_pulse(*pulse);
+      take_peaks(entry);
+      entries_.push_back(std::move(entry));
+      add_numbers(source, synthetic_values(parameters), entries_.back());
+      try {
+        add_item(source, items);
+      } catch (const Error& error) {
+        const std::string& name = entries_.back().motion.name;
+        problems_.push_back({name, fmt::format("{}: {}", name, error.what())});
+      }
+    }
+    return items;
+  }
+
+  // The last entry, or in a building its floors.
+  void add_item(const MotionSource& source, std::vector<std::size_t>& items) {
+    if (source.building)
+      add_floors(source, items);
+    else
+      items.push_back(entries_.size() - 1);
+  }
+
   // Of the last record, in its building.
   void add_floors(const MotionSource& source, std::vector<std::size_t>& items) {
     const std::size_t ground = entries_.size() - 1;
     const FloorMotion record = entries_.back().motion;
-    const std::vector<motion::Mode> modes = motion::modes(*source.building);
+    const std::vector<motion::Mode> modes = motion::modes(drawn(*source.building, study_.seed, record.name));
     if (const std::string why = motion::outside_the_band(record, modes); !why.empty()) throw Error(why, Exit::data);
     motion::BuildingResponse response(record, modes);
     for (const int storey : source.storeys()) {
@@ -170,7 +205,9 @@ class Loader {
   }
 
   // Tables with the same column mean the same number.
-  void add_numbers(const MotionSource& source, const motion::RecordRow& row, Entry& entry) {
+  void add_numbers(const MotionSource& source, std::vector<double> values, Entry& entry) {
+    if (source.building && source.building->drawn_period)
+      values.push_back(*drawn(*source.building, study_.seed, entry.motion.name).period_s);
     for (std::size_t column = 0; column < source.numbers.size(); ++column) {
       const auto known = std::find_if(numbers_.begin(), numbers_.end(), [&](const motion::RecordNumber& number) {
         return number.name == source.numbers[column].name;
@@ -179,7 +216,7 @@ class Loader {
       if (known == numbers_.end()) numbers_.push_back(source.numbers[column]);
       entry.numbers.resize(numbers_.size(), not_given);
       entry.numbers[place] =
-          numbers_[place].at_scale(row.numbers[column], source.processing.scale.value_or(motion::Similitude{}));
+          numbers_[place].at_scale(values[column], source.processing.scale.value_or(motion::Similitude{}));
     }
   }
 

@@ -61,18 +61,27 @@ void read_rayleigh(Section& section, Building& building) {
                     section.name("rayleigh_modes") + " is no pair of modes (the damping is that of two): write [1, 2]");
 }
 
-Building read_mapping(const YAML::Node& node, const std::string& path, int line, Problems& problems,
-                      const std::string& name) {
+// A number, or the median of a distribution, which is kept.
+std::optional<double> read_number(Section& section, const std::string& key, const Range& range,
+                                  std::optional<Quantity>& kept) {
+  const auto quantity = section.quantity("building", key, range);
+  if (!quantity) return {};
+  if (!is_fixed(quantity->value)) kept = quantity;
+  return sampling::quantile(quantity->value, 0.5);
+}
+
+BuildingPart read_mapping(const YAML::Node& node, const std::string& path, int line, Problems& problems,
+                          const std::string& name) {
   const std::size_t before = problems.count();
   Section section(node, path, line, problems);
-  Building building;
+  BuildingPart building;
   building.name = section.text("name", name);
   read_storeys(section, building);
-  building.period_s = section.optional_number("period_s", range::positive);
+  building.period_s = read_number(section, "period_s", range::positive, building.drawn_period);
   building.stiffness = static_cast<Building::Stiffness>(section.choice("stiffness", stiffness_words, 0));
-  building.damping = section.number(
-      "damping", building.damping,
-      {.lower = 0, .upper = 1, .why = "it is a share of critical damping; without any a floor never comes to rest"});
+  const Range share = {
+      .lower = 0, .upper = 1, .why = "it is a share of critical damping; without any a floor never comes to rest"};
+  building.damping = read_number(section, "damping", share, building.drawn_damping).value_or(building.damping);
   read_rayleigh(section, building);
   section.finish();
   if (problems.count() > before) return building;
@@ -84,13 +93,13 @@ Building read_mapping(const YAML::Node& node, const std::string& path, int line,
   return building;
 }
 
-Building read_file(const std::filesystem::path& file, Problems& problems) {
+BuildingPart read_file(const std::filesystem::path& file, Problems& problems) {
   const auto root = parse_yaml(read_text(file), problems);
-  return root ? read_mapping(*root, "", 1, problems, file.stem().string()) : Building{};
+  return root ? read_mapping(*root, "", 1, problems, file.stem().string()) : BuildingPart{};
 }
 
 // Problems of the building's file stand at the key that names it.
-std::optional<Building> read_named_file(Section& section, const std::filesystem::path& file) {
+std::optional<BuildingPart> read_named_file(Section& section, const std::filesystem::path& file) {
   try {
     return read_building_file(file);
   } catch (const Error& error) {
@@ -160,18 +169,23 @@ void read_building(Section& section, MotionSource& source, const std::filesystem
                     section.name("storey") +
                         " is of no building (nothing lies between the ground and the equipment): add building, "
                         "or remove it");
+  if (source.building && source.building->drawn_period)
+    source.numbers.push_back(motion::record_number("building_period_s").value());
   if (source.building && source.storey && section.problems().count() == before) check_storeys(section, source);
 }
 
-motion::Building read_building_file(const std::filesystem::path& file) {
+BuildingPart read_building_file(const std::filesystem::path& file) {
   Problems problems(file.string());
-  Building building = read_file(file, problems);
+  BuildingPart building = read_file(file, problems);
   problems.throw_if_any();
   return building;
 }
 
-std::string building_text(const motion::Building& building) {
+std::string building_text(const BuildingPart& building) {
   using sampling::number_text;
+  const auto written = [](const std::optional<Quantity>& drawn, double number) {
+    return drawn ? to_string(drawn->value) : number_text(number);
+  };
   std::vector<std::string> storeys;
   bool alike = true;
   for (const Storey& storey : building.storeys) {
@@ -187,9 +201,9 @@ std::string building_text(const motion::Building& building) {
   std::string text = fmt::format("{{name: {}, storeys: ", name.c_str());
   text += alike ? fmt::format("{}", storeys.size()) : fmt::format("[{}]", fmt::join(storeys, ", "));
   if (building.period_s)
-    text += fmt::format(", period_s: {}, stiffness: {}", number_text(*building.period_s),
+    text += fmt::format(", period_s: {}, stiffness: {}", written(building.drawn_period, *building.period_s),
                         stiffness_words[static_cast<std::size_t>(building.stiffness)]);
-  text += fmt::format(", damping: {}", number_text(building.damping));
+  text += fmt::format(", damping: {}", written(building.drawn_damping, building.damping));
   if (building.rayleigh_modes)
     text += fmt::format(", rayleigh_modes: [{}, {}]", building.rayleigh_modes->first, building.rayleigh_modes->second);
   return text + "}";

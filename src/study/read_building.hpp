@@ -13,9 +13,9 @@ namespace freestand::study {
 void read_building(Section& section, MotionSource& source, const std::filesystem::path& folder, Files look);
 
 // The building of a file. Throws Error (Exit::usage) with all its problems.
-motion::Building read_building_file(const std::filesystem::path& file);
+BuildingPart read_building_file(const std::filesystem::path& file);
 
 // As a mapping that reads back to the same building.
-std::string building_text(const motion::Building&);
+std::string building_text(const BuildingPart&);
 
 }  // namespace freestand::study

@@ -9,6 +9,7 @@
 #include "base/shown_text.hpp"
 #include "exports/exporter.hpp"
 #include "study/catalogue.hpp"
+#include "study/common_block.hpp"
 #include "study/paths.hpp"
 #include "study/read_parts.hpp"
 #include "study/specimen_table.hpp"
@@ -163,6 +164,7 @@ class Reader {
       if (name.empty() && !has(root_, "motions"))
         root["motions"] = YAML::Load("[{pulse: B, period_s: 1, peak_acceleration_g: 1}]");
       if (!has(root_, "samples") && !has(root_, "until")) root["samples"] = 1;
+      if (has(root_, "block")) root["block"] = block_to_check(root_["block"]);
       take(root, root_, file_keys);
       YAML::Node rest = YAML::Load(
           "{block: {width_m: {uniform: [0.5, 0.6]}, height_m: {uniform: [1, 2]}, mass_kg: "
@@ -349,6 +351,8 @@ class Reader {
     YAML::Node root(YAML::NodeType::Map);
     if (!variant.floor.empty()) root.force_insert("motions", variant.motions);
     if (!variant.friction.empty()) root.force_insert("friction", variant.friction_node);
+    const YAML::Node own = node["block"], common = root_["block"];
+    if (own && common && own.IsMap() && common.IsMap()) root["block"] = joined_block(own, common);
     take(root, node, entry_keys);
     take(root, root_, file_keys);
     Problems found(path.string());

@@ -34,6 +34,18 @@ Factor of(const Units& units) {
   return [&units](const std::string& unit) { return factor_of(units, unit); };
 }
 
+// "t_ms", "Time (ms)": the unit at the end of a column's name, where it is one of the quantity; else `otherwise`.
+std::string unit_of_name(const std::string& name, const Factor& factor, const std::string& otherwise) {
+  std::string end = name.substr(name.find_last_of("_([ ") + 1);
+  end.erase(end.find_last_not_of(")] ") + 1);
+  try {
+    factor(end);
+    return end;
+  } catch (const Error&) {
+    return otherwise;
+  }
+}
+
 // "name", or {column: name, unit: mm, sign: -1}.
 std::optional<LabColumn> read_column(Section& section, const std::string& key, const std::string& unit,
                                      const Factor& factor) {
@@ -44,7 +56,7 @@ std::optional<LabColumn> read_column(Section& section, const std::string& key, c
   if (node->IsMap()) {
     Section inner(*node, section.name(key), section.line(key), section.problems());
     column.name = inner.text("column", "");
-    column.unit = inner.text("unit", unit);
+    column.unit = inner.text("unit", unit_of_name(column.name, factor, unit));
     sign = inner.number("sign", 1);
     if (sign != 1 && sign != -1)
       inner.problem("sign", fmt::format("{} is {} (a column is taken as it is, or turned round): give 1 or -1",
@@ -52,6 +64,7 @@ std::optional<LabColumn> read_column(Section& section, const std::string& key, c
     inner.finish();
   } else if (node->IsScalar()) {
     column.name = node->Scalar();
+    column.unit = unit_of_name(column.name, factor, unit);
   }
   if (column.name.empty())
     section.problem(key, fmt::format("{} names no column: give its name, or {{column: NAME, unit: {}, sign: -1}}",

@@ -1,9 +1,10 @@
-// Where the floor motions of a study come from: pulses and records.
+// Where the floor motions of a study come from: pulses, records and synthetic motions.
 #include <fmt/format.h>
 
 #include "motion/pulse.hpp"
 #include "study/read_building.hpp"
 #include "study/read_parts.hpp"
+#include "study/read_synthetic.hpp"
 
 namespace freestand::study {
 namespace {
@@ -25,23 +26,12 @@ void out_of_place(Section& section, const std::vector<std::string>& keys, const 
           key, fmt::format("{} does not go with {} (it has no meaning there): remove it", section.name(key), with));
 }
 
-// Checks the names and gives each the form that the pulse itself has (c1 -> C1).
-void settle_pulse_names(Section& section, sampling::Names& names) {
-  for (auto& name : names.values) {
-    try {
-      name = motion::find_pulse(name).name;
-    } catch (const Error& error) {
-      section.problem("pulse", section.name("pulse") + ": " + error.what());
-    }
-  }
-}
-
 void read_pulses(Section& section, MotionSource& source) {
   source.kind = MotionSource::Kind::pulses;
   if (const auto names =
           read_names(*section.find("pulse"), section.name("pulse"), section.line("pulse"), section.problems())) {
     source.pulses = *names;
-    settle_pulse_names(section, source.pulses);
+    settle_pulse_names(section, "pulse", source.pulses);
   }
   source.period = section.quantity("motion", "period_s", period_range);
   const auto acceleration = section.quantity("motion", "peak_acceleration_g", range::any);
@@ -79,21 +69,33 @@ void read_any_records(Section& section, MotionSource& source, const RecordKeys& 
   out_of_place(section, pulse_keys, keys.key);
 }
 
+void read_synthetic_motions(Section& section, MotionSource& source, const RecordKeys& keys) {
+  read_synthetic(section, source, keys.folder, keys.look);
+  read_building(section, source, keys.folder, keys.look);
+  for (const auto& other : {pulse_keys, record_keys, processing_keys()}) out_of_place(section, other, "synthetic");
+}
+
 MotionSource read_source(Section& section, const RecordKeys& keys) {
   MotionSource source;
   const std::string& file_key = keys.key;
-  const bool pulse = section.find("pulse") != nullptr, file = section.find(file_key) != nullptr;
-  if (pulse && file)
-    section.problem(file_key, fmt::format("{} and pulse are both given (a motion is one or the other): {}",
-                                          section.name(file_key), "make two entries, or remove one"));
+  const bool pulse = section.find("pulse") != nullptr, file = section.find(file_key) != nullptr,
+             synthetic = section.find("synthetic") != nullptr;
+  const bool one = pulse + file + synthetic == 1;
+  if (!one && (pulse || file || synthetic))
+    section.problem(file ? file_key : "pulse",
+                    fmt::format("{} and {} are both given (a motion is one or the other): make two entries, or remove "
+                                "one",
+                                section.name(file ? file_key : "synthetic"), pulse ? "pulse" : "synthetic"));
   else if (pulse)
     read_pulses(section, source);
   else if (file)
     read_any_records(section, source, keys);
+  else if (synthetic)
+    read_synthetic_motions(section, source, keys);
   else
     section.problem("pulse",
                     fmt::format("a motion has neither pulse nor {} (nothing would shake): add one of them", file_key));
-  if (pulse == file)
+  if (!one)
     for (const auto& known : {pulse_keys, record_keys, processing_keys(), {"scale", "scale_to", "building", "storey"}})
       for (const auto& key : known) section.find(key);
   section.finish();
@@ -101,6 +103,16 @@ MotionSource read_source(Section& section, const RecordKeys& keys) {
 }
 
 }  // namespace
+
+void settle_pulse_names(Section& section, const std::string& key, sampling::Names& names) {
+  for (auto& name : names.values) {
+    try {
+      name = motion::find_pulse(name).name;
+    } catch (const Error& error) {
+      section.problem(key, section.name(key) + ": " + error.what());
+    }
+  }
+}
 
 std::vector<MotionSource> read_motions(Section& file, const std::filesystem::path& folder, Files look, bool vertical) {
   std::vector<MotionSource> sources;
@@ -135,6 +147,10 @@ MotionSource read_motion(Section& file, const std::filesystem::path& folder) {
   Section section(*node, "motion", file.line("motion"), file.problems());
   if (!node->IsMap()) return {};
   MotionSource source = read_source(section, {"file", "vertical_file", "cross_file", folder, Files::look, false});
+  if (source.kind == MotionSource::Kind::synthetic)
+    section.problem("synthetic",
+                    "motion.synthetic is a set of motions (a case has one motion): write one with `freestand motion "
+                    "--synthetic FILE --number 0 --convert floor.csv`, and give that as file");
   if (source.pulses.values.size() > 1)
     section.problem("pulse", "motion.pulse is a list (a case is one sample): name one pulse");
   if (source.pulse.any())

@@ -21,6 +21,12 @@ std::vector<MotionSource> read_motions(Section& file, const std::filesystem::pat
 // The amplitude from the key scale_to, if it is there: any intensity measure that is proportional to the motion's scale.
 std::optional<Quantity> read_scale_to(Section& section, MotionSource& source);
 
+// The amplitude of motions that have a strength of their own: scale_to, or scale, 1 where neither is given.
+void read_amplitude(Section& section, MotionSource& source);
+
+// Checks names of pulses at a key, and gives each the form that the pulse itself has (c1 -> C1).
+void settle_pulse_names(Section& section, const std::string& key, sampling::Names& names);
+
 // What an entry of `motions` says of records; `key`: records, or file of a case.
 struct RecordKeys {
   std::string key, vertical_key, cross_key;

@@ -58,12 +58,6 @@ void leave_out_vertical(Section& section, const std::string& key, MotionSource& 
                               key == "file" ? "vertical_file" : "vertical_records"));
 }
 
-void read_amplitude(Section& section, MotionSource& source) {
-  const std::optional<Quantity> target = read_scale_to(section, source);
-  const Quantity factor = section.quantity("motion", "scale", range::any, 1);
-  source.amplitude = target ? *target : factor;
-}
-
 // Partners in the order of names: vertical components, or the other horizontal ones. Empty where there are none, or others than
 // records.
 Paths read_partners(Section& section, const std::string& key, const std::string& pattern, const RecordKeys& keys,
@@ -121,6 +115,12 @@ void read_table(Section& section, MotionSource& source, const RecordKeys& keys) 
 }
 
 }  // namespace
+
+void read_amplitude(Section& section, MotionSource& source) {
+  const std::optional<Quantity> target = read_scale_to(section, source);
+  const Quantity factor = section.quantity("motion", "scale", range::any, 1);
+  source.amplitude = target ? *target : factor;
+}
 
 void read_records(Section& section, MotionSource& source, const RecordKeys& keys) {
   source.records = section.text(keys.key, "");

@@ -15,6 +15,7 @@
 #include "study/paths.hpp"
 #include "study/posterior_tables.hpp"
 #include "study/read_parts.hpp"
+#include "study/read_synthetic.hpp"
 #include "study/target.hpp"
 
 namespace freestand::study {
@@ -125,6 +126,8 @@ void refuse_distributions(const Study& study, Problems& problems) {
     check(source.amplitude);
     check(source.period);
     check(source.storey);
+    if (source.building) check(source.building->drawn_period);
+    if (source.building) check(source.building->drawn_damping);
   }
 }
 
@@ -187,6 +190,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   read_design(file, study);
   study.motions = read_motions(file, study.folder, look, shakes_vertically(study.model));
   check_cross(file, study);
+  if (problems.empty()) check_synthetic(file, study);
   // What the study draws is known only when its parts are sound.
   const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
   study.fragility = read_fragility(file, known_of(study, known, look), choices);

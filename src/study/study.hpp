@@ -126,6 +126,12 @@ struct IntensityPart {
   std::optional<double> period_s = {};  // the number; the measure's own default where the study gives none
 };
 
+// A building of which period and damping may be known by a distribution; the rest of it, and all of it at medians, is the base.
+struct BuildingPart : motion::Building {
+  std::optional<Quantity> drawn_period,
+      drawn_damping;  // building.period_s, building.damping, where they are no numbers
+};
+
 // Into which direction pairs of horizontal components are turned: by this angle from the first of a pair towards the other; of a
 // table of records to this azimuth, clockwise from north, or by the strike that it gives.
 struct TurnPart {
@@ -134,15 +140,30 @@ struct TurnPart {
   double angle_deg = 0;
 };
 
-// One entry of `motions`: either pulses or records, taken with probability weight / (sum of weights).
+// Realisations of the stochastic model of motion/synthetic.hpp, each with parameters of its own, drawn by its number.
+struct SyntheticPart {
+  struct Pulse {
+    sampling::Names types;
+    Quantity period, peak_velocity, middle;  // synthetic.pulse.period_s, ...peak_velocity_mps, ...middle_s
+  };
+  std::string name = "synthetic";  // of the set; part of the key of its draws
+  int count = 100;
+  // synthetic.arias_mps, .duration_s, .middle_s, .frequency_hz, .frequency_slope_hzps, .bandwidth, .corner_hz
+  Quantity arias, duration, middle, frequency, slope, bandwidth, corner;
+  double step_s = 0.01;
+  std::optional<Pulse> pulse;
+};
+
+// One entry of `motions`: pulses, records or synthetic motions, taken with probability weight / (sum of weights).
 struct MotionSource {
-  enum class Kind { pulses, records };
+  enum class Kind { pulses, records, synthetic };
   Kind kind = Kind::pulses;
   double weight = 1;
   // Pulses: motion.peak_acceleration_g or motion.peak_velocity_mps (the true peak of the floor's velocity); records:
   // motion.scale (a factor); negative ones mirror. Either: the intensity that the motion is scaled to, motion.sa_g.
   std::optional<Quantity> amplitude;
   std::optional<IntensityPart> scale_to;  // of such an amplitude
+  std::optional<SyntheticPart> synthetic;
   // Pulses.
   sampling::Names pulses;
   std::optional<Quantity> period;  // motion.period_s
@@ -161,7 +182,7 @@ struct MotionSource {
   std::string cross_records;  // the other horizontal components, paired as the vertical ones
   bool in_plane() const;      // any record has a second horizontal channel, and is not turned into one direction
   // Where the records are of the ground and the equipment stands in a building; amplitudes stay those of the ground.
-  std::optional<motion::Building> building;
+  std::optional<BuildingPart> building;
   std::optional<Quantity> storey;    // motion.storey: a whole number of floors above the ground, or a choice of them
   std::vector<int> storeys() const;  // its values; none without a building
   motion::KnownPulse pulse;          // of each record whose row does not say it

@@ -58,17 +58,19 @@ std::string why_other(const Study& study, const std::filesystem::path& folder, c
 }
 
 // The root tries the records first, so that a broken one is told once and all ranks leave in order.
-MotionSet load_together(const Communicator& world, const Study& study) {
+MotionSet load_together(const Communicator& world, const Study& study, const SweepOptions& options) {
   world.on_root([&] {
     const MotionSet motions = load_motions(study);
-    for (const std::string& doubt : doubts(study, motions)) parallel::tell("doubtful: " + doubt + "\n");
+    for (const std::string& doubt : doubts(study, motions))
+      if (!options.doubts_told || options.doubts_told->insert(doubt).second)
+        parallel::tell("doubtful: " + doubt + "\n");
   });
   return load_motions(study);
 }
 
-Evaluator evaluator_together(const Communicator& world, const Study& study, bool quiet) {
-  const MotionSet motions = load_together(world, study);
-  parallel::StepDisplay display(quiet || !world.is_root());
+Evaluator evaluator_together(const Communicator& world, const Study& study, const SweepOptions& options) {
+  const MotionSet motions = load_together(world, study, options);
+  parallel::StepDisplay display(options.quiet || !world.is_root());
   return {study, motions, summarize_together(world, study, motions, &display)};
 }
 
@@ -80,7 +82,7 @@ class Sweep {
         options_(options),
         folder_(folder),
         earlier_(study, folder.path()),
-        evaluator_(evaluator_together(world, study, options.quiet)),
+        evaluator_(evaluator_together(world, study, options)),
         target_(study) {
     earlier_.check(evaluator_.columns(), evaluator_.motions().fingerprint());
     look_at_size();

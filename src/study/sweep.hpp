@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
 
 #include "parallel/communicator.hpp"
@@ -12,8 +13,9 @@ namespace freestand::study {
 
 struct SweepOptions {
   bool quiet = false;
-  std::string command;       // for the provenance
-  bool fit_follows = false;  // which tells whether `until` was reached; else the sweep does
+  std::string command;                           // for the provenance
+  bool fit_follows = false;                      // which tells whether `until` was reached; else the sweep does
+  std::set<std::string>* doubts_told = nullptr;  // by sweeps before this one: these are not told again
 };
 
 // Where a sweep's files lie inside its folder.

@@ -100,6 +100,15 @@ class Import(InFolder):
         self.write("lab.yaml", text.replace("slip: {column: LVDT 1, unit: mm", "block_acceleration: {column: LVDT 1, unit: g"))
         self.fail_with(2, ["import", self.lab, "-o", self.folder / "wrong"], "lab.yaml:8", "neither slip nor rotation")
 
+    def test_a_unit_at_the_end_of_a_columns_name_counts_where_none_is_given(self):
+        self.imported()
+        text = self.lab.read_text(encoding="utf-8")
+        self.write("lab.yaml", text.replace("{column: t_ms, unit: ms}", "t_ms"))
+        told = self.imported("short").stdout
+        self.assertIn("t_ms in ms is the time", told)
+        for name in self.truth:
+            self.assertEqual(self.rows(name), self.rows(name, "short"))
+
     def test_a_clock_that_is_given_is_not_estimated(self):
         text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
         self.write("lab.yaml", text.replace("    role:", "    clock_s: 0.1\n    role:"))

@@ -49,7 +49,8 @@ TEST(InCore, WantsAsManyLimitStatesAsItsInventoryHas) {
   };
   EXPECT_EQ(why({}, "building"), "");
   EXPECT_EQ(why({"peak_slip_m", "overturned", "overturned=again"}, ""), "");
-  EXPECT_THAT(why({}, "electric_facility"), AllOf(HasSubstr("exactly 4 limit states"), HasSubstr("these are 3")));
+  EXPECT_THAT(why({}, "electric_facility"),
+              AllOf(HasSubstr("exactly 4 limit states for an electric_facility"), HasSubstr("these are 3")));
   EXPECT_THAT(why({"overturned"}, "building"), AllOf(HasSubstr("exactly 3"), HasSubstr("overturned=again")));
   // Of more than are wanted the last one stays: nothing is more severe than to fall over.
   EXPECT_THAT(

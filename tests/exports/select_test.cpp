@@ -26,6 +26,33 @@ TEST(LimitStates, UsuallyAreTheFirstDemandAndOverturned) {
   EXPECT_TRUE(std::isnan(found.states[2].capacity));
 }
 
+// A study that names wall_hit first asks for it. Overturning is no severer state of it: blocks also fall away from the wall.
+TEST(LimitStates, ADemandThatHappensOrNotGoesOutWhereItIsNamedFirst) {
+  fragility::Result results = made_results();
+  results.edps.insert(results.edps.begin(), results.edps.back());
+  results.edps.front().name = "wall_hit";
+  const Model found = model("openquake", request(), results);
+  ASSERT_EQ(found.states.size(), 1u);
+  EXPECT_EQ(found.states[0].name, "wall_hit");
+  EXPECT_THAT(found.notes, testing::Contains("left out: peak_slip_m, overturned (--limit-state takes them)"));
+  // Overturning itself is the last state of the first demand with capacities, wherever it is named.
+  std::swap(results.edps.front(), results.edps.back());
+  results.edps.pop_back();
+  EXPECT_EQ(model("openquake", request(), results).states.size(), 3u);
+}
+
+// Nothing in a table has to be in an order.
+TEST(LimitStates, OfATableAreAllDemands) {
+  fragility::Result results = made_results();
+  results.edps.push_back(results.edps.front());
+  results.edps.back().name = "delta";
+  const Model found = model("csv", request(), results);
+  ASSERT_EQ(found.states.size(), 5u);
+  EXPECT_EQ(found.states[4].name, "delta_over_0p2");
+  EXPECT_THAT(found.notes, testing::Not(testing::Contains(HasSubstr("left out"))));
+  EXPECT_EQ(model("csv", request({"overturned"}), results).states.size(), 1u);
+}
+
 TEST(LimitStates, DemandsThatNobodyNamedAreToldAsLeftOut) {
   fragility::Result results = made_results();
   results.edps.push_back(results.edps.front());
@@ -43,6 +70,11 @@ TEST(LimitStates, ThatNeverHappenedAreLeftOutWhereNobodyAskedForThem) {
   ASSERT_EQ(usual.states.size(), 2u);
   EXPECT_THAT(usual.notes, testing::Contains(HasSubstr("left out: overturned never happened up to 1.9 g")));
   EXPECT_THAT(usual.notes, testing::Not(testing::Contains(HasSubstr("left out: overturned (--limit-state"))));
+  // IN-CORE takes three, no fewer.
+  const Model three = model("incore", request(), results);
+  ASSERT_EQ(three.states.size(), 3u);
+  EXPECT_THAT(three.notes, testing::Contains(HasSubstr("overturned never happened up to 1.9 g: its probability is 0")));
+  EXPECT_EQ(error_of([&] { find("incore").refuse(three); }), "");
   Request asked = request({"peak_slip_m:0.05", "overturned"});
   asked.form = Form::discrete;
   const Model zeros = model("openquake", asked, results);

@@ -343,5 +343,23 @@ TEST(FragilityFunction, WarningsNameCapacitiesWhoseMediansLieBeyondWhatWasSwept)
   EXPECT_EQ(told.find("slip > 0.05 m"), std::string::npos) << told;
 }
 
+// Of what happens or not there is no capacity to name.
+TEST(FragilityFunction, WarningsNameWhatHappensOrNot) {
+  Options options;
+  options.im_name = "pga";
+  options.im_edge = {0.1, 0.5, 1, 2};
+  options.edps = {{.name = "wall_hit", .binary = true, .censored = false}};
+  options.resamples = 50;
+  Tally tally(options);
+  for (std::uint64_t i = 0; i < 2000; ++i) {
+    const double im = 0.1 * std::exp(std::log(20.0) * test::uniform(i, 622));
+    const double hit = im > 0.4 && test::uniform(i, 623) < 0.5;  // no lognormal
+    tally.add({i, im, 0, Outcome::moved, {&hit, 1}, {}});
+  }
+  std::string told;
+  for (const std::string& warning : fit(tally).warnings) told += warning;
+  EXPECT_NE(told.find("for wall_hit (by"), std::string::npos) << told;
+}
+
 }  // namespace
 }  // namespace freestand::fragility

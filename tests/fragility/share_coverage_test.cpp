@@ -1,5 +1,5 @@
 // Do intervals of counted shares hold the truth as often as they say, where samples share records? The table, with errors of 0.003:
-//   FREESTAND_REPEATS=10000 build/release/test_fragility --gtest_filter='ShareCoverage.*'
+//   FREESTAND_REPEATS=10000 build/release/tests/test_fragility --gtest_filter='ShareCoverage.*'
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>

@@ -175,6 +175,9 @@ TEST(FragilityFile, ASpectralIntensityCarriesItsPeriodAndDamping) {
     EXPECT_EQ(group.real_attribute("im_period_s"), 0.75);
     EXPECT_EQ(group.real_attribute("im_damping"), 0.05);
   }
+  // Tables and descriptions name it as `fit --im` does.
+  EXPECT_THAT(surface_csv(sa), testing::HasSubstr("\nsa_g:0.75,"));
+  EXPECT_THAT(surface_csv(example()), testing::HasSubstr("\npga,"));
   EXPECT_EQ(read_fragility(scratch / "sa.h5").result.im_period_s, 0.75);
   EXPECT_EQ(read_fragility(scratch / "sa.h5").result.im_damping, 0.05);
   const fragility::Result pga = read_fragility(write_example(scratch)).result;

@@ -127,12 +127,13 @@ bool stands_at_the_end(const Evidence& e, const Answer& a, double allowed_m) {
 std::string difference_of_accelerations(const Evidence& e, const Answer& a) {
   constexpr double unseen_mps2 = 0.02;
   const TruthHistory& h = e.history;
-  // Of a block that rattles at a wall the stepper's last rebounds are shorter than its step: it leans there, and feels the wall.
-  const bool rattled = std::any_of(h.deeds.begin(), h.deeds.end(), [](unsigned deed) {
-    return (deed & (struck_by_lower_edge | struck_by_upper_edge)) != 0;
-  });
   const double told = a.response.peak_acceleration_mps2;
-  if (rattled || std::abs(told - h.peak_acceleration_mps2) <= unseen_mps2 + margin * e.own_acceleration_mps2) return "";
+  // What is brief beside a wall the stepper feels, and the kernel leaves out.
+  const bool rattled = std::any_of(h.deeds.begin(), h.deeds.end(), [](unsigned deed) {
+    return (deed & (struck_by_face | struck_by_lower_edge | struck_by_upper_edge)) != 0;
+  });
+  if (rattled && told < h.peak_acceleration_mps2) return "";
+  if (std::abs(told - h.peak_acceleration_mps2) <= unseen_mps2 + margin * e.own_acceleration_mps2) return "";
   return fmt::format("{}: peak acceleration {:.4f} against {:.4f} m/s2, own {:.1e}", a.who, told,
                      h.peak_acceleration_mps2, e.own_acceleration_mps2);
 }

@@ -12,6 +12,7 @@ import urllib.parse
 import numpy as np
 import support
 import make_database
+from freestand_post import database
 from report_test import Page
 
 
@@ -53,6 +54,12 @@ class Database(unittest.TestCase):
             for mine, theirs in zip(shown["points"], made["points"]):
                 for a, b in zip(mine, theirs):
                     self.assertAlmostEqual(a, b, delta=1e-5 * abs(b))  # six digits are shown
+
+    def test_one_friction_is_no_range(self):
+        made = database.read_database(self.folder)
+        self.assertIn(("0.30 to 0.60", "friction μ"), database._headline(made))
+        made.entries["mu_k"] = np.full(len(made.entries["id"]), 0.5)
+        self.assertIn(("0.50", "friction μ"), database._headline(made))
 
     def test_a_database_stands_alone_and_has_no_picture_files(self):
         done = support.run("report", self.folder, self.folder)

@@ -12,7 +12,7 @@ import support
 import h5py
 import make_decisions
 import numpy as np
-from freestand_post import decisions_report, designs, halved, pictures, reading, reading_decisions, style
+from freestand_post import best_intensity, decisions_report, designs, halved, pictures, reading, reading_decisions, style
 from freestand_post.command import read
 from freestand_post.problem import Problem
 from freestand_post.report import page
@@ -235,6 +235,24 @@ class Pages(InFolder):
             self.assertIn(words, text)
         found = page(read([narrow[0], wide[0], narrow[1], wide[1]]))
         self.assertEqual([found.count(f'id="designs-{im}-clip') > 0 for im in ("report", "pga-g")], [True, True])
+        # Which one is better stands there by the ranking of each design, what all of them warn of once.
+        results = read([narrow[0], wide[0], narrow[1], wide[1]])
+        self.assertIsNone(best_intensity.table(results))
+        for value, sweep in zip((0.6, 0.7), results[0].sweeps):
+            ranked = [("pgd_m", 0.8), ("report", value), ("pga_g", 0.65)]
+            sweep.summary["ranking"] = {"demands": {sweep.edps[0].name: [
+                {"im": im, "deviance_explained": share, "deviance_explained_se": 0.02, "scatter": 1 - share, "scatter_se": 0.02} for im, share in ranked]}}
+        told = best_intensity.table(results)
+        self.assertEqual([row["best"].split(":")[0] for row in told["rows"]], ["PGD", "PGD"])
+        self.assertRegex(told["finding"], "depends on the design: PGA for width 0.6\u00a0m and PTA/.* for width 0.9")
+        results[0].sweeps[0].summary["ranking"]["demands"][results[0].sweeps[0].edps[0].name][2].update(deviance_explained=0.5, scatter=0.5)
+        self.assertRegex(best_intensity.table(results)["finding"], "^PTA/.* better than PGA, in each of the designs; by no more than two standard errors for width 0.9")
+        for one in results:
+            for sweep in one.sweeps:
+                sweep.summary["warnings"] = ["few motions"]
+        results[0].sweeps[0].summary["warnings"].append("odd")
+        told = decisions_report._warnings(results)
+        self.assertEqual(told, ["Few motions", "Width 0.6\u00a0m, over PTA/(μg)\u00a0−\u00a01: odd"])
         with self.assertRaisesRegex(Problem, "every design over every intensity"):
             read([narrow[0], wide[0], narrow[1]])
 

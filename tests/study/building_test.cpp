@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -9,6 +10,7 @@
 #include "motion/building_response.hpp"
 #include "motion/spectrum.hpp"
 #include "study/doubts.hpp"
+#include "study/drawn_building.hpp"
 #include "study/intensities.hpp"
 #include "study/known.hpp"
 #include "study/motion_summaries.hpp"
@@ -155,6 +157,67 @@ TEST_F(Upstairs, IntensitiesOfTheGroundAreThoseOfTheRecord) {
     EXPECT_NE(motion::spectral_acceleration_mps2(floor, 0.7), motion::spectral_acceleration_mps2(record, 0.7));
   }
   EXPECT_THAT(motion_rows(motions, summaries).table.columns.back().name, "storey");
+}
+
+// Each record has a building of its own, the same for all its floors; a study's number that is drawn besides changes none.
+TEST_F(Upstairs, APeriodThatIsADistributionIsDrawnForEachRecord) {
+  const std::string period = "period_s: {lognormal: {median: 0.6, dispersion: 0.2}}";
+  const auto in = [&](const std::string& numbers, const std::string& storey = "{choice: [1, 3]}") {
+    return study("building: {storeys: 4, " + numbers + "}, storey: " + storey, "ground.pga_g");
+  };
+  const Study swept = in(period);
+  const MotionSet motions = load_motions(swept);
+  ASSERT_EQ(motions.numbers.size(), 1U);
+  EXPECT_EQ(motions.numbers[0].name, "building_period_s");
+  std::vector<double> drawn;
+  for (const auto& entry : *motions.entries) drawn.push_back(entry.numbers[0]);
+  ASSERT_EQ(drawn.size(), 6U);  // the ground and two floors of each record
+  EXPECT_NE(drawn[0], drawn[3]);
+  for (const std::size_t record : {0U, 3U}) {
+    motion::Building building = *swept.motions.front().building;
+    building.period_s = drawn[record];
+    const auto modes = motion::modes(building);
+    EXPECT_NEAR(modes.front().period_s(), drawn[record], 1e-12);
+    for (const int floor : {1, 2}) {
+      EXPECT_EQ(drawn[record + floor], drawn[record]);
+      EXPECT_EQ(motions.motion(record + floor).horizontal_mps2,
+                motion::BuildingResponse(motions.motion(record), modes).floor(2 * floor - 1, "").horizontal_mps2);
+    }
+  }
+  const MotionSet more = load_motions(in(period + ", damping: {uniform: [0.02, 0.08]}", "3"));
+  EXPECT_EQ((*more.entries)[0].numbers[0], drawn[0]);
+  EXPECT_EQ((*more.entries)[2].numbers[0], drawn[3]);
+  EXPECT_NE(more.motion(1).horizontal_mps2, motions.motion(2).horizontal_mps2);  // of another damping
+  EXPECT_EQ(load_motions(parse_study(expanded(swept), folder_ / "s.yaml", known(), Files::look)).fingerprint(),
+            motions.fingerprint());
+}
+
+TEST_F(Upstairs, WhatTheBuildingsDrawsMayNotBeIsRefused) {
+  const auto in = [&](const std::string& numbers) {
+    return problem("building: {storeys: 4, " + numbers + "}, storey: 1");
+  };
+  EXPECT_THAT(in("period_s: {uniform: [0, 1]}, damping: {normal: {mean: 0.05, standard_deviation: 0.02}}"),
+              HasSubstr("building.damping can take impossible values"));
+  EXPECT_THAT(in("period_s: {normal: {mean: 0.5, standard_deviation: 0.2}}"),
+              HasSubstr("building.period_s can take impossible values"));
+  EXPECT_THAT(case_problems(block + friction + "motion: {file: " + (folder_ / "a.csv").string() +
+                            ", building: {storeys: 3, period_s: {uniform: [0.4, 0.6]}}, storey: 1}\n"),
+              HasSubstr("building.period_s is a distribution (a case is one sample)"));
+}
+
+// Over many records the draws follow the distribution: Kolmogorov's distance stays below 1.95/sqrt(n) in 999 of 1000 cases.
+TEST(DrawnBuilding, FollowsItsDistribution) {
+  BuildingPart part;
+  part.name = "museum";
+  part.drawn_period = Quantity{"building.period_s", "s", sampling::Uniform{0, 1}};
+  std::vector<double> drawn_s;
+  for (int record = 0; record < 400; ++record)
+    drawn_s.push_back(*drawn(part, 3, "records/" + std::to_string(record) + ".AT2").period_s);
+  std::sort(drawn_s.begin(), drawn_s.end());
+  double distance = 0;
+  for (int n = 0; n < 400; ++n)
+    distance = std::max({distance, std::abs(drawn_s[n] - n / 400.0), std::abs(drawn_s[n] - (n + 1) / 400.0)});
+  EXPECT_LT(distance, 1.95 / 20);
 }
 
 // On the ground of a building the ground's intensities are the motion's own.

@@ -129,6 +129,37 @@ TEST_F(CatalogueTest, ATableGivesOneEntryARow) {
   EXPECT_EQ(catalogue.entries[1].words.scatter, "friction.mu_k x1.221");  // exp(0.2)
 }
 
+TEST_F(CatalogueTest, ACommonBlockIsWhatEachEntryDoesNotSay) {
+  const auto numbers = [](const database::Entry& entry) {
+    return std::vector<double>{entry.width_m, entry.height_m, entry.mass_kg};
+  };
+  write("t.csv", "id,class,width_m,height_m,mass_kg,mu\na,x,0.5,1.5,,0.3\nb,x,0.6,,90,0.3\n");
+  const Catalogue catalogue = read(common + "block: {mass_kg: 120, height_m: 2, centre_height_m: 0.6}\ntable: t.csv\n");
+  EXPECT_THAT(numbers(catalogue.entries.at(0).words), ElementsAre(0.5, 1.5, 120));
+  EXPECT_THAT(numbers(catalogue.entries.at(1).words), ElementsAre(0.6, 2, 90));
+  EXPECT_TRUE(catalogue.entries.at(1).study.model.block.centre_height);
+  // Of two ways to say one thing the entry's counts.
+  const Catalogue slender =
+      read(common +
+           "block: {width_m: 0.6, height_m: 2, mass_kg: 120}\n"
+           "entries:\n  - {id: a, class: x, block: {slenderness_rad: 0.3, size_m: 1}, friction: {mu: 0.2}}\n"
+           "  - {id: b, class: x, friction: {mu: 0.2}}\n");
+  EXPECT_NEAR(slender.entries.at(0).words.width_m, 2 * std::sin(0.3), 1e-12);
+  EXPECT_EQ(slender.entries.at(0).words.mass_kg, 120);
+  EXPECT_THAT(numbers(slender.entries.at(1).words), ElementsAre(0.6, 2, 120));
+  // Mistakes: of the common block once, of what it makes together with a row at the row.
+  EXPECT_THAT(refusal(common + "block: {mas_kg: 120}\ntable: t.csv\n"),
+              AllOf(HasSubstr("some.yaml:5: unknown key mas_kg"), Not(HasSubstr("t.csv"))));
+  EXPECT_THAT(refusal(common + "block: {centre_height_m: 1.7, height_m: 2}\ntable: t.csv\n"),
+              AllOf(HasSubstr("t.csv:2: block.centre_height_m"), Not(HasSubstr("t.csv:3"))));
+  EXPECT_THAT(refusal(common + "block: {mass_kg: 120}\ntable: t.csv\n"),
+              HasSubstr("t.csv:3: block.height_m is missing"));
+}
+
+TEST_F(CatalogueTest, AMassThatNobodyGaveIsNotKnown) {
+  EXPECT_TRUE(std::isnan(read(common + two).entries[0].words.mass_kg));
+}
+
 TEST_F(CatalogueTest, MistakesOfATableAreToldByTheirRow) {
   EXPECT_THAT(table_refusal("id,class,width,height_m,mu\na,x,1,2,0.3\n"),
               AllOf(HasSubstr("t.csv:1: key width in the columns has no unit"), HasSubstr("write width_m")));

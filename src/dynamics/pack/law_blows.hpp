@@ -145,12 +145,12 @@ class LawBlows {
     return (at.w + at.body.h * omega_) - before;
   }
 
-  // No edge touches a wall when the block is upright.
+  // No edge is beside a wall when the block is upright.
   PackMask clear_of_walls(const Standing<Pack>& at) const {
-    const Pack touching = number(Row::touching);
-    PackMask clear = touching == touching;
-    if (laws_.walls.right.stands) clear = clear & (at.right_wall.gap - at.xi > touching);
-    if (laws_.walls.left.stands) clear = clear & (at.left_wall.gap + at.xi > touching);
+    const Pack beside = number(Row::beside_wall);
+    PackMask clear = beside == beside;
+    if (laws_.walls.right.stands) clear = clear & (at.right_wall.gap - at.xi > beside);
+    if (laws_.walls.left.stands) clear = clear & (at.left_wall.gap + at.xi > beside);
     return clear;
   }
   // The edges that are next to the walls on the corner on which the block now stands: corner_ is the other one.

@@ -1,0 +1,69 @@
+// Every file that a fuzzer once found fault with, and those of the project cut short and with bytes changed.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "fuzz/target.hpp"
+#include "motion/record.hpp"
+#include "support/keyed_random.hpp"
+
+namespace freestand::fuzz {
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// (target, file) of seeds.txt, of what is there.
+std::vector<std::pair<std::string, std::filesystem::path>> seeds() {
+  std::vector<std::pair<std::string, std::filesystem::path>> all;
+  std::ifstream in(std::filesystem::path(FREESTAND_SOURCE_DIR) / "tests/fuzz/seeds.txt");
+  for (std::string line; std::getline(in, line);) {
+    const std::size_t space = line.find(' ');
+    const std::string glob = line.substr(space + 1);
+    if (line.starts_with('#') || glob.starts_with("data/")) continue;
+    for (const auto& file : motion::expand_glob(glob, FREESTAND_SOURCE_DIR))
+      all.emplace_back(line.substr(0, space), file);
+  }
+  return all;
+}
+
+TEST(Corpus, FilesThatWereOnceWrongAreReadOrRefused) {
+  int files = 0;
+  for (const Target& target : targets()) {
+    const std::filesystem::path folder =
+        std::filesystem::path(FREESTAND_SOURCE_DIR) / "tests/fuzz/corpus" / target.name;
+    if (!std::filesystem::exists(folder)) continue;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      EXPECT_NO_THROW(target.take(content(entry.path()))) << target.name << ' ' << entry.path();
+      ++files;
+    }
+  }
+  EXPECT_GT(files, 0);
+}
+
+TEST(Corpus, SpoiltFilesOfTheProjectAreReadOrRefused) {
+  std::uint64_t key = 0;
+  for (const auto& [name, seed] : seeds()) {
+    const Target& target = fuzz::target(name);
+    const std::string whole = content(seed).substr(0, 4000);
+    EXPECT_NO_THROW(target.take(whole)) << target.name << ' ' << seed;
+    for (int i = 0; i < 20; ++i) {
+      test::KeyedRandom random(7, ++key);
+      const auto place = [&](std::size_t end) {
+        return static_cast<std::size_t>(random.unit() * static_cast<double>(end));
+      };
+      std::string spoilt = whole.substr(0, 1 + place(whole.size()));
+      for (int k = 0; k < 3; ++k) spoilt[place(spoilt.size())] = static_cast<char>(place(256));
+      EXPECT_NO_THROW(target.take(spoilt)) << target.name << ' ' << seed << ", change " << key;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace freestand::fuzz
