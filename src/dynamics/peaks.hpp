@@ -2,6 +2,7 @@
 #pragma once
 
 #include <freestand/response.hpp>
+#include <iterator>
 
 #include "dynamics/contact.hpp"
 #include "dynamics/force_peaks.hpp"
@@ -116,15 +117,15 @@ class Peaks {
   // hangs on the last digit of its motion. What it feels between a blow and the event before or after it, when they are closer
   // together than `brief_s`, does not count: from an event on, at a time [s], it waits for the next one.
   void event_beside_wall(bool blow, double time) {
-    if (waits_ && (blow || waits_since_blow_)) {
-      response_.peak_acceleration_mps2 = before_[0];
-      response_.peak_acceleration_at_height_mps2 = before_[1];
-    }
+    const bool brief = waits_ && (blow || waits_since_blow_);
+    for (std::size_t i = 0; i < std::size(felt); ++i)
+      if (brief)
+        response_.*felt[i] = before_[i];
+      else
+        before_[i] = response_.*felt[i];
     waits_ = true;
     waits_since_blow_ = blow;
     waits_since_ = time;
-    before_[0] = response_.peak_acceleration_mps2;
-    before_[1] = response_.peak_acceleration_at_height_mps2;
   }
   // The motion has gone on to this time: what has lasted counts.
   void came_to(double time, double brief_s) { waits_ = waits_ && time - waits_since_ < brief_s; }
@@ -199,7 +200,10 @@ class Peaks {
   bool waits_ = false;  // since an event beside a wall
   bool waits_since_blow_ = false;
   double waits_since_ = 0;  // [s]
-  double before_[2] = {};   // largest accelerations until then
+  static constexpr double Response::*felt[] = {
+      &Response::peak_acceleration_mps2, &Response::peak_acceleration_at_height_mps2,
+      &Response::peak_contact_horizontal_mps2, &Response::peak_contact_vertical_mps2, &Response::peak_chain_force_mps2};
+  double before_[std::size(felt)] = {};  // what was felt until then
 };
 
 }  // namespace freestand::dynamics

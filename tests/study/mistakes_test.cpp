@@ -380,18 +380,6 @@ TEST(StudyMistakes, DemandsComeWithWhatMakesThem) {
       HasSubstr("no wall stands in this study"));
 }
 
-TEST(StudyMistakes, ForcesAreFollowedWhereTheyAreKnown) {
-  EXPECT_THAT(problems(block + friction + samples + motions + fragility +
-                       "contact_forces: true\nmodel: bouc_wen\nbouc_wen: {yield_displacement_m: 0.001, exponent: 2}\n"),
-              HasSubstr("contact_forces does not go with model bouc_wen"));
-  EXPECT_THAT(
-      problems(block + friction + samples + motions + "contact_forces: true\nfragility: {edp: [peak_chain_force_n]}\n"),
-      HasSubstr("no chain holds"));
-  const Study study = parse("contact_forces: true\n" + block + friction + samples + motions + fragility);
-  EXPECT_EQ(expanded(parse(expanded(study))), expanded(study));
-  EXPECT_THAT(expanded(study), HasSubstr("contact_forces: true"));
-}
-
 TEST(CaseMistakes, ACaseIsOneSample) {
   const std::string motion = "motion: {pulse: B, period_s: 0.5, peak_acceleration_g: 0.6}\n";
   EXPECT_EQ(case_problems(block + friction + motion), "");

@@ -1,0 +1,79 @@
+// Blows of walls, and edges that stay at one.
+#include <cmath>
+
+#include "dynamics/impact.hpp"
+#include "dynamics/integration.hpp"
+#include "dynamics/wall.hpp"
+
+namespace freestand::dynamics {
+namespace {
+
+// Of a side face that comes flat each edge throws the other one at the wall, ever more slowly, until it lies against it. A blow
+// at arm l of the centre of mass gives the edge at arm l' on its other side |l l' - k^2|/(k^2 + l^2) of the speed: so many blows
+// leave a millionth, and twenty of a uniform block, of which each leaves a half at most. What is left then lies against it, as
+// it would after the last of them.
+int blows_of_a_face(const Rig& rig) {
+  const double upper = rig.top - rig.h, lower = rig.h, k2 = rig.k2;
+  const double left = std::abs(upper * lower - k2) / std::sqrt((k2 + upper * upper) * (k2 + lower * lower));
+  constexpr double of_uniform = 20, millionth = 1e-6, most = 1e4;
+  return static_cast<int>(left > 0.5 ? std::fmin(std::ceil(std::log(millionth) / std::log(left)), most) : of_uniform);
+}
+
+}  // namespace
+
+bool Integration::meet_wall(int side, Edge edge) {
+  double speed = 0;
+  if (!strike_wall(rig, state, side, edge, cursor.time(), speed)) return false;
+  if (speed < rig.told_speed) return true;
+  ++peaks.response().wall_hits;
+  peaks.response().wall_speed_mps = std::max(peaks.response().wall_speed_mps, speed);
+  return true;
+}
+
+// What a blow has turned towards a wall that it touches meets that wall at once.
+bool Integration::meet_walls_too() {
+  const int most = blows_of_a_face(rig);
+  for (const int side : sides(state)) {
+    if (!rig.laws->walls.on(side).stands) continue;
+    bool met = true;
+    for (int pass = 0; met && pass < most; ++pass) {
+      met = false;
+      for (const Edge edge : {Edge::upper, Edge::lower}) {
+        const EdgeNow now = edge_now(rig, state, side, edge);
+        const bool stays = state.at_wall() && state.is_by(side, edge);
+        if (!is_next_to(edge, side) || stays || now.gap > touching(rig) || now.speed <= -rig.slow()) continue;
+        if (!meet_wall(side, edge)) return false;
+        met = true;
+      }
+    }
+    if (met && state.mode == Mode::flight) lie_against(side);
+  }
+  return true;
+}
+
+// In flight either edge may meet the wall, on the floor the one next to it.
+bool Integration::is_next_to(Edge edge, int side) const {
+  if (state.mode == Mode::flight) return true;
+  return state.pivot == 0 ? edge == Edge::lower : edge == touching_edge(state.pivot, side);
+}
+
+void Integration::lie_against(int side) {
+  state.theta = state.omega = state.vx = 0;
+  state.x = side * rig.laws->walls.on(side).gap_m;
+  state.wall = side;
+  state.edge = Edge::face;
+  state.released = false;
+}
+
+// The edge beside a wall touches it and neither comes nor leaves.
+bool Integration::rests_at_wall(int side) {
+  if (!rig.laws || !rig.laws->walls.on(side).stands || state.mode == Mode::flight || state.wall != 0) return false;
+  const Edge edge = touching_edge(state.pivot, side);
+  const EdgeNow now = edge_now(rig, state, side, edge);
+  if (now.gap > touching(rig) || std::abs(now.speed) > rig.slow()) return false;
+  state.wall = side;
+  state.edge = edge;
+  return true;
+}
+
+}  // namespace freestand::dynamics
