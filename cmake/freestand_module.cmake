@@ -52,9 +52,9 @@ function(freestand_program NAME FOLDER)
   set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 endfunction()
 
-# freestand_tests(MODULE [FILE_BY_FILE] [LINKS ...]): tests/MODULE/*.cpp become one GoogleTest program, compiled in batches or not.
+# freestand_tests(MODULE [LINKS ...]): tests/MODULE/*.cpp become one GoogleTest program.
 function(freestand_tests MODULE)
-  cmake_parse_arguments(ARG "FILE_BY_FILE" "" "LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${MODULE}/*.cpp)
   if(NOT sources)
     return()
@@ -64,9 +64,7 @@ function(freestand_tests MODULE)
   target_include_directories(test_${MODULE} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   target_compile_definitions(test_${MODULE} PRIVATE
     FREESTAND_DATA_DIR="${FREESTAND_DATA_DIR}" FREESTAND_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-  if(NOT ARG_FILE_BY_FILE)
-    freestand_batches(test_${MODULE} 16)
-  endif()
+  freestand_batches(test_${MODULE} 16)
   freestand_test_code(test_${MODULE})
   target_link_libraries(test_${MODULE} PRIVATE ${links} GTest::gmock GTest::gtest_main)
   gtest_discover_tests(test_${MODULE} TEST_PREFIX "${MODULE}: " DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${MODULE})
