@@ -1,4 +1,4 @@
-// Every file that a fuzzer once found fault with, and those of the project cut short and with bytes changed.
+// Files of the project, cut short and with bytes changed, and those of corpus/: read, or refused in words.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "fuzz/target.hpp"
 #include "motion/record.hpp"
+#include "spoilt_files/target.hpp"
 #include "support/keyed_random.hpp"
 
-namespace freestand::fuzz {
+namespace freestand::spoilt_files {
 namespace {
 
 std::string content(const std::filesystem::path& file) {
@@ -22,11 +22,11 @@ std::string content(const std::filesystem::path& file) {
 // (target, file) of seeds.txt, of what is there.
 std::vector<std::pair<std::string, std::filesystem::path>> seeds() {
   std::vector<std::pair<std::string, std::filesystem::path>> all;
-  std::ifstream in(std::filesystem::path(FREESTAND_SOURCE_DIR) / "tests/fuzz/seeds.txt");
+  std::ifstream in(std::filesystem::path(FREESTAND_SOURCE_DIR) / "tests/spoilt_files/seeds.txt");
   for (std::string line; std::getline(in, line);) {
     const std::size_t space = line.find(' ');
     const std::string glob = line.substr(space + 1);
-    if (line.starts_with('#') || glob.starts_with("data/")) continue;
+    if (line.starts_with('#')) continue;
     for (const auto& file : motion::expand_glob(glob, FREESTAND_SOURCE_DIR))
       all.emplace_back(line.substr(0, space), file);
   }
@@ -37,7 +37,7 @@ TEST(Corpus, FilesThatWereOnceWrongAreReadOrRefused) {
   int files = 0;
   for (const Target& target : targets()) {
     const std::filesystem::path folder =
-        std::filesystem::path(FREESTAND_SOURCE_DIR) / "tests/fuzz/corpus" / target.name;
+        std::filesystem::path(FREESTAND_SOURCE_DIR) / "tests/spoilt_files/corpus" / target.name;
     if (!std::filesystem::exists(folder)) continue;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       EXPECT_NO_THROW(target.take(content(entry.path()))) << target.name << ' ' << entry.path();
@@ -50,7 +50,7 @@ TEST(Corpus, FilesThatWereOnceWrongAreReadOrRefused) {
 TEST(Corpus, SpoiltFilesOfTheProjectAreReadOrRefused) {
   std::uint64_t key = 0;
   for (const auto& [name, seed] : seeds()) {
-    const Target& target = fuzz::target(name);
+    const Target& target = spoilt_files::target(name);
     const std::string whole = content(seed).substr(0, 4000);
     EXPECT_NO_THROW(target.take(whole)) << target.name << ' ' << seed;
     for (int i = 0; i < 20; ++i) {
@@ -65,5 +65,17 @@ TEST(Corpus, SpoiltFilesOfTheProjectAreReadOrRefused) {
   }
 }
 
+// Nothing, lines without end, and what begins as HDF5 and is none.
+TEST(Corpus, FilesOfNoKindAreReadOrRefused) {
+  const std::string none[] = {"",
+                              "\n",
+                              std::string(100'000, ','),
+                              std::string(5'000, '['),
+                              std::string(64, '\0'),
+                              std::string("\x89HDF\r\n\x1a\n", 8) + std::string(4'000, '\0')};
+  for (const Target& target : targets())
+    for (const std::string& bytes : none) EXPECT_NO_THROW(target.take(bytes)) << target.name << ' ' << bytes.size();
+}
+
 }  // namespace
-}  // namespace freestand::fuzz
+}  // namespace freestand::spoilt_files

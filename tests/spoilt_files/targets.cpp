@@ -5,13 +5,13 @@
 
 #include "base/lab_table.hpp"
 #include "decision/hazard.hpp"
-#include "fuzz/target.hpp"
 #include "io/database_file.hpp"
 #include "io/fragility_file.hpp"
 #include "io/tally_file.hpp"
 #include "measurement/test_file.hpp"
 #include "motion/record.hpp"
 #include "motion/record_table.hpp"
+#include "spoilt_files/target.hpp"
 #include "study/catalogue.hpp"
 #include "study/known.hpp"
 #include "study/problems.hpp"
@@ -22,7 +22,7 @@
 #include "study/study.hpp"
 #include "support/scratch.hpp"
 
-namespace freestand::fuzz {
+namespace freestand::spoilt_files {
 namespace {
 
 // A reader may refuse a file in words of ours, and in no other way.
@@ -158,10 +158,10 @@ const Target& target(const std::string& name) {
 }
 
 std::filesystem::path written(std::string_view bytes, const std::string& name) {
-  static const test::Scratch folder("fuzz");
+  static const test::Scratch folder("spoilt_files");
   const std::filesystem::path file = folder / name;
   std::ofstream(file, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   return file;
 }
 
-}  // namespace freestand::fuzz
+}  // namespace freestand::spoilt_files

@@ -1,4 +1,4 @@
-// What a fuzzer feeds: one function for each kind of file that users bring. Each takes any bytes, as the content of such a file;
+// One function for each kind of file that users bring. Each takes any bytes, as the content of such a file;
 // Error is its answer to what is no such file, and anything else that leaves it is a fault.
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace freestand::fuzz {
+namespace freestand::spoilt_files {
 
 struct Target {
   std::string name;
@@ -20,4 +20,4 @@ const Target& target(const std::string& name);  // throws std::invalid_argument 
 // A file with these bytes, in a folder of this process that the target finds empty but for it; its name as given.
 std::filesystem::path written(std::string_view bytes, const std::string& name);
 
-}  // namespace freestand::fuzz
+}  // namespace freestand::spoilt_files
