@@ -55,6 +55,14 @@ YAML::Node on_line(int line, const std::string& flow) {
 
 // Columns that are not known are told as keys of a mapping are: with their unit, or what was probably meant.
 void check_header(const Cells& header, int line, Problems& problems) {
+  constexpr std::size_t longest_key = 1000;  // quoted, YAML reads keys of 1024 characters
+  for (const std::string& column : header)
+    if (quoted(column).size() > longest_key) {
+      problems.add(line, fmt::format("a column's name has {} characters (no column is called so): is this a table with "
+                                     "commas between its columns?",
+                                     column.size()));
+      return;
+    }
   std::string flow;
   for (const std::string& column : header)
     if (!is_dotted(column)) flow += fmt::format("{}{}: 1", flow.empty() ? "" : ", ", quoted(column));
