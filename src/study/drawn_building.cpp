@@ -1,14 +1,12 @@
 #include "study/drawn_building.hpp"
 
-#include "base/random.hpp"
+#include "study/keyed_draw.hpp"
 
 namespace freestand::study {
 
 motion::Building drawn(const BuildingPart& part, std::uint64_t seed, const std::string& record) {
   const auto draw = [&](const Quantity& quantity) {
-    const bool joint = std::holds_alternative<sampling::Posterior>(quantity.value);  // one row for all its columns
-    const std::string stream = part.name + "." + (joint ? quantity.stream() : quantity.name);
-    return quantile(quantity.value, random::uniform(seed, random::stable_hash(record), random::stable_hash(stream)));
+    return keyed_draw(seed, random::stable_hash(record), part.name, quantity);
   };
   motion::Building building = part;
   if (part.drawn_period) building.period_s = draw(*part.drawn_period);

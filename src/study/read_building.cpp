@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "study/named_file.hpp"
 #include "study/read_parts.hpp"
 
 namespace freestand::study {
@@ -98,18 +98,6 @@ BuildingPart read_file(const std::filesystem::path& file, Problems& problems) {
   return root ? read_mapping(*root, "", 1, problems, file.stem().string()) : BuildingPart{};
 }
 
-// Problems of the building's file stand at the key that names it.
-std::optional<BuildingPart> read_named_file(Section& section, const std::filesystem::path& file) {
-  try {
-    return read_building_file(file);
-  } catch (const Error& error) {
-    std::istringstream lines(error.what());
-    for (std::string line; std::getline(lines, line);)
-      section.problem("building", section.name("building") + ": " + line);
-    return {};
-  }
-}
-
 void check_storeys(Section& section, const MotionSource& source) {
   const Quantity& storey = *source.storey;
   const std::string name = section.name("storey");
@@ -156,7 +144,7 @@ void read_building(Section& section, MotionSource& source, const std::filesystem
   const YAML::Node* node = section.find("building");
   source.storey = section.quantity("motion", "storey", range::any);
   if (node && node->IsScalar() && look == Files::look)
-    source.building = read_named_file(section, folder / section.text("building", ""));
+    source.building = read_named_file(section, "building", folder / section.text("building", ""), read_building_file);
   else if (node && !node->IsScalar())
     source.building =
         read_mapping(*node, section.name("building"), section.line("building"), section.problems(), "building");

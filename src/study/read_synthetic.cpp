@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <set>
-#include <sstream>
 
 #include "motion/pulse.hpp"
+#include "study/named_file.hpp"
 #include "study/read_parts.hpp"
 #include "study/synthetic_set.hpp"
 
@@ -73,18 +73,6 @@ SyntheticPart read_mapping(const YAML::Node& node, const std::string& path, int 
   return part;
 }
 
-// Problems of the file stand at the key that names it.
-std::optional<SyntheticPart> read_named_file(Section& section, const std::filesystem::path& file) {
-  try {
-    return read_synthetic_file(file);
-  } catch (const Error& error) {
-    std::istringstream lines(error.what());
-    for (std::string line; std::getline(lines, line);)
-      section.problem("synthetic", section.name("synthetic") + ": " + line);
-    return {};
-  }
-}
-
 std::string pair(const char* key, const Quantity& quantity) {
   return fmt::format("{}: {}", key, to_string(quantity.value));
 }
@@ -95,7 +83,8 @@ void read_synthetic(Section& section, MotionSource& source, const std::filesyste
   source.kind = MotionSource::Kind::synthetic;
   const YAML::Node* node = section.find("synthetic");
   if (node->IsScalar() && look == Files::look)
-    source.synthetic = read_named_file(section, folder / section.text("synthetic", ""));
+    source.synthetic =
+        read_named_file(section, "synthetic", folder / section.text("synthetic", ""), read_synthetic_file);
   else if (!node->IsScalar())
     source.synthetic =
         read_mapping(*node, section.name("synthetic"), section.line("synthetic"), section.problems(), "synthetic");

@@ -4,8 +4,8 @@
 
 #include <freestand/error.hpp>
 
-#include "base/random.hpp"
 #include "motion/pulse.hpp"
+#include "study/keyed_draw.hpp"
 
 namespace freestand::study {
 namespace {
@@ -15,13 +15,10 @@ class Draws {
  public:
   Draws(const SyntheticPart& part, std::uint64_t seed, std::uint64_t n) : set_(part.name), seed_(seed), n_(n) {}
 
-  // Columns of one table of joint draws share their uniform.
-  double operator()(const Quantity& quantity) const {
-    const bool joint = std::holds_alternative<sampling::Posterior>(quantity.value);
-    return quantile(quantity.value, uniform(joint ? quantity.stream() : quantity.name));
-  }
+  double operator()(const Quantity& quantity) const { return keyed_draw(seed_, n_, set_, quantity); }
   const std::string& operator()(const sampling::Names& names) const {
-    return names.values[sampling::pick(names.values.size(), names.weights, uniform("synthetic.pulse.type"))];
+    return names.values[sampling::pick(names.values.size(), names.weights,
+                                       keyed_uniform(seed_, n_, set_, "synthetic.pulse.type"))];
   }
   std::vector<double> white_noise(std::size_t count) const {
     const std::uint64_t stream = random::stable_hash(set_ + ".white_noise");
@@ -31,10 +28,6 @@ class Draws {
   }
 
  private:
-  double uniform(const std::string& parameter) const {
-    return random::uniform(seed_, n_, random::stable_hash(set_ + "." + parameter));
-  }
-
   const std::string& set_;
   std::uint64_t seed_, n_;
 };
