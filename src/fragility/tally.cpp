@@ -60,11 +60,13 @@ void Tally::add(const Sample& sample) {
   ++count_[layout_.at_im_cell(cell, group)];
   if (sample.outcome == Outcome::overturned) ++count_[layout_.at_im_cell(cell, group) + 1];
   sum_[layout_.im_sums + cell].add(sample.im);
-  for (std::size_t e = 0; e < layout_.edps; ++e) add_edp(e, bin, cell, group, sample);
-  add_pairs(bin, sample);
+  const Place place{bin, cell, group, std::log(sample.im)};
+  for (std::size_t e = 0; e < layout_.edps; ++e) add_edp(e, place, sample);
+  add_pairs(place, sample);
 }
 
-void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t cell, std::size_t group, const Sample& sample) {
+void Tally::add_edp(std::size_t e, const Place& place, const Sample& sample) {
+  const auto [bin, cell, group, ln_im] = place;
   const EdpOptions& edp = options_.edps[e];
   const bool overturned = sample.outcome == Outcome::overturned;
   const bool fallen = overturned && edp.censored;  // above every capacity
@@ -84,10 +86,10 @@ void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t cell, std::size_
   const auto above = [&](std::size_t c) { return fallen || (!still && value > capacity[c]); };
   for (std::size_t c = 0; c < capacity.size(); ++c)
     if (above(c)) ++count_[layout_.at_exceeding(e, bin, group) + c];
-  const auto count_at = [&](std::size_t place) {  // samples, then those above each capacity
-    ++count_[place];
+  const auto count_at = [&](std::size_t first) {  // samples, then those above each capacity
+    ++count_[first];
     for (std::size_t c = 0; c < capacity.size(); ++c)
-      if (above(c)) ++count_[place + 1 + c];
+      if (above(c)) ++count_[first + 1 + c];
   };
   count_at(layout_.at_im_cell_of(e, cell, group));
   for (std::size_t a = 0; a < options_.axes.size(); ++a) {
@@ -105,11 +107,10 @@ void Tally::add_edp(std::size_t e, std::size_t bin, std::size_t cell, std::size_
     ++counts[4];
     return;
   }
-  const double ln_im = std::log(sample.im);
   sums[2].add(ln_im);
   sums[3].add(ln_im * ln_im);
   sums[4].add(ln_value * ln_im);
-  add_regression(e, group, sample.im, value);
+  add_regression(e, place, sample.im, value);
 }
 
 double Tally::residual(std::size_t e, std::size_t bin, double im, double ln_value) const {
@@ -118,12 +119,12 @@ double Tally::residual(std::size_t e, std::size_t bin, double im, double ln_valu
 }
 
 // In units of the EDP's first capacity, so that the fixed resolution of ExactSum suits any unit.
-void Tally::add_regression(std::size_t e, std::size_t group, double im, double value) {
+void Tally::add_regression(std::size_t e, const Place& place, double im, double value) {
   const double x = im, y = value / capacity_[e].front();
-  const double lx = std::log(x), ly = std::log(y);
+  const double lx = place.ln_im, ly = std::log(y);
   const double terms[] = {1, x, y, x * x, x * y, y * y, lx, ly, lx * lx, lx * ly, ly * ly};
   static_assert(std::size(terms) == TallyLayout::sums_per_regression);
-  ExactSum* sums = &sum_[layout_.at_regression(e, group)];
+  ExactSum* sums = &sum_[layout_.at_regression(e, place.group)];
   for (std::size_t i = 0; i < std::size(terms); ++i) sums[i].add(terms[i]);
 }
 

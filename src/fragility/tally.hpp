@@ -107,9 +107,13 @@ class Tally {
   bool operator==(const Tally& other) const { return count_ == other.count_ && sum_ == other.sum_; }
 
  private:
-  void add_pairs(std::size_t bin, const Sample& sample);
-  void add_edp(std::size_t edp, std::size_t bin, std::size_t cell, std::size_t group, const Sample& sample);
-  void add_regression(std::size_t edp, std::size_t group, double im, double value);
+  struct Place {  // of a sample; ln_im only where IM lies above 0
+    std::size_t bin, cell, group;
+    double ln_im;
+  };
+  void add_pairs(const Place&, const Sample& sample);
+  void add_edp(std::size_t edp, const Place&, const Sample& sample);
+  void add_regression(std::size_t edp, const Place&, double im, double value);
   double residual(std::size_t edp, std::size_t bin, double im, double ln_value) const;
 
   Options options_;

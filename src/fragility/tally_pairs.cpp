@@ -7,9 +7,9 @@
 
 namespace freestand::fragility {
 
-void Tally::add_pairs(std::size_t bin, const Sample& sample) {
+void Tally::add_pairs(const Place& place, const Sample& sample) {
   if (sample.outcome == Outcome::overturned || !(sample.im > 0)) return;
-  const double m = std::log(sample.im);
+  const double m = place.ln_im;
   const auto ln_moved = [&](std::size_t i) {
     const std::size_t e = layout_.paired[i];
     return sample.edp[e] > options_.edps[e].still_threshold && std::isfinite(sample.edp[e])
@@ -22,10 +22,10 @@ void Tally::add_pairs(std::size_t bin, const Sample& sample) {
     for (std::size_t j = i; j < layout_.paired.size(); ++j) {
       const double b = ln_moved(j);
       if (std::isnan(b)) continue;
-      ++count_[layout_.pair_counts + layout_.pair(bin, i, j)];
+      ++count_[layout_.pair_counts + layout_.pair(place.bin, i, j)];
       const std::array terms{m, m * m, a, b, a * b, a * m, b * m};
       static_assert(terms.size() == TallyLayout::sums_per_pair);
-      ExactSum* sums = &sum_[layout_.pair_sums + TallyLayout::sums_per_pair * layout_.pair(bin, i, j)];
+      ExactSum* sums = &sum_[layout_.pair_sums + TallyLayout::sums_per_pair * layout_.pair(place.bin, i, j)];
       for (std::size_t term = 0; term < terms.size(); ++term) sums[term].add(terms[term]);
     }
   }

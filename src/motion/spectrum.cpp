@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <freestand/error.hpp>
 
@@ -74,36 +73,41 @@ std::vector<double> kept_periods_s() {
 }
 
 ResponseSpectrum response_spectrum(const FloorMotion& motion, std::vector<double> period_s) {
-  ResponseSpectrum spectrum{std::move(period_s), {}};
-  for (const double period : spectrum.period_s) spectrum.sa_mps2.push_back(spectral_acceleration_mps2(motion, period));
-  return spectrum;
+  std::vector<double> sa_mps2;
+  for (const double period : period_s) sa_mps2.push_back(spectral_acceleration_mps2(motion, period));
+  return {std::move(period_s), std::move(sa_mps2)};
+}
+
+ResponseSpectrum::ResponseSpectrum(std::vector<double> period_s, std::vector<double> sa_mps2)
+    : period_s_(std::move(period_s)), sa_mps2_(std::move(sa_mps2)) {
+  for (const double period : period_s_) ln_period_.push_back(std::log(period));
+  for (const double sa : sa_mps2_) ln_sa_.push_back(std::log(sa));
 }
 
 bool ResponseSpectrum::holds(double period) const {
-  return std::binary_search(period_s.begin(), period_s.end(), period);
+  return std::binary_search(period_s_.begin(), period_s_.end(), period);
 }
 
 double ResponseSpectrum::at(double period) const {
-  const auto above = std::lower_bound(period_s.begin(), period_s.end(), period);
-  const auto i = static_cast<std::size_t>(above - period_s.begin());
-  if (above != period_s.end() && *above == period) return sa_mps2[i];
-  if (i == 0 || above == period_s.end())
+  const auto above = std::lower_bound(period_s_.begin(), period_s_.end(), period);
+  const auto i = static_cast<std::size_t>(above - period_s_.begin());
+  if (above != period_s_.end() && *above == period) return sa_mps2_[i];
+  if (i == 0 || above == period_s_.end())
     throw Error(
         fmt::format("no spectral acceleration at {} s (the table {}): choose a period within it", period,
-                    period_s.empty() ? std::string("is empty")
-                                     : fmt::format("reaches from {} to {} s", period_s.front(), period_s.back())),
+                    period_s_.empty() ? std::string("is empty")
+                                     : fmt::format("reaches from {} to {} s", period_s_.front(), period_s_.back())),
         Exit::data);
-  const std::size_t first = std::min(i < 2 ? 0 : i - 2, period_s.size() - std::min<std::size_t>(4, period_s.size()));
-  const std::size_t end = std::min(first + 4, period_s.size());
+  const std::size_t first = std::min(i < 2 ? 0 : i - 2, period_s_.size() - std::min<std::size_t>(4, period_s_.size()));
+  const std::size_t end = std::min(first + 4, period_s_.size());
   const double x = std::log(period);
-  std::array<double, 4> knot;
-  for (std::size_t k = first; k < end; ++k) knot[k - first] = std::log(period_s[k]);
+  const double* knot = &ln_period_[first];
   double sum = 0;
   for (std::size_t j = 0; j < end - first; ++j) {
     double weight = 1;
     for (std::size_t k = 0; k < end - first; ++k)
       if (k != j) weight *= (x - knot[k]) / (knot[j] - knot[k]);
-    sum += weight * std::log(sa_mps2[first + j]);
+    sum += weight * ln_sa_[first + j];
   }
   return std::exp(sum);
 }

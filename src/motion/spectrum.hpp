@@ -32,14 +32,21 @@ double housner_intensity_m(const FloorMotion& motion);
 double housner_intensity_m(const std::function<double(double)>& sa_mps2);
 
 // A response spectrum as a table, 5 % damping.
-struct ResponseSpectrum {
-  std::vector<double> period_s;  // increasing
-  std::vector<double> sa_mps2;   // one a period
+class ResponseSpectrum {
+ public:
+  ResponseSpectrum() = default;
+  ResponseSpectrum(std::vector<double> period_s, std::vector<double> sa_mps2);  // increasing; one a period
+
+  const std::vector<double>& period_s() const { return period_s_; }
+  const std::vector<double>& sa_mps2() const { return sa_mps2_; }
 
   // The ordinate of a period of the table, to the bit; between two of them interpolated: a cubic through the four
   // neighbours in ln Sa over ln T. Throws Error outside the table.
   double at(double period) const;
   bool holds(double period) const;  // is it one of the table?
+
+ private:
+  std::vector<double> period_s_, sa_mps2_, ln_period_, ln_sa_;
 };
 ResponseSpectrum response_spectrum(const FloorMotion& motion, std::vector<double> period_s);
 

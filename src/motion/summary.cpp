@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <freestand/error.hpp>
+#include <map>
+#include <mutex>
+#include <string>
 
 #include "base/units.hpp"
 #include "motion/cumulative.hpp"
@@ -20,7 +23,7 @@ std::vector<double> periods_of_a_unit_pulse() {
 
 // By the closed form, or by the table where that reaches.
 double unit_pulse_acceleration_mps2(const MotionSummary& summary, double period_s, bool closed_form) {
-  const std::vector<double>& known = summary.spectrum.period_s;
+  const std::vector<double>& known = summary.spectrum.period_s();
   if (!closed_form && period_s >= known.front() && period_s <= known.back()) return summary.spectrum.at(period_s);
   if (summary.unit_pulse) return spectral_acceleration_mps2(*summary.unit_pulse, period_s);
   return summary.spectrum.at(std::clamp(period_s, known.front(), known.back()));
@@ -29,6 +32,17 @@ double unit_pulse_acceleration_mps2(const MotionSummary& summary, double period_
 void add_sums(const FloorMotion& motion, MotionSummary& summary) {
   summary.arias_mps = arias_intensity_mps(motion);
   summary.cav_mps = cumulative_absolute_velocity_mps(motion);
+}
+
+MotionSummary summary_of(const Pulse& pulse) {
+  MotionSummary summary;
+  summary.peaks = {1, pulse.peak_velocity, pulse.peak_displacement};
+  summary.is_pulse = true;
+  summary.pulse = {pulse.name, 1, pulse.velocity_amplitude, 0, 1};
+  summary.unit_pulse = std::make_shared<const FloorMotion>(pulse_motion(pulse));
+  add_sums(*summary.unit_pulse, summary);
+  summary.spectrum = response_spectrum(*summary.unit_pulse, periods_of_a_unit_pulse());
+  return summary;
 }
 
 }  // namespace
@@ -44,15 +58,13 @@ MotionSummary summarize(const FloorMotion& record, const SummaryRequest& request
   return summary;
 }
 
+// The spectrum takes a twentieth of a second, and a run asks for that of each pulse several times.
 MotionSummary summarize(const Pulse& pulse) {
-  MotionSummary summary;
-  summary.peaks = {1, pulse.peak_velocity, pulse.peak_displacement};
-  summary.is_pulse = true;
-  summary.pulse = {pulse.name, 1, pulse.velocity_amplitude, 0, 1};
-  summary.unit_pulse = std::make_shared<const FloorMotion>(pulse_motion(pulse));
-  add_sums(*summary.unit_pulse, summary);
-  summary.spectrum = response_spectrum(*summary.unit_pulse, periods_of_a_unit_pulse());
-  return summary;
+  static std::mutex one_at_a_time;
+  static std::map<std::string, MotionSummary> known;
+  const std::lock_guard lock(one_at_a_time);
+  const auto found = known.find(pulse.name);
+  return found != known.end() ? found->second : known.emplace(pulse.name, summary_of(pulse)).first->second;
 }
 
 // Sa of motion(t / s) at T is that of motion(t) at T / s.

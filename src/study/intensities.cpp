@@ -22,13 +22,13 @@ motion::MotionSummary with_one_period(motion::MotionSummary summary, double peri
 // Relative error with which a kept ordinate next to the period is met when it is left out: of wider gaps, so more than that
 // at the period itself.
 double missed(const motion::ResponseSpectrum& spectrum, double period_s) {
-  const std::vector<double>& periods = spectrum.period_s;
+  std::vector<double> periods = spectrum.period_s(), ordinates = spectrum.sa_mps2();
   const auto above = std::lower_bound(periods.begin() + 1, periods.end() - 2, period_s) - periods.begin();
-  motion::ResponseSpectrum without = spectrum;
-  without.period_s.erase(without.period_s.begin() + above);
-  without.sa_mps2.erase(without.sa_mps2.begin() + above);
+  periods.erase(periods.begin() + above);
+  ordinates.erase(ordinates.begin() + above);
+  const motion::ResponseSpectrum without(std::move(periods), std::move(ordinates));
   const auto i = static_cast<std::size_t>(above);
-  return std::abs(without.at(periods[i]) / spectrum.sa_mps2[i] - 1);
+  return std::abs(without.at(spectrum.period_s()[i]) / spectrum.sa_mps2()[i] - 1);
 }
 
 // Of the pulse in a record; nan where there is none.
@@ -40,7 +40,7 @@ std::string interpolation_told(const IntensityPart& part, double period_s, const
   double sum = 0, largest = 0;
   int count = 0;
   for (const motion::MotionSummary& summary : motions) {
-    if (summary.is_pulse || summary.spectrum.holds(period_s) || summary.spectrum.period_s.size() < 4) continue;
+    if (summary.is_pulse || summary.spectrum.holds(period_s) || summary.spectrum.period_s().size() < 4) continue;
     const double error = missed(summary.spectrum, period_s);
     sum += error;
     largest = std::max(largest, error);
@@ -88,7 +88,7 @@ SampleIntensity::SampleIntensity(const IntensityPart& part, const MotionSummarie
       motions_.push_back(summary);
       continue;
     }
-    const std::vector<double>& kept = summary.spectrum.period_s;
+    const std::vector<double>& kept = summary.spectrum.period_s();
     if (!summary.is_pulse && (kept.empty() || parameter_ < kept.front() || parameter_ > kept.back()))
       throw Error(
           fmt::format("no intensity {} at {} s (of the records of this sweep it is kept from {} to {} s): name "

@@ -154,7 +154,7 @@ MotionSummaries summarize_together(const parallel::Communicator& world, const St
     if (motions.is_pulse(i)) continue;
     const motion::MotionSummary summary = summary_of(motions, i, periods);
     std::vector<double> values = row_of(summary);
-    values.insert(values.end(), summary.spectrum.sa_mps2.begin(), summary.spectrum.sa_mps2.end());
+    values.insert(values.end(), summary.spectrum.sa_mps2().begin(), summary.spectrum.sa_mps2().end());
     std::transform(values.begin(), values.end(), words.begin() + static_cast<std::ptrdiff_t>(i * width),
                    [](double x) { return std::bit_cast<std::int64_t>(x); });
     if (display) display->show("spectra of the motions", i + 1, motions.size());
@@ -203,7 +203,7 @@ io::MotionRows motion_rows(const MotionSet& motions, const MotionSummaries& summ
     rows.table.columns.push_back({"storey", "1", "how many floors above the ground", ColumnKind::integer});
   }
   for (const motion::MotionSummary& s : summaries)
-    if (!s.is_pulse) rows.sa_period_s = s.spectrum.period_s;
+    if (!s.is_pulse) rows.sa_period_s = s.spectrum.period_s();
   for (std::size_t i = 0; i < summaries.size(); ++i) {
     const motion::MotionSummary& s = summaries[i];
     std::vector<double> values = row_of(s);

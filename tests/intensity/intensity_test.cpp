@@ -131,7 +131,7 @@ TEST(OfARecord, EverythingFollowsFromWhatIsKept) {
   EXPECT_EQ(value_of("sa_g", 0.5), 2 * motion::spectral_acceleration_mps2(record, 0.5) / g);
   EXPECT_EQ(value_of("housner_m", 0), 2 * motion::housner_intensity_m(record));
   EXPECT_THROW(value_of("sa_g", 0.7), Error);
-  summary.spectrum.sa_mps2[1] = 123 * g;  // read, not computed again
+  summary.spectrum = {{0.25, 0.5}, {1, 123 * g}};  // read, not computed again
   summary.housner_m = 7;
   EXPECT_NEAR(value_of("sa_g", 0.5), 246, 1e-12);
   EXPECT_EQ(value_of("housner_m", 0), 14);

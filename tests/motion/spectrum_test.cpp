@@ -186,8 +186,10 @@ TEST(KeptSpectrum, IsItselfAtItsPeriodsAndCloseBetweenThem) {
 
 // Ordinates that are a power of the period are a straight line in logarithms, which a cubic meets everywhere.
 TEST(KeptSpectrum, APowerLawIsMetBetweenThePeriodsToo) {
-  ResponseSpectrum power{{0.1, 0.13, 0.2, 0.4, 0.5}, {}};
-  for (const double period : power.period_s) power.sa_mps2.push_back(3 * std::pow(period, -1.7));
+  const std::vector<double> periods{0.1, 0.13, 0.2, 0.4, 0.5};
+  std::vector<double> sa_mps2;
+  for (const double period : periods) sa_mps2.push_back(3 * std::pow(period, -1.7));
+  const ResponseSpectrum power(periods, sa_mps2);
   for (const double period : {0.11, 0.15, 0.3, 0.49}) EXPECT_NEAR(power.at(period), 3 * std::pow(period, -1.7), 1e-12);
 }
 
