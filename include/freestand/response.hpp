@@ -51,8 +51,8 @@ struct Response {
   double peak_chain_force_mps2 = std::numeric_limits<double>::quiet_NaN();
   bool connection_failed = false;  // of a chain to the wall
   int impacts = 0;                 // rocking impacts and landings
-  int wall_hits = 0;               // blows of walls
-  double wall_speed_mps = 0;       // largest speed of an edge at such a blow
+  int wall_hits = 0;               // blows of walls, or of a neighbour
+  double wall_speed_mps = 0;       // largest speed of an edge at such a blow, towards what it strikes
   int events = 0;                  // all mode changes and impacts
   double end_time_s = 0;           // when the integration could stop: at rest for good, or overturned
 };

@@ -92,6 +92,15 @@ struct Start {
   }
 };
 
+// Another block beside this one, on the same floor: where both only slide, each is a wall to the other, which gives way.
+struct Neighbour {
+  double gap_m = 0;  // between their faces, >= 0
+  int side = 1;      // +1: to the right of the block
+  double mass_kg = 1;
+  Friction friction = {};
+  double restitution = 0;  // of their blows, in [0, 1]
+};
+
 struct Specimen {
   Block block;
   Friction friction;
@@ -100,6 +109,7 @@ struct Specimen {
   std::vector<EffectUse> effects = {};
   BoucWen bouc_wen = {};  // of model bouc_wen
   Start start = {};
+  std::optional<Neighbour> neighbour = {};  // of model slide
 };
 
 }  // namespace freestand

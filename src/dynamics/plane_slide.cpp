@@ -341,6 +341,7 @@ class PlaneSlide {
 std::string refusal_in_plane(const Specimen& specimen) {
   if (specimen.model != Model::slide) return "a block is followed in both horizontal directions where it only slides";
   if (!specimen.start.upright_at_rest()) return "in the plane a block begins at rest where it is counted from";
+  if (specimen.neighbour) return "two blocks side by side are followed along one line";
   Specimen plain = specimen;
   for (const EffectUse& use : specimen.effects) {
     plain.effects = {use};

@@ -1,6 +1,7 @@
 #include "dynamics/taylor_integrator.hpp"
 
 #include "dynamics/bouc_wen.hpp"
+#include "dynamics/side_by_side.hpp"
 #include "dynamics/simulate.hpp"
 
 namespace freestand::dynamics {
@@ -8,6 +9,7 @@ namespace freestand::dynamics {
 Response respond_on_line(const Specimen& specimen, const Shaking& shaking, const Settings& settings,
                          History* history) {
   const Setup setup = set_up(specimen, shaking);
+  if (specimen.neighbour) return respond_beside_neighbour(setup, settings, history);
   if (specimen.model == Model::bouc_wen) return respond_bouc_wen(setup, settings, history);
   if (!admissible(setup, settings)) return Response{.outcome = Outcome::not_finite};
   // Records are linear between samples that lie close together; pulses have longer segments of higher degree.

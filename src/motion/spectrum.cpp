@@ -96,7 +96,7 @@ double ResponseSpectrum::at(double period) const {
     throw Error(
         fmt::format("no spectral acceleration at {} s (the table {}): choose a period within it", period,
                     period_s_.empty() ? std::string("is empty")
-                                     : fmt::format("reaches from {} to {} s", period_s_.front(), period_s_.back())),
+                                      : fmt::format("reaches from {} to {} s", period_s_.front(), period_s_.back())),
         Exit::data);
   const std::size_t first = std::min(i < 2 ? 0 : i - 2, period_s_.size() - std::min<std::size_t>(4, period_s_.size()));
   const std::size_t end = std::min(first + 4, period_s_.size());

@@ -43,6 +43,8 @@ std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<M
     for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) axes.push_back({q.name, varies(q)});
   for (const auto& effect : model.effects)
     for (const auto& parameter : effect.parameters) axes.push_back({parameter.name, varies(parameter)});
+  if (model.neighbour)
+    for (const auto& q : model.neighbour->given()) axes.push_back({q.name, varies(q)});
   for (const auto& q : model.start.given()) axes.push_back({q.name, varies(q)});
   const bool several = motions.size() > 1;
   const auto any = [&](const auto& test) { return std::any_of(motions.begin(), motions.end(), test); };

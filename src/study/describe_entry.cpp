@@ -46,9 +46,14 @@ std::string model_words(const ModelPart& model) {
     words += fmt::format(" block.mass_kg={}", number(model.block.mass));
     for (const auto& q : {chain->slack, chain->stiffness, chain->strength})
       words += fmt::format(" {}={}", q.name, number(q));
-    if (chain->height) words += " chain.height_m=" + number(*chain->height);
-    if (chain->wall_gap) words += " chain.wall_gap_m=" + number(*chain->wall_gap);
+    for (const auto& q : {chain->height, chain->number, chain->plan_angle, chain->damping, chain->wall_gap})
+      if (q) words += fmt::format(" {}={}", q->name, number(*q));
     words += chain->side > 0 ? " chain.side=right" : " chain.side=left";
+  }
+  if (const auto& neighbour = model.neighbour) {
+    words += fmt::format(" block.mass_kg={}", number(model.block.mass));
+    for (const auto& q : neighbour->given()) words += fmt::format(" {}={}", q.name, number(q));
+    words += neighbour->side > 0 ? " neighbour.side=right" : " neighbour.side=left";
   }
   return words;
 }

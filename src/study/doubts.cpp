@@ -121,6 +121,7 @@ void ask_of_source(const MotionSource& source, bool shaken, bool moves, Doubter&
 // What stands on one side only; "" of nothing.
 std::string one_sided(const Study& study) {
   if (study.model.chain) return "chain";
+  if (study.model.neighbour) return "neighbour";
   double least = 0, most = 0;
   for (const EffectPart& effect : study.model.effects)
     if (effect.name == "wall_impact")

@@ -109,10 +109,23 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
   return "chain: " + m.flow() + "\n";
 }
 
+std::string neighbour_text(const std::optional<NeighbourPart>& neighbour) {
+  if (!neighbour) return "";
+  Mapping m;
+  for (const auto& quantity : neighbour->given()) m.add(quantity);
+  m.add("side", neighbour->side > 0 ? "right" : "left");
+  return "neighbour: " + m.flow() + "\n";
+}
+
 std::string start_text(const StartPart& start) {
   Mapping m;
   for (const auto& quantity : start.given()) m.add(quantity);
   return start.any() ? "start: " + m.flow() + "\n" : "";
+}
+
+// The block, what holds it and what stands beside it, and how it begins.
+std::string specimen_text(const ModelPart& model) {
+  return model_text(model) + chain_text(model.chain) + neighbour_text(model.neighbour) + start_text(model.start);
 }
 
 std::string height_text(const Study& study) {
@@ -270,8 +283,8 @@ std::string samples_text(const Study& study) {
   if (study.scrambles > 1) text += fmt::format("scrambles: {}\n", study.scrambles);
   text += fmt::format("block_size: {}\ntolerance: {}\nfree_vibration_s: {}\n", study.block_size,
                       number_text(study.tolerance), number_text(study.free_vibration_s));
-  return text + model_text(study.model) + chain_text(study.model.chain) + start_text(study.model.start) +
-         discrepancy_text(study.model.slip_discrepancy) + motions_text(study.motions);
+  return text + specimen_text(study.model) + discrepancy_text(study.model.slip_discrepancy) +
+         motions_text(study.motions);
 }
 
 std::string all_but_name(const Study& study) { return samples_text(study) + fragility_text(study.fragility); }
@@ -295,8 +308,7 @@ std::string expanded(const Case& one, const std::filesystem::path& folder) {
   return paths_from(study, folder) +
          fmt::format("name: {}\ntolerance: {}\nfree_vibration_s: {}\n", text_value(study.name),
                      number_text(study.tolerance), number_text(study.free_vibration_s)) +
-         height_text(study) + forces_text(study) + model_text(study.model) + chain_text(study.model.chain) +
-         start_text(study.model.start) + "motion:\n" +
+         height_text(study) + forces_text(study) + specimen_text(study.model) + "motion:\n" +
          source_mapping(study.motions.front(), {"file", "vertical_file", "cross_file"}).block() +
          fmt::format("output_step_s: {}\n", number_text(one.output_step_s));
 }

@@ -11,6 +11,13 @@ std::vector<Quantity> StartPart::given() const {
   return all;
 }
 
+std::vector<Quantity> NeighbourPart::given() const {
+  std::vector<Quantity> all = {gap, mass, mu_k};
+  for (const auto& q : {static_ratio, restitution})
+    if (q) all.push_back(*q);
+  return all;
+}
+
 std::vector<Quantity> quantities(const ModelPart& model) {
   std::vector<Quantity> all;
   const auto add = [&](const std::optional<Quantity>& quantity) {
@@ -33,6 +40,8 @@ std::vector<Quantity> quantities(const ModelPart& model) {
       add(q);
     add(model.chain->wall_gap);
   }
+  if (model.neighbour)
+    for (const auto& q : model.neighbour->given()) add(q);
   for (const auto& q : model.start.given()) add(q);
   return all;
 }

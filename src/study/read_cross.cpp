@@ -7,9 +7,7 @@
 #include "study/read_parts.hpp"
 
 namespace freestand::study {
-namespace {
 
-// The specimen as far as its kind goes: effects with values that are met in practice, so that none vanishes.
 Specimen kind_of(const ModelPart& model) {
   Specimen specimen;
   specimen.model = model.model;
@@ -20,8 +18,6 @@ Specimen kind_of(const ModelPart& model) {
   }
   return specimen;
 }
-
-}  // namespace
 
 bool MotionSource::in_plane() const {
   const bool pairs =
@@ -52,6 +48,7 @@ void check_cross(Section& file, const Study& study) {
            "set model: slide, or give one component of each record");
   else if (const std::string why = dynamics::refusal_in_plane(kind_of(model)); !why.empty())
     refuse("effects", why, "remove the effect, or give one component of each record");
+  if (model.neighbour) refuse("neighbour", "it stands on one line", "remove it, or give one component of each record");
   if (model.chain) refuse("chain", "it pulls along one line", "remove it, or give one component of each record");
   if (model.start.any()) refuse("start", "there it begins at rest", "remove it, or give one component of each record");
   if (study.acceleration_height_m)

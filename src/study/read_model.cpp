@@ -294,6 +294,7 @@ ModelPart read_model(Section& file) {
   model.slip_discrepancy = read_discrepancy(file);
   model.chain = read_chain(file, model);
   model.start = read_start(file, model);
+  model.neighbour = read_neighbour(file, model);
   if (const std::string text = no_room_for(model.effects, model.chain);
       model.chain && !text.empty() && no_room_for(model.effects, {}).empty())
     file.problem("chain", text);

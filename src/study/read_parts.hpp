@@ -11,6 +11,11 @@ ModelPart read_model(Section& file);
 
 std::vector<EffectPart> read_effects(Section& file, Model model);
 
+// The block beside this one, where there is one; problems where something does not go with it.
+std::optional<NeighbourPart> read_neighbour(Section& file, const ModelPart&);
+// The specimen as far as its kind goes: effects with values that are met in practice, so that none vanishes.
+Specimen kind_of(const ModelPart&);
+
 // What is said where the laws of effects and chain do not find room together; "" where they do.
 std::string no_room_for(const std::vector<EffectPart>&, const std::optional<ChainPart>&);
 
@@ -35,6 +40,9 @@ struct RecordKeys {
   bool vertical;
 };
 void read_records(Section& section, MotionSource& source, const RecordKeys&);
+
+// Problems of what a study follows and does not go with a neighbour.
+void check_neighbour(Section& file, const Study&);
 
 // Problems of motions with a second horizontal channel in a study of which something does not go with one.
 void check_cross(Section& file, const Study&);

@@ -146,8 +146,9 @@ void refuse_other_kind(Section& file, const char* wanted, const char* other, con
 // Why a study has no values of a demand; "" where it has.
 std::string refusal(const KnownEdp& edp, const Study& study) {
   const auto& [effects, chain] = std::tie(study.model.effects, study.model.chain);
-  const bool wall = (chain && chain->wall_gap) || std::any_of(effects.begin(), effects.end(),
-                                                              [](const auto& part) { return bool(part.effect->wall); });
+  const bool wall =
+      study.model.neighbour || (chain && chain->wall_gap) ||
+      std::any_of(effects.begin(), effects.end(), [](const auto& part) { return bool(part.effect->wall); });
   if (edp.wants == edp::Wants::sides && !study.slip_by_side)
     return edp.name +
            " is followed only where the study says so (it takes several times as long): add slip_by_side: true, and "
@@ -163,7 +164,7 @@ std::string refusal(const KnownEdp& edp, const Study& study) {
   if (edp.wants == edp::Wants::wall && !wall)
     return edp.name +
            " would be 0 for every sample (no wall stands in this study): remove it, or add the effect "
-           "wall_impact or a chain, and sweep with it";
+           "wall_impact, a chain or a neighbour, and sweep with it";
   if ((edp.wants == edp::Wants::chain || edp.wants == edp::Wants::chain_force) && !chain)
     return edp.name +
            " would be 0 for every sample (no chain holds the block of this study): remove it, or add chain, "
@@ -199,6 +200,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   read_design(file, study);
   study.motions = read_motions(file, study.folder, look, shakes_vertically(study.model));
   check_cross(file, study);
+  check_neighbour(file, study);
   if (problems.empty()) check_synthetic(file, study);
   // What the study draws is known only when its parts are sound.
   const auto choices = problems.empty() ? axis_choices(study.model, study.motions) : std::vector<AxisChoice>{};
@@ -229,6 +231,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path) {
     one.study.samples = one.study.block_size = 1;
     one.study.motions = {read_motion(file, one.study.folder)};
     check_cross(file, one.study);
+    check_neighbour(file, one.study);
     one.output_step_s = file.number("output_step_s", one.output_step_s, range::positive);
     refuse_distributions(one.study, problems);
     if (one.study.model.slip_discrepancy)

@@ -98,6 +98,9 @@ void read_all(const YAML::Node& root, Validation& v, Problems& problems) {
   v.model = read_model(section);
   v.placement_scatter = section.optional_number("placement_scatter", range::not_negative);
   section.finish();
+  if (v.model.neighbour)
+    problems.add(section.line("neighbour"),
+                 "neighbour does not go with measurements (what stood beside the block is not in them): remove it");
   if (section.has("start"))
     problems.add(section.line("start"),
                  "start is of a test (each begins in its own way): write it in dataset.yaml, beside the "

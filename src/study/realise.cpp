@@ -154,6 +154,7 @@ struct Realiser::Parts {
   Friction friction(const std::vector<double>& values) const;
   std::vector<EffectUse> effects(const std::vector<double>& values) const;
   EffectUse chain(const std::vector<double>& values, const Block& block) const;
+  Neighbour neighbour(const std::vector<double>& values) const;
   void shake(std::uint64_t sample, Realisation& out) const;
 
   ModelPart model;
@@ -242,6 +243,15 @@ EffectUse Realiser::Parts::chain(const std::vector<double>& values, const Block&
                        block);
 }
 
+Neighbour Realiser::Parts::neighbour(const std::vector<double>& values) const {
+  const double mu_k = *value(values, "neighbour.mu_k");
+  return {.gap_m = *value(values, "neighbour.gap_m"),
+          .side = model.neighbour->side,
+          .mass_kg = *value(values, "neighbour.mass_kg"),
+          .friction = {mu_k * value(values, "neighbour.static_ratio").value_or(1), mu_k},
+          .restitution = value(values, "neighbour.restitution").value_or(0)};
+}
+
 void Realiser::Parts::shake(std::uint64_t sample, Realisation& out) const {
   const std::size_t chosen = sources.size() == 1 ? 0 : sampling::pick(sources.size(), weights, source_stream(sample));
   const Source& source = sources[chosen];
@@ -297,6 +307,7 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
   out.specimen.effects = parts.effects(out.draws);
   out.slip_factor = parts.value(out.draws, "discrepancy.slip").value_or(1);
   if (parts.model.chain) out.specimen.effects.push_back(parts.chain(out.draws, out.specimen.block));
+  if (parts.model.neighbour) out.specimen.neighbour = parts.neighbour(out.draws);
   const auto start = [&](const std::optional<Quantity>& part) {
     return part ? *parts.value(out.draws, part->name.c_str()) : 0.0;
   };

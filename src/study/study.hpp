@@ -78,6 +78,16 @@ struct ChainPart {
   int side = 1;                      // +1: holds back what moves to the right
 };
 
+// Another block beside this one, on the same floor (freestand/specimen.hpp).
+struct NeighbourPart {
+  Quantity gap, mass;                                 // neighbour.gap_m, neighbour.mass_kg
+  Quantity mu_k;                                      // neighbour.mu_k
+  std::optional<Quantity> static_ratio, restitution;  // neighbour.static_ratio, 1; neighbour.restitution, 0
+  int side = 1;                                       // +1: to the right
+
+  std::vector<Quantity> given() const;
+};
+
 // The contact of model bouc_wen.
 struct BoucWenPart {
   Quantity yield_displacement, exponent, gamma, beta;  // bouc_wen.yield_displacement_m, bouc_wen.exponent ...
@@ -100,6 +110,7 @@ struct ModelPart {
   ImpactPart impact;
   std::vector<EffectPart> effects;
   std::optional<ChainPart> chain;
+  std::optional<NeighbourPart> neighbour;
   StartPart start;
   std::optional<Quantity>
       slip_discrepancy;  // discrepancy.slip: measured slips over those of the model, of which no law is known
