@@ -45,10 +45,12 @@ struct Response {
   double peak_acceleration_at_height_mps2 = std::numeric_limits<double>::quiet_NaN();
   double largest_blow_mps = std::numeric_limits<double>::quiet_NaN();
   // Of a sample with Settings::contact_forces, else nan; over the mass, blows left out. Largest forces of the floor on the
-  // block, along the floor and up, both corners together, and of one chain.
+  // block, along the floor and up, both corners together, and of one chain; and of the spring of what moves inside, over its own
+  // mass: its total acceleration.
   double peak_contact_horizontal_mps2 = std::numeric_limits<double>::quiet_NaN();
   double peak_contact_vertical_mps2 = std::numeric_limits<double>::quiet_NaN();
   double peak_chain_force_mps2 = std::numeric_limits<double>::quiet_NaN();
+  double peak_contents_acceleration_mps2 = std::numeric_limits<double>::quiet_NaN();
   bool connection_failed = false;  // of a chain to the wall
   int impacts = 0;                 // rocking impacts and landings
   int wall_hits = 0;               // blows of walls, or of a neighbour

@@ -96,7 +96,8 @@ struct Effect {
   std::function<Value(const At&, const Parameters&)> friction = {};  // F [1]
   std::function<Value(const At&, const Parameters&)> force = {};     // X [m/s2]
   std::function<Value(const At&, const Parameters&)> moment = {};    // T, about the centre of mass [m2/s2]
-  std::function<Value(const At&, const Parameters&)> tension = {};   // of one chain, told as a demand [m/s2]
+  // Told as demands [m/s2]: the pull of one chain, and the total acceleration of what moves inside.
+  std::function<Value(const At&, const Parameters&)> tension = {}, contents = {};
   std::function<void(Walls&, const Parameters&)> wall = {};
   std::function<void(Legs&, const Parameters&)> legs = {};
   std::function<double(const Parameters&)> carried_mass = {};  // M, share of the mass that the block carries sideways

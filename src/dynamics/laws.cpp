@@ -60,6 +60,7 @@ void Laws::record(const Specimen& specimen) {
   combine(&Effect::force, force, sum);
   combine(&Effect::moment, moment, sum);
   combine(&Effect::tension, tension, sum);
+  combine(&Effect::contents, contents, [](Value a, Value) { return a; });
   forces_end = tape.size();
   tape.begin_section();
   combine(&Effect::friction, friction, [](Value a, Value b) { return a * b; });

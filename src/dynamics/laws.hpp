@@ -24,7 +24,7 @@ struct Laws {
   // Nodes of the results; -1 where no effect has a say. Nodes [input_count, forces_end) serve force and moment,
   // [forces_end, friction_end) the friction, [friction_end, tape.size()) the rates of the states.
   int force = -1, moment = -1, friction = -1;
-  int tension = -1;  // of a chain: no part of the equations of motion
+  int tension = -1, contents = -1;  // told alone: no part of the equations of motion
   int forces_end = input_count, friction_end = input_count;
   int states = 0;
   int rate[max_states] = {};

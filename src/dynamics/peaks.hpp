@@ -201,8 +201,9 @@ class Peaks {
   bool waits_since_blow_ = false;
   double waits_since_ = 0;  // [s]
   static constexpr double Response::*felt[] = {
-      &Response::peak_acceleration_mps2, &Response::peak_acceleration_at_height_mps2,
-      &Response::peak_contact_horizontal_mps2, &Response::peak_contact_vertical_mps2, &Response::peak_chain_force_mps2};
+      &Response::peak_acceleration_mps2,       &Response::peak_acceleration_at_height_mps2,
+      &Response::peak_contact_horizontal_mps2, &Response::peak_contact_vertical_mps2,
+      &Response::peak_chain_force_mps2,        &Response::peak_contents_acceleration_mps2};
   double before_[std::size(felt)] = {};  // what was felt until then
 };
 

@@ -2,6 +2,16 @@
 
 namespace freestand::effects {
 
+namespace {
+
+// Of the spring and its damper, over the mass of the contents.
+dynamics::Value pull(const At& at, const Parameters& p) {
+  const double W = 2 * pi * p[1];
+  return W * W * at.own_state[0] + 2 * p[2] * W * at.own_state[1];
+}
+
+}  // namespace
+
 const Register moving_contents{{
     .name = "moving_contents",
     .summary = "A part of the mass hangs inside on a spring",
@@ -35,11 +45,8 @@ const Register moving_contents{{
              .low = 0.01,
              .high = 0.2},
         },
-    .force =
-        [](const At& at, const Parameters& p) {
-          const double W = 2 * pi * p[1];
-          return p[0] * (W * W * at.own_state[0] + 2 * p[2] * W * at.own_state[1]);
-        },
+    .force = [](const At& at, const Parameters& p) { return p[0] * pull(at, p); },
+    .contents = pull,
     .carried_mass = [](const Parameters& p) { return 1 - p[0]; },
     .states = {{.name = "contents_m", .rate = [](const At& at, const Parameters&) { return at.own_state[1]; }},
                {.name = "contents_mps",

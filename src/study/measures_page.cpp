@@ -75,13 +75,15 @@ ordered_json json(const Measure& im) {
 
 // What stands beside the demand in a study.
 const char* needed(edp::Wants wants) {
-  constexpr const char* keys[] = {"",
-                                  "slip_by_side: true, ",
-                                  "effects: [{name: wall_impact, gap_m: 0.05}], ",
-                                  "chain: {stiffness_npm: 36000, strength_n: 2700}, ",
-                                  "acceleration_height_m: 1.5, ",
-                                  "contact_forces: true, ",
-                                  "contact_forces: true, chain: {stiffness_npm: 36000, strength_n: 2700}, "};
+  constexpr const char* keys[] = {
+      "",
+      "slip_by_side: true, ",
+      "effects: [{name: wall_impact, gap_m: 0.05}], ",
+      "chain: {stiffness_npm: 36000, strength_n: 2700}, ",
+      "acceleration_height_m: 1.5, ",
+      "contact_forces: true, ",
+      "contact_forces: true, chain: {stiffness_npm: 36000, strength_n: 2700}, ",
+      "contact_forces: true, effects: [{name: moving_contents, mass_ratio: 0.2, frequency_hz: 3}], "};
   return keys[static_cast<int>(wants)];
 }
 

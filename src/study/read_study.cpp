@@ -157,7 +157,9 @@ std::string refusal(const KnownEdp& edp, const Study& study) {
     return edp.name +
            " is followed only where the study says at which height (it takes several times as long): add "
            "acceleration_height_m: 1.5, and sweep with it";
-  if ((edp.wants == edp::Wants::forces || edp.wants == edp::Wants::chain_force) && !study.contact_forces)
+  const bool forces =
+      edp.wants == edp::Wants::forces || edp.wants == edp::Wants::chain_force || edp.wants == edp::Wants::contents;
+  if (forces && !study.contact_forces)
     return edp.name +
            " is followed only where the study says so (it takes several times as long): add contact_forces: true, and "
            "sweep with it";
@@ -169,6 +171,11 @@ std::string refusal(const KnownEdp& edp, const Study& study) {
     return edp.name +
            " would be 0 for every sample (no chain holds the block of this study): remove it, or add chain, "
            "and sweep with it";
+  if (edp.wants == edp::Wants::contents &&
+      std::none_of(effects.begin(), effects.end(), [](const auto& part) { return bool(part.effect->contents); }))
+    return edp.name +
+           " would be 0 for every sample (nothing moves inside the block of this study): remove it, or add effect "
+           "moving_contents, and sweep with it";
   return "";
 }
 

@@ -362,6 +362,10 @@ TEST(StudyMistakes, DemandsComeWithWhatMakesThem) {
                "peak_chain_force_n > 100",
                "followed only where",
                {"contact_forces: true\n" + chain}},
+        Demand{"peak_contents_acceleration_g",
+               "peak_contents_acceleration_g > 1",
+               "add contact_forces: true",
+               {"contact_forces: true\neffects: [{name: moving_contents, mass_ratio: 0.2, frequency_hz: 3}]\n"}},
         Demand{"wall_hit", "wall_hit", "0 for every sample (no wall stands in this study)", {wall, chain}},
         Demand{"connection_failed", "connection_failed", "0 for every sample (no chain holds", {chain}}}) {
     const std::string sound = block + friction + samples + motions + "fragility:\n  im: report\n  edp: [delta";
