@@ -171,7 +171,7 @@ svg.dispatchEvent(new MouseEvent("mousemove", {clientX: box.left + box.width / 2
                 self.assertIn("&gt; 3.00</td>", page)
                 self.assertRegex(page, r'<p class="finding">Both of our medians lie above theirs on floor upper: 2 are, or may be, beyond what was swept<')
             else:
-                self.assertRegex(page, r"is below 1/2 again at 0[.]8")
+                self.assertRegex(page, r"is below 1/2 again at 1[.]28")
 
     @unittest.skipUnless(support.BROWSER, "no chromium (apt-get install chromium)")
     def test_in_a_browser_no_mark_hides_another_and_the_legend_is_drawn_as_the_marks(self):
