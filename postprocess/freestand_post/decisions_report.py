@@ -43,25 +43,28 @@ def sensitivity(results, figures):
     found = next((result for result in results if isinstance(result, Sensitivity)), None)
     if found is None:
         return None
-    names = list(dict.fromkeys(share.parameter for answer in found.answers for share in answer.shares))
-    rows = []
-    for answer in found.answers:
-        shares = {share.parameter: share for share in answer.shares}
-        cells = [_cell(shares[name]) if name in shares else "–" for name in names] + [words.plus_minus(*answer.together[:2])]
-        rows.append({"title": words.capitalised(answer.title), "cells": cells, "why": answer.why_empty, "samples": answer.samples})
-    return {"figure": next((figure for figure in figures if figure["section"] == "sensitivity"), None),
-            "parameters": [words.capitalised(words.sampled(name)) for name in names], "rows": rows, "total": bool(found.pairs)}
+    known = [answer for answer in found.answers if answer.shares]
+    largest = {}
+    for answer in known:
+        for share in answer.shares:
+            largest[share.parameter] = max(largest.get(share.parameter, -math.inf), share.share[0], 0 if math.isnan(share.total[0]) else share.total[0])  # as the picture
+    of = [{share.parameter: share for share in answer.shares} for answer in known]
+    rows = [{"name": words.capitalised(words.sampled(name)), "cells": [_cell(shares[name]) if name in shares else "–" for shares in of]}
+            for name in sorted(largest, key=largest.get, reverse=True)]
+    return {"figure": next((figure for figure in figures if figure["section"] == "sensitivity"), None), "columns": [answer.title for answer in known], "rows": rows,
+            "together": [words.share(*answer.together[:2]) for answer in known], "samples": [words.count(answer.samples) for answer in known], "total": bool(found.pairs),
+            "empty": [(answer.title, answer.why_empty) for answer in found.answers if not answer.shares]}
 
 
 def _cell(share):
-    text = words.plus_minus(max(share.share[0], 0), share.share[1])
-    return text + (f" ({words.plus_minus(*share.total[:2])})" if math.isfinite(share.total[0]) else "")
+    return words.share(*share.share[:2]) + (f" ({words.share(*share.total[:2])})" if math.isfinite(share.total[0]) else "")
 
 
 def alone(results):
     """The page of a risk or a sensitivity whose sweep was not given."""
     name = next((risk.study_name for risk in results if isinstance(risk, Risk)), "") or results[0].folder.resolve().name
-    return {"title": words.capitalised(name), "headline": [], "hero": None, "demand": [], "fit_figure": None, "other": [], "shared": [],
+    what = "annual risk" if any(isinstance(result, Risk) for result in results) else "shares of the scatter"
+    return {"title": f"{words.capitalised(name)}: {what}", "headline": [], "hero": None, "demand": [], "fit_figure": None, "other": [], "shared": [],
             "fit": None, "outcomes": [], "computed": None, "draws": [], "study": "", "accuracy": None, "effects": [], "warnings": [],
             "provenance": []}
 

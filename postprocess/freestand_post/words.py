@@ -173,6 +173,16 @@ def plus_minus(value, error):
     return f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
 
 
+def share(value, error):
+    """A share of a whole and its standard error: two decimals, three where the error has meaning there."""
+    if not math.isfinite(value):
+        return "–"
+    if max(abs(value), 0 if math.isnan(error) else error) < 0.0005:
+        return "0" if value == 0 else "< 0.001" if value > 0 else "> −0.001"
+    decimals = 3 if error < 0.0095 else 2
+    return f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
+
+
 def probability(value):
     """Two decimals; never 0 or 1 unless it is."""
     if value is None or not math.isfinite(value):

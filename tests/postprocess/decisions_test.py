@@ -279,6 +279,58 @@ class Pages(InFolder):
         text = self.text(make_decisions.make_sensitivity(folder, pairs=0))
         self.assertNotIn("Open points", text)
 
+    def shares(self, change):
+        """Page and picture of invented shares of which `change` has changed the answers."""
+        folder = self.folder / "changed"
+        folder.mkdir(exist_ok=True)
+        path = make_decisions.make_sensitivity(folder) / "sensitivity.json"
+        found = json.loads(path.read_text())
+        change(found["answers"])
+        path.write_text(json.dumps(found))
+        return page(read([folder])), pictures.draw(read([folder])[0])[0]
+
+    @staticmethod
+    def part(value, se):
+        return {"value": value, "se": se, "lower": value - 2 * se, "upper": value + 2 * se}
+
+    def test_shares_are_shown_as_they_are_and_no_finer_than_a_thousandth(self):
+        """A share below none is noise or bias, which a reader must see; a total above all likewise."""
+        def change(answers):
+            answers[0]["shares"]["block.width_m"] = {"share": self.part(-0.0196, 0.0017), "total": self.part(1.24e-6, 2.4e-7), "pairs": 100}
+            answers[0]["shares"]["motion"] = {"share": self.part(0.2, 0.01), "total": self.part(1.04, 0.09), "pairs": 100}
+        text, picture = self.shares(change)
+        self.assertIn("−0.020 ± 0.002 (&lt; 0.001)", text.replace("<td>", ""))
+        self.assertIn("0.20 ± 0.01 (1.04 ± 0.09)", text)
+        self.assertNotIn("0.000001", text)
+        ax = picture.figure.axes[0]
+        widths = [bar.get_width() for bar in ax.patches]
+        self.assertAlmostEqual(min(widths), -0.0196)
+        self.assertLess(ax.get_xlim()[0], -0.0229)
+        self.assertGreater(ax.get_xlim()[1], 1.04 + 0.01)
+
+    def test_what_lacks_to_one_is_of_parameters_together_only_beyond_its_error(self):
+        def together(value, se):
+            def change(answers):
+                for answer in answers:
+                    if answer["shares"]:
+                        answer["together"] = self.part(value, se)
+            return change
+        text, picture = self.shares(together(0.7, 0.02))
+        self.assertIn("is due to parameters that act together", picture.caption)
+        self.assertIn(picture.caption[:40], text)
+        for value, se in ((0.97, 0.02), (1.01, 0.02)):
+            self.assertNotIn("act together", self.shares(together(value, se))[1].caption)
+        def one(answers):
+            together(0.97, 0.02)(answers)
+            answers[0]["together"] = self.part(0.7, 0.02)
+        self.assertIn("of ln of the largest slip lack to 1", self.shares(one)[1].caption.replace(" U ", " "))
+
+    def test_no_parameter_is_said_to_explain_what_chance_does(self):
+        def change(answers):
+            for share in answers[0]["shares"].values():
+                share["share"] = self.part(0.01, 0.02)
+        self.assertIn("No parameter alone explains", self.shares(change)[1].finding)
+
     def test_a_file_of_another_format_or_a_spoilt_one_is_told(self):
         folder = make_decisions.make_risk(self.folder / "risk")
         path = folder / "risk.json"
