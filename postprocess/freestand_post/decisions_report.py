@@ -3,7 +3,7 @@ import math
 import pathlib
 
 from . import best_intensity, words
-from .designs import ratio, verdict, warnings
+from .designs import ratio, shown_median, verdict, warnings
 from .halved import halving
 from .pictures import designs as designs_picture
 from .reading_decisions import Risk, Sensitivity
@@ -137,9 +137,12 @@ def _lowest(what, labels, found, medians_differ=lambda a, b: False):
     near = [i for i in told if i != least and not found[least][2] < found[i][1]]
     by_medians = [labels[i] for i in near if medians_differ(least, i)]
     by_nothing = [labels[i] for i in near if not medians_differ(least, i)]
-    return (f"{words.capitalised(labels[least])} has the lowest annual rate of “{what}”: {words.a_year(rate)}{below}"
+    untold = [labels[i] for i in range(len(found)) if i not in told]
+    has = f"{labels[least]} has the lowest annual rate of “{what}”: {words.a_year(rate)}{below}"
+    return ((f"Of those that are told, {has}" if untold else words.capitalised(has))
             + (f"; the bands of these rates do not part it from {words.listing(by_medians)}, but the medians differ by more than chance" if by_medians else "")
-            + (f"; not parted by more than their bands from {words.listing(by_nothing)}" if by_nothing else ""))
+            + (f"; not parted by more than their bands from {words.listing(by_nothing)}" if by_nothing else "")
+            + (f"; none is told of {words.listing(untold)}" if untold else ""))
 
 
 def _medians_differ(found, labels, event):
@@ -156,8 +159,7 @@ def _headline(found):
     row = next((row for row in found.rows if all(math.isfinite(curve["median"]) for curve in row.curves)), None)
     if row is None:
         return []
-    unit = found.sweeps[0].im_unit
-    return [(words.quantity(curve["median"], unit), f"median {found.im_symbol} of {row.what}: {label}") for curve, label in zip(row.curves, found.labels)]
+    return [(shown_median(sweep, curve), f"median {found.im_symbol} of {row.what}: {label}") for sweep, curve, label in zip(found.sweeps, row.curves, found.labels)]
 
 
 def _medians(found):
@@ -169,7 +171,7 @@ def _medians(found):
             rows.append({"what": words.capitalised(row.what) if i == 0 else "", "design": label,
                          "median": words.plus_minus(curve["median"], curve["median_se"]) + mark,
                          "dispersion": words.plus_minus(curve["dispersion"], curve["dispersion_se"]),
-                         "ratio": "" if i == 0 else words.fixed(value, 2), "interval": "" if i == 0 or not math.isfinite(low) else f"{low:.2f} to {high:.2f}",
+                         "ratio": "" if i == 0 else words.fixed(value, 2) + ("*" if math.isfinite(value) and (curve["extrapolated"] or row.curves[0]["extrapolated"]) else ""), "interval": "" if i == 0 or not math.isfinite(low) else f"{low:.2f} to {high:.2f}",
                          "verdict": "" if i == 0 else verdict(row.ratio[i])})
     return rows
 

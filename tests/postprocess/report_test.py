@@ -113,7 +113,7 @@ class Report(unittest.TestCase):
         self.assertNotIn("<?xml", self.text)
 
     def test_headline_outcomes_warnings_provenance_study(self):
-        for needle in ("Refrigerator: seismic fragility", "6 000 samples", "20 s on 2 cores: sweep 12 s (480 samples a second), accuracy check 2.0 s, fit 5.0 s",
+        for needle in ("Refrigerator: seismic fragility", "6 000 samples", "20 s on 2 cores: sweep 12 s (480 samples a second), accuracy check 2.0 s, writing 1.0 s, fit 5.0 s",
                        "under a pulse of 3 kinds (A, B, C1), by one of the study's 7 entries of motions",
                        "Painlevé's paradox 1", "1 sample met Painlevé", "0123456789abcdef", "freestand run study.yaml -o results",
                        "hdf5 1.10.8", "peak acceleration PTA (g)", "design: sobol"):
