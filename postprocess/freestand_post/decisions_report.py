@@ -152,7 +152,7 @@ def _medians_differ(found, labels, event):
     place = [found.labels.index(label) if label in found.labels else None for label in labels]
     if row is None or None in place:
         return lambda a, b: False
-    return lambda a, b: verdict(ratio(row.curves[place[a]], row.curves[place[b]], found.paired, found.level)) == "yes"
+    return lambda a, b: not (row.curves[place[a]]["extrapolated"] and row.curves[place[b]]["extrapolated"]) and verdict(ratio(row.curves[place[a]], row.curves[place[b]], found.paired, found.level)) == "yes"
 
 
 def _headline(found):

@@ -203,7 +203,7 @@ def shown_median(sweep, curve):
     if not curve["extrapolated"]:
         return words.quantity(curve["median"], sweep.im_unit)
     above = curve["median"] > (sweep.edge[0] + sweep.edge[-1]) / 2
-    return ("> " if above else "< ") + words.chosen(sweep.edge[-1 if above else 0], sweep.im_unit)
+    return ("> " if above else "< ") + words.chosen(float(f"{sweep.edge[-1 if above else 0]:.3g}"), sweep.im_unit)
 
 
 def verdict(found):
