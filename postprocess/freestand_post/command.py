@@ -4,7 +4,7 @@ import json
 import pathlib
 import sys
 
-from .problem import USAGE, Problem
+from .problem import DATA, USAGE, Problem
 
 
 def _arguments(what, argv):
@@ -74,30 +74,39 @@ def _one_data_set(held):
 
 
 def _figures(arguments):
+    import io
+
     from . import pictures, style
     from .database import is_database
+    from .writing import unwritten, write
     if any(is_database(folder) for folder in arguments.folders):
         raise Problem("a database has no pictures as files (its page draws what is chosen): use postprocess/report", USAGE)
     results = read(arguments.folders, arguments.history)
     target = arguments.output or arguments.folders[-1] / "figures"
-    target.mkdir(parents=True, exist_ok=True)
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+    except OSError as why:
+        raise unwritten(target, why) from why
     style.apply()
     captions = {}
     for result in results:
         for picture in pictures.draw(result):
-            (target / f"{picture.name}.svg").write_text(style.svg(picture.figure), encoding="utf-8")
-            picture.figure.savefig(target / f"{picture.name}.png", dpi=style.DPI)
+            write(target / f"{picture.name}.svg", style.svg(picture.figure))
+            made = io.BytesIO()
+            picture.figure.savefig(made, format="png", dpi=style.DPI)
+            write(target / f"{picture.name}.png", made.getvalue())
             captions[picture.name] = {"finding": picture.finding, "caption": picture.caption}
-    (target / "captions.json").write_text(json.dumps(captions, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    write(target / "captions.json", json.dumps(captions, indent=1, ensure_ascii=False) + "\n")
     print(f"{len(captions)} pictures in {target}")
 
 
 def _report(arguments):
     from . import database, report
+    from .writing import write
     results = read(arguments.folders, arguments.history)
     target = arguments.output or arguments.folders[-1] / "report.html"
     made = database.page(results[0]) if isinstance(results[0], database.Database) else report.page(results)
-    target.write_text(made, encoding="utf-8")
+    write(target, made)
     print(target.resolve())
 
 
@@ -110,9 +119,8 @@ def main(what, argv=None):
         return problem.exit_code
     except OSError as why:
         reason = "no permission" if isinstance(why, PermissionError) else (why.strerror or str(why)).lower()
-        print(f"postprocess/{what}: {why.filename or 'a file'} cannot be written ({reason}): give another place with -o",
-              file=sys.stderr)
-        return USAGE
+        print(f"postprocess/{what}: {why.filename or 'a file'} cannot be used ({reason})", file=sys.stderr)
+        return DATA
     except ModuleNotFoundError as why:
         print(f"postprocess/{what}: the Python package {why.name} is not there: run jobs/install", file=sys.stderr)
         return USAGE

@@ -2,6 +2,7 @@
 import json
 import pathlib
 from dataclasses import dataclass
+from statistics import NormalDist
 
 import h5py
 import jinja2
@@ -13,7 +14,7 @@ from .problem import Problem
 
 HERE = pathlib.Path(__file__).parent
 NAME, FORMAT = "database.h5", "freestand-catalogue/1"
-DIGITS = 6  # of the numbers on the page: more than any of them is known to
+SCRIPTS = ("database_curves.js", "database_draw.js", "database_pictures.js", "database_references.js", "database.js")  # the last one begins to draw
 
 
 @dataclass
@@ -57,27 +58,27 @@ def read_database(folder):
 
 
 def _number(value):
-    """A number as JSON has it: rounded, null where it is not known."""
+    """A number as JSON has it, with all its digits (the figures' csv come from it); null where it is not known."""
     value = float(value)
-    return None if not np.isfinite(value) else int(value) if value == int(value) and abs(value) < 1e9 else float(f"{value:.{DIGITS}g}")
+    return None if not np.isfinite(value) else int(value) if value == int(value) and abs(value) < 1e9 else value
 
 
 ENTRY_WORDS = ("id", "class", "floor", "friction", "description", "source", "scatter", "effects", "created_utc", "program",
                "reference_source", "reference_id", "reference_intensity", "reference_demand")
 ENTRY_NUMBERS = ("width_m", "height_m", "mass_kg", "mu_k", "mu_s", "samples", "failed", "motions", "version",
                  "reference_capacity", "reference_median", "reference_dispersion")
-CURVE_NUMBERS = ("capacity", "n", "im_least", "im_most", "median", "dispersion", "median_se", "dispersion_se", "misfit", "off_by")
+CURVE_NUMBERS = ("capacity", "n", "im_least", "im_most", "median", "dispersion", "median_se", "dispersion_se", "extrapolated", "misfit", "off_by")
 POINT_NUMBERS = ("im", "probability", "lower", "upper", "n")
 
 
 def content(database):
     """What the page's script reads."""
-    entries, curves, points = database.entries, database.curves, database.points
+    entries, curves, points, confidence = database.entries, database.curves, database.points, float(database.attributes["confidence"])
     ends = np.searchsorted(points["curve"], np.arange(len(curves["entry"]) + 1))
     shown = [[[_number(points[name][i]) for name in POINT_NUMBERS] for i in range(ends[k], ends[k + 1])] for k in range(len(curves["entry"]))]
     symbol = {word["name"]: words.intensity(word["name"], word["symbol"]) for word in database.intensities}
     return {
-        "name": database.attributes["name"], "confidence": float(database.attributes["confidence"]), "classes": list(database.classes),
+        "name": database.attributes["name"], "confidence": confidence, "normal": NormalDist().inv_cdf((1 + confidence) / 2), "classes": list(database.classes),
         "intensities": [{"name": w["name"], "unit": words.UNITS.get(w["unit"], w["unit"]), "symbol": symbol[w["name"]], "summary": w["summary"]}
                         for w in database.intensities],
         "demands": [{"name": w["name"], "unit": words.UNITS.get(w["unit"], w["unit"]), "symbol": words.demand(w["name"], w["symbol"]),
@@ -111,10 +112,11 @@ def page(database):
     data = json.dumps(content(database), ensure_ascii=False, separators=(",", ":")).replace("</", "<\\/")
     sources = sorted(set(database.entries["reference_source"]) - {""})
     css = "".join((HERE / name).read_text(encoding="utf-8") for name in ("page.css", "database.css"))
+    script = "(() => {\n\"use strict\";\n" + "".join((HERE / name).read_text(encoding="utf-8") for name in SCRIPTS) + "})();\n"
     programs = sorted(set(zip(database.entries["program"], database.entries["git_commit"])))
     provenance = [("revision", str(database.attributes["revision"])), ("freestand", ", ".join(f"{version} ({commit})" for version, commit in programs)),
                   ("computed (UTC)", f"{min(database.entries['created_utc'])} to {max(database.entries['created_utc'])}")]
     return environment.get_template("database.html").render(
         css=Markup(css), title=words.capitalised(str(database.attributes["name"])) + ": fragility", headline=_headline(database), provenance=provenance,
-        data=Markup(data), script=Markup((HERE / "database.js").read_text(encoding="utf-8")), sources=sources,
+        data=Markup(data), script=Markup(script), sources=sources,
         level=words.level(float(database.attributes["confidence"])))

@@ -3,7 +3,7 @@ import math
 import pathlib
 
 from . import best_intensity, words
-from .designs import ratio, verdict, warnings
+from .designs import ratio, shown_median, verdict, warnings
 from .halved import halving
 from .pictures import designs as designs_picture
 from .reading_decisions import Risk, Sensitivity
@@ -43,25 +43,28 @@ def sensitivity(results, figures):
     found = next((result for result in results if isinstance(result, Sensitivity)), None)
     if found is None:
         return None
-    names = list(dict.fromkeys(share.parameter for answer in found.answers for share in answer.shares))
-    rows = []
-    for answer in found.answers:
-        shares = {share.parameter: share for share in answer.shares}
-        cells = [_cell(shares[name]) if name in shares else "–" for name in names] + [words.plus_minus(*answer.together[:2])]
-        rows.append({"title": words.capitalised(answer.title), "cells": cells, "why": answer.why_empty, "samples": answer.samples})
-    return {"figure": next((figure for figure in figures if figure["section"] == "sensitivity"), None),
-            "parameters": [words.capitalised(words.sampled(name)) for name in names], "rows": rows, "total": bool(found.pairs)}
+    known = [answer for answer in found.answers if answer.shares]
+    largest = {}
+    for answer in known:
+        for share in answer.shares:
+            largest[share.parameter] = max(largest.get(share.parameter, -math.inf), share.share[0], 0 if math.isnan(share.total[0]) else share.total[0])  # as the picture
+    of = [{share.parameter: share for share in answer.shares} for answer in known]
+    rows = [{"name": words.capitalised(words.sampled(name)), "cells": [_cell(shares[name]) if name in shares else "–" for shares in of]}
+            for name in sorted(largest, key=largest.get, reverse=True)]
+    return {"figure": next((figure for figure in figures if figure["section"] == "sensitivity"), None), "columns": [answer.title for answer in known], "rows": rows,
+            "together": [words.share(*answer.together[:2]) for answer in known], "samples": [words.count(answer.samples) for answer in known], "total": bool(found.pairs),
+            "empty": [(answer.title, answer.why_empty) for answer in found.answers if not answer.shares]}
 
 
 def _cell(share):
-    text = words.plus_minus(max(share.share[0], 0), share.share[1])
-    return text + (f" ({words.plus_minus(*share.total[:2])})" if math.isfinite(share.total[0]) else "")
+    return words.share(*share.share[:2]) + (f" ({words.share(*share.total[:2])})" if math.isfinite(share.total[0]) else "")
 
 
 def alone(results):
     """The page of a risk or a sensitivity whose sweep was not given."""
     name = next((risk.study_name for risk in results if isinstance(risk, Risk)), "") or results[0].folder.resolve().name
-    return {"title": words.capitalised(name), "headline": [], "hero": None, "demand": [], "fit_figure": None, "other": [], "shared": [],
+    what = "annual risk" if any(isinstance(result, Risk) for result in results) else "shares of the scatter"
+    return {"title": f"{words.capitalised(name)}: {what}", "headline": [], "hero": None, "demand": [], "fit_figure": None, "other": [], "shared": [],
             "fit": None, "outcomes": [], "computed": None, "draws": [], "study": "", "accuracy": None, "effects": [], "warnings": [],
             "provenance": []}
 
@@ -134,9 +137,12 @@ def _lowest(what, labels, found, medians_differ=lambda a, b: False):
     near = [i for i in told if i != least and not found[least][2] < found[i][1]]
     by_medians = [labels[i] for i in near if medians_differ(least, i)]
     by_nothing = [labels[i] for i in near if not medians_differ(least, i)]
-    return (f"{words.capitalised(labels[least])} has the lowest annual rate of “{what}”: {words.a_year(rate)}{below}"
+    untold = [labels[i] for i in range(len(found)) if i not in told]
+    has = f"{labels[least]} has the lowest annual rate of “{what}”: {words.a_year(rate)}{below}"
+    return ((f"Of those that are told, {has}" if untold else words.capitalised(has))
             + (f"; the bands of these rates do not part it from {words.listing(by_medians)}, but the medians differ by more than chance" if by_medians else "")
-            + (f"; not parted by more than their bands from {words.listing(by_nothing)}" if by_nothing else ""))
+            + (f"; not parted by more than their bands from {words.listing(by_nothing)}" if by_nothing else "")
+            + (f"; none is told of {words.listing(untold)}" if untold else ""))
 
 
 def _medians_differ(found, labels, event):
@@ -146,15 +152,14 @@ def _medians_differ(found, labels, event):
     place = [found.labels.index(label) if label in found.labels else None for label in labels]
     if row is None or None in place:
         return lambda a, b: False
-    return lambda a, b: verdict(ratio(row.curves[place[a]], row.curves[place[b]], found.paired, found.level)) == "yes"
+    return lambda a, b: not (row.curves[place[a]]["extrapolated"] and row.curves[place[b]]["extrapolated"]) and verdict(ratio(row.curves[place[a]], row.curves[place[b]], found.paired, found.level)) == "yes"
 
 
 def _headline(found):
     row = next((row for row in found.rows if all(math.isfinite(curve["median"]) for curve in row.curves)), None)
     if row is None:
         return []
-    unit = found.sweeps[0].im_unit
-    return [(words.quantity(curve["median"], unit), f"median {found.im_symbol} of {row.what}: {label}") for curve, label in zip(row.curves, found.labels)]
+    return [(shown_median(sweep, curve), f"median {found.im_symbol} of {row.what}: {label}") for sweep, curve, label in zip(found.sweeps, row.curves, found.labels)]
 
 
 def _medians(found):
@@ -166,7 +171,7 @@ def _medians(found):
             rows.append({"what": words.capitalised(row.what) if i == 0 else "", "design": label,
                          "median": words.plus_minus(curve["median"], curve["median_se"]) + mark,
                          "dispersion": words.plus_minus(curve["dispersion"], curve["dispersion_se"]),
-                         "ratio": "" if i == 0 else words.fixed(value, 2), "interval": "" if i == 0 or not math.isfinite(low) else f"{low:.2f} to {high:.2f}",
+                         "ratio": "" if i == 0 else words.fixed(value, 2) + ("*" if math.isfinite(value) and (curve["extrapolated"] or row.curves[0]["extrapolated"]) else ""), "interval": "" if i == 0 or not math.isfinite(low) else f"{low:.2f} to {high:.2f}",
                          "verdict": "" if i == 0 else verdict(row.ratio[i])})
     return rows
 

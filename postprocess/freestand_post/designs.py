@@ -198,6 +198,14 @@ def ratio(first, curve, paired, level):
     return tuple(math.exp(one) for one in (value, low, high))
 
 
+def shown_median(sweep, curve):
+    """The median as a headline has it: one beyond what was swept is not known but for its side."""
+    if not curve["extrapolated"]:
+        return words.quantity(curve["median"], sweep.im_unit)
+    above = curve["median"] > (sweep.edge[0] + sweep.edge[-1]) / 2
+    return ("> " if above else "< ") + words.chosen(float(f"{sweep.edge[-1 if above else 0]:.3g}"), sweep.im_unit)
+
+
 def verdict(found):
     """Is such a ratio beyond chance?"""
     _, low, high = found

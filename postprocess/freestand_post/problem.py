@@ -2,6 +2,7 @@
 
 USAGE = 2  # wrong command line
 DATA = 3   # a result file that cannot be used
+CURE = 74  # something has to be cured before going on helps: a full disk
 
 
 class Problem(Exception):

@@ -121,9 +121,9 @@ def _headline(sweep, main, hero):
 
 
 def _phases(timing):
-    """": sweep 5.1 s (20 000 samples a second), accuracy check 0.9 s ...": where the time went."""
-    parts = [(name, timing[key]) for key, name in (("sweep_s", "sweep"), ("accuracy_s", "accuracy check"), ("fit_s", "fit"))
-             if timing.get(key)]
+    """": motions and spectra 3 s, sweep 5.1 s (20 000 samples a second), accuracy check 0.9 s ...": where the time went."""
+    parts = [(name, timing[key]) for key, name in (("motions_s", "motions and spectra"), ("sweep_s", "sweep"), ("accuracy_s", "accuracy check"), ("write_s", "writing"), ("fit_s", "fit"))
+             if timing.get(key, 0) >= 0.05]
     rate = f" ({words.count(timing['samples_per_s'])} samples a second)" if timing.get("samples_per_s") else ""
     return (": " if parts else "") + ", ".join(f"{name} {_duration(seconds)}" + (rate if name == "sweep" else "") for name, seconds in parts)
 

@@ -36,7 +36,13 @@ def _headline(found):
     if found.own_peaks:
         place = found.places[0]
         return [(words.number(place.value(name), 3), what) for name, what in (("slope", "slope of the mean demand"), ("sd_slope", "slope of its standard deviation"), ("r2", "r²"), ("ks_p", "p of the fit"))]
-    return [(str(found.agree), "numbers agree"), (str(found.with_itself), "in which the print disagrees with itself"), (str(found.disagree), "that disagree otherwise")]
+    return [(str(found.agree), "numbers agree"), (str(found.with_itself), "in which the print disagrees with itself"), (str(found.disagree), "that disagree otherwise")] + _statements(found)
+
+
+def _statements(found):
+    """What the report says in words, or as a range, is none of the numbers that are counted."""
+    off = [item for place in found.places for item in place.items if item["kind"] == "statement" and item["verdict"] in (DISAGREES, WITH_ITSELF)]
+    return [(str(len(off)), "statement in words that disagrees, beside the numbers" if len(off) == 1 else "statements in words that disagree, beside the numbers")] if off else []
 
 
 def _place(place, figures):

@@ -37,7 +37,7 @@ HAPPENINGS = {
     "connection_failed": "the connection fails",
     "wall_hit": "the block strikes the wall",
 }
-INTENSITIES = {"report": "PTA/(μg)\u00a0−\u00a01", "housner_m": "Housner's SI", "pga_over_g_tan_alpha": "PGA/(g\u00a0tan\u00a0α)",
+INTENSITIES = {"report": "PTA/(μg)\u00a0−\u00a01", "housner_m": "Housner's SI", "arias_mps": "Arias intensity", "pga_over_g_tan_alpha": "PGA/(g\u00a0tan\u00a0α)",
                "p_pgv_over_g_tan_alpha": "p\u00a0PGV/(g\u00a0tan\u00a0α)"}
 DRAWS = {
     "friction_mu": "friction coefficient μ",
@@ -173,6 +173,16 @@ def plus_minus(value, error):
     return f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
 
 
+def share(value, error):
+    """A share of a whole and its standard error: two decimals, three where the error has meaning there."""
+    if not math.isfinite(value):
+        return "–"
+    if max(abs(value), 0 if math.isnan(error) else error) < 0.0005:
+        return "0" if value == 0 else "< 0.001" if value > 0 else "> −0.001"
+    decimals = 3 if error < 0.0095 else 2
+    return f"{value:.{decimals}f} ± {error:.{decimals}f}".replace("-", "−")
+
+
 def probability(value):
     """Two decimals; never 0 or 1 unless it is."""
     if value is None or not math.isfinite(value):
@@ -221,15 +231,15 @@ def is_(left, value, unit=""):
 
 def quantity(value, unit=""):
     """A computed value: two digits and its unit."""
-    return number(value) + _spaced(unit)
+    return number(value) + spaced(unit)
 
 
 def chosen(value, unit=""):
     """A value somebody chose: as it is, and its unit."""
-    return plain(value) + _spaced(unit)
+    return plain(value) + spaced(unit)
 
 
-def _spaced(unit):
+def spaced(unit):
     return "" if unit in ("", "1") else f"\u00a0{UNITS.get(unit, unit)}"
 
 

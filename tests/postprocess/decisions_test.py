@@ -12,7 +12,7 @@ import support
 import h5py
 import make_decisions
 import numpy as np
-from freestand_post import best_intensity, decisions_report, designs, halved, pictures, reading, reading_decisions, style
+from freestand_post import best_intensity, decisions_report, designs, halved, over_intensities, pictures, reading, reading_decisions, style
 from freestand_post.command import read
 from freestand_post.problem import Problem
 from freestand_post.report import page
@@ -85,6 +85,48 @@ class Differences(InFolder):
         self.assertTrue(all(abs(row.ratio[1][0] - 1.5) < 1e-9 for row in found.rows))
 
 
+class BeyondTheSweep(InFolder):
+    """A median beyond what was swept is an extrapolation: no headline, no title and no factor rests on it."""
+
+    def beyond(self, *arguments, **more):
+        folder = self.design(*arguments, **more)
+        with h5py.File(folder / "fragility.h5", "a") as root:
+            root["overturning"].attrs["extrapolated"] = 1
+        return folder
+
+    def made(self, *folders):
+        results = read([*folders])
+        (picture,) = pictures.draw(results[0])
+        return decisions_report.designs(results, [], [{"section": "designs"}]), picture.finding, results[0].sweeps[0].edge[-1]
+
+    def test_of_all_but_the_first(self):
+        content, finding, end = self.made(self.design("a", 2.0), self.beyond("b", 9.0, width=0.9), self.beyond("c", 44.0, width=1.2))
+        self.assertEqual([number for number, _ in content["headline"]], ["2.0", f"> {end:.4g}", f"> {end:.4g}"])
+        self.assertIn("of overturning lies outside of what was swept for width 0.9\u00a0m and width 1.2\u00a0m", finding)
+        self.assertNotIn("22", finding)
+        rows = [row for row in content["parts"][0]["medians"][:3]]
+        self.assertEqual([row["ratio"] for row in rows], ["", "4.50*", "22.00*"])
+
+    def test_of_one_of_them(self):
+        content, finding, _ = self.made(self.design("a", 2.0), self.design("b", 3.0, width=0.9), self.beyond("c", 44.0, width=1.2))
+        self.assertIn("Width 0.9\u00a0m against width 0.6\u00a0m: the median PTA/(μg)\u00a0−\u00a01 of overturning is 1.50 times as large", finding)
+        self.assertIn("of width 1.2\u00a0m it lies outside of what was swept", finding)
+
+    def test_of_all_of_them_another_demand_is_compared(self):
+        _, finding, _ = self.made(self.beyond("a", 22.0), self.beyond("b", 44.0, width=0.9))
+        self.assertNotIn("overturning", finding)
+
+    def test_over_several_intensities(self):
+        folders = [self.beyond("pga", 44.0), self.design("pgv", 2.3)]
+        for folder, im, unit in zip(folders, ("pga_g", "pgv_mps"), ("g", "m/s")):
+            with h5py.File(folder / "fragility.h5", "a") as root:
+                root.attrs.update(im=im, im_unit=unit, im_symbol="")
+        results = read(folders)
+        end = results[0].sweeps[0].edge[-1]
+        self.assertEqual([number for number, _ in over_intensities.content(results[0], [], [])["headline"]], [f"> {end:.4g}\u00a0g", "2.3\u00a0m/s"])
+        self.assertNotIn("44", pictures.draw(results[0])[0].finding)
+
+
 class Legend(InFolder):
     def test_every_row_of_the_legend_has_its_room(self):
         """Five designs take two rows of short names, five rows of long ones."""
@@ -104,6 +146,10 @@ class Rates(InFolder):
         text = decisions_report._lowest("overturned", ["a", "b", "c"], found)
         self.assertEqual(text, "B has the lowest annual rate of “overturned”: 2.0×10⁻⁴, 5.0 times below a; not parted by more than their bands from c")
 
+    def test_a_design_of_which_no_rate_is_told_may_have_the_lowest(self):
+        """The rate of the widest one is refused, most of it being from beyond the sweep: it is likely the lowest."""
+        text = decisions_report._lowest("overturned", ["a", "b", "c"], [(1e-3, 8e-4, 1.2e-3), (2e-4, 1e-4, 3e-4), (float("nan"),) * 3])
+        self.assertEqual(text, "Of those that are told, b has the lowest annual rate of “overturned”: 2.0×10⁻⁴, 5.0 times below a; none is told of c")
 
     def test_what_pairs_of_samples_part_is_not_called_the_same(self):
         """Bands of the rates overlap; the medians of the same motions differ by more than chance: the table's verdict is the headline's."""
@@ -278,6 +324,58 @@ class Pages(InFolder):
         folder.mkdir()
         text = self.text(make_decisions.make_sensitivity(folder, pairs=0))
         self.assertNotIn("Open points", text)
+
+    def shares(self, change):
+        """Page and picture of invented shares of which `change` has changed the answers."""
+        folder = self.folder / "changed"
+        folder.mkdir(exist_ok=True)
+        path = make_decisions.make_sensitivity(folder) / "sensitivity.json"
+        found = json.loads(path.read_text())
+        change(found["answers"])
+        path.write_text(json.dumps(found))
+        return page(read([folder])), pictures.draw(read([folder])[0])[0]
+
+    @staticmethod
+    def part(value, se):
+        return {"value": value, "se": se, "lower": value - 2 * se, "upper": value + 2 * se}
+
+    def test_shares_are_shown_as_they_are_and_no_finer_than_a_thousandth(self):
+        """A share below none is noise or bias, which a reader must see; a total above all likewise."""
+        def change(answers):
+            answers[0]["shares"]["block.width_m"] = {"share": self.part(-0.0196, 0.0017), "total": self.part(1.24e-6, 2.4e-7), "pairs": 100}
+            answers[0]["shares"]["motion"] = {"share": self.part(0.2, 0.01), "total": self.part(1.04, 0.09), "pairs": 100}
+        text, picture = self.shares(change)
+        self.assertIn("−0.020 ± 0.002 (&lt; 0.001)", text.replace("<td>", ""))
+        self.assertIn("0.20 ± 0.01 (1.04 ± 0.09)", text)
+        self.assertNotIn("0.000001", text)
+        ax = picture.figure.axes[0]
+        widths = [bar.get_width() for bar in ax.patches]
+        self.assertAlmostEqual(min(widths), -0.0196)
+        self.assertLess(ax.get_xlim()[0], -0.0229)
+        self.assertGreater(ax.get_xlim()[1], 1.04 + 0.01)
+
+    def test_what_lacks_to_one_is_of_parameters_together_only_beyond_its_error(self):
+        def together(value, se):
+            def change(answers):
+                for answer in answers:
+                    if answer["shares"]:
+                        answer["together"] = self.part(value, se)
+            return change
+        text, picture = self.shares(together(0.7, 0.02))
+        self.assertIn("is due to parameters that act together", picture.caption)
+        self.assertIn(picture.caption[:40], text)
+        for value, se in ((0.97, 0.02), (1.01, 0.02)):
+            self.assertNotIn("act together", self.shares(together(value, se))[1].caption)
+        def one(answers):
+            together(0.97, 0.02)(answers)
+            answers[0]["together"] = self.part(0.7, 0.02)
+        self.assertIn("of ln of the largest slip lack to 1", self.shares(one)[1].caption.replace(" U ", " "))
+
+    def test_no_parameter_is_said_to_explain_what_chance_does(self):
+        def change(answers):
+            for share in answers[0]["shares"].values():
+                share["share"] = self.part(0.01, 0.02)
+        self.assertIn("No parameter alone explains", self.shares(change)[1].finding)
 
     def test_a_file_of_another_format_or_a_spoilt_one_is_told(self):
         folder = make_decisions.make_risk(self.folder / "risk")

@@ -47,10 +47,26 @@ def _write(group, table):
         group.create_dataset(name, data=values, dtype=TEXT if isinstance(values[0], str) else None)
 
 
-def make_database(folder):
+def plateaus():
+    """rows() whose shelves have curves that no lognormal describes. On the upper floor: one that comes near 1/2 early, stays there and
+    passes it late, and one that never comes near. On the ground: one that passes 1/2 at once, with a fit that failed, and one that is
+    beyond 1/2 from the start and falls below it again."""
+    entries, curves = rows()
+    ims = [float(im) for im in np.geomspace(0.1, 3, 9)]
+    shares = {"shelf_mu30_upper": [0, 0.02, 0.2, 0.41, 0.497, 0.48, 0.46, 0.49, 0.55], "shelf_mu60_upper": [0, 0, 0, 0.02, 0.05, 0.1, 0.12, 0.1, 0.1],
+              "shelf_mu30_ground": [0, 0, 0.1, 0.3, 0.8, 0.9, 0.95, 0.97, 0.99], "shelf_mu60_ground": [0.7, 0.75, 0.8, 0.8, 0.7, 0.6, 0.3, 0.2, 0.1]}
+    for curve in curves:
+        given = shares.get(entries[curve["entry"]]["id"])
+        if given and curve["demand"] == "overturned":
+            curve.update(family="points", median=84495251605170.33, median_se=1.2e21, dispersion=16.2, dispersion_se=5.8, extrapolated=1,
+                         points=[(im, p, max(0, p - 0.07), min(1, p + 0.07), 200) for im, p in zip(ims, given)])
+    return entries, curves
+
+
+def make_database(folder, made=None):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
-    entries, curves = rows()
+    entries, curves = made or rows()
     with h5py.File(folder / "database.h5", "w") as root:
         root.attrs.update({"format": "freestand-catalogue/1", "name": "things & shelves", "revision": "1", "confidence": 0.95})
         root.create_dataset("classes", data=["display case", "bookcase"], dtype=TEXT)

@@ -5,6 +5,8 @@ import json
 import os
 import pathlib
 import re
+import resource
+import subprocess
 import tempfile
 import unittest
 
@@ -111,7 +113,7 @@ class Report(unittest.TestCase):
         self.assertNotIn("<?xml", self.text)
 
     def test_headline_outcomes_warnings_provenance_study(self):
-        for needle in ("Refrigerator: seismic fragility", "6 000 samples", "20 s on 2 cores: sweep 12 s (480 samples a second), accuracy check 2.0 s, fit 5.0 s",
+        for needle in ("Refrigerator: seismic fragility", "6 000 samples", "20 s on 2 cores: sweep 12 s (480 samples a second), accuracy check 2.0 s, writing 1.0 s, fit 5.0 s",
                        "under a pulse of 3 kinds (A, B, C1), by one of the study's 7 entries of motions",
                        "Painlevé's paradox 1", "1 sample met Painlevé", "0123456789abcdef", "freestand run study.yaml -o results",
                        "hdf5 1.10.8", "peak acceleration PTA (g)", "design: sobol"):
@@ -229,6 +231,31 @@ class MissingAndBroken(Temporary):
         case = make_results.make_history(self.folder / "case")
         self.refused(2, "cannot be written", arguments=[case, "-o", self.folder / "nowhere" / "report.html"])
         self.refused(2, "cannot be written", program="figures", arguments=[case, "-o", case / "history.csv"])
+
+    def test_a_disk_that_fills_leaves_what_stood_there(self):
+        """A limit on the size of files stands for a full disk: the file is named, the exit code is that of freestand, nothing is cut."""
+        case = make_results.make_history(self.folder / "case")
+        for program, name, what in (("report", "report.html", "page of yesterday"), ("figures", "captions.json", "captions")):
+            target = case if program == "report" else case / "figures"
+            target.mkdir(exist_ok=True)
+            (target / name).write_text(what)
+            before = sorted(target.iterdir())
+            done = subprocess.run([support.POSTPROCESS / program, case], capture_output=True, text=True, timeout=250,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096)))
+            self.assertEqual((done.returncode, done.stdout), (74, ""))
+            self.assertRegex(done.stderr, rf"^postprocess/{program}: {re.escape(str(target))}/[a-z.]+ cannot be written \(file too large\): ")
+            self.assertEqual(sorted(target.iterdir()), before)
+            self.assertEqual((target / name).read_text(), what)
+
+    def test_a_page_goes_where_a_link_points_and_into_a_pipe(self):
+        case = make_results.make_history(self.folder / "case")
+        (self.folder / "link.html").symlink_to(self.folder / "page.html")
+        self.assertEqual(support.run("report", case, "-o", self.folder / "link.html").returncode, 0)
+        self.assertTrue((self.folder / "link.html").is_symlink())
+        self.assertIn("</html>", (self.folder / "page.html").read_text(encoding="utf-8"))
+        done = support.start("report", case, "-o", "/dev/stdout")
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("</html>", done.stdout)
 
 
 if __name__ == "__main__":

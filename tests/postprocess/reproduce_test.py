@@ -68,6 +68,16 @@ class Page(unittest.TestCase):
         self.assertEqual(text.count("<svg"), 4)  # ours against the print; line, fit and surface
         self.assertEqual(support.cut_off(self, text), {1300: ([], []), 420: ([], [])})
 
+    def test_statements_that_disagree_stand_in_the_headline_too(self):
+        """The table of what does not agree has them; a headline without them would contradict it."""
+        folder = make(self.folder / "a")
+        self.assertNotIn("statement", html.unescape(page(read([folder]))).split("<main>")[0])
+        path = folder / "reproduce.json"
+        found = json.loads(path.read_text())
+        found["figures"][0]["items"].append({"id": "table_5_1.s", "kind": "statement", "what": "does it fall", "ours": "no", "print": "yes", "verdict": "disagrees", "why": "it stands"})
+        path.write_text(json.dumps(found))
+        self.assertIn("<dd>1</dd><dt>statement in words that disagrees, beside the numbers</dt>", page(read([folder])))
+
     def test_no_two_texts_of_a_picture_overlap(self):
         style.apply()
         for picture in pictures.draw(read([make(self.folder / "a")])[0]):

@@ -78,13 +78,22 @@ def _view(designs):
 
 
 def _finding(designs):
-    row = next((row for row in designs.rows if any(np.isfinite(ratio[1]) for ratio in row.ratio)), None)
-    if row is None:
-        return "The medians of these designs cannot be compared: too few samples exceed"
-    i = max((i for i, ratio in enumerate(row.ratio) if np.isfinite(ratio[1])), key=lambda i: abs(np.log(row.ratio[i][0])))
-    value, low, high = row.ratio[i]
-    what = f"the median {designs.im_symbol} of {row.what}"
-    if verdict(row.ratio[i]) == "no":
-        return f"{words.capitalised(designs.labels[i])} against {designs.labels[0]}: {what} differs by no more than chance"
-    return (f"{words.capitalised(designs.labels[i])} against {designs.labels[0]}: {what} is {value:.2f} times as large "
-            f"({low:.2f} to {high:.2f})")
+    """By medians that were swept: of the first row in which that of the first design is, and another one's is or is known to lie beyond."""
+    for row in designs.rows:
+        beyond = [label for label, curve in zip(designs.labels, row.curves) if curve["extrapolated"]]
+        within = [i for i, (ratio, curve) in enumerate(zip(row.ratio, row.curves)) if np.isfinite(ratio[1]) and not curve["extrapolated"]]
+        if row.curves[0]["extrapolated"] or not (within or beyond):
+            continue
+        what = f"the median {designs.im_symbol} of {row.what}"
+        if not within:
+            first = row.curves[0]
+            known = f"; {words.plus_minus(first['median'], first['median_se'])}{words.spaced(designs.sweeps[0].im_unit)} for {designs.labels[0]}"
+            return f"{words.capitalised(what)} lies outside of what was swept for {words.listing(beyond)}{known}"
+        i = max(within, key=lambda i: abs(np.log(row.ratio[i][0])))
+        value, low, high = row.ratio[i]
+        against = f"{words.capitalised(designs.labels[i])} against {designs.labels[0]}: {what} "
+        rest = f"; of {words.listing(beyond)} it lies outside of what was swept" if beyond else ""
+        if verdict(row.ratio[i]) == "no":
+            return against + "differs by no more than chance" + rest
+        return against + f"is {value:.2f} times as large ({low:.2f} to {high:.2f})" + rest
+    return "The medians of these designs cannot be compared: too few samples exceed, or they lie outside of what was swept"

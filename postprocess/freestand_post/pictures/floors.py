@@ -7,7 +7,8 @@ from . import Picture
 
 order = 75
 CAPTION = ("Each point is one record: the largest acceleration of that floor over that of the ground under the building, which is elastic, so "
-           "that no scale changes it. Line: medians over the records, 1 at the ground; band: between the 16th and the 84th of a hundred.")
+           "that no scale changes it. Line: medians over the records, 1 at the ground, drawn straight between the storeys of the study; band: between the 16th and the "
+           "84th of a hundred.")
 
 
 def pictures(results):

@@ -2,6 +2,7 @@
 import numpy as np
 
 from .. import style, words
+from ..designs import shown_median
 from ..model import chosen_capacities
 from ..over_intensities import Intensities
 from . import Picture
@@ -55,10 +56,15 @@ def _picture(found):
     return Picture("over_intensities", fig, finding, CAPTION.format(level=found.level), "sweep")
 
 
+def _at(symbol, median):
+    """"PGA = 0.4 g", "PGA > 2 g"."""
+    return f"{symbol}\u00a0" + (median.replace(" ", "\u00a0", 1) if median[0] in "<>" else f"=\u00a0{median}")
+
+
 def _finding(found):
     for what, curves in found.events:
         if all(curve["median"] > 0 for curve in curves):
-            at = [words.is_(sweep.im_symbol, curve["median"], sweep.im_unit) for sweep, curve in zip(found.sweeps, curves)]
+            at = [_at(sweep.im_symbol, shown_median(sweep, curve)) for sweep, curve in zip(found.sweeps, curves)]
             return f"By the fitted curves, half exceed “{what}” at {words.listing(at)}" if what != "overturning" else \
                 f"By the fitted curves, half of the specimens overturn at {words.listing(at)}"
     return "Too few samples exceed for a curve over each of these intensities"

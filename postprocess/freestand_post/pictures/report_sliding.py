@@ -16,12 +16,14 @@ def pictures(results):
         return
     fig = style.figure(7.4, 4.2)
     ax = fig.subplots()
-    ends = []
+    ends, rectangular = [], []
     for kind in dict.fromkeys(row["series"] for row in rows):
         mine = [row for row in rows if row["series"] == kind]
         ax.plot(column(mine, "im"), column(mine, "delta"), color=COLOURS[kind])
         if kind != "rectangular":
             ends.append((column(mine, "delta")[-1], kind, COLOURS[kind]))
+        else:
+            rectangular = mine
     top = 1.25 * max(end[0] for end in ends)
     for name, text in (("best_fit", "best fit"), ("slow_pull", "slow pull")):
         place = results.place(name)
@@ -29,6 +31,10 @@ def pictures(results):
             ax.plot([0, 7], [0, 7 * place.value("slope")], color=style.INK, lw=1.1, ls="--")
             if 7 * place.value("slope") < top:
                 ends.append((7 * place.value("slope"), text, style.INK))
+            else:  # leaves the picture above
+                ax.annotate(text, (0.93 * top / place.value("slope"), 0.93 * top), xytext=(-6, 0), textcoords="offset points", ha="right", va="center", weight="bold", color=style.INK, size=8.6)
+    for row in rectangular[:1]:
+        ax.annotate("rectangular", (row["im"], min(row["delta"], 0.9 * top)), xytext=(7, 0), textcoords="offset points", va="center", weight="bold", color=style.GREY, size=8.6)
     ax.set(xlim=(0, 7.9), ylim=(0, top), xlabel="IM = PTA/(μ g) − 1", ylabel="Δ = U ω²/PTA")
     style.grid(ax)
     style.end_labels(ax, ends, 7, 0.06 * top, 0.14, 0.98 * top)

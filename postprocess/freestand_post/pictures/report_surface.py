@@ -25,7 +25,7 @@ def _picture(place, rows):
     fig = style.figure(7.4, 4.2)
     ax = fig.subplots()
     colours = ax.contourf(im, capacity, probability, levels=np.linspace(0, 1, 21), cmap=style.PROBABILITY)
-    lines = ax.contour(im, capacity, probability, levels=[0.05, 0.2, 0.5, 0.8], colors=style.INK, linewidths=0.9)
+    lines = ax.contour(im, capacity, probability, levels=[0.05, 0.2, 0.5, 0.8], colors=[style.INK, style.INK, "white", "white"], linewidths=0.9)
     ax.clabel(lines, fmt=lambda value: f"{value:g}", fontsize=8.5)
     fig.colorbar(colours, ax=ax, label="P(Δ > capacity)", ticks=[0, 0.2, 0.4, 0.6, 0.8, 1])
     ax.set(xlabel="IM = PTA/(μ g) − 1", ylabel="capacity Δ")

@@ -7,7 +7,7 @@ from . import Picture
 
 order = 55
 CAPTION = ("Bars: share of the variance that would go if the parameter were known, with its {level} interval, motions left out in turn. "
-           "{total}What the bars of a panel lack to 1 is due to parameters that act together.")
+           "{total}{lack}")
 TOTAL = "Open points: share that the parameter has a part in, alone and together with others (total). "
 MOST_PANELS, MOST_PARAMETERS = 4, 10
 
@@ -37,26 +37,39 @@ def _picture(found, answers):
     fig = style.figure(8.6, 1.25 + 0.36 * max(len(names), 3) + 0.2)
     axes = fig.subplots(1, len(answers), sharey=True, sharex=True, squeeze=False)[0]
     y = np.arange(len(names))
-    top = 0
+    top = least = 0
     for ax, answer in zip(axes, answers):
         shares = {share.parameter: share for share in answer.shares}
         values = np.array([shares[name].share if name in shares else (np.nan,) * 4 for name in names])
         totals = np.array([shares[name].total if name in shares else (np.nan,) * 4 for name in names])
-        ax.barh(y, np.maximum(values[:, 0], 0), color=style.BLUE, alpha=0.8, height=0.62)
+        ax.barh(y, values[:, 0], color=style.BLUE, alpha=0.8, height=0.62)
         ax.hlines(y, values[:, 2], values[:, 3], color=style.INK, lw=1.1)
         if np.isfinite(totals[:, 0]).any():
             ax.hlines(y + 0.24, totals[:, 2], totals[:, 3], color=style.VERMILION, lw=1.0)
             ax.plot(totals[:, 0], y + 0.24, "o", ms=4, mfc="white", mec=style.VERMILION, mew=1.2)
-        top = max(top, np.nanmax(values[:, 3], initial=0), np.nanmax(totals[:, 3], initial=0))
-        ax.set_title(_wrapped(words.capitalised(answer.title)), weight="bold", pad=5, size=8.6)
+        top = max(top, np.nanmax(values[:, [0, 3]], initial=0), np.nanmax(totals[:, [0, 3]], initial=0))
+        least = min(least, np.nanmin(values[:, [0, 2]], initial=0), np.nanmin(totals[:, [0, 2]], initial=0))
+        if least < 0:
+            ax.axvline(0, color=style.MUTED, lw=0.8)
+        ax.set_title(_wrapped(answer.title), weight="bold", pad=5, size=8.6)
         ax.set(yticks=y, yticklabels=[words.sampled(name) for name in names], ylim=(len(names) - 0.4, -0.6), xlabel="share of the variance")
         ax.tick_params(axis="y", length=0)
         style.grid(ax, "x")
-    axes[0].set_xlim(0, min(1.02, 1.06 * top + 0.02))
+    axes[0].set_xlim(1.06 * least - 0.02 if least < 0 else 0, 1.06 * top + 0.02)
     finding = _finding(answers)
     style.headline(fig, finding, f"Shares of the variance with {words.level(found.confidence)} intervals"
                    + (f"; open points: total shares from {words.count(found.pairs)} pairs a parameter." if found.pairs else "."))
-    return Picture("sensitivity", fig, finding, CAPTION.format(level=words.level(found.confidence), total=TOTAL if found.pairs else ""), "sensitivity")
+    return Picture("sensitivity", fig, finding, CAPTION.format(level=words.level(found.confidence), total=TOTAL if found.pairs else "", lack=_lack(answers)), "sensitivity")
+
+
+def _lack(answers):
+    """What a panel lacks to 1 is of parameters together, where it is more than its error."""
+    lacking = [answer for answer in answers if answer.together[3] < 1]
+    if not lacking:
+        return "What the bars of a panel lack to 1 is no more than its error."
+    which = "a panel" if len(lacking) == len(answers) else words.listing([answer.title for answer in lacking])
+    return (f"What the bars of {which} lack to 1 is due to parameters that act together"
+            + ("." if len(lacking) == len(answers) else "; of the others it is no more than its error."))
 
 
 def _wrapped(text):
@@ -82,13 +95,16 @@ def _finding(answers):
     answer = answers[0]
     ordered = sorted(answer.shares, key=lambda share: -share.share[0])
     first = ordered[0]
-    text = f"{words.capitalised(words.sampled(first.parameter))} explains {words.percent(max(first.share[0], 0))} of the scatter of the {words.demand_meaning(answer.edp)}"
+    scatter = f"the scatter of the {words.demand_meaning(answer.edp)}" if answer.kind == "ln_demand" else f"the scatter of whether {words.happening(answer.edp)}" if answer.kind == "happens" \
+        else answer.title
+    text = (f"{words.capitalised(words.sampled(first.parameter))} explains {words.percent(first.share[0])} of {scatter}" if first.share[2] > 0
+            else f"No parameter alone explains {scatter} beyond chance")
     second = next((share for share in ordered[1:] if share.share[2] > 0.01), None)
     if second:
         text += f", {words.sampled(second.parameter)} {words.percent(second.share[0])}"
     over = next((one for one in answers if one.kind == "happens"), None)
     if over and over.shares:
         best = max(over.shares, key=lambda share: share.share[0])
-        if best.parameter != first.parameter:
+        if over is not answer and best.parameter != first.parameter and best.share[2] > 0:
             text += f"; whether {'it overturns' if over.edp == 'overturned' else over.title} hangs most on {words.sampled(best.parameter)}"
     return text

@@ -1,0 +1,43 @@
+"""Files are written aside and then renamed: a full disk leaves no cut page, and what stood there before."""
+import errno
+import os
+import tempfile
+
+from .problem import CURE, USAGE, Problem
+
+CURABLE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EIO)  # as freestand: to be cured before going on helps
+
+
+def write(path, content):
+    """content: text or bytes."""
+    content = content.encode("utf-8") if isinstance(content, str) else content
+    try:
+        if path.exists() and not path.is_file():  # a pipe
+            path.write_bytes(content)
+        else:
+            _aside(path.resolve(), content)
+    except OSError as why:
+        raise unwritten(path, why) from why
+
+
+def _aside(path, content):
+    number, aside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    try:
+        with os.fdopen(number, "wb") as file:
+            file.write(content)
+            file.flush()
+            os.fsync(number)
+        mask = os.umask(0)
+        os.umask(mask)
+        os.chmod(aside, 0o666 & ~mask)  # mkstemp's are its owner's alone
+        os.replace(aside, path)
+    except BaseException:
+        os.unlink(aside)
+        raise
+
+
+def unwritten(path, why):
+    reason = "no permission" if isinstance(why, PermissionError) else (why.strerror or str(why)).lower()
+    if why.errno in CURABLE:
+        return Problem(f"{path} cannot be written ({reason}): cure it, as by freeing some space, and start again; what stood there is kept", CURE)
+    return Problem(f"{path} cannot be written ({reason}): give another place with -o", USAGE)
