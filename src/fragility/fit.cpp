@@ -144,23 +144,4 @@ Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs) {
   return result;
 }
 
-HalfWidth half_width(const Result& result) {
-  HalfWidth width;
-  double largest = -1;
-  for (const EdpResult& edp : result.edps)
-    for (std::size_t i = 0; i < edp.surface.probability.size(); ++i) {
-      const std::size_t bin = i / edp.capacity.size();
-      const double band = (edp.surface.upper[i] - edp.surface.lower[i]) / 2;
-      ++(std::isnan(band) ? width.empty_points : width.points);
-      const double half = std::isnan(band) ? 0.5 : band;
-      if (edp.bins[bin].n == 0 || half <= largest) continue;
-      largest = half;
-      width.edp = edp.name;
-      width.im = result.im[bin];
-      width.capacity = edp.capacity[i % edp.capacity.size()];
-    }
-  if (largest >= 0 && width.points > 0) width.largest = largest;
-  return width;
-}
-
 }  // namespace freestand::fragility

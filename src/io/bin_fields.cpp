@@ -1,5 +1,6 @@
 #include "io/bin_fields.hpp"
 
+#include <cstdint>
 #include <type_traits>
 
 namespace freestand::io {
@@ -13,10 +14,21 @@ double get(const Values& values) {
   return static_cast<double>(values.*member);
 }
 
+// The last value of an enumeration.
+constexpr auto last(fragility::BinStatus) { return fragility::BinStatus::counts_only; }
+
 template <class Values, auto member>
-void set(Values& values, double value) {
+bool set(Values& values, double value) {
   using Member = std::remove_reference_t<decltype(values.*member)>;
+  if constexpr (!std::is_floating_point_v<Member>) {
+    double most = std::is_same_v<Member, bool> ? 1 : 0x1p31 - 1;
+    if constexpr (std::is_enum_v<Member>) most = static_cast<double>(last(Member{}));
+    if constexpr (std::is_same_v<Member, std::int64_t>) most = 0x1p53;
+    const double least = std::is_signed_v<Member> ? -most : 0;
+    if (!(value >= least && value <= most)) return false;
+  }
   values.*member = static_cast<Member>(value);
+  return true;
 }
 
 constexpr auto one = FieldUnit::one, edp = FieldUnit::edp;

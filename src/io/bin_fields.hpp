@@ -15,7 +15,7 @@ struct BinField {
   FieldUnit unit;
   const char* description;
   double (*value)(const fragility::BinFit&);
-  void (*set)(fragility::BinFit&, double);
+  bool (*set)(fragility::BinFit&, double);  // false: it can be no value of this field
 };
 
 std::span<const BinField> bin_fields();
@@ -25,7 +25,7 @@ struct FunctionField {
   bool of_im;  // in the unit of IM; else a plain number
   const char* description;
   double (*value)(const fragility::FragilityFunction&);
-  void (*set)(fragility::FragilityFunction&, double);
+  bool (*set)(fragility::FragilityFunction&, double);
 };
 
 std::span<const FunctionField> function_fields();

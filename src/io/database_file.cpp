@@ -52,7 +52,7 @@ void read_column(const h5::Group& group, const DatabaseColumn<Row>& column, std:
   if (const auto* text = std::get_if<std::string Row::*>(&column.member))
     fill(dataset.read_texts(), *text);
   else if (const auto* whole = std::get_if<std::int64_t Row::*>(&column.member))
-    fill(dataset.read(), *whole);
+    fill(dataset.read_integers(), *whole);
   else
     fill(dataset.read(), std::get<double Row::*>(column.member));
 }
@@ -85,20 +85,20 @@ void write_words(h5::Group& root, const char* name, const std::vector<Word>& wor
 
 std::vector<Word> read_words(const h5::Group& root, const char* name) {
   const h5::Group group = root.open_group(name);
-  const auto names = group.open_dataset("name").read_texts(), units = group.open_dataset("unit").read_texts(),
-             symbols = group.open_dataset("symbol").read_texts(),
-             summaries = group.open_dataset("summary").read_texts();
-  const std::vector<double> binary = group.open_dataset("binary").read();
+  const auto names = group.open_dataset("name").read_texts();
+  const auto texts = [&](const char* of) { return group.open_dataset(of).read_texts(names.size()); };
+  const auto units = texts("unit"), symbols = texts("symbol"), summaries = texts("summary");
+  const std::vector<double> binary = group.open_dataset("binary").read(names.size());
   std::vector<Word> words;
   for (std::size_t i = 0; i < names.size(); ++i)
-    words.push_back({names[i], units.at(i), symbols.at(i), summaries.at(i), binary.at(i) != 0});
+    words.push_back({names[i], units[i], symbols[i], summaries[i], binary[i] != 0});
   return words;
 }
 
-// Rows of another table that `group`/`name` points to, each below `count`.
-std::vector<std::size_t> read_rows(const h5::Group& group, const char* name, std::size_t count) {
+// Rows of another table that each of `points` rows of `group`/`name` points to, each below `count`.
+std::vector<std::size_t> read_rows(const h5::Group& group, const char* name, std::size_t points, std::size_t count) {
   std::vector<std::size_t> rows;
-  for (const double value : group.open_dataset(name).read()) {
+  for (const double value : group.open_dataset(name).read(points)) {
     if (!(value >= 0 && value < static_cast<double>(count)))
       throw Error(fmt::format("{} cannot be used ({} points to row {} of {}): build the database again",
                               group.file_path(), name, value, count),
@@ -172,12 +172,12 @@ Database read_database(const std::filesystem::path& path) {
                   points = root.open_group("points");
   for (const auto& column : entry_columns()) read_column(entries, column, db.entries);
   for (const auto& column : curve_columns()) read_column(curves, column, db.curves);
-  const auto entry_of = read_rows(curves, "entry", db.entries.size());
-  for (std::size_t i = 0; i < db.curves.size(); ++i) db.curves[i].entry = entry_of.at(i);
+  const auto entry_of = read_rows(curves, "entry", db.curves.size(), db.entries.size());
+  for (std::size_t i = 0; i < db.curves.size(); ++i) db.curves[i].entry = entry_of[i];
   std::vector<Point> all;
   for (const auto& column : point_columns()) read_column(points, column, all);
-  const auto curve_of = read_rows(points, "curve", db.curves.size());
-  for (std::size_t i = 0; i < all.size(); ++i) db.curves[curve_of.at(i)].points.push_back(all[i]);
+  const auto curve_of = read_rows(points, "curve", all.size(), db.curves.size());
+  for (std::size_t i = 0; i < all.size(); ++i) db.curves[curve_of[i]].points.push_back(all[i]);
   return db;
 }
 

@@ -70,7 +70,8 @@ enum class Type { real, integer, flag, integer64 };  // float64, int32, uint8, i
 class Dataset : public Object {
  public:
   Dimensions dimensions() const;
-  Type type() const;  // Exit::data if it is none of these
+  std::size_t rows() const;  // of a dataset of one dimension; Exit::data if it has another number of them
+  Type type() const;         // Exit::data if it is none of these
 
   // Whole dataset, row-major. The count must be that of the dataset; values are converted from the C++ type to the type
   // of the file by HDF5.
@@ -78,9 +79,13 @@ class Dataset : public Object {
   void write(const std::vector<std::int64_t>& values);
   void write(const std::vector<std::int32_t>& values);
   void write(const std::vector<std::uint8_t>& values);
+  // Read whole, row-major; with a count, that many or Error (Exit::data). What the file does not hold takes no memory.
   std::vector<double> read() const;
+  std::vector<double> read(std::size_t count) const;
   std::vector<std::int64_t> read_integers() const;
+  std::vector<std::int64_t> read_integers(std::size_t count) const;
   std::vector<std::string> read_texts() const;
+  std::vector<std::string> read_texts(std::size_t count) const;
 
   // Rows first .. first+count-1 of a one-dimensional dataset.
   std::vector<double> read_rows(std::uint64_t first, std::uint64_t count) const;

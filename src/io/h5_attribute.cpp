@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <freestand/error.hpp>
 
 #include "io/h5_internal.hpp"
@@ -30,9 +31,12 @@ OpenAttribute open_attribute(Id object, const std::string& file, const std::stri
   open.attribute = checked(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose, file, what, Doing::reading);
   open.type = checked(H5Aget_type(open.attribute.id()), H5Tclose, file, what, Doing::reading);
   open.space = checked(H5Aget_space(open.attribute.id()), H5Sclose, file, what, Doing::reading);
-  open.count = static_cast<std::size_t>(H5Sget_simple_extent_npoints(open.space.id()));
+  open.count = static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(open.space.id())));
   if (H5Tget_class(open.type.id()) != kind)
     throw failure(file, "attribute " + name + " is of another type than expected", Doing::reading);
+  const hsize_t most = file_bytes(object);  // attributes are not packed: all of their values lie there
+  if (open.count > most || H5Tget_size(open.type.id()) > most)
+    throw failure(file, "attribute " + name + " is to be larger than the file", Doing::reading);
   return open;
 }
 

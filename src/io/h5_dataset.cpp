@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <freestand/error.hpp>
 #include <functional>
 #include <numeric>
@@ -52,22 +53,55 @@ struct RowSpaces {
   }
 };
 
+// deflate makes a thousandth of what is all alike (1032 to 1, as zlib's page says), and nothing less: a dataset of more values than that
+// is none that was written.
+constexpr double most_packed = 1032;
+
+// How many values the dataset has. Throws where the file cannot hold them.
+std::size_t held_count(Id dataset, const std::string& file, const Dimensions& dimensions) {
+  const Handle type = checked(H5Dget_type(dataset), H5Tclose, file, "type of a dataset", Doing::reading);
+  double bytes = static_cast<double>(H5Tget_size(type.id()));
+  for (const std::uint64_t extent : dimensions) bytes *= static_cast<double>(extent);
+  const auto stored = static_cast<double>(std::min(H5Dget_storage_size(dataset), file_bytes(dataset)));
+  if (bytes > most_packed * stored)
+    throw failure(file,
+                  fmt::format("{} is to have {:.4g} bytes, of which {:.4g} are there", name_of(dataset), bytes, stored),
+                  Doing::reading);
+  return count_of(dimensions);
+}
+
 template <class T>
 std::vector<T> read_all(Id id, const std::string& file, const Dimensions& dimensions) {
-  std::vector<T> values(count_of(dimensions));
+  std::vector<T> values(held_count(id, file, dimensions));
   const std::string name = name_of(id);
   if (!values.empty() && H5Dread(id, memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     throw failure(file, name, Doing::reading);
   return values;
 }
 
+template <class T>
+std::vector<T> counted(std::vector<T> values, std::size_t count, Id dataset, const std::string& file) {
+  if (values.size() == count) return values;
+  throw failure(file, fmt::format("{} holds {} values, and {} belong there", name_of(dataset), values.size(), count),
+                Doing::reading);
+}
+
 }  // namespace
 
 Dimensions Dataset::dimensions() const {
   const Handle space = space_of(id(), *file_);
-  std::vector<hsize_t> extent(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space.id())));
+  if (H5Sget_simple_extent_type(space.id()) == H5S_NULL) return {0};  // made without any values
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.id()))));
   H5Sget_simple_extent_dims(space.id(), extent.data(), nullptr);
   return {extent.begin(), extent.end()};
+}
+
+std::size_t Dataset::rows() const {
+  const Dimensions extent = dimensions();
+  if (extent.size() != 1)
+    throw failure(*file_, fmt::format("{} has {} dimensions instead of one", name_of(id()), extent.size()),
+                  Doing::reading);
+  return held_count(id(), *file_, extent);
 }
 
 Type Dataset::type() const {
@@ -87,10 +121,14 @@ void Dataset::write(const std::vector<std::int32_t>& values) { write_all(id(), *
 void Dataset::write(const std::vector<std::uint8_t>& values) { write_all(id(), *file_, dimensions(), values); }
 
 std::vector<double> Dataset::read() const { return read_all<double>(id(), *file_, dimensions()); }
+std::vector<double> Dataset::read(std::size_t count) const { return counted(read(), count, id(), *file_); }
 std::vector<std::int64_t> Dataset::read_integers() const { return read_all<std::int64_t>(id(), *file_, dimensions()); }
+std::vector<std::int64_t> Dataset::read_integers(std::size_t count) const {
+  return counted(read_integers(), count, id(), *file_);
+}
 
 std::vector<std::string> Dataset::read_texts() const {
-  std::vector<char*> texts(count_of(dimensions()), nullptr);
+  std::vector<char*> texts(held_count(id(), *file_, dimensions()), nullptr);
   if (texts.empty()) return {};
   const Handle type = text_type(*file_);
   const Handle space = space_of(id(), *file_);
@@ -103,12 +141,18 @@ std::vector<std::string> Dataset::read_texts() const {
   return values;
 }
 
+std::vector<std::string> Dataset::read_texts(std::size_t count) const {
+  return counted(read_texts(), count, id(), *file_);
+}
+
 std::int64_t Dataset::offset() const { return static_cast<std::int64_t>(H5Dget_offset(id())); }
 
 std::vector<double> Dataset::read_rows(std::uint64_t first, std::uint64_t count) const {
-  std::vector<double> values(count);
   const std::string name = name_of(id());
-  if (count == 0) return values;
+  if (count == 0) return {};
+  if (first + count > rows())
+    throw failure(*file_, fmt::format("{} ends before row {}", name, first + count), Doing::reading);
+  std::vector<double> values(count);
   const RowSpaces spaces(id(), *file_, first, count);
   if (H5Dread(id(), H5T_NATIVE_DOUBLE, spaces.memory.id(), spaces.file.id(), H5P_DEFAULT, values.data()) < 0)
     throw failure(*file_, fmt::format("rows {} to {} of {}", first, first + count, name), Doing::reading);

@@ -77,6 +77,13 @@ Error failure(const std::string& file, const std::string& what, Doing doing) {
                doing == Doing::writing ? Exit::cure : Exit::data);
 }
 
+hsize_t file_bytes(Id object) {
+  const Handle file(H5Iget_file_id(object), H5Fclose);
+  hsize_t bytes = 0;
+  H5Fget_filesize(file.id(), &bytes);
+  return bytes;
+}
+
 Handle& Handle::operator=(Handle&& other) noexcept {
   if (this == &other) return *this;
   close();

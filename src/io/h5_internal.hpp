@@ -34,6 +34,9 @@ Id memory_type() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
 }
 
+// Of the file in which an object lies.
+hsize_t file_bytes(Id object);
+
 // Variable-length UTF-8.
 Handle text_type(const std::string& file);
 

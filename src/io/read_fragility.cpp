@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <freestand/error.hpp>
 
 #include "io/bin_fields.hpp"
@@ -14,60 +16,103 @@ using h5::Group;
 
 std::vector<double> values(const Group& group, const std::string& name) { return group.open_dataset(name).read(); }
 
-std::vector<std::int64_t> whole(const Group& group, const std::string& name) {
-  const std::vector<double> read = values(group, name);
-  return {read.begin(), read.end()};
+std::vector<double> values(const Group& group, const std::string& name, std::size_t count) {
+  return group.open_dataset(name).read(count);
+}
+
+std::vector<std::int64_t> whole(const Group& group, const std::string& name, std::size_t count) {
+  return group.open_dataset(name).read_integers(count);
+}
+
+Error misfit(const Group& group, const std::string& what) {
+  return Error(fmt::format("{} cannot be used ({}): fit again", group.file_path(), what), Exit::data);
+}
+
+template <class Field, class Values>
+void set(const Group& group, const Field& field, Values& values, double value) {
+  if (!field.set(values, value)) throw misfit(group, fmt::format("{} is {}", field.name, value));
 }
 
 void read_bins(const Group& group, EdpResult& edp, std::size_t bins) {
   edp.bins.resize(bins);
   for (const BinField& field : bin_fields()) {
-    const std::vector<double> read = values(group, field.name);
-    for (std::size_t i = 0; i < bins; ++i) field.set(edp.bins[i], read.at(i));
+    const std::vector<double> read = values(group, field.name, bins);
+    for (std::size_t i = 0; i < bins; ++i) set(group, field, edp.bins[i], read[i]);
   }
 }
 
-void read_curve(const Group& group, std::vector<double> FragilityFunction::*to, const char* name,
+// As many for each curve.
+void read_curve(const Group& group, std::vector<double> FragilityFunction::*to, const char* name, std::size_t width,
                 std::vector<FragilityFunction>& curves) {
-  const std::vector<double> read = values(group, name);
-  const auto width = static_cast<std::ptrdiff_t>(read.size() / curves.size());
+  const std::vector<double> read = values(group, name, width * curves.size());
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    const auto row = read.begin() + static_cast<std::ptrdiff_t>(c) * width;
-    (curves[c].*to).assign(row, row + width);
+    const auto row = read.begin() + static_cast<std::ptrdiff_t>(c * width);
+    (curves[c].*to).assign(row, row + static_cast<std::ptrdiff_t>(width));
   }
 }
 
 void read_curves(const Group& group, std::vector<FragilityFunction>& curves) {
-  read_curve(group, &FragilityFunction::probability, "probability", curves);
-  read_curve(group, &FragilityFunction::lower, "lower", curves);
-  read_curve(group, &FragilityFunction::upper, "upper", curves);
-  read_curve(group, &FragilityFunction::resampled_median, "resampled_median", curves);
-  read_curve(group, &FragilityFunction::resampled_dispersion, "resampled_dispersion", curves);
+  const std::vector<double> grid = values(group, "grid");
+  read_curve(group, &FragilityFunction::probability, "probability", grid.size(), curves);
+  read_curve(group, &FragilityFunction::lower, "lower", grid.size(), curves);
+  read_curve(group, &FragilityFunction::upper, "upper", grid.size(), curves);
+  const std::size_t resamples = group.open_dataset("resample").rows();
+  read_curve(group, &FragilityFunction::resampled_median, "resampled_median", resamples, curves);
+  read_curve(group, &FragilityFunction::resampled_dispersion, "resampled_dispersion", resamples, curves);
   if (group.has("left_out_median")) {
-    read_curve(group, &FragilityFunction::left_out_median, "left_out_median", curves);
-    read_curve(group, &FragilityFunction::left_out_dispersion, "left_out_dispersion", curves);
+    const std::size_t left_out = group.open_dataset("left_out").rows();
+    read_curve(group, &FragilityFunction::left_out_median, "left_out_median", left_out, curves);
+    read_curve(group, &FragilityFunction::left_out_dispersion, "left_out_dispersion", left_out, curves);
   }
-  for (FragilityFunction& curve : curves) curve.grid = values(group, "grid");
+  for (FragilityFunction& curve : curves) curve.grid = grid;
 }
 
 void read_functions(const Group& group, EdpResult& edp) {
   edp.functions.resize(edp.capacity.size());
   for (const FunctionField& field : function_fields()) {
-    const std::vector<double> read = values(group, field.name);
-    for (std::size_t c = 0; c < edp.functions.size(); ++c) field.set(edp.functions[c], read.at(c));
+    const std::vector<double> read = values(group, field.name, edp.functions.size());
+    for (std::size_t c = 0; c < edp.functions.size(); ++c) set(group, field, edp.functions[c], read[c]);
   }
   read_curves(group, edp.functions);
 }
 
-AxisSurface read_axis(const Group& group, const std::string& name) {
+AxisSurface read_axis(const Group& group, const std::string& name, std::size_t bins, std::size_t capacities) {
+  const std::vector<double> centre = values(group, "centre");
+  const std::size_t cells = bins * centre.size(), points = cells * capacities;
   return {name,
           group.text_attribute("unit"),
-          values(group, "edge"),
-          values(group, "centre"),
-          values(group, "probability"),
-          values(group, "lower"),
-          values(group, "upper"),
-          whole(group, "n")};
+          values(group, "edge", centre.size() + 1),
+          centre,
+          values(group, "probability", points),
+          values(group, "lower", points),
+          values(group, "upper", points),
+          whole(group, "n", cells)};
+}
+
+// One surface for each resample, or each group left out.
+std::vector<double> read_surfaces(const Group& group, const char* name, std::size_t points) {
+  if (!group.has(name)) return {};
+  const std::vector<double> read = values(group, name);
+  if (points == 0 || read.size() % points != 0)
+    throw misfit(group, fmt::format("{} has {} values, for surfaces of {} points", name, read.size(), points));
+  return read;
+}
+
+fragility::Surface read_surface(const Group& group, std::size_t points) {
+  return {values(group, "probability", points),
+          values(group, "lower", points),
+          values(group, "upper", points),
+          values(group, "empirical", points),
+          values(group, "least", points),
+          values(group, "most", points),
+          read_surfaces(group, "resampled", points),
+          read_surfaces(group, "probability_left_out", points)};
+}
+
+fragility::Distribution read_distribution(const Group& group, std::size_t bins) {
+  const std::vector<double> edges = values(group, "ln_edge");
+  if (edges.empty()) throw misfit(group, "the cells of ln EDP have no edges");
+  return {edges, whole(group, "count", bins * (edges.size() - 1))};
 }
 
 EdpResult read_edp(const Group& group, const std::string& name, std::size_t bins) {
@@ -81,31 +126,28 @@ EdpResult read_edp(const Group& group, const std::string& name, std::size_t bins
     edp.regressions.*field.value = group.real_attribute(field.name);
   edp.capacity = values(group, "capacity");
   read_bins(group, edp, bins);
-  const Group surface = group.open_group("surface");
-  edp.surface = {values(surface, "probability"),
-                 values(surface, "lower"),
-                 values(surface, "upper"),
-                 values(surface, "empirical"),
-                 values(surface, "least"),
-                 values(surface, "most"),
-                 surface.has("resampled") ? values(surface, "resampled") : std::vector<double>{},
-                 surface.has("probability_left_out") ? values(surface, "probability_left_out") : std::vector<double>{}};
+  edp.surface = read_surface(group.open_group("surface"), bins * edp.capacity.size());
   if (group.has("functions")) read_functions(group.open_group("functions"), edp);
-  if (group.has("distribution")) {
-    const Group distribution = group.open_group("distribution");
-    edp.distribution = {values(distribution, "ln_edge"), whole(distribution, "count")};
-  }
+  if (group.has("distribution")) edp.distribution = read_distribution(group.open_group("distribution"), bins);
   if (!group.has("axis")) return edp;
   const Group axes = group.open_group("axis");
-  for (const std::string& axis : axes.names()) edp.axes.push_back(read_axis(axes.open_group(axis), axis));
+  for (const std::string& axis : axes.names())
+    edp.axes.push_back(read_axis(axes.open_group(axis), axis, bins, edp.capacity.size()));
   return edp;
 }
 
 FragilityFunction read_overturning(const Group& group) {
   std::vector<FragilityFunction> curves(1);
-  for (const FunctionField& field : function_fields()) field.set(curves[0], group.real_attribute(field.name));
+  for (const FunctionField& field : function_fields())
+    set(group, field, curves[0], group.real_attribute(field.name));
   read_curves(group, curves);
   return curves[0];
+}
+
+fragility::Covariance read_covariance(const Group& group, std::size_t bins) {
+  const std::vector<std::string> edps = group.open_dataset("edp").read_texts();
+  const std::size_t pairs = bins * edps.size() * edps.size();
+  return {edps, values(group, "ln_covariance", pairs), whole(group, "n", pairs)};
 }
 
 }  // namespace
@@ -122,8 +164,10 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
   result.confidence = root.real_attribute("confidence");
   result.resamples = static_cast<int>(root.integer_attribute("resamples"));
   const std::vector<std::int64_t> outcomes = root.integers_attribute("outcome_counts");
-  for (std::size_t i = 0; i < result.outcome_counts.size(); ++i) {
-    result.outcome_counts[i] = outcomes.at(i);
+  if (outcomes.size() != result.outcome_counts.size())
+    throw misfit(root, fmt::format("it counts {} outcomes instead of {}", outcomes.size(), result.outcome_counts.size()));
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    result.outcome_counts[i] = outcomes[i];
     result.samples += outcomes[i];
   }
   result.outside_im = root.integer_attribute("outside_im");
@@ -132,16 +176,13 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
     result.left_out_records = static_cast<int>(root.integer_attribute("left_out_records"));
   result.warnings = root.texts_attribute("warnings");
   const Group im = root.open_group("im");
-  result.im_edge = values(im, "edge");
   result.im = values(im, "centre");
+  result.im_edge = values(im, "edge", result.im.size() + 1);
   const Group edps = root.open_group("edp");
   for (const std::string& name : edps.names())
     result.edps.push_back(read_edp(edps.open_group(name), name, result.im.size()));
   result.overturning = read_overturning(root.open_group("overturning"));
-  if (root.has("covariance")) {
-    const Group group = root.open_group("covariance");
-    result.covariance = {group.open_dataset("edp").read_texts(), values(group, "ln_covariance"), whole(group, "n")};
-  }
+  if (root.has("covariance")) result.covariance = read_covariance(root.open_group("covariance"), result.im.size());
   return read;
 }
 

@@ -203,7 +203,8 @@ MotionRows read_motions(const h5::Group& group) {
   MotionRows motions;
   motions.fingerprint = group.text_attribute("fingerprint");
   motions.names = group.open_dataset("name").read_texts();
-  for (const double number : group.open_dataset("group").read()) motions.group.push_back(static_cast<int>(number));
+  for (const std::int64_t number : group.open_dataset("group").read_integers())
+    motions.group.push_back(static_cast<int>(number));
   motions.sa_period_s = group.open_dataset("period_s").read();
   motions.sa_mps2 = group.open_dataset("sa_mps2").read();
   std::vector<std::vector<double>> columns;
@@ -260,13 +261,15 @@ SampleReader::SampleReader(const std::filesystem::path& path)
   const h5::Group root = file_->root();
   provenance_ = read_provenance(root, samples_format);
   const h5::Group samples = root.open_group("samples");
+  const std::size_t rows = samples.open_dataset("sample").rows();
+  rows_ = static_cast<std::int64_t>(rows);
   for (const std::string& name : samples.names()) {
     const h5::Dataset dataset = samples.open_dataset(name);
-    if (name == "sample") {
-      rows_ = static_cast<std::int64_t>(dataset.dimensions().at(0));
-      continue;
-    }
-    columns_.push_back(column_of(name, dataset));
+    if (dataset.rows() != rows)
+      throw Error(fmt::format("{} cannot be used (its column {} has {} rows, and {} samples): run the sweep again",
+                              path.string(), name, dataset.rows(), rows),
+                  Exit::data);
+    if (name != "sample") columns_.push_back(column_of(name, dataset));
   }
   motions_ = read_motions(root.open_group("motions"));
 }

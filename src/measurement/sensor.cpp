@@ -88,11 +88,10 @@ double drift_of(const Sensor& sensor, const std::vector<QuietStretch>& stretches
       tests[stretch.test].xx += x * x;
     }
   }
-  double chi_square = 0, weights = 0, squares = 0;
+  double chi_square = 0, weights = 0;
   for (const auto& [test, slope] : tests) {
     chi_square += slope.xy * slope.xy / slope.xx;
     weights += slope.xx;
-    squares += slope.xx * slope.xx;
   }
   const auto n = static_cast<double>(tests.size());
   if (chi_square < gsl_cdf_chisq_Pinv(level, n)) return 0;

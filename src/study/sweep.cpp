@@ -8,7 +8,7 @@
 #include <numeric>
 #include <optional>
 
-#include "fragility/fit.hpp"
+#include "fragility/half_width.hpp"
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 #include "io/samples_file.hpp"
@@ -249,11 +249,9 @@ class Sweep {
   bool known_well_enough(std::int64_t samples) {
     const fragility::Result result = result_so_far(samples);
     double half_width = 0;
-    if (world_.is_root()) half_width = fragility::half_width(result).largest;
+    if (world_.is_root()) half_width = fragility::half_width(result, wanted(study_)).largest;
     half_width = world_.broadcast(std::vector<double>{half_width}).front();
-    if (world_.is_root() && !options_.quiet)
-      parallel::tell(fmt::format("{} samples: the surface is known to +-{:.3f} (wanted +-{:.3f})\n", samples,
-                                 half_width, study_.until->half_width));
+    if (world_.is_root() && !options_.quiet) parallel::tell(round_told(study_, result) + "\n");
     return half_width <= study_.until->half_width;
   }
 

@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from support import InFolder, datasets, h5py, study_text
+from support import InFolder, datasets, h5py, study_text, write_records
 
 TEXT = study_text(block_size=256).replace("samples: 3000", "until: {half_width: 0.08, at_most: 200000}")
 
@@ -19,7 +19,16 @@ class Until(InFolder):
         with h5py.File(folder / "fragility.h5") as file:
             surface = file["edp/delta/surface"]
             half_width = (surface["upper"][()] - surface["lower"][()]).max() / 2
+            axis = file["edp/delta/axis/friction_mu_k"]
+            cells = ((axis["upper"][()] - axis["lower"][()]) / 2)[axis["n"][()] >= 30]
         self.assertLessEqual(half_width, 0.08)
+        self.assertLessEqual(cells.max(), 0.08)  # of the second axis too
+        self.assertGreater(cells.max(), half_width)
+        self.assertIn("samples are needed", done.stderr)
+        until = json.loads((folder / "summary.json").read_text())["until"]
+        self.assertEqual(until["half_width_reached"], cells.max())
+        self.assertIn("friction_mu_k", until["widest"])
+        self.assertLessEqual(until["samples_needed"], samples)
         one = self.folder / "one"
         self.succeed(["run", self.write("u.yaml", TEXT), "-o", one, "--quiet"])
         self.assertEqual(datasets(one / "samples.h5"), datasets(folder / "samples.h5"))
@@ -40,12 +49,25 @@ class Until(InFolder):
             half_width = (surface["upper"][()] - surface["lower"][()]).max() / 2
         self.assertGreaterEqual(until["half_width_reached"], half_width)
         self.assertTrue(any("was to be known" in warning for warning in summary["warnings"]))
+        self.assertGreater(until["samples_needed"], 1e5)
+        self.assertIn("samples are needed: raise at_most from 1024", done.stderr)
         alone = self.succeed(["sweep", self.study, "-o", self.folder / "alone", "--quiet"])  # no fit will tell
         self.assertIn("was to be known to +-0.001, and after 1024 samples", alone.stderr)
         self.assertEqual(alone.stderr.count("\n"), 1)
         reached = TEXT.replace("half_width: 0.08", "half_width: 0.49")
         self.succeed(["run", self.write("v.yaml", reached), "-o", self.folder / "v"])
         self.assertTrue(json.loads((self.folder / "v" / "summary.json").read_text())["until"]["reached"])
+
+    def test_records_that_are_too_few_are_told(self):
+        write_records(self.folder / "records")
+        text = TEXT.replace("until: {half_width: 0.08, at_most: 200000}", "until: {half_width: 0.05, at_most: 4096}")
+        text = text.replace("  - {pulse: [A, B, C1], period_s: {uniform: [0.3, 1.5]}, peak_acceleration_g: {uniform: [0.1, 2]}}",
+                            '  - {records: "records/*.csv", scale_to: {pta_g: {uniform: [0.1, 1]}}}').replace(", axes: [friction.mu_k]", "")
+        done = self.succeed(["run", self.write("r.yaml", text), "-o", self.folder / "out"])
+        self.assertIn("however many samples are made of these records: take more records", done.stderr)
+        until = json.loads((self.folder / "out" / "summary.json").read_text())["until"]
+        self.assertIsNone(until["samples_needed"])
+        self.assertGreater(until["stays_above"], 0.05)
 
 
 if __name__ == "__main__":

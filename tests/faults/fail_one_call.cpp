@@ -4,7 +4,9 @@
 //   FAULT_CALL     which of the calls, from 1
 //   FAULT_KIND     enospc, eio, eintr: the call fails with that error; short: a write does half; renamed: a rename is done
 //                  and tells ENOENT, as one that a network file system has sent twice; killed: the process dies
-//                  before the call; torn: it dies when half of a write is done
+//                  before the call; torn: it dies when half of a write is done; lost: it dies before the call, and with it the
+//                  machine: of what was not synced each write, new name and rename is kept, gone or spoilt (unsynced.hpp)
+//   FAULT_SEED     of what becomes of that
 //   FAULT_LASTING  1: every call from then on, not that one alone
 //   FAULT_RANK     only the process of this rank under mpirun
 //   FAULT_TOLD     a file that is made when the call is reached
@@ -24,9 +26,11 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "unsynced.hpp"
+
 namespace {
 
-enum class Kind { none, enospc, eio, eintr, short_write, renamed, killed, torn };
+enum class Kind { none, enospc, eio, eintr, short_write, renamed, killed, torn, lost };
 
 const char* setting(const char* name) {
   const char* text = std::getenv(name);
@@ -36,8 +40,8 @@ const char* setting(const char* name) {
 Kind kind_in_environment() {
   const char* rank = std::getenv("FAULT_RANK");
   if (rank && std::strcmp(rank, setting("OMPI_COMM_WORLD_RANK")) != 0) return Kind::none;
-  const char* names[] = {"none", "enospc", "eio", "eintr", "short", "renamed", "killed", "torn"};
-  for (int i = 1; i < 8; ++i)
+  const char* names[] = {"none", "enospc", "eio", "eintr", "short", "renamed", "killed", "torn", "lost"};
+  for (int i = 1; i < 9; ++i)
     if (std::strcmp(setting("FAULT_KIND"), names[i]) == 0) return static_cast<Kind>(i);
   return Kind::none;
 }
@@ -47,10 +51,23 @@ bool is_below(const char* path) {
   return path && *folder && std::strncmp(path, folder, std::strlen(folder)) == 0;
 }
 
-bool is_below(int descriptor) {
+std::string path_of(int descriptor) {
   char name[64], path[PATH_MAX] = {};
   std::snprintf(name, sizeof name, "/proc/self/fd/%d", descriptor);
-  return ::readlink(name, path, sizeof path - 1) > 0 && is_below(path);
+  return ::readlink(name, path, sizeof path - 1) > 0 ? path : "";
+}
+bool is_below(int descriptor) { return is_below(path_of(descriptor).c_str()); }
+
+Unsynced& unsynced() {
+  static Unsynced all(setting("FAULT_TOLD"));
+  return all;
+}
+
+// Is what is not synced kept in mind?
+template <class Where>
+bool minded(Where where) {
+  static const bool lost = kind_in_environment() == Kind::lost;
+  return lost && is_below(where);
 }
 
 // Is this call, which counts, to fail?
@@ -68,7 +85,8 @@ template <class Where>
 Kind fault(Where where) {
   static const Kind kind = kind_in_environment();
   if (kind == Kind::none || !is_below(where) || !fails()) return Kind::none;
-  if (kind == Kind::killed) ::kill(::getpid(), SIGKILL);
+  if (kind == Kind::lost) unsynced().lose(std::strtoul(setting("FAULT_SEED"), nullptr, 10));
+  if (kind == Kind::killed || kind == Kind::lost) ::kill(::getpid(), SIGKILL);
   return kind;
 }
 
@@ -85,11 +103,17 @@ Call next(const char* name) {
   return reinterpret_cast<Call>(::dlsym(RTLD_NEXT, name));
 }
 
+// offset: -1 where the file is.
 template <class Write>
-ssize_t written(int descriptor, size_t size, const Write& write) {
+ssize_t written(int descriptor, off_t offset, size_t size, const Write& write) {
   const Kind kind = fault(descriptor);
   if (fails_at_once(kind, true)) return -1;
-  if ((kind != Kind::short_write && kind != Kind::torn) || size < 2) return write(size);
+  if ((kind != Kind::short_write && kind != Kind::torn) || size < 2) {
+    const ssize_t done = write(size);
+    if (done > 0 && minded(descriptor))
+      unsynced().write(path_of(descriptor), offset >= 0 ? offset : ::lseek(descriptor, 0, SEEK_CUR) - done, done);
+    return done;
+  }
   const ssize_t half = write(size / 2);
   if (kind == Kind::torn) ::kill(::getpid(), SIGKILL);
   return half;
@@ -97,8 +121,8 @@ ssize_t written(int descriptor, size_t size, const Write& write) {
 
 // Pieces are written by the first alone where a part is asked for.
 template <class Write>
-ssize_t pieces_written(int descriptor, const iovec* pieces, int count, const Write& write) {
-  return written(descriptor, static_cast<size_t>(2 * count), [&](size_t twice) {
+ssize_t pieces_written(int descriptor, off_t offset, const iovec* pieces, int count, const Write& write) {
+  return written(descriptor, offset, static_cast<size_t>(2 * count), [&](size_t twice) {
     return twice == static_cast<size_t>(2 * count) || count == 1 ? write(pieces, count) : write(pieces, static_cast<int>(twice / 2));
   });
 }
@@ -107,8 +131,20 @@ bool opens_for_writing(int flags) { return (flags & (O_WRONLY | O_RDWR | O_CREAT
 
 template <class Open>
 int opened(const char* path, int flags, const Open& open) {
-  if (opens_for_writing(flags) && fails_at_once(fault(path), true)) return -1;
-  return open();
+  if (!opens_for_writing(flags)) return open();
+  if (fails_at_once(fault(path), true)) return -1;
+  const bool made = minded(path) && ::access(path, F_OK) != 0;
+  const int descriptor = open();
+  if (made && descriptor >= 0) unsynced().make(path);
+  return descriptor;
+}
+
+template <class Sync>
+int synced(int descriptor, const Sync& sync) {
+  if (fails_at_once(fault(descriptor), true)) return -1;
+  const int result = sync();
+  if (result == 0 && minded(descriptor)) unsynced().sync(path_of(descriptor));
+  return result;
 }
 
 template <class Where, class Call>
@@ -123,20 +159,20 @@ extern "C" {
 
 ssize_t write(int descriptor, const void* data, size_t size) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
-  return written(descriptor, size, [&](size_t part) { return real(descriptor, data, part); });
+  return written(descriptor, -1, size, [&](size_t part) { return real(descriptor, data, part); });
 }
 ssize_t pwrite(int descriptor, const void* data, size_t size, off_t offset) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t, off_t)>("pwrite");
-  return written(descriptor, size, [&](size_t part) { return real(descriptor, data, part, offset); });
+  return written(descriptor, offset, size, [&](size_t part) { return real(descriptor, data, part, offset); });
 }
 ssize_t pwrite64(int descriptor, const void* data, size_t size, off64_t offset) { return pwrite(descriptor, data, size, offset); }
 ssize_t writev(int descriptor, const iovec* pieces, int count) {
   static const auto real = next<ssize_t (*)(int, const iovec*, int)>("writev");
-  return pieces_written(descriptor, pieces, count, [&](const iovec* some, int n) { return real(descriptor, some, n); });
+  return pieces_written(descriptor, -1, pieces, count, [&](const iovec* some, int n) { return real(descriptor, some, n); });
 }
 ssize_t pwritev(int descriptor, const iovec* pieces, int count, off_t offset) {
   static const auto real = next<ssize_t (*)(int, const iovec*, int, off_t)>("pwritev");
-  return pieces_written(descriptor, pieces, count, [&](const iovec* some, int n) { return real(descriptor, some, n, offset); });
+  return pieces_written(descriptor, offset, pieces, count, [&](const iovec* some, int n) { return real(descriptor, some, n, offset); });
 }
 ssize_t pwritev64(int descriptor, const iovec* pieces, int count, off64_t offset) { return pwritev(descriptor, pieces, count, offset); }
 
@@ -159,11 +195,11 @@ int open64(const char* path, int flags, ...) {
 
 int fsync(int descriptor) {
   static const auto real = next<int (*)(int)>("fsync");
-  return done(descriptor, true, [&] { return real(descriptor); });
+  return synced(descriptor, [&] { return real(descriptor); });
 }
 int fdatasync(int descriptor) {
   static const auto real = next<int (*)(int)>("fdatasync");
-  return done(descriptor, true, [&] { return real(descriptor); });
+  return synced(descriptor, [&] { return real(descriptor); });
 }
 int ftruncate(int descriptor, off_t size) {
   static const auto real = next<int (*)(int, off_t)>("ftruncate");
@@ -175,6 +211,7 @@ int rename(const char* from, const char* to) {
   static const auto real = next<int (*)(const char*, const char*)>("rename");
   const Kind kind = fault(to);
   if (fails_at_once(kind, false)) return -1;
+  if (minded(to)) unsynced().rename(from, to);
   const int result = real(from, to);
   if (kind != Kind::renamed || result != 0) return result;
   errno = ENOENT;

@@ -24,7 +24,7 @@ LEFT = ["bins.csv", "fragility.h5", "ranking.csv", "samples.h5", "study.yaml", "
 NOTES = ["freestand.lock", "freestand.begun", "blocks"]  # where one cannot be removed, all is done, and the next run removes it
 # What may come of it. A call that did a part, or tells an error though it is done, is no reason to end; one that was
 # interrupted only within a library, and then going on helps; MPI's files do not tell which error it was.
-ALLOWED = {"enospc": {0, CURE}, "eio": {0, CURE}, "eintr": {0, RESUMABLE}, "short": {0}, "renamed": {0}, "killed": None, "torn": None}
+ALLOWED = {"enospc": {0, CURE}, "eio": {0, CURE}, "eintr": {0, RESUMABLE}, "short": {0}, "renamed": {0}, "killed": None, "torn": None, "lost": None}
 LASTING = ("enospc", "eio")
 
 
@@ -61,20 +61,29 @@ class Faults:
     def one(self, kind, lasting, rank, call):
         """What is wrong, nothing if all is well; None where the run ended before the call."""
         name = f"{kind}{'-lasting' if lasting else ''}-{rank}-{call}"
-        out, told = self.folder / name, self.folder / f"{name}.told"
+        out = self.folder / name
         try:
-            done = self.run(out, FAULT_FOLDER=str(out), FAULT_CALL=str(call), FAULT_KIND=kind, FAULT_LASTING="01"[lasting],
-                            FAULT_RANK=str(rank) if self.ranks > 1 else "", FAULT_TOLD=str(told))
-            reached = told.exists()
-            wrong = self.wrong(out, kind, done)
-            return (f"{name}: {wrong}\n    {done.returncode}: {(done.stdout + done.stderr).strip()[-1500:]}" if wrong else "") if reached or wrong else None
+            reached, code, wrong = self.struck(out, kind, lasting, rank, call)
+            wrong = wrong or self.gone_on(out, code)
+            return (f"{name}: {wrong}" if wrong else "") if reached or wrong else None
         except subprocess.TimeoutExpired:
             return f"{name}: hangs"
         finally:
             shutil.rmtree(out, ignore_errors=True)
-            told.unlink(missing_ok=True)
 
-    def wrong(self, out, kind, done):
+    def struck(self, out, kind, lasting, rank, call, *options):
+        """Runs into the fault: was it reached, the exit code, and what is wrong with it."""
+        told = out.with_name(f"{out.name}.told")
+        try:
+            done = self.run(out, *options, FAULT_FOLDER=str(out), FAULT_CALL=str(call), FAULT_KIND=kind, FAULT_LASTING="01"[lasting],
+                            FAULT_RANK=str(rank) if self.ranks > 1 else "", FAULT_TOLD=str(told), FAULT_SEED=str(call))
+            wrong = self.wrong_end(out, kind, done)
+            return told.exists(), done.returncode, f"{wrong}\n    {done.returncode}: {(done.stdout + done.stderr).strip()[-1500:]}" if wrong else ""
+        finally:
+            for left in out.parent.glob(f"{told.name}*"):  # and what it keeps of files that were replaced
+                left.unlink()
+
+    def wrong_end(self, out, kind, done):
         allowed = ALLOWED[kind]
         if kind == "eintr" and self.ranks > 1:
             allowed = allowed | {CURE}
@@ -82,7 +91,11 @@ class Faults:
             return f"ends with {done.returncode}"
         if done.returncode != 0 and allowed is not None and (not done.stderr.strip() or "unexpected" in done.stderr):
             return "does not say what happened"
-        if done.returncode == 0 and not any((out / name).exists() for name in NOTES):
+        return ""
+
+    def gone_on(self, out, code):
+        """What is wrong when it goes on to its end, after an end with that code."""
+        if code == 0 and not any((out / name).exists() for name in NOTES):
             return self.other(out, "is done, but")
         for _ in range(2):  # where a rank has died, its lock is watched first
             again = self.run(out, "--resume")

@@ -213,32 +213,5 @@ TEST(Surface, DistributionHoldsEverySampleThatMovedAndStood) {
   EXPECT_NEAR(d.ln_edge[1] - d.ln_edge[0], 1.0 / 32, 1e-12);
 }
 
-TEST(HalfWidth, IsTheLargestOfTheSurfaces) {
-  Result result = fitted(three_bins());
-  const HalfWidth open = half_width(result);
-  EXPECT_EQ(open.points, 8);
-  EXPECT_EQ(open.empty_points, 4);
-  EXPECT_EQ(open.largest, 0.5);  // the first bin has samples, but too few
-  EXPECT_EQ(open.im, 0.5);
-
-  double largest = 0;
-  for (EdpResult& edp : result.edps) {
-    edp.bins[0].n = 0;  // a bin that is never reached is not waited for
-    for (std::size_t i = 0; i < edp.surface.lower.size(); ++i)
-      if (std::isfinite(edp.surface.lower[i]))
-        largest = std::max(largest, (edp.surface.upper[i] - edp.surface.lower[i]) / 2);
-  }
-  EXPECT_EQ(half_width(result).largest, largest);
-  EXPECT_GT(largest, 0);
-  EXPECT_LT(largest, 0.05);
-  EXPECT_EQ(half_width(Result{}).largest, 0.5);
-}
-
-TEST(HalfWidth, ShrinksWithTheRootOfTheSamples) {
-  const double few = half_width(fitted(counted(options(0, false), {500, 1, 0, 0.6}, 40))).largest;
-  const double many = half_width(fitted(counted(options(0, false), {8000, 1, 0, 0.6}, 41))).largest;
-  EXPECT_NEAR(few / many, 4, 1);
-}
-
 }  // namespace
 }  // namespace freestand::fragility

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <freestand/error.hpp>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,10 +16,25 @@ struct Target {
   void (*take)(std::string_view bytes);
 };
 
-const std::vector<Target>& targets();
+const std::vector<Target>& targets();  // all of them
+std::vector<Target> study_targets();
+std::vector<Target> file_targets();
 const Target& target(const std::string& name);  // throws std::invalid_argument that lists them
 
 // A file with these bytes, in a folder of this process that the target finds empty but for it; its name as given.
 std::filesystem::path written(std::string_view bytes, const std::string& name);
+
+// A reader may refuse a file in words of ours, and in no other way.
+template <class Read>
+void refuses_or_reads(Read&& read) {
+  try {
+    read();
+  } catch (const Error&) {
+  }
+}
+
+inline void expect(bool holds, const char* what) {
+  if (!holds) throw std::logic_error(what);
+}
 
 }  // namespace freestand::spoilt_files

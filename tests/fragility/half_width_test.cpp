@@ -1,0 +1,127 @@
+#include "fragility/half_width.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fragility/fit.hpp"
+#include "fragility/made_study.hpp"
+
+namespace freestand::fragility {
+namespace half_width_tests {
+namespace {
+
+using test::counted, test::fitted, test::options;
+
+// Two bins of 20 and 2000 samples, a second axis with a common cell and one of 100 samples, and one of 3.
+Result with_axis() {
+  Options o = options(0, false);
+  o.im_edge = {0, 1, 2};
+  o.axes = {{"mu", "1", {0, 1, 2, 3}}};
+  Tally tally(o);
+  const auto add = [&](std::uint64_t i, double im, double mu) {
+    const double value = std::exp(0.5 * test::normal(i, 91));
+    tally.add({i, im, 0, Outcome::moved, {&value, 1}, {&mu, 1}});
+  };
+  for (std::uint64_t i = 0; i < 20; ++i) add(i, 0.5, 0.5);
+  for (std::uint64_t i = 100; i < 2100; ++i) add(i, 1.5, i < 200 ? 1.5 : i < 203 ? 2.5 : 0.5);
+  return fitted(tally);
+}
+
+double widest(const std::vector<double>& lower, const std::vector<double>& upper) {
+  double most = 0;
+  for (std::size_t i = 0; i < lower.size(); ++i)
+    if (std::isfinite(lower[i])) most = std::max(most, (upper[i] - lower[i]) / 2);
+  return most;
+}
+
+TEST(HalfWidth, IsTheLargestOfTheSurfacesAndTheirSecondAxes) {
+  Result result = with_axis();
+  const HalfWidth open = half_width(result);
+  EXPECT_EQ(open.largest, 0.5);  // the first bin has samples, but too few
+  EXPECT_EQ(open.im, result.im[0]);
+  EXPECT_EQ(open.axis, "");
+
+  EdpResult& edp = result.edps[0];
+  edp.bins[0].n = edp.axes[0].n[0] = 0;  // what is never reached is not waited for
+  EXPECT_EQ(half_width(result).largest, 0.5);
+  EXPECT_EQ(half_width(result).axis, "mu");
+  EXPECT_EQ(half_width(result).on_axis, 2.5);  // three samples
+
+  // With 6000 samples there would be nine in that cell, and 18,000 would fill it.
+  const HalfWidth wanted = half_width(result, {.half_width = 0.02, .at_most = 6000});
+  EXPECT_EQ(wanted.rare_cells, 1);
+  EXPECT_EQ(wanted.on_axis, 1.5);
+  EXPECT_EQ(wanted.largest, widest(edp.axes[0].lower, edp.axes[0].upper));
+  EXPECT_GT(wanted.largest, widest(edp.surface.lower, edp.surface.upper));
+  EXPECT_EQ(half_width(result, {.half_width = 0.02, .at_most = 21000}).rare_cells, 0);
+
+  edp.axes.clear();
+  EXPECT_EQ(half_width(result).largest, widest(edp.surface.lower, edp.surface.upper));
+  EXPECT_EQ(half_width(Result{}).largest, 0.5);
+}
+
+// As many samples as are said to be needed make the half width that was wanted. One capacity, at the median: the half width hardly
+// scatters there.
+TEST(Outlook, SamplesOfTheirOwnAreNeededByTheSquare) {
+  Options o = options(0, false);
+  o.edps[0].capacities = {1};
+  const Result few = fitted(counted(o, {500, 1, 0, 0.6}, 40));
+  for (const double half : {0.02, 0.01}) {
+    const Outlook found = outlook(few, {.half_width = half});
+    EXPECT_EQ(found.stays, 0);
+    const int samples = static_cast<int>(found.samples);
+    EXPECT_NEAR(half_width(fitted(counted(o, {samples, 1, 0, 0.6}, 41))).largest / half, 1, 0.15) << samples;
+  }
+}
+
+TEST(Outlook, ABinThatIsTooEmptyNeedsItsSamples) {
+  const Result result = with_axis();
+  EXPECT_GE(outlook(result, {.half_width = 0.4, .at_most = 3000}).samples, 1.5 * 2020);  // 20 of 30
+  EXPECT_GE(outlook(result, {.half_width = 0.4}).samples, 10 * 2020.0);                  // a cell with 3 of 30
+}
+
+// Samples that share a record with correlation r in ln EDP: whether two lie above the median correlates so that the variance between
+// records is asin(r)/(2 pi) (W. Sheppard, 1899), and z sqrt(asin(r)/(2 pi)/records) stays of the half width. By counts and by the fit, whose
+// part is r/(2 pi). The t of 39 degrees of freedom makes the square 1.06 times as large.
+TEST(Outlook, WhatRecordsLeaveStays) {
+  constexpr int records = 40, each = 30, repeats = 40;
+  constexpr double between = 0.5, within = 1, r = between * between / (between * between + within * within);
+  for (const bool binary : {false, true}) {
+    double sum = 0, squares = 0;
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+      Options o = options(records);
+      o.confidence = 0.9;
+      o.edps[0].capacities = {1};
+      const auto stream = static_cast<std::uint64_t>(500 + repeat);
+      Tally tally = counted(o, {records, each, between, within}, stream);
+      if (binary) {
+        o.edps[0] = {"hit", "1", "", true, 0, {}};
+        tally = Tally(o);
+        for (std::uint64_t i = 0; i < records * each; ++i) {
+          const double hit = between * test::normal(i / each, stream + 1000000) + within * test::normal(i, stream) > 0;
+          tally.add({i, 0.5, static_cast<int>(i / each), Outcome::moved, {&hit, 1}, {}});
+        }
+      }
+      const double stays = outlook(fitted(tally), {.half_width = 0.01}).stays;
+      sum += stays * stays;
+      squares += std::pow(stays, 4);
+    }
+    const double mean = sum / repeats, error = std::sqrt((squares / repeats - mean * mean) / repeats);
+    const double expected = 1.645 * 1.645 * (binary ? std::asin(r) : r) / (2 * pi) / records;
+    EXPECT_NEAR(mean / expected, 1.03, 0.05 + 3 * error / expected) << binary;
+  }
+}
+
+TEST(Outlook, OnlyMoreRecordsHelpWhereWhatStaysIsTooMuch) {
+  Options o = options(20);
+  o.edps[0].capacities = {1};
+  const Outlook found = outlook(fitted(counted(o, {20, 50, 0.8, 0.5}, 60)), {.half_width = 0.05});
+  EXPECT_TRUE(std::isinf(found.samples));
+  EXPECT_GT(found.stays, 0.05);
+  EXPECT_GT(half_width(fitted(counted(o, {20, 2000, 0.8, 0.5}, 60))).largest, 0.05);  // and so it is
+}
+
+}  // namespace
+}  // namespace half_width_tests
+}  // namespace freestand::fragility

@@ -1,0 +1,143 @@
+// Records, tables, and files that a run writes and finds again.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "base/lab_table.hpp"
+#include "decision/hazard.hpp"
+#include "io/database_file.hpp"
+#include "io/fragility_file.hpp"
+#include "io/samples_file.hpp"
+#include "io/tally_file.hpp"
+#include "measurement/test_file.hpp"
+#include "motion/record.hpp"
+#include "motion/record_table.hpp"
+#include "parallel/block_log.hpp"
+#include "parallel/block_sums.hpp"
+#include "parallel/run_files.hpp"
+#include "report/own_peaks.hpp"
+#include "spoilt_files/target.hpp"
+
+namespace freestand::spoilt_files {
+namespace {
+
+void hazard(std::string_view bytes) {
+  refuses_or_reads([&] {
+    const auto curve = decision::parse_hazard(std::string(bytes), "hazard.csv", {"pga_g", "pgv_mps", "sa_g"});
+    for (const double factor : {0.1, 1.0, 10.0})
+      expect(std::isfinite(curve.rate(factor * curve.first())), "a rate that is no number");
+  });
+}
+
+void record(std::string_view bytes) {
+  const std::filesystem::path file = written(bytes, "record.txt");
+  for (const motion::Component component : {motion::Component::any, motion::Component::vertical})
+    for (const char* unit : {"", "g"})
+      refuses_or_reads([&] {
+        motion::ReadOptions options;
+        options.unit = unit;
+        options.component = component;
+        if (*unit) options.dt_s = 0.01;
+        const FloorMotion read = motion::read_record(file, options);
+        for (const double a : read.horizontal_mps2) expect(std::isfinite(a), "an acceleration that is no number");
+      });
+}
+
+void record_table(std::string_view bytes) {
+  refuses_or_reads([&] { motion::read_record_table(written(bytes, "INDEX.csv")); });
+}
+
+void measured_test(std::string_view bytes) {
+  refuses_or_reads([&] {
+    measurement::Test test;
+    measurement::read_test_file(written(bytes, "t01.csv"), 0, test);
+  });
+}
+
+void laboratory_table(std::string_view bytes) {
+  refuses_or_reads([&] { read_lab_table(written(bytes, "table.txt")); });
+}
+
+void fragility_file(std::string_view bytes) {
+  refuses_or_reads([&] { io::read_fragility(written(bytes, "fragility.h5")); });
+}
+
+void tally_file(std::string_view bytes) {
+  refuses_or_reads([&] { io::read_tally(written(bytes, "tally.h5")); });
+}
+
+void database_file(std::string_view bytes) {
+  refuses_or_reads([&] { io::read_database(written(bytes, "database.h5")); });
+}
+
+// All of its rows, some at a time, as a fit reads them.
+void samples_file(std::string_view bytes) {
+  refuses_or_reads([&] {
+    const io::SampleReader reader(written(bytes, "samples.h5"));
+    constexpr std::int64_t at_once = 4096, most = 1 << 20;
+    for (std::int64_t first = 0; first < std::min(reader.rows(), most); first += at_once)
+      reader.read(first, std::min(at_once, reader.rows() - first));
+  });
+}
+
+void peaks(std::string_view bytes) {
+  refuses_or_reads([&] { report::own_peaks(written(bytes, "peaks.csv"), run_here); });
+}
+
+// Bytes behind `of`, with the checksum of those before them written over them: no hash keeps a fuzzer from what lies behind it.
+void seal(std::string& bytes, std::size_t at, std::size_t from, std::size_t to) {
+  if (bytes.size() < at + 8 || from > bytes.size()) return;
+  const auto all = std::as_bytes(std::span(bytes));
+  const std::uint64_t sum = parallel::fnv1a(all.subspan(from, std::min(to, all.size()) - from));
+  std::memcpy(bytes.data() + at, &sum, sizeof sum);
+}
+
+// The layouts are those of block_log.hpp and block_sums.hpp.
+void block_log(std::string_view bytes) {
+  std::string sealed(bytes);
+  seal(sealed, 104, 120, sealed.size());
+  seal(sealed, 112, 0, 112);
+  const std::filesystem::path log = written(sealed, "run-0001.node-000000.log");
+  refuses_or_reads([&] {
+    parallel::BlockLog blocks(log.parent_path(), "0123456789abcdef");
+    blocks.find();
+    blocks.begin({});
+  });
+  parallel::count_blocks(log.parent_path());
+  std::filesystem::remove(log);
+}
+
+void block_sums(std::string_view bytes) {
+  std::string sealed(bytes);
+  seal(sealed, 96, 112, sealed.size());
+  seal(sealed, 104, 0, 104);
+  const std::filesystem::path file = written(sealed, "run-0001.node-000000.sums");
+  refuses_or_reads([&] {
+    parallel::BlockSums sums(file.parent_path(), "0123456789abcdef", 0, 100, 3);
+    sums.find();
+  });
+  parallel::count_summed_blocks(file.parent_path());
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+
+std::vector<Target> file_targets() {
+  return {
+      {"hazard", hazard},
+      {"record", record},
+      {"record_table", record_table},
+      {"measured_test", measured_test},
+      {"laboratory_table", laboratory_table},
+      {"fragility_file", fragility_file},
+      {"tally_file", tally_file},
+      {"database_file", database_file},
+      {"samples_file", samples_file},
+      {"peaks", peaks},
+      {"block_log", block_log},
+      {"block_sums", block_sums},
+  };
+}
+
+}  // namespace freestand::spoilt_files
