@@ -161,15 +161,19 @@ MadeSet strong_set(const SetRequest& request) {
   return set;
 }
 
-// The error grows about as the strength does.
+// The error grows about as the strength does; a wall or a slack that is out of reach makes none, so that the strength is
+// sought between what made too much and what made too little.
 MadeSet weak_set(const SetRequest& request) {
   constexpr double least = 1, most = 6;
   const double wanted = KeyedRandom(request.seed, key_of(request.effects) + 1).log_uniform(least, most);
-  double strength = 1;
+  double strength = 1, too_little = 0, too_much = std::numeric_limits<double>::infinity();
   MadeSet set = with_its_errors(request, 0, strength);
-  for (int trial = 0; trial < 8 && !request.effects.empty(); ++trial) {
-    if (set.weakest_error >= least && set.weakest_error <= most) break;
-    strength *= std::clamp(wanted / set.weakest_error, 0.05, 5.0);
+  for (int trial = 0; trial < 12 && !request.effects.empty(); ++trial) {
+    const double error = set.weakest_error;
+    if (error >= least && error <= most) break;
+    (error < least ? too_little : too_much) = strength;
+    const bool between = too_little > 0 && std::isfinite(too_much);
+    strength = between ? std::sqrt(too_little * too_much) : strength * std::clamp(wanted / error, 0.2, 5.0);
     set = with_its_errors(request, 0, strength);
   }
   return set;
