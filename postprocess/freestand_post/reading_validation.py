@@ -83,7 +83,7 @@ class Diagnosis:
     base_mu: float
     recovered: list          # of Table
     suggestion: dict         # empty where nothing is suggested
-    chances: list            # of dict: question, about, p, simulations
+    chances: list            # of dict: question, about, p, simulations, told_apart (of leads; nan: not asked)
     proposal: dict           # a law of no catalogue, after the verdict unknown; empty: none
 
     @property
@@ -287,7 +287,7 @@ def read_diagnosis(folder):
         [_candidate(node) for node in root.nodes("candidates", needed=True)], root.number("noise_floor"),
         recovered.number("base_mu") if recovered else np.nan,
         [_table(node, columns) for node in recovered.nodes("tables")] if recovered else [], suggested,
-        [node.row("p simulations", "question about") for node in root.nodes("tests_of_chance")], _proposal(root.node("proposed_law")))
+        [node.row("p simulations told_apart", "question about") for node in root.nodes("tests_of_chance")], _proposal(root.node("proposed_law")))
 
 
 def _name(root, folder):

@@ -119,7 +119,8 @@ def chances(results):
     if not results.diagnosis:
         return []
     return [{"question": _question(row), "p": words.number(row["p"], 2) if row["p"] * row["simulations"] > 1.5 else
-             f"less than {words.number(1 / max(row['simulations'], 1), 1)}", "sets": words.count(row["simulations"])}
+             f"less than {words.number(1 / max(row['simulations'], 1), 1)}", "sets": words.count(row["simulations"]),
+             "apart": f"{100 * row['told_apart']:.0f} %" if math.isfinite(row["told_apart"]) else ""}
             for row in results.diagnosis.chances]
 
 
@@ -128,11 +129,15 @@ def _question(row):
         return f"that the best of {row['about']} gains as much where nothing is missing"
     if row["question"] == "is it enough":
         return f"that {_named(row['about'])} leaves as much where it is the truth"
+    if row["question"] == "does one more help":
+        return f"that one more effect gains as much where {_named(row['about'])} is the truth"
     best, _, rival = row["about"].partition(" before ")
     return f"that {_named(best)} leads {_named(rival)} by as much where {_named(rival)} is the truth"
 
 
 def _named(effects):
+    if effects == "the model as it is":
+        return effects
     return words.listing(validation.effect(name) for name in effects.split(" and "))
 
 

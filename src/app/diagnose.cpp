@@ -48,9 +48,11 @@ void tell_diagnosis(const Json& json, const std::string& file) {
   for (const auto& effect : json["effects"]) effects += " " + effect.get<std::string>();
   fmt::print("verdict: {}{}{}\n", json["verdict"].get<std::string>(), effects, why(json));
   for (const auto& c : json["tests_of_chance"])
-    fmt::print("{:<26} {:<52} p {}{:.4f} ({} sets)\n", c["question"].get<std::string>(), c["about"].get<std::string>(),
-               c["p"].get<double>() * c["simulations"].get<double>() < 1 ? "< " : "", c["p"].get<double>(),
-               c["simulations"].get<int>());
+    fmt::print(
+        "{:<26} {:<52} p {}{:.4f} ({} sets{})\n", c["question"].get<std::string>(), c["about"].get<std::string>(),
+        c["p"].get<double>() * c["simulations"].get<double>() < 1 ? "< " : "", c["p"].get<double>(),
+        c["simulations"].get<int>(),
+        c["told_apart"].is_null() ? "" : fmt::format(", told apart in {:.0f} %", 100 * c["told_apart"].get<double>()));
   for (const char* list : {"sentences", "findings"})
     for (const auto& sentence : json[list]) fmt::print("* {}\n", sentence.get<std::string>());
   if (!json["suggested_motion"].is_null())

@@ -64,7 +64,8 @@ void put_in_order(const Bench& bench, const Candidate* best, Diagnosis& d) {
 bool practical(const ModelFit& fit, std::size_t known) {
   for (std::size_t i = known; i < fit.x.size(); ++i) {
     const Free& free = fit.model.free[i];
-    if (free.logarithmic && (fit.x[i] < free.low / 3 || fit.x[i] > 3 * free.high)) return false;
+    if (free.logarithmic && (fit.x[i] < free.low / beyond_practice || fit.x[i] > beyond_practice * free.high))
+      return false;
   }
   return true;
 }

@@ -15,6 +15,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// A p value of 0.05 is known to 0.005 (one standard deviation) by so many.
+constexpr std::uint64_t simulations = 2000;
 constexpr double least_length = 1e-2;  // of a direction: histories that change by less in all show nothing
 
 double standard_normal(std::uint64_t sample, std::uint64_t i) { return random::standard_normal(20, sample, i); }
@@ -149,8 +151,6 @@ Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& ba
 }
 
 void weigh(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
-  // A p value of 0.05 is known to 0.005 (one standard deviation) by so many.
-  constexpr std::uint64_t simulations = 2000;
   std::vector<double> made;
   for (std::uint64_t s = 0; s < simulations; ++s) made.push_back(draw(s));
   const auto more = std::count_if(made.begin(), made.end(), [&](double m) { return m >= chance.observed; });
@@ -159,6 +159,12 @@ void weigh(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
   const auto place = made.begin() + static_cast<long>((1 - chance_level) * static_cast<double>(made.size()));
   std::nth_element(made.begin(), place, made.end());
   chance.usual = *place;
+}
+
+void weigh_power(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
+  std::uint64_t more = 0;
+  for (std::uint64_t s = 0; s < simulations; ++s) more += draw(s) > chance.usual;
+  chance.told_apart = static_cast<double>(more) / static_cast<double>(simulations);
 }
 
 // Of n independent numbers the sum of squares has the mean n and the variance 2 n (n is some thousand); p of them go into the
@@ -195,7 +201,7 @@ Chance chance_of_lead(const Bench& bench, const Judge& judge, const ModelFit& be
     return std::pair(std::move(M), VectorXd(-left));
   });
   const Own own_best(sum.gram.topLeftCorner(b, b)), own_rival(sum.gram.block(b, b, r, r));
-  const VectorXd of_difference = sum.gram.col(q - 1).head(b);
+  const VectorXd of_difference = sum.gram.col(q - 1).head(b), to_rival = sum.gram.col(q - 1).segment(b, r);
   const double difference = sum.gram(q - 1, q - 1);
   // G of the rival less G of the best, each fitted again to data that lie by d + e from the best: what z says of e.
   const auto lead = [&](const VectorXd& z) {
@@ -207,6 +213,12 @@ Chance chance_of_lead(const Bench& bench, const Judge& judge, const ModelFit& be
   chance.observed = lead(measured);
   const NoiseDraws noise(sum, size_error(bench));
   weigh(chance, [&](std::uint64_t s) { return lead(noise.draw(s)); });
+  // Data from the best lie by e from it.
+  weigh_power(chance, [&](std::uint64_t s) {
+    const VectorXd z = noise.draw(s);
+    return own_best.gain(z.head(b)) - own_rival.gain(z.segment(b, r) - to_rival) - 2 * z[q - 1] + difference;
+  });
+  if (chance.observed <= 0) chance.p = 1;  // no lead
   return chance;
 }
 

@@ -4,18 +4,17 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "measurement/judge.hpp"
+#include "measurement/levels.hpp"
 
 namespace freestand::measurement {
 
-// Above this, chance may have done it: the customary one in twenty.
-inline constexpr double chance_level = 0.05;
-
 inline constexpr const char *help_question = "does an effect help", *lead_question = "is the lead chance",
-                            *misfit_question = "is it enough";
+                            *misfit_question = "is it enough", *another_question = "does one more help";
 
 struct Chance {
   std::string question, about;  // one of these, and which effects
@@ -23,11 +22,15 @@ struct Chance {
   double usual = 0;             // what chance reaches in one set of twenty
   double p = 1;
   int simulations = 0;
+  // Leads: in which share of data from the best it would exceed what chance reaches, so that the two were told apart.
+  double told_apart = std::numeric_limits<double>::quiet_NaN();
   bool chance() const { return p > chance_level; }
 };
 
 // Of data made again and again, draw(s) saying what is asked of the s-th: p, and the value that chance reaches in one of twenty.
 void weigh(Chance&, const std::function<double(std::uint64_t s)>& draw);
+// Of a lead that was weighed: draw(s) saying what the best leads by in data from itself.
+void weigh_power(Chance&, const std::function<double(std::uint64_t s)>& draw);
 
 // The models tried, each as it was fitted and at twelve strengths for each number of its effects, the base's numbers as they stand.
 struct Tried {

@@ -123,6 +123,10 @@ Chance chance_of_lead_of_peaks(const Bench& bench, const ModelFit& best, const M
   const double scatter = std::sqrt(beyond(of_rival, at.col(1)).squaredNorm() / freedom);
   Chance chance{.question = lead_question, .about = {}, .observed = lead(-at.col(0))};
   weigh(chance, [&](std::uint64_t s) { return lead(apart + scatter * ratios.noise(s)); });
+  const double of_itself = std::sqrt(beyond(of_best, at.col(0)).squaredNorm() /
+                                     std::max<double>(static_cast<double>(ratios.tests() - of_best.cols()), 1));
+  weigh_power(chance, [&](std::uint64_t s) { return lead(of_itself * ratios.noise(s)); });
+  if (chance.observed <= 0) chance.p = 1;  // no lead
   return chance;
 }
 

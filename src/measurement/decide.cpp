@@ -21,8 +21,8 @@ const Chance* help_of(const Diagnosis& d) {
 
 class Decision {
  public:
-  Decision(const Bench& bench, Diagnosis& d, const Lead& lead)
-      : bench_(bench), d_(d), lead_(lead), histories_(kind_of_set(bench) == Kind::history) {}
+  Decision(const Bench& bench, Diagnosis& d, const Questions& ask)
+      : bench_(bench), d_(d), ask_(ask), histories_(kind_of_set(bench) == Kind::history) {}
 
   void take() {
     for (Candidate& c : d_.candidates) c.practical = practical(c.fit, d_.base.fit.x.size());
@@ -34,7 +34,7 @@ class Decision {
       friction_scatters();
     } else if (best && better_than_base(*best)) {
       mark_rivals(*best);
-      if (good_enough(*best))
+      if (enough(*best))
         best = name_rivals();
       else
         nothing_suffices(*best);
@@ -53,15 +53,23 @@ class Decision {
     return pooled(bench_, tests_of(bench_.data(), Role::calibration), c.fit.left_out).error;
   }
 
-  // Effects that do as well as the best one, with numbers three times beyond where they are met.
-  std::string but_for(const Candidate& best) const {
+  // Where friction scatters, a test left out is missed by what its own friction does: there with that allowed for.
+  double left_out(const Candidate& c) const { return d_.friction_scatter > 0 ? c.explained : pooled_left_out(c); }
+  std::string scatter_allowed_for() const {
+    return d_.friction_scatter > 0 ? fmt::format(" (friction that differs from test to test by {:.2g} % allowed for)",
+                                                 100 * d_.friction_scatter)
+                                   : "";
+  }
+
+  // Effects that do as well as the best one, with numbers far beyond where they are met.
+  std::string but_for(const Candidate& best) {
     std::vector<std::string> odd;
     for (const Candidate& c : d_.candidates)
-      if (c.visible && c.fit.left_out_refitted && !c.practical && c.effects.size() <= best.effects.size() &&
-          c.effects != best.effects && !brings_nothing(c) && !parted(c, best))
+      if (!c.practical && is_judged(c) && c.effects.size() <= best.effects.size() && c.effects != best.effects &&
+          as_good(best, c))
         odd.push_back(joined(c.effects));
     return odd.empty() ? ""
-                       : fmt::format(", but for {} with numbers that are not met in practice", fmt::join(odd, ", "));
+                       : fmt::format(", but for {}, with numbers that are not met in practice", fmt::join(odd, ", "));
   }
 
   // The closest fit among those that were not judged on tests left out.
@@ -84,78 +92,106 @@ class Decision {
     if (!histories_) return false;
     double least = d_.base.misfit_of_fit;
     for (const Candidate& part : d_.candidates)
-      if (part.effects.size() < c.effects.size() && part.visible &&
-          std::find(c.effects.begin(), c.effects.end(), part.effects[0]) != c.effects.end())
-        least = std::min(least, part.misfit_of_fit);
+      if (part.visible && is_part(part, c)) least = std::min(least, part.misfit_of_fit);
     return least - c.misfit_of_fit < gain_of_chance();
   }
+  bool is_judged(const Candidate& c) const { return c.visible && c.fit.left_out_refitted && !brings_nothing(c); }
+  // A test that alone tells of an effect is missed without it by whatever the fold's fit took instead: how the fits to all
+  // tests miss, and what their leads are worth by simulation, says which effect it is.
+  double missed_by(const Candidate& c) const { return histories_ ? c.misfit_of_fit : c.fit.mean_left_out(); }
 
-  // Of the candidates, by misfit (histories) or left-out score; simple and practical ones first where the rest cannot be
-  // told from them.
-  const Candidate* find_best() const {
-    const Candidate* best = nullptr;
-    for (const Candidate& c : d_.candidates) {
-      if (!c.visible || !c.fit.left_out_refitted || brings_nothing(c)) continue;
-      if (!best) {
-        best = &c;
-        continue;
-      }
-      const double gain = histories_ ? best->misfit - c.misfit : best->fit.mean_left_out() - c.fit.mean_left_out();
-      const bool simpler = c.effects.size() < best->effects.size() || (c.practical && !best->practical);
-      const bool harder = c.effects.size() > best->effects.size() || (!c.practical && best->practical);
-      if (harder ? worse(*best, c) : simpler ? !worse(c, *best) : gain > 0) best = &c;
+  // The simplest first: of each number of effects, those with numbers as met in practice, then those without. The one
+  // that misses least of each stands for its kind, and takes the place of the best so far if it overtakes it.
+  const Candidate* find_best() {
+    std::vector<const Candidate*> order;
+    for (const Candidate& c : d_.candidates)
+      if (is_judged(c)) order.push_back(&c);
+    const auto kind = [](const Candidate* c) { return std::pair(c->effects.size(), !c->practical); };
+    std::stable_sort(order.begin(), order.end(), [&](const Candidate* a, const Candidate* b) {
+      return std::pair(kind(a), missed_by(*a)) < std::pair(kind(b), missed_by(*b));
+    });
+    const Candidate *best = nullptr, *before = nullptr;
+    for (const Candidate* c : order) {
+      if ((!before || kind(before) != kind(c)) && (!best || overtakes(*c, *best))) best = c;
+      before = c;
     }
     return best;
   }
 
-  // By the misfit that allows for the floor's noise: is that of a larger by more than chance?
-  bool misfits_more(const Candidate& a, const Candidate& b) const {
-    const double left = std::max(0.0, b.misfit - samples() - 3 * std::sqrt(2 * samples()));
-    return a.misfit - b.misfit > chance_misfit + 0.5 * left;
+  bool overtakes(const Candidate& larger, const Candidate& best) {
+    if (missed_by(larger) >= missed_by(best) || left_out(larger) >= left_out(best)) return false;
+    if (histories_ && larger.effects.size() > best.effects.size()) {
+      const Candidate* part = best_part(larger);
+      if (part && chance_of(another_question, whole(*part), [&] { return ask_.another(*part); })) return false;
+    }
+    return !by_chance(larger, best);
   }
 
-  // Is a worse than b? The misfit knows the noise only as it is stated; so of two histories' models that both are at the
-  // noise, tests left out must say it too, test by test, and never may their table say the contrary.
-  bool worse(const Candidate& a, const Candidate& b) const {
-    if (!histories_) return worse_left_out(a, b);
-    return misfits_more(a, b) && pooled_left_out(a) > pooled_left_out(b) &&
-           (a.explained > std::max(at_noise, 1.1 * b.explained) || worse_left_out(a, b));
+  // What a candidate would be without one of its effects.
+  const Candidate* best_part(const Candidate& whole) const {
+    const Candidate* best = nullptr;
+    for (const Candidate& c : d_.candidates)
+      if (c.visible && c.effects.size() + 1 == whole.effects.size() && is_part(c, whole) &&
+          (!best || c.misfit_of_fit < best->misfit_of_fit))
+        best = &c;
+    return best;
   }
-  // And so much that b may be named without a: where it is asked, by a lead that data from a would not give it (by_chance);
-  // else beyond the paired error of the tests left out, at the noise or not.
-  bool parted(const Candidate& a, const Candidate& b) const {
-    if (lead_) return (!histories_ || a.misfit > b.misfit) && pooled_left_out(a) > pooled_left_out(b);
-    return worse(a, b) && worse_left_out(a, b);
+
+  static bool is_part(const Candidate& part, const Candidate& whole) {
+    return part.effects.size() < whole.effects.size() &&
+           std::all_of(part.effects.begin(), part.effects.end(), [&](const std::string& effect) {
+             return std::find(whole.effects.begin(), whole.effects.end(), effect) != whole.effects.end();
+           });
   }
+
   double samples() const { return total(d_.samples); }
 
   void mark_rivals(const Candidate& best) {
     for (Candidate& c : d_.candidates)
-      c.rival = &c == &best || (c.visible && c.fit.left_out_refitted && c.practical && !brings_nothing(c) &&
-                                c.effects.size() <= best.effects.size() && (!parted(c, best) || by_chance(best, c)));
+      c.rival =
+          &c == &best || (c.practical && is_judged(c) && c.effects.size() <= best.effects.size() && as_good(best, c));
     drop_needless();
   }
 
-  // Would data from the rival give the best its lead in more than one set of twenty?
+  // None is named alone over one that misses the tests left out by less, by what the table shows of both; nor with a lead
+  // that data from the other would give it in more than one set of twenty.
+  bool as_good(const Candidate& best, const Candidate& rival) {
+    const bool ahead = std::stod(three_digits(left_out(rival))) < std::stod(three_digits(left_out(best)));
+    return ahead || missed_by(rival) <= missed_by(best) || (enough(best) && by_chance(best, rival));
+  }
+
   bool by_chance(const Candidate& best, const Candidate& rival) {
-    if (!lead_ || !good_enough(best)) return false;
-    Chance chance = lead_(best, rival);
-    chance.about = fmt::format("{} before {}", joined(best.effects), joined(rival.effects));
-    d_.chances.push_back(chance);
-    return chance.chance();
+    return chance_of(lead_question, fmt::format("{} before {}", joined(best.effects), joined(rival.effects)),
+                     [&] { return ask_.lead(best, rival); });
+  }
+
+  static std::string whole(const Candidate& c) { return c.effects.empty() ? "the model as it is" : joined(c.effects); }
+  const Chance* told_of(const std::string& question, const std::string& about) const {
+    const auto found = std::find_if(d_.chances.begin(), d_.chances.end(),
+                                    [&](const Chance& c) { return c.question == question && c.about == about; });
+    return found == d_.chances.end() ? nullptr : &*found;
+  }
+  // Asked once, and told.
+  bool chance_of(const char* question, const std::string& about, const std::function<Chance()>& ask) {
+    if (const Chance* known = told_of(question, about)) return known->chance();
+    d_.chances.push_back(ask());
+    d_.chances.back().about = about;
+    return d_.chances.back().chance();
   }
 
   // Also by the plain error: a base that strayed after one test that the floor's noise had turned elsewhere looks worse to
   // the covariance of its own replays than it is. And by more than its own replays stray.
   bool better_than_base(const Candidate& best) const {
-    if (!help()) return worse(d_.base, best) && (!histories_ || gain_beyond_strays(best) > chance_misfit);
-    if (!histories_) return best.fit.mean_left_out() < d_.base.fit.mean_left_out() && !help()->chance();
-    return best.misfit < d_.base.misfit && gain_beyond_strays(best) > 0 &&
-           (best.laboratory ? d_.base.misfit_of_fit - best.misfit_of_fit > help()->usual : !help()->chance());
+    if (left_out(best) >= left_out(d_.base)) return false;
+    if (!histories_) return help() && !help()->chance();
+    if (best.misfit >= d_.base.misfit || gain_beyond_strays(best) <= 0) return false;
+    if (best.laboratory || !help()) return d_.base.misfit_of_fit - best.misfit_of_fit > gain_of_chance();
+    return !help()->chance();
   }
 
   const Chance* help() const { return help_of(d_); }
-  double gain_of_chance() const { return help() ? help()->usual : chance_misfit; }
+  // Where no effect was there to be tried: that of one number.
+  double gain_of_chance() const { return help() ? help()->usual : gsl_cdf_chisq_Pinv(1 - chance_level, 1); }
 
   double gain_beyond_strays(const Candidate& best) const {
     double gain = 0;
@@ -166,31 +202,43 @@ class Decision {
     return gain;
   }
 
-  // Beyond what its own replays stray, sensor and floor noise explain the base.
-  bool base_at_the_noise() const {
-    if (good_enough(d_.base)) return true;
-    double beyond = samples();
-    for (std::size_t i = 0; i < d_.base.misfits.size(); ++i)
-      beyond += std::max(d_.base.misfits[i] - d_.samples[i] - d_.strays[i], 0.0);
-    return beyond <= at_noise * at_noise * samples();
-  }
-
   // A pair that holds a rival single effect, which is enough, is no rival of its own.
   void drop_needless() {
     for (Candidate& c : d_.candidates) {
       if (!c.rival || c.effects.size() < 2) continue;
       for (const Candidate& single : d_.candidates)
-        if (single.rival && single.effects.size() == 1 && good_enough(single) &&
-            std::find(c.effects.begin(), c.effects.end(), single.effects[0]) != c.effects.end())
-          c.rival = false;
+        if (single.rival && is_part(single, c) && enough(single)) c.rival = false;
     }
   }
 
-  bool good_enough(const Candidate& c) const { return !histories_ || c.explained <= at_noise; }
+  bool enough(const Candidate& c) {
+    return !histories_ || chance_of(misfit_question, whole(c), [&] { return ask_.enough(c); }) ||
+           c.explained <= adequate;
+  }
+
+  // Said where a model that is near enough still leaves more than chance.
+  std::string what_remains(const Candidate& c) const {
+    const Chance* chance = told_of(misfit_question, whole(c));
+    if (!chance || chance->chance()) return "";
+    return fmt::format(
+        "; it still leaves {:.2f} where noise explains 1, more than chance (p {:.2g}), but no more than one reading "
+        "strays by",
+        c.explained, chance->p);
+  }
+
+  // Said where a test that alone tells of an effect is missed without it as before.
+  std::string told_by_few(const Candidate& best) const {
+    if (!histories_ || three_digits(left_out(best)) != three_digits(left_out(d_.base))) return "";
+    return fmt::format(
+        " (the fit to all from {:.3g} to {:.3g}, with the floor's noise allowed for: too few tests tell of it for it "
+        "to be "
+        "foretold without one of them, so repeat these)",
+        std::sqrt(d_.base.misfit_of_fit / samples()), std::sqrt(best.misfit_of_fit / samples()));
+  }
 
   // Said where the floor's noise hides the difference.
   std::string floor_noise_allowed_for(const Candidate& best) const {
-    if (!histories_ || pooled_left_out(d_.base) > 2 * pooled_left_out(best)) return "";
+    if (!histories_ || pooled_left_out(d_.base) > 2 * pooled_left_out(best) || !told_by_few(best).empty()) return "";
     return fmt::format(" (with the floor's noise allowed for, from {} to {})", three_digits(d_.base.explained),
                        three_digits(best.explained));
   }
@@ -201,10 +249,10 @@ class Decision {
     for (const Candidate& c : d_.candidates)
       if (c.rival) rivals.push_back(&c);
     std::stable_sort(rivals.begin(), rivals.end(),
-                     [&](const Candidate* a, const Candidate* b) { return pooled_left_out(*a) < pooled_left_out(*b); });
+                     [&](const Candidate* a, const Candidate* b) { return left_out(*a) < left_out(*b); });
     std::vector<std::string> told;
     for (const Candidate* rival : rivals) {
-      told.push_back(fmt::format("{} ({})", joined(rival->effects), three_digits(pooled_left_out(*rival))));
+      told.push_back(fmt::format("{} ({})", joined(rival->effects), three_digits(left_out(*rival))));
       for (const auto& effect : rival->effects)
         if (!rival->laboratory && std::find(d_.effects.begin(), d_.effects.end(), effect) == d_.effects.end())
           d_.effects.push_back(effect);
@@ -221,16 +269,17 @@ class Decision {
       say(fmt::format("with that the left-out error falls from {} to {}", three_digits(pooled_left_out(d_.base)),
                       three_digits(pooled_left_out(best))));
     } else if (rivals.size() > 1)
-      say(
-          fmt::format("{} cannot be told apart on these tests: by their errors on tests left out, in brackets, chance "
-                      "may have put either first",
-                      joined(told)));
+      say(fmt::format(
+          "{} cannot be told apart on these tests: by their errors on tests left out, in brackets{}, chance "
+          "may have put either first",
+          joined(told), scatter_allowed_for()));
     else
-      say(
-          fmt::format("{} brings the left-out error from {} to {}{}; every other effect of those fitted to the end "
-                      "misses the tests left out by more, beyond chance{}",
-                      joined(best.effects), three_digits(pooled_left_out(d_.base)), three_digits(pooled_left_out(best)),
-                      floor_noise_allowed_for(best), but_for(best)));
+      say(fmt::format(
+          "{} brings the left-out error from {} to {}{}; every other effect of those fitted to the end "
+          "misses the tests left out by more, beyond chance{}",
+          joined(best.effects), three_digits(left_out(d_.base)), three_digits(left_out(best)),
+          told_by_few(best) + (d_.friction_scatter > 0 ? scatter_allowed_for() : floor_noise_allowed_for(best)),
+          but_for(best) + what_remains(best)));
     return &best;
   }
 
@@ -259,13 +308,14 @@ class Decision {
   }
 
   void nothing_helps(const Candidate* best) {
-    if (base_at_the_noise()) {
+    if (enough(d_.base)) {
       d_.verdict = Verdict::none;
-      say(best ? fmt::format(
-                     "no effect beats the base by more than chance (the best, {}, changes the left-out error from "
-                     "{:.4g} to {:.4g})",
-                     joined(best->effects), pooled_left_out(d_.base), pooled_left_out(*best))
-               : nothing_gained());
+      say((best ? fmt::format(
+                      "no effect beats the base by more than chance (the best, {}, changes the left-out error from "
+                      "{:.4g} to {:.4g})",
+                      joined(best->effects), pooled_left_out(d_.base), pooled_left_out(*best))
+                : nothing_gained()) +
+          what_remains(d_.base));
     } else {
       d_.verdict = Verdict::unknown;
       d_.reason = Reason::none_helps;
@@ -278,7 +328,7 @@ class Decision {
 
   const Bench& bench_;
   Diagnosis& d_;
-  const Lead& lead_;
+  const Questions& ask_;
   bool histories_;
 };
 
@@ -297,15 +347,19 @@ const char* name(Reason reason) {
 bool effect_may_help(const Diagnosis& d) { return !help_of(d) || !help_of(d)->chance(); }
 
 bool only_friction_scatters(const Diagnosis& d) {
-  if (!d.own_friction) return false;
-  const double n = total(d.samples), own = d.own_friction->misfit;
+  if (!d.own_friction || !d.friction_of_base) return false;
   double least = d.base.misfit_of_fit;
   for (const Candidate& c : d.candidates)
     if (c.visible && c.fit.left_out_refitted) least = std::min(least, c.misfit_of_fit);
-  const auto numbers = static_cast<double>(d.own_friction->factors.size());
-  return own <= at_noise * at_noise * n && least - own > gsl_cdf_chisq_Pinv(1 - chance_level, numbers);
+  return explains_scatter(*d.own_friction, total(d.samples), least);
 }
 
-void decide(const Bench& bench, Diagnosis& d, const Lead& lead) { Decision(bench, d, lead).take(); }
+bool explains_scatter(const OwnFriction& own, double samples, double least_misfit) {
+  const auto numbers = static_cast<double>(own.factors.size());
+  return own.misfit <= adequate * adequate * samples &&
+         least_misfit - own.misfit > gsl_cdf_chisq_Pinv(1 - chance_level, numbers);
+}
+
+void decide(const Bench& bench, Diagnosis& d, const Questions& ask) { Decision(bench, d, ask).take(); }
 
 }  // namespace freestand::measurement

@@ -1,4 +1,11 @@
-// From fitted candidates to a verdict.
+// From fitted candidates to a verdict. Constants: levels.hpp. Histories and peaks in the same steps:
+//
+//   best      of each number of effects the candidate that misses least. It gives way to a larger one only where that
+//             misses the tests left out by less, its lead is more than data from the smaller would give it, and so is the
+//             gain of one more effect, among all that may join
+//   helps     the largest gain of all effects tried is more than data from the base would give
+//   rivals    those whose own data would give the best its lead, and those that miss tests left out by less
+//   enough    its misfit is one that data from itself may have, or its own error is no larger than the noise
 #pragma once
 
 #include <functional>
@@ -7,21 +14,22 @@
 
 namespace freestand::measurement {
 
-// sqrt(G/samples) above which a model is not at the noise; below which a second effect is not looked for; of a base
-// below which nothing is missing whatever fits better.
-inline constexpr double at_noise = 1.3, may_be_stuck = 1.05, may_hide_another = 1.015, base_at_noise = 1.01;
-// Differences of G that chance makes between two models, where that is not computed (chance.hpp).
-inline constexpr double chance_misfit = 30;
+// What is asked of simulations, each answered by a chance.
+struct Questions {
+  std::function<Chance(const Candidate& best, const Candidate& rival)> lead;
+  std::function<Chance(const Candidate&)> enough;   // histories
+  std::function<Chance(const Candidate&)> another;  // histories: does one more effect help beside these?
+};
 
 // May an effect help, by Diagnosis::chances? Yes where that was not asked.
 bool effect_may_help(const Diagnosis&);
 // A friction of its own in each test takes the base to the noise, and the best candidate misses the tests by more than so
 // many numbers gain by chance.
 bool only_friction_scatters(const Diagnosis&);
+// Likewise, of any model: it comes near enough that way, and below the least misfit that effects reach.
+bool explains_scatter(const OwnFriction&, double samples, double least_misfit);
 
-// Fills verdict, reason, effects, best, rivals, chances, differences, sentences, and orders the candidates. lead: the
-// chance that the lead of a best candidate over a rival has; none: not asked.
-using Lead = std::function<Chance(const Candidate& best, const Candidate& rival)>;
-void decide(const Bench&, Diagnosis&, const Lead& lead = {});
+// Fills verdict, reason, effects, best, rivals, chances, differences, sentences, and orders the candidates.
+void decide(const Bench&, Diagnosis&, const Questions&);
 
 }  // namespace freestand::measurement

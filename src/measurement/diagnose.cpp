@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <freestand/error.hpp>
-#include <optional>
+#include <map>
 
 #include "measurement/chance_of_peaks.hpp"
 #include "measurement/decide.hpp"
@@ -17,24 +17,37 @@
 namespace freestand::measurement {
 namespace {
 
+// A verdict is only as good as the data.
+void withdraw(Diagnosis& d) {
+  d.verdict = Verdict::bad_data;
+  d.reason = Reason::data;
+  d.effects.clear();
+  d.best.reset();
+  for (Candidate& c : d.candidates) c.rival = false;
+  d.sentences = {
+      "the measurements look wrong in a sign, a time or a unit (see the findings): no effect can be named before "
+      "that is settled"};
+}
+
 class Diagnoser : PairSearch {
  public:
   using PairSearch::PairSearch;
 
   Diagnosis run() {
     fit_base();
+    out_.quality = examine(bench_, out_.base.fit, options_.effort, jobs_);
+    if (out_.quality.spoilt()) {
+      judge();
+      withdraw(out_);
+      return std::move(out_);
+    }
     Singles singles = single_effects();
     add_laboratory_faults(singles);
     fit(singles);
     judge();
     look_for_chance();
-    search_pairs();
-    std::optional<Judge> of_best;  // the same for all rivals
-    decide(bench_, out_, [&](const Candidate& best, const Candidate& rival) {
-      if (kind_of_set(bench_) == Kind::peaks) return chance_of_lead_of_peaks(bench_, best.fit, rival.fit, jobs_);
-      if (!of_best) of_best.emplace(bench_, best.fit.model, best.fit.x, jobs_);
-      return chance_of_lead(bench_, *of_best, best.fit, rival.fit, jobs_);
-    });
+    search_more();
+    decide_all();
     name_untried();
     return std::move(out_);
   }
@@ -81,11 +94,24 @@ class Diagnoser : PairSearch {
           fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
   }
 
+  void decide_all() {
+    std::map<std::string, Judge> judges;  // the same for all rivals
+    const auto lead = [&](const Candidate& best, const Candidate& rival) {
+      if (kind_of_set(bench_) == Kind::peaks) return chance_of_lead_of_peaks(bench_, best.fit, rival.fit, jobs_);
+      const std::string name = fmt::format("{}", fmt::join(best.effects, "+"));
+      if (!judges.count(name)) judges.emplace(name, judge_of(best.fit));
+      return chance_of_lead(bench_, judges.at(name), best.fit, rival.fit, jobs_);
+    };
+    decide(bench_, out_,
+           {lead, [&](const Candidate& c) { return chance_of_misfit_of(c.fit); },
+            [&](const Candidate& c) { return chance_of_another(c); }});
+  }
+
   // Does any effect help? And, of histories, would a friction of its own in each test do as well?
   void look_for_chance() {
     std::vector<const ModelFit*> tried;
     for (const Candidate& c : out_.candidates)
-      if (c.visible && !c.laboratory) tried.push_back(&c.fit);
+      if (c.visible && !c.laboratory && c.effects.size() == 1) tried.push_back(&c.fit);
     const auto keep = [&](Chance chance) {
       chance.about = fmt::format("{} effects", tried.size());
       out_.chances.push_back(std::move(chance));
@@ -94,10 +120,33 @@ class Diagnoser : PairSearch {
       if (!tried.empty()) keep(chance_of_gain_of_peaks(bench_, out_.base.fit, tried, jobs_));
       return;
     }
-    const Judge judge(bench_, out_.base.fit.model, out_.base.fit.x, jobs_);
-    out_.strays = judge.strays();
-    if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
-    if (best().explained > may_be_stuck) out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
+    const auto ask = [&] {
+      const Judge judge = judge_of(out_.base.fit);
+      out_.chances.clear();
+      out_.strays = judge.strays();
+      if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
+      if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance())
+        out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
+    };
+    ask();
+    if (only_friction_scatters(out_) || !friction_scatters_beside_the_best()) return;
+    judge();
+    ask();
+  }
+
+  // Where even the best effect leaves more than chance: does it less with a friction of its own in each test, and by more
+  // than one more effect would? Then misfits allow for such a scatter.
+  bool friction_scatters_beside_the_best() {
+    const Candidate& known = best();
+    if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return false;
+    const Judge judge = judge_of(known.fit);
+    OwnFriction own = own_friction(bench_, judge, known.fit, jobs_);
+    const double least = total(judge.misfit_of_fit(known.fit)) - chance_of_another(known).observed;
+    if (!explains_scatter(own, total(judge.samples()), least)) return false;
+    out_.friction_scatter = own.scatter;
+    out_.own_friction = std::move(own);
+    out_.friction_of_base = false;
+    return true;
   }
 };
 
@@ -113,7 +162,12 @@ Diagnosis diagnose(const Bench& bench, const ModelSpec& base, const Catalogue& c
                     bench.data().name, tests, tests == 1 ? "" : "s", base.free.size(),
                     base.free.size() == 1 ? "" : "s"),
         Exit::data);
-  if (outcomes_only(bench.data())) return diagnose_outcomes(bench, base, catalogue, options.start, {}, jobs);
+  if (outcomes_only(bench.data())) {
+    Diagnosis d = diagnose_outcomes(bench, base, catalogue, options.start, {}, jobs);
+    d.quality = examine(bench, d.base.fit, options.effort, jobs);
+    if (d.quality.spoilt()) withdraw(d);
+    return d;
+  }
   return Diagnoser(bench, base, catalogue, options, jobs).run();
 }
 

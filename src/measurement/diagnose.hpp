@@ -30,6 +30,7 @@
 #include "measurement/judge.hpp"
 #include "measurement/model_fit.hpp"
 #include "measurement/own_friction.hpp"
+#include "measurement/quality.hpp"
 
 namespace freestand::measurement {
 
@@ -69,7 +70,12 @@ struct Diagnosis {
   std::vector<double> samples;              // of each calibration test
   std::vector<double> strays;               // Judge::strays() of the base
   std::vector<Chance> chances;              // each that decided
-  std::optional<OwnFriction> own_friction;  // of the base, where it leaves more than noise
+  std::optional<OwnFriction> own_friction;  // of the base, or of the best effect, where it leaves more than chance
+  bool friction_of_base = true;             // whose
+  // Standard deviation of ln friction from test to test that is allowed for, so that misfits count what it does not explain;
+  // 0: as it makes no difference.
+  double friction_scatter = 0;
+  Quality quality;
   std::vector<std::string> sentences;
   std::optional<Candidate>
       proposal;  // a law of no catalogue (law_search.hpp), where nothing suffices and one does better

@@ -8,6 +8,18 @@
 #include "measurement/starts.hpp"
 
 namespace freestand::measurement {
+namespace {
+
+// The numbers of a fit in the order of another model that has the same ones; else none.
+Values numbers_of(const ModelFit& fit, const ModelSpec& model) {
+  Values x;
+  for (const Free& free : model.free)
+    for (std::size_t i = 0; i < fit.x.size(); ++i)
+      if (fit.model.free[i].name == free.name) x.push_back(fit.x[i]);
+  return fit.x.size() == model.free.size() ? x : Values{};
+}
+
+}  // namespace
 
 Effort EffectSearch::quick() const {
   Effort effort = options_.effort;
@@ -66,10 +78,39 @@ const Candidate& EffectSearch::best() const {
   return *found;
 }
 
+Judge EffectSearch::judge_of(const ModelFit& fit) const {
+  return {bench_, fit.model, fit.x, jobs_, every_sample, out_.friction_scatter};
+}
+
+Chance EffectSearch::chance_of_misfit_of(const ModelFit& fit) const {
+  const Judge judge = judge_of(fit);
+  return chance_of_misfit(bench_, judge, fit, total(judge.misfit_of_fit(fit)));
+}
+
+// Each as it would be at nothing, and as it was fitted beside them where it was.
+Chance EffectSearch::chance_of_another(const Candidate& candidate) const {
+  const ModelFit& without = candidate.fit;
+  std::vector<ModelFit> fits;
+  for (const auto* effect : catalogue_)
+    if (goes_with(without.model, *effect) && fewer_numbers_than(tests_, without.model, *effect)) {
+      ModelFit with{.model = with_effect(without.model, *effect, bench_.reach())};
+      with.x = start_at_nothing(without, *effect);
+      for (const Candidate& c : out_.candidates)
+        if (c.visible && c.effects.size() == candidate.effects.size() + 1)
+          if (const Values x = numbers_of(c.fit, with.model); x.size() == with.x.size()) with.x = x;
+      fits.push_back(std::move(with));
+    }
+  std::vector<const ModelFit*> tried;
+  for (const ModelFit& fit : fits) tried.push_back(&fit);
+  if (tried.empty()) return {.question = another_question, .about = {}};
+  Chance chance = chance_of_gain(bench_, judge_of(without), without, tried, jobs_);
+  chance.question = another_question;
+  return chance;
+}
+
 void EffectSearch::judge() {
   if (kind_of_set(bench_) == Kind::history) {
-    const ModelFit& reference = best().fit;
-    const Judge judge(bench_, reference.model, reference.x, jobs_);
+    const Judge judge = judge_of(best().fit);
     out_.noise_floor = judge.expected();
     judge_histories(bench_, judge, out_, jobs_);
   }

@@ -38,7 +38,13 @@ class EffectSearch {
   // Polishes and leaves out, for the best candidates from `first` on that gain anything on the base.
   void finish(std::size_t first);
   const Candidate& best() const;
+  // By the noise of floor and sensors, and friction as it scatters where that was found.
+  Judge judge_of(const ModelFit&) const;
   void judge();
+  // Is it enough? Its misfit against data from itself.
+  Chance chance_of_misfit_of(const ModelFit&) const;
+  // Does one more effect help beside those of a candidate? Of all that may join it.
+  Chance chance_of_another(const Candidate&) const;
   std::vector<Values> starts_of(const dynamics::Effect&, const ModelSpec&) const;
   const dynamics::Effect& of_catalogue(const std::string& name) const;
 

@@ -64,17 +64,32 @@ std::vector<double> misfits_of_replays(const Eigen::MatrixXd& gram) {
   return misfits;
 }
 
+// Of one standard deviation: half the difference that friction makes one up and one down.
+Eigen::VectorXd change_with_friction(const Bench& bench, ModelSpec model, Values x, const Test& test,
+                                     double deviation) {
+  model.friction_factor = {.free = static_cast<int>(x.size())};
+  x.push_back(std::exp(-deviation));
+  const Prediction less = predict(model, test, x);
+  x.back() = std::exp(deviation);
+  const Prediction more = predict(model, test, x);
+  Eigen::VectorXd change = 0.5 * stacked(
+                                     bench, test, more, [&](Channel c) -> const auto& { return less.channel(c); });
+  if (less.failed() || more.failed()) change.setZero();
+  return change;
+}
+
 }  // namespace
 
 struct Judge::Parts {
-  std::vector<Eigen::MatrixXd> A;     // columns of replays, then of drifts
+  std::vector<Eigen::MatrixXd> A;     // columns of replays, then of the test's friction and of drifts
   std::vector<Eigen::Index> replays;  // how many of them are of replays
   std::vector<Inner> inner;
   std::vector<Eigen::MatrixXd> root;            // C^-1/2 = 1 + A root A^T
   std::vector<std::vector<Eigen::Index>> kept;  // of all samples
 };
 
-Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, const Jobs& jobs, double limit)
+Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, const Jobs& jobs, double limit,
+             double friction_scatter)
     : bench_(bench), tests_(tests_of(bench.data(), Role::calibration)) {
   const auto columns = jobs("replays", tests_.size(), [&](std::size_t i) {
     const Test& test = bench.test(tests_[i]);
@@ -87,16 +102,20 @@ Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, co
           bench, test, replay, [&](Channel c) -> const auto& { return nominal.channel(c); });
       all.insert(all.end(), column.begin(), column.end());
     }
+    if (friction_scatter > 0) {
+      const Eigen::VectorXd column = change_with_friction(bench, reference, x, test, friction_scatter);
+      all.insert(all.end(), column.begin(), column.end());
+    }
     return all;
   });
-  take(columns, limit);
+  take(columns, limit, friction_scatter > 0);
 }
 
 Judge::Judge(const Bench& bench) : bench_(bench), tests_(tests_of(bench.data(), Role::calibration)) {
   take(std::vector<Values>(tests_.size()), 1);
 }
 
-void Judge::take(const std::vector<Values>& columns, double limit) {
+void Judge::take(const std::vector<Values>& columns, double limit, bool own_friction) {
   auto parts = std::make_shared<Parts>();
   for (std::size_t i = 0; i < tests_.size(); ++i) {
     const Test& test = bench_.test(tests_[i]);
@@ -104,8 +123,10 @@ void Judge::take(const std::vector<Values>& columns, double limit) {
     for (int c = 0; c < channel_count; ++c)
       if (bench_.noise(static_cast<Channel>(c)) > 0)
         rows += static_cast<Eigen::Index>(history(test, static_cast<Channel>(c)).size());
-    const Eigen::Index count = rows > 0 ? static_cast<Eigen::Index>(columns[i].size()) / rows : 0;
-    Eigen::MatrixXd A = Eigen::Map<const Eigen::MatrixXd>(columns[i].data(), rows, count);
+    const Eigen::Index all = rows > 0 ? static_cast<Eigen::Index>(columns[i].size()) / rows : 0;
+    const Eigen::Index count = all - (own_friction && rows > 0);
+    const Eigen::Map<const Eigen::MatrixXd> changes(columns[i].data(), rows, all);
+    Eigen::MatrixXd A = changes.leftCols(count);
     A /= std::sqrt(std::max<double>(static_cast<double>(count), 1));
     expected_.push_back(rows > 0 ? std::sqrt(1 + A.squaredNorm() / static_cast<double>(rows)) : 1);
     std::vector<Eigen::Index> kept;
@@ -114,8 +135,9 @@ void Judge::take(const std::vector<Values>& columns, double limit) {
     samples_.push_back(static_cast<double>(kept.size()));
     replay_misfits_.push_back(misfits_of_replays(A(kept, Eigen::all).transpose() * A(kept, Eigen::all)));
     const Eigen::MatrixXd drift = drifts(test);
-    A.conservativeResize(rows, count + drift.cols());
+    A.conservativeResize(rows, all + drift.cols());
     A.rightCols(drift.cols()) = drift;
+    if (all > count) A.col(count) = changes.col(count);
     A = Eigen::MatrixXd(A(kept, Eigen::all));
     const Eigen::MatrixXd gram = A.transpose() * A;
     parts->replays.push_back(count);
@@ -182,7 +204,7 @@ Judge::Products Judge::products(std::size_t i, const Eigen::MatrixXd& M) const {
   if (A.cols() == 0) return {square, square, Eigen::MatrixXd(M.cols(), 0)};
   const Eigen::MatrixXd N = A.transpose() * M, gram = A.transpose() * A, solved = parts_->inner[i].solve(N);
   Products p{square - N.transpose() * solved, {}, {}};
-  // With V = C^-1 M: of white noise V^T V, of the drifts V^T B B^T V.
+  // With V = C^-1 M: of white noise V^T V, of friction and drifts V^T B B^T V.
   const Eigen::Index replays = parts_->replays[i], drifts = A.cols() - replays;
   const Eigen::MatrixXd cross = N - gram * solved;  // A^T V
   p.covariance = square - N.transpose() * solved - solved.transpose() * N + solved.transpose() * gram * solved;

@@ -1,7 +1,8 @@
 // How far a model is from the measured histories when the noise of the measured floor motion is allowed for, in full:
 // the residual r (as independent numbers of the sensors' noise, sensor.hpp) is judged by the covariance C = 1 + A A^T,
-// where the columns of A are the changes that replays of the floor's noise make, over sqrt(their count), and a drift of
-// each sensor that drifts. Directions in which that noise fans the motion out say nothing; all others count. r^T C^-1 r by Woodbury's identity; its expectation is the number of samples.
+// where the columns of A are the changes that replays of the floor's noise make, over sqrt(their count), a drift of
+// each sensor that drifts, and what one standard deviation of the test's own friction changes, where friction differs from
+// test to test. Directions in which that noise fans the motion out say nothing; all others count. r^T C^-1 r by Woodbury's identity; its expectation is the number of samples.
 //
 // A comes from one reference model, so that rivals are judged alike.
 #pragma once
@@ -17,12 +18,16 @@ namespace freestand::measurement {
 // [noise units] Where the floor's noise moves a history by more, replays that take the other way are as likely as not.
 inline constexpr double fanned_out = 5;
 
+inline constexpr double every_sample = 1e9;  // no limit
+
 class Judge {
  public:
   // Replays of the calibration tests under the reference model with x; the bench's replays are used.
   // limit: samples that the floor's noise alone moves by more [noise units] are left out, since so far no covariance
   // describes them any more: the replays of a chaotic rocking are not on both sides of it.
-  Judge(const Bench&, const ModelSpec& reference, const Values& x, const Jobs&, double limit = 1e9);
+  // friction_scatter: standard deviation of the logarithm of friction, from test to test.
+  Judge(const Bench&, const ModelSpec& reference, const Values& x, const Jobs&, double limit = every_sample,
+        double friction_scatter = 0);
 
   // Without replays: C = 1.
   explicit Judge(const Bench&);
@@ -63,7 +68,8 @@ class Judge {
 
  private:
   struct Parts;
-  void take(const std::vector<Values>& columns, double limit);
+  // columns: those of replays, then one of the test's own friction, if any.
+  void take(const std::vector<Values>& columns, double limit, bool own_friction = false);
   Eigen::MatrixXd drifts(const Test&) const;
   double misfit(std::size_t i, const ModelFit&, const Values& x) const;
   const Bench& bench_;

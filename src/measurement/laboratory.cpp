@@ -4,13 +4,12 @@
 
 #include <cmath>
 
+#include "measurement/levels.hpp"
 #include "measurement/score.hpp"
 #include "measurement/starts.hpp"
 
 namespace freestand::measurement {
 namespace {
-
-constexpr double deviations = 3;  // one factor in 400 lies further off
 
 bool shows(const Bench& bench, const ModelSpec& base, const Values& x, const ModelSpec& model) {
   for (const std::size_t test : tests_of(bench.data(), Role::calibration))
@@ -39,7 +38,7 @@ std::vector<LaboratoryFault> laboratory_faults(const Bench& bench, const ModelSp
   const auto add = [&](const char* name, Number ModelSpec::*factor, double deviation) {
     LaboratoryFault fault{name, base};
     fault.model.*factor = {.free = static_cast<int>(base.free.size())};
-    const double low = 1 - deviations * deviation, high = 1 + deviations * deviation;
+    const double low = 1 - fault_deviations * deviation, high = 1 + fault_deviations * deviation;
     fault.model.free.push_back({.name = std::string("laboratory.") + name,
                                 .unit = "1",
                                 .lower = low,

@@ -19,6 +19,7 @@ class LawSearch : EffectSearch {
             const Jobs& jobs, Diagnosis& diagnosis)
       : EffectSearch(bench, base, forms, options, jobs), diagnosis_(diagnosis) {
     out_.base = diagnosis.base;
+    out_.friction_scatter = diagnosis.friction_scatter;
   }
 
   void run() {
@@ -55,8 +56,7 @@ class LawSearch : EffectSearch {
     for (const Candidate& c : out_.candidates)
       if (c.visible) tried.push_back(&c.fit);
     if (tried.empty()) return false;
-    const Judge judge(bench_, out_.base.fit.model, out_.base.fit.x, jobs_);
-    Chance chance = chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_);
+    Chance chance = chance_of_gain(bench_, judge_of(out_.base.fit), out_.base.fit, tried, jobs_);
     chance.about = fmt::format("{} forms of laws", tried.size());
     diagnosis_.chances.push_back(chance);
     return !chance.chance();
@@ -64,8 +64,7 @@ class LawSearch : EffectSearch {
 
   bool leads(const Candidate& best, const Candidate& rival) {
     if (best.fit.mean_left_out() >= rival.fit.mean_left_out()) return false;
-    const Judge judge(bench_, best.fit.model, best.fit.x, jobs_);
-    Chance chance = chance_of_lead(bench_, judge, best.fit, rival.fit, jobs_);
+    Chance chance = chance_of_lead(bench_, judge_of(best.fit), best.fit, rival.fit, jobs_);
     chance.about = fmt::format("{} before {}", fmt::join(best.effects, " and "), fmt::join(rival.effects, " and "));
     diagnosis_.chances.push_back(chance);
     return !chance.chance();
@@ -94,20 +93,23 @@ class LawSearch : EffectSearch {
   Diagnosis& diagnosis_;
 };
 
+// By what was asked of the best for the verdict.
+bool is_enough_by_chance(const Diagnosis& d) {
+  if (!d.best) return false;
+  const std::string about = fmt::format("{}", fmt::join(d.candidates[*d.best].effects, " and "));
+  return std::any_of(d.chances.begin(), d.chances.end(),
+                     [&](const Chance& c) { return c.question == misfit_question && c.about == about && c.chance(); });
+}
+
 }  // namespace
 
 void propose_law(const Bench& bench, const ModelSpec& base, const std::vector<const dynamics::Effect*>& forms,
                  const DiagnosisOptions& options, const Jobs& jobs, Diagnosis& diagnosis) {
   if (kind_of_set(bench) != Kind::history || diagnosis.reason == Reason::data) return;
   if (diagnosis.verdict == Verdict::none) return;
-  if (diagnosis.verdict != Verdict::unknown && diagnosis.best) {
-    const Candidate& best = diagnosis.candidates[*diagnosis.best];
-    const Judge judge(bench, best.fit.model, best.fit.x, jobs);
-    Chance chance = chance_of_misfit(bench, judge, best.fit, best.misfit_of_fit);
-    chance.about = fmt::format("{}", fmt::join(best.effects, " and "));
-    diagnosis.chances.push_back(chance);
-    if (chance.chance()) return;
-  }
+  // What is left beside friction that scatters may be more than its first order, which is allowed for.
+  if (diagnosis.verdict != Verdict::unknown && (is_enough_by_chance(diagnosis) || diagnosis.friction_scatter > 0))
+    return;
   LawSearch(bench, base, forms, options, jobs, diagnosis).run();
 }
 

@@ -8,22 +8,44 @@
 
 namespace freestand::measurement {
 
-void PairSearch::search_pairs() {
+void PairSearch::search_more() {
   if (!second_effect_wanted()) return;
   fit_pairs();
   judge();
   if (exchange_in_best_pair()) judge();
   if (fit_parts_of_best_pair()) judge();
-  if (best().explained <= may_be_stuck || !look_again()) return;
-  judge();
-  if (fit_parts_of_best_pair()) judge();
+  if (best().explained > adequate && !chance_of_misfit_of(best().fit).chance() && look_again()) {
+    judge();
+    if (fit_parts_of_best_pair()) judge();
+  }
+  while (add_one_more()) judge();
+}
+
+bool PairSearch::one_more_wanted(const Candidate& c) const {
+  return !chance_of_misfit_of(c.fit).chance() || !chance_of_another(c).chance();
 }
 
 bool PairSearch::second_effect_wanted() const {
-  if (tests_ < 4 || kind_of_set(bench_) != Kind::history) return false;
-  if (only_friction_scatters(out_) || (!effect_may_help(out_) && out_.base.explained <= at_noise)) return false;
-  const double at = best().explained, base = out_.base.explained;
-  return base > base_at_noise && at > may_hide_another;
+  if (tests_ < 4 || kind_of_set(bench_) != Kind::history || only_friction_scatters(out_)) return false;
+  if (!effect_may_help(out_) && chance_of_misfit_of(out_.base.fit).chance()) return false;
+  return one_more_wanted(best());
+}
+
+bool PairSearch::add_one_more() {
+  const Candidate whole = best();
+  if (whole.effects.size() < 2 || !one_more_wanted(whole)) return false;
+  std::vector<const dynamics::Effect*> others;
+  for (const auto* effect : catalogue_)
+    if (goes_with(whole.fit.model, *effect) && fewer_numbers_than(tests_, whole.fit.model, *effect))
+      others.push_back(effect);
+  const std::vector<bool> seen = visible(whole.fit, others);
+  std::vector<Candidate> larger;
+  std::vector<FitTask> tasks;
+  for (std::size_t i = 0; i < others.size(); ++i)
+    if (seen[i]) join(whole.effects, whole.fit, *others[i], larger, tasks);
+  if (larger.empty()) return false;
+  finish_pairs(std::move(larger), tasks);
+  return true;
 }
 
 void PairSearch::fit_pairs() {
@@ -43,7 +65,7 @@ void PairSearch::fit_pairs() {
     const std::vector<bool> seen = visible(seed->fit, others);
     for (std::size_t i = 0; i < others.size(); ++i)
       if (seen[i] && !pairs_.tried(seed->effects[0], others[i]->name))
-        join(seed->effects[0], seed->fit, *others[i], pairs, tasks);
+        join(seed->effects, seed->fit, *others[i], pairs, tasks);
   }
   finish_pairs(std::move(pairs), tasks);
 }
@@ -78,7 +100,7 @@ ModelFit PairSearch::part_of(const Candidate& pair, std::size_t which) const {
 
 bool PairSearch::exchange_in_best_pair() {
   const Candidate best_pair = best();
-  if (best_pair.effects.size() < 2) return false;
+  if (best_pair.effects.size() != 2) return false;
   std::vector<Candidate> pairs;
   std::vector<FitTask> tasks;
   for (const std::size_t stays : {0, 1}) {
@@ -89,27 +111,28 @@ bool PairSearch::exchange_in_best_pair() {
       if (!pairs_.tried(name, effect->name) && pairs_.may_be(part.model, name, *effect)) others.push_back(effect);
     const std::vector<bool> seen = visible(part, others);
     for (std::size_t i = 0; i < others.size(); ++i)
-      if (seen[i]) join(name, part, *others[i], pairs, tasks);
+      if (seen[i]) join({name}, part, *others[i], pairs, tasks);
   }
   if (pairs.empty()) return false;
   finish_pairs(std::move(pairs), tasks);
   return true;
 }
 
-void PairSearch::join(const std::string& name, const ModelFit& fit, const dynamics::Effect& other,
-                      std::vector<Candidate>& pairs, std::vector<FitTask>& tasks) {
-  pairs_.add(name, other.name);
-  pairs.push_back({.effects = {name, other.name}, .fit = fit});
+void PairSearch::join(const std::vector<std::string>& names, const ModelFit& fit, const dynamics::Effect& other,
+                      std::vector<Candidate>& larger, std::vector<FitTask>& tasks) {
+  if (names.size() == 1) pairs_.add(names[0], other.name);
+  larger.push_back({.effects = names, .fit = fit});
+  larger.back().effects.push_back(other.name);
   tasks.push_back({.model = with_effect(narrowed(fit), other, bench_.reach())});
   tasks.back().starts = starts_from({fit.x}, tasks.back().model, 24 * fitted_numbers(other));
   tasks.back().screened = false;
   tasks.back().known = known_of(fit);
-  pairs.back().fit.model = tasks.back().model;
+  larger.back().fit.model = tasks.back().model;
 }
 
 bool PairSearch::fit_parts_of_best_pair() {
   const Candidate pair = best();
-  if (pair.effects.size() < 2) return false;
+  if (pair.effects.size() != 2) return false;
   std::vector<FitTask> tasks;
   std::vector<Candidate*> singles;
   const std::size_t base = base_.free.size();

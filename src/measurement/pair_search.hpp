@@ -13,12 +13,15 @@ class PairSearch : public EffectSearch {
       : EffectSearch(bench, base, catalogue, options, jobs), pairs_(tests_) {}
 
  protected:
-  // Adds candidates of two effects to those of one, where they are wanted, and judges them.
-  void search_pairs();
+  // Adds candidates of two effects to those of one, where they are wanted, then of three and more, and judges them.
+  void search_more();
   const Pairs& pairs() const { return pairs_; }
 
  private:
+  bool one_more_wanted(const Candidate&) const;
   bool second_effect_wanted() const;
+  // Joins all others to the best one of several effects. False: none may join, or help.
+  bool add_one_more();
   void fit_pairs();
   // Fits them, and the best few of them to the end, which become candidates.
   void finish_pairs(std::vector<Candidate> pairs, const std::vector<FitTask>& tasks);
@@ -27,8 +30,8 @@ class PairSearch : public EffectSearch {
   // The seeds of the pairs were the best by themselves, which they need not be beside a second effect: one of the best
   // pair makes way for others that were not yet joined to the one that stays.
   bool exchange_in_best_pair();
-  void join(const std::string& name, const ModelFit& fit, const dynamics::Effect& other, std::vector<Candidate>& pairs,
-            std::vector<FitTask>& tasks);
+  void join(const std::vector<std::string>& names, const ModelFit& fit, const dynamics::Effect& other,
+            std::vector<Candidate>& larger, std::vector<FitTask>& tasks);
   // Would one of the two do, from where the pair stands? Its own fit may have stuck elsewhere.
   bool fit_parts_of_best_pair();
   // Single effects that the tests can see, and all pairs of them, to be fitted from anywhere.

@@ -176,19 +176,6 @@ const char* decided_by(const Bench& bench, const Diagnosis& d) {
   return measurement::kind_of_set(bench) == Kind::history ? "chi_square_left_out" : "score_left_out_above_best";
 }
 
-// A verdict is only as good as the data.
-void withdraw_if_spoilt(const Quality& quality, Diagnosis& d) {
-  if (!quality.spoilt()) return;
-  d.verdict = Verdict::bad_data;
-  d.reason = Reason::data;
-  d.effects.clear();
-  d.best.reset();
-  for (Candidate& c : d.candidates) c.rival = false;
-  d.sentences = {
-      "the measurements look wrong in a sign, a time or a unit (see the findings): no effect can be named before "
-      "that is settled"};
-}
-
 }  // namespace
 
 Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
@@ -211,8 +198,6 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
                 Exit::data);
 
   Diagnosis d = measurement::diagnose(bench, p->model, catalogue, options, jobs);
-  const Quality quality = examine(bench, d.base.fit, options.effort, jobs);
-  withdraw_if_spoilt(quality, d);
   std::vector<const dynamics::Effect*> forms;
   for (const LawForm& form : law_forms()) forms.push_back(&form.effect);
   propose_law(bench, p->model, forms, options, jobs, d);
@@ -228,7 +213,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
                {"effects", d.effects},
                {"best", d.best ? Json(label(d.candidates[*d.best])) : Json(nullptr)},
                {"sentences", d.sentences},
-               {"findings", quality.findings},
+               {"findings", d.quality.findings},
                {"noise_floor", number_or_null(noise_floor(bench, d))},
                {"base", candidate_json(bench, d.base)}};
   json["tests_of_chance"] = Json::array();
@@ -239,7 +224,8 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
                                        {"level", chance_level},
                                        {"observed", c.observed},
                                        {"chance_reaches", c.usual},
-                                       {"simulations", c.simulations}});
+                                       {"simulations", c.simulations},
+                                       {"told_apart", number_or_null(c.told_apart)}});
   json["sensors"] = Json::object();
   for (const Channel channel : {Channel::slip, Channel::rotation}) {
     const Sensor& s = bench.sensor(channel);
@@ -255,6 +241,8 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
                                                    {"factors", d.own_friction->factors},
                                                    {"chi_square_fit", number_or_null(d.own_friction->misfit)}}
                                             : Json(nullptr);
+  if (d.own_friction)
+    json["friction_scatter"]["beside"] = d.friction_of_base ? Json(nullptr) : Json("the best effect, and allowed for");
   json["candidates"] = Json::array();
   for (const Candidate& c : d.candidates) json["candidates"].push_back(candidate_json(bench, c));
   json["recovered_force"] = recovered_json(bench, d,

@@ -2,7 +2,10 @@
 """Does the diagnosis name what is hidden? The confusion table, and the rates, over made sets.
 
     confusion.py -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--ranks 1] [--again]
-                 [--unpicked] [--fault drift] [--build build/release]
+                 [--unpicked] [--weak] [--fault drift] [--build build/release]
+    confusion.py -o DIR --mixed [--seeds 5] [--first 1] ...      of each seed: nothing, one effect, a weak one, one that no
+                 catalogue knows, nothing and an effect before each fault of a laboratory; which effect, the seed says
+    confusion.py -o DIR --table                                  what is done there, and nothing else
 
 Makes each set (make_sets), runs `freestand diagnose` on it, and, where the answer is right, `freestand add` for each
 hidden effect. One line per set as it is done; DIR/results.jsonl keeps them, so that a later run goes on from there, and
@@ -10,17 +13,19 @@ shares of the work can be done one by one. The program sees the set alone, never
 
 What counts as what:
   right      the verdict is `missing` and names the hidden effects and no other; `none` where nothing is hidden;
-             `unknown` where the effect is of no catalogue, or no candidate's left-out error within 1.2 of the noise
-             floor. Twins (a floor tilted and friction by direction, on a block that only slides, are one equation):
+             `unknown` where the effect is of no catalogue. Twins (a floor tilted and friction by direction, on a block that only slides, are one equation):
              `ambiguous`, naming the hidden effects and the twin and no other. `bad_data` where it names the dimension or
              the gain that is at fault. Beside a third effect they are nearly
              one equation: there the hidden pair alone is right as well.
   ambiguous  the verdict is `ambiguous`, and the hidden effects are among the named
-  wrong      others are named
+  wrong      an effect is named that is not there, alone or beside such as are, whatever the errors; or `bad_data` for no
+             fault
   none, unknown, failed  the verdict, or that the program gave none, where that is not right
+Shares with Wilson's intervals of 95 %.
 """
 import argparse
 import json
+import math
 import os
 import pathlib
 import statistics
@@ -28,10 +33,14 @@ import subprocess
 import sys
 import time
 
+from coverage import interval_of_share
+
 COLUMNS = ["right", "ambiguous", "wrong", "none", "unknown", "failed"]
 STUDY = "measurements: {}/dataset.yaml\nmodel: {{friction: {{mu: {{calibrate: [0.03, 1.2]}}}}, effects: []}}\n"
 # Faults that a verdict may name, by a word of its sentence; noise and friction that scatter spoil no verdict.
 DIMENSIONS = {"gain": "accelerometer", "wrong_width": "width"}
+FAULTS = ["coloured_noise", "drift", "gain", "wrong_width", "friction_scatter", "understated_noise", "overstated_noise"]
+SIZES = [1, 2, 3, 4, 6, 12, 30, math.inf]  # [noise units] of the plain model
 LEAST_BASE = 4.0  # [noise units]
 AT_NOISE = 1.2
 
@@ -46,6 +55,8 @@ def options():
     parser.add_argument("--duration", type=float, default=20)
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--unpicked", action="store_true", help="floors as they come, down to such as do not move the specimen")
+    parser.add_argument("--weak", action="store_true", help="effects that make 1 to 6 noise units")
+    parser.add_argument("--mixed", action="store_true", help="of each seed one of every kind")
     parser.add_argument("--fault", help="of the laboratory that measures (make_sets --help)")
     parser.add_argument("--again", action="store_true", help="do finished sets again")
     parser.add_argument("--table", action="store_true", help="print the table of what is done, and do nothing")
@@ -53,8 +64,23 @@ def options():
     return parser.parse_args()
 
 
-def named(o, effects, seed):
-    return f"{effects}-{seed}" + (f"-{o.fault}" if o.fault else "")
+class Wanted:
+    """One set that is to be made."""
+
+    def __init__(self, effects, seed, fault=None, weak=False):
+        self.effects, self.seed, self.fault, self.weak = effects, seed, fault, weak
+        self.name = f"{effects}-{seed}" + ("-weak" if weak else "") + (f"-{fault}" if fault else "")
+
+
+# By Weyl's steps through the lists, so that the seeds of a share meet all of them.
+def mixed(seed, catalogue, outside):
+    def at(step):
+        return catalogue[(seed * 7 + step * 5) % len(catalogue)]
+
+    sets = [Wanted("none", seed), Wanted(at(0), seed), Wanted(at(1), seed, weak=True), Wanted(outside[seed % len(outside)], seed)]
+    for i, fault in enumerate(FAULTS):
+        sets += [Wanted("none", seed, fault), Wanted(at(2 + i), seed, fault)]
+    return sets
 
 
 def answer_kind(answer):
@@ -70,12 +96,9 @@ def judged(answer, diagnosis):
     if verdict == "bad_data":
         return "right" if fault and fault in " ".join(diagnosis["sentences"]) else "wrong"
     if kind == "outside":
-        floor = max(1.0, diagnosis["noise_floor"] or 1.0)
-        errors = [c["error_left_out"] for c in diagnosis["candidates"] if c["visible"] and c["error_left_out"]]
-        far = min(errors + [diagnosis["base"]["error_left_out"]]) > AT_NOISE * floor
-        return "right" if verdict == "unknown" or far else verdict if verdict == "none" else "wrong"
+        return "right" if verdict == "unknown" else verdict if verdict == "none" else "wrong"
     if kind == "none":
-        return "right" if verdict == "none" else verdict if verdict in ("ambiguous", "unknown") else "wrong"
+        return "right" if verdict == "none" else verdict if verdict == "unknown" else "wrong"
     if verdict in ("none", "unknown"):
         return verdict
     if verdict == "ambiguous":
@@ -104,19 +127,31 @@ class Bench:
         listed = subprocess.run([self.make_sets, "--list"], capture_output=True, text=True, check=True)
         return listed.stdout.split()
 
-    def made(self, effects, seed):
+    def wanted(self):
         o = self.options
-        subprocess.run([self.make_sets, "-o", self.sets, "--effects", effects, "--first", str(seed), "--seeds", "1",
+        seeds = range(o.first, o.first + o.seeds)
+        if not o.mixed:
+            return [Wanted(e, s, o.fault, o.weak) for s in seeds for e in self.names()]
+        told = subprocess.run([self.freestand, "effects", "--json"], capture_output=True, text=True, check=True).stdout
+        known = {effect["name"] for effect in json.loads(told)}
+        listed = subprocess.run([self.make_sets, "--list"], capture_output=True, text=True, check=True).stdout.split()
+        single = [name for name in listed if name != "none" and "+" not in name]
+        inside, outside = [n for n in single if n in known], [n for n in single if n not in known]
+        return [w for s in seeds for w in mixed(s, inside, outside)]
+
+    def made(self, w):
+        o = self.options
+        subprocess.run([self.make_sets, "-o", self.sets, "--effects", w.effects, "--first", str(w.seed), "--seeds", "1",
                         "--tests", str(o.tests), "--duration", str(o.duration)] + ["--unpicked"] * o.unpicked +
-                       (["--fault", o.fault] if o.fault else []), check=True, capture_output=True)
-        name = named(self.options, effects, seed)
+                       ["--weak"] * w.weak + (["--fault", w.fault] if w.fault else []), check=True, capture_output=True)
+        name = w.name
         (self.sets / f"{name}.yaml").write_text(STUDY.format(name))
         return name, json.loads((self.sets / "answers.json").read_text())[name]
 
-    def one(self, effects, seed):
-        name, answer = self.made(effects, seed)
-        result = {"name": name, "effects": effects, "seed": seed, "tests": self.options.tests,
-                  "duration": self.options.duration, "unpicked": self.options.unpicked, "fault": self.options.fault, "kind": answer_kind(answer), "twins": answer["twins"],
+    def one(self, w):
+        name, answer = self.made(w)
+        result = {"name": name, "effects": w.effects, "seed": w.seed, "tests": self.options.tests,
+                  "duration": self.options.duration, "unpicked": self.options.unpicked, "fault": w.fault, "weak": w.weak, "kind": answer_kind(answer), "twins": answer["twins"],
                   "habit": answer["habit"], "plain_error": answer["plain_error_noise_units"]}
         start = time.monotonic()
         done = self.run("diagnose", f"{name}.yaml", "-o", f"{name}.diagnosis", "--overwrite")
@@ -126,7 +161,8 @@ class Bench:
         diagnosis = json.loads((self.sets / f"{name}.diagnosis" / "diagnosis.json").read_text())
         visible = [c for c in diagnosis["candidates"] if c["visible"]]
         result.update(verdict=diagnosis["verdict"], named=diagnosis["effects"], judged=judged(answer, diagnosis),
-                      base_error=diagnosis["base"]["error_calibration"], noise_floor=diagnosis["noise_floor"],
+                      commit=diagnosis["git_commit"], chances=diagnosis["tests_of_chance"],
+                      proposed=(diagnosis["proposed_law"] or {}).get("effect"), base_error=diagnosis["base"]["error_calibration"], noise_floor=diagnosis["noise_floor"],
                       best=[[c["effect"], c["error_left_out"], c["error_left_out_floor_noise_allowed"]] for c in visible[:5]])
         if result["kind"] == "catalogue" and result["judged"] == "right":
             result.update(self.added(name, answer["effects"]))
@@ -187,13 +223,44 @@ def table(results):
 
 
 def share(part, whole):
-    return f"{part}/{whole}" + (f" = {100 * part / whole:.0f} %" if whole else "")
+    if not whole:
+        return "0/0"
+    low, high = interval_of_share(part, whole)
+    return f"{part}/{whole} = {100 * part / whole:.0f} % ({100 * low:.0f} to {100 * high:.0f})"
+
+
+def false_name(r):
+    """An effect is named that is not there; of outside effects any."""
+    hidden = set() if r["kind"] != "catalogue" else set(r["effects"].split("+")) | set(r["twins"])
+    return bool(set(r.get("named", [])) - hidden) and r.get("verdict") in ("missing", "ambiguous")
+
+
+def by_fault(results):
+    print("\nan effect is named that is not there (ambiguous with the right one counts too), by the laboratory's fault:")
+    for fault in [None] + FAULTS:
+        of = [r for r in results if r.get("fault") == fault]
+        none, some = [r for r in of if r["kind"] == "none"], [r for r in of if r["kind"] == "catalogue"]
+        if of:
+            right = sum(r["judged"] == "right" for r in some)
+            print(f"  {fault or 'clean':<18} nothing hidden {share(sum(map(false_name, none)), len(none)):<24} one effect hidden "
+                  f"{share(sum(map(false_name, some)), len(some)):<24} right there {share(right, len(some))}")
+
+
+def power(results):
+    print("\nclean sets with one effect, by what it makes of the plain model's error [noise units]:")
+    of = [r for r in results if not r.get("fault") and r["kind"] == "catalogue"]
+    for low, high in zip(SIZES, SIZES[1:]):
+        rows = [r for r in of if low <= r["plain_error"] < high]
+        if rows:
+            counts = "  ".join(f"{c} {sum(r['judged'] == c for r in rows)}" for c in COLUMNS[1:])
+            print(f"  {low:>3} to {high:<5} right {share(sum(r['judged'] == 'right' for r in rows), len(rows)):<26} {counts}")
 
 
 def rates(results):
-    hidden = [r for r in results if r["kind"] == "catalogue" and r.get("base_error", LEAST_BASE + 1) > LEAST_BASE]
-    none = [r for r in results if r["kind"] == "none"]
-    outside = [r for r in results if r["kind"] == "outside"]
+    clean = [r for r in results if not r.get("fault")]
+    hidden = [r for r in clean if r["kind"] == "catalogue" and r.get("base_error", LEAST_BASE + 1) > LEAST_BASE]
+    none = [r for r in clean if r["kind"] == "none"]
+    outside = [r for r in clean if r["kind"] == "outside"]
     right = [r for r in hidden if r["judged"] == "right"]
     both = sum(r["judged"] == "ambiguous" for r in hidden)
     counted = len(right) + min(both, len(hidden) // 10)
@@ -212,21 +279,24 @@ def rates(results):
 def main():
     o = options()
     bench, results = Bench(o), known(o)
-    wanted = [(e, s) for s in range(o.first, o.first + o.seeds) for e in bench.names()]
-    for effects, seed in wanted if not o.table else []:
-        name = named(o, effects, seed)
+    wanted = [] if o.table else bench.wanted()
+    for w in wanted:
+        name = w.name
         if name in results and not o.again:
             continue
-        results[name] = bench.one(effects, seed)
+        results[name] = bench.one(w)
         with open(o.output / "results.jsonl", "a") as file:
             file.write(json.dumps(results[name]) + "\n")
             file.flush()
             os.fsync(file.fileno())
         print(line(results[name]), flush=True)
-    shown = [results[named(o, e, s)] for e in bench.names() for s in range(o.first, o.first + o.seeds)
-             if named(o, e, s) in results]
+    shown = list(results.values()) if o.table else [results[w.name] for w in wanted]
     table(shown)
     rates(shown)
+    by_fault(shown)
+    power(shown)
+    commits = sorted({r["commit"][:12] for r in shown if r.get("commit")})
+    print(f"\ncommits: {', '.join(commits) or '-'}")
     return 0
 
 

@@ -54,12 +54,14 @@ class Judged(unittest.TestCase):
     def test_nothing_hidden(self):
         self.check("right", answer([]), "none", [])
         self.check("wrong", answer([]), "missing", ["a"])
+        self.check("wrong", answer([]), "ambiguous", ["a", "b"])
+        self.check("wrong", answer([]), "bad_data", [])
 
     def test_outside_the_catalogue(self):
         truth = answer(["rough_floor"], (), False)
         self.check("right", truth, "unknown", [])
-        self.check("right", truth, "missing", ["a"], 2.0)
-        self.check("wrong", truth, "missing", ["a"], 1.1)
+        self.check("wrong", truth, "missing", ["a"], 2.0)
+        self.check("wrong", truth, "ambiguous", ["a", "b"], 2.0)
         self.check("none", truth, "none", [])
 
 

@@ -20,7 +20,8 @@ struct DrawnTruth {
 };
 
 // Both throw std::invalid_argument on an effect that does not exist.
-TruthEffect draw_effect(KeyedRandom& random, const std::string& name);
-DrawnTruth draw_truth(KeyedRandom& random, const std::vector<std::string>& effects);
+// strength: over what was drawn, of what makes the effect more than nothing.
+TruthEffect draw_effect(KeyedRandom& random, const std::string& name, double strength = 1);
+DrawnTruth draw_truth(KeyedRandom& random, const std::vector<std::string>& effects, double strength = 1);
 
 }  // namespace freestand::test

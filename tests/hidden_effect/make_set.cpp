@@ -46,14 +46,14 @@ double rescaling(const DrawnTruth& d, const TruthHistory& history) {
 
 class Maker {
  public:
-  Maker(const SetRequest& request, std::uint64_t attempt)
-      : request_(request), key_(key_of(request.effects) + attempt * 0x9e3779b97f4a7c15ULL) {}
+  Maker(const SetRequest& request, std::uint64_t attempt, double strength)
+      : request_(request), strength_(strength), key_(key_of(request.effects) + attempt * 0x9e3779b97f4a7c15ULL) {}
 
   MadeSet operator()() {
     KeyedRandom random = numbers(0);
     MadeSet set;
     set.name = set_name(request_);
-    set.drawn = draw_truth(random, request_.effects);
+    set.drawn = draw_truth(random, request_.effects, strength_);
     set.slip_noise_m = random.uniform(0.00028, 0.0006);
     set.rotation_noise_rad = random.uniform(0.0002, 0.0006);
     set.floor_noise_mps2 = random.uniform(0.005, 0.01);
@@ -129,6 +129,7 @@ class Maker {
   }
 
   const SetRequest& request_;
+  double strength_;
   std::uint64_t key_;
 };
 
@@ -137,18 +138,51 @@ class Maker {
 std::string set_name(const SetRequest& request) {
   std::string name;
   for (const std::string& effect : request.effects) name += (name.empty() ? "" : "+") + effect;
-  return (name.empty() ? "none" : name) + "-" + std::to_string(request.seed);
+  return (name.empty() ? "none" : name) + "-" + std::to_string(request.seed) + (request.weak ? "-weak" : "");
 }
 
-MadeSet make_set(const SetRequest& request) {
+namespace {
+
+MadeSet with_its_errors(const SetRequest& request, std::uint64_t attempt, double strength) {
+  MadeSet set = Maker(request, attempt, strength)();
+  if (request.effects.empty()) return set;
+  set.plain_error = error_with(set, {});
+  set.weakest_error = weakest_error(set);
+  return set;
+}
+
+MadeSet strong_set(const SetRequest& request) {
   MadeSet set;
   for (std::uint64_t attempt = 0; attempt < 8; ++attempt) {
-    set = Maker(request, attempt)();
-    if (request.effects.empty()) break;
-    set.plain_error = error_with(set, {});
-    set.weakest_error = weakest_error(set);
-    if (set.plain_error >= request.least_error && set.weakest_error >= request.least_error) break;
+    set = with_its_errors(request, attempt, 1);
+    if (request.effects.empty() || (set.plain_error >= request.least_error && set.weakest_error >= request.least_error))
+      break;
   }
+  return set;
+}
+
+// The error grows about as the strength does; a wall or a slack that is out of reach makes none, so that the strength is
+// sought between what made too much and what made too little.
+MadeSet weak_set(const SetRequest& request) {
+  constexpr double least = 1, most = 6;
+  const double wanted = KeyedRandom(request.seed, key_of(request.effects) + 1).log_uniform(least, most);
+  double strength = 1, too_little = 0, too_much = std::numeric_limits<double>::infinity();
+  MadeSet set = with_its_errors(request, 0, strength);
+  for (int trial = 0; trial < 12 && !request.effects.empty(); ++trial) {
+    const double error = set.weakest_error;
+    if (error >= least && error <= most) break;
+    (error < least ? too_little : too_much) = strength;
+    const bool between = too_little > 0 && std::isfinite(too_much);
+    strength = between ? std::sqrt(too_little * too_much) : strength * std::clamp(wanted / error, 0.2, 5.0);
+    set = with_its_errors(request, 0, strength);
+  }
+  return set;
+}
+
+}  // namespace
+
+MadeSet make_set(const SetRequest& request) {
+  MadeSet set = request.weak ? weak_set(request) : strong_set(request);
   if (!request.fault.empty()) spoil(set, request.fault, {request.seed, key_of({request.fault})}, step_s);
   return set;
 }

@@ -30,6 +30,7 @@ struct SetRequest {
   int tests = 10;          // of which three in ten, one at least, are held out
   double duration_s = 20;  // mean length of a stochastic motion
   double least_error = 6;  // without any of the effects [noise units]: weaker draws are made again, eight at most
+  bool weak = false;       // effects as weak as make 1 to 6 noise units, evenly by the logarithm
   bool unpicked = false;   // floors of 1.2 to 3 mu g as they come, whatever they do
   std::string fault = {};  // of the laboratory (laboratory.hpp); none: it is as stated
 };
@@ -56,7 +57,7 @@ struct MadeSet {
   std::vector<MadeTest> tests;
 };
 
-// "none-3", "static_friction+floor_tilt-1", "none-3-drift".
+// "none-3", "static_friction+floor_tilt-1", "none-3-drift", "static_friction-3-weak".
 std::string set_name(const SetRequest& request);
 
 // Throws std::invalid_argument on an effect that does not exist.

@@ -103,6 +103,16 @@ TEST(MakeSet, TestsMoveAsOnShakeTables) {
   }
 }
 
+TEST(MakeSet, WeakEffectsMakeOneToSixNoiseUnits) {
+  for (const char* effect : {"static_friction", "wall_impact", "impact_loss"}) {
+    SetRequest request{{effect}, 902, 3, 5};
+    request.weak = true;
+    const MadeSet set = make_set(request);
+    EXPECT_GE(set.weakest_error, 1) << set.name;
+    EXPECT_LE(set.weakest_error, 6) << set.name;
+  }
+}
+
 TEST(MakeSet, TwinsAreTold) {
   EXPECT_EQ(answer_of(make_set({{"directional_friction"}, 1, 2, 6}))["twins"].size(), 2u);
   EXPECT_EQ(answer_of(make_set({{"static_friction"}, 1, 2, 6}))["twins"].size(), 0u);

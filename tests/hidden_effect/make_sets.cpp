@@ -1,4 +1,4 @@
-// make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--unpicked] [--fault drift]:
+// make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--unpicked] [--weak] [--fault drift]:
 // measurement sets DIR/<effect>-<seed>/, and what is hidden in them in DIR/answers.json. make_sets --list: what is hidden by default.
 #include <fmt/format.h>
 
@@ -18,7 +18,7 @@ struct Options {
   std::uint64_t seeds = 5, first = 1;
   int tests = 10;
   double duration_s = 20;
-  bool list = false, unpicked = false;
+  bool list = false, unpicked = false, weak = false;
   std::string fault;
 };
 
@@ -35,6 +35,7 @@ void make(const Options& options) {
     for (const std::string& effects : options.effects) {
       SetRequest request{split_effects(effects), seed, options.tests, options.duration_s};
       request.unpicked = options.unpicked;
+      request.weak = options.weak;
       request.fault = options.fault;
       const MadeSet set = make_set(request);
       write_set(set, options.folder / set.name);
@@ -59,6 +60,7 @@ int main(int count, char** words) {
   parser.add_option("--first", options.first, "first seed");
   parser.add_option("--tests", options.tests, "tests of a set")->check(CLI::Range(2, 99));
   parser.add_option("--duration", options.duration_s, "mean length of a stochastic motion [s]");
+  parser.add_flag("--weak", options.weak, "effects that make 1 to 6 noise units");
   parser.add_flag("--unpicked", options.unpicked, "floors as they come, down to such as do not move the specimen");
   parser.add_option("--fault", options.fault, "of the laboratory that measures")
       ->check(CLI::IsMember(freestand::test::laboratory_faults()));

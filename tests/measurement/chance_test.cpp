@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "effects/effects.hpp"
 #include "measurement/least_squares.hpp"
 #include "measurement/made_tests.hpp"
@@ -86,6 +88,26 @@ TEST(ChanceOfLead, OfAModelOverItselfIsChance) {
   const Bench bench(data, 0);
   const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
   EXPECT_TRUE(chance_of_lead(bench, Judge(bench), base, base, run_here).chance());
+}
+
+// "Told apart in 40 % of such sets" is what is counted over sets that are made and fitted again.
+TEST(ChanceOfLead, IsToldApartAsOftenAsItSays) {
+  const Dataset truth = test::made_dataset(test::cabinet("viscous_drag", {0.03}), 0);
+  constexpr int sets = 40;
+  double told = 0;
+  int apart = 0;
+  for (std::uint64_t key = 200; key < 200 + sets; ++key) {
+    const Dataset data = test::with_noise(truth, key);
+    const Bench bench(data, 0);
+    const ModelFit drag = test::fitted(bench, with("viscous_drag", bench), {0.2, 0.03});
+    const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
+    apart += !chance_of_lead(bench, Judge(bench), drag, base, run_here).chance();
+    const ModelFit as_made{.model = drag.model, .x = {0.2, 0.03}};
+    told += chance_of_lead(bench, Judge(bench), as_made, base, run_here).told_apart / sets;
+  }
+  EXPECT_GT(told, 0.05);
+  EXPECT_LT(told, 0.999);
+  EXPECT_NEAR(static_cast<double>(apart) / sets, told, 3 * std::sqrt(0.25 / sets));
 }
 
 double misfit_of(const Judge& judge, const ModelFit& fit) {

@@ -117,6 +117,9 @@ class ThePage(Temporary):
         self.assertIn("that the best of 13 effects gains as much where nothing is missing", page.text)
         self.assertIn("that rate weakening leads static friction by as much where static friction is the truth", page.text)
         self.assertIn("less than 0.0005", page.text)
+        self.assertIn("that the model as it is leaves as much where it is the truth", page.text)
+        self.assertIn("that one more effect gains as much where rate weakening is the truth", page.text)
+        self.assertIn("92 %", page.text)
         self.assertIn("0.012", page.text)
 
     def test_an_interval_that_is_not_there_says_why(self):

@@ -1,0 +1,26 @@
+// The constants on which a verdict on histories or peaks rests. All else is computed: from the sensors' noise as it is
+// heard (sensor.hpp), from replays of the floor's noise (judge.hpp), and from data that are made and fitted again
+// (chance.hpp). How hard is searched (Effort, DiagnosisOptions) decides what is found, not what is said of it.
+//
+//   constant          decides                                     derivation
+//   chance_level      every p value: help, lead, enough           custom: one set in twenty without an effect may be
+//                                                                  said to have one, as a laboratory that publishes
+//                                                                  at 5 % agrees to
+//   adequate          enough, though G is more than chance         a model's own error e beside noise of 1 leaves
+//                                                                  sqrt(1 + e^2); at e = 1 it is as large as what one
+//                                                                  reading strays by. (With 10^4 readings a test of
+//                                                                  chance alone rejects errors that nobody can see.)
+//   beyond_practice   which rivals with odd numbers are named      the catalogue's ranges are met in practice and given
+//                                                                  to one digit; half a decade further, sqrt(10), is
+//                                                                  another order of magnitude
+//   fault_deviations  how far a dimension or a gain is sought      of normal deviates one in 370 lies further off
+#pragma once
+
+namespace freestand::measurement {
+
+inline constexpr double chance_level = 0.05;
+inline constexpr double adequate = 1.4142135623730951;
+inline constexpr double beyond_practice = 3.1622776601683795;
+inline constexpr double fault_deviations = 3;
+
+}  // namespace freestand::measurement

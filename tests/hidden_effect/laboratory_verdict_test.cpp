@@ -1,0 +1,89 @@
+// No effect is named for a fault of the laboratory: made sets with one fault each, and a small catalogue that holds what
+// the fault looks like.
+#include <gtest/gtest.h>
+
+#include <freestand/error.hpp>
+
+#include "base/jobs.hpp"
+#include "effects/effects.hpp"
+#include "hidden_effect/make_set.hpp"
+#include "measurement/diagnose.hpp"
+#include "study/read_measurements.hpp"
+#include "support/scratch.hpp"
+
+namespace freestand::test {
+namespace {
+
+using measurement::Diagnosis;
+using measurement::Verdict;
+
+measurement::ModelSpec free_friction() {
+  measurement::ModelSpec model;
+  model.mu_k.free = 0;
+  model.free = {
+      {.name = "friction.mu", .unit = "1", .lower = 0.03, .upper = 1.2, .low = 0.03, .high = 1.2, .logarithmic = true}};
+  return model;
+}
+
+// changed: what befalls the set after it was measured.
+using Changed = void (*)(MadeSet&);
+
+Diagnosis diagnosed(const SetRequest& request, const std::vector<const char*>& names, Changed changed = nullptr) {
+  const Scratch scratch("laboratory");
+  MadeSet set = make_set(request);
+  if (changed) changed(set);
+  write_set(set, scratch.folder());
+  const measurement::Dataset data = study::read_measurements(scratch / "dataset.yaml");
+  measurement::Bench bench(data, 16);
+  bench.estimate_sensors();
+  std::vector<const dynamics::Effect*> catalogue;
+  for (const char* name : names) catalogue.push_back(effects::find(name));
+  return measurement::diagnose(bench, free_friction(), catalogue, {}, run_here);
+}
+
+SetRequest request(std::vector<std::string> effects, const char* fault, int tests = 5) {
+  SetRequest r{std::move(effects), 3, tests, 5};
+  r.fault = fault;
+  return r;
+}
+
+class LaboratoryVerdict : public testing::TestWithParam<const char*> {};
+
+TEST_P(LaboratoryVerdict, NamesNoEffectWhereNothingIsHidden) {
+  const Diagnosis d = diagnosed(request({}, GetParam()), {"static_friction", "rate_weakening"});
+  EXPECT_TRUE(d.effects.empty()) << testing::PrintToString(d.sentences);
+  EXPECT_TRUE(d.verdict == Verdict::none || d.verdict == Verdict::bad_data) << name(d.verdict);
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, LaboratoryVerdict,
+                         testing::Values("drift", "gain", "friction_scatter", "understated_noise", "coloured_noise"),
+                         [](const auto& info) { return std::string(info.param); });
+
+// Under friction that differs from test to test an effect is still found: the scatter is allowed for.
+TEST(LaboratoryVerdict, AnEffectIsFoundThoughFrictionScatters) {
+  const Diagnosis d =
+      diagnosed(request({"static_friction"}, "friction_scatter", 6), {"static_friction", "viscous_drag"});
+  EXPECT_EQ(d.verdict, Verdict::missing) << testing::PrintToString(d.sentences);
+  EXPECT_EQ(d.effects, std::vector<std::string>{"static_friction"});
+  EXPECT_GT(d.friction_scatter, 0.01);
+}
+
+// What the block did comes a third of a second before its floor: said at once, without a search.
+TEST(LaboratoryVerdict, AResponseThatBeginsBeforeItsFloorIsBadData) {
+  const Diagnosis d = diagnosed(request({"static_friction"}, ""), {"static_friction"}, [](MadeSet& set) {
+    for (MadeTest& test : set.tests) {
+      const auto early = static_cast<std::ptrdiff_t>(0.3 / test.floor.dt_s);
+      test.slip_m.erase(test.slip_m.begin(), test.slip_m.begin() + early);
+      test.slip_m.insert(test.slip_m.end(), static_cast<std::size_t>(early), test.slip_m.back());
+    }
+  });
+  EXPECT_EQ(d.verdict, Verdict::bad_data);
+  EXPECT_TRUE(d.candidates.empty());
+}
+
+TEST(LaboratoryVerdict, TwoTestsAreTooFew) {
+  EXPECT_THROW(diagnosed(request({"static_friction"}, "", 3), {"static_friction"}), Error);  // one of three is held out
+}
+
+}  // namespace
+}  // namespace freestand::test
