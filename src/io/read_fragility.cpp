@@ -138,8 +138,7 @@ EdpResult read_edp(const Group& group, const std::string& name, std::size_t bins
 
 FragilityFunction read_overturning(const Group& group) {
   std::vector<FragilityFunction> curves(1);
-  for (const FunctionField& field : function_fields())
-    set(group, field, curves[0], group.real_attribute(field.name));
+  for (const FunctionField& field : function_fields()) set(group, field, curves[0], group.real_attribute(field.name));
   read_curves(group, curves);
   return curves[0];
 }
@@ -165,7 +164,8 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
   result.resamples = static_cast<int>(root.integer_attribute("resamples"));
   const std::vector<std::int64_t> outcomes = root.integers_attribute("outcome_counts");
   if (outcomes.size() != result.outcome_counts.size())
-    throw misfit(root, fmt::format("it counts {} outcomes instead of {}", outcomes.size(), result.outcome_counts.size()));
+    throw misfit(root,
+                 fmt::format("it counts {} outcomes instead of {}", outcomes.size(), result.outcome_counts.size()));
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     result.outcome_counts[i] = outcomes[i];
     result.samples += outcomes[i];

@@ -138,10 +138,11 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   if (elsewhere) written.push_back(study_path("").string());
   world.on_root([&] { io::refuse_others(folder, written); });
   const io::SampleReader reader(samples_path(options.from));
-  const auto [study, changed] = study_of(world, reader.provenance().study, options);
+  const EditedStudy edited = study_of(world, reader.provenance().study, options);
+  const Study& study = edited.study;
   const MotionSummaries motions = motion_summaries(reader.motions());
   const SampleIntensity intensity(study.fragility.im, motions);
-  FitSummary told{.samples = reader.rows(), .intensity = described(study.fragility.im), .changed = changed};
+  FitSummary told{.samples = reader.rows(), .intensity = described(study.fragility.im), .changed = edited.changed};
   if (!intensity.interpolation().empty()) told.notes.push_back(intensity.interpolation());
   const Target target(study);
   if (!target.empty()) told.notes.push_back(target.told());

@@ -88,7 +88,8 @@ fragility::RankingOptions options_of(const Study& study, const std::vector<Inten
   if (records) options.properties.push_back(std::move(of_records));
   for (const std::string& column : given_columns(summaries)) {
     if (scales(column)) continue;
-    fragility::MotionProperty& property = options.properties.emplace_back(fragility::MotionProperty{"record_" + column});
+    fragility::MotionProperty& property =
+        options.properties.emplace_back(fragility::MotionProperty{"record_" + column});
     for (const motion::MotionSummary& summary : summaries) property.value.push_back(summary.given_value(column));
     property.logarithm = unit_of(column) != "1" || column.ends_with("_km");  // a magnitude is one
   }

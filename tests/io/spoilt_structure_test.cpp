@@ -29,8 +29,8 @@ void expect_read_or_refused(const fs::path& file, const test::Scratch& scratch, 
   const fs::path folder = scratch / "spoilt";
   fs::create_directories(folder);
   const std::string command = std::string("/usr/bin/python3 '") + FREESTAND_SOURCE_DIR +
-                              "/tests/io/spoil_structure.py' '" + file.string() + "' '" + folder.string() +
-                              "' " + std::to_string(every) + " > /dev/null";
+                              "/tests/io/spoil_structure.py' '" + file.string() + "' '" + folder.string() + "' " +
+                              std::to_string(every) + " > /dev/null";
   const int code = std::system(command.c_str());
   if (WEXITSTATUS(code) == 77 || WEXITSTATUS(code) == 127) GTEST_SKIP() << "h5py is not there";
   ASSERT_EQ(code, 0);

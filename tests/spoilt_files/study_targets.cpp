@@ -64,14 +64,8 @@ void building(std::string_view bytes) {
 
 std::vector<Target> study_targets() {
   return {
-      {"study", study},
-      {"case", simulated_case},
-      {"measurements", measurements},
-      {"validation", validation},
-      {"catalogue", catalogue},
-      {"laboratory", laboratory},
-      {"specimens", specimens},
-      {"building", building},
+      {"study", study},         {"case", simulated_case},   {"measurements", measurements}, {"validation", validation},
+      {"catalogue", catalogue}, {"laboratory", laboratory}, {"specimens", specimens},       {"building", building},
   };
 }
 
