@@ -99,7 +99,7 @@ Outlook outlook(const Result& result, const Wanted& wanted) {
         const double square = place.half * place.half;
         const BinFit& bin = place.edp->bins[place.bin];
         double falls = square;
-        if (bin.motions < bin.n) {
+        if (result.left_out_records > 0 && bin.motions < bin.n) {
           const double t = gsl_cdf_tdist_Pinv((1 + result.confidence) / 2, std::max(1, bin.motions - 1));
           falls = std::min(square, t * t * variance_of_one(place) / n);
         }

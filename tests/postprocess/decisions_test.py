@@ -4,7 +4,6 @@ import html
 import json
 import pathlib
 import tempfile
-import types
 import unittest
 
 import support
