@@ -158,6 +158,10 @@ class Kills:
             number += 1
 
 
+def leave(*_):
+    sys.exit(1)  # and what was started is stopped
+
+
 def main(count=100, what="kill", how="mpirun", seed=None):
     seed = int(seed) if seed is not None else int.from_bytes(os.urandom(4), "little")
     reason = why_not() if how == "slurm" else None
@@ -186,4 +190,5 @@ def told(kills, count, what, how, seed):
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, leave)
     sys.exit(main(*sys.argv[1:]))

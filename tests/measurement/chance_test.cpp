@@ -90,23 +90,32 @@ TEST(ChanceOfLead, OfAModelOverItselfIsChance) {
   EXPECT_TRUE(chance_of_lead(bench, Judge(bench), base, base, run_here).chance());
 }
 
-// "Told apart in 40 % of such sets" is what is counted over sets that are made and fitted again.
+double told_apart(const Dataset& data, double rate) {
+  const Bench bench(data, 0);
+  const ModelFit drag{.model = with("viscous_drag", bench), .x = {0.2, rate}};
+  const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
+  return chance_of_lead(bench, Judge(bench), drag, base, run_here).told_apart;
+}
+
+Dataset dragged(double rate) { return test::made_dataset(test::cabinet("viscous_drag", {rate}), 0); }
+
+// "Told apart in 60 % of such sets" is what is counted over sets that are made and fitted again: of a drag that is not always seen.
 TEST(ChanceOfLead, IsToldApartAsOftenAsItSays) {
-  const Dataset truth = test::made_dataset(test::cabinet("viscous_drag", {0.03}), 0);
+  double rate = 0.03;
+  while (rate > 1e-4 && told_apart(dragged(rate), rate) > 0.7) rate *= 0.7;
+  const Dataset truth = dragged(rate);
+  const double told = told_apart(truth, rate);
   constexpr int sets = 40;
-  double told = 0;
   int apart = 0;
   for (std::uint64_t key = 200; key < 200 + sets; ++key) {
     const Dataset data = test::with_noise(truth, key);
     const Bench bench(data, 0);
-    const ModelFit drag = test::fitted(bench, with("viscous_drag", bench), {0.2, 0.03});
+    const ModelFit drag = test::fitted(bench, with("viscous_drag", bench), {0.2, rate});
     const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
     apart += !chance_of_lead(bench, Judge(bench), drag, base, run_here).chance();
-    const ModelFit as_made{.model = drag.model, .x = {0.2, 0.03}};
-    told += chance_of_lead(bench, Judge(bench), as_made, base, run_here).told_apart / sets;
   }
-  EXPECT_GT(told, 0.05);
-  EXPECT_LT(told, 0.999);
+  EXPECT_GT(told, 0.3);
+  EXPECT_LT(told, 0.7 + 1e-9);
   EXPECT_NEAR(static_cast<double>(apart) / sets, told, 3 * std::sqrt(0.25 / sets));
 }
 
