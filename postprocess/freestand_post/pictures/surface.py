@@ -64,6 +64,8 @@ def _contours(ax, sweep, capacity, p):
     x = sweep.centre[good]
     grid = np.linspace(x[0], x[-1], 300)
     dense = np.array([np.interp(grid, x, p[good, j]) for j in range(capacity.size)])
+    if not any(dense.min() < level < dense.max() for level in LEVELS):
+        return
     lines = ax.contour(grid, capacity, dense, levels=LEVELS, colors=[style.INK, style.INK, "white", "white", "white"],
                        linewidths=[0.8, 0.8, 1.6, 0.8, 0.8])
     ax.clabel(lines, fmt="%.2g", fontsize=8, inline_spacing=4)
