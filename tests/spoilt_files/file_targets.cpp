@@ -89,7 +89,7 @@ void peaks(std::string_view bytes) {
   refuses_or_reads([&] { report::own_peaks(written(bytes, "peaks.csv"), none); });
 }
 
-// Bytes behind `of`, with the checksum of those before them written over them: no hash keeps a fuzzer from what lies behind it.
+// Bytes behind `of`, with the checksum of those before them written over them: no hash keeps spoilt bytes from what lies behind it.
 void seal(std::string& bytes, std::size_t at, std::size_t from, std::size_t to) {
   if (bytes.size() < at + 8 || from > bytes.size()) return;
   const auto all = std::as_bytes(std::span(bytes));
