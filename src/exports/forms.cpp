@@ -35,15 +35,6 @@ Refusal rise(const LimitState& state, const Intensity& im, const Wanted& wanted,
   return {};
 }
 
-// Is the second within the first at each bin?
-bool nested(const LimitState& milder, const LimitState& graver) {
-  if (milder.bins.size() != graver.bins.size()) return false;
-  for (std::size_t i = 0; i < milder.bins.size(); ++i)
-    if (milder.bins[i].im != graver.bins[i].im || graver.bins[i].probability > milder.bins[i].probability + tolerance)
-      return false;
-  return true;
-}
-
 // The three parts of one bin; the lognormal is NaN where nothing moved.
 PartsPoint parts_of(const EdpResult& edp, std::size_t bin, double im) {
   const BinFit& fit = edp.bins[bin];
@@ -87,11 +78,6 @@ Refusal make_lognormal(LimitState& state, const Wanted& wanted) {
         "would "
         "tell): use --form discrete",
         label(wanted), fitted.off_by);
-  if (fitted.rates_differ)
-    return fmt::format(
-        "the lognormal of {} gives other annual rates than the counts by more than chance explains (where shares are "
-        "small; in probability it is off by {:.2g} at most): use --form discrete",
-        label(wanted), fitted.off_by);
   if (!fitted.adequate)
     return fmt::format("the lognormal of {} is not adequate (it may be off by {:.2g}): use --form discrete",
                        label(wanted), fitted.off_by);
@@ -102,50 +88,17 @@ Refusal make_lognormal(LimitState& state, const Wanted& wanted) {
   return {};
 }
 
-Refusal make_discrete(LimitState& state, const Wanted& wanted, const fragility::Result& result, const Intensity& im,
-                      bool counted) {
-  const EdpResult& edp = *wanted.edp;
+Refusal make_discrete(LimitState& state, const Wanted& wanted, const Intensity& im) {
   std::vector<double> values;
   if (const Refusal refusal = rise(state, im, wanted, values); !refusal.empty()) return refusal;
-  std::vector<fragility::CountedBin> bins;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const Bin& bin = state.bins[i];
-    state.pooled = std::max(state.pooled, std::fabs(values[i] - bin.probability));
-    bins.push_back({bin.im, values[i], result.im_edge[bin.index], result.im_edge[bin.index + 1],
-                    !counted && !edp.binary && edp.bins[bin.index].status == BinStatus::fitted});
-  }
-  const bool curved = wanted.capacity < edp.functions.size() && std::isfinite(edp.functions[wanted.capacity].median);
   state.curve.form = Form::discrete;
-  state.counted.emplace(bins, curved ? state.fitted.median : unknown, curved ? state.fitted.dispersion : unknown);
-  state.places = fragility::places_to_follow(*state.counted, bins,
-                                             curved ? edp.functions[wanted.capacity].im_least : bins.front().im);
-  state.why = "the counted shares";
-  return {};
-}
-
-void put_points(std::vector<LimitState>& states) {
-  std::vector<double> places;
-  for (const LimitState& state : states) places.insert(places.end(), state.places.begin(), state.places.end());
-  std::sort(places.begin(), places.end());
-  places.erase(std::unique(places.begin(), places.end(), [](double a, double b) { return b - a <= 1e-9 * b; }),
-               places.end());
-  for (std::size_t s = 0; s < states.size(); ++s) {
-    LimitState& state = states[s];
-    state.curve.points = {{0, 0}};
-    for (const double im : places)
-      state.curve.points.push_back({im, std::max(state.curve.points.back().probability, (*state.counted)(im))});
-    if (s > 0 && nested(states[s - 1], state))
-      for (std::size_t i = 0; i < state.curve.points.size(); ++i) {
-        double& p = state.curve.points[i].probability;
-        p = std::min(p, states[s - 1].curve.points[i].probability);
-      }
+  state.curve.points = {{0, 0}};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    state.curve.points.push_back({state.bins[i].im, values[i]});
+    state.pooled = std::max(state.pooled, std::fabs(values[i] - state.bins[i].probability));
   }
-  constexpr int checked = 400;
-  for (LimitState& state : states)
-    for (int i = 0; i <= checked; ++i) {
-      const double im = places.front() * std::pow(places.back() / places.front(), i / static_cast<double>(checked));
-      state.off_lines = std::max(state.off_lines, std::fabs(probability(state.curve, im) - (*state.counted)(im)));
-    }
+  state.why = "bin by bin";
+  return {};
 }
 
 Refusal make_table(LimitState& state) {

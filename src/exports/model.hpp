@@ -4,12 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "exports/curve.hpp"
-#include "fragility/counted_curve.hpp"
 
 namespace freestand::exports {
 
@@ -34,7 +32,6 @@ struct Fitted {
   double median = unknown, median_se = unknown, dispersion = unknown, dispersion_se = unknown;
   double off_by = unknown;                                           // bound on |fitted - counted|
   bool adequate = false, not_refuted = false, extrapolated = false;  // not_refuted: nor known to be off by little
-  bool rates_differ = false;                                         // from those of the counts
 };
 
 struct LimitState {
@@ -44,12 +41,8 @@ struct LimitState {
   Curve curve;
   std::string why;  // this form and no other
   Fitted fitted;
-  std::vector<Bin> bins;  // as they were, before anything was pooled
-  double pooled = 0;      // largest change of a bin so that the curve does not fall
-  // Discrete: what its points follow (annual rates go by it), and the largest difference of straight lines between them to that.
-  std::optional<fragility::CountedCurve> counted = {};
-  std::vector<double> places = {};
-  double off_lines = 0;
+  std::vector<Bin> bins;   // as they were, before anything was pooled
+  double pooled = 0;       // largest change of a bin so that the curve does not fall
   double off_surface = 0;  // largest |curve - surface| at the bins
   double off_surface_at = unknown;
 };

@@ -19,8 +19,7 @@ using fragility::Result;
 Fitted fitted_of(const Wanted& wanted) {
   if (wanted.capacity >= wanted.edp->functions.size()) return {};
   const fragility::FragilityFunction& f = wanted.edp->functions[wanted.capacity];
-  return {f.median,   f.median_se,    f.dispersion,   f.dispersion_se, f.off_by,
-          f.adequate, not_refuted(f), f.extrapolated, rates_differ(f)};
+  return {f.median, f.median_se, f.dispersion, f.dispersion_se, f.off_by, f.adequate, not_refuted(f), f.extrapolated};
 }
 
 // The rows of the surface. Empty ones are left out or refused.
@@ -129,15 +128,7 @@ void take_notes(Model& model, const Result& result, Form form, bool table) {
   if (form == Form::lognormal)
     model.notes.push_back(fmt::format("swept from {:.4g} to {:.4g}{}: outside of that a lognormal is an extrapolation",
                                       model.im_least, model.im_most, unit));
-  else if (!table && form == Form::discrete) {
-    const std::vector<Point>& points = model.states.front().curve.points;
-    double off = 0;
-    for (const LimitState& state : model.states) off = std::max(off, state.off_lines);
-    model.notes.push_back(
-        fmt::format("straight lines between {} points of the curve through {} bins, off it by at most {:.2g}; below "
-                    "the lowest, at {:.4g}{}, to 0 at 0; above the highest, at {:.4g}{}, probabilities stay",
-                    points.size() - 1, bins.size(), off, points[1].im, unit, points.back().im, unit));
-  } else if (!table)
+  else if (!table)
     model.notes.push_back(
         fmt::format("straight lines between {} bins; below the lowest, at {:.4g}{}, to 0 at 0; above the highest, at "
                     "{:.4g}{}, probabilities stay",
@@ -200,18 +191,16 @@ void tell_what_never_happened(Model& model, const std::vector<std::string>& left
 }
 
 // Gives all limit states that form, or says why not.
-Refusal take_form(Model& model, const Result& result, const std::vector<Wanted>& wanted, Form form, bool table,
-                  bool counted) {
+Refusal take_form(Model& model, const Result& result, const std::vector<Wanted>& wanted, Form form, bool table) {
   for (std::size_t s = 0; s < wanted.size(); ++s) {
     LimitState& state = model.states[s];
     const Refusal refusal = table                     ? make_table(state)
                             : form == Form::lognormal ? make_lognormal(state, wanted[s])
-                            : form == Form::discrete  ? make_discrete(state, wanted[s], result, model.im, counted)
+                            : form == Form::discrete  ? make_discrete(state, wanted[s], model.im)
                                                       : make_parts(state, wanted[s], result, model.im);
     if (!refusal.empty()) return refusal;
+    measure_surface(state);
   }
-  if (!table && form == Form::discrete) put_points(model.states);
-  for (LimitState& state : model.states) measure_surface(state);
   return table ? Refusal{} : crossing(model);
 }
 
@@ -244,7 +233,7 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
   Refusal refusal;
   for (const Form form : request.form ? std::vector<Form>{*request.form} : format.forms) {
     Model model = fresh;
-    refusal = take_form(model, result, wanted, form, format.table, request.counted);
+    refusal = take_form(model, result, wanted, form, format.table);
     if (refusal.empty()) {
       take_notes(model, result, form, format.table);
       if (!passed_over.empty()) model.notes.push_back(passed_over);

@@ -152,45 +152,6 @@ TEST(Shares, WhatHasNoPartIsZeroOnTheAverage) {
   EXPECT_GT(found.x, 0.86);
 }
 
-// A lattice that is shifted at random: every dimension is even, and so is every two of them. y = 2 x0 + x1 has shares of 4/5 and 1/5, and 1
-// together; x2 to x5 have none. Taking away what independent draws would scatter leaves 0.88 together.
-TEST(Shares, OfAnEvenDesignAreNotTakenForThoseOfIndependentDraws) {
-  constexpr int samples = 1600, dimensions = 14, used = 6, repeats = 40;
-  const LeaveOutGroups groups = no_records();
-  std::vector<Parameter> parameters;
-  for (int d = 0; d < dimensions; ++d)
-    parameters.push_back({.name = "x" + std::to_string(d), .design = 1, .idle = d >= used});
-  double mean[used] = {}, together = 0;
-  int held = 0;
-  for (std::uint64_t repeat = 0; repeat < repeats; ++repeat) {
-    ShareTally tally(parameters, {ln_demand}, groups, true);
-    for (std::uint64_t i = 0; i < samples; ++i) {
-      int of_class[dimensions];
-      double u[dimensions];
-      std::uint64_t generator = 1;
-      for (std::uint64_t d = 0; d < dimensions; ++d, generator = generator * 373 % samples) {
-        u[d] = std::fmod(static_cast<double>(i * generator % samples) / samples + uniform(repeat, d, "shift"), 1.0);
-        of_class[d] = class_of(u[d]);
-      }
-      const double y = 2 * u[0] + u[1];
-      tally.add(static_cast<int>(uniform(repeat, i, "group") * 64), of_class, {&y, 1});
-    }
-    const ShareRow row = tally.row(0, 0.95);
-    ASSERT_EQ(row.share.size(), std::size_t{used});
-    for (int p = 0; p < used; ++p) mean[p] += row.share[static_cast<std::size_t>(p)].value / repeats;
-    together += row.together.value / repeats;
-    held += row.together.lower <= 1 && row.together.upper >= 1 - 1.0 / (32 * 32);  // which the classes lose
-    EXPECT_LT(row.together.se, 0.01);
-  }
-  RecordProperty("held", held);
-  RecordProperty("together", std::to_string(together));
-  EXPECT_NEAR(mean[0], 0.8, 0.004);
-  EXPECT_NEAR(mean[1], 0.2, 0.004);
-  for (int p = 2; p < used; ++p) EXPECT_NEAR(mean[p], 0, 0.001) << p;
-  EXPECT_NEAR(together, 1, 0.005);
-  EXPECT_GE(held, 35);
-}
-
 TEST(Shares, OfAProbability) {
   // Y = 1 where x + z > 1: P(Y | x) = x, so that the share of x is (1/12)/(1/4) = 1/3; 1/32^2 of it is lost in the classes.
   const LeaveOutGroups groups = no_records();

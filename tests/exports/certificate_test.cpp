@@ -14,10 +14,10 @@ struct Case {
   std::optional<Form> form;
 };
 
-Model model_of(const Case& one, const fragility::Result& result = made_results()) {
+Model model_of(const Case& one) {
   Request wanted = request();
   wanted.form = one.form;
-  return model(one.format, wanted, result);
+  return model(one.format, wanted);
 }
 
 TEST(Certificate, EveryFormatInEveryFormIsReadAsItIsHeld) {
@@ -59,7 +59,7 @@ TEST(Certificate, SeesAChangedDigit) {
   for (const Spoilt& one : spoilt) {
     const Folder folder;
     const Format& format = find(one.of.format);
-    const Model held = model_of(one.of, one.of.form == Form::discrete ? without_curves() : made_results());
+    const Model held = model_of(one.of);
     std::vector<File> files = format.write(held, format.file);
     files.front().text = edited(files.front().text, one.old, one.next);
     // A rule that is broken is as good as a difference.
