@@ -15,7 +15,8 @@ class ExactSum {
   void add(double value) {
     const double units = std::nearbyint(value * scale);
     // Most terms fit into 64 bits, whose conversion is one instruction.
-    units_ += std::abs(units) < 0x1p62 ? static_cast<Int128>(static_cast<std::int64_t>(units)) : static_cast<Int128>(units);
+    units_ +=
+        std::abs(units) < 0x1p62 ? static_cast<Int128>(static_cast<std::int64_t>(units)) : static_cast<Int128>(units);
   }
   void add(const ExactSum& other) { units_ += other.units_; }
   double value() const { return static_cast<double>(units_) / scale; }

@@ -252,7 +252,8 @@ void sort_by_record(std::span<const Shaking> shakings, std::vector<std::size_t>&
 
 // No pack begins on its way, has a neighbour, or follows a point or forces.
 bool goes_alone(const Specimen& specimen, const Settings& settings) {
-  return !specimen.start.upright_at_rest() || specimen.neighbour || !std::isnan(settings.acceleration_height_m) || settings.contact_forces;
+  return !specimen.start.upright_at_rest() || specimen.neighbour || !std::isnan(settings.acceleration_height_m) ||
+         settings.contact_forces;
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // Running extremes of the forces on a block, per unit mass: of the floor on its base, and of one chain on it; and on what moves
-// inside it. Blows are left
-// out: in them forces are not known, only their impulses. Where nothing asks for them they are no numbers.
+// inside it. Blows are left out: in them forces are not known, only their impulses. Where nothing asks for them they are no numbers.
 #pragma once
 
 #include <freestand/response.hpp>

@@ -342,12 +342,10 @@ std::string refusal_in_plane(const Specimen& specimen) {
   if (specimen.model != Model::slide) return "a block is followed in both horizontal directions where it only slides";
   if (!specimen.start.upright_at_rest()) return "in the plane a block begins at rest where it is counted from";
   if (specimen.neighbour) return "two blocks side by side are followed along one line";
-  Specimen plain = specimen;
   for (const EffectUse& use : specimen.effects) {
-    plain.effects = {use};
     FloorInput floor;
     if (use.effect->floor) use.effect->floor(floor, use.parameters);
-    if (has_laws(plain) || floor.push_mps2 != 0 || floor.gravity_factor != 1)
+    if (use.effect->dynamic() || floor.push_mps2 != 0 || floor.gravity_factor != 1)
       return "the law of effect " + use.effect->name + " is along one line, and not known in the plane";
   }
   return "";

@@ -325,11 +325,9 @@ std::string refusal_beside_neighbour(const Specimen& specimen) {
   if (specimen.model != Model::slide) return "two blocks side by side are followed where they only slide";
   if (!specimen.start.upright_at_rest()) return "beside a neighbour a block begins at rest where it is counted from";
   for (const EffectUse& use : specimen.effects) {
-    Specimen plain = specimen;
-    plain.effects = {use};
     FloorInput floor;
     if (use.effect->floor) use.effect->floor(floor, use.parameters);
-    if (has_laws(plain) || floor.vertical_scale != 0)
+    if (use.effect->dynamic() || floor.vertical_scale != 0)
       return "effect " + use.effect->name + " is of a block that stands alone";
   }
   return "";

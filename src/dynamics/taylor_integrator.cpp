@@ -6,8 +6,7 @@
 
 namespace freestand::dynamics {
 
-Response respond_on_line(const Specimen& specimen, const Shaking& shaking, const Settings& settings,
-                         History* history) {
+Response respond_on_line(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history) {
   const Setup setup = set_up(specimen, shaking);
   if (specimen.neighbour) return respond_beside_neighbour(setup, settings, history);
   if (specimen.model == Model::bouc_wen) return respond_bouc_wen(setup, settings, history);

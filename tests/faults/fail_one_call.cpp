@@ -76,7 +76,8 @@ bool fails() {
   static const long wanted = std::atol(setting("FAULT_CALL"));
   static const bool lasting = *setting("FAULT_LASTING") == '1';
   const long call = ++calls;
-  if (call == wanted) ::syscall(SYS_close, ::syscall(SYS_openat, AT_FDCWD, setting("FAULT_TOLD"), O_CREAT | O_WRONLY, 0666));
+  if (call == wanted)
+    ::syscall(SYS_close, ::syscall(SYS_openat, AT_FDCWD, setting("FAULT_TOLD"), O_CREAT | O_WRONLY, 0666));
   return call == wanted || (lasting && call > wanted);
 }
 
@@ -123,7 +124,8 @@ ssize_t written(int descriptor, off_t offset, size_t size, const Write& write) {
 template <class Write>
 ssize_t pieces_written(int descriptor, off_t offset, const iovec* pieces, int count, const Write& write) {
   return written(descriptor, offset, static_cast<size_t>(2 * count), [&](size_t twice) {
-    return twice == static_cast<size_t>(2 * count) || count == 1 ? write(pieces, count) : write(pieces, static_cast<int>(twice / 2));
+    return twice == static_cast<size_t>(2 * count) || count == 1 ? write(pieces, count)
+                                                                 : write(pieces, static_cast<int>(twice / 2));
   });
 }
 
@@ -165,16 +167,22 @@ ssize_t pwrite(int descriptor, const void* data, size_t size, off_t offset) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t, off_t)>("pwrite");
   return written(descriptor, offset, size, [&](size_t part) { return real(descriptor, data, part, offset); });
 }
-ssize_t pwrite64(int descriptor, const void* data, size_t size, off64_t offset) { return pwrite(descriptor, data, size, offset); }
+ssize_t pwrite64(int descriptor, const void* data, size_t size, off64_t offset) {
+  return pwrite(descriptor, data, size, offset);
+}
 ssize_t writev(int descriptor, const iovec* pieces, int count) {
   static const auto real = next<ssize_t (*)(int, const iovec*, int)>("writev");
-  return pieces_written(descriptor, -1, pieces, count, [&](const iovec* some, int n) { return real(descriptor, some, n); });
+  return pieces_written(descriptor, -1, pieces, count,
+                        [&](const iovec* some, int n) { return real(descriptor, some, n); });
 }
 ssize_t pwritev(int descriptor, const iovec* pieces, int count, off_t offset) {
   static const auto real = next<ssize_t (*)(int, const iovec*, int, off_t)>("pwritev");
-  return pieces_written(descriptor, offset, pieces, count, [&](const iovec* some, int n) { return real(descriptor, some, n, offset); });
+  return pieces_written(descriptor, offset, pieces, count,
+                        [&](const iovec* some, int n) { return real(descriptor, some, n, offset); });
 }
-ssize_t pwritev64(int descriptor, const iovec* pieces, int count, off64_t offset) { return pwritev(descriptor, pieces, count, offset); }
+ssize_t pwritev64(int descriptor, const iovec* pieces, int count, off64_t offset) {
+  return pwritev(descriptor, pieces, count, offset);
+}
 
 int open(const char* path, int flags, ...) {
   std::va_list more;

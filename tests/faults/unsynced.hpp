@@ -34,7 +34,8 @@ class Unsynced {
   void rename(const std::string& from, const std::string& to) {
     const std::lock_guard lock(mutex_);
     const std::string replaced = aside_ + "." + std::to_string(changes_.size()) + ".replaced";
-    const bool is_there = ::syscall(SYS_linkat, AT_FDCWD, to.c_str(), AT_FDCWD, replaced.c_str(), 0) == 0;  // a second name of it
+    const bool is_there =
+        ::syscall(SYS_linkat, AT_FDCWD, to.c_str(), AT_FDCWD, replaced.c_str(), 0) == 0;  // a second name of it
     for (Change& change : changes_)
       if (change.path == from) change.path = to;
     changes_.push_back({What::rename, to, from, 0, 0, is_there ? replaced : ""});

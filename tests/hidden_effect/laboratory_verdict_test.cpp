@@ -9,6 +9,7 @@
 #include "hidden_effect/make_set.hpp"
 #include "measurement/diagnose.hpp"
 #include "study/read_measurements.hpp"
+#include "support/free_friction.hpp"
 #include "support/scratch.hpp"
 
 namespace freestand::test {
@@ -16,14 +17,6 @@ namespace {
 
 using measurement::Diagnosis;
 using measurement::Verdict;
-
-measurement::ModelSpec free_friction() {
-  measurement::ModelSpec model;
-  model.mu_k.free = 0;
-  model.free = {
-      {.name = "friction.mu", .unit = "1", .lower = 0.03, .upper = 1.2, .low = 0.03, .high = 1.2, .logarithmic = true}};
-  return model;
-}
 
 // changed: what befalls the set after it was measured.
 using Changed = void (*)(MadeSet&);

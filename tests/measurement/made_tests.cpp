@@ -64,14 +64,6 @@ measurement::Dataset with_noise(measurement::Dataset data, std::uint64_t key) {
   return data;
 }
 
-measurement::ModelSpec free_friction() {
-  measurement::ModelSpec model;
-  model.mu_k.free = 0;
-  model.free = {
-      {.name = "friction.mu", .unit = "1", .lower = 0.03, .upper = 1.2, .low = 0.03, .high = 1.2, .logarithmic = true}};
-  return model;
-}
-
 Specimen cabinet(const char* effect, std::vector<double> parameters) {
   Specimen s;
   s.block = Block::rectangular(0.8, 0.6, 100);

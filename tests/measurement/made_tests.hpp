@@ -7,6 +7,7 @@
 
 #include "measurement/bench.hpp"
 #include "measurement/model_fit.hpp"
+#include "support/free_friction.hpp"
 
 namespace freestand::test {
 
@@ -30,8 +31,5 @@ Specimen cabinet(const char* effect = nullptr, std::vector<double> parameters = 
 
 // From the start downhill.
 measurement::ModelFit fitted(const measurement::Bench&, measurement::ModelSpec, std::vector<double> start);
-
-// A model whose friction is free within [0.03, 1.2].
-measurement::ModelSpec free_friction();
 
 }  // namespace freestand::test

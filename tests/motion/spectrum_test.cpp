@@ -161,8 +161,7 @@ TEST(HousnerIntensity, OfAPulseIsThatOfItsClosedForm) {
     const MotionSummary summary = summarize(find_pulse(name));
     const FloorMotion unit = pulse_motion(find_pulse(name));
     for (const double period : {0.07, 0.5, 1.3, 4.0}) {
-      const double exact = housner_intensity_m(
-          [&](double T) { return spectral_acceleration_mps2(unit, T / period); });
+      const double exact = housner_intensity_m([&](double T) { return spectral_acceleration_mps2(unit, T / period); });
       EXPECT_NEAR(housner_intensity_m(summary, period), exact, 1e-4 * exact) << name << " " << period;
     }
   }
