@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/checks.hpp"
 #include "app/command.hpp"
 #include "app/floors.hpp"
 #include "app/synthetic_motions.hpp"
@@ -85,10 +86,26 @@ void check_target(const std::filesystem::path& target, bool overwrite) {
     throw Error(target.string() + " exists already (it would be lost): choose another name, or give --overwrite");
 }
 
+// Names of those options that were given.
+std::string given(const CLI::App& verb, const std::vector<std::string>& names) {
+  std::string found;
+  for (const std::string& name : names)
+    if (verb.count(name) > 0) found += (found.empty() ? "" : ", ") + name;
+  return found;
+}
+
 // Motions of a set, which are made and not read.
-void show_set(const MotionOptions& options) {
+void show_set(const MotionOptions& options, const CLI::App& verb) {
   if (!options.files.empty() || !options.floor.empty())
     throw Error("--synthetic takes no records and no building (its motions are made): write them with --convert first");
+  if (const std::string other =
+          given(verb, {"--dt", "--unit", "--channel", "--storey", "--cross", "--rotate", "--begin-together",
+                       "--baseline", "--band-pass", "--time-scale", "--length-scale"});
+      !other.empty())
+    throw Error(
+        fmt::format("{} goes with records, not with --synthetic (its motions are made as they are wanted): "
+                    "leave it out, or write the motions with --convert and treat those",
+                    other));
   for (const std::string& target : {options.synthetic.number >= 0 ? options.convert : "", options.csv})
     check_target(target, options.overwrite);
   SyntheticOptions wanted = options.synthetic;
@@ -97,8 +114,24 @@ void show_set(const MotionOptions& options) {
   show_synthetic(wanted);
 }
 
-void show(const MotionOptions& options) {
-  if (!options.synthetic.file.empty()) return show_set(options);
+void show(const MotionOptions& options, const CLI::App& verb) {
+  if (!options.synthetic.file.empty()) return show_set(options, verb);
+  if (const std::string other = given(verb, {"--seed", "--number"}); !other.empty())
+    throw Error(fmt::format("{} is of --synthetic (records are read, not drawn): leave it out, or add --synthetic FILE",
+                            other));
+  if (options.storey >= 0 && !options.floor.empty() && options.convert.empty())
+    throw Error(
+        fmt::format("--storey {} says which floor --convert writes (all floors are told without it): add "
+                    "--convert FILE, or leave it out",
+                    options.storey));
+  if (const std::string treated =
+          given(verb, {"--cross", "--rotate", "--baseline", "--band-pass", "--time-scale", "--length-scale"});
+      !options.csv.empty() && !treated.empty())
+    throw Error(
+        fmt::format("--csv is a table of records as they are in their files, and {} changes them (what read the "
+                    "table would take the figures of one for the samples of the other): write the treated "
+                    "record with --convert first, and make the table of that",
+                    treated));
   if (options.files.empty())
     throw Error("motion names no record (nothing is there to be told): name one, or --synthetic FILE");
   if (!options.convert.empty() && options.files.size() != 1)
@@ -115,9 +148,9 @@ void show(const MotionOptions& options) {
   for (const std::string& file : options.files) {
     const FloorMotion motion = motion::processed(motion::read_record(file, read), wanted);
     told.push_back({file, options.unit, options.channel, motion::record_figures(motion)});
-    fmt::print("{}\n{}", file, motion::figures_text(told.back().figures));
-    if (const std::string sign = motion::vertical_sign(file); !sign.empty())
-      fmt::print("  a vertical component: {}\n", sign);
+    const std::string sign = motion::vertical_sign(file);
+    fmt::print("{}\n{}", file, motion::figures_text(told.back().figures, !sign.empty()));
+    if (!sign.empty()) fmt::print("  a vertical component: {}\n", sign);
     std::optional<Floors> floors;
     if (building) fmt::print("{}", floors.emplace(motion, *building).text());
     if (!options.convert.empty())
@@ -135,10 +168,11 @@ void add_processing(CLI::App& verb, MotionOptions& options) {
       ->check(CLI::IsMember({"linear", "quadratic"}));
   verb.add_option("--band-pass", options.band_hz, "corners in Hz, as 0.1 25; Butterworth, without shift of phase")
       ->expected(2);
-  verb.add_option("--time-scale", options.time_scale, "of a model: times go with it")->check(CLI::PositiveNumber);
+  verb.add_option("--time-scale", options.time_scale, "of a model: times go with it")
+      ->check(above_zero("scale of times"));
   verb.add_option("--length-scale", options.length_scale,
                   "of a model: lengths go with it; by itself times with its root")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero("scale of lengths"));
 }
 
 }  // namespace
@@ -148,7 +182,7 @@ void add_motion(CLI::App& parser, Work& work) {
   CLI::App* verb = parser.add_subcommand(
       "motion", "what is in a record: step, peaks, Arias intensity, durations, spectrum, identified pulse");
   verb->add_option("files", options->files, "records");
-  verb->add_option("--dt", options->dt_s, "time step in s, for plain columns")->check(CLI::PositiveNumber);
+  verb->add_option("--dt", options->dt_s, "time step in s, for plain columns")->check(above_zero("time step"));
   verb->add_option("--unit", options->unit, "unit of plain columns: g, m/s2, cm/s2 ...");
   verb->add_option("--channel", options->channel, "channel of files that hold several");
   verb->add_option("--csv", options->csv, "write all of it to this file, one row a record: a table of records");
@@ -156,17 +190,17 @@ void add_motion(CLI::App& parser, Work& work) {
   verb->add_option("--floor", options->floor,
                    "building.yaml: the record is of the ground; tells what each floor of it does");
   verb->add_option("--storey", options->storey, "with --convert: how many floors above the ground (0: the ground)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above("floor"));
   verb->add_option("--synthetic", options->synthetic.file,
                    "synthetic.yaml: a set of synthetic motions in place of records; --convert writes them to a folder");
   verb->add_option("--seed", options->synthetic.seed, "with --synthetic: of the study that draws them (1)");
   verb->add_option("--number", options->synthetic.number, "with --synthetic: this motion alone, the first is 0")
-      ->check(CLI::NonNegativeNumber);
+      ->check(zero_or_above("number of a motion"));
   verb->add_flag("--overwrite", options->overwrite, "replace these files if they are there");
   add_processing(*verb, *options);
-  verb->callback([options, &work] {
-    work = [options](const Context& context) {
-      context.world.on_root([&] { show(*options); });
+  verb->callback([options, verb, &work] {
+    work = [options, verb](const Context& context) {
+      context.world.on_root([&] { show(*options, *verb); });
       return Exit::done;
     };
   });

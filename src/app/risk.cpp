@@ -34,6 +34,7 @@ void tell(const study::RiskAnswer& answer, const study::RiskOptions& options) {
   std::size_t width = 0;
   for (const auto& row : risk.rows) width = std::max(width, title(row).size());
   fmt::print("{}, bands of {:g} %; hazard over {}\n", answer.study_name, 100 * risk.confidence, risk.im);
+  if (!answer.target.empty()) fmt::print("{}\n", answer.target);
   std::string in_years;
   for (const double years : options.years) in_years += fmt::format("{:<30}", fmt::format("in {:g} years", years));
   fmt::print("  {:<{}}  {:<32}  {}{:<17}  by\n", "", width, "annual rate", in_years, "half from above");

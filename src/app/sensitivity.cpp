@@ -6,6 +6,7 @@
 #include <memory>
 #include <numeric>
 
+#include "app/checks.hpp"
 #include "app/command.hpp"
 
 namespace freestand::app {
@@ -23,8 +24,7 @@ std::string line(const study::Sensitivity& found, std::size_t a) {
   for (const std::size_t p : order) {
     const bool total = !found.totals[a].empty();
     if (row.share[p].value < 0.005 && !(total && found.totals[a][p].share.value >= 0.005)) continue;
-    text +=
-        fmt::format("{} {:.2f} +-{:.2f}", found.parameters[p].name, std::max(row.share[p].value, 0.0), row.share[p].se);
+    text += fmt::format("{} {:.2f} +-{:.2f}", found.parameters[p].name, row.share[p].value, row.share[p].se);
     if (total)
       text += fmt::format(" (total {:.2f} +-{:.2f})", found.totals[a][p].share.value, found.totals[a][p].share.se);
     text += ", ";
@@ -54,9 +54,9 @@ void add_sensitivity(CLI::App& parser, Work& work) {
   verb->add_option(
           "--total", options->pairs,
           "total shares too: this many samples are computed again for each parameter, with that one drawn again")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero("number of samples"));
   verb->add_option("--confidence", options->confidence, "of the intervals (default 0.95)")
-      ->check(CLI::Range(0.5, 0.999));
+      ->check(within(0.5, 0.999, "confidence"));
   verb->add_flag("--quiet", options->quiet, "no progress, no table");
   verb->callback([options, &work] {
     work = [options](const Context& context) {

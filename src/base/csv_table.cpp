@@ -32,11 +32,20 @@ int next_line(std::ifstream& stream, int line, std::string& text) {
 std::ifstream open(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file))
-    throw Error(file.string() + " cannot be read (no such file, or no permission): check the path");
+    throw Error(file.string() + (std::filesystem::is_directory(file)
+                                     ? " is a folder (a table is a file): give the table"
+                                     : " cannot be read (no such file, or no permission): check the path"),
+                Exit::data);
   return stream;
 }
 
+bool semicolons(const std::vector<std::string>& columns) {
+  return columns.size() == 1 && columns.front().find(';') != std::string::npos;
+}
+
 std::string wrong_header(const std::vector<std::string>& columns) {
+  if (semicolons(columns))
+    return "cells are parted by semicolons (commas part them here, and decimals have points): replace them";
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (columns[i].empty())
       return "column " + std::to_string(i + 1) + " has no name (every column says what it holds): name it";
@@ -105,12 +114,14 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
   for (int line = next_line(stream, 0, text); line > 0; line = next_line(stream, line, text)) {
     const auto cells = csv_cells(text);
     if (text.find('\0') != std::string::npos)
-      throw Error(table.at({line, {}}) + "no text but a binary file (it holds a zero byte): give the table as csv");
+      throw Error(table.at({line, {}}) + "no text but a binary file (it holds a zero byte): give the table as csv",
+                  Exit::data);
     if (!cells) {
       wrong(line, "a quote does not end on its line (where does the cell end?): close it");
     } else if (table.columns.empty()) {
       table.columns = *cells;
       if (const std::string why = wrong_header(*cells); !why.empty()) wrong(line, why);
+      if (semicolons(*cells)) break;  // every row would be wrong by the same
     } else if (cells->size() != table.columns.size()) {
       wrong(line, std::to_string(cells->size()) + " cells (the header has " + std::to_string(table.columns.size()) +
                       "): correct the line; what holds a comma stands in quotes");
@@ -118,8 +129,9 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
       table.rows.push_back({line, *cells});
     }
   }
-  if (!problems.empty()) throw Error(problems);
-  if (table.rows.empty()) throw Error(file.string() + " has no rows (a table has a header and rows): fill it");
+  if (!problems.empty()) throw Error(problems, Exit::data);
+  if (table.rows.empty())
+    throw Error(file.string() + " has no rows (a table has a header and rows): fill it", Exit::data);
   return table;
 }
 

@@ -32,7 +32,7 @@ std::optional<std::vector<std::string>> csv_cells(std::string_view line);
 // The columns of the file's first line that is no comment; empty where it cannot be read as text.
 std::vector<std::string> csv_columns(const std::filesystem::path& file);
 
-// Throws Error (Exit::usage) that names every line that is wrong: other than the header's number of cells, a quote that does
+// Throws Error (Exit::data) that names every line that is wrong: other than the header's number of cells, a quote that does
 // not end, a column without a name or twice; and where the file cannot be read or has no rows.
 CsvTable read_csv_table(const std::filesystem::path& file);
 

@@ -1,9 +1,5 @@
-// The rate of one demand and capacity by the counted shares of the bins: P from one bin's mean to the next, the last bin's share above
-// the sweep, nothing below it. Such a polygon lies above a curve that bends up, and so do means over bins: of ten bins that are as wide as
-// the curve's dispersion the rate comes out 8 % too large at a hazard slope of 1.5 and 27 % at 2.5. So the fitted curve's own rate less
-// the one that such bins would show of it is added (difference estimate; W. Cochran, Sampling Techniques, 1977, chapter 7): of a true
-// curve that leaves 1 % at most, and what the counts have beside the curve stays as it was counted; where the
-// curve has more than the counts, in proportion.
+// The rate of one demand and capacity by the counted shares of the bins: the integral over the curve through them (fragility/counted_curve.hpp),
+// which discrete exports hand on, from the least intensity swept, and level above the last bin.
 #pragma once
 
 #include <vector>
@@ -11,6 +7,7 @@
 #include "decision/annual_rate.hpp"
 #include "decision/rate_limits.hpp"
 #include "decision/risk.hpp"
+#include "fragility/counted_curve.hpp"
 #include "fragility/result.hpp"
 
 namespace freestand::decision {
@@ -23,7 +20,7 @@ class ByCounts {
 
   bool empty() const { return table_.im.empty(); }
 
-  // Of intensities within the range.
+  // Of intensities within the range; the sum of ranges that follow each other is that of the whole.
   double rate(const Range& = {}) const;
 
   // Rows that no resample changes (nothing above was counted, say) are known to their own bands, which hold the exact binomial limits.
@@ -34,9 +31,6 @@ class ByCounts {
   // Rates without each group of motions.
   std::vector<double> rates_left_out() const;
 
-  // The curve's rate over the intensities that rate() is of.
-  double rate_of(const LognormalFragility&) const;
-
   // P below the lowest bin: the counted share is followed down along the lognormal through it and the next bin with a larger one; it
   // stays where there is no such bin, and is 0 where nothing was counted.
   double rate_below(const HazardCurve&, const Range&) const;
@@ -46,14 +40,10 @@ class ByCounts {
   bool bounded_by_others() const { return bounded_by_others_; }
 
  private:
-  // sum_i weight_i probability_i is the polygon's rate.
-  std::vector<double> weights(const Range& = {}) const;
-  double polygon(const std::vector<double>& weight) const;
-  // The rate that these bins would show if the curve were true: each share is the curve's at the bin's mean intensity where the bin's own
-  // law gave it, else its mean over the bin.
-  double polygon_of(const LognormalFragility&) const;
-  // The curve's rate less that of its polygon; in proportion where that is more than the counts' polygon, 0 where there is no curve.
-  double bend(double straight, double median, double dispersion) const;
+  // Of straight lines through the bins: sum_i weight_i probability_i.
+  std::vector<double> weights() const;
+  // Of events within the range, with those beyond the hazard curve's end, which are as strong as there.
+  double integral(const fragility::CountedCurve&, const Range& = {}) const;
   fragility::Interval rising_limits(std::size_t i);
   std::vector<double> rates(const std::vector<double>& again, const std::vector<double>& median,
                             const std::vector<double>& dispersion) const;
@@ -64,6 +54,9 @@ class ByCounts {
   const fragility::EdpResult& edp_;
   const fragility::FragilityFunction& f_;
   TabulatedFragility table_;
+  std::vector<fragility::CountedBin> bins_;
+  // From the least intensity swept to the hazard curve's end: panels in which the curve hardly bends, their middles, and events a year.
+  std::vector<double> node_, middle_, events_;
   std::vector<double> weight_;         // over all intensities
   std::vector<std::size_t> at_, bin_;  // points of the surface, and their bins
   bool bounded_by_others_ = false;

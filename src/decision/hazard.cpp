@@ -62,6 +62,15 @@ Columns columns_of(const Line& header, const std::string& file, const std::vecto
                           : name == "period_s"  ? &found.period
                           : measure             ? &found.im
                                                 : nullptr;
+    if (!column && (name == "rate" || name == "annual_rate_of_exceedance" || name == "lambda" || name == "poe" ||
+                    name == "frequency"))
+      refuse(file, header.number,
+             fmt::format("column {} is unknown (how often a year an intensity is exceeded is called annual_rate): name "
+                         "it annual_rate, if that is what it holds",
+                         name));
+    if (!column && name.find(';') != std::string::npos)
+      refuse(file, header.number,
+             "cells are parted by semicolons (commas part them here, and decimals have points): replace them");
     if (!column)
       refuse(file, header.number,
              fmt::format("column {} is unknown (a hazard curve has an intensity and annual_rate): name the intensity "
@@ -120,6 +129,8 @@ double HazardCurve::rate(double intensity) const {
 }
 
 HazardCurve parse_hazard(const std::string& text, const std::string& file, const std::vector<std::string>& measures) {
+  if (text.find('\0') != std::string::npos)
+    refuse(file, 1, "is no text but a binary file (it holds a zero byte): give the hazard curve as csv");
   const std::vector<Line> lines = lines_of(text);
   if (lines.empty()) refuse(file, 1, "is empty (a hazard curve has a header and at least two points): fill it");
   HazardCurve curve;

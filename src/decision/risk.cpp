@@ -8,7 +8,7 @@
 
 #include "decision/annual_rate.hpp"
 #include "decision/by_counts.hpp"
-#include "fragility/jackknife.hpp"
+#include "fragility/fragility_function.hpp"
 
 namespace freestand::decision {
 namespace {
@@ -83,31 +83,9 @@ class Row {
  private:
   LognormalFragility fragility() const { return {f_.median, f_.dispersion}; }
 
-  // Does the curve give the rate that was counted? The difference of the two, both over the bins, is chance by leaving out motions from
-  // both, or a twentieth, which does not reach the first of the two digits that a rate is told in.
-  bool rates_agree() const {
-    if (counts_.empty()) return true;
-    const double counted = row_.by_counts.value, curve = counts_.rate_of(fragility());
-    if (std::fabs(counted - curve) <= outside_to_warn_of * counted) return true;
-    std::vector<double> difference = counts_.rates_left_out();
-    if (difference.size() != f_.left_out_median.size()) return false;
-    bool positive = counted > 0 && curve > 0;
-    std::vector<double> ratio;
-    for (std::size_t g = 0; g < difference.size(); ++g) {
-      const double rate = counts_.rate_of({f_.left_out_median[g], f_.left_out_dispersion[g]});
-      ratio.push_back(std::log(difference[g] / rate));
-      positive = positive && std::isfinite(ratio.back());
-      difference[g] -= std::isfinite(rate) ? rate : 0;
-    }
-    const fragility::Estimate found =
-        positive ? fragility::jackknife(std::log(counted / curve), by_stratum(ratio, result_), result_.confidence)
-                 : fragility::jackknife(counted - curve, by_stratum(difference, result_), result_.confidence);
-    return found.lower <= 0 && found.upper >= 0;
-  }
-
   void recommend() {
     const bool function = std::isfinite(row_.by_function.value), counts = std::isfinite(row_.by_counts.value);
-    const bool agree = function && f_.adequate && rates_agree();
+    const bool agree = function && f_.adequate;
     row_.recommended = function && (agree || !counts) ? By::function : By::counts;
     if (!function && !counts)
       row_.refused = "no bin has enough samples, and no curve could be fitted";
@@ -115,12 +93,13 @@ class Row {
       row_.why = "no curve could be fitted (nothing exceeds, everything does, or it does not grow with the intensity)";
     else if (agree)
       row_.why = fmt::format(
-          "the fitted curve is adequate: off the counted shares by at most {:.2g}, and its rate is theirs", f_.off_by);
+          "the fitted curve is adequate: off the counted shares by at most {:.2g}, and its rates are theirs",
+          f_.off_by);
     else if (!counts)
       row_.why = "no bin has enough samples";
-    else if (f_.adequate) {
+    else if (rates_differ(f_)) {
       row_.why = fmt::format(
-          "the fitted curve is off the counted shares by at most {:.2g}, but its rate is not that of the counts",
+          "the fitted curve may be off the counted shares by up to {:.2g}, and its rates are not those of the counts",
           f_.off_by);
       row_.rates_differ = true;
     } else
@@ -256,8 +235,8 @@ Risk risk(const Result& result, const HazardCurve& hazard, const std::vector<std
   for (const RiskRow& row : found.rows)
     if (row.rates_differ && row.refused.empty())
       found.warnings.push_back(
-          fmt::format("{}: the fitted curve is off by little in probability, but gives {:.2g} a year where the counts "
-                      "give {:.2g}, more than chance explains: the counts are taken",
+          fmt::format("{}: the fitted curve gives {:.2g} a year where the counts give {:.2g}; where shares are small "
+                      "it is not theirs, by more than chance explains: the counts are taken",
                       title(row), row.by_function.value, row.by_counts.value));
   warn(found, hazard, &RiskRow::outside_sweep,
        "much of the rate comes from a fragility that is extrapolated beyond the sweep");

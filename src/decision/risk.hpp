@@ -40,8 +40,9 @@ struct RiskRow {
   double capacity = fragility::unknown;  // NaN: the demand is yes or no
   Rate by_function, by_counts;
   By recommended = By::function;
-  std::string why;            // the recommended one is
-  bool rates_differ = false;  // the function is adequate in probability, but its rate is not that of the counts
+  std::string why;  // the recommended one is
+  bool rates_differ =
+      false;  // by the function and by the counts, more than chance explains (FragilityFunction::rate_p)
   // Of the rate: what extrapolated fragility gives for intensities outside of the sweep; what may come from intensities outside of the
   // hazard curve (above its end at most as many events as it has there; below its start by its slope there).
   double outside_sweep = fragility::unknown, outside_hazard = fragility::unknown;
@@ -65,10 +66,9 @@ struct Risk {
 // nothing was computed, it is warned of. If more than half may, most of the number would be a guess: it is refused.
 inline constexpr double outside_to_warn_of = 0.05, outside_to_refuse = 0.5;
 
-// Every demand and capacity of the result. The fitted function is recommended where it is adequate (FragilityFunction) and its rate is that
-// of the counts, as far as leaving motions out of both can tell; the counts elsewhere. "Adequate" is a difference of probabilities: where
-// these stay small it says nothing of a rate. The hazard must be over the result's intensity. Throws Error (Exit::usage) where sweep and
-// hazard curve share no intensity.
+// Every demand and capacity of the result. The fitted function is recommended where it is adequate (FragilityFunction: near the counts in
+// probability, and not refuted by their rates), the counts elsewhere: so do exports and databases. The hazard must be over the result's
+// intensity. Throws Error (Exit::usage) where sweep and hazard curve share no intensity.
 //
 // An event that happens whenever another one does has at least its rate, so the upper limit of the inner one is at most that of the outer
 // one, and the lower limit of the outer one at least that of the inner one: of capacities of one demand, and of overturning within the

@@ -23,11 +23,22 @@ int joined(const Parameter& parameter, double samples) {
   return join;
 }
 
+// With an error of its own beside that of the estimate.
+fragility::Estimate wider(fragility::Estimate estimate, double error) {
+  const double se = std::hypot(estimate.se, error);
+  if (!(estimate.se > 0) || !(se > estimate.se)) return estimate;
+  const double times = se / estimate.se;
+  estimate.lower = std::clamp(estimate.value - times * (estimate.value - estimate.lower), 0.0, 1.0);
+  estimate.upper = std::clamp(estimate.value + times * (estimate.upper - estimate.value), 0.0, 1.0);
+  estimate.se = se;
+  return estimate;
+}
+
 }  // namespace
 
 ShareTally::ShareTally(std::vector<Parameter> parameters, std::vector<Answer> answers,
-                       const fragility::LeaveOutGroups& groups)
-    : parameters_(std::move(parameters)), answers_(std::move(answers)), groups_(groups) {
+                       const fragility::LeaveOutGroups& groups, bool one_design)
+    : parameters_(std::move(parameters)), answers_(std::move(answers)), groups_(groups), one_design_(one_design) {
   for (const Answer& answer : answers_) {
     of_answer_.push_back(width_);
     width_ += answer.yes_or_no ? 2 : 3;  // number, sum [, sum of squares]
@@ -66,7 +77,7 @@ ShareTally::Sums ShareTally::cell(std::size_t parameter, std::size_t of_class, s
   return {n, sum / scale, static_cast<double>(at[2]) / scale};
 }
 
-double ShareTally::share(const std::vector<Sums>& of_class) {
+double ShareTally::share(const std::vector<Sums>& of_class, double evenness) {
   Sums all;
   double classes = 0, within = 0;
   for (const Sums& one : of_class) {
@@ -78,7 +89,31 @@ double ShareTally::share(const std::vector<Sums>& of_class) {
   const double total = all.squares - all.sum * all.sum / std::max(all.n, 1.0);
   // Below that the values are all the same but for the rounding of the sums.
   if (all.n <= classes + 1 || !(total > 4 * all.n / (scale * scale))) return nan;
-  return 1 - (all.n - 1) / (all.n - classes) * within / total;
+  const double by_chance = evenness * (classes - 1) / (all.n - 1);
+  return (1 - within / total - by_chance) / (1 - by_chance);
+}
+
+// c of the means of K classes scattering by r = c (K - 1)/(N - 1).
+ShareTally::Evenness ShareTally::evenness(int design, std::size_t answer, double samples) const {
+  double sum = 0, squares = 0, idle = 0;
+  for (std::size_t p = 0; p < parameters_.size(); ++p) {
+    if (!parameters_[p].idle || parameters_[p].design != design) continue;
+    std::vector<Sums> total;
+    double classes = 0;
+    for (const auto& of_class : by_class_and_group(p, answer, samples)) {
+      total.emplace_back();
+      for (const Sums& one : of_class) total.back() += one;
+      classes += total.back().n > 0;
+    }
+    if (classes < 2) continue;
+    const double one = share(total, 0) * (samples - 1) / (classes - 1);
+    sum += one;
+    squares += one * one;
+    ++idle;
+  }
+  if (idle == 0) return {1, 0};
+  const double c = sum / idle;
+  return {std::min(1.0, c), idle > 1 ? std::sqrt(std::max(0.0, (squares - idle * c * c) / (idle - 1))) : 0};
 }
 
 std::vector<std::vector<ShareTally::Sums>> ShareTally::by_class_and_group(std::size_t p, std::size_t answer,
@@ -100,21 +135,37 @@ struct ShareTally::Shares {
   double classes = 0;           // that have samples
 };
 
-ShareTally::Shares ShareTally::shares(std::size_t p, std::size_t answer, const std::vector<Sums>& of_group) const {
+// Of parts of one even design: about the whole, and closer by the root of c.
+void ShareTally::draw_in(Shares& shares, double evenness) const {
+  double sum = 0, count = 0;
+  const auto is_part = [&](std::size_t g) {
+    return groups_.stratum(static_cast<int>(g)) == 1 && !std::isnan(shares.without[g]);
+  };
+  for (std::size_t g = 0; g < shares.without.size(); ++g)
+    if (is_part(g)) sum += shares.without[g], ++count;
+  for (std::size_t g = 0; g < shares.without.size(); ++g)
+    if (is_part(g))
+      shares.without[g] = shares.whole + std::sqrt(std::max(evenness, 0.0)) * (shares.without[g] - sum / count);
+}
+
+ShareTally::Shares ShareTally::shares(std::size_t p, std::size_t answer, const std::vector<Sums>& of_group,
+                                      double evenness) const {
   double samples = 0;
   for (const Sums& one : of_group) samples += one.n;
   const auto sums = by_class_and_group(p, answer, samples);
   std::vector<Sums> total(sums.size());
   for (std::size_t c = 0; c < sums.size(); ++c)
     for (const Sums& one : sums[c]) total[c] += one;
-  Shares found{share(total), std::vector<double>(of_group.size(), nan)};
+  Shares found{share(total, evenness), std::vector<double>(of_group.size(), nan)};
   for (const Sums& one : total) found.classes += one.n > 0;
   for (std::size_t g = 0; g < of_group.size(); ++g) {
     if (of_group[g].n == 0) continue;
     std::vector<Sums> rest(total);
     for (std::size_t c = 0; c < sums.size(); ++c) rest[c] -= sums[c][g];
-    found.without[g] = share(rest);
+    // Parts of an even design scatter as independent draws do.
+    found.without[g] = share(rest, one_design_ && groups_.stratum(static_cast<int>(g)) == 1 ? 1 : evenness);
   }
+  if (one_design_) draw_in(found, evenness);
   return found;
 }
 
@@ -146,13 +197,21 @@ ShareRow ShareTally::row(std::size_t answer, double confidence) const {
     return left_out;
   };
   Shares together{0, std::vector<double>(of_group.size(), 0), 0};
+  double squares = 0;
   for (std::size_t p = 0; p < parameters_.size(); ++p) {
-    const Shares one = shares(p, answer, of_group);
-    row.share.push_back(fragility::jackknife_share(one.whole, left_out_of(one), confidence, all.n / one.classes));
+    if (parameters_[p].idle) continue;
+    const int design = parameters_[p].design;
+    const Evenness even = design == 0 ? Evenness{1, 0} : evenness(design, answer, all.n);
+    const Shares one = shares(p, answer, of_group, even.c);
+    const double between = even.scatter * std::max(one.classes - 1, 0.0) / std::max(all.n - 1, 1.0);
+    row.share.push_back(
+        wider(fragility::jackknife_share(one.whole, left_out_of(one), confidence, all.n / one.classes), between));
+    squares += between * between;
     together.whole += one.whole;
     for (std::size_t g = 0; g < of_group.size(); ++g) together.without[g] += one.without[g];
   }
-  row.together = fragility::jackknife_share(together.whole, left_out_of(together), confidence);
+  row.together =
+      wider(fragility::jackknife_share(together.whole, left_out_of(together), confidence), std::sqrt(squares));
   return row;
 }
 

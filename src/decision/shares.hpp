@@ -5,11 +5,16 @@
 // the part of the variance that would go if X were known. The samples are parted by X into K classes of equal probability (32, or so
 // few that each holds 50 samples; the values of a choice and the motions are classes by themselves), and
 //
-//   share = 1 - (N - 1)/(N - K) sum_k SS_k / SS           T. L. Kelley, Proc. Natl. Acad. Sci. 21, 1935
+//   share = (r - q)/(1 - q),   r = 1 - sum_k SS_k / SS,   q = c (K - 1)/(N - 1)
 //
-// with SS the sum of squares about the mean, SS_k that of a class about its own: the correction takes away what K class means
-// scatter by chance. What is lost inside the classes is a 1/K^2 of the share of a straight line. Samples that share a motion are
-// not independent: motions are left out in turn (jackknife.hpp), for the error and against the bias of few motions. A share that is
+// with SS the sum of squares about the mean, SS_k that of a class about its own: q takes away what K class means scatter by chance. Of
+// independent draws, and of the permutations of a latin hypercube, c = 1 (T. L. Kelley, Proc. Natl. Acad. Sci. 21, 1935). The means of an even
+// design scatter less, and how much less is measured: parameters that the answer cannot depend on (`idle`, other dimensions of the same
+// design) are parted into classes too, and c is the mean of their r (N - 1)/(K - 1); how that differs among them goes
+// into the error. What is lost inside the classes is a 1/K^2 of the share of a
+// straight line. Samples that share a motion are not independent: motions are left out in turn (jackknife.hpp), for the error and against the
+// bias of few motions. Groups that are parts of one even design err less than they differ: without scrambles their part of the variance is
+// taken times c, which is still too much rather than too little, since c is of class means and the design as even throughout. A share that is
 // zero comes out as zero on the average, so now and then below it.
 #pragma once
 
@@ -28,6 +33,9 @@ struct Parameter {
   std::string name, unit = "1";
   int classes = 32;
   bool ordered = true;  // neighbouring classes may be joined
+  // The design that its draws are even in: 0 none, independent draws. Of each other one there are idle parameters behind the others.
+  int design = 0;
+  bool idle = false;
 };
 
 // What scatters: ln of a demand, over those that moved and stood; or whether something happens, the demand above a capacity, say.
@@ -38,7 +46,7 @@ struct Answer {
 };
 
 struct ShareRow {
-  std::vector<fragility::Estimate> share;  // [parameter]
+  std::vector<fragility::Estimate> share;  // [parameter], idle ones left out
   fragility::Estimate together;  // of each alone, summed; what is missing to 1 is due to parameters that act together
   std::int64_t samples = 0;      // with this answer
   int motions = 0;               // groups of motions that these have (at most 64 of records and 64 of others)
@@ -49,7 +57,9 @@ struct ShareRow {
 // tallies of the same shape may be added element by element. |values| < 2^10, up to 2^30 samples.
 class ShareTally {
  public:
-  ShareTally(std::vector<Parameter> parameters, std::vector<Answer> answers, const fragility::LeaveOutGroups& groups);
+  // one_design: the groups that are no records are parts of one even design, no designs of their own.
+  ShareTally(std::vector<Parameter> parameters, std::vector<Answer> answers, const fragility::LeaveOutGroups& groups,
+             bool one_design = false);
 
   // of_class: [parameter], 0 ... classes - 1, or `classes` where a sample has none (the period of a record). value: [answer], NaN:
   // not known for this sample, as the slip of what overturned.
@@ -67,14 +77,21 @@ class ShareTally {
   struct Shares;
   Sums cell(std::size_t parameter, std::size_t of_class, std::size_t group, std::size_t answer) const;
   std::size_t place(std::size_t parameter, std::size_t of_class, std::size_t group, std::size_t answer) const;
-  static double share(const std::vector<Sums>& of_class);
+  // By classes, with c.
+  static double share(const std::vector<Sums>& of_class, double evenness);
+  struct Evenness {
+    double c, scatter;  // from one idle parameter to the next
+  };
+  Evenness evenness(int design, std::size_t answer, double samples) const;
+  void draw_in(Shares&, double evenness) const;
   std::vector<Sums> by_group(std::size_t answer) const;
   std::vector<std::vector<Sums>> by_class_and_group(std::size_t parameter, std::size_t answer, double samples) const;
-  Shares shares(std::size_t parameter, std::size_t answer, const std::vector<Sums>& of_group) const;
+  Shares shares(std::size_t parameter, std::size_t answer, const std::vector<Sums>& of_group, double evenness) const;
 
   std::vector<Parameter> parameters_;
   std::vector<Answer> answers_;
   fragility::LeaveOutGroups groups_;
+  bool one_design_;
   std::size_t width_ = 0;               // words of a cell
   std::vector<std::size_t> of_answer_;  // offset in a cell
   std::vector<std::size_t> first_;      // cell of class 0 and group 0 of each parameter

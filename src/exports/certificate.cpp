@@ -47,11 +47,14 @@ Json state_json(const Model& model, const LimitState& state, const Largest& larg
           {"lognormal_off_by", state.fitted.off_by},
           {"lognormal_adequate", state.fitted.adequate},
           {"lognormal_not_refuted", state.fitted.not_refuted},
+          {"lognormal_rates_differ", state.fitted.rates_differ},
           {"largest_difference", largest.difference},
           {"at", largest.at},
           {"beyond_sweep_from", beyond_sweep_from(model, state.curve)},
           {"largest_difference_from_surface", state.off_surface},
           {"surface_at", state.off_surface_at},
+          {"largest_difference_between_points", state.off_lines},
+          {"annual_rate_by_lines_at_slopes_1_2_3", state.rate_by_lines},
           {"pooled_by", state.pooled}};
 }
 

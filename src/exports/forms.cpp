@@ -35,6 +35,15 @@ Refusal rise(const LimitState& state, const Intensity& im, const Wanted& wanted,
   return {};
 }
 
+// Is the second within the first at each bin?
+bool nested(const LimitState& milder, const LimitState& graver) {
+  if (milder.bins.size() != graver.bins.size()) return false;
+  for (std::size_t i = 0; i < milder.bins.size(); ++i)
+    if (milder.bins[i].im != graver.bins[i].im || graver.bins[i].probability > milder.bins[i].probability + tolerance)
+      return false;
+  return true;
+}
+
 // The three parts of one bin; the lognormal is NaN where nothing moved.
 PartsPoint parts_of(const EdpResult& edp, std::size_t bin, double im) {
   const BinFit& fit = edp.bins[bin];
@@ -59,6 +68,24 @@ bool borrow_lognormals(std::vector<PartsPoint>& parts) {
   return true;
 }
 
+// How far straight lines between the points are off the curve that annual rates go by, within these places.
+void measure_lines(LimitState& state, const std::vector<double>& places) {
+  constexpr int checked = 400;
+  double of_lines[3] = {}, of_curve[3] = {};
+  for (int i = 0; i <= checked; ++i) {
+    const double im = places.front() * std::pow(places.back() / places.front(), i / static_cast<double>(checked));
+    const double line = probability(state.curve, im), curve = (*state.counted)(im);
+    state.off_lines = std::max(state.off_lines, std::fabs(line - curve));
+    for (int k = 0; k < 3; ++k) {
+      const double events = std::pow(im / places.front(), -(k + 1));
+      of_lines[k] += line * events;
+      of_curve[k] += curve * events;
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+    if (of_curve[k] > 0) state.rate_by_lines[k] = of_lines[k] / of_curve[k];
+}
+
 }  // namespace
 
 std::string label(const Wanted& wanted) {
@@ -78,6 +105,11 @@ Refusal make_lognormal(LimitState& state, const Wanted& wanted) {
         "would "
         "tell): use --form discrete",
         label(wanted), fitted.off_by);
+  if (fitted.rates_differ)
+    return fmt::format(
+        "the lognormal of {} gives other annual rates than the counts by more than chance explains (where shares are "
+        "small; in probability it is off by {:.2g} at most): use --form discrete",
+        label(wanted), fitted.off_by);
   if (!fitted.adequate)
     return fmt::format("the lognormal of {} is not adequate (it may be off by {:.2g}): use --form discrete",
                        label(wanted), fitted.off_by);
@@ -88,17 +120,49 @@ Refusal make_lognormal(LimitState& state, const Wanted& wanted) {
   return {};
 }
 
-Refusal make_discrete(LimitState& state, const Wanted& wanted, const Intensity& im) {
+Refusal make_discrete(LimitState& state, const Wanted& wanted, const fragility::Result& result, const Intensity& im,
+                      bool counted, bool straight) {
+  const EdpResult& edp = *wanted.edp;
   std::vector<double> values;
   if (const Refusal refusal = rise(state, im, wanted, values); !refusal.empty()) return refusal;
-  state.curve.form = Form::discrete;
-  state.curve.points = {{0, 0}};
+  std::vector<fragility::CountedBin> bins;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    state.curve.points.push_back({state.bins[i].im, values[i]});
-    state.pooled = std::max(state.pooled, std::fabs(values[i] - state.bins[i].probability));
+    const Bin& bin = state.bins[i];
+    state.pooled = std::max(state.pooled, std::fabs(values[i] - bin.probability));
+    bins.push_back({bin.im, values[i], result.im_edge[bin.index], result.im_edge[bin.index + 1],
+                    !counted && !edp.binary && edp.bins[bin.index].status == BinStatus::fitted});
   }
-  state.why = "bin by bin";
+  state.curve.form = Form::discrete;
+  state.counted.emplace(bins, state.fitted.median, state.fitted.dispersion);
+  state.drawn = straight ? fragility::CountedCurve(bins, unknown, unknown) : *state.counted;
+  double least = bins.front().im, most = bins.back().im;
+  if (!straight && std::isfinite(state.fitted.median)) {
+    const fragility::FragilityFunction& f = edp.functions[wanted.capacity];
+    least = f.im_least, most = f.im_most;
+  }
+  state.places = fragility::places_to_follow(*state.drawn, bins, least, most);
+  state.why = "the counted shares";
   return {};
+}
+
+void put_points(std::vector<LimitState>& states) {
+  std::vector<double> places;
+  for (const LimitState& state : states) places.insert(places.end(), state.places.begin(), state.places.end());
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end(), [](double a, double b) { return b - a <= 1e-9 * b; }),
+               places.end());
+  for (std::size_t s = 0; s < states.size(); ++s) {
+    LimitState& state = states[s];
+    state.curve.points = {{0, 0}};
+    for (const double im : places)
+      state.curve.points.push_back({im, std::max(state.curve.points.back().probability, (*state.drawn)(im))});
+    if (s > 0 && nested(states[s - 1], state))
+      for (std::size_t i = 0; i < state.curve.points.size(); ++i) {
+        double& p = state.curve.points[i].probability;
+        p = std::min(p, states[s - 1].curve.points[i].probability);
+      }
+  }
+  for (LimitState& state : states) measure_lines(state, places);
 }
 
 Refusal make_table(LimitState& state) {

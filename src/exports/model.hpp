@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "exports/curve.hpp"
+#include "fragility/counted_curve.hpp"
 
 namespace freestand::exports {
 
@@ -32,6 +34,7 @@ struct Fitted {
   double median = unknown, median_se = unknown, dispersion = unknown, dispersion_se = unknown;
   double off_by = unknown;                                           // bound on |fitted - counted|
   bool adequate = false, not_refuted = false, extrapolated = false;  // not_refuted: nor known to be off by little
+  bool rates_differ = false;                                         // from those of the counts
 };
 
 struct LimitState {
@@ -41,8 +44,13 @@ struct LimitState {
   Curve curve;
   std::string why;  // this form and no other
   Fitted fitted;
-  std::vector<Bin> bins;   // as they were, before anything was pooled
-  double pooled = 0;       // largest change of a bin so that the curve does not fall
+  std::vector<Bin> bins;  // as they were, before anything was pooled
+  double pooled = 0;      // largest change of a bin so that the curve does not fall
+  // Discrete: the curve that annual rates go by, the one of which points are taken at these places, and how far straight lines
+  // between them are off the first: the largest difference, and their annual rate over its own under hazards of slope 1, 2 and 3.
+  std::optional<fragility::CountedCurve> counted = {}, drawn = {};
+  std::vector<double> places = {};
+  double off_lines = 0, rate_by_lines[3] = {1, 1, 1};
   double off_surface = 0;  // largest |curve - surface| at the bins
   double off_surface_at = unknown;
 };

@@ -93,16 +93,17 @@ std::vector<File> write(const Model& model, const std::string& name) {
   return write_all({model.id, model.description, {model}}, name);
 }
 
-const Register here{{.name = "openquake",
-                     .summary = "fragility for OpenQuake, NRML 0.5: lognormal or by levels",
-                     .file = "fragility.xml",
-                     .forms = {Form::lognormal, Form::discrete},
-                     .one_list_of_states = true,
-                     .notes_on = openquake::notes_on,
-                     .usual_category = [](std::size_t) -> std::string { return "buildings"; },
-                     .refuse = openquake::refuse,
-                     .write = write,
-                     .write_all = write_all}};
+const Register here{
+    {.name = "openquake",
+     .summary = "fragility for OpenQuake, NRML 0.5: lognormal or by levels",
+     .file = "fragility.xml",
+     .forms = {Form::lognormal, Form::discrete},
+     .one_list_of_states = true,
+     .notes_on = openquake::notes_on,
+     .usual_category = [](std::size_t) -> std::string { return "buildings"; },
+     .refuse = [](const Model& model) { openquake::refuse(model), openquake::refuse_loss_category(model, false); },
+     .write = write,
+     .write_all = write_all}};
 
 }  // namespace
 }  // namespace freestand::exports::openquake

@@ -47,6 +47,17 @@ Imt imt_of(const Intensity& im) {
 
 std::vector<std::string> notes_on(const Model& model) { return {of_the_ground(model.im, "OpenQuake")}; }
 
+// OpenQuake Engine, user guide, inputs, "Fragility Models" and "Vulnerability Models": the attribute lossCategory.
+void refuse_loss_category(const Model& model, bool of_vulnerability) {
+  std::vector<std::string> known{"structural", "nonstructural", "contents", "business_interruption"};
+  if (of_vulnerability) known.emplace_back("occupants");
+  if (std::find(known.begin(), known.end(), model.loss_category) == known.end())
+    throw Error(
+        fmt::format("OpenQuake has no loss category {} (its lossCategory is one of {}): give one of them with "
+                    "--loss-category",
+                    shown(model.loss_category), fmt::join(known, ", ")));
+}
+
 void refuse(const Model& model) {
   imt_of(model.im);
   const auto allowed = [](char c) {

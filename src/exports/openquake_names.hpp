@@ -22,6 +22,7 @@ Imt imt_of(const Intensity&);
 
 // Throws Error for an intensity, identifier or description that OpenQuake refuses.
 void refuse(const Model&);
+void refuse_loss_category(const Model&, bool of_vulnerability);
 
 // The text of an attribute or element, escaped.
 std::string escaped(const std::string& text);

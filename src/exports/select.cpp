@@ -19,7 +19,8 @@ using fragility::Result;
 Fitted fitted_of(const Wanted& wanted) {
   if (wanted.capacity >= wanted.edp->functions.size()) return {};
   const fragility::FragilityFunction& f = wanted.edp->functions[wanted.capacity];
-  return {f.median, f.median_se, f.dispersion, f.dispersion_se, f.off_by, f.adequate, not_refuted(f), f.extrapolated};
+  return {f.median,   f.median_se,    f.dispersion,   f.dispersion_se, f.off_by,
+          f.adequate, not_refuted(f), f.extrapolated, rates_differ(f)};
 }
 
 // The rows of the surface. Empty ones are left out or refused.
@@ -122,13 +123,37 @@ bool of_another_demand(const std::string& warning, const Model& model, const Res
                      [&](const EdpResult& edp) { return warning.starts_with(edp.name + ": ") && !goes_out(edp); });
 }
 
+// Straight lines that bend less than the curve which risks are computed by have other annual rates: told from a twentieth on.
+void tell_rates_by_lines(Model& model) {
+  for (const LimitState& state : model.states) {
+    const auto* worst =
+        std::max_element(std::begin(state.rate_by_lines), std::end(state.rate_by_lines),
+                         [](double a, double b) { return std::fabs(std::log(a)) < std::fabs(std::log(b)); });
+    if (*worst >= 0.95 && *worst <= 1.05) continue;
+    model.notes.push_back(
+        fmt::format("{}: annual rates by these straight lines are {:.2g} times those that `freestand risk` gives, "
+                    "where the hazard falls by "
+                    "im^-{}: over narrower bins, or from the folder of the sweep, they are nearer",
+                    state.name, *worst, worst - state.rate_by_lines + 1));
+  }
+}
+
 void take_notes(Model& model, const Result& result, Form form, bool table) {
   const std::string unit = model.im.unit == "1" ? "" : " " + model.im.unit;
   const std::vector<Bin>& bins = model.states.front().bins;
   if (form == Form::lognormal)
     model.notes.push_back(fmt::format("swept from {:.4g} to {:.4g}{}: outside of that a lognormal is an extrapolation",
                                       model.im_least, model.im_most, unit));
-  else if (!table)
+  else if (!table && form == Form::discrete) {
+    const std::vector<Point>& points = model.states.front().curve.points;
+    double off = 0;
+    for (const LimitState& state : model.states) off = std::max(off, state.off_lines);
+    model.notes.push_back(
+        fmt::format("straight lines between {} points of the curve through {} bins, off it by at most {:.2g}; below "
+                    "the lowest, at {:.4g}{}, to 0 at 0; above the highest, at {:.4g}{}, probabilities stay",
+                    points.size() - 1, bins.size(), off, points[1].im, unit, points.back().im, unit));
+    tell_rates_by_lines(model);
+  } else if (!table)
     model.notes.push_back(
         fmt::format("straight lines between {} bins; below the lowest, at {:.4g}{}, to 0 at 0; above the highest, at "
                     "{:.4g}{}, probabilities stay",
@@ -191,16 +216,19 @@ void tell_what_never_happened(Model& model, const std::vector<std::string>& left
 }
 
 // Gives all limit states that form, or says why not.
-Refusal take_form(Model& model, const Result& result, const std::vector<Wanted>& wanted, Form form, bool table) {
+Refusal take_form(Model& model, const Result& result, const std::vector<Wanted>& wanted, Form form, bool table,
+                  const Request& request) {
   for (std::size_t s = 0; s < wanted.size(); ++s) {
     LimitState& state = model.states[s];
     const Refusal refusal = table                     ? make_table(state)
                             : form == Form::lognormal ? make_lognormal(state, wanted[s])
-                            : form == Form::discrete  ? make_discrete(state, wanted[s], model.im)
-                                                      : make_parts(state, wanted[s], result, model.im);
+                            : form == Form::discrete
+                                ? make_discrete(state, wanted[s], result, model.im, request.counted, request.straight)
+                                : make_parts(state, wanted[s], result, model.im);
     if (!refusal.empty()) return refusal;
-    measure_surface(state);
   }
+  if (!table && form == Form::discrete) put_points(model.states);
+  for (LimitState& state : model.states) measure_surface(state);
   return table ? Refusal{} : crossing(model);
 }
 
@@ -233,7 +261,7 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
   Refusal refusal;
   for (const Form form : request.form ? std::vector<Form>{*request.form} : format.forms) {
     Model model = fresh;
-    refusal = take_form(model, result, wanted, form, format.table);
+    refusal = take_form(model, result, wanted, form, format.table, request);
     if (refusal.empty()) {
       take_notes(model, result, form, format.table);
       if (!passed_over.empty()) model.notes.push_back(passed_over);

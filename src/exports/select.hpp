@@ -19,6 +19,7 @@ struct Request {
   std::vector<std::string> states;
   std::optional<Form> form;  // none: the first of the format's that is honest
   bool counted = false;      // discrete from the counted shares alone
+  bool straight = false;     // discrete by straight lines from bin to bin, as a database is read
   bool skip_empty = false;   // leave bins with too few samples out
   std::string id, description, asset_category, loss_category = "contents";
 };

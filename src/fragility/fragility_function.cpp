@@ -6,6 +6,7 @@
 #include "fragility/goodness.hpp"
 #include "fragility/intervals.hpp"
 #include "fragility/probit.hpp"
+#include "fragility/small_shares.hpp"
 
 namespace freestand::fragility {
 namespace {
@@ -129,14 +130,16 @@ class Resampled {
         cells_(cells),
         shape_(shape),
         n_(resampling.totals(cells.n)),
-        above_(resampling.totals(cells.above)) {
+        above_(resampling.totals(cells.above)),
+        n_left_(resampling.totals_left_out(cells.n)),
+        above_left_(resampling.totals_left_out(cells.above)),
+        left_out_records_(resampling.left_out_records()) {
     const std::vector<bool> there = tally.groups_with_samples();
     motions_ = static_cast<int>(std::count(there.begin(), there.end(), true));
     for (Eigen::Index r = 0; r < n_.rows(); ++r)
       shapes_.emplace_back(points_of(cells.im, n_.row(r), above_.row(r)), shape.fit);
-    const Eigen::MatrixXd n = resampling.totals_left_out(cells.n), above = resampling.totals_left_out(cells.above);
-    for (Eigen::Index i = 0; i < n.rows(); ++i)
-      left_out_.push_back(fit_probit(points_of(cells.im, n.row(i), above.row(i)), shape.fit));
+    for (Eigen::Index i = 0; i < n_left_.rows(); ++i)
+      left_out_.emplace_back(points_of(cells.im, n_left_.row(i), above_left_.row(i)), shape.fit);
   }
 
   void errors(FragilityFunction& curve) const {
@@ -149,9 +152,9 @@ class Resampled {
     curve.dispersion_se = standard_error(dispersion, motions_);
     curve.resampled_median = std::move(median);
     curve.resampled_dispersion = std::move(dispersion);
-    for (const ProbitFit& fit : left_out_) {
-      curve.left_out_median.push_back(fit.median);
-      curve.left_out_dispersion.push_back(fit.dispersion);
+    for (const Shape& shape : left_out_) {
+      curve.left_out_median.push_back(shape.fit.median);
+      curve.left_out_dispersion.push_back(shape.fit.dispersion);
     }
   }
 
@@ -187,17 +190,48 @@ class Resampled {
     const auto larger = scatter.end() - std::lower_bound(scatter.begin(), scatter.end(), size);
     curve.misfit_p = (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(scatter.size()));
     curve.off_by = size + sorted_quantile(scatter, tally_.options().confidence);
-    curve.adequate = curve.off_by <= tally_.options().adequate;
+    curve.rate_p = chance_of_small_shares(small_shares(found));
+    curve.adequate = curve.off_by <= tally_.options().adequate && !rates_differ(curve);
   }
 
  private:
+  SmallShares small_shares(const std::vector<double>& found) const {
+    const std::size_t bins = tally_.layout().bins;
+    SmallShares small{
+        {},       std::vector<double>(bins, 0), found, std::vector<double>(bins, 0), {}, left_out_records_, 1,
+        motions_, tally_.options().adequate};
+    double binomial = 0;
+    Eigen::VectorXd left = Eigen::VectorXd::Zero(cells_.n.rows());  // [group], counted less expected
+    for (Eigen::Index i = 0; i < cells_.n.cols(); ++i) {
+      const std::size_t cell = static_cast<std::size_t>(i), bin = cells_.bin[cell];
+      const double p = shape_(cells_.im[cell]), n = cells_.n.col(i).sum();
+      small.fitted[bin] += n * p;
+      small.samples[bin] += n;
+      left += cells_.above.col(i) - p * cells_.n.col(i);
+      binomial += n * p * (1 - p);
+    }
+    if (binomial > 0) small.clustering = left.squaredNorm() / binomial;
+    for (std::size_t b = 0; b < bins; ++b) {
+      small.im.push_back(tally_.mean_im(b));
+      small.fitted[b] /= small.samples[b];  // NaN where there is none
+    }
+    small.left_out.resize(n_left_.rows(), static_cast<Eigen::Index>(bins));
+    for (Eigen::Index r = 0; r < n_left_.rows(); ++r) {
+      const auto without =
+          misfits(cells_, bins, n_left_.row(r), above_left_.row(r), left_out_[static_cast<std::size_t>(r)], 1);
+      for (std::size_t b = 0; b < bins; ++b) small.left_out(r, static_cast<Eigen::Index>(b)) = without[b];
+    }
+    return small;
+  }
+
   const Tally& tally_;
   const Cells& cells_;
   const Shape& shape_;
-  Eigen::MatrixXd n_, above_;  // [resample, cell]
-  int motions_ = 0;
-  std::vector<Shape> shapes_;  // [resample]
-  std::vector<ProbitFit> left_out_;
+  Eigen::MatrixXd n_, above_;            // [resample, cell]
+  Eigen::MatrixXd n_left_, above_left_;  // [left out, cell]
+  int left_out_records_, motions_ = 0;
+  std::vector<Shape> shapes_;    // [resample]
+  std::vector<Shape> left_out_;  // [left out]
 };
 
 FragilityFunction function_of(const Tally& tally, const Cells& cells, const Resampling& resampling) {
@@ -224,7 +258,11 @@ FragilityFunction function_of(const Tally& tally, const Cells& cells, const Resa
 
 }  // namespace
 
-bool not_refuted(const FragilityFunction& curve) { return !curve.adequate && curve.misfit_p > test_level; }
+bool rates_differ(const FragilityFunction& curve) { return curve.rate_p <= test_level; }
+
+bool not_refuted(const FragilityFunction& curve) {
+  return !curve.adequate && curve.misfit_p > test_level && !rates_differ(curve);
+}
 
 FragilityFunction overturning_function(const Tally& tally, const Resampling& resampling) {
   return function_of(tally,

@@ -16,4 +16,7 @@ FragilityFunction fragility_function(const Tally& tally, std::size_t edp, std::s
 // Its misfit is chance, but it may be off by more than Options::adequate: too few motions to tell. It does not stand for the counts.
 bool not_refuted(const FragilityFunction&);
 
+// Annual rates by the curve are not those of the counts, by more than chance explains (small_shares.hpp), however near it is in probability.
+bool rates_differ(const FragilityFunction&);
+
 }  // namespace freestand::fragility

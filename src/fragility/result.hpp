@@ -120,7 +120,10 @@ struct FragilityFunction {
   // The true shares of the bins are off the curve by no more, with Options::confidence: the misfit, and as much as
   // resampled misfits scatter about it.
   double off_by = unknown;
-  bool adequate = false;                          // it may stand for the counts: off_by is at most Options::adequate
+  // The chance of annual rates as far from those of the counts if the curve were true (small_shares.hpp).
+  double rate_p = unknown;
+  // It may stand for the counts: off_by is at most Options::adequate, and rates do not refute it (rate_p).
+  bool adequate = false;
   std::vector<double> grid;                       // IM, from the first positive edge to the last
   std::vector<double> probability, lower, upper;  // [grid], band from resampled motions
   std::vector<double> resampled_median,

@@ -21,9 +21,10 @@ void about_outcomes(const Tally& tally, const Result& result, std::vector<std::s
                                 result.samples, name(outcome), failure(outcome)));
   }
   if (result.outside_im > 0)
-    out.push_back(fmt::format("{} of {} samples have an IM ({}) outside the bins, {:.3g} to {:.3g}, and are left out.",
-                              result.outside_im, result.samples, result.im_name, result.im_edge.front(),
-                              result.im_edge.back()));
+    out.push_back(fmt::format(
+        "{} of {} samples have an IM ({}) outside the edges that were given, {:.3g} to {:.3g}, and are left "
+        "out of bins and curves: edges that reach further take them.",
+        result.outside_im, result.samples, result.im_name, result.im_edge.front(), result.im_edge.back()));
   for (std::size_t e = 0; e < tally.options().edps.size(); ++e)
     if (tally.missing(e) > 0)
       out.push_back(fmt::format("{} samples have no value of {} and are left out of it.", tally.missing(e),
@@ -96,7 +97,8 @@ std::string capacities(const EdpResult& edp, const Meant& meant, const Number& n
 }
 
 // The fitted curves of one demand over all bins, by capacity.
-void about_functions(const EdpResult& edp, const Options& options, std::vector<std::string>& out) {
+void about_functions(const EdpResult& edp, const Options& options, std::int64_t outside_im,
+                     std::vector<std::string>& out) {
   const auto median = [](const FragilityFunction& f) { return fmt::format("{:.3g}", f.median); };
   const auto off_by = [](const FragilityFunction& f) { return fmt::format("by {:.2f}", f.off_by); };
   const auto told = [&](const std::string& concerned, const std::string& sentence) {
@@ -107,12 +109,20 @@ void about_functions(const EdpResult& edp, const Options& options, std::vector<s
   told(capacities(
            edp, [](const FragilityFunction& f) { return f.extrapolated; }, median),
        fmt::format(
-           "the median of the fitted curve lies outside the intensities swept, {:.3g} to {:.3g}, for {{}}: it is an "
+           "the median of the fitted curve lies outside the intensities {}, {:.3g} to {:.3g}, for {{}}: it is an "
            "extrapolation.",
-           edp.functions[0].im_least, edp.functions[0].im_most));
+           outside_im > 0 ? "taken" : "swept", edp.functions[0].im_least, edp.functions[0].im_most));
   told(capacities(
            edp, [](const FragilityFunction& f) { return !f.adequate && f.misfit_p <= test_level; }, off_by),
        "one lognormal curve is too simple, and may be off the true shares, for {}.");
+  told(capacities(
+           edp,
+           [&](const FragilityFunction& f) {
+             return rates_differ(f) && (f.misfit_p > test_level || f.off_by <= options.adequate);
+           },
+           [](const FragilityFunction& f) { return fmt::format("p = {:.2g}", f.rate_p); }),
+       "where shares are small the fitted curve is not that of the counts, and gives other annual rates than these by "
+       "more than chance explains: exports and risks take the counts, for {}.");
   told(capacities(edp, not_refuted, off_by),
        fmt::format(
            "the fitted curve is not refuted, but may be off the true shares by more than {:g}, for {{}}: exports and "
@@ -128,16 +138,21 @@ void about_overturning(const Tally& tally, const Result& result, std::vector<std
   if (over == 0) return;
   const FragilityFunction& curve = result.overturning;
   if (curve.extrapolated)
-    out.push_back(fmt::format(
-        "The median of the overturning curve ({:.3g}) lies outside the intensities swept, {:.3g} to {:.3g}: "
-        "it is an extrapolation.",
-        curve.median, curve.im_least, curve.im_most));
+    out.push_back(
+        fmt::format("The median of the overturning curve ({:.3g}) lies outside the intensities {}, {:.3g} to {:.3g}: "
+                    "it is an extrapolation.",
+                    curve.median, result.outside_im > 0 ? "taken" : "swept", curve.im_least, curve.im_most));
   if (not_refuted(curve))
     out.push_back(
         fmt::format("The overturning curve is not refuted, but may be off the true shares by {:.2f}: exports and risks "
                     "take the counts; more motions would tell.",
                     curve.off_by));
-  if (!std::isnan(curve.misfit_p) && !curve.adequate && !not_refuted(curve))
+  if (rates_differ(curve) && (curve.misfit_p > test_level || curve.off_by <= tally.options().adequate))
+    out.push_back(
+        fmt::format("Where shares are small the overturning curve is not that of the counts, and gives other annual "
+                    "rates than these by more than chance explains (p = {:.2g}): exports and risks take the counts.",
+                    curve.rate_p));
+  if (curve.misfit_p <= test_level && !curve.adequate && !(curve.off_by <= tally.options().adequate))
     out.push_back(fmt::format(
         "The overturning curve misses the counted shares by up to {:.2f}, at an IM of {:.3g} (p = {:.2g}): one "
         "lognormal curve is too simple, and may be off by {:.2f}.",
@@ -162,7 +177,8 @@ std::vector<std::string> warnings(const Tally& tally, const Result& result) {
   const auto overturned = [](const EdpResult& edp) { return edp.name == "overturned"; };
   for (const EdpResult& edp : result.edps) {
     about_bins(edp, tally.options(), out);
-    overturned(edp) ? about_overturning(tally, result, out) : about_functions(edp, tally.options(), out);
+    overturned(edp) ? about_overturning(tally, result, out)
+                    : about_functions(edp, tally.options(), result.outside_im, out);
   }
   if (std::none_of(result.edps.begin(), result.edps.end(), overturned)) about_overturning(tally, result, out);
   return out;

@@ -83,7 +83,8 @@ constexpr FunctionField of_function[] = {
   {"misfit_im", true, "mean IM of that bin", get<Fitted, &Fitted::misfit_im>, set<Fitted, &Fitted::misfit_im>},
   {"misfit_p", false, "chance of a larger misfit if the curve were true, from resampled motions", get<Fitted, &Fitted::misfit_p>, set<Fitted, &Fitted::misfit_p>},
   {"off_by", false, "upper bound of the difference to the true shares", get<Fitted, &Fitted::off_by>, set<Fitted, &Fitted::off_by>},
-  {"adequate", false, "1: off_by is small enough for the curve to stand for the counts", get<Fitted, &Fitted::adequate>, set<Fitted, &Fitted::adequate>},
+  {"rate_p", false, "chance of annual rates as far from those of the counts if the curve were true", get<Fitted, &Fitted::rate_p>, set<Fitted, &Fitted::rate_p>},
+  {"adequate", false, "1: off_by is small enough, and rates agree, for the curve to stand for the counts", get<Fitted, &Fitted::adequate>, set<Fitted, &Fitted::adequate>},
 };
 // clang-format on
 

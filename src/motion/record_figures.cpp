@@ -46,9 +46,11 @@ RecordFigures record_figures(const FloorMotion& motion) {
   return f;
 }
 
-std::string figures_text(const RecordFigures& f) {
+std::string figures_text(const RecordFigures& f, bool vertical) {
   std::string text = fmt::format("  {} samples, step {:g} s, {:g} s, {}\n", f.samples, f.step_s, f.duration_s,
-                                 f.has_vertical ? "horizontal and vertical" : "horizontal");
+                                 f.has_vertical ? "horizontal and vertical"
+                                 : vertical     ? "vertical"
+                                                : "horizontal");
   text += fmt::format("  PGA {:.4f} g   PGV {:.4f} m/s   PGD {:.4f} m\n", f.peaks.pga_mps2 / standard_gravity_mps2,
                       f.peaks.pgv_mps, f.peaks.pgd_m);
   text += fmt::format("  Arias intensity {:.4g} m/s   CAV {:.4g} m/s\n", f.arias_mps, f.cav_mps);
@@ -75,15 +77,15 @@ std::string figures_csv(const std::vector<ToldRecord>& records, const std::files
   for (const auto& [file, unit, channel, f] : records) {
     const std::filesystem::path here =
         std::filesystem::absolute(file).lexically_proximate(std::filesystem::absolute(folder));
-    text += fmt::format("{},{:.9g},{},{},{},{:.9g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}",
-                        csv_text(here.generic_string()), f.step_s, csv_text(unit), csv_text(channel), f.samples,
-                        f.duration_s, in_g(f.peaks.pga_mps2), f.peaks.pgv_mps, f.peaks.pgd_m, f.arias_mps, f.cav_mps,
-                        f.significant_5_75_s, f.significant_5_95_s, f.bracketed_s);
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_text(here.generic_string()), f.step_s,
+                    csv_text(unit), csv_text(channel), f.samples, f.duration_s, in_g(f.peaks.pga_mps2), f.peaks.pgv_mps,
+                    f.peaks.pgd_m, f.arias_mps, f.cav_mps, f.significant_5_75_s, f.significant_5_95_s, f.bracketed_s);
     for (const double sa : f.sa_mps2) text += fmt::format(",{}", in_g(sa));
     const IdentifiedPulse& p = f.pulse;
-    text += p.type.empty() ? ",,,,,\n"
-                           : fmt::format(",{},{:.6g},{:.6g},{:.6g},{:.4g}\n", p.type, p.period_s, p.velocity_mps,
-                                         p.start_s, p.explained);
+    text += p.type.empty()
+                ? ",,,,,\n"
+                : fmt::format(",{},{},{},{},{}\n", p.type, p.period_s, p.velocity_mps, p.start_s, p.explained);
   }
   return text;
 }

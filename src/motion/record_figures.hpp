@@ -28,8 +28,8 @@ RecordFigures record_figures(const FloorMotion& motion);
 
 const std::vector<double>& figure_periods_s();
 
-// A paragraph, without the record's name.
-std::string figures_text(const RecordFigures&);
+// A paragraph, without the record's name. vertical: the one channel is no horizontal one.
+std::string figures_text(const RecordFigures&, bool vertical = false);
 
 // A record and how it was read: what a table of records (record_table.hpp) says of it too.
 struct ToldRecord {

@@ -27,8 +27,8 @@ constexpr std::string_view own_columns[] = {
     "file",     "folder", "suite",   "dt_s",        "unit",       "format",     "channel",        "group", "component",
     "vertical", "event",  "station", "azimuth_deg", "strike_deg", "pulse_type", "pulse_period_s", "cross"};
 // First words of columns that no scaling of the record changes, whatever their unit; their units are not those of shaking.
-constexpr std::string_view properties[] = {"magnitude", "mw",       "distance",  "depth", "vs30",
-                                           "elevation", "duration", "rjb",       "rrup",  "rhypo",
+constexpr std::string_view properties[] = {"magnitude", "mw",       "distance",  "depth",  "vs30",
+                                           "elevation", "duration", "rjb",       "rrup",   "rhypo",
                                            "repi",      "latitude", "longitude", "period", "bandwidth"};
 // Units of accelerations, velocities and displacements, which go with L T^time at another scale.
 struct Amplitudes {
@@ -48,10 +48,12 @@ class Reader {
   Reader(const fs::path& file, const std::string& group, bool vertical)
       : table_(read_csv_table(file)), group_(group.empty() ? "group" : group), vertical_(vertical) {
     if (!has("file"))
-      throw Error(fmt::format("{} has no column file (a table of records names them): add it", file.string()));
+      throw Error(fmt::format("{} has no column file (a table of records names them): add it", file.string()),
+                  Exit::data);
     if (!group.empty() && !has(group))
       throw Error(fmt::format("{} has no column {} to group by (its columns are {}): name one of them, or add it",
-                              file.string(), shown(group), fmt::format("{}", fmt::join(table_.columns, ", "))));
+                              file.string(), shown(group), fmt::format("{}", fmt::join(table_.columns, ", "))),
+                  Exit::data);
     for (const std::string& column : table_.columns)
       if (const auto number = record_number(column)) found_.numbers.push_back(*number);
     for (const char* column : {"event", "earthquake", "station"})
@@ -60,10 +62,11 @@ class Reader {
 
   RecordTable read() {
     for (const CsvTable::Row& row : table_.rows) add(row);
-    if (!problems_.empty()) throw Error(problems_);
+    if (!problems_.empty()) throw Error(problems_, Exit::data);
     if (found_.rows.empty())
       throw Error(fmt::format("{} names no horizontal component (nothing would shake sideways): add some",
-                              table_.file.string()));
+                              table_.file.string()),
+                  Exit::data);
     if (vertical_ && !has("vertical"))
       for (std::size_t i = 0; i < found_.rows.size(); ++i)
         if (const auto partner = verticals_.find(stations_[i]); partner != verticals_.end())
@@ -205,6 +208,8 @@ bool is_record_table(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return false;
   const std::vector<std::string> columns = csv_columns(file);
+  // Parted by semicolons: its reader says so.
+  if (columns.size() == 1 && (";" + columns.front() + ";").find(";file;") != std::string::npos) return true;
   return std::find(columns.begin(), columns.end(), "file") != columns.end();
 }
 

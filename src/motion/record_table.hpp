@@ -61,7 +61,7 @@ struct RecordTable {
 // Is the file a table of records and no record? One that has a column `file`.
 bool is_record_table(const std::filesystem::path& file);
 
-// group: the column to group by; empty: the column group, if there is one. Throws Error (Exit::usage) that names every row
+// group: the column to group by; empty: the column group, if there is one. Throws Error (Exit::data) that names every row
 // that is wrong: a file that is not there, an unknown unit, a step or a number that is none.
 RecordTable read_record_table(const std::filesystem::path& file, const std::string& group = {}, bool vertical = false);
 

@@ -35,7 +35,8 @@ class OwnTable {
     for (const auto& one : names) known.emplace_back(name_of(one));
     if (count != 1)
       throw Error(fmt::format("{}:1: {} of the columns {} (each row needs {}): give one of them", csv_.file.string(),
-                              count == 0 ? "none" : "several", fmt::join(known, ", "), what));
+                              count == 0 ? "none" : "several", fmt::join(known, ", "), what),
+                  Exit::data);
     const auto& found = *std::find_if(std::begin(names), std::end(names), has);
     used_.emplace_back(name_of(found));
     return found;
@@ -145,12 +146,19 @@ Item item_of(const std::string& name, const Peaks& peaks, const Jobs& jobs) {
 std::vector<std::pair<Entry, Item>> own_peaks(const std::filesystem::path& file, const Jobs& jobs) {
   OwnTable table(read_csv_table(file));
   if (!table.has("pta_g"))
-    throw Error(file.string() +
-                ":1: no column pta_g (the demand is U w^2/PTA): give the peak acceleration of the floor in g");
+    throw Error(
+        file.string() + ":1: no column pta_g (the demand is U w^2/PTA): give the peak acceleration of the floor in g",
+        Exit::data);
   std::vector<std::string> columns = table.friction_columns();
-  if (table.has("im")) columns.insert(columns.begin(), "im");
+  if (table.has("im") && !columns.empty())
+    throw Error(fmt::format("{}:1: both im and {} (the intensity is im, or PTA/(mu g) - 1 of a friction; which one "
+                            "counts?): leave one of them",
+                            file.string(), columns.front()),
+                Exit::data);
+  if (table.has("im")) columns = {"im"};
   if (columns.empty())
-    throw Error(file.string() + ":1: no column im, mu or mu_... (the intensity is PTA/(mu g) - 1): give one of them");
+    throw Error(file.string() + ":1: no column im, mu or mu_... (the intensity is PTA/(mu g) - 1): give one of them",
+                Exit::data);
   std::vector<std::pair<Entry, Item>> found;
   for (const std::string& column : columns) {
     const Peaks peaks = peaks_of(table, column);

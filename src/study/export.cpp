@@ -13,6 +13,7 @@
 #include "io/text_files.hpp"
 #include "study/export_parts.hpp"
 #include "study/study.hpp"
+#include "study/target.hpp"
 
 namespace freestand::study {
 namespace {
@@ -162,6 +163,7 @@ ReadyModel ready_model(const ExportRequest& request, const exports::Format& form
   if (what.description.empty()) what.description = usual_description(from, result);
   ReadyModel found_model{exports::select(result, intensity_of(result, study, request), what, format), {}};
   exports::Model& model = found_model.model;
+  if (const std::string target = target_told(study); !target.empty()) model.notes.push_back(target);
   if (request.mu) model.notes.push_back(fmt::format("PTA = {} g (1 + IM) of the report", *request.mu));
   if (format.refuse) format.refuse(model);
   found_model.origin = origin(request, from, result.confidence);

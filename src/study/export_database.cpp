@@ -45,6 +45,7 @@ fs::path fit_folder(const fs::path& folder, const Database& db, std::size_t entr
 ExportRequest request_of(const ExportRequest& request, const Database& db, std::size_t entry, const std::string& im) {
   ExportRequest one = request;
   one.im.clear();
+  one.what.straight = true;
   one.folder = fit_folder(request.folder, db, entry, im);
   if (!fs::exists(one.folder / "fragility.h5"))
     throw Error(

@@ -1,6 +1,7 @@
 #include "study/import.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -115,12 +116,16 @@ class Importer {
   // offset is the middle one, and holds for those, too, whose motion tells nothing.
   std::vector<double> clocks(const std::vector<File>& floors, const std::vector<File>& responses) {
     std::vector<double> found, each;
+    std::vector<std::string> together;
     for (std::size_t i = 0; i < lab_.tests.size(); ++i) {
       const LabTest& lab = lab_.tests[i];
       each.push_back(lab.clock_s.value_or(0));
       if (lab.clock_s || !lab.slip) continue;
       const measurement::Timing timing = timing_of(lab, responses[i], on_one_clock(lab, floors[i], responses[i], 0));
-      if (!timing.wrong()) continue;
+      if (!timing.wrong()) {
+        if (lab.floor.path != lab.response.path) together.push_back(lab.id);
+        continue;
+      }
       each.back() = std::round(1e4 * timing.late * step_s_) / 1e4;
       found.push_back(each.back());
     }
@@ -130,6 +135,12 @@ class Importer {
             "{}: the clocks of floor and response are taken as one: slips show their offset, and none was measured "
             "(clock_s of a test says what it is)",
             lab.id));
+    // Where others show one clock's offset, it is told of all tests below.
+    if (!together.empty() && found.size() < 2)
+      say(
+          fmt::format("{}: no offset between the clocks of floor and response is seen by the slips: they are taken as "
+                      "one (clock_s of a test says otherwise)",
+                      fmt::join(together, ", ")));
     if (found.empty()) return each;
     std::sort(found.begin(), found.end());
     const double middle = 0.5 * (found[(found.size() - 1) / 2] + found[found.size() / 2]);
@@ -229,6 +240,37 @@ class Importer {
       see(response.table, of_response);
     see(floor.table, of_floor);
     if (!unused.empty()) say(fmt::format("{}: not used: {}", lab.id, fmt::join(unused, ", ")));
+    tell_gaps(lab, floor, lab.floor);
+    if (!one_file) tell_gaps(lab, response, lab.response);
+    for (const LabColumn* column : {&lab.floor.time, &lab.acceleration, if_there(lab.vertical), &lab.response.time,
+                                    if_there(lab.slip), if_there(lab.rotation), if_there(lab.block_acceleration)})
+      if (column) tell_unit(lab, *column);
+  }
+
+  // Rows that are missing: steps of more than one and a half of the usual one. Between their ends the channels go straight.
+  void tell_gaps(const LabTest& lab, const File& file, const LabFile& of) {
+    std::vector<std::string> gaps;
+    std::size_t count = 0;
+    constexpr std::size_t most_told = 5;
+    for (std::size_t i = 1; i < file.time.size(); ++i) {
+      const double step = file.time[i] - file.time[i - 1];
+      if (step <= 1.5 * file.step_s) continue;
+      if (++count <= most_told)
+        gaps.push_back(fmt::format("{:.4g} s before line {} (at {:.4g} s)", step, file.table.lines[i], file.time[i]));
+    }
+    if (count > 0)
+      say(fmt::format("{}: {} has {} gap{} in its rows, filled by straight lines: {}{}", lab.id,
+                      of.path.filename().string(), count, count == 1 ? "" : "s", fmt::join(gaps, ", "),
+                      count > most_told ? " ..." : ""));
+  }
+
+  void tell_unit(const LabTest& lab, const LabColumn& column) {
+    if (column.assumed)
+      say(fmt::format("{}: no unit of {} is given, nor does its name end with one: taken as {} (unit: says another)",
+                      lab.id, shown(column.name), shown(column.unit)));
+    if (!column.named_unit.empty() && column.named_unit != column.unit)
+      say(fmt::format("{}: the name of {} ends with {}, and unit: says {}: taken as {}", lab.id, shown(column.name),
+                      shown(column.named_unit), shown(column.unit), shown(column.unit)));
   }
 
   // The largest of the tests.
@@ -286,7 +328,7 @@ class Importer {
     for (const Channel& c : channels) text += fmt::format(",{}", c.name);
     for (std::size_t i = 0; i < t.floor.size(); ++i) {
       text += fmt::format("\n{:.10g}", t.test.dt_s * static_cast<double>(i));
-      for (const Channel& c : channels) text += fmt::format(",{:.9g}", (*c.samples)[i]);
+      for (const Channel& c : channels) text += fmt::format(",{}", (*c.samples)[i]);
     }
     return text + "\n";
   }

@@ -52,10 +52,12 @@ std::optional<LabColumn> read_column(Section& section, const std::string& key, c
   const YAML::Node* node = section.find(key);
   if (!node) return {};
   LabColumn column{.name = {}, .unit = unit};
+  bool unit_given = false;
   double sign = 1;
   if (node->IsMap()) {
     Section inner(*node, section.name(key), section.line(key), section.problems());
     column.name = inner.text("column", "");
+    unit_given = inner.find("unit") != nullptr;
     column.unit = inner.text("unit", unit_of_name(column.name, factor, unit));
     sign = inner.number("sign", 1);
     if (sign != 1 && sign != -1)
@@ -66,6 +68,8 @@ std::optional<LabColumn> read_column(Section& section, const std::string& key, c
     column.name = node->Scalar();
     column.unit = unit_of_name(column.name, factor, unit);
   }
+  column.named_unit = unit_of_name(column.name, factor, "");
+  column.assumed = !unit_given && column.named_unit.empty() && !column.name.empty();
   if (column.name.empty())
     section.problem(key, fmt::format("{} names no column: give its name, or {{column: NAME, unit: {}, sign: -1}}",
                                      section.name(key), unit));

@@ -13,7 +13,9 @@ namespace freestand::study {
 // A column, by its name, and what one of its units is in SI.
 struct LabColumn {
   std::string name, unit;
-  double factor = 1;  // sign included
+  double factor = 1;            // sign included
+  std::string named_unit = {};  // the unit that its name ends with; empty: none
+  bool assumed = false;         // the unit is neither given nor in the name
 };
 
 struct LabFile {

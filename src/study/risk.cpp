@@ -16,6 +16,7 @@
 #include "study/build_catalogue.hpp"
 #include "study/damage_states.hpp"
 #include "study/read_parts.hpp"
+#include "study/target.hpp"
 
 namespace freestand::study {
 namespace {
@@ -35,6 +36,13 @@ std::vector<std::string> measures(const fragility::Result& swept) {
   if (std::find(names.begin(), names.end(), swept.im_name) == names.end() && swept.im_unit != "1")
     names.push_back(swept.im_name);
   return names;
+}
+
+// A sweep to fit anew: the folder itself, unless it holds a fit alone.
+std::string to_fit(const std::filesystem::path& folder) {
+  return std::filesystem::exists(folder / "samples.h5") || std::filesystem::exists(folder / "tally.h5")
+             ? folder.string()
+             : std::string("SWEEP");
 }
 
 io::FragilityFile fragility_of(const std::filesystem::path& folder) {
@@ -79,9 +87,9 @@ void refuse_another_intensity(const decision::HazardCurve& hazard, const io::Fra
     throw Error(
         fmt::format("{0}:1: the curve is over {1}, and {2} was fitted over the {1} of the floor on which the equipment "
                     "stands (a hazard curve is "
-                    "of the ground under the building): fit the sweep over ground.{1} (freestand fit {2} --im "
+                    "of the ground under the building): fit the sweep over ground.{1} (freestand fit {3} --im "
                     "ground.{1} -o FOLDER)",
-                    options.hazard.string(), hazard.measure, options.folder.string()));
+                    options.hazard.string(), hazard.measure, options.folder.string(), to_fit(options.folder)));
   if (hazard.measure == swept.im_name || "ground." + hazard.measure == swept.im_name) return;
   if (swept.im_name == of_records + hazard.measure)
     throw Error(fmt::format(
@@ -94,7 +102,7 @@ void refuse_another_intensity(const decision::HazardCurve& hazard, const io::Fra
   throw Error(fmt::format(
       "{}:1: the curve is over {}, but {} was fitted over {}: fit the sweep over {} (freestand fit {} --im {} -o "
       "FOLDER){}{}",
-      options.hazard.string(), hazard.measure, options.folder.string(), swept.im_name, wanted, options.folder.string(),
+      options.hazard.string(), hazard.measure, options.folder.string(), swept.im_name, wanted, to_fit(options.folder),
       wanted,
       said || in_a_building(study)
           ? ""
@@ -146,13 +154,17 @@ RiskAnswer risk(const RiskOptions& options) {
     if (!(n > 0) || !std::isfinite(n))
       throw Error(fmt::format("--years {} (a time is positive): give years, as 50", n));
   if (std::filesystem::is_directory(options.hazard))
-    throw Error(fmt::format("{} is a folder (a hazard curve is a file): give hazard.csv", options.hazard.string()));
+    throw Error(fmt::format("{} is a folder (a hazard curve is a file): give hazard.csv", options.hazard.string()),
+                Exit::data);
+  if (!std::filesystem::exists(options.hazard))
+    throw Error(fmt::format("{} cannot be read (no such file): check the path", options.hazard.string()), Exit::data);
   const io::FragilityFile fragility = fragility_of(options.folder);
   const decision::HazardCurve hazard =
       decision::parse_hazard(read_text(options.hazard), options.hazard.string(), measures(fragility.result));
   refuse_another_intensity(hazard, fragility, options);
   RiskAnswer answer{hazard, decision::risk(fragility.result, hazard, with_overturned(fragility, options.folder)),
-                    fragility.provenance.study_name, period_of(fragility, options, hazard)};
+                    fragility.provenance.study_name, period_of(fragility, options, hazard),
+                    target_told(parse_stored(fragility.provenance.study, options.folder))};
   if (answer.period_s > 0 && hazard.period_s == 0)
     answer.risk.warnings.push_back(
         fmt::format("{} tells no period: its {} is taken to be at {} s, as the sweep's (a column period_s says it)",
@@ -166,6 +178,7 @@ Json risk_json(const RiskAnswer& answer, const RiskOptions& options) {
             {"sweep", std::filesystem::absolute(options.folder).filename().string()},
             {"study_name", answer.study_name},
             {"command", options.command},
+            {"target", answer.target},
             {"im", risk.im},
             {"im_unit", risk.im_unit},
             {"period_s", answer.period_s > 0 ? Json(answer.period_s) : Json()},

@@ -26,6 +26,7 @@ struct RiskAnswer {
   decision::Risk risk;
   std::string study_name;
   double period_s = 0;  // of sa_g; 0: the intensity has none
+  std::string target;   // a sentence: the mix that the curves are of, where it is not the one that was swept
 };
 
 // Reads fragility.h5 of the sweep and the hazard curve. Throws Error: either cannot be used (Exit::data), the curve is over another

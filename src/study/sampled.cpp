@@ -44,6 +44,14 @@ struct Classes {
   std::vector<int> class_of_row;  // of joint draws
 };
 
+constexpr int idle_of_a_design = 16;
+
+// Which design the draws of these streams are even in.
+int design_of(const Study& study, const std::vector<std::string>& streams) {
+  if (study.design != sampling::Design::sobol) return 0;
+  return sampling::sobol_dimension(streams.front()) >= 0 ? 1 : 2;
+}
+
 bool is_drawn(const std::optional<Quantity>& quantity) { return quantity && !is_fixed(quantity->value); }
 
 Sampled of_model(const Study& study, const Quantity& quantity) {
@@ -130,7 +138,56 @@ std::vector<Sampled> sampled(const Study& study, std::size_t motions, const std:
   add_of_motions(study, &MotionSource::storey, "motion.storey", all);
   const std::size_t different = ground.empty() ? motions : std::set<std::size_t>(ground.begin(), ground.end()).size();
   if (different > 1) all.push_back(of_motion(motions, ground));
+  for (Sampled& one : all) one.parameter.design = design_of(study, one.streams);
   return all;
+}
+
+std::vector<Sampled> idle_parameters(const Study& study, const std::vector<Sampled>& all) {
+  // Names of dimensions; those that the study draws are none of them.
+  static constexpr const char* dimensions[] = {"impact.factor",
+                                               "motion.source",
+                                               "effects.vertical_shaking.scale",
+                                               "effects.static_friction.ratio",
+                                               "effects.rate_weakening.drop",
+                                               "effects.rate_weakening.speed_mps",
+                                               "effects.rate_strengthening.rise",
+                                               "effects.rate_strengthening.speed_mps",
+                                               "effects.friction_wear.ratio",
+                                               "effects.friction_wear.path_m",
+                                               "effects.directional_friction.asymmetry",
+                                               "effects.pressure_friction.exponent",
+                                               "effects.viscous_drag.rate_per_s",
+                                               "effects.floor_tilt.angle_rad",
+                                               "effects.flexible_legs.frequency_hz",
+                                               "effects.flexible_legs.damping",
+                                               "effects.slack_tether.slack_m",
+                                               "effects.slack_tether.frequency_hz",
+                                               "effects.slack_tether.rate_per_s",
+                                               "effects.centering_spring.frequency_hz"};
+  std::set<int> designs,
+      drawn = {sampling::sobol_dimension("motion.source"), sampling::sobol_dimension("motion.pulse")};
+  for (const Sampled& one : all) {
+    designs.insert(one.parameter.design);
+    for (const std::string& stream : one.streams) drawn.insert(sampling::sobol_dimension(stream));
+  }
+  std::vector<std::string> names;
+  for (const char* name : dimensions)
+    if (designs.contains(1) && names.size() < idle_of_a_design && !drawn.contains(sampling::sobol_dimension(name)))
+      names.emplace_back(name);
+  for (int i = 0; designs.contains(2) && i < idle_of_a_design; ++i) names.push_back("idle." + std::to_string(i));
+  std::vector<Sampled> idle;
+  for (const std::string& name : names) {
+    Sampled one;
+    one.parameter.name = name;
+    one.parameter.classes = classes;
+    one.parameter.design = design_of(study, {name});
+    one.parameter.idle = true;
+    one.class_of = [stream = Stream(study.plan(), name)](std::uint64_t sample, std::size_t) {
+      return static_cast<int>(stream(sample) * classes);
+    };
+    idle.push_back(std::move(one));
+  }
+  return idle;
 }
 
 }  // namespace freestand::study

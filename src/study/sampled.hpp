@@ -24,4 +24,8 @@ struct Sampled {
 // its own; empty: itself).
 std::vector<Sampled> sampled(const Study&, std::size_t motions, const std::vector<std::size_t>& ground = {});
 
+// Parameters that nothing depends on, of the designs that those of the study are even in (decision::Parameter::design: 0 independent draws and
+// latin hypercubes, 1 dimensions of a Sobol design, 2 its first dimension in orders of their own): what their classes scatter by is chance.
+std::vector<Sampled> idle_parameters(const Study&, const std::vector<Sampled>&);
+
 }  // namespace freestand::study

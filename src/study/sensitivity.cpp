@@ -36,9 +36,14 @@ fragility::Options group_options(const io::SampleReader& reader, const Study& st
   return options;
 }
 
-const std::filesystem::path& swept_folder(const std::filesystem::path& folder) {
+std::filesystem::path samples_of(const std::filesystem::path& folder) {
   refuse_database(folder);
-  return folder;
+  if (!std::filesystem::exists(samples_path(folder)) && std::filesystem::exists(folder / "fragility.h5"))
+    throw Error(
+        fmt::format("{} is a fit without samples (shares are of the samples of a sweep): give the folder of the "
+                    "sweep that it was fitted from",
+                    folder.string()));
+  return samples_path(folder);
 }
 
 // A finished sweep, and how its samples are told apart.
@@ -47,11 +52,12 @@ class Shares {
   Shares(const parallel::Communicator& world, const SensitivityOptions& options)
       : world_(world),
         options_(options),
-        reader_(samples_path(swept_folder(options.folder))),
+        reader_(samples_of(options.folder)),
         study_(analysed_study(options.folder, reader_)),
         motions_(group_options(reader_, study_)),
         groups_(motions_),
         sampled_(sampled(study_, reader_.motions().names.size(), grounds(reader_.motions()))),
+        idle_(idle_parameters(study_, sampled_)),
         damage_(study_),
         answers_(study_.fragility, with_damage(reader_.columns())) {
     if (sampled_.empty())
@@ -59,6 +65,12 @@ class Shares {
           fmt::format("{} samples nothing (every number is fixed, and there is one motion): give a number of the "
                       "study as a distribution and sweep again",
                       options.folder.string()));
+    constexpr std::int64_t fewest_pairs = 64;  // as many groups as are left out in turn
+    if (options.pairs > 0 && options.pairs < fewest_pairs)
+      throw Error(
+          fmt::format("--total {} is too few (of so few pairs no share and no error is known): give {} at least, "
+                      "and better thousands",
+                      options.pairs, fewest_pairs));
     if (options.pairs > reader_.rows())
       throw Error(
           fmt::format("--total {} is more than the {} samples of {} (each is a sample of the sweep with one "
@@ -74,7 +86,12 @@ class Shares {
     found.confidence = options_.confidence;
     found.pairs = options_.pairs;
     found.note = kept_told(reader_);
-    decision::ShareTally first = first_order(found.parameters);
+    if (!study_.fragility.target.empty())
+      found.note += fmt::format(
+          "{}the target of the study is not applied: shares are of what was swept, with its own "
+          "distributions",
+          found.note.empty() ? "" : "\n");
+    decision::ShareTally first = first_order();
     decision::TotalTally total(options_.pairs > 0 ? sampled_.size() : 0, found.answers, groups_);
     if (options_.pairs > 0) compute_pairs(total);
     world_.sum_in_place(first.words());
@@ -137,14 +154,19 @@ class Shares {
     }
   }
 
-  decision::ShareTally first_order(const std::vector<decision::Parameter>& parameters) const {
-    decision::ShareTally tally(parameters, answers_.answers(), groups_);
+  decision::ShareTally first_order() const {
+    std::vector<decision::Parameter> parameters;
+    std::vector<const Sampled*> all;
+    for (const std::vector<Sampled>* some : {&sampled_, &idle_})
+      for (const Sampled& one : *some) parameters.push_back(one.parameter), all.push_back(&one);
+    decision::ShareTally tally(parameters, answers_.answers(), groups_,
+                               study_.design == sampling::Design::sobol && study_.scrambles == 1);
     const io::BlockLayout layout{reader_.rows(), rows_in_a_block};
     std::vector<std::string> names = columns_read();
     names.emplace_back("motion");
     parallel::StepDisplay display(options_.quiet || !world_.is_root());
     std::vector<double> values;
-    std::vector<int> of_class(sampled_.size());
+    std::vector<int> of_class(all.size());
     for (std::int64_t block = world_.rank(); block < layout.blocks(); block += world_.size()) {
       const std::int64_t first = block * rows_in_a_block;
       const Table table = with_damage(reader_.read(first, layout.rows(block), names), first);
@@ -154,7 +176,7 @@ class Shares {
         const auto sample = static_cast<std::uint64_t>(first) + i;
         const auto motion = static_cast<std::size_t>(table.at(i, motion_column));
         answers.read(row_of(table, i), values);
-        for (std::size_t p = 0; p < sampled_.size(); ++p) of_class[p] = sampled_[p].class_of(sample, motion);
+        for (std::size_t p = 0; p < all.size(); ++p) of_class[p] = all[p]->class_of(sample, motion);
         tally.add(group(motion, sample), of_class, values);
       }
       display.show("reading blocks of samples", static_cast<std::size_t>(block + 1),
@@ -233,7 +255,7 @@ class Shares {
   const Study study_;
   const fragility::MotionGroups motions_;
   const fragility::LeaveOutGroups groups_;
-  const std::vector<Sampled> sampled_;
+  const std::vector<Sampled> sampled_, idle_;
   const DamageStates damage_;
   const Answers answers_;
 };

@@ -89,7 +89,9 @@ void refuse_too_large(const SweepSize& size) {
 std::string room_told(const SweepSize& size, const std::filesystem::path& folder) {
   std::error_code error;
   const double room = static_cast<double>(std::filesystem::space(folder, error).available);
-  const double wanted = size.samples_bytes + size.blocks_bytes + 2 * size.counts_bytes;
+  // Counts go to the disk where not all samples do: of each node while it runs, and in tally.h5.
+  const double counts = size.kept == size.samples ? 0 : 2 * size.counts_bytes;
+  const double wanted = size.samples_bytes + size.blocks_bytes + counts;
   if (error || room >= wanted) return "";
   return fmt::format(
       "{} has room for {}, and the sweep will take {} (keep: {{thin: 100}} or none takes less): it will stop when the "

@@ -153,6 +153,13 @@ std::string Target::told() const {
   return text;
 }
 
+std::string target_told(const Study& study) {
+  std::string text;
+  for (const Quantity& target : study.fragility.target)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", target.name, to_string(target.value));
+  return text.empty() ? "" : fmt::format("curves are those of the target ({}), not of the mix that was swept", text);
+}
+
 void check_target(const Study& study, Problems& problems) {
   const std::vector<Quantity> all = targetable(study);
   for (const Quantity& target : study.fragility.target)

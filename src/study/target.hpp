@@ -46,4 +46,7 @@ class Target {
 // Targets of numbers that the study does not sample, or that reach to where nothing was swept.
 void check_target(const Study&, Problems&);
 
+// "curves are those of the target (friction.mu_k {...}), not of what was swept"; empty without one. For what is made of curves.
+std::string target_told(const Study&);
+
 }  // namespace freestand::study

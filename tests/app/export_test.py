@@ -49,13 +49,18 @@ class Export(InFolder):
         return json.loads(((folder or self.folder) / "certificate.json").read_text())["files"]
 
     def against_surface(self, probability, entry, within=1e-9):
-        """Bins that fell within their bands are pooled: by no more than the certificate says, and within the band."""
+        """Off the counted shares by no more than the certificate says (bins that fell are pooled, and the share of a whole bin is not
+        that at its mean), within the 0.05 that curves may be off, and between the shares of the bins on both sides."""
+        off = {state["name"]: state["largest_difference_from_surface"] for state in entry["limit_states"]}
+        self.assertLess(max(off.values()), 0.05)
         pooled = {state["name"]: state["pooled_by"] for state in entry["limit_states"]}
         for state, points in self.surface.items():
-            for im, p, lower, upper in points:
+            shares = [0] + [p for _, p, _, _ in points] + [1]
+            for i, (im, p, _, _) in enumerate(points):
                 found = probability(state, im)
-                self.assertLessEqual(abs(found - p), pooled[state] + within, f"{state} at {im}")
-                self.assertTrue(lower - within <= found <= upper + within, f"{state} at {im}")
+                self.assertLessEqual(abs(found - p), off[state] + within, f"{state} at {im}")
+                slack = pooled[state] + within
+                self.assertTrue(min(shares[i], p) - slack <= found <= max(p, shares[i + 2]) + slack, f"{state} at {im}")
 
     def test_levels_of_openquake_are_the_surface(self):
         self.sweep("pgv_mps")
@@ -90,7 +95,8 @@ class Export(InFolder):
             command = ["export", self.out, "--format", "openquake", "--form", "lognormal", "--limit-state", word, "-o",
                        self.folder / f"{state}.xml"]
             if state not in adequate:
-                self.fail_with(2, command, "is not adequate", "use --form discrete")
+                self.assertRegex(self.fail_with(2, command, "use --form discrete").stderr,
+                                 "is not adequate|not known to be adequate|gives other annual rates than the counts")
                 continue
             self.succeed(command)
             params = xml.parse(self.folder / f"{state}.xml").getroot()[0].find(NRML + "fragilityFunction")[1]
@@ -139,8 +145,8 @@ class Export(InFolder):
         self.fail_with(2, base + ["--mu", "0.3"], "is not the mu of the samples", "--mu 0.28")
         self.succeed(base + ["--mu", "0.28", "--skip-empty"])
         levels = [float(x) for x in xml.parse(to).getroot()[0].find(NRML + "fragilityFunction")[0].text.split()]
-        for level, (im, *_) in zip(levels, self.surface["overturned"]):
-            self.assertAlmostEqual(level, 0.28 * (1 + im), 12)
+        for im, *_ in self.surface["overturned"]:
+            self.assertLess(min(abs(level - 0.28 * (1 + im)) for level in levels), 1e-12)
         self.succeed(["export", self.out, "--format", "csv", "-o", self.folder / "a.csv"])
 
     def test_many_mu_have_no_pta(self):

@@ -44,7 +44,8 @@ class Floors(InFolder):
     def test_motion_refuses(self):
         floor = ["motion", self.record, "--floor", self.museum]
         self.fail_with(2, floor + ["--convert", self.folder / "x.csv"], "add --storey 4")
-        self.fail_with(2, floor + ["--storey", 5], "it has 4 floors above the ground")
+        self.fail_with(2, floor + ["--storey", 5, "--convert", self.folder / "x.csv"], "it has 4 floors above the ground")
+        self.fail_with(2, floor + ["--storey", 3], "says which floor --convert writes")
         self.fail_with(2, ["motion", self.record, "--storey", 1], "add --floor building.yaml")
         self.fail_with(2, ["motion", self.record, "--floor", self.write("bad.yaml", "storeys: 4\nperiod: 0.5\n")], "bad.yaml:2:", "write period_s")
         self.fail_with(3, ["motion", self.record, "--floor", self.write("stiff.yaml", "storeys: 1\nperiod_s: 0.01\n")], "no mode of the building lies in the record's band")

@@ -124,6 +124,24 @@ class Import(InFolder):
         told = self.imported().stdout
         self.assertRegex(told, r"noise.slip_m is not given: 0.000[23]\d* by the quiet parts")
 
+    def test_what_was_taken_for_granted_is_told(self):
+        """Rows that are missing, a unit that nobody gave, one that is another than the column's name says, and clocks in step."""
+        text = self.lab.read_text(encoding="utf-8")
+        block = (self.folder / "block_t01.csv").read_text(encoding="utf-8").split("\n")
+        self.write("block_t01.csv", "\n".join(block[:40] + block[50:]))
+        self.assertIn("t01: block_t01.csv has 1 gap in its rows, filled by straight lines: 0.11 s before line 41", self.imported().stdout)
+        self.write("lab.yaml", text.replace("acceleration: {column: ACC1, unit: g}", "acceleration: ACC1"))
+        told = self.imported("assumed").stdout
+        self.assertIn("t02: no unit of ACC1 is given, nor does its name end with one: taken as m/s2", told)
+        self.write("lab.yaml", text.replace("{column: t_ms, unit: ms}", "{column: t_ms, unit: s}"))
+        done = run(["import", self.lab, "-o", self.folder / "clash"])
+        self.assertTrue(done.returncode != 0 or "the name of t_ms ends with ms, and unit: says s: taken as s" in done.stdout, done.stdout)
+        for name in self.truth:
+            rows = [f"{comma(5 * i, 3)};{comma(-1000 * row['slip_m'])};" for i, row in enumerate(self.truth[name]) if i % 2 == 0]
+            self.write(f"block_{name}.csv", "t_ms;LVDT 1;\n" + "\n".join(rows) + "\n")
+        self.write("lab.yaml", text)
+        self.assertRegex(self.imported("in_step").stdout, "no offset between the clocks of floor and response is seen by the slips|clock runs 0.00")
+
     def test_mistakes(self):
         text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
 

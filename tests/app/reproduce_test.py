@@ -84,7 +84,7 @@ class Mistakes(InFolder):
         out = self.folder / "out"
         self.fail_with(3, ["reproduce", "-o", out, "--tables", self.folder], "table_3_1.csv", "--tables")
         self.fail_with(3, ["reproduce", "-o", self.folder / "a", "--records", self.folder / "none"], "none is no folder", "--records")
-        self.fail_with(2, ["reproduce", "-o", self.folder / "b", "--peaks", self.folder / "none.csv"], "none.csv")
+        self.fail_with(3, ["reproduce", "-o", self.folder / "b", "--peaks", self.folder / "none.csv"], "none.csv")
         self.fail_with(3, ["reproduce", "-o", self.folder / "c", "--peaks", self.write("p.csv", "pta_g,mu,period_s,peak_slip_m\n1,0.2,1,0\n")], "p.csv:2: peak_slip_m is 0", ranks=2)
         self.fail_with(2, ["reproduce"], "--output")
 

@@ -21,7 +21,7 @@ class CsvTables : public testing::Test {
     try {
       read(text);
     } catch (const Error& error) {
-      EXPECT_EQ(error.exit(), Exit::usage);
+      EXPECT_EQ(error.exit(), Exit::data);
       return error.what();
     }
     return "";
@@ -56,6 +56,10 @@ TEST_F(CsvTables, EveryWrongLineIsNamed) {
   EXPECT_THAT(problem("a,b\n"), testing::HasSubstr("has no rows"));
   EXPECT_THAT(problem(""), testing::HasSubstr("has no rows"));
   EXPECT_THAT(problem(std::string("a,b\n1,\0\n", 8)), testing::HasSubstr(":2: no text but a binary file"));
+  EXPECT_EQ(problem("a;b;c\n1;2;3\n4;5\n"),
+            file_.string() +
+                ":1: cells are parted by semicolons (commas part them here, and decimals have points): "
+                "replace them");
   EXPECT_THROW(read_csv_table("no/such.csv"), Error);
   EXPECT_THAT(csv_columns("no/such.csv"), testing::IsEmpty());
 }

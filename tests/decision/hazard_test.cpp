@@ -54,6 +54,9 @@ TEST(Hazard, WhatCannotBeIsToldWithItsLine) {
   EXPECT_THAT(refusal("pga_g,annual_rate\n0,1,0.1\n"), HasSubstr("hazard.csv:2: has 3 fields"));
   EXPECT_THAT(refusal("pga_g,annual_rate\n0.1,0.1\n"), HasSubstr("fewer than two points"));
   EXPECT_THAT(refusal("pga,annual_rate\n0.1,0.1\n"), HasSubstr("hazard.csv:1: column pga is unknown"));
+  EXPECT_THAT(refusal("pga_g,rate\n0.1,0.1\n"), HasSubstr("hazard.csv:1: column rate is unknown (how often a year"));
+  EXPECT_THAT(refusal("pga_g;annual_rate\n0.1;0.1\n"), HasSubstr("hazard.csv:1: cells are parted by semicolons"));
+  EXPECT_THAT(refusal(std::string("pga_g\0,annual_rate\n", 19)), HasSubstr("no text but a binary file"));
   EXPECT_THAT(refusal("pga_g,pgv_mps,annual_rate\n"), HasSubstr("a second column like pgv_mps"));
   EXPECT_THAT(refusal("pga_g,period_s\n"), HasSubstr("no column annual_rate"));
   EXPECT_THAT(refusal("annual_rate\n0.1\n"), HasSubstr("no column of an intensity"));

@@ -13,6 +13,7 @@
 #include "base/random.hpp"
 #include "decision/annual_rate.hpp"
 #include "fragility/fit.hpp"
+#include "fragility/fragility_function.hpp"
 
 namespace freestand::decision {
 namespace {
@@ -106,25 +107,25 @@ TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
   const int repeats = asked ? std::atoi(asked) : at.repeats;
   const double k0 = 1e-3, slopes[] = {1.5, 2.5};
   Misses by_function[2], by_counts[2];
-  int differ[2] = {0, 0};
+  int differ = 0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     fragility::Result result = sweep.fit(static_cast<std::uint64_t>(repeat + 1), 2);
     result.edps[0].functions[0].adequate = true;  // it is true
+    differ += fragility::rates_differ(result.edps[0].functions[0]);
     for (int i = 0; i < 2; ++i) {
       const double k = slopes[i];
       const double truth = k0 * std::pow(sweep.median, -k) * std::exp(0.5 * std::pow(k * sweep.dispersion(), 2));
       const Risk found = risk(result, power_law(k0, k, 1e-3, 50));
       by_function[i].count(found.rows[0].by_function, truth);
       by_counts[i].count(found.rows[0].by_counts, truth);
-      differ[i] += found.rows[0].rates_differ;
     }
   }
+  // By a test of 5 per cent the rates of a true curve are called other ones than those of the counts.
+  RecordProperty("rates_differ", differ);
+  EXPECT_LE(differ, repeats * (0.05 + 2 * std::sqrt(0.05 * 0.95 / repeats)));
   for (int i = 0; i < 2; ++i) {
     RecordProperty(fmt::format("by_function_{}", i), text(by_function[i]));
     RecordProperty(fmt::format("by_counts_{}", i), text(by_counts[i]));
-    // Of a true curve the rate is called another one than that of the counts no oftener than the bands miss, one in ten.
-    RecordProperty(fmt::format("rates_differ_{}", i), differ[i]);
-    EXPECT_LE(differ[i], repeats * (0.1 + 2 * std::sqrt(0.1 * 0.9 / repeats))) << slopes[i];
     EXPECT_GE(by_function[i].coverage(), 0.87) << slopes[i] << ": " << text(by_function[i]);
     EXPECT_LE(by_function[i].coverage(), 0.93) << slopes[i] << ": " << text(by_function[i]);
     EXPECT_GE(by_counts[i].coverage(), 0.87) << slopes[i] << ": " << text(by_counts[i]);
@@ -245,8 +246,8 @@ TEST(Risk, ACurveThatIsOffByLittleIsNotRecommendedWhereItsRateIsAnother) {
   EXPECT_GT(row.by_function.value, 2 * exact);
   EXPECT_EQ(row.recommended, By::counts);
   EXPECT_NEAR(row.rate().value / exact, 1, 0.2);
-  EXPECT_THAT(row.why, HasSubstr("its rate is not that of the counts"));
-  EXPECT_THAT(found.warnings, testing::Contains(HasSubstr("overturned: the fitted curve is off by little")));
+  EXPECT_THAT(row.why, HasSubstr("its rates are not those of the counts"));
+  EXPECT_THAT(found.warnings, testing::Contains(HasSubstr("where shares are small it is not theirs")));
 }
 
 TEST(Risk, WhatComesFromBeyondTheSweepIsWarnedOfOrRefused) {

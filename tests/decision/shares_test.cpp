@@ -2,10 +2,12 @@
 #include "decision/shares.hpp"
 
 #include <gsl/gsl_cdf.h>
+#include <gsl/gsl_qrng.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 
 #include "base/random.hpp"
@@ -150,6 +152,49 @@ TEST(Shares, WhatHasNoPartIsZeroOnTheAverage) {
   const Coverage found = coverage(model, 300, 0.90);
   EXPECT_NEAR(found.mean_x, 0, 0.002);
   EXPECT_GT(found.x, 0.86);
+}
+
+// Sobol points that are shifted at random. y = 2 x0 + x1 has shares of 4/5 and 1/5, and 1 together; x2 to x5 have none. Taking away
+// what independent draws would scatter, 31/1599 of each, would leave 0.88 together; a tenth of that is allowed here.
+TEST(Shares, OfAnEvenDesignAreNotTakenForThoseOfIndependentDraws) {
+  constexpr int samples = 1600, dimensions = 14, used = 6, repeats = 40;
+  constexpr double by_independent_draws = 31 / 1599.0;
+  const LeaveOutGroups groups = no_records();
+  std::vector<Parameter> parameters;
+  for (int d = 0; d < dimensions; ++d)
+    parameters.push_back({.name = "x" + std::to_string(d), .design = 1, .idle = d >= used});
+  double mean[used] = {}, together = 0, error = 0;
+  int held = 0;
+  for (std::uint64_t repeat = 0; repeat < repeats; ++repeat) {
+    ShareTally tally(parameters, {ln_demand}, groups, true);
+    const std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> points(gsl_qrng_alloc(gsl_qrng_sobol, dimensions),
+                                                                     gsl_qrng_free);
+    for (std::uint64_t i = 0; i < samples; ++i) {
+      int of_class[dimensions];
+      double u[dimensions];
+      gsl_qrng_get(points.get(), u);
+      for (std::uint64_t d = 0; d < dimensions; ++d) {
+        u[d] = std::fmod(u[d] + uniform(repeat, d, "shift"), 1.0);
+        of_class[d] = class_of(u[d]);
+      }
+      const double y = 2 * u[0] + u[1];
+      tally.add(static_cast<int>(uniform(repeat, i, "group") * 64), of_class, {&y, 1});
+    }
+    const ShareRow row = tally.row(0, 0.95);
+    ASSERT_EQ(row.share.size(), std::size_t{used});
+    for (int p = 0; p < used; ++p) mean[p] += row.share[static_cast<std::size_t>(p)].value / repeats;
+    together += row.together.value / repeats;
+    held += row.together.lower <= 1 && row.together.upper >= 1 - 1.0 / (32 * 32);  // which the classes lose
+    error += row.together.se / repeats;
+  }
+  RecordProperty("held", held);
+  RecordProperty("together", std::to_string(together));
+  EXPECT_NEAR(mean[0], 0.8, 0.004);
+  EXPECT_NEAR(mean[1], 0.2, 0.004);
+  for (int p = 2; p < used; ++p) EXPECT_NEAR(mean[p], 0, by_independent_draws / 10) << p;
+  EXPECT_NEAR(together, 1, 0.005);
+  EXPECT_LT(error, by_independent_draws);
+  EXPECT_GE(held, 35);
 }
 
 TEST(Shares, OfAProbability) {

@@ -91,6 +91,13 @@ inline fragility::Result made_results(bool adequate = true) {
   return result;
 }
 
+// The same without fitted curves, which lend counted ones their bend: straight lines from bin to bin.
+inline fragility::Result without_curves(fragility::Result result = made_results(false)) {
+  for (fragility::EdpResult& edp : result.edps)
+    for (fragility::FragilityFunction& f : edp.functions) f.median = f.dispersion = std::nan("");
+  return result;
+}
+
 inline const Intensity pga{"pga_g", "g"};
 
 inline Request request(std::vector<std::string> states = {}) {

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 std::vector<File> files(const Model& model) { return find("pelicun").write(model, "fragility.csv"); }
 
 Model discrete(const std::vector<double>& values) {
-  fragility::Result result = made_results(false);
+  fragility::Result result = without_curves();
   for (std::size_t b = 0; b < values.size(); ++b) set_surface(result.edps[1], b, values[b]);
   Request wanted = request({"overturned=falls"});
   return model("pelicun", wanted, result);

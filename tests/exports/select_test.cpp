@@ -118,11 +118,83 @@ TEST(Forms, DiscretePassesThroughTheSurface) {
   const fragility::Result result = made_results(false);
   const Model found = model("openquake", request(), result);
   for (std::size_t b = 0; b < std::size(bins); ++b)
-    EXPECT_EQ(probability(found.states[0].curve, bins[b]), result.edps[0].surface.probability[2 * b]);
-  const double last = result.edps[0].surface.probability[8];
-  EXPECT_EQ(probability(found.states[0].curve, 5), last);
+    EXPECT_NEAR(probability(found.states[0].curve, bins[b]), result.edps[0].surface.probability[2 * b], 1e-15);
+  // It goes on with the fitted curve's bend to the end of the sweep, and stays.
+  EXPECT_GT(probability(found.states[0].curve, 1.9), result.edps[0].surface.probability[8]);
+  EXPECT_EQ(probability(found.states[0].curve, 5), probability(found.states[0].curve, 1.9));
   EXPECT_EQ(probability(found.states[0].curve, 0), 0);
-  EXPECT_EQ(found.states[0].off_surface, 0);
+  EXPECT_NEAR(found.states[0].off_surface, 0, 1e-15);
+}
+
+// The counted shares of a lognormal, over wide bins: straight lines from one to the next, and from 0, have 2.4 times its events a year where the
+// hazard falls by im^-2.5. With the same levels for all, each state's lines give its rate.
+TEST(Forms, DiscreteBendsAsTheFittedCurveDoes) {
+  constexpr double edge[] = {0.1, 0.45, 0.8, 1.15, 1.5, 1.9}, slope = 2.5;
+  const auto law = [](double median, double im) { return phi(std::log(im / median) / 0.4); };
+  const double medians[] = {0.9, 1.3, 1.6};
+  const auto with_shares = [&](fragility::Result result) {
+    for (std::size_t b = 0; b < std::size(bins); ++b) {
+      constexpr int places = 200;
+      double mean = 0, share[3] = {};
+      for (int i = 0; i < places; ++i) {
+        const double im = edge[b] * std::pow(edge[b + 1] / edge[b], (i + 0.5) / places);
+        mean += im / places;
+        for (int s = 0; s < 3; ++s) share[s] += law(medians[s], im) / places;
+      }
+      result.im[b] = mean;
+      for (fragility::EdpResult& edp : result.edps) edp.bins[b].status = fragility::BinStatus::counts_only;
+      for (std::size_t k = 0; k < 2; ++k) set_surface(result.edps[0], 2 * b + k, share[k]);
+      set_surface(result.edps[1], b, share[2]);
+    }
+    result.im_edge.assign(std::begin(edge), std::end(edge));
+    return result;
+  };
+  const auto events = [&](const auto& curve) {  // those from what was swept, to the last bin's mean
+    double sum = 0;
+    for (double im = 0.1; im < 1.65; im *= 1.001)
+      sum += curve(im * 1.0005) * (std::pow(im, -slope) - std::pow(im * 1.001, -slope));
+    return sum;
+  };
+  fragility::Result result = made_results(false);
+  for (int s = 0; s < 3; ++s) {
+    fragility::FragilityFunction& f =
+        s < 2 ? result.edps[0].functions[static_cast<std::size_t>(s)] : result.edps[1].functions[0];
+    f.median = medians[s];
+    f.im_least = 0.1;
+  }
+  const Model bent = model("openquake", request(), with_shares(result)),
+              straight = model("openquake", request(), with_shares(without_curves()));
+  for (std::size_t s = 0; s < 3; ++s) {
+    const double truth = events([&](double im) { return law(medians[s], im); });
+    EXPECT_NEAR(events([&](double im) { return probability(bent.states[s].curve, im); }) / truth, 1, 0.03) << s;
+    EXPECT_GT(events([&](double im) { return probability(straight.states[s].curve, im); }) / truth, 1.3) << s;
+    EXPECT_EQ(bent.states[s].curve.points.size(), bent.states[0].curve.points.size());
+    EXPECT_LT(bent.states[s].off_lines, 0.01);
+  }
+  EXPECT_LT(bent.states[0].curve.points.size(), 60u);
+  EXPECT_THAT(bent.notes, testing::Contains(HasSubstr("points of the curve through 5 bins, off it by at most")));
+  EXPECT_THAT(bent.notes, Not(testing::Contains(HasSubstr("annual rates by these straight lines"))));
+  // A database is read by straight lines, and so are its exports; how far off these are is said.
+  Request as_a_database = request();
+  as_a_database.straight = true;
+  const Model lines = model("openquake", as_a_database, with_shares(result));
+  EXPECT_EQ(lines.states[0].curve.points.size(), 6u);
+  EXPECT_GT(lines.states[0].rate_by_lines[1], 1.2);
+  EXPECT_GT(lines.states[0].rate_by_lines[2], lines.states[0].rate_by_lines[1]);
+  EXPECT_THAT(lines.notes, testing::Contains(HasSubstr("annual rates by these straight lines are")));
+}
+
+TEST(Forms, ALognormalWhoseRatesAreNotThoseOfTheCountsIsNone) {
+  fragility::Result result = made_results();
+  for (fragility::EdpResult& edp : result.edps)
+    for (fragility::FragilityFunction& f : edp.functions) {
+      f.rate_p = 0.001;
+      f.adequate = false;
+    }
+  const Model found = model("openquake", request(), result);
+  EXPECT_EQ(found.states[0].curve.form, Form::discrete);
+  EXPECT_THAT(found.notes, testing::Contains(HasSubstr("no lognormal form: the lognormal of peak_slip_m > 0.05 m gives "
+                                                       "other annual rates than the counts")));
 }
 
 TEST(Forms, PartsAreTheThreePartsAtTheBinsAndBetweenThem) {
@@ -154,7 +226,7 @@ TEST(Notes, AreOfTheDemandsThatGoOut) {
 }
 
 TEST(Falling, WithinItsBandIsPooledAndToldBeyondItRefused) {
-  fragility::Result result = made_results(false);
+  fragility::Result result = without_curves();
   set_surface(result.edps[1], 3, 0.63);
   const Model found = model("openquake", request({"overturned"}), result);
   EXPECT_NEAR(probability(found.states[0].curve, 1.0), 0.615, 1e-15);
@@ -178,7 +250,7 @@ TEST(Crossing, IsRefusedWithWhereItHappens) {
 }
 
 TEST(EmptyRows, AreRefusedOrLeftOut) {
-  fragility::Result result = made_results(false);
+  fragility::Result result = without_curves();
   result.edps[1].surface.probability[2] = std::nan("");
   result.edps[1].bins[2].n = 12;
   EXPECT_THAT(error_of([&] { model("openquake", request(), result); }),

@@ -27,7 +27,7 @@ class Table : public TemporaryFolder {
     try {
       read(text, group);
     } catch (const Error& error) {
-      EXPECT_EQ(error.exit(), Exit::usage);
+      EXPECT_EQ(error.exit(), Exit::data);
       return error.what();
     }
     return "";
@@ -94,8 +94,8 @@ TEST_F(Table, EveryRowThatIsWrongIsNamed) {
       "a.csv,,,strong\n"
       ",,,1\n"
       "b.csv,0.1,g,0.3\n");
-  for (const char* says : {":2: file gone.csv is not there", ":3: dt_s is not above zero", ":4: no unit of acceleration",
-                           ":5: pga_g is \"strong\"", ":6: file is empty"})
+  for (const char* says : {":2: file gone.csv is not there", ":3: dt_s is not above zero",
+                           ":4: no unit of acceleration", ":5: pga_g is \"strong\"", ":6: file is empty"})
     EXPECT_THAT(found, HasSubstr(path("INDEX.csv").string() + says));
   EXPECT_EQ(std::count(found.begin(), found.end(), '\n'), 4) << found;
   EXPECT_THAT(problem("name,dt_s\na,1\n"), HasSubstr("has no column file"));

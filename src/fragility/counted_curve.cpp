@@ -1,0 +1,95 @@
+#include "fragility/counted_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fragility/normal.hpp"
+
+namespace freestand::fragility {
+namespace {
+
+// Puts the places between `low` and `high` that the curve needs behind `places`.
+void follow(const CountedCurve& curve, double low, double high, int depth, std::vector<double>& places) {
+  constexpr double share = 0.02, least = 1e-6;
+  const double middle = std::sqrt(low * high), here = curve(middle);
+  const double line = curve(low) + (curve(high) - curve(low)) * (middle - low) / (high - low);
+  if (depth == 0 || std::fabs(line - here) <= share * here + least) return;
+  follow(curve, low, middle, depth - 1, places);
+  places.push_back(middle);
+  follow(curve, middle, high, depth - 1, places);
+}
+
+}  // namespace
+
+std::vector<CountedBin> counted_bins(const Result& result, const EdpResult& edp, std::size_t capacity) {
+  std::vector<CountedBin> bins;
+  for (std::size_t i = 0; i < result.im.size(); ++i) {
+    const double p = edp.surface.probability[i * edp.capacity.size() + capacity];
+    if (std::isfinite(p) && result.im[i] > 0)
+      bins.push_back({result.im[i], p, result.im_edge[i], result.im_edge[i + 1],
+                      !edp.binary && edp.bins[i].status == BinStatus::fitted});
+  }
+  return bins;
+}
+
+CountedCurve::CountedCurve(const std::vector<CountedBin>& bins, double median, double dispersion)
+    : median_(median), dispersion_(dispersion) {
+  for (const CountedBin& bin : bins) {
+    const double shown = bin.by_law ? fitted(bin.im) : over_bin(bin);
+    knots_.push_back({bin.im, knots_.empty() ? shown : std::max(shown, knots_.back().fitted), bin.probability});
+  }
+}
+
+double CountedCurve::fitted(double im) const {
+  return median_ > 0 && dispersion_ > 0 ? normal_cdf(std::log(im / median_) / dispersion_) : 0;
+}
+
+// The mean over the intensities of a bin, spread evenly in their logarithm about their mean.
+double CountedCurve::over_bin(const CountedBin& bin) const {
+  if (!(bin.from > 0) || !std::isfinite(bin.to)) return fitted(bin.im);
+  constexpr int points = 32;
+  double places[points], mean = 0, sum = 0;
+  for (int i = 0; i < points; ++i) {
+    places[i] = bin.from * std::pow(bin.to / bin.from, (i + 0.5) / points);
+    mean += places[i] / points;
+  }
+  for (const double place : places) sum += fitted(place * bin.im / mean) / points;
+  return sum;
+}
+
+double CountedCurve::operator()(double im) const {
+  const double f = fitted(im);
+  const auto first = std::lower_bound(knots_.begin(), knots_.end(), f,
+                                      [](const Knot&knot, double x) { return knot.fitted < x; }),
+             behind =
+                 std::upper_bound(first, knots_.end(), f, [](double x, const Knot&knot) { return x < knot.fitted; });
+  if (first == behind) {
+    const Knot &lowest = knots_.front(), &highest = knots_.back();
+    const Knot low = first == knots_.begin() ? Knot{0, 0, std::max(0.0, lowest.probability - lowest.fitted)}
+                                             : *(first - 1),
+               high =
+                   first == knots_.end() ? Knot{0, 1, std::min(1.0, highest.probability + 1 - highest.fitted)} : *first;
+    return std::lerp(low.probability, high.probability, (f - low.fitted) / (high.fitted - low.fitted));
+  }
+  const auto next = std::upper_bound(first, behind, im, [](double x, const Knot& knot) { return x < knot.im; });
+  if (next == first) return first->probability;
+  const Knot& low = *(next - 1);
+  return next == behind ? low.probability
+                        : std::lerp(low.probability, next->probability, (im - low.im) / (next->im - low.im));
+}
+
+std::vector<double> places_to_follow(const CountedCurve& curve, const std::vector<CountedBin>& bins, double least,
+                                     double most) {
+  constexpr int halvings = 5;
+  std::vector<double> ends, places;
+  if (least > 0 && least < bins.front().im) ends.push_back(least);
+  for (const CountedBin& bin : bins) ends.push_back(bin.im);
+  if (most > bins.back().im && std::isfinite(most)) ends.push_back(most);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (i > 0) follow(curve, ends[i - 1], ends[i], halvings, places);
+    places.push_back(ends[i]);
+  }
+  return places;
+}
+
+}  // namespace freestand::fragility
