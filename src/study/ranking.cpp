@@ -99,7 +99,7 @@ fragility::RankingOptions options_of(const Study& study, const std::vector<Inten
 
 ordered_json number_json(double x) { return std::isfinite(x) ? ordered_json(x) : ordered_json(); }
 
-std::string cell(double x) { return std::isfinite(x) ? fmt::format("{:.9g}", x) : ""; }
+std::string cell(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
 
 // Is the difference to the best one more than chance (twice its standard error)?
 bool clearly_behind(const RankedIm& im) { return im.behind > 2 * im.behind_se; }
