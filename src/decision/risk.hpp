@@ -25,10 +25,9 @@ namespace freestand::decision {
 // (dispersions 0.15 and 0.4, 0.25 and 0.35, 0.35 and 0.25, 0.5 and 0.2), medians 0.25, 0.6, 1.5, hazard slopes 1.5 and 2.5; 4000 repeats
 // with 14 records, 2500 with 40, 1500 with 100 (error 0.005 to 0.008). By the function they hold the truth in 0.885 to 0.907 of the cases
 // with 14 records, in 0.897 to 0.924 with 40, in 0.901 to 0.919 with 100, and miss it above in 0.04 to 0.09 and below in 0.03 to 0.05. By
-// counts (1000 repeats, error 0.01) in 0.905 to 0.959 with 14, 0.889 to 0.944 with 40, 0.904 to 0.946 with 100. Those above 0.93 are where
-// the shares below the median are made by one or two records: the exact upper limit of bins in which nothing was counted is then never
-// crossed while P is small there, at whatever confidence (each P from 0 to it leaves a count of nothing likely), so all misses are below,
-// where a limit of so few records is crossed less often than it says.
+// counts with dispersions 0.35 and 0.25 and medians 0.6 and 1.5 (2000 repeats, error 0.006) in 0.918 to 0.928 with 14, 0.913 to 0.925 with
+// 40. The exact upper limit of bins in which nothing was counted is never crossed while P is small there, at whatever confidence (each
+// P from 0 to it leaves a count of nothing likely), so all misses are below.
 struct Rate {
   double value = fragility::unknown, lower = fragility::unknown, upper = fragility::unknown;
 };

@@ -49,6 +49,12 @@ std::vector<Bin> bins_of(const Result& result, const Intensity& im, const Wanted
         "{} has no bin with enough samples above {} 0 (nothing is known of it): sweep more samples, or choose "
         "another intensity",
         label(wanted), im.name));
+  if (bins.size() == 1 && !table)
+    throw Error(
+        fmt::format("{} is known at one intensity only, {} {:.4g} (a curve takes two at least): sweep a range of "
+                    "intensities, or give "
+                    "narrower bins and fit again",
+                    label(wanted), im.name, bins.front().im));
   return bins;
 }
 

@@ -260,6 +260,16 @@ TEST(EmptyRows, AreRefusedOrLeftOut) {
   EXPECT_NEAR(probability(model("openquake", wanted, result).states[0].curve, 0.65), 0.15, 1e-15);
 }
 
+TEST(Select, RefusesACurveOfOneIntensity) {
+  fragility::Result result = made_results(false);
+  for (std::size_t b = 0; b + 1 < std::size(bins); ++b) set_surface(result.edps[1], b, std::nan(""));
+  Request wanted = request({"overturned"});
+  wanted.skip_empty = true;
+  EXPECT_THAT(error_of([&] { model("openquake", wanted, result); }),
+              AllOf(HasSubstr("overturned is known at one intensity only, pga_g 1.6"), HasSubstr("sweep a range")));
+  EXPECT_EQ(model("csv", wanted, result).states.size(), 1u);  // a table holds what there is
+}
+
 TEST(Probabilities, AboveOneAreRefused) {
   fragility::Result result = made_results(false);
   result.edps[1].surface.probability[4] = 1.2;
