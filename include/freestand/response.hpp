@@ -51,6 +51,10 @@ struct Response {
   double peak_contact_vertical_mps2 = std::numeric_limits<double>::quiet_NaN();
   double peak_chain_force_mps2 = std::numeric_limits<double>::quiet_NaN();
   double peak_contents_acceleration_mps2 = std::numeric_limits<double>::quiet_NaN();
+  // Of legs that flex (effect flexible_legs): the largest sway of the block over its foot, and the amplitude of the one cycle of it that
+  // tires them as much as all its cycles together (dynamics/rainflow.hpp).
+  double peak_leg_deflection_m = std::numeric_limits<double>::quiet_NaN();
+  double leg_fatigue_m = std::numeric_limits<double>::quiet_NaN();
   bool connection_failed = false;  // of a chain to the wall
   int impacts = 0;                 // rocking impacts and landings
   int wall_hits = 0;               // blows of walls, or of a neighbour

@@ -17,7 +17,7 @@ struct Settings {
   // The acceleration of the block's point at this height over the base, above the middle of its width, is followed too; nan:
   // of none. Then no sample goes in packs.
   double acceleration_height_m = std::numeric_limits<double>::quiet_NaN();
-  // The peaks of the forces of the floor, of a chain and on what moves inside are followed too; not of model bouc_wen, nor in the
+  // The peaks of the forces of the floor, of a chain and on what moves inside are followed too, and how legs flex; not of model bouc_wen, nor in the
   // plane. Then no sample goes in packs.
   bool contact_forces = false;
 };

@@ -319,8 +319,10 @@ double Integration::slip() const {
 void Integration::feel_standing() {
   if (!peaks.follow_rest() || state.mode == Mode::flight || state.mode == Mode::overturned) return;
   if (outcome_ != Outcome::at_rest && outcome_ != Outcome::moved) return;
-  with_contact_arc<1>(rig, state, cursor.time(), cursor.local<1>(),
-                      [&](const auto& arc) { peaks.observe(rig, state, arc, 0); });
+  with_contact_arc<2>(rig, state, cursor.time(), cursor.local<2>(), [&](const auto& arc) {
+    peaks.observe(rig, state, arc, 0);
+    if (state.mode == Mode::rest) peaks.ring_down(rig, arc);
+  });
 }
 
 Response Integration::result() {

@@ -97,6 +97,11 @@ class Peaks {
     observe_point(rig, flight.theta[0], flight.omega, flight.ax, Series<double, N>::zero(), tau);
   }
 
+  template <class SomeArc>
+  void ring_down(const Rig& rig, const SomeArc& arc) {
+    forces_.ring_down(rig, arc, response_);
+  }
+
   // What the block feels at rest is looked at step by step.
   bool follow_rest() const { return forces_.followed(); }
 

@@ -138,16 +138,12 @@ bool first_root(const double* c, int order, double h, ZeroTolerance zero, double
   return solve[order - first - 1](c + first, h, tau);
 }
 
-namespace {
-
-// The largest size(y) over [0, h], or floor. size: y itself, or |y|.
-template <class Size>
-double largest(const double* c, int order, double h, double floor, Size size) {
+int turns(const double* c, int order, double h, double* values) {
   std::array<double, max_root_order + 1> y{}, slope{};
   std::copy(c, c + order + 1, y.begin());
-  double peak = std::max({floor, size(y[0]), size(evaluate(c, order, h))});
   // Walk from one stationary point to the next.
-  for (int turn = 0; turn < order && h > 0; ++turn) {
+  int found = 0;
+  while (found < order && h > 0) {
     for (int k = 0; k < order; ++k) slope[k] = (k + 1) * y[k + 1];
     if (sign_after(slope.data(), order - 1, {0, 0.0}) < 0)
       for (double& coefficient : slope) coefficient = -coefficient;
@@ -157,8 +153,18 @@ double largest(const double* c, int order, double h, double floor, Size size) {
       for (int k = order - 1; k >= i; --k) y[k] += tau * y[k + 1];
     y[1] = 0;
     h -= tau;
-    peak = std::max(peak, size(y[0]));
+    values[found++] = y[0];
   }
+  return found;
+}
+
+namespace {
+
+// The largest size(y) over [0, h], or floor. size: y itself, or |y|.
+template <class Size>
+double largest(const double* c, int order, double h, double floor, Size size) {
+  double peak = std::max({floor, size(c[0]), size(evaluate(c, order, h))}), values[max_root_order];
+  for (int i = turns(c, order, h, values) - 1; i >= 0; --i) peak = std::max(peak, size(values[i]));
   return peak;
 }
 

@@ -26,6 +26,7 @@ namespace detail {
 int sign_after(const double* c, int order, ZeroTolerance zero);
 bool first_root(const double* c, int order, double h, ZeroTolerance zero, double& tau);
 double max_abs(const double* c, int order, double h, double floor);
+int turns(const double* c, int order, double h, double* values);
 double max_of(const double* c, int order, double h, double floor);
 }  // namespace detail
 
@@ -53,6 +54,16 @@ double max_abs(const Series<double, N>& y, double h, double floor) {
   if constexpr (N > 0)
     if (surely_monotonic(y, h)) return std::fmax(floor, std::fmax(std::abs(y[0]), std::abs(y.at(h))));
   return detail::max_abs(y.c, N, h, floor);
+}
+
+// Calls see(y) at each point within (0, h) where y is stationary, in their order.
+template <int N, class See>
+void for_each_turn(const Series<double, N>& y, double h, const See& see) {
+  static_assert(0 < N && N <= max_root_order);
+  if (surely_monotonic(y, h)) return;
+  double values[N];
+  const int found = detail::turns(y.c, N, h, values);
+  for (int i = 0; i < found; ++i) see(values[i]);
 }
 
 // max(floor, max over [0, h] of y).

@@ -21,7 +21,7 @@ struct Input {
 };
 
 // What a study must have for the parameter to say anything: elsewhere it is nan (sides, height, forces), or 0 for every sample.
-enum class Wants { nothing, sides, wall, chain, height, forces, chain_force, contents };
+enum class Wants { nothing, sides, wall, chain, height, forces, chain_force, contents, legs };
 
 struct Edp {
   std::string name;     // as in the study file, with unit suffix where it has one
@@ -32,7 +32,7 @@ struct Edp {
   bool binary = false;           // 0 or 1: its mean is a probability, it takes no capacities
   bool censored = true;          // without meaning once the block has overturned
   Wants wants = Wants::nothing;  // sides: Settings::slip_by_side; height: acceleration_height_m; forces:
-                                 // contact_forces, and chain_force: with a chain, contents: with moving_contents
+                                 // contact_forces, and chain_force: with a chain, contents: with moving_contents, legs: with flexible_legs
   bool by_default = true;        // among those that a study takes which names none
   double still =
       0;  // at or below it (0.1 mm, a thousandth of alpha ...) the block stood still, as far as anyone can tell

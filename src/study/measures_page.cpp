@@ -83,7 +83,8 @@ const char* needed(edp::Wants wants) {
       "acceleration_height_m: 1.5, ",
       "contact_forces: true, ",
       "contact_forces: true, chain: {stiffness_npm: 36000, strength_n: 2700}, ",
-      "contact_forces: true, effects: [{name: moving_contents, mass_ratio: 0.2, frequency_hz: 3}], "};
+      "contact_forces: true, effects: [{name: moving_contents, mass_ratio: 0.2, frequency_hz: 3}], ",
+      "contact_forces: true, effects: [{name: flexible_legs, frequency_hz: 5}], "};
   return keys[static_cast<int>(wants)];
 }
 

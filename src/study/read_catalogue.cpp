@@ -155,9 +155,11 @@ class Reader {
   void check_common() {
     Known known = known_;
     for (KnownEdp& edp : known.edps)
-      edp.wants = edp.wants == edp::Wants::chain_force || edp.wants == edp::Wants::contents ? edp::Wants::forces
-                  : edp.wants == edp::Wants::wall || edp.wants == edp::Wants::chain         ? edp::Wants::nothing
-                                                                                            : edp.wants;
+      edp.wants =
+          edp.wants == edp::Wants::chain_force || edp.wants == edp::Wants::contents || edp.wants == edp::Wants::legs
+              ? edp::Wants::forces
+          : edp.wants == edp::Wants::wall || edp.wants == edp::Wants::chain ? edp::Wants::nothing
+                                                                            : edp.wants;
     Named floors = floors_;
     if (floors.empty()) floors.emplace_back("", YAML::Node());
     for (const auto& [name, motions] : floors) {

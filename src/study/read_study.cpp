@@ -157,8 +157,8 @@ std::string refusal(const KnownEdp& edp, const Study& study) {
     return edp.name +
            " is followed only where the study says at which height (it takes several times as long): add "
            "acceleration_height_m: 1.5, and sweep with it";
-  const bool forces =
-      edp.wants == edp::Wants::forces || edp.wants == edp::Wants::chain_force || edp.wants == edp::Wants::contents;
+  const bool forces = edp.wants == edp::Wants::forces || edp.wants == edp::Wants::chain_force ||
+                      edp.wants == edp::Wants::contents || edp.wants == edp::Wants::legs;
   if (forces && !study.contact_forces)
     return edp.name +
            " is followed only where the study says so (it takes several times as long): add contact_forces: true, and "
@@ -176,6 +176,12 @@ std::string refusal(const KnownEdp& edp, const Study& study) {
     return edp.name +
            " would be 0 for every sample (nothing moves inside the block of this study): remove it, or add effect "
            "moving_contents, and sweep with it";
+  if (edp.wants == edp::Wants::legs &&
+      std::none_of(effects.begin(), effects.end(), [](const auto& part) { return bool(part.effect->legs); }))
+    return edp.name +
+           " would be 0 for every sample (the block of this study stands on no legs that flex): remove it, or add "
+           "effect "
+           "flexible_legs, and sweep with it";
   return "";
 }
 

@@ -16,6 +16,7 @@ inline Known known() {
                    {"peak_contact_vertical_over_weight", false, {1.5}, false, 0, edp::Wants::forces},
                    {"peak_chain_force_n", false, {500}, false, 0, edp::Wants::chain_force},
                    {"peak_contents_acceleration_g", false, {1}, false, 0, edp::Wants::contents},
+                   {"leg_fatigue_m", false, {0.01}, false, 0, edp::Wants::legs},
                    {"wall_hit", true, {}, false, 0, edp::Wants::wall},
                    {"connection_failed", true, {}, false, 0, edp::Wants::chain}},
           .intensities = {{"report", "", 0}, {"pta_g", "", 0}, {"sa_g", "period_s", 1.0}}};

@@ -32,6 +32,10 @@ TEST(WantedDemands, ComeWithWhatMakesThem) {
                "peak_contents_acceleration_g > 1",
                "add contact_forces: true",
                {"contact_forces: true\neffects: [{name: moving_contents, mass_ratio: 0.2, frequency_hz: 3}]\n"}},
+        Demand{"leg_fatigue_m",
+               "leg_fatigue_m > 0.01",
+               "add contact_forces: true",
+               {"contact_forces: true\neffects: [{name: flexible_legs, frequency_hz: 5}]\n"}},
         Demand{"wall_hit", "wall_hit", "0 for every sample (no wall stands in this study)", {wall, chain}},
         Demand{"connection_failed", "connection_failed", "0 for every sample (no chain holds", {chain}}}) {
     const std::string sound = block + friction + samples + motions + "fragility:\n  im: report\n  edp: [delta";
