@@ -6,6 +6,7 @@
 #include "measurement/left_out.hpp"
 #include "measurement/pairs.hpp"
 #include "measurement/starts.hpp"
+#include "measurement/strides.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -155,6 +156,38 @@ std::vector<Values> EffectSearch::starts_of(const dynamics::Effect& effect, cons
   for (Values& x : starts_from(ends, model, 16 * own)) starts.push_back(std::move(x));
   starts.push_back(start_at_nothing(base, effect));
   return starts;
+}
+
+bool EffectSearch::fit_again_by_strides(const std::vector<FitTask>& tasks, std::size_t by_derivatives,
+                                        std::size_t finals, const Effort& effort) {
+  auto fits = fit_by_strides(bench_, tasks, by_derivatives, effort, jobs_);
+  std::vector<std::size_t> places;
+  for (StrideFit& found : fits) {
+    if (const auto place = improved(found.fit)) places.push_back(*place);
+    if (places.size() == finals) break;
+  }
+  std::vector<ModelFit*> better;
+  for (const std::size_t i : places) better.push_back(&out_.candidates[i].fit);
+  refine(bench_, better, options_.effort, jobs_);
+  leave_out(better);
+  return !better.empty();
+}
+
+std::optional<std::size_t> EffectSearch::improved(ModelFit& fit) {
+  std::vector<std::string> effects;
+  for (std::size_t i = base_.effects.size(); i < fit.model.effects.size(); ++i)
+    effects.push_back(fit.model.effects[i].effect->name);
+  if (fit.score > out_.base.fit.score - no_gain) return {};
+  for (std::size_t i = 0; i < out_.candidates.size(); ++i) {
+    Candidate& known = out_.candidates[i];
+    if (!std::is_permutation(known.effects.begin(), known.effects.end(), effects.begin(), effects.end())) continue;
+    if (fit.score > known.fit.score - no_gain) return {};
+    known.effects = effects;
+    known.fit = std::move(fit);
+    return i;
+  }
+  out_.candidates.push_back({.effects = effects, .fit = std::move(fit)});
+  return out_.candidates.size() - 1;
 }
 
 }  // namespace freestand::measurement

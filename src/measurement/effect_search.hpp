@@ -37,6 +37,11 @@ class EffectSearch {
   void fit(const Singles&);
   // Polishes and leaves out, for the best candidates from `first` on that gain anything on the base.
   void finish(std::size_t first);
+  // Where fits may have stuck: all once more by strides (strides.hpp), so many of them by derivatives, and the best that are better than
+  // they were to the end. False: none is.
+  bool fit_again_by_strides(const std::vector<FitTask>&, std::size_t by_derivatives, std::size_t finals, const Effort&);
+  // Place of the candidate that the fit is better than, or of a new one.
+  std::optional<std::size_t> improved(ModelFit& fit);
   const Candidate& best() const;
   // By the noise of floor and sensors, and friction as it scatters where that was found.
   Judge judge_of(const ModelFit&) const;

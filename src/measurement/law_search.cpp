@@ -23,7 +23,11 @@ class LawSearch : EffectSearch {
   }
 
   void run() {
-    fit(single_effects());
+    const Singles forms = single_effects();
+    fit(forms);
+    // Long histories have many valleys beside the one that the law lies in.
+    if (!chance_of_misfit_of(best().fit).chance())
+      fit_again_by_strides(forms.tasks, forms.tasks.size(), options_.pair_finals, options_.effort);
     judge();
     if (!forms_may_help()) return;
     const Candidate* form = simplest_that_leads();

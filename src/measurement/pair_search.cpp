@@ -4,7 +4,6 @@
 
 #include "measurement/decide.hpp"
 #include "measurement/starts.hpp"
-#include "measurement/strides.hpp"
 
 namespace freestand::measurement {
 
@@ -180,34 +179,7 @@ bool PairSearch::look_again() {
   const std::vector<FitTask> tasks = singles_and_pairs();
   Effort effort = quick();
   effort.descended = 2 * options_.stride_finals;
-  auto fits = fit_by_strides(bench_, tasks, options_.stride_finals, effort, jobs_);
-  std::vector<std::size_t> places;
-  for (StrideFit& found : fits) {
-    if (const auto place = improved(found.fit)) places.push_back(*place);
-    if (places.size() == options_.pair_finals) break;
-  }
-  std::vector<ModelFit*> better;
-  for (const std::size_t i : places) better.push_back(&out_.candidates[i].fit);
-  refine(bench_, better, options_.effort, jobs_);
-  leave_out(better);
-  return !better.empty();
-}
-
-std::optional<std::size_t> PairSearch::improved(ModelFit& fit) {
-  std::vector<std::string> effects;
-  for (std::size_t i = base_.effects.size(); i < fit.model.effects.size(); ++i)
-    effects.push_back(fit.model.effects[i].effect->name);
-  if (fit.score > out_.base.fit.score - no_gain) return {};
-  for (std::size_t i = 0; i < out_.candidates.size(); ++i) {
-    Candidate& known = out_.candidates[i];
-    if (!std::is_permutation(known.effects.begin(), known.effects.end(), effects.begin(), effects.end())) continue;
-    if (fit.score > known.fit.score - no_gain) return {};
-    known.effects = effects;
-    known.fit = std::move(fit);
-    return i;
-  }
-  out_.candidates.push_back({.effects = effects, .fit = std::move(fit)});
-  return out_.candidates.size() - 1;
+  return fit_again_by_strides(tasks, options_.stride_finals, options_.pair_finals, effort);
 }
 
 }  // namespace freestand::measurement

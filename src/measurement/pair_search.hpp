@@ -39,8 +39,6 @@ class PairSearch : public EffectSearch {
   // Nothing explains the tests: the effect is of no catalogue, or fits have stuck, or the best single effects, which pairs
   // are joined to, are not those of the pair: two that only do together look useless alone. All once more by strides.
   bool look_again();
-  // Place of the candidate that the fit is better than, or of a new one.
-  std::optional<std::size_t> improved(ModelFit& fit);
 
   Pairs pairs_;
 };
