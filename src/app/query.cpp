@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "app/checks.hpp"
 #include "app/command.hpp"
 #include "app/query_words.hpp"
 #include "io/database_file.hpp"
@@ -86,9 +87,11 @@ void add_query(CLI::App& parser, Work& work) {
   verb->add_option("--id", options->id, "one entry");
   verb->add_option("--floor", options->floor, "floor, as the catalogue names it");
   verb->add_option("--friction", options->friction, "friction, as the catalogue names it");
-  verb->add_option("--mu", options->mu, "kinetic friction, interpolated between entries");
-  verb->add_option("--height", options->height_m, "height in m, interpolated between entries");
-  verb->add_option("--width", options->width_m, "width in m, interpolated between entries");
+  verb->add_option("--mu", options->mu, "kinetic friction, interpolated between entries")
+      ->check(above_zero("friction"));
+  verb->add_option("--height", options->height_m, "height in m, interpolated between entries")
+      ->check(above_zero("height"));
+  verb->add_option("--width", options->width_m, "width in m, interpolated between entries")->check(above_zero("width"));
   verb->add_option("--im", options->im, "intensity: pga_g=0.4; pga_g for the whole curve");
   verb->add_option("--demand", options->demand, "demand: peak_slip_m");
   verb->add_option("--capacity", options->capacity, "what the demand goes beyond, in its unit");

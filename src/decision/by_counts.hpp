@@ -2,6 +2,7 @@
 // which discrete exports hand on, from the least intensity swept, and level above the last bin.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "decision/annual_rate.hpp"
@@ -19,6 +20,9 @@ class ByCounts {
            const fragility::FragilityFunction&, const Range& swept);
 
   bool empty() const { return table_.im.empty(); }
+  bool nothing_counted() const {
+    return std::all_of(table_.probability.begin(), table_.probability.end(), [](double p) { return p == 0; });
+  }
 
   // Of intensities within the range; the sum of ranges that follow each other is that of the whole.
   double rate(const Range& = {}) const;

@@ -115,6 +115,13 @@ void add_point(const Line& line, double im, double rate, const std::string& file
                "annual_rate rises from {} to {} (a larger intensity cannot be exceeded more often): is the column a "
                "rate of exceedance?",
                curve.annual_rate.back(), rate));
+  constexpr double once_an_hour = 8766;
+  if (rate > once_an_hour)
+    refuse(
+        file, line.number,
+        fmt::format("annual_rate is {:g} (more than once an hour, which no earthquake's intensity is exceeded): is the "
+                    "column a rate of exceedance, by the year?",
+                    rate));
   curve.im.push_back(im);
   curve.annual_rate.push_back(rate);
 }

@@ -92,9 +92,8 @@ class Row {
     else if (!function)
       row_.why = "no curve could be fitted (nothing exceeds, everything does, or it does not grow with the intensity)";
     else if (agree)
-      row_.why = fmt::format(
-          "the fitted curve is adequate: off the counted shares by at most {:.2g}, and its rates are theirs",
-          f_.off_by);
+      row_.why = fmt::format("the fitted curve is adequate: off the counted shares by at most {:.2g}{}", f_.off_by,
+                             std::isnan(f_.rate_p) ? "" : ", and its rates are theirs");
     else if (!counts)
       row_.why = "no bin has enough samples";
     else if (rates_differ(f_)) {
@@ -114,7 +113,7 @@ class Row {
   void outside() {
     const double rate = row_.rate().value, end = hazard_.annual_rate.back();
     const bool function = row_.recommended == By::function;
-    if (!(rate > 0)) return;
+    if (!(rate > 0) && counts_.nothing_counted()) return;
     const double start = std::min(hazard_.first(), risk_.im_least) / 100;
     const HazardCurve longer = begun_earlier(hazard_, start);
     const Range before{0, hazard_.first()};
@@ -128,8 +127,8 @@ class Row {
       if (hazard_.last() > risk_.im_most) beyond += hazard_.rate(risk_.im_most) * (1 - counts_.at_end());
       missing = counts_.rate_below(longer, before) + end * (1 - counts_.at_end());
     }
-    row_.outside_sweep = beyond / (function ? rate : rate + beyond);
-    row_.outside_hazard = missing / (rate + missing);
+    row_.outside_sweep = function ? beyond / rate : rate + beyond > 0 ? beyond / (rate + beyond) : 0;
+    row_.outside_hazard = rate + missing > 0 ? missing / (rate + missing) : 0;
     for (const auto& [share, what] : {std::pair(row_.outside_sweep, "outside of the sweep"),
                                       std::pair(row_.outside_hazard, "outside of the hazard curve")})
       if (share > outside_to_refuse && row_.refused.empty())
@@ -166,7 +165,8 @@ bool happens_within(const RiskRow& inner, const RiskRow& outer, const std::vecto
          std::find(with_overturned.begin(), with_overturned.end(), outer.edp) != with_overturned.end();
 }
 
-// Limits by those of events that hold or are held. A limit that would pass the value itself is none.
+// Limits by those of events that hold or are held. A limit that would pass the value itself is none. Curves of their own may give what is held
+// more events than what holds it: it has as many.
 void put_in_order(std::vector<RiskRow>& rows, const std::vector<std::string>& with_overturned) {
   const std::vector<RiskRow> own = rows;
   for (RiskRow& row : rows) {
@@ -184,6 +184,17 @@ void put_in_order(std::vector<RiskRow>& rows, const std::vector<std::string>& wi
     }
     if (bound)
       row.why += fmt::format("; its upper limit is that of {}, which holds whenever this happens", title(*bound));
+    bound = nullptr;
+    for (const RiskRow& other : own)
+      if (row.refused.empty() && other.refused.empty() && happens_within(row, other, with_overturned) &&
+          other.rate().value < rate.value) {
+        rate.value = other.rate().value;
+        bound = &other;
+      }
+    rate.lower = std::min(rate.lower, rate.value);
+    if (bound)
+      row.why +=
+          fmt::format("; its rate is that of {}, which holds whenever this happens, and came out lower", title(*bound));
   }
 }
 

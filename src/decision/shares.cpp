@@ -23,14 +23,14 @@ int joined(const Parameter& parameter, double samples) {
   return join;
 }
 
-// With an error of its own beside that of the estimate.
+// With an error of its own beside that of the estimate, which the interval holds.
 fragility::Estimate wider(fragility::Estimate estimate, double error) {
-  const double se = std::hypot(estimate.se, error);
-  if (!(estimate.se > 0) || !(se > estimate.se)) return estimate;
-  const double times = se / estimate.se;
-  estimate.lower = std::clamp(estimate.value - times * (estimate.value - estimate.lower), 0.0, 1.0);
-  estimate.upper = std::clamp(estimate.value + times * (estimate.upper - estimate.value), 0.0, 1.0);
-  estimate.se = se;
+  const double se = std::hypot(estimate.se, error), times = estimate.se > 0 ? se / estimate.se : 1;
+  const double lower = estimate.value - times * (estimate.value - estimate.lower),
+               upper = estimate.value + times * (estimate.upper - estimate.value);
+  if (!std::isnan(estimate.se)) estimate.se = se;
+  estimate.lower = std::min(estimate.value, std::clamp(lower, 0.0, 1.0));
+  estimate.upper = std::max(estimate.value, std::clamp(upper, 0.0, 1.0));
   return estimate;
 }
 
@@ -133,6 +133,7 @@ struct ShareTally::Shares {
   double whole = nan;
   std::vector<double> without;  // [group], NaN where the group has no samples
   double classes = 0;           // that have samples
+  double lost = 0;              // error of what is lost inside the classes
 };
 
 // Of parts of one even design: about the whole, and closer by the root of c.
@@ -156,14 +157,26 @@ ShareTally::Shares ShareTally::shares(std::size_t p, std::size_t answer, const s
   std::vector<Sums> total(sums.size());
   for (std::size_t c = 0; c < sums.size(); ++c)
     for (const Sums& one : sums[c]) total[c] += one;
-  Shares found{share(total, evenness), std::vector<double>(of_group.size(), nan)};
+  // Of classes, and of half as many.
+  const auto estimate = [&](const std::vector<Sums>& classes, double c, double* lost) {
+    const double fine = share(classes, c);
+    if (!parameters_[p].ordered || classes.size() < 2 * fewest_classes + 1) return fine;
+    std::vector<Sums> pairs((classes.size() - 1) / 2 + 1);
+    for (std::size_t i = 0; i + 1 < classes.size(); ++i) pairs[i / 2] += classes[i];
+    pairs.back() += classes.back();
+    const double step = fine - share(pairs, c);
+    if (lost) *lost = std::abs(step) / 6;
+    return fine + step / 2;
+  };
+  Shares found{nan, std::vector<double>(of_group.size(), nan)};
+  found.whole = estimate(total, evenness, &found.lost);
   for (const Sums& one : total) found.classes += one.n > 0;
   for (std::size_t g = 0; g < of_group.size(); ++g) {
     if (of_group[g].n == 0) continue;
     std::vector<Sums> rest(total);
     for (std::size_t c = 0; c < sums.size(); ++c) rest[c] -= sums[c][g];
     // Parts of an even design scatter as independent draws do.
-    found.without[g] = share(rest, one_design_ && groups_.stratum(static_cast<int>(g)) == 1 ? 1 : evenness);
+    found.without[g] = estimate(rest, one_design_ && groups_.stratum(static_cast<int>(g)) == 1 ? 1 : evenness, nullptr);
   }
   if (one_design_) draw_in(found, evenness);
   return found;
@@ -196,7 +209,7 @@ ShareRow ShareTally::row(std::size_t answer, double confidence) const {
         left_out[static_cast<std::size_t>(groups_.stratum(static_cast<int>(g)))].push_back(shares.without[g]);
     return left_out;
   };
-  Shares together{0, std::vector<double>(of_group.size(), 0), 0};
+  Shares together{0, std::vector<double>(of_group.size(), 0)};
   double squares = 0;
   for (std::size_t p = 0; p < parameters_.size(); ++p) {
     if (parameters_[p].idle) continue;
@@ -204,9 +217,12 @@ ShareRow ShareTally::row(std::size_t answer, double confidence) const {
     const Evenness even = design == 0 ? Evenness{1, 0} : evenness(design, answer, all.n);
     const Shares one = shares(p, answer, of_group, even.c);
     const double between = even.scatter * std::max(one.classes - 1, 0.0) / std::max(all.n - 1, 1.0);
+    const double error = std::hypot(between, one.lost);
     row.share.push_back(
-        wider(fragility::jackknife_share(one.whole, left_out_of(one), confidence, all.n / one.classes), between));
-    squares += between * between;
+        wider(design == 0 ? fragility::jackknife_share(one.whole, left_out_of(one), confidence, all.n / one.classes)
+                          : fragility::jackknife(one.whole, left_out_of(one), confidence),
+              error));
+    squares += error * error;
     together.whole += one.whole;
     for (std::size_t g = 0; g < of_group.size(); ++g) together.without[g] += one.without[g];
   }

@@ -67,8 +67,9 @@ double CountedCurve::operator()(double im) const {
     const Knot &lowest = knots_.front(), &highest = knots_.back();
     const Knot low = first == knots_.begin() ? Knot{0, 0, std::max(0.0, lowest.probability - lowest.fitted)}
                                              : *(first - 1),
-               high =
-                   first == knots_.end() ? Knot{0, 1, std::min(1.0, highest.probability + 1 - highest.fitted)} : *first;
+               high = first == knots_.end()
+                          ? Knot{0, 1, highest.fitted > 0 ? std::min(1.0, highest.probability / highest.fitted) : 1}
+                          : *first;
     return std::lerp(low.probability, high.probability, (f - low.fitted) / (high.fitted - low.fitted));
   }
   const auto next = std::upper_bound(first, behind, im, [](double x, const Knot& knot) { return x < knot.im; });

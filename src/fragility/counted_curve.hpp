@@ -9,7 +9,8 @@
 //
 // (the lines of a probability plot; M. B. Wilk & R. Gnanadesikan, Biometrika 55, 1968). P lies between the shares of its neighbours whatever F is,
 // and is without bias where F is true, since it is linear in the shares: E P = F. Below the first bin what it has beside the curve stays,
-// P = p_1 + F - F_1, or falls in proportion where the curve has more; above the last alike, of 1 - P. Where F does not change from bin to bin (0 or 1 to the
+// P = p_1 + F - F_1, or falls in proportion where the curve has more; above the last it grows in proportion where the curve has
+// more, so that what was never counted stays so, and else 1 - P falls in proportion. Where F does not change from bin to bin (0 or 1 to the
 // last digit), and where there is no curve, the lines are over the intensity, and level beyond such bins.
 #pragma once
 

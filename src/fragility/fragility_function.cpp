@@ -191,7 +191,9 @@ class Resampled {
     curve.misfit_p = (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(scatter.size()));
     curve.off_by = size + sorted_quantile(scatter, tally_.options().confidence);
     curve.rate_p = chance_of_small_shares(small_shares(found));
-    curve.adequate = curve.off_by <= tally_.options().adequate && !rates_differ(curve);
+    // Through the shares of two bins there is a lognormal always, which tells nothing of others.
+    const auto known = std::count_if(found.begin(), found.end(), [](double one) { return std::isfinite(one); });
+    curve.adequate = known > 2 && curve.off_by <= tally_.options().adequate && !rates_differ(curve);
   }
 
  private:

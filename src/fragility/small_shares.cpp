@@ -84,7 +84,10 @@ double chance_of(const SmallShares& shares, const std::vector<Pool>& pools) {
   double sum = 0, correlations = 0;
   for (const Pool& a : pools) {
     const double of_motions = covariance(shares, a.left_out, a.left_out), variance = std::max(a.variance, of_motions);
-    if (!(variance > 0)) return 1;
+    if (!(variance > 0)) {
+      if (a.excess != 0) return 0;  // counts where the curve has none
+      continue;
+    }
     sum += a.excess * a.excess / variance;
     for (const Pool& b : pools) {
       const double both = of_motions * covariance(shares, b.left_out, b.left_out);

@@ -64,5 +64,11 @@ TEST(Hazard, WhatCannotBeIsToldWithItsLine) {
               HasSubstr("hazard.csv:3: period_s changes"));
 }
 
+TEST(Hazard, NoIntensityIsExceededMoreThanOnceAnHour) {
+  EXPECT_THAT(
+      [] { parse_hazard("pga_g,annual_rate\n0.1,1e60\n0.2,0.1\n", "a.csv", {"pga_g"}); },
+      testing::ThrowsMessage<Error>(testing::HasSubstr("a.csv:2: annual_rate is 1e+60 (more than once an hour")));
+}
+
 }  // namespace
 }  // namespace freestand::decision

@@ -69,6 +69,11 @@ TEST(CountedCurve, OfAnyFittedCurveIsBetweenTheSharesBesideIt) {
     }
 }
 
+TEST(CountedCurve, WhatWasNeverCountedIsNotHandedOn) {
+  const CountedCurve curve(bins_of_the_law(0), median, dispersion);
+  for (const double im : {0.1, 1.0, 2.0, 5.0}) EXPECT_EQ(curve(im), 0) << im;
+}
+
 TEST(CountedCurve, WithoutAFittedOneIsStraight) {
   const CountedCurve curve({{1, 0.1, 0.5, 1.5, false}, {2, 0.3, 1.5, 2.5, false}}, NAN, NAN);
   EXPECT_DOUBLE_EQ(curve(1.5), 0.2);
