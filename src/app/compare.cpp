@@ -84,7 +84,7 @@ void tell_comparison(const Json& json, const std::string& folder) {
 Exit compare(const Context& context, const ValidationOptions& options) {
   const std::filesystem::path folder = options.output;
   context.world.on_root([&] {
-    io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+    io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
                               {"fitted.yaml", study::posterior_table});
   });
   const study::Compared compared = study::compare(context.world, options.run(context), folder);

@@ -63,7 +63,7 @@ void tell_diagnosis(const Json& json, const std::string& file) {
 Exit diagnose(const Context& context, const ValidationOptions& options) {
   const std::filesystem::path folder = options.output;
   context.world.on_root(
-      [&] { io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse); });
+      [&] { io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse); });
   const Json json = study::diagnose(context.world, options.run(context));
   context.world.on_root([&] {
     io::write_text(folder / "diagnosis.json", io::json_text(json));

@@ -22,7 +22,7 @@ Exit import(const Context& context, const ImportOptions& options) {
     const study::Imported imported = study::import_laboratory(study::read_laboratory(options.laboratory));
     std::vector<std::string> names;
     for (const auto& [name, text] : imported.files) names.push_back(name);
-    io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse, names);
+    io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse, names);
     for (const auto& [name, text] : imported.files)
       io::write_text(folder / name,
                      io::signed_text(name == "dataset.yaml" ? "# " + context.command_line + "\n" + text : text));

@@ -22,7 +22,7 @@ struct SimulateOptions {
 Exit simulate(const SimulateOptions& options) {
   const study::Case c = study::read_case(options.file);
   const std::filesystem::path folder = options.folder;
-  io::prepare_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse, {"case.yaml"});
+  io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse, {"case.yaml"});
   const study::Simulation result = study::simulate(c, options.reference);
   for (const std::string& doubt : result.doubts) fmt::print(stderr, "doubtful: {}\n", doubt);
   io::write_text(folder / "history.csv",

@@ -75,6 +75,12 @@ void prepare_output_folder(const fs::path& folder, Existing existing, const std:
   if (existing == Existing::overwrite) remove_results(folder);
 }
 
+void take_output_folder(const fs::path& folder, Existing existing, const std::vector<std::string>& writes) {
+  make_output_folder(folder, existing, writes);
+  const FolderLock alone(folder);
+  prepare_output_folder(folder, existing, writes);
+}
+
 void write_text(const fs::path& path, std::string_view text) { write_durably(path, text); }
 
 }  // namespace freestand::io

@@ -29,6 +29,9 @@ void make_output_folder(const std::filesystem::path& folder, Existing, const std
 // `overwrite` the results in it are removed.
 void prepare_output_folder(const std::filesystem::path& folder, Existing, const std::vector<std::string>& writes = {});
 
+// Both, of who holds no lock of the folder: refused while another job does (folder_lock.hpp).
+void take_output_folder(const std::filesystem::path& folder, Existing, const std::vector<std::string>& writes = {});
+
 // Text file, whole or not there (durable_file.hpp).
 void write_text(const std::filesystem::path& path, std::string_view text);
 

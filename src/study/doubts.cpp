@@ -10,6 +10,7 @@
 #include "base/units.hpp"
 #include "formula/formula.hpp"
 #include "motion/offset.hpp"
+#include "motion/peaks.hpp"
 #include "study/problems.hpp"
 
 namespace freestand::study {
@@ -174,6 +175,32 @@ std::vector<std::string> doubts(const Study& study) {
   return std::move(doubter.said);
 }
 
+namespace {
+
+// A channel of a motion by itself, as a horizontal one; its name says which.
+FloorMotion channel_of(const FloorMotion& motion, std::vector<double> FloorMotion::*channel, const char* name) {
+  FloorMotion alone;
+  alone.name = name[0] == '\0' ? motion.name : fmt::format("the {} channel of {}", name, motion.name);
+  alone.knot_s = motion.knot_s;
+  alone.degree = motion.degree;
+  alone.horizontal_mps2 = motion.*channel;
+  return alone;
+}
+
+// Those that shake the block of this study.
+std::vector<FloorMotion> channels_of(const FloorMotion& motion, const Study& study) {
+  const auto& effects = study.model.effects;
+  std::vector<FloorMotion> channels{channel_of(motion, &FloorMotion::horizontal_mps2, "")};
+  if (!motion.cross_mps2.empty()) channels.push_back(channel_of(motion, &FloorMotion::cross_mps2, "second"));
+  if (!motion.vertical_mps2.empty() && std::any_of(effects.begin(), effects.end(), [](const EffectPart& part) {
+        return part.effect->name == "vertical_shaking";
+      }))
+    channels.push_back(channel_of(motion, &FloorMotion::vertical_mps2, "vertical"));
+  return channels;
+}
+
+}  // namespace
+
 std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& motions) {
   std::vector<std::string> said;
   for (std::size_t s = 0; s < study.motions.size(); ++s) {
@@ -186,15 +213,23 @@ std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& 
       const double step = motion.duration_s() / static_cast<double>(motion.segments());
       if (step > coarsest_step_s)
         said.push_back(fmt::format("the time step of {} is {:.4g} s: is its time in seconds?", motion.name, step));
-      if (const motion::Offset offset = motion::offset(motion); offset.doubtful())
-        said.push_back(
-            fmt::format("{} has an offset of {:.3g} m/s2: with it alone the floor would leave at {:.3g} m/s, and the "
-                        "shaking reaches {:.3g} m/s without it; is its zero right?",
-                        motion.name, offset.acceleration_mps2, offset.leaving_mps, offset.shaking_mps));
-      const double peak_g = (*motions.entries)[entry].peak_mps2 / standard_gravity_mps2;
-      if (as_it_is && peak_g * std::abs(usual(*source.amplitude)) > strongest_g)
-        said.push_back(fmt::format("the floor of {} reaches {:.3g} g: is its unit right?", motion.name,
-                                   peak_g * std::abs(usual(*source.amplitude))));
+      const double first_mps2 = (*motions.entries)[entry].peak_mps2;
+      for (const FloorMotion& channel : channels_of(motion, study)) {
+        if (const motion::Offset offset = motion::offset(channel); offset.doubtful())
+          said.push_back(
+              fmt::format("{} has an offset of {:.3g} m/s2: with it alone the floor would leave at {:.3g} m/s, and the "
+                          "shaking reaches {:.3g} m/s without it; is its zero right?",
+                          channel.name, offset.acceleration_mps2, offset.leaving_mps, offset.shaking_mps));
+        const double peak_mps2 = motion::peaks(channel).pga_mps2;
+        if (peak_mps2 == 0) said.push_back(fmt::format("{} is zero throughout: is it the right one?", channel.name));
+        const double peak_g = peak_mps2 / standard_gravity_mps2;
+        if (as_it_is && peak_g * std::abs(usual(*source.amplitude)) > strongest_g)
+          said.push_back(fmt::format("the floor of {} reaches {:.3g} g: is its unit right?", channel.name,
+                                     peak_g * std::abs(usual(*source.amplitude))));
+        else if (peak_mps2 > strongest_g * first_mps2)
+          said.push_back(fmt::format("{} is {:.3g} times as strong as the first one: is its unit right?", channel.name,
+                                     peak_mps2 / first_mps2));
+      }
     }
   }
   return said;

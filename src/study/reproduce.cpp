@@ -105,7 +105,7 @@ Reproduced reproduce(const parallel::Communicator& world, const ReproduceOptions
 }
 
 void prepare(const ReproduceOptions& options) {
-  io::prepare_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+  io::take_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
                             {json_name});
 }
 

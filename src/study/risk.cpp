@@ -218,7 +218,7 @@ void write_risk(const RiskAnswer& answer, const RiskOptions& options) {
   if (std::filesystem::equivalent(options.output, options.folder, ignored))
     throw Error(fmt::format("{} is the sweep itself (its results would be replaced): name another folder with -o",
                             options.output.string()));
-  io::prepare_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse);
+  io::take_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse);
   io::write_text(options.output / "risk.csv", risk_csv(answer, options));
   io::write_text(options.output / "risk.json", io::json_text(risk_json(answer, options)));
 }

@@ -110,6 +110,8 @@ class OneFolder(Stopping):
         first.send_signal(signal.SIGSTOP)  # it must not be done before it is disturbed
         for option in ("--resume", "--overwrite"):
             self.fail_with(2, ["run", study, "-o", folder, "--quiet", option], "in use", "process", ranks=2)
+        case = self.write("case.yaml", "block: {width_m: 0.6, height_m: 1, mass_kg: 50}\nfriction: {mu: 0.3}\nmotion: {pulse: A, period_s: 0.5, peak_acceleration_g: 0.5}\n")
+        self.fail_with(2, ["simulate", case, "-o", folder, "--overwrite"], "in use", "process")
         first.send_signal(signal.SIGCONT)
         _, error = first.communicate(timeout=100)
         self.assertEqual(first.returncode, 0, error)
