@@ -56,8 +56,8 @@ bool admissible(const Specimen& specimen, const Shaking& shaking, const FloorInp
          specimen.friction.mu_s >= specimen.friction.mu_k && specimen.impact.factor <= 1;
 }
 
-Integration::Integration(const Setup& setup, const Settings& settings_, History* history)
-    : rig(setup.specimen, settings_, setup.floor),
+Integration::Integration(const Setup& setup, const Settings& settings_, History* history, bool as_under_laws)
+    : rig(setup.specimen, settings_, setup.floor, as_under_laws),
       shaking(setup.shaking),
       settings(settings_),
       cursor(shaking, rig.g, rig.push),

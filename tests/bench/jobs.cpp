@@ -150,7 +150,8 @@ std::vector<FloorMotion> benchmark_records(double vertical_share) {
 
 std::vector<FloorMotion> benchmark_pulses() {
   std::vector<FloorMotion> pulses;
-  for (const char* name : {"A", "B", "C1", "C2", "ricker"}) pulses.push_back(motion::pulse_motion(motion::find_pulse(name)));
+  for (const char* name : {"A", "B", "C1", "C2", "ricker"})
+    pulses.push_back(motion::pulse_motion(motion::find_pulse(name)));
   return pulses;
 }
 

@@ -16,8 +16,7 @@ struct ControlledDopri5 {
   using Control = odeint::controlled_runge_kutta<Stepper>;
   Control control;
 
-  explicit ControlledDopri5(double tolerance)
-      : control(typename Control::error_checker_type(tolerance, tolerance)) {}
+  explicit ControlledDopri5(double tolerance) : control(typename Control::error_checker_type(tolerance, tolerance)) {}
 
   template <class Rates>
   bool try_step(Rates& rates, const X& x, const X& dx, double& t, X& next, X& dnext, double& h) {

@@ -26,7 +26,7 @@ class CvodePeer {
 struct OdeintSteps {
   int per_knot = 1;
   double tolerance = 1e-9;  // of peers that choose their steps, relative and absolute
-  double root_s = 1e-13;  // width to which an event is located
+  double root_s = 1e-13;    // width to which an event is located
 };
 using Peer = PeerResponse (*)(const Specimen&, const Shaking&, const OdeintSteps&);
 PeerResponse dopri5_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps);
