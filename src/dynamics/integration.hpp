@@ -121,6 +121,7 @@ class Integration {
   void start_from(const Start&);
   bool beyond_a_wall() const;
   double slip() const;
+  void pass_over_quiet_floor(const Rig::AtRest& rest);
   template <int N>
   bool look_ahead(const Rig::AtRest& rest);
   void choose(const State& from, bool impact);

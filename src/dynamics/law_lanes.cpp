@@ -120,9 +120,8 @@ class Group {
     }
     rows_->place[i] = place;
     rows_->coefficients[i] = life.shaking.motion->degree + 1;
-    double unit = life.shaking.scale;
-    for (int k = 0; k <= Motion::degree; ++k, unit /= life.shaking.stretch) {
-      rows_->unit[k][i] = unit;
+    for (int k = 0; k <= Motion::degree; ++k) {
+      rows_->unit[k][i] = life.cursor.unit(k);
       rows_->horizontal[k][i] = 0;
     }
     rows_->vertical[0][i] = rows_->vertical[1][i] = 0;

@@ -236,10 +236,12 @@ class LawMarchOf {
   Pack extreme(const Series<Pack, N>& y, const PackMask& within, const Pack& first, const Pack& last,
                const Pack& before, unsigned wanted, Search search) const {
     const Pack at_ends = xsimd::max(before, xsimd::max(first, last));
-    const unsigned unsure = wanted & ~bits(within | surely_monotonic(y, reach_));
+    unsigned unsure = wanted & ~bits(within | surely_monotonic(y, reach_));
     if (!unsure) return freestand::choose(within, before, at_ends);
+    const PackMask surely = within | surely_within_by_ends(y, last, reach_, before);
+    unsure &= ~bits(surely | surely_monotonic_by_ends(y, derivative(y).at(reach_), reach_));
     alignas(64) double most[pack_lanes];
-    store(most, freestand::choose(within, before, at_ends));
+    store(most, freestand::choose(surely, before, at_ends));
     const double* numbers = reinterpret_cast<const double*>(&y);
     for (unsigned open = unsure; open; open &= open - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(open));
