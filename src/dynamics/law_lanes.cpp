@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "dynamics/impact.hpp"
+#include "dynamics/pulse_slide.hpp"
 #include "dynamics/taylor_integrator.hpp"
 
 namespace freestand::dynamics {
@@ -328,7 +329,7 @@ bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
   if (setup.specimen.model == Model::bouc_wen || !admissible(setup, settings) || shaking.motion->degree < 1)
     return false;
   const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty();
-  if (shaking.motion->degree > 1 && shaken) return false;
+  if ((shaking.motion->degree > 1 && shaken) || slides_on_pulse(setup, settings)) return false;
   return has_laws(setup.specimen) || setup.floor.push_mps2 != 0 || !follows_record(shaking);
 }
 
