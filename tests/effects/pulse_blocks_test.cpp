@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string>
 
+#include "base/units.hpp"
 #include "dynamics/batch.hpp"
 #include "dynamics/pulse_slide.hpp"
 #include "effects/mixture.hpp"
@@ -159,6 +160,29 @@ TEST(PulsesInClosedForm, SlideAsTheIntegratorSays) {
   std::printf("%d compared, %d moved, %d with other events; worst %.1e\n", compared, moved, other_events, worst);
   EXPECT_GT(moved, 1000);
   EXPECT_EQ(other_events, 0);
+}
+
+// Three segments of unit length: the floor runs away to the left at 2 m/s2; then w = w1 (1 + 4 (1 + dip) (x^2 - x)), which has fallen to
+// -dip w1 in the middle and is back at w1 at the end; then it stands still. A slip that has ended begins anew where x = 1/2.
+TEST(PulsesInClosedForm, SeeASlipThatEndsForAnInstant) {
+  constexpr double mu = 0.1, braked = mu * standard_gravity_mps2, q = 2 - braked;
+  for (const double dip : {-1e-2, -1e-6, 1e-6, 1e-2})
+    for (const double direction : {1.0, -1.0}) {
+      FloorMotion motion;
+      motion.knot_s = {0, 1, 2, 3};
+      motion.horizontal_mps2 = {-2, 0, 4 * q * (1 + dip) - braked, -8 * q * (1 + dip), 0, 0};
+      index_runs(motion);
+      const Shaking shaking{&motion, direction, 0.5};
+      Specimen specimen;
+      specimen.model = Model::slide;
+      specimen.block = Block::rectangular(0.5, 1, 100);
+      specimen.friction = {mu, mu};
+      ASSERT_TRUE(slides_in_closed_form(specimen, shaking, {}));
+      History history;
+      const int begins_and_ends = dip > 0 ? 4 : 2;
+      EXPECT_EQ(respond(specimen, shaking).events, begins_and_ends) << dip;
+      EXPECT_EQ(respond(specimen, shaking, {}, &history).events, begins_and_ends) << dip;
+    }
 }
 
 // Lanes that are not full, and neighbours of all kinds.
