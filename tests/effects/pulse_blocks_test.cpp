@@ -11,6 +11,7 @@
 #include "dynamics/pulse_slide.hpp"
 #include "effects/mixture.hpp"
 #include "motion/pulse.hpp"
+#include "support/contact_stepper.hpp"
 #include "support/isa.hpp"
 
 namespace freestand::test {
@@ -183,6 +184,49 @@ TEST(PulsesInClosedForm, SeeASlipThatEndsForAnInstant) {
       EXPECT_EQ(respond(specimen, shaking).events, begins_and_ends) << dip;
       EXPECT_EQ(respond(specimen, shaking, {}, &history).events, begins_and_ends) << dip;
     }
+}
+
+// The stepper of contact impulses, on the closed form of the pulse: it shares neither equations nor tables. Its own change from one step
+// to another tells its error; where that has grown beyond 0.1 mm the history is chaotic.
+TEST(PulsesInBlocks, HaveThePeaksOfTheContactStepper) {
+  const auto pulses = every_pulse();
+  const PulseSamples all = draw_samples(400, pulses);
+  PulseSamples samples;
+  for (std::size_t i = 0; i < all.specimens.size() && samples.specimens.size() < 24; ++i) {
+    if (all.specimens[i].model != Model::slide_rock || !all.specimens[i].effects.empty()) continue;
+    if (all.shakings[i].vertical_scale != 0 || all.shakings[i].duration_s() > 2.5) continue;
+    samples.specimens.push_back(all.specimens[i]);
+    samples.specimens.back().impact.law = ImpactLaw::coulomb;
+    samples.shakings.push_back(all.shakings[i]);
+  }
+  std::vector<Response> block(samples.specimens.size());
+  respond_batch(samples.specimens, samples.shakings, {}, block);
+  int compared = 0, moved = 0;
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    const Shaking& shaking = samples.shakings[i];
+    const motion::Pulse pulse = motion::find_pulse(shaking.motion->name);
+    const FloorAt floor = [&](double t) {
+      const double x = t / shaking.stretch;
+      return FloorAcceleration{x < pulse.duration ? shaking.scale * pulse.at(x).acceleration : 0.0, 0.0};
+    };
+    const bool falls = block[i].outcome == Outcome::overturned;
+    const double end = falls ? block[i].end_time_s + 0.1 : std::min(block[i].end_time_s, shaking.duration_s() + 2);
+    const StepperResult fine = step_contacts(samples.specimens[i], floor, {1e-5, end, 1e-2});
+    const StepperResult coarse = step_contacts(samples.specimens[i], floor, {1e-2 / 590, end, 1e-2});
+    if (fine.overturned || falls) {
+      EXPECT_EQ(fine.overturned, falls) << samples.text(i);
+      continue;
+    }
+    const double slip = std::abs(fine.peak_slip_m - coarse.peak_slip_m),
+                 rotation = std::abs(fine.peak_rotation_rad - coarse.peak_rotation_rad);
+    if (slip > 1e-4 || rotation > 1e-4) continue;
+    ++compared;
+    moved += block[i].outcome == Outcome::moved;
+    EXPECT_NEAR(block[i].peak_slip_m, fine.peak_slip_m, 1e-6 + 6 * slip) << samples.text(i);
+    EXPECT_NEAR(block[i].peak_rotation_rad, fine.peak_rotation_rad, 1e-6 + 6 * rotation) << samples.text(i);
+  }
+  std::printf("%d of %zu compared, %d moved\n", compared, block.size(), moved);
+  EXPECT_GE(moved, 12);
 }
 
 // Lanes that are not full, and neighbours of all kinds.
