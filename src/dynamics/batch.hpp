@@ -42,7 +42,7 @@ struct BatchKernels {
   BatchKernel slide_rock_by_speed, slide_rock_by_speed_coarse;
   BatchKernel slide_rock_shaken, slide_rock_shaken_coarse;  // the floor shakes vertically
   BatchKernel bouc_wen;                                     // with kappa = 0
-  const LawMarch (*under_laws)[2];                          // [turns][slips]
+  const LawMarch (*under_laws)[2], (*on_pulses)[2];         // [turns][slips]
   int lanes;                                                // of a pack
 };
 

@@ -20,7 +20,16 @@ FloorCursor::FloorCursor(const Shaking& shaking, double g, double push)
       vertical_scale_(shaking.vertical_scale),
       stretch_(shaking.stretch),
       g_(g),
-      push_(push) {}
+      push_(push),
+      unit_(units(scale_)),
+      vertical_unit_(units(vertical_scale_)) {}
+
+FloorCursor::Units FloorCursor::units(double scale) const {
+  Units unit{};
+  for (int k = 0; k <= std::min(degree_, max_floor_degree); ++k, scale /= stretch_)
+    unit[static_cast<std::size_t>(k)] = scale;
+  return unit;
+}
 
 FloorCursor FloorCursor::across(const Shaking& shaking) {
   FloorCursor cursor(shaking, 0);
@@ -56,10 +65,10 @@ void FloorCursor::go_to(std::size_t segments_left, double start, double offset) 
 }
 
 // sum_k coefficients[k] (x + offset / stretch)^k in powers of tau = stretch * x.
-void FloorCursor::shift(const double* coefficients, double scale, double* out, int order) const {
+void FloorCursor::shift(const double* coefficients, const Units& unit, double* out, int order) const {
   if (degree_ == 1 && order >= 1) {  // of records
-    out[0] += scale * (coefficients[0] + offset_ / stretch_ * coefficients[1]);
-    out[1] += scale / stretch_ * coefficients[1];
+    out[0] += unit[0] * (coefficients[0] + offset_ / stretch_ * coefficients[1]);
+    out[1] += unit[1] * coefficients[1];
     return;
   }
   const int top = std::min(degree_, order);
@@ -69,11 +78,7 @@ void FloorCursor::shift(const double* coefficients, double scale, double* out, i
   if (by != 0)
     for (int i = 0; i < degree_; ++i)
       for (int k = degree_ - 1; k >= i; --k) c[k] += by * c[k + 1];
-  double factor = scale;
-  for (int k = 0; k <= top; ++k) {
-    out[k] += factor * c[k];
-    factor /= stretch_;
-  }
+  for (int k = 0; k <= top; ++k) out[k] += unit[static_cast<std::size_t>(k)] * c[k];
 }
 
 }  // namespace freestand::dynamics

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <freestand/floor_motion.hpp>
 
@@ -25,8 +26,14 @@ class FloorCursor {
   std::size_t segment() const { return segment_; }
   void advance(double tau) { offset_ += tau; }
   void next_segment();  // to the first instant of the next segment
-  // To the first instant of the next segment over which the floor's accelerations are not quiet(bound), whole runs of them at
-  // once. False: it is the present one.
+  bool at_knot() const { return offset_ == 0; }
+  void go_to(std::size_t segment) {
+    segment_ = segment;
+    start_ = knots_[segment] * stretch_;
+    offset_ = 0;
+  }
+  // To the first instant of the next segment over which the floor's accelerations are not quiet(bound), whole runs of
+  // them at once. False: it is the present one.
   template <class Quiet>
   bool pass_over(Quiet&& quiet) {
     const std::size_t from = segment_;
@@ -45,6 +52,22 @@ class FloorCursor {
     return segment_ != from;
   }
 
+  // Visits the segments from `first` on that lie behind, the last one first, but for those over which the accelerations are
+  // quiet(bound).
+  template <class Quiet, class Visit>
+  void look_back(std::size_t first, Quiet&& quiet, Visit&& visit) const {
+    FloorCursor at = *this;
+    for (std::size_t end = segment_; end > first;) {
+      at.go_to((end - 1) / FloorMotion::run_length * FloorMotion::run_length);
+      if (at.segment_ >= first && at.run_starts_here() && quiet(at.run_bound())) {
+        end = at.segment_;
+        continue;
+      }
+      at.go_to(--end);
+      if (!quiet(at.segment_bound())) visit(at);
+    }
+  }
+
   // The segment's coefficients, and those of a vertical channel or null.
   struct Place {
     const double *knot_at_end, *horizontal, *vertical;
@@ -52,6 +75,7 @@ class FloorCursor {
     std::size_t left;      // segments, the present one included
   };
   Place place() const;
+  double unit(int k) const { return unit_[static_cast<std::size_t>(k)]; }
   void go_to(std::size_t segments_left, double start, double offset);
 
   // Bounds of the floor's accelerations [m/s2], over the present segment, or over the run that starts here: `shaken` across,
@@ -73,8 +97,8 @@ class FloorCursor {
   Floor<double, N> local() const {
     Floor<double, N> floor{Series<double, N>::zero(), Series<double, N>::zero()};
     if (!motion_over()) {
-      shift(horizontal_ + segment_ * stride_, scale_, floor.a.c, N);
-      if (vertical_) shift(vertical_ + segment_ * stride_, vertical_scale_, floor.g.c, N);
+      shift(horizontal_ + segment_ * stride_, unit_, floor.a.c, N);
+      if (vertical_) shift(vertical_ + segment_ * stride_, vertical_unit_, floor.g.c, N);
     }
     floor.a[0] += push_;
     floor.g[0] += g_;
@@ -82,7 +106,9 @@ class FloorCursor {
   }
 
  private:
-  void shift(const double* coefficients, double scale, double* out, int order) const;
+  using Units = std::array<double, max_floor_degree + 1>;
+  Units units(double scale) const;
+  void shift(const double* coefficients, const Units& unit, double* out, int order) const;
 
   Bound bound(double horizontal, double vertical) const {
     const double shaken = std::abs(scale_) * horizontal;
@@ -103,6 +129,7 @@ class FloorCursor {
   std::size_t segments_, stride_;
   int degree_;
   double scale_, vertical_scale_, stretch_, g_, push_;
+  Units unit_, vertical_unit_;  // what makes coefficient k one of seconds: scale / stretch^k
   std::size_t segment_ = 0;
   double start_ = 0, offset_ = 0;  // start of the segment, time since then [s]
 };

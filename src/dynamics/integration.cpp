@@ -56,8 +56,8 @@ bool admissible(const Specimen& specimen, const Shaking& shaking, const FloorInp
          specimen.friction.mu_s >= specimen.friction.mu_k && specimen.impact.factor <= 1;
 }
 
-Integration::Integration(const Setup& setup, const Settings& settings_, History* history)
-    : rig(setup.specimen, settings_, setup.floor),
+Integration::Integration(const Setup& setup, const Settings& settings_, History* history, bool as_under_laws)
+    : rig(setup.specimen, settings_, setup.floor, as_under_laws),
       shaking(setup.shaking),
       settings(settings_),
       cursor(shaking, rig.g, rig.push),
@@ -81,19 +81,25 @@ Rig::AtRest Integration::laws_at_rest() const {
 
 void Integration::wait() {
   const Rig::AtRest rest = laws_at_rest();
+  const bool passes = rest.constant && !recorder.wanted() && !peaks.follow_rest();
   while (!cursor.motion_over()) {
-    if (!recorder.wanted() && !peaks.follow_rest() && rest.constant) {
-      const auto quiet = [&](const FloorCursor::Bound& floor) {
-        return !peaks.may_exceed(floor.shaken, floor.v) && rig.stays_put(floor.a, floor.v, rest);
-      };
-      if (cursor.pass_over(quiet)) steps_ = 0;
-      if (cursor.motion_over()) return;
-    }
+    if (passes && cursor.at_knot()) pass_over_quiet_floor(rest);
+    if (cursor.motion_over()) return;
     // What holds a block at rest under laws that do not change is linear in a record.
     const bool event =
         shaking.motion->degree == 1 && rest.constant ? look_ahead<2>(rest) : look_ahead<wait_order>(rest);
     if (event) return;
   }
+}
+
+// The floor mostly shakes hardest just before rest ends: seen from there, few segments hold a new peak.
+void Integration::pass_over_quiet_floor(const Rig::AtRest& rest) {
+  const std::size_t from = cursor.segment();
+  if (!cursor.pass_over([&](const FloorCursor::Bound& floor) { return rig.stays_put(floor.a, floor.v, rest); })) return;
+  steps_ = 0;
+  cursor.look_back(
+      from, [&](const FloorCursor::Bound& floor) { return !peaks.may_exceed(floor.shaken, floor.v); },
+      [&](const FloorCursor& at) { peaks.observe_rest(rig, at.local<wait_order>(), at.left()); });
 }
 
 // Along the segment, to the instant at which rest ends or as far as the series follow the grip. True: it has ended.

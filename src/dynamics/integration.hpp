@@ -67,7 +67,7 @@ class Integration {
   // After so many steps within one segment of the motion it is looked whether they come any further.
   static constexpr int steps_watched = 10000;
 
-  Integration(const Setup& setup, const Settings& settings, History* history);
+  Integration(const Setup& setup, const Settings& settings, History* history, bool as_under_laws = false);
 
   bool finished() const { return finished_; }
   // At rest nothing is integrated: goes along the motion to the instant at which rest ends, or to its end.
@@ -121,6 +121,7 @@ class Integration {
   void start_from(const Start&);
   bool beyond_a_wall() const;
   double slip() const;
+  void pass_over_quiet_floor(const Rig::AtRest& rest);
   template <int N>
   bool look_ahead(const Rig::AtRest& rest);
   void choose(const State& from, bool impact);

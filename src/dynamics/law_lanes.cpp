@@ -5,17 +5,20 @@
 #include <optional>
 
 #include "dynamics/impact.hpp"
+#include "dynamics/pulse_slide.hpp"
 #include "dynamics/taylor_integrator.hpp"
 
 namespace freestand::dynamics {
 namespace {
 
-using Integrator = TaylorIntegrator<law_order, 3>;
-
-constexpr double no_motion[2] = {0, 0};
+template <class Motion>
+using IntegratorOf = TaylorIntegrator<Motion::order, Motion::degree + 2>;
 
 // Samples of one mode, whose laws have the same shape.
+template <class Motion>
 class Group {
+  using Integrator = IntegratorOf<Motion>;
+
  public:
   Group(const Integration& life, const Settings& settings) : laws_(*life.rig.laws), rows_(std::make_unique<LawRows>()) {
     rows_->laws = &laws_;
@@ -26,7 +29,6 @@ class Group {
     rows_->slip_by_side = settings.slip_by_side;
     rows_->impact = life.rig.impact.law;
     rows_->tolerance = settings.tolerance;
-    for (int i = 0; i < law_slots; ++i) stand_still(i);
   }
 
   bool takes(const Integration& life) const {
@@ -94,13 +96,14 @@ class Group {
     set(Row::over_length, size.over_length);
     set(Row::over_speed, size.over_speed);
     set(Row::longest_step_s, size.longest_step_s);
-    set(Row::scale, life.shaking.scale);
     set(Row::vertical_scale, place.vertical ? life.shaking.vertical_scale : 0.0);
     set(Row::stretch, life.shaking.stretch);
     set(Row::push, rig.push);
     set(Row::gravity, rig.g);
     set(Row::start, place.start);
     set(Row::offset, place.offset);
+    set(Row::end, life.shaking.duration_s() + life.settings.free_vibration_s);
+    set(Row::over, life.cursor.motion_over());
     set(Row::peak_slip, peaks.peak_slip_m);
     set(Row::peak_slip_right, peaks.peak_slip_right_m);
     set(Row::peak_slip_left, peaks.peak_slip_left_m);
@@ -116,10 +119,14 @@ class Group {
       rows_->side[kink][i] = state.sides >> kink & 1U ? -1 : 1;
       rows_->turns_yet[kink][i] = !laws.tape.latched(kink, state.sides);
     }
-    rows_->knot[i] = place.knot_at_end;
-    rows_->horizontal[i] = place.horizontal;
-    rows_->vertical[i] = place.vertical ? place.vertical : no_motion;
-    rows_->vertical_stride[i] = place.vertical ? 2 : 0;
+    rows_->place[i] = place;
+    rows_->coefficients[i] = life.shaking.motion->degree + 1;
+    for (int k = 0; k <= Motion::degree; ++k) {
+      rows_->unit[k][i] = life.cursor.unit(k);
+      rows_->horizontal[k][i] = 0;
+    }
+    rows_->vertical[0][i] = rows_->vertical[1][i] = 0;
+    if (place.left > 0) rows_->read_segment(i);
     rows_->segments[i] = static_cast<int>(place.left);
     rows_->steps[i] = life.steps();
     rows_->blows[i] = rows_->told[i] = rows_->struck[i] = 0;
@@ -154,7 +161,7 @@ class Group {
   void remove(int i) {
     const int last = --rows_->lanes;
     if (i != last) take_place_of(last, i);
-    stand_still(last);
+    rows_->struck[last] = 0;  // an empty slot, which the packs read all the same
   }
 
  private:
@@ -167,12 +174,6 @@ class Group {
     }
   }
 
-  // An empty slot, which the packs read all the same.
-  void stand_still(int i) {
-    rows_->knot[i] = rows_->horizontal[i] = rows_->vertical[i] = no_motion;
-    rows_->struck[i] = 0;
-  }
-
   void take_place_of(int last, int i) {
     lane_[i] = lane_[last];
     const auto move = [&](auto& row) { row[i] = row[last]; };
@@ -180,9 +181,10 @@ class Group {
     for (int node = input_count; node < laws_.tape.size(); ++node) move(rows_->value[node]), move(rows_->shift[node]);
     for (int kink = 0; kink < laws_.tape.kink_count(); ++kink) move(rows_->side[kink]), move(rows_->turns_yet[kink]);
     move(rows_->knot);
-    move(rows_->horizontal);
-    move(rows_->vertical);
-    move(rows_->vertical_stride);
+    for (int k = 0; k <= Motion::degree; ++k) move(rows_->horizontal[k]), move(rows_->unit[k]);
+    for (auto& row : rows_->vertical) move(row);
+    move(rows_->place);
+    move(rows_->coefficients);
     move(rows_->segments);
     move(rows_->steps);
     move(rows_->blows);
@@ -201,25 +203,30 @@ bool can_march(const Integration& life) {
   const State& s = life.state;
   const bool contact = s.mode == Mode::slide || s.mode == Mode::rock || s.mode == Mode::slide_rock ||
                        (s.mode == Mode::rest && !life.waits());
-  return contact && !life.cursor.motion_over() && s.wall == 0 && !s.released && s.doubt == 1 && !s.turned &&
-         !life.peaks.waits() && life.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
+  return contact && !(life.cursor.motion_over() && s.mode == Mode::rest) && s.wall == 0 && !s.released &&
+         s.doubt == 1 && !s.turned && !life.peaks.waits() && life.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
 }
 
+template <class Motion>
 class Pool {
+  using Integrator = IntegratorOf<Motion>;
+  using Arc = LawArc<Motion::order>;
+
  public:
-  Pool(const BatchKernels& kernels, std::span<const Specimen> specimens, std::span<const Shaking> shakings,
+  Pool(const LawMarch (*marches)[2], int lanes, std::span<const Specimen> specimens, std::span<const Shaking> shakings,
        const Settings& settings, const std::vector<std::size_t>& which, std::span<Response> responses)
-      : kernels_(kernels),
+      : marches_(marches),
+        pack_lanes_(lanes),
         specimens_(specimens),
         shakings_(shakings),
         settings_(settings),
         which_(which),
         responses_(responses),
-        series_(static_cast<std::size_t>(kernels.lanes)) {}
+        series_(static_cast<std::size_t>(lanes)) {}
 
   void run() {
     for (int lane = 0; lane < law_slots; ++lane) refill(lane);
-    while (Group* group = fullest()) march(*group);
+    while (Group<Motion>* group = fullest()) march(*group);
   }
 
  private:
@@ -228,19 +235,18 @@ class Pool {
     std::optional<Integrator> integrator = {};
   };
 
-  Group* fullest() {
-    Group* best = nullptr;
-    for (Group& group : groups_)
+  Group<Motion>* fullest() {
+    Group<Motion>* best = nullptr;
+    for (Group<Motion>& group : groups_)
       if (group.count() > (best ? best->count() : 0)) best = &group;
     return best;
   }
 
-  void march(Group& group) {
+  void march(Group<Motion>& group) {
     LawRows& rows = group.rows();
-    const Stopped stopped =
-        kernels_.under_laws[rows.turns][rows.slips](rows, 0, reinterpret_cast<double*>(series_.data()));
+    const Stopped stopped = marches_[rows.turns][rows.slips](rows, 0, reinterpret_cast<double*>(series_.data()));
     // From the last one on, since the last one of the group takes the place of one that leaves.
-    for (int slot = kernels_.lanes; slot-- > 0;) {
+    for (int slot = pack_lanes_; slot-- > 0;) {
       const unsigned bit = 1U << slot;
       if (!((stopped.before_step | stopped.at_end | stopped.undecided) & bit)) continue;
       const int lane = group.lane(slot);
@@ -257,12 +263,12 @@ class Pool {
     }
   }
 
-  const LawArc<law_order>& series_of(int slot, Integrator& integrator) {
-    LawArc<law_order>& arc = series_[static_cast<std::size_t>(slot)];
+  const Arc& series_of(int slot, Integrator& integrator) {
+    Arc& arc = series_[static_cast<std::size_t>(slot)];
     const Laws& laws = *integrator.life().rig.laws;
     for (int kink = 0; kink < laws.tape.kink_count(); ++kink)
       if (!laws.tape.turns(kink, integrator.life().state.sides, arc.kink[kink][0]))
-        arc.kink[kink] = Series<double, law_order>::zero();
+        arc.kink[kink] = Series<double, Motion::order>::zero();
     return arc;
   }
 
@@ -283,8 +289,8 @@ class Pool {
       finish(lane);
   }
 
-  Group& group_of(const Integration& life) {
-    for (Group& group : groups_)
+  Group<Motion>& group_of(const Integration& life) {
+    for (Group<Motion>& group : groups_)
       if (group.takes(life)) return group;
     return groups_.emplace_back(life, settings_);
   }
@@ -303,29 +309,41 @@ class Pool {
     place(lane);
   }
 
-  const BatchKernels& kernels_;
+  const LawMarch (*marches_)[2];
+  const int pack_lanes_;
   const std::span<const Specimen> specimens_;
   const std::span<const Shaking> shakings_;
   const Settings settings_;
   const std::vector<std::size_t>& which_;
   const std::span<Response> responses_;
   std::size_t taken_ = 0;
-  std::vector<LawArc<law_order>> series_;  // of the lanes that stop
-  std::deque<Group> groups_;
+  std::vector<Arc> series_;  // of the lanes that stop
+  std::deque<Group<Motion>> groups_;
   Lane lanes_[law_slots];
 };
 
 }  // namespace
 
 bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
-  return setup.specimen.model != Model::bouc_wen && (has_laws(setup.specimen) || setup.floor.push_mps2 != 0) &&
-         setup.shaking.motion && setup.shaking.motion->degree == 1 && admissible(setup, settings);
+  const Shaking& shaking = setup.shaking;
+  if (setup.specimen.model == Model::bouc_wen || !admissible(setup, settings) || shaking.motion->degree < 1)
+    return false;
+  const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty();
+  if ((shaking.motion->degree > 1 && shaken) || slides_on_pulse(setup, settings)) return false;
+  return has_laws(setup.specimen) || setup.floor.push_mps2 != 0 || !follows_record(shaking);
 }
 
 void respond_in_law_lanes(const BatchKernels& kernels, std::span<const Specimen> specimens,
                           std::span<const Shaking> shakings, const Settings& settings,
                           const std::vector<std::size_t>& which, std::span<Response> responses) {
-  std::make_unique<Pool>(kernels, specimens, shakings, settings, which, responses)->run();
+  std::vector<std::size_t> on_records, on_pulses;
+  for (const std::size_t i : which) (shakings[i].motion->degree > 1 ? on_pulses : on_records).push_back(i);
+  const auto run = [&]<class Motion>(Motion, const LawMarch(*marches)[2], const std::vector<std::size_t>& some) {
+    if (!some.empty())
+      std::make_unique<Pool<Motion>>(marches, kernels.lanes, specimens, shakings, settings, some, responses)->run();
+  };
+  run(OnRecords(), kernels.under_laws, on_records);
+  run(OnPulses(), kernels.on_pulses, on_pulses);
 }
 
 }  // namespace freestand::dynamics

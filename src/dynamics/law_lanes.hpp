@@ -12,7 +12,7 @@
 
 namespace freestand::dynamics {
 
-// Whether packs take the sample: it has laws, and its motion is a record.
+// Whether packs take the sample: it has laws, or its motion is a pulse.
 bool goes_in_law_lanes(const Setup& setup, const Settings& settings);
 
 // Computes samples[i] = respond(specimens[i], shakings[i]) for the i of `which`.

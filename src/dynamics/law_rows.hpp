@@ -4,12 +4,21 @@
 
 #include <freestand/specimen.hpp>
 
+#include "dynamics/floor_cursor.hpp"
 #include "dynamics/laws.hpp"
 
 namespace freestand::dynamics {
 
 inline constexpr int law_slots = 32;
-inline constexpr int law_order = 7;
+
+// Steps on records: the floor is linear between knots that lie close together. Those on pulses, whose pieces are longer and of
+// higher degree; they know no vertical channel.
+struct OnRecords {
+  static constexpr int order = 7, degree = 1, vertical_degree = 1;
+};
+struct OnPulses {
+  static constexpr int order = 10, degree = max_floor_degree, vertical_degree = 0;
+};
 
 enum class Row : int {
   // Standing<Real>
@@ -55,13 +64,14 @@ enum class Row : int {
   over_speed,
   longest_step_s,
   // FloorCursor
-  scale,
   vertical_scale,
   stretch,
   push,
   gravity,
   start,
   offset,
+  end,   // of the time given, after the motion
+  over,  // 1: the motion is over
   // Peaks
   peak_slip,
   peak_slip_right,
@@ -87,14 +97,25 @@ struct LawRows {
   // Of the tape, by node; of its kinks: +1 or -1, the side on which each lane is, and 1 where it may still turn, else 0.
   alignas(64) double value[max_nodes][law_slots] = {}, shift[max_nodes][law_slots] = {};
   alignas(64) double side[max_kinks][law_slots] = {}, turns_yet[max_kinks][law_slots] = {};
-  // Where the present segment of the motion ends; its coefficients; how many segments there are to go, this one included.
-  const double *knot[law_slots] = {}, *horizontal[law_slots] = {}, *vertical[law_slots] = {};
-  int vertical_stride[law_slots] = {}, segments[law_slots] = {};
+  // The present segment of the motion: where it ends, in the motion's own time, its coefficients and those of a vertical channel;
+  // and what makes coefficient k one of seconds, scale / stretch^k.
+  alignas(64) double knot[law_slots] = {}, horizontal[max_floor_degree + 1][law_slots] = {};
+  alignas(64) double vertical[2][law_slots] = {}, unit[max_floor_degree + 1][law_slots] = {};
+  // Where they come from; how many coefficients a segment has; segments to go, this one included.
+  FloorCursor::Place place[law_slots] = {};
+  int coefficients[law_slots] = {}, segments[law_slots] = {};
   // Steps within the segment; blows that the packs have gone through, those that count as impacts, and how many more may follow.
   int steps[law_slots] = {}, blows[law_slots] = {}, told[law_slots] = {}, room[law_slots] = {};
   int struck[law_slots] = {};  // 1: just so, it is not yet told how it goes on
 
   double* row(Row which) { return numbers[static_cast<int>(which)]; }
+  // The coefficients of the segment at which lane i is.
+  void read_segment(int i) {
+    const FloorCursor::Place& at = place[i];
+    knot[i] = *at.knot_at_end;
+    for (int k = 0; k < coefficients[i]; ++k) horizontal[k][i] = at.horizontal[k];
+    if (at.vertical) vertical[0][i] = at.vertical[0], vertical[1][i] = at.vertical[1];
+  }
 };
 
 // Which lanes stopped: before a step in which something may happen, at the end of their motion, or after a blow that leaves open
@@ -103,8 +124,8 @@ struct Stopped {
   unsigned before_step, at_end, undecided;
 };
 
-// Steps from knot to knot with lanes [first, first + lanes of a pack), until one stops; those beyond rows.lanes stand still.
-// series: room for a LawArc<law_order> a lane, filled with the step before which it stopped.
+// Steps with lanes [first, first + lanes of a pack), until one stops; those beyond rows.lanes stand still.
+// series: room for a LawArc of the motion's order a lane, filled with the step before which it stopped.
 using LawMarch = Stopped (*)(LawRows& rows, int first, double* series);
 
 }  // namespace freestand::dynamics

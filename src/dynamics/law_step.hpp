@@ -106,7 +106,12 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
     for (int k = 0; k < N; ++k) {
       this->inputs(k);
       forces_of_laws(k);
-      Real numerator = of_floor(y_.rx, floor_.g, k) - of_floor(y_.ry, floor_.a, k) + y_.moment[k];
+      Real numerator = y_.moment[k];
+      if constexpr (single)
+        numerator = product(y_.rx, floor_.g, k) - product(y_.ry, floor_.a, k) + numerator;
+      else
+        numerator = of_floor<Kind::vertical_degree>(y_.rx, floor_.g, k) - of_floor<Kind::degree>(y_.ry, floor_.a, k) +
+                    numerator;
       if (laws_.force >= 0) numerator = numerator + product(y_.ry, force_, k);
       y_.alpha[k] = numerator * over_inertia_;
       integrate_coefficient(y_, Real(0.0), k);
@@ -121,10 +126,14 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
       if (laws_.reads(Input::normal)) see_normal(k, y_.fy[k] * Real(1 / standard_gravity_mps2));
     }
   }
-  // Coefficient k of y times what the floor does, which in a record is linear.
-  static Real of_floor(const Series<Real, N>& y, const Series<Real, N>& floor, int k) {
-    if constexpr (single || N < 2) return product(y, floor, k);
-    return k == 0 ? y[0] * floor[0] : y[k - 1] * floor[1] + y[k] * floor[0];
+  // Coefficient k of y times what the floor does, a polynomial of that degree.
+  template <int degree>
+  [[gnu::always_inline]] static Real of_floor(const Series<Real, N>& y, const Series<Real, N>& floor, int k) {
+    const int first = k > degree ? k - degree : 0;
+    Real sum = y[first] * floor[k - first];
+#pragma GCC unroll 16
+    for (int i = first + 1; i <= k; ++i) sum = sum + y[i] * floor[k - i];
+    return sum;
   }
 
   [[gnu::always_inline]] void coefficient(int k) {

@@ -1,6 +1,7 @@
 // Running extremes of a response, taken from the polynomials of each step, not from its end points.
 #pragma once
 
+#include <algorithm>
 #include <freestand/response.hpp>
 #include <iterator>
 
@@ -108,7 +109,10 @@ class Peaks {
   // At rest the block has the acceleration of the floor.
   template <int N>
   void observe_rest(const Rig& rig, const Floor<double, N>& floor, double tau) {
-    observe_acceleration(rig, floor.a, floor.g, tau);
+    if (std::all_of(floor.g.c + 1, floor.g.c + N + 1, [](double v) { return v == 0; }) && floor.g[0] == rig.g)
+      observe_along(rig, floor.a, tau);
+    else
+      observe_acceleration(rig, floor.a, floor.g, tau);
     observe_point(rig, 0, Series<double, N>::zero(), floor.a, floor.g, tau);
   }
 
@@ -197,6 +201,15 @@ class Peaks {
     if (bound2 <= peak2 * same_peak) return;
     if (!std::isfinite(bound2)) finite_ = false;
     response_.peak_acceleration_mps2 = std::sqrt(max_abs(squared_length(fx, lift), tau, peak2));
+  }
+
+  // The same where none of it is across the floor.
+  template <int N>
+  void observe_along(const Rig& rig, Series<double, N> fx, double tau) {
+    fx[0] -= rig.push;
+    double& peak = response_.peak_acceleration_mps2;
+    peak = max_abs(fx, tau, peak);
+    if (!std::isfinite(peak)) finite_ = false;
   }
 
   Response response_;

@@ -26,9 +26,10 @@ struct Rig {
   double mu_s, mu_k;
   bool can_slip, can_rock;
   Impact impact;
-  double g;                  // gravity across the floor [m/s2]
-  double push;               // gravity along the floor [m/s2]
-  std::optional<Laws> laws;  // of effects within the equations of motion; on a tilted floor too, where they may be none
+  double g;     // gravity across the floor [m/s2]
+  double push;  // gravity along the floor [m/s2]
+  std::optional<Laws>
+      laws;  // of effects within the equations of motion; on a tilted floor and under pulses too, where they may be none
   // Thresholds, all scaled by the block.
   double force_zero;           // accelerations smaller than this are round-off [m/s2]
   double turn_zero;            // angular accelerations smaller than this are round-off [rad/s2]
@@ -40,7 +41,8 @@ struct Rig {
   double told_speed;           // nor a blow of a wall that comes slower than this [m/s]
   double brief_s;  // beside a wall two blows that are closer together than a throw at that speed are one [s]
 
-  Rig(const Specimen& specimen, const Settings& settings, const FloorInput& floor = {})
+  // as_under_laws: by the equations with laws (law_step.hpp), though there may be none.
+  Rig(const Specimen& specimen, const Settings& settings, const FloorInput& floor = {}, bool as_under_laws = false)
       : right(specimen.block.right_m),
         left(specimen.block.left_m),
         h(specimen.block.height_m),
@@ -64,7 +66,7 @@ struct Rig {
         instant_s(1e-14 / specimen.block.p_radps()),
         told_speed(1e-3 * specimen.block.p_radps() * specimen.block.size_m()),
         brief_s(2 * told_speed / g) {
-    if (has_laws(specimen) || push != 0) laws.emplace(specimen);
+    if (as_under_laws || has_laws(specimen) || push != 0) laws.emplace(specimen);
     if (laws && laws->legs.frequency_radps > 0) rest_rotation = std::fmin(rest_rotation, hop_over_legs);
     if (!std::isnan(settings.acceleration_height_m)) point = {0.5 * (right - left), settings.acceleration_height_m - h};
   }

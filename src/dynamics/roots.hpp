@@ -46,13 +46,23 @@ bool first_root(const Series<double, N>& y, double h, ZeroTolerance zero, double
   return detail::first_root(y.c, N, h, zero, tau);
 }
 
+// Beyond doubt y rises or falls on all of [0, h], or stays the same: then its extremes are at the ends.
+template <int N>
+bool extremes_at_ends(const Series<double, N>& y, double h) {
+  if constexpr (N < 2)
+    return true;
+  else
+    return surely_monotonic(y, h) || surely_monotonic_by_ends(y, derivative(y).at(h), h);
+}
+
 // max(floor, max over [0, h] of |y|).
 template <int N>
 double max_abs(const Series<double, N>& y, double h, double floor) {
   static_assert(N <= max_root_order);
   if (surely_within(y, h, floor)) return floor;
-  if constexpr (N > 0)
-    if (surely_monotonic(y, h)) return std::fmax(floor, std::fmax(std::abs(y[0]), std::abs(y.at(h))));
+  const double last = y.at(h);
+  if (surely_within_by_ends(y, last, h, floor)) return floor;
+  if (extremes_at_ends(y, h)) return std::fmax(floor, std::fmax(std::abs(y[0]), std::abs(last)));
   return detail::max_abs(y.c, N, h, floor);
 }
 
@@ -71,8 +81,9 @@ template <int N>
 double max_of(const Series<double, N>& y, double h, double floor) {
   static_assert(N <= max_root_order);
   if (surely_within(y, h, floor)) return floor;
-  if constexpr (N > 0)
-    if (surely_monotonic(y, h)) return std::fmax(floor, std::fmax(y[0], y.at(h)));
+  const double last = y.at(h);
+  if (surely_within_by_ends(y, last, h, floor)) return floor;
+  if (extremes_at_ends(y, h)) return std::fmax(floor, std::fmax(y[0], last));
   return detail::max_of(y.c, N, h, floor);
 }
 

@@ -96,6 +96,19 @@ template <class Real, int N>
   return size_of_rest<0>(y, h) <= limit;
 }
 
+// The same by the ends: between them y leaves its chord by no more than h^2/8 times the largest |y''|. `last`: y(h). The bound is given
+// away a little, so that no round-off in a search for the extremes comes above the limit.
+template <class Real, int N>
+[[gnu::always_inline]] inline auto surely_within_by_ends(const Series<Real, N>& y, const Real& last, const Real& h,
+                                                         const Real& limit) {
+  using std::abs;
+  Series<Real, N> bend;
+#pragma GCC unroll 16
+  for (int k = 0; k <= N; ++k) bend[k] = Real(0.125 * k * (k - 1)) * y[k];
+  const Real first_end = abs(y[0]), last_end = abs(last), beyond = size_of_rest<2>(bend, h);
+  return (first_end + beyond < Real(1 - 1e-12) * limit) & (last_end + beyond < Real(1 - 1e-12) * limit);
+}
+
 // y rises, or falls, on all of [0, h] beyond doubt, or stays the same.
 template <class Real, int N>
 [[gnu::always_inline]] inline auto surely_monotonic(const Series<Real, N>& y, const Real& h) {
@@ -104,6 +117,18 @@ template <class Real, int N>
 #pragma GCC unroll 16
   for (int k = 0; k < N; ++k) slope[k] = Real(k + 1.0) * y[k + 1];
   return abs(slope[0]) >= size_of_rest<1>(slope, h);
+}
+
+// The same by the ends of its slope, `slope_at_end` at h.
+template <class Real, int N>
+[[gnu::always_inline]] inline auto surely_monotonic_by_ends(const Series<Real, N>& y, const Real& slope_at_end,
+                                                            const Real& h) {
+  using std::abs;
+  Series<Real, N - 1> bend;
+#pragma GCC unroll 16
+  for (int k = 0; k < N; ++k) bend[k] = Real(0.125 * k * (k - 1) * (k + 1)) * y[k + 1];
+  const Real beyond = size_of_rest<2>(bend, h);
+  return (y[1] * slope_at_end > Real(0.0)) & (abs(y[1]) > beyond) & (abs(slope_at_end) > beyond);
 }
 
 // factor_a * a + factor_b * b.

@@ -5,14 +5,16 @@
 
 namespace freestand::dynamics {
 
-// Which mode samples are in: they turn about a corner, or not, and slip, or not.
+// Which mode samples are in: they turn about a corner, or not, and slip, or not. Of a pack the degrees of the floor's polynomials are
+// known besides, across and along gravity.
 struct AnyKind {
   bool turns_, slips_;
   bool turns() const { return turns_; }
   bool slips() const { return slips_; }
 };
-template <bool turning, bool slipping>
+template <bool turning, bool slipping, class Motion>
 struct Kind {
+  static constexpr int degree = Motion::degree, vertical_degree = Motion::vertical_degree;
   static constexpr bool turns() { return turning; }
   static constexpr bool slips() { return slipping; }
 };

@@ -1,6 +1,8 @@
 #include "dynamics/taylor_integrator.hpp"
 
 #include "dynamics/bouc_wen.hpp"
+#include "dynamics/law_rows.hpp"
+#include "dynamics/pulse_slide.hpp"
 #include "dynamics/side_by_side.hpp"
 #include "dynamics/simulate.hpp"
 
@@ -11,10 +13,9 @@ Response respond_on_line(const Specimen& specimen, const Shaking& shaking, const
   if (specimen.neighbour) return respond_beside_neighbour(setup, settings, history);
   if (specimen.model == Model::bouc_wen) return respond_bouc_wen(setup, settings, history);
   if (!admissible(setup, settings)) return Response{.outcome = Outcome::not_finite};
-  // Records are linear between samples that lie close together; pulses have longer segments of higher degree.
-  if (shaking.motion->degree <= 1) return TaylorIntegrator<7, 3>(setup, settings, history).run();
-  if (has_laws(setup.specimen)) return TaylorIntegrator<8, 8>(setup, settings, history).run();
-  return TaylorIntegrator<10, 10>(setup, settings, history).run();
+  if (!history && slides_on_pulse(setup, settings)) return slide_on_pulse(setup, settings);
+  if (shaking.motion->degree <= 1) return TaylorIntegrator<OnRecords::order, 3>(setup, settings, history).run();
+  return TaylorIntegrator<OnPulses::order, OnPulses::degree + 2>(setup, settings, history).run();
 }
 
 }  // namespace freestand::dynamics

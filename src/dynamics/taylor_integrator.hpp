@@ -33,6 +33,9 @@ template <int N, class Real>
   return result;
 }
 
+// Records at their own pace have kernels of their own where there are no laws. All other motions go by the equations with laws.
+inline bool follows_record(const Shaking& shaking) { return shaking.motion->degree <= 1 && shaking.stretch == 1; }
+
 // By so many tolerances the accelerations at the end of a step may miss those of its series: a miss e of an acceleration that
 // grows as tau^7 leaves e tau/8 in a speed.
 inline constexpr double defect_allowed = 10;
@@ -46,7 +49,7 @@ template <int N, int FlatN>
 class TaylorIntegrator {
  public:
   TaylorIntegrator(const Setup& setup, const Settings& settings, History* history)
-      : life_(setup, settings, history),
+      : life_(setup, settings, history, !follows_record(setup.shaking)),
         flat_exactly_(!life_.rig.laws),
         straight_{life_.rig.laws && life_.rig.laws->straight(false), life_.rig.laws && life_.rig.laws->straight(true)},
         size_(setup.specimen.block) {}

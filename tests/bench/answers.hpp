@@ -82,40 +82,50 @@ inline std::vector<Answer> tight_run(const Job& job) {
   return one_by_one(one)(job, job.samples());
 }
 
-// Odeint with the fewest steps per knot that make its median error no larger than the kernel's, or as small as it gets;
-// below 1e-13 round-off is not told from round-off. Finds them on its first call.
+// Odeint with the fewest steps that make its median error no larger than the kernel's, or as small as it gets; below 1e-13 round-off
+// is not told from round-off. Under pulses it is the tolerance that is sought. Finds it on its first call.
 class AsAccurate {
  public:
   explicit AsAccurate(Peer peer) : peer_(peer) {}
   std::vector<Answer> operator()(const Job& job, std::size_t count) {
-    if (steps_.per_knot == 0) find(job);
+    if (!found_) find(job);
     return answers(job, count);
   }
 
-  int steps_per_knot() const { return steps_.per_knot; }
+  const OdeintSteps& steps() const { return steps_; }
 
  private:
   void find(const Job& job) {
     const auto truth = tight_run(job);
     const double wanted = std::max(accuracy(job, in_packs(job, job.samples()), truth).median, round_off);
     std::vector<double> errors;
-    for (steps_.per_knot = 1; steps_.per_knot <= most_steps; ++steps_.per_knot) {
+    for (int finer = 0; finer < most_tries; ++finer) {
+      steps_ = steps_of(job, finer);
       errors.push_back(accuracy(job, answers(job, job.samples()), truth).median);
-      if (errors.back() <= wanted) return;
+      if (errors.back() <= wanted) break;
     }
-    const double good = 1.1 * *std::min_element(errors.begin(), errors.end());
-    steps_.per_knot = 1;
-    for (auto error = errors.begin(); *error > good; ++error) ++steps_.per_knot;
+    if (errors.back() > wanted) {
+      const double good = 1.1 * *std::min_element(errors.begin(), errors.end());
+      int finer = 0;
+      while (errors[static_cast<std::size_t>(finer)] > good) ++finer;
+      steps_ = steps_of(job, finer);
+    }
+    found_ = true;
+  }
+  static OdeintSteps steps_of(const Job& job, int finer) {
+    if (job.pulses) return {.tolerance = std::pow(10, -6 - 0.5 * finer), .root_s = 1e-16};
+    return {.per_knot = 1 + finer, .root_s = 1e-16};
   }
   std::vector<Answer> answers(const Job& job, std::size_t count) const {
     const auto one = [this](const Specimen& b, const Shaking& s) { return answer(peer_(b, s, steps_)); };
     return one_by_one(one)(job, count);
   }
 
-  static constexpr int most_steps = 16;
+  static constexpr int most_tries = 16;
   static constexpr double round_off = 1e-13;
   Peer peer_;
-  OdeintSteps steps_{.per_knot = 0, .root_s = 1e-16};
+  bool found_ = false;
+  OdeintSteps steps_;
 };
 
 }  // namespace freestand::bench

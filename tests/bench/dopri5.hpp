@@ -12,6 +12,7 @@ template <std::size_t D>
 struct Dopri5 {
   using X = std::array<double, D>;
   static constexpr bool inside_is_exact = true;
+  explicit Dopri5(double = 0) {}
   boost::numeric::odeint::runge_kutta_dopri5<X, double, X, double, boost::numeric::odeint::array_algebra> stepper;
 
   template <class Rates>

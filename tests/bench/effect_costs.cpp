@@ -80,13 +80,13 @@ void tell(const Job& job, Peer peer, bool alone) {
     std::printf(" | %8.1f %8.0e %3d/%-3d %6.1f", solvers[i].time(), of.median, of.flips, of.failed,
                 solvers[i].time() / solvers[0].time());
   }
-  std::printf(solvers.size() > 1 ? " %3d\n" : "\n", as_accurate->steps_per_knot());
+  std::printf(solvers.size() > 1 ? " %3d\n" : "\n", as_accurate->steps().per_knot);
   std::fflush(stdout);
 }
 
 void tell_all(std::size_t samples, const std::string& only, bool alone) {
-  const auto records = benchmark_records(0.6);
-  const Job job = benchmark_jobs(records, samples)[2];
+  const auto records = benchmark_records(0.6), pulses = benchmark_pulses();
+  const Job job = benchmark_jobs(records, pulses, samples)[2];
   if (!alone)
     std::printf("%-22s %8s %8s %7s | %-33s | %-33s\n%-22s %8s %8s %7s | %8s %8s %7s %6s | %8s %8s %7s %6s %s\n", "",
                 "freestand", "", "", "dopri5, one step a knot", "dopri5, as accurate", "effect", "us", "error",

@@ -6,6 +6,7 @@
 
 #include "base/units.hpp"
 #include "effects/effects.hpp"
+#include "motion/pulse.hpp"
 #include "support/keyed_random.hpp"
 
 namespace freestand::bench {
@@ -102,6 +103,15 @@ Job bouc_wen_job(const char* name, const char* title, double yield_m, std::size_
   return job;
 }
 
+Job pulse_job(const char* name, const char* title, Model model, std::uint64_t seed, double most,
+              const std::vector<FloorMotion>& pulses, std::size_t samples) {
+  Job job = make_job(name, title, model, seed, most, pulses, samples);
+  job.pulses = true;
+  for (std::size_t i = 0; i < samples; ++i)
+    job.shakings[i].stretch = KeyedRandom(seed, samples + i).log_uniform(0.2, 2);
+  return job;
+}
+
 Job effects_job(const std::vector<FloorMotion>& records, std::size_t samples) {
   Job job = make_job("P5", "slide-rock with effects", Model::slide_rock, 5, 3, records, samples);
   for (std::size_t i = 0; i < samples; ++i) {
@@ -138,13 +148,24 @@ std::vector<FloorMotion> benchmark_records(double vertical_share) {
   return records;
 }
 
-std::vector<Job> benchmark_jobs(const std::vector<FloorMotion>& records, std::size_t samples) {
+std::vector<FloorMotion> benchmark_pulses() {
+  std::vector<FloorMotion> pulses;
+  for (const char* name : {"A", "B", "C1", "C2", "ricker"})
+    pulses.push_back(motion::pulse_motion(motion::find_pulse(name)));
+  return pulses;
+}
+
+std::vector<Job> benchmark_jobs(const std::vector<FloorMotion>& records, const std::vector<FloorMotion>& pulses,
+                                std::size_t samples) {
   return {make_job("P1", "sliding", Model::slide, 1, 5, records, samples),
           make_job("P2", "rocking", Model::rock, 2, 3, records, samples),
           make_job("P3", "slide-rock", Model::slide_rock, 3, 3, records, samples),
           bouc_wen_job("P4", "Bouc-Wen", 2.54e-3, 24, samples, records, samples),
           bouc_wen_job("P4s", "Bouc-Wen, stiff", 2.54e-7, 2, 4, records, std::min<std::size_t>(16, samples)),
-          effects_job(records, samples)};
+          effects_job(records, samples),
+          pulse_job("P6", "sliding, pulses", Model::slide, 7, 5, pulses, samples),
+          pulse_job("P7", "rocking, pulses", Model::rock, 8, 3, pulses, samples),
+          pulse_job("P8", "slide-rock, pulses", Model::slide_rock, 9, 3, pulses, samples)};
 }
 
 }  // namespace freestand::bench

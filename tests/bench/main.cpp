@@ -1,6 +1,7 @@
 // Benchmark of the kernel on the standard jobs (jobs.hpp), beside two peers on the same samples in the same run. Odeint
 // runs in three ways: (b) dopri5 with one step per knot, the fastest that makes sense; (c) dopri5 and (d) fehlberg78, of
-// order 8, with as many steps as it takes to be as accurate as the kernel.
+// order 8, with as many steps as it takes to be as accurate as the kernel. Under pulses dopri5 chooses its own steps: (b) at a
+// tolerance of 1e-9, (c) at the one that makes it as accurate.
 //
 //   build/release/benchmark_kernel [--benchmark_filter=P2] [--benchmark_repetitions=9] ...
 //
@@ -47,6 +48,13 @@ std::vector<Row> rows_of(const Job& job) {
     return answer(bouc_wen ? cvode_bouc_wen(b, s) : (*peer)(b, s));
   };
   const std::size_t all = job.samples();
+  if (job.pulses) {
+    const auto pulse = [](const Specimen& b, const Shaking& s) { return answer(pulse_peer(b, s, {})); };
+    return {{&job, "freestand, packs", in_packs, false, all, {}, {}, {}},
+            {&job, "freestand, one by one", one_by_one(scalar), false, all, {}, {}, {}},
+            {&job, "(b) odeint dopri5", one_by_one(pulse), false, all, {}, {}, {}},
+            {&job, "(c) dopri5, as accurate", AsAccurate(pulse_peer), false, all, {}, {}, {}}};
+  }
   std::vector<Row> rows = {
       {&job, "freestand, packs", in_packs, false, all, {}, {}, {}},
       {&job, "freestand, one by one", one_by_one(scalar), false, all, {}, {}, {}},
@@ -103,8 +111,8 @@ int run(int argc, char** argv) {
   benchmark::Initialize(&count, arguments.data());
 
   const char* wanted = std::getenv("FREESTAND_BENCH_SAMPLES");
-  const auto records = benchmark_records();
-  const auto jobs = benchmark_jobs(records, wanted ? std::strtoul(wanted, nullptr, 10) : 960);
+  const auto records = benchmark_records(), pulses = benchmark_pulses();
+  const auto jobs = benchmark_jobs(records, pulses, wanted ? std::strtoul(wanted, nullptr, 10) : 960);
   std::vector<Row> rows;
   for (const Job& job : jobs)
     for (Row& row : rows_of(job)) rows.push_back(std::move(row));

@@ -1,5 +1,8 @@
-// One sample by a Runge-Kutta method of Boost.odeint, from knot to knot. Method<D> of D unknowns has
-//     step(rates, x, dx, begin, next, dnext, h)        one step
+// One sample by a Runge-Kutta method of Boost.odeint, piece by piece of its floor (odeint_floor.hpp). Method<D> of D unknowns is made
+// with a tolerance and has
+//     step(rates, x, dx, begin, next, dnext, h)        one step, or
+//     try_step(rates, x, dx, t, next, dnext, h)        one step, if its error is no larger than the tolerance: then t is its end;
+//                                                      h becomes how long the next one had better be
 //     inside(t, x, dx, begin, next, dnext, end)        what the polynomial of the step says
 //     inside_is_exact                                  as exact as its end; otherwise a shorter step goes there
 // Each method in its own source file: in one, the compiler inlines neither as well.
@@ -11,6 +14,7 @@
 #include <cmath>
 
 #include "illinois.hpp"
+#include "odeint_floor.hpp"
 #include "peers.hpp"
 
 namespace freestand::bench {
@@ -19,16 +23,16 @@ namespace {
 template <std::size_t D>
 using Values = std::array<double, D>;
 
-template <template <std::size_t> class Method>
+template <template <std::size_t> class Method, class Floor>
 class OdeintSample {
  public:
-  OdeintSample(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps)
-      : block_(specimen, 1e-9), record_(shaking), longest_(record_.dt / steps.per_knot), root_s_(steps.root_s) {}
+  OdeintSample(const Specimen& specimen, const Floor& floor, const OdeintSteps& steps)
+      : block_(specimen, 1e-9), floor_(floor), tolerance_(steps.tolerance), root_s_(steps.root_s) {}
 
   PeerResponse run() {
-    const int last = record_.count + static_cast<int>(60 / record_.dt);
+    if (std::abs(floor_.a(0)) > block_.quiet) block_.choose_flat(y_, floor_.a(0));
     bool alive = true;
-    while (alive && knot_ < last) {
+    while (alive && !floor_.ended()) {
       switch (y_.mode) {
         case PeerMode::rest:
           if (!wait()) return response_;
@@ -48,24 +52,14 @@ class OdeintSample {
   }
 
  private:
-  // Quiet knots are passed over; stops where |a| reaches what moves the block. False: it never does.
+  // False: it rests for good.
   bool wait() {
-    const double quiet = block_.quiet;
-    double at = std::abs(acceleration(offset_));
-    for (; knot_ < record_.count; ++knot_, offset_ = 0, at = std::abs(record_.at(knot_))) {
-      const double here = acceleration(offset_), end = here + record_.slope(knot_) * (record_.dt - offset_);
-      response_.acceleration_mps2 = std::max(response_.acceleration_mps2, std::min(quiet, std::max(at, std::abs(end))));
-      if (std::abs(end) <= quiet && at <= quiet) continue;
-      if (at <= quiet) offset_ += ((end > 0 ? quiet : -quiet) - here) / record_.slope(knot_);
-      ++response_.events;
-      block_.leave_rest(y_, acceleration(offset_));
-      return true;
-    }
-    return false;
+    const auto peak = [&](double a) { response_.acceleration_mps2 = std::max(response_.acceleration_mps2, a); };
+    if (!floor_.wait(block_.quiet, peak)) return false;
+    ++response_.events;
+    block_.leave_rest(y_, floor_.a(floor_.offset));
+    return true;
   }
-
-  double acceleration(double offset) const { return record_.at(knot_) + record_.slope(knot_) * offset; }
-  double acceleration_at_start() const { return acceleration(offset_); }
 
   void observe_rotation(double theta) { response_.rotation_rad = std::max(response_.rotation_rad, std::abs(theta)); }
   void observe_slip(const PeerState& y) { response_.slip_m = std::max(response_.slip_m, std::abs(block_.slip(y))); }
@@ -81,25 +75,25 @@ class OdeintSample {
   template <std::size_t D, class Rates, class Read, class Witness, class Event, class Watch>
   bool march(const Values<D>& start, Rates&& rates, Read&& read, Witness&& witness, Event&& first_event,
              Watch&& watch) {
-    Method<D> method;
+    Method<D> method(tolerance_);
     Values<D> x = start, dx{}, next{}, dnext{};
-    rates(x, dx, offset_);
-    for (const int last = record_.count + static_cast<int>(60 / record_.dt); knot_ < last;) {
-      const double left = record_.dt - offset_;
-      if (left <= 0) {
-        next_knot();
+    rates(x, dx, floor_.offset);
+    while (!floor_.ended()) {
+      if (floor_.left() <= 0) {
+        floor_.next_piece();
         rates(x, dx, 0);
         continue;
       }
-      const bool to_knot = left < 1.001 * longest_;
-      const double h = to_knot ? left : longest_, begin = offset_, end = begin + h;
-      method.step(rates, x, dx, begin, next, dnext, h);
+      const double begin = floor_.offset, h = floor_.step(method, rates, x, dx, next, dnext), end = begin + h;
       const auto inside = [&](double t) { return method.inside(t, x, dx, begin, next, dnext, end); };
       const auto exactly = [&](double t) {
-        if constexpr (Method<D>::inside_is_exact) return inside(t);
-        Values<D> at, rate;
-        method.step(rates, x, dx, begin, at, rate, t - begin);
-        return at;
+        if constexpr (Method<D>::inside_is_exact) {
+          return inside(t);
+        } else {
+          Values<D> at, rate;
+          method.step(rates, x, dx, begin, at, rate, t - begin);
+          return at;
+        }
       };
       double when = end;
       const PeerEvent event = first_event(x, next, inside, begin, end, when);
@@ -114,25 +108,17 @@ class OdeintSample {
       watch(x, there, inside, exactly, begin, when);
       if (event != PeerEvent::none) {
         read(there, y_);
-        offset_ = when;
-        return block_.resolve(event, y_, acceleration(offset_), response_);
+        floor_.offset = when;
+        return block_.resolve(event, y_, floor_.a(when), response_);
       }
       x = next;
-      if (to_knot)
-        next_knot();
-      else
-        offset_ = end;
-      if (to_knot && knot_ == record_.count)
-        rates(x, dx, 0);  // the floor stops
+      if (floor_.go_on(h, end))
+        rates(x, dx, 0);
       else
         dx = dnext;
     }
     read(x, y_);
     return false;
-  }
-  void next_knot() {
-    ++knot_;
-    offset_ = 0;
   }
 
   // Where an event has been found at `when` already, an earlier one takes its place.
@@ -156,7 +142,7 @@ class OdeintSample {
         X{y_.xi, y_.w},
         [&](const X& x, X& dx, double t) {
           dx[0] = x[1];
-          dx[1] = pull * block_.mu_at(x[1]) - acceleration(t);
+          dx[1] = pull * block_.mu_at(x[1]) - floor_.a(t);
         },
         [](const X& x, PeerState& y) { y.xi = x[0], y.w = x[1]; }, witness,
         [&](const X& x, const X& next, auto& inside, double begin, double end, double& when) {
@@ -180,19 +166,19 @@ class OdeintSample {
     using X = Values<2>;
     const double s = y_.s;
     const auto grip = [&](const X& x, double t) {
-      const PeerForces f = block_.rock_forces(s, x[0], x[1], acceleration(t));
+      const PeerForces f = block_.rock_forces(s, x[0], x[1], floor_.a(t));
       observed_ = f;
       return block_.mu_s * f.fy - std::abs(f.fx);
     };
     const auto witness = [&](PeerEvent event, const X& x, double t) {
       return event == PeerEvent::grip ? grip(x, t) : s * x[0];
     };
-    double grip_before = block_.can_slip ? grip({y_.theta, y_.omega}, offset_) : 0;
+    double grip_before = block_.can_slip ? grip({y_.theta, y_.omega}, floor_.offset) : 0;
     return march<2>(
         X{y_.theta, y_.omega},
         [&](const X& x, X& dx, double t) {
           dx[0] = x[1];
-          dx[1] = block_.rock_alpha(s, x[0], acceleration(t));
+          dx[1] = block_.rock_alpha(s, x[0], floor_.a(t));
         },
         [](const X& x, PeerState& y) { y.theta = x[0], y.omega = x[1]; }, witness,
         [&](const X& x, const X& next, auto& inside, double begin, double end, double& when) {
@@ -242,7 +228,7 @@ class OdeintSample {
     return march<4>(
         X{y_.theta, y_.omega, y_.xi, y_.w},
         [&](const X& x, X& dx, double t) {
-          const PeerForces f = block_.slide_rock_forces(s, sigma, x[0], x[1], x[3], acceleration(t));
+          const PeerForces f = block_.slide_rock_forces(s, sigma, x[0], x[1], x[3], floor_.a(t));
           dx = {x[1], f.alpha, x[3], f.slip_acceleration};
         },
         [](const X& x, PeerState& y) { y.theta = x[0], y.omega = x[1], y.xi = x[2], y.w = x[3]; }, witness,
@@ -254,7 +240,7 @@ class OdeintSample {
           const double w_then = when == end ? next[3] : inside(when)[3];
           earlier(PeerEvent::stop, stopping, sigma * x[3], sigma * w_then, begin, when, event);
           if (std::abs(next[0]) > pi / 2) return PeerEvent::overturned;
-          const PeerForces f = block_.slide_rock_forces(s, sigma, next[0], next[1], next[3], acceleration(end));
+          const PeerForces f = block_.slide_rock_forces(s, sigma, next[0], next[1], next[3], floor_.a(end));
           if (f.fy <= 0 && event == PeerEvent::none) return PeerEvent::lift;
           observe_forces(f.fx, f.fy);
           return event;
@@ -273,14 +259,12 @@ class OdeintSample {
   }
 
   PeerBlock block_;
-  PeerRecord record_;
+  Floor floor_;
   PeerState y_;
   PeerResponse response_;
   PeerForces observed_{};
   double acceleration2_ = 0;
-  int knot_ = 0;
-  double offset_ = 0;
-  double longest_, root_s_;  // step; width to which a root is found
+  double tolerance_, root_s_;  // width to which a root is found
 };
 
 }  // namespace

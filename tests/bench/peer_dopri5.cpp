@@ -4,7 +4,7 @@
 namespace freestand::bench {
 
 PeerResponse dopri5_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps) {
-  return OdeintSample<Dopri5>(specimen, shaking, steps).run();
+  return OdeintSample<Dopri5, RecordSteps>(specimen, {shaking, steps.per_knot}, steps).run();
 }
 
 }  // namespace freestand::bench

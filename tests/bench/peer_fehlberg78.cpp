@@ -12,6 +12,7 @@ template <std::size_t D>
 struct Fehlberg78 {
   using X = Values<D>;
   static constexpr bool inside_is_exact = false;
+  explicit Fehlberg78(double) {}
   odeint::runge_kutta_fehlberg78<X, double, X, double, odeint::array_algebra> stepper;
 
   template <class Rates>
@@ -32,7 +33,7 @@ struct Fehlberg78 {
 }  // namespace
 
 PeerResponse fehlberg78_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps) {
-  return OdeintSample<Fehlberg78>(specimen, shaking, steps).run();
+  return OdeintSample<Fehlberg78, RecordSteps>(specimen, {shaking, steps.per_knot}, steps).run();
 }
 
 }  // namespace freestand::bench

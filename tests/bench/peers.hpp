@@ -25,11 +25,15 @@ class CvodePeer {
 // an event cuts one), events located by the Illinois method on the polynomial of the step, quiet waits skipped knot by knot.
 struct OdeintSteps {
   int per_knot = 1;
-  double root_s = 1e-13;  // width to which an event is located
+  double tolerance = 1e-9;  // of peers that choose their steps, relative and absolute
+  double root_s = 1e-13;    // width to which an event is located
 };
 using Peer = PeerResponse (*)(const Specimen&, const Shaking&, const OdeintSteps&);
 PeerResponse dopri5_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps);
 PeerResponse fehlberg78_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps);
+
+// dopri5 under a pulse by its formula (pulse_formula.hpp), its steps chosen by odeint's control of their error; stops at the pulse's end.
+PeerResponse pulse_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps);
 
 // dopri5 in the same way under one effect, whose law is written by hand (peer_laws.hpp). Null where there is none.
 Peer law_peer(const std::string& effect);

@@ -22,6 +22,7 @@ const BatchKernels kernels{FREESTAND_ISA_NAME,
                            slide_rock_shaken_coarse,
                            bouc_wen_samples,
                            law_marches,
+                           pulse_marches,
                            pack_lanes};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA

@@ -30,8 +30,8 @@ class LawBlows {
   }
 
   // Where the corner that is up comes down once within h, beyond doubt: when. height: pivot theta.
-  static PackMask comes_down(const Series<Pack, law_order>& height, const Pack& h, Pack& when) {
-    constexpr int N = law_order;
+  template <int N>
+  static PackMask comes_down(const Series<Pack, N>& height, const Pack& h, Pack& when) {
     const PackMask down = height[0] == Pack(0.0);  // it rises first: what is sought is the root behind
     Pack c[N + 1], power(1.0), size(0.0);
     for (int k = 0; k <= N; ++k) {
@@ -65,10 +65,11 @@ class LawBlows {
 
   // Which of them go on rocking about that corner, stuck: its forces keep every inequality, with a margin over what counts as
   // zero. arc: of the step after the blow.
-  PackMask rocks_on(const LawArc<law_order, Pack>& arc, const Stance<Pack>& stance) const {
+  template <int N>
+  PackMask rocks_on(const LawArc<N, Pack>& arc, const Stance<Pack>& stance) const {
     const Pack zero(0.0), force_zero = number(Row::force_zero);
     PackMask sure = zero == zero;
-    visit_contact(stance, {}, arc, [&](Witness witness, const Series<Pack, law_order>& y) {
+    visit_contact(stance, {}, arc, [&](Witness witness, const Series<Pack, N>& y) {
       if (witness != Witness::impact && witness != Witness::upright) sure = sure & (y[0] > force_zero);
     });
     Pack sum(0.0);

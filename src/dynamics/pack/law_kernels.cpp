@@ -5,7 +5,7 @@
 
 namespace freestand::dynamics::FREESTAND_ISA {
 
-const LawMarch law_marches[2][2] = {{law_march<false, false>, law_march<false, true>},
-                                    {law_march<true, false>, law_march<true, true>}};
+const LawMarch law_marches[2][2] = {{law_march<OnRecords, false, false>, law_march<OnRecords, false, true>},
+                                    {law_march<OnRecords, true, false>, law_march<OnRecords, true, true>}};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA

@@ -1,9 +1,10 @@
-// Samples under laws, a pack of them at once, from knot to knot of their motions while nothing happens: no event that is not
-// excluded beyond doubt, but for blows of a block that rocks on, and a step that is as long as the segment, or up to the blow. The same
-// steps, with the same decisions and the same bits, as taylor_integrator.hpp goes one by one.
+// Samples under laws, a pack of them at once, each at its own time and in its own step, while nothing happens: no event that is not
+// excluded beyond doubt, but for blows of a block that rocks on. The same steps, with the same decisions and the same bits, as
+// taylor_integrator.hpp goes one by one.
 #pragma once
 
 #include "dynamics/law_step.hpp"
+#include "dynamics/pack/lane_floor.hpp"
 #include "dynamics/pack/lane_numbers.hpp"
 #include "dynamics/pack/law_blows.hpp"
 #include "dynamics/peaks.hpp"
@@ -13,12 +14,12 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <bool turning, bool slipping>
+template <class Motion, bool turning, bool slipping>
 class LawMarchOf {
-  using Step = LawStep<law_order, Pack, LaneNumbers, Kind<turning, slipping>>;
-  using Arc = LawArc<law_order, Pack>;
-  template <int N>
-  using End = LawStep<N, Pack, LaneNumbers, Kind<turning, slipping>>;
+  static constexpr int N = Motion::order;
+  using Step = LawStep<N, Pack, LaneNumbers, Kind<turning, slipping, Motion>>;
+  using Arc = LawArc<N, Pack>;
+  using End = LawStep<1, Pack, LaneNumbers, Kind<turning, slipping, Motion>>;
 
  public:
   LawMarchOf(LawRows& rows, int first)
@@ -30,7 +31,8 @@ class LawMarchOf {
         on_legs_(laws_.legs.frequency_radps > 0),
         base_moves_(slipping || on_legs_),
         numbers_(rows, first),
-        floor_{Series<Pack, law_order>::zero(), Series<Pack, law_order>::zero()},
+        ground_(rows, first),
+        floor_{Series<Pack, N>::zero(), Series<Pack, N>::zero()},
         there_{Series<Pack, 1>::zero(), Series<Pack, 1>::zero()},
         step_(laws_, here_, numbers_, {}, floor_),
         end_(laws_, to_, numbers_, {}, there_),
@@ -56,9 +58,9 @@ class LawMarchOf {
     struck_ &= lanes_here;
     Stopped stopped{0, 0, 0};
     while (!(stopped.before_step | stopped.at_end | stopped.undecided)) {
-      set_floor();
+      ground_.look(floor_);
       const Arc& arc = step_.run();
-      reach_ = h_;
+      h_ = reach_ = length_of_step(arc, lanes_here);
       PackMask sure = nothing_happens(arc, lanes_here);
       sure = sure & follows_laws(arc);
       if (bits(strikes_)) sure = sure & (~strikes_ | blows_.strike(to_));
@@ -100,9 +102,7 @@ class LawMarchOf {
     here_.path = number(Row::path);
     here_.deflection = number(Row::deflection);
     for (int i = 0; i < laws_.states; ++i) here_.states[i] = number(state_row(i));
-    start_ = number(Row::start);
-    offset_ = number(Row::offset);
-    here_.time = start_ + offset_;
+    here_.time = ground_.time();
     slip_ = number(Row::peak_slip);
     slip_right_ = number(Row::peak_slip_right);
     slip_left_ = number(Row::peak_slip_left);
@@ -122,8 +122,7 @@ class LawMarchOf {
     keep(Row::path, at.path);
     keep(Row::deflection, at.deflection);
     for (int i = 0; i < laws_.states; ++i) keep(state_row(i), at.states[i]);
-    keep(Row::start, start_);
-    keep(Row::offset, offset_);
+    ground_.save();
     keep(Row::peak_slip, slip_);
     keep(Row::peak_slip_right, slip_right_);
     keep(Row::peak_slip_left, slip_left_);
@@ -135,45 +134,44 @@ class LawMarchOf {
     for (int l = 0; l < pack_lanes; ++l) rows_.struck[first_ + l] = struck_ >> l & 1U;
   }
 
-  // As FloorCursor::local and left().
-  void set_floor() {
-    alignas(64) double knot[pack_lanes], a0[pack_lanes], a1[pack_lanes], g0[pack_lanes], g1[pack_lanes];
-    for (int l = 0; l < pack_lanes; ++l) {
-      const int i = first_ + l;
-      knot[l] = rows_.knot[i][0];
-      a0[l] = rows_.horizontal[i][0];
-      a1[l] = rows_.horizontal[i][1];
-      g0[l] = rows_.vertical[i][0];
-      g1[l] = rows_.vertical[i][1];
+  // As TaylorIntegrator's.
+  Pack length_of_step(const Arc& arc, unsigned lanes_here) const {
+    const Pack longest = number(Row::longest_step_s), whole = xsimd::min(ground_.left(), longest);
+    Pack last(0.0);
+    const auto neglects = [&](const Series<Pack, N>& y, Row over) {
+      last = xsimd::max(last, xsimd::abs(y[N]) * number(over));
+    };
+    if (base_moves_) {
+      neglects(arc.xi, Row::over_length);
+      neglects(arc.w, Row::over_speed);
+      neglects(arc.path, Row::over_length);
     }
-    const Pack stretch = number(Row::stretch), by = offset_ / stretch, zero(0.0);
-    const Pack scale = number(Row::scale), vertical = number(Row::vertical_scale);
-    floor_.a[0] = zero + scale * (load(a0) + by * load(a1)) + number(Row::push);
-    floor_.a[1] = zero + scale / stretch * load(a1);
-    floor_.g[0] = zero + vertical * (load(g0) + by * load(g1)) + number(Row::gravity);
-    floor_.g[1] = zero + vertical / stretch * load(g1);
-    next_ = load(knot) * stretch;
-    h_ = next_ - start_ - offset_;
+    if (on_legs_) neglects(arc.deflection, Row::over_length);
+    if (turning) {
+      neglects(arc.theta, Row::over_angle);
+      neglects(arc.omega, Row::over_rotation);
+    }
+    for (int i = 0; i < laws_.states; ++i)
+      neglects(arc.states[i], laws_.relative_velocity[i] ? Row::over_speed : Row::over_length);
+    const PackMask good = last * whole_power<N>(whole) <= Pack(rows_.tolerance);
+    if (!(lanes_here & ~bits(good))) return whole;
+    alignas(64) double h[pack_lanes];
+    store(h, last);
+    for (unsigned open = lanes_here & ~bits(good); open; open &= open - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(open));
+      const double unit = longest.get(lane);
+      h[lane] = unit * pow_outside(rows_.tolerance / (h[lane] * whole_power<N>(unit)), 1.0 / N);
+    }
+    return freestand::choose(good, whole, load(h));
   }
 
-  // The segment can be gone in one step, and no witness can turn within it, or only the raised corner comes down.
+  // No witness can turn within the step, or only the raised corner comes down.
   PackMask nothing_happens(const Arc& arc, unsigned lanes_here) {
     strikes_ = h_ < h_;
-    const Pack longest = number(Row::longest_step_s), tolerance(rows_.tolerance);
-    PackMask sure = (h_ <= longest) & (h_ > Pack(shortest_step) * longest);
-    const Pack power = whole_power<law_order>(h_);
-    const auto neglects = [&](const Series<Pack, law_order>& y, Row over) {
-      return xsimd::abs(y[law_order]) * number(over) * power <= tolerance;
-    };
-    if (base_moves_)
-      sure = sure & neglects(arc.xi, Row::over_length) & neglects(arc.w, Row::over_speed) &
-             neglects(arc.path, Row::over_length);
-    if (on_legs_) sure = sure & neglects(arc.deflection, Row::over_length);
-    if (turning) sure = sure & neglects(arc.theta, Row::over_angle) & neglects(arc.omega, Row::over_rotation);
+    PackMask sure = h_ > Pack(shortest_step) * number(Row::longest_step_s);
+    if (const unsigned within = lanes_here & ~ground_.to_knot(h_)) sure = sure & lanes(~(within & watched()));
     if (slipping && laws_.friction >= 0) sure = sure & (arc.friction >= Pack(0.0));
-    for (int i = 0; i < laws_.states; ++i)
-      sure = sure & neglects(arc.states[i], laws_.relative_velocity[i] ? Row::over_speed : Row::over_length);
-    visit_contact(stance_, {}, arc, [&](Witness witness, const Series<Pack, law_order>& y) {
+    visit_contact(stance_, {}, arc, [&](Witness witness, const Series<Pack, N>& y) {
       PackMask positive = surely_positive(y, h_);
       if (witness == Witness::impact) {
         positive = positive | surely_rises_from_zero(y, h_, Pack(0.0));
@@ -196,7 +194,7 @@ class LawMarchOf {
     const Pack touching = number(Row::touching);
     for (const int side : {1, -1}) {
       if (!laws_.walls.on(side).stands) continue;
-      const Series<Pack, law_order>& gap = side > 0 ? arc.right_gap : arc.left_gap;
+      const Series<Pack, N>& gap = side > 0 ? arc.right_gap : arc.left_gap;
       if (!turning) clear = clear & (gap[0] > touching);
       if (turning || slipping) clear = clear & surely_positive(gap, h_);
     }
@@ -235,25 +233,27 @@ class LawMarchOf {
 
   // max_abs and max_of (roots.hpp) of the lanes wanted: mostly the extreme is at an end of the step or is no new one.
   using Search = double (*)(const double* c, int order, double h, double floor);
-  Pack extreme(const Series<Pack, law_order>& y, const PackMask& within, const Pack& first, const Pack& last,
+  Pack extreme(const Series<Pack, N>& y, const PackMask& within, const Pack& first, const Pack& last,
                const Pack& before, unsigned wanted, Search search) const {
     const Pack at_ends = xsimd::max(before, xsimd::max(first, last));
-    const unsigned unsure = wanted & ~bits(within | surely_monotonic(y, reach_));
+    unsigned unsure = wanted & ~bits(within | surely_monotonic(y, reach_));
     if (!unsure) return freestand::choose(within, before, at_ends);
+    const PackMask surely = within | surely_within_by_ends(y, last, reach_, before);
+    unsure &= ~bits(surely | surely_monotonic_by_ends(y, derivative(y).at(reach_), reach_));
     alignas(64) double most[pack_lanes];
-    store(most, freestand::choose(within, before, at_ends));
+    store(most, freestand::choose(surely, before, at_ends));
     const double* numbers = reinterpret_cast<const double*>(&y);
     for (unsigned open = unsure; open; open &= open - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(open));
-      double c[law_order + 1];
-      for (int k = 0; k <= law_order; ++k) c[k] = numbers[static_cast<std::size_t>(k * pack_lanes) + lane];
+      double c[N + 1];
+      for (int k = 0; k <= N; ++k) c[k] = numbers[static_cast<std::size_t>(k * pack_lanes) + lane];
       const double h = reach_.get(lane), floor = before.get(lane);
       clear_upper_parts();
-      most[lane] = search(c, law_order, h, floor);
+      most[lane] = search(c, N, h, floor);
     }
     return load(most);
   }
-  Pack largest(const Series<Pack, law_order>& y, const Pack& before, unsigned wanted) const {
+  Pack largest(const Series<Pack, N>& y, const Pack& before, unsigned wanted) const {
     const PackMask within = surely_within(y, reach_, before);
     if (!(wanted & ~bits(within))) return before;
     return extreme(y, within, xsimd::abs(y[0]), xsimd::abs(y.at(reach_)), before, wanted, detail::max_abs);
@@ -262,11 +262,11 @@ class LawMarchOf {
   // As Peaks::observe, of the lanes wanted; of which of them there are any.
   unsigned see_extremes(const Arc& arc, unsigned wanted) {
     const Standing<Pack>& at = here_;
-    const Series<Pack, law_order> u = turning ? midpoint(at.body, at.half_base, arc, arc.versine) : arc.xi;
+    const Series<Pack, N> u = turning ? midpoint(at.body, at.half_base, arc, arc.versine) : arc.xi;
     new_slip_ = largest(u, slip_, wanted);
     if (rows_.slip_by_side) {
       const Pack last = u.at(reach_);
-      const auto side = [&](const Series<Pack, law_order>& y, const Pack& first, const Pack& end, const Pack& before) {
+      const auto side = [&](const Series<Pack, N>& y, const Pack& first, const Pack& end, const Pack& before) {
         return extreme(y, surely_within(y, reach_, before), first, end, before, wanted, detail::max_of);
       };
       new_slip_right_ = side(u, u[0], last, slip_right_);
@@ -278,7 +278,7 @@ class LawMarchOf {
   }
 
   unsigned see_acceleration(const Arc& arc, unsigned wanted) {
-    Series<Pack, law_order> x = arc.ax, y = arc.fy;
+    Series<Pack, N> x = arc.ax, y = arc.fy;
     x[0] = x[0] - number(Row::push);
     y[0] = y[0] - number(Row::gravity);
     const Pack peak2 = acceleration_ * acceleration_;
@@ -294,37 +294,27 @@ class LawMarchOf {
     return wanted & bits(finite);
   }
 
-  // Those that are free go to the next knot, or to the blow; bit l: lane l has no knot ahead.
+  // Those that are free go to the end of their step; bit l: lane l is at the end of its motion, or of its time.
   unsigned go_on(unsigned free) {
-    alignas(64) double mask[pack_lanes];
-    unsigned at_end = 0;
-    const unsigned struck = bits(strikes_) & free, to_knot = free & ~struck;
-    for (int l = 0; l < pack_lanes; ++l) {
-      const bool goes = to_knot >> l & 1U;
-      const int i = first_ + l;
-      mask[l] = goes;
-      rows_.knot[i] += goes;
-      rows_.horizontal[i] += 2 * goes;
-      rows_.vertical[i] += rows_.vertical_stride[i] * goes;
-      rows_.segments[i] -= goes;
-      if (goes) rows_.steps[i] = rows_.segments[i] > 0;
-      at_end |= unsigned{goes && rows_.segments[i] == 0} << l;
+    const unsigned struck = bits(strikes_) & free, at_knot = ground_.to_knot(h_) & free & ~struck;
+    const PackMask goes = lanes(free);
+    ground_.advance(goes, reach_);
+    unsigned at_end = at_knot ? ground_.next_segment(at_knot, lanes(at_knot)) : 0;
+    const unsigned within = free & ~at_knot & ~struck;
+    if (within) {
+      const unsigned ends = ground_.at_end() & within;
+      at_end |= ends;
+      for (unsigned open = within & ~ends; open; open &= open - 1) ++rows_.steps[first_ + __builtin_ctz(open)];
     }
-    PackMask goes = load(mask) > Pack(0.0);
     const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
-    move(start_, next_);
-    move(offset_, Pack(0.0));
     Standing<Pack>&at = here_, &to = to_;
     if (struck) {
-      const PackMask blow = strikes_ & lanes(struck);
-      offset_ = freestand::choose(blow, offset_ + reach_, offset_);
-      blows_.stand(blow, struck, to);
+      blows_.stand(lanes(struck), struck, to);
       at.body.c = to.body.c;
       at.half_base = to.half_base;
       at.pivot = stance_.pivot = to.pivot;
       at.right_wall = to.right_wall;
       at.left_wall = to.left_wall;
-      goes = goes | blow;
       struck_ |= struck;
     }
     move(at.theta, to.theta);
@@ -334,7 +324,7 @@ class LawMarchOf {
     move(at.path, to.path);
     move(at.deflection, to.deflection);
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to.states[i]);
-    at.time = start_ + offset_;
+    at.time = ground_.time();
     move(slip_, new_slip_);
     if (rows_.slip_by_side) {
       move(slip_right_, new_slip_right_);
@@ -346,6 +336,14 @@ class LawMarchOf {
     return at_end;
   }
 
+  // Those that look before their next step whether they come any further (Integration::steps_watched).
+  unsigned watched() const {
+    unsigned which = 0;
+    for (int l = 0; l < pack_lanes; ++l)
+      which |= unsigned{rows_.steps[first_ + l] % Integration::steps_watched == 0} << l;
+    return which;
+  }
+
   static PackMask lanes(unsigned which) {
     alignas(64) double mask[pack_lanes];
     for (int l = 0; l < pack_lanes; ++l) mask[l] = which >> l & 1U;
@@ -354,7 +352,7 @@ class LawMarchOf {
 
   // The series of one lane.
   void tell(const Arc& arc, int lane, double* series) const {
-    using Numbers = LawArcNumbers<law_order>;
+    using Numbers = LawArcNumbers<N>;
     const double* from = reinterpret_cast<const double*>(&arc) + lane;
     double* to = series + lane * Numbers::all;
     const auto copy = [&](int begin, int end) {
@@ -372,23 +370,24 @@ class LawMarchOf {
   const bool straight_, grip_changes_, on_legs_;
   const bool base_moves_;  // the point of contact, or the base over legs
   const LaneNumbers numbers_;
-  Pack start_, offset_, next_, h_, reach_;
+  Pack h_, reach_;       // the step, and how much of it there is before a blow [s]
   PackMask strikes_;     // within the step
   unsigned struck_ = 0;  // before it
   Pack slip_, slip_right_, slip_left_, slid_, rotation_, acceleration_;
   Pack new_slip_, new_slip_right_, new_slip_left_, new_slid_, new_rotation_, new_acceleration_;
   Standing<Pack> here_, to_;
-  Floor<Pack, law_order> floor_;
+  LaneFloor<Motion> ground_;
+  Floor<Pack, N> floor_;
   Floor<Pack, 1> there_;
   Step step_;
-  End<1> end_;
+  End end_;
   LawBlows blows_;
   Stance<Pack> stance_;
 };
 
-template <bool turning, bool slipping>
+template <class Motion, bool turning, bool slipping>
 Stopped law_march(LawRows& rows, int first, double* series) {
-  const Stopped stopped = LawMarchOf<turning, slipping>(rows, first).run(series);
+  const Stopped stopped = LawMarchOf<Motion, turning, slipping>(rows, first).run(series);
   clear_upper_parts();
   return stopped;
 }
