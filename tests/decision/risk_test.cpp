@@ -14,65 +14,13 @@
 #include "decision/annual_rate.hpp"
 #include "fragility/fit.hpp"
 #include "fragility/fragility_function.hpp"
+#include "made_sweep.hpp"
 
-namespace freestand::decision {
+namespace freestand::decision::risk_test {
 namespace {
 
+using namespace made_sweep;
 using testing::HasSubstr;
-
-double uniform(std::uint64_t seed, std::uint64_t counter, std::string_view stream) {
-  return random::uniform(seed, counter, random::stable_hash(stream));
-}
-double normal(std::uint64_t seed, std::uint64_t counter, std::string_view stream) {
-  return gsl_cdf_ugaussian_Pinv(uniform(seed, counter, stream));
-}
-
-HazardCurve power_law(double k0, double k, double first, double last) {
-  HazardCurve curve{"pga_g", 0, {}, {}};
-  for (int i = 0; i < 8; ++i) {
-    curve.im.push_back(first * std::pow(last / first, i / 7.0));
-    curve.annual_rate.push_back(k0 * std::pow(curve.im.back(), -k));
-  }
-  return curve;
-}
-
-// Records of which each overturns at its own intensity: ln of it is normal with `between` among records, and `within` among the
-// samples of one. A share `floor` overturns at whatever intensity, and only a share `ceiling` can overturn at all, so that the curve is no
-// lognormal where they are not 0 and 1.
-struct Sweep {
-  int records = 40, per_record = 25;
-  double median = 0.6, between = 0.35, within = 0.25, floor = 0, ceiling = 1, least = 0.05, most = 3;
-  double dispersion() const { return std::hypot(between, within); }
-
-  fragility::Result fit(std::uint64_t seed, int resamples) const {
-    fragility::Options options;
-    options.im_name = "pga_g";
-    options.im_unit = "g";
-    for (int i = 0; i <= 10; ++i) options.im_edge.push_back(least * std::pow(most / least, i / 10.0));
-    fragility::EdpOptions edp;
-    edp.name = "overturned";
-    edp.binary = true;
-    edp.censored = false;
-    options.edps = {edp};
-    for (int r = 0; r < records; ++r) options.motion_group.push_back(r);
-    options.resamples = resamples;
-    options.confidence = 0.9;
-    fragility::Tally tally(options);
-    for (int r = 0, i = 0; r < records; ++r) {
-      const double own = median * std::exp(between * normal(seed, static_cast<std::uint64_t>(r), "record"));
-      for (int k = 0; k < per_record; ++k, ++i) {
-        const auto at = static_cast<std::uint64_t>(i);
-        const double im = least * std::pow(most / least, uniform(seed, at, "im"));
-        const bool over =
-            (im > own * std::exp(within * normal(seed, at, "sample")) && uniform(seed, at, "ceiling") < ceiling) ||
-            uniform(seed, at, "floor") < floor;
-        const double value = over;
-        tally.add({at, im, r, over ? Outcome::overturned : Outcome::moved, {&value, 1}, {}});
-      }
-    }
-    return fragility::fit(tally);
-  }
-};
 
 // How often bands of nominal 90 % miss the truth k0 median^-k exp(k^2 dispersion^2/2), which lies below or above them.
 struct Misses {
@@ -137,32 +85,6 @@ INSTANTIATE_TEST_SUITE_P(Of, RiskBands,
                          testing::Values(BandCase{40, 0.6, 500}, BandCase{40, 1.5, 500}, BandCase{14, 0.6, 500},
                                          BandCase{14, 1.5, 500}),
                          [](const auto& info) { return fmt::format("{}Records{}", info.param.records, info.index); });
-
-// A hazard curve that ends where nothing is exceeded yet says nothing of what the sweep exceeds above it: no rate of 0.
-TEST(Risk, IsNotToldWhereTheHazardCurveEndsBelowAllThatExceeds) {
-  Sweep sweep;
-  sweep.median = 1.5;
-  const Risk found = risk(sweep.fit(1, 2), power_law(1e-3, 1.5, 0.06, 0.2));
-  EXPECT_THAT(found.rows[0].refused, HasSubstr("outside of the hazard curve"));
-  EXPECT_THAT(found.warnings, testing::Not(testing::Contains(HasSubstr("no sample exceeds it"))));
-}
-
-// Each capacity bends by a curve of its own, but the graver event is not the likelier one.
-TEST(Risk, OfNestedEventsTheInnerOneHasNoHigherRate) {
-  Sweep sweep;
-  fragility::Result result = sweep.fit(2, 2);
-  fragility::EdpResult outer = result.edps[0];
-  outer.name = "peak_slip_m";
-  outer.binary = false;
-  outer.capacity = {0.1};
-  for (double& p : outer.surface.probability) p *= 0.9;  // contradicts, as two fits may
-  outer.functions[0].adequate = result.edps[0].functions[0].adequate = false;
-  result.edps.insert(result.edps.begin(), outer);
-  const Risk found = risk(result, power_law(1e-3, 1.5, 1e-3, 50), {"peak_slip_m"});
-  EXPECT_EQ(found.rows[1].rate().value, found.rows[0].rate().value);
-  EXPECT_LE(found.rows[1].rate().lower, found.rows[1].rate().value);
-  EXPECT_THAT(found.rows[1].why, HasSubstr("its rate is that of peak_slip_m > 0.1"));
-}
 
 // Of ten bins as wide as the curve's dispersion a polygon through their shares gives 1.08 and 1.27 times the rate.
 TEST(Risk, WideBinsDoNotRaiseTheCountedRate) {
@@ -405,4 +327,4 @@ TEST(Risk, LimitsInOrderHoldTheTruthAsOften) {
 TEST(Risk, NoIntensityInCommonIsRefused) { EXPECT_THROW(risk(Sweep{}.fit(3, 50), power_law(1e-3, 2, 10, 20)), Error); }
 
 }  // namespace
-}  // namespace freestand::decision
+}  // namespace freestand::decision::risk_test

@@ -64,6 +64,36 @@ TEST(Doubts, RecordsInAnotherUnit) {
   EXPECT_THAT(doubts(study, set(5, 9)), testing::Contains(HasSubstr("the time step of some.csv is 5 s")));
 }
 
+// An accelerometer that feels gravity, a channel in other units, one that holds nothing: of the channels beside the first, too, where they shake
+// the block.
+TEST(Doubts, OtherChannelsOfRecords) {
+  const std::string shaken = "effects: [{name: vertical_shaking, scale: 1}]\n";
+  const auto said = [](const std::string& more, const std::vector<double>& vertical, const std::vector<double>& cross) {
+    Study study = parse(block + friction + motions + rest + more);
+    MotionSource& source = study.motions[0];
+    source.kind = MotionSource::Kind::records;
+    source.amplitude = Quantity{.name = "motion.scale", .unit = "1", .value = sampling::Fixed{1}};
+    MotionSet set;
+    FloorMotion motion = piecewise_linear("some.csv", 0.01, {0, 2, 0, -2, 0, -2, 0, 2, 0}, vertical);
+    if (!cross.empty()) motion.cross_mps2 = piecewise_linear("", 0.01, cross, {}).horizontal_mps2;
+    set.entries = std::make_shared<const std::vector<MotionSet::Entry>>(
+        std::vector<MotionSet::Entry>{{.motion = motion, .peak_mps2 = 2}});
+    set.of_source = {{0}};
+    return doubts_of_records(study, set);
+  };
+  const std::vector<double> sound{0, 1, 0, -1, 0, -1, 0, 1, 0}, gravity{9.8, 10.8, 9.8, 8.8, 9.8, 8.8, 9.8, 10.8, 9.8},
+      nothing(9, 0), strong{0, 40, 0, -40, 0, -40, 0, 40, 0};
+  EXPECT_THAT(said(shaken, sound, sound), IsEmpty());
+  EXPECT_THAT(said(shaken, gravity, {}),
+              ElementsAre(HasSubstr("the vertical channel of some.csv has an offset of 9.")));
+  EXPECT_THAT(said("", gravity, {}), IsEmpty());
+  EXPECT_THAT(said("", {}, gravity), ElementsAre(HasSubstr("the second channel of some.csv has an offset of 9.")));
+  EXPECT_THAT(said(shaken, nothing, {}),
+              ElementsAre("the vertical channel of some.csv is zero throughout: is it the right one?"));
+  EXPECT_THAT(said("", {}, strong),
+              ElementsAre(HasSubstr("the second channel of some.csv is 20 times as strong as the first one")));
+}
+
 // A record turned round is as likely a motion, and another one for what stands on one side.
 TEST(Doubts, RecordsOfOneSignBesideAWallOnOneSide) {
   const auto said = [](const std::string& more, const sampling::Distribution& scale, bool records = true) {
