@@ -56,21 +56,59 @@ std::vector<Place> places() {
   return all;
 }
 
-// A formula of friction that falls below zero, at the usual numbers: where, with no more coordinates than it takes.
-void ask_of_formula(const EffectPart& part, double mu, Doubter& doubter) {
-  if (part.friction.empty()) return;
-  std::vector<std::string> names;
-  std::vector<double> numbers;
-  for (const Quantity& q : part.parameters) {
-    names.push_back(q.name.substr(q.name.rfind('.') + 1));
-    numbers.push_back(usual(q));
+// A formula with the usual numbers of its parameters.
+class UsualLaw {
+ public:
+  UsualLaw(const std::string& text, const EffectPart& part, double mu) : mu_(mu), law_(text, names(part)) {
+    for (const Quantity& q : part.parameters) numbers_.push_back(usual(q));
   }
-  const formula::Formula law(part.friction, names);
+  double operator()(const Place& at) const { return law_.value(at, mu_, numbers_); }
+
+ private:
+  static std::vector<std::string> names(const EffectPart& part) {
+    std::vector<std::string> names;
+    for (const Quantity& q : part.parameters) names.push_back(q.name.substr(q.name.rfind('.') + 1));
+    return names;
+  }
+
+  double mu_;
+  formula::Formula law_;
+  std::vector<double> numbers_;
+};
+
+// A force that leaps where the block stops, as friction does, for which alone the equations know how a block comes to rest.
+void ask_of_force(const EffectPart& part, double mu, Doubter& doubter) {
+  if (part.force.empty()) return;
+  const UsualLaw force(part.force, part, mu);
+  for (Place at : places()) {
+    constexpr double slow = 1e-12;  // [m/s]
+    at[path] = std::max(at[path], std::abs(at[u]));
+    at[speed] = slow;
+    double beside[2];
+    for (const int side : {0, 1}) {
+      at[v] = side == 0 ? -slow : slow;
+      at[sigma] = side == 0 ? -1 : 1;
+      beside[side] = force(at);
+    }
+    if (!(std::abs(beside[1] - beside[0]) > 1e-6 * (1 + std::abs(beside[0])))) continue;
+    doubter.said.push_back(fmt::format(
+        "force of effect {} leaps from {:.3g} to {:.3g} m/s2 where the block stops and turns round, where only "
+        "friction may: responses can be wrong, or break off; write it as friction, or let it pass through "
+        "v = 0 without a leap",
+        part.name, beside[0], beside[1]));
+    return;
+  }
+}
+
+// A formula of friction that falls below zero, at the usual numbers: where, with no more coordinates than it takes.
+void ask_of_friction(const EffectPart& part, double mu, Doubter& doubter) {
+  if (part.friction.empty()) return;
+  const UsualLaw law(part.friction, part, mu);
   const auto friction = [&](Place at) {
     at[path] = std::max(at[path], std::abs(at[u]));
     at[speed] = std::abs(at[v]);
     at[sigma] = at[v] < 0 ? -1 : 1;
-    return law.value(at, mu, numbers);
+    return law(at);
   };
   const std::vector<Place> all = places();
   const auto found = std::find_if(all.begin(), all.end(), [&](const Place& at) { return friction(at) < 0; });
@@ -162,8 +200,11 @@ std::vector<std::string> doubts(const Study& study) {
   const FrictionPart& friction = study.model.friction;
   for (const auto& mu : {friction.mu, friction.mu_k, friction.mu_s})
     doubter.ask(mu, roughest, "is it a friction coefficient?");
-  for (const EffectPart& effect : study.model.effects)
-    ask_of_formula(effect, usual(friction.mu ? *friction.mu : *friction.mu_k), doubter);
+  for (const EffectPart& effect : study.model.effects) {
+    const double mu = usual(friction.mu ? *friction.mu : *friction.mu_k);
+    ask_of_friction(effect, mu, doubter);
+    ask_of_force(effect, mu, doubter);
+  }
   const bool shaken = shakes_vertically(study.model);
   for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, study.model.start.any(), doubter);
