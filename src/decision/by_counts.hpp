@@ -1,5 +1,5 @@
 // The rate of one demand and capacity by the counted shares of the bins: the integral over the curve through them (fragility/counted_curve.hpp),
-// which discrete exports hand on, from the least intensity swept, and level above the last bin.
+// which discrete exports hand on, from the least intensity swept.
 #pragma once
 
 #include <algorithm>

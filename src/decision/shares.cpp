@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace freestand::decision {
 namespace {
@@ -158,25 +159,27 @@ ShareTally::Shares ShareTally::shares(std::size_t p, std::size_t answer, const s
   for (std::size_t c = 0; c < sums.size(); ++c)
     for (const Sums& one : sums[c]) total[c] += one;
   // Of classes, and of half as many.
-  const auto estimate = [&](const std::vector<Sums>& classes, double c, double* lost) {
+  struct Refined {
+    double value, lost;
+  };
+  const auto refined = [&](const std::vector<Sums>& classes, double c) -> Refined {
     const double fine = share(classes, c);
-    if (!parameters_[p].ordered || classes.size() < 2 * fewest_classes + 1) return fine;
+    if (!parameters_[p].ordered || classes.size() < 2 * fewest_classes + 1) return {fine, 0};
     std::vector<Sums> pairs((classes.size() - 1) / 2 + 1);
     for (std::size_t i = 0; i + 1 < classes.size(); ++i) pairs[i / 2] += classes[i];
     pairs.back() += classes.back();
     const double step = fine - share(pairs, c);
-    if (lost) *lost = std::abs(step) / 6;
-    return fine + step / 2;
+    return {fine + step / 2, std::abs(step) / 6};
   };
-  Shares found{nan, std::vector<double>(of_group.size(), nan)};
-  found.whole = estimate(total, evenness, &found.lost);
+  const Refined whole = refined(total, evenness);
+  Shares found{whole.value, std::vector<double>(of_group.size(), nan), 0, whole.lost};
   for (const Sums& one : total) found.classes += one.n > 0;
   for (std::size_t g = 0; g < of_group.size(); ++g) {
     if (of_group[g].n == 0) continue;
     std::vector<Sums> rest(total);
     for (std::size_t c = 0; c < sums.size(); ++c) rest[c] -= sums[c][g];
     // Parts of an even design scatter as independent draws do.
-    found.without[g] = estimate(rest, one_design_ && groups_.stratum(static_cast<int>(g)) == 1 ? 1 : evenness, nullptr);
+    found.without[g] = refined(rest, one_design_ && groups_.stratum(static_cast<int>(g)) == 1 ? 1 : evenness).value;
   }
   if (one_design_) draw_in(found, evenness);
   return found;
@@ -211,10 +214,14 @@ ShareRow ShareTally::row(std::size_t answer, double confidence) const {
   };
   Shares together{0, std::vector<double>(of_group.size(), 0)};
   double squares = 0;
+  std::map<int, Evenness> of_design;
+  for (const Parameter& parameter : parameters_)
+    if (!of_design.contains(parameter.design))
+      of_design.emplace(parameter.design, evenness(parameter.design, answer, all.n));
   for (std::size_t p = 0; p < parameters_.size(); ++p) {
     if (parameters_[p].idle) continue;
     const int design = parameters_[p].design;
-    const Evenness even = design == 0 ? Evenness{1, 0} : evenness(design, answer, all.n);
+    const Evenness even = of_design.at(design);
     const Shares one = shares(p, answer, of_group, even.c);
     const double between = even.scatter * std::max(one.classes - 1, 0.0) / std::max(all.n - 1, 1.0);
     const double error = std::hypot(between, one.lost);

@@ -8,16 +8,17 @@
 //   share = (r - q)/(1 - q),   r = 1 - sum_k SS_k / SS,   q = c (K - 1)/(N - 1)
 //
 // with SS the sum of squares about the mean, SS_k that of a class about its own: q takes away what K class means scatter by chance. Of
-// independent draws, and of the permutations of a latin hypercube, c = 1 (T. L. Kelley, Proc. Natl. Acad. Sci. 21, 1935). The means of an even
-// design scatter less, and how much less is measured: parameters that the answer cannot depend on (`idle`, other dimensions of the same
-// design) are parted into classes too, and c is the mean of their r (N - 1)/(K - 1); how that differs among them goes
-// into the error. What is lost inside the classes is 1/K^2 of the share of a
-// straight line over a uniform parameter, and nearer to 1/K where a few draws lie far out: from K/2 to K classes it falls by three times what is
-// left, or by one and a half times. So half of that step is added, and a sixth of it goes into the error (L. F. Richardson, 1911). Of
-// an even design the ratio of variances has no known distribution, and the interval is laid about the share itself. Samples that share a motion are not independent: motions are left out in turn (jackknife.hpp), for the error and against the
-// bias of few motions. Groups that are parts of one even design err less than they differ: without scrambles their part of the variance is
-// taken times c, which is still too much rather than too little, since c is of class means and the design as even throughout. A share that is
-// zero comes out as zero on the average, so now and then below it.
+// independent draws, and of the permutations of a latin hypercube, c = 1 (T. L. Kelley, Proc. Natl. Acad. Sci. 21, 1935). The means of
+// an even design scatter less, and how much less is measured: parameters that the answer cannot depend on (`idle`, other dimensions of
+// the same design) are parted into classes too, and c is the mean of their r (N - 1)/(K - 1); how that differs among them goes into
+// the error. What is lost inside the classes is 1/K^2 of the share of a straight line over a uniform parameter, and nearer to 1/K
+// where a few draws lie far out: from K/2 to K classes it falls by three times what is left, or by one and a half times. So half of
+// that step is added, and a sixth of it goes into the error (L. F. Richardson, 1911). Of an even design the ratio of variances has no
+// known distribution, and the interval is laid about the share itself. Samples that share a motion are not independent: motions are
+// left out in turn (jackknife.hpp), for the error and against the bias of few motions. Groups that are parts of one even design err
+// less than they differ: without scrambles their part of the variance is taken times c, which is still too much rather than too
+// little, since c is of class means and the design as even throughout. A share that is zero comes out as zero on the average, so now
+// and then below it.
 #pragma once
 
 #include <cstdint>

@@ -19,7 +19,7 @@ class ForcePeaks {
   ForcePeaks(const Settings& settings, Response& response) : followed_(settings.contact_forces) {
     if (followed_)
       response.peak_contact_horizontal_mps2 = response.peak_contact_vertical_mps2 = response.peak_chain_force_mps2 =
-          response.peak_contents_acceleration_mps2 = response.peak_leg_deflection_m = response.leg_fatigue_m = 0;
+          response.peak_contents_acceleration_mps2 = response.peak_leg_deflection_m = 0;
   }
   bool followed() const { return followed_; }
 
@@ -44,9 +44,9 @@ class ForcePeaks {
   // A block at rest sways on over its stuck foot, for which nobody waits, by y'' + 2 z W y' + W^2 (y - y_e) = 0: from its first
   // turning point on each is exp(-pi z/sqrt(1 - z^2)) of the one before, on the other side.
   template <class SomeArc>
-  void ring_down(const Rig& rig, const SomeArc& arc, Response& r) {
+  void ring_down(const Rig& rig, const SomeArc& arc, const Response& r) {
     if constexpr (requires { arc.deflection; }) {
-      if (!followed_ || !rig.laws || !(rig.laws->legs.frequency_radps > 0)) return;
+      if (!followed_ || !flexes(rig)) return;
       const double W = rig.laws->legs.frequency_radps, z = rig.laws->legs.damping,
                    root = std::sqrt(std::max(1 - z * z, 0.0));
       const double v = arc.deflection[1], from_end = -(2 * arc.deflection[2] + 2 * z * W * v) / (W * W),
@@ -62,8 +62,10 @@ class ForcePeaks {
           sway_.see(end + sway);
       }
       sway_.see(end);
-      r.leg_fatigue_m = sway_.amplitude();
     }
+  }
+  void tell_fatigue(Response& r) const {
+    if (followed_) r.leg_fatigue_m = sway_.amplitude();
   }
 
  private:
@@ -91,15 +93,16 @@ class ForcePeaks {
     told(laws.contents, r.peak_contents_acceleration_mps2);
   }
 
+  static bool flexes(const Rig& rig) { return rig.laws && rig.laws->legs.frequency_radps > 0; }
+
   template <class SomeArc>
   void by_legs(const Rig& rig, const SomeArc& arc, double tau, Response& r) {
     if constexpr (requires { arc.deflection; }) {
-      if (!rig.laws || !(rig.laws->legs.frequency_radps > 0)) return;
+      if (!flexes(rig)) return;
       const auto& y = arc.deflection;
       r.peak_leg_deflection_m = max_abs(y, tau, r.peak_leg_deflection_m);
       for_each_turn(y, tau, [&](double turned) { sway_.see(turned); });
       sway_.see(y.at(tau));
-      r.leg_fatigue_m = sway_.amplitude();
     }
   }
 

@@ -333,6 +333,7 @@ void Integration::feel_standing() {
 
 Response Integration::result() {
   feel_standing();
+  peaks.tell_fatigue();
   Response& response = peaks.response();
   response.outcome = outcome_;
   response.residual_slip_m = slip();

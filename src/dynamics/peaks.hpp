@@ -102,6 +102,7 @@ class Peaks {
   void ring_down(const Rig& rig, const SomeArc& arc) {
     forces_.ring_down(rig, arc, response_);
   }
+  void tell_fatigue() { forces_.tell_fatigue(response_); }
 
   // What the block feels at rest is looked at step by step.
   bool follow_rest() const { return forces_.followed(); }

@@ -10,7 +10,6 @@
 // Only what has not closed is remembered: a few turning points, however long the load.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

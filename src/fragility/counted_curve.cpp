@@ -8,7 +8,8 @@
 namespace freestand::fragility {
 namespace {
 
-// Puts the places between `low` and `high` that the curve needs behind `places`.
+// Puts the places between `low` and `high` that the curve needs behind `places`. A fiftieth at the middle of a line is a seventy-fifth on
+// its average, which does not show in the two digits that a rate is told in; 1e-6 is what exports are held to.
 void follow(const CountedCurve& curve, double low, double high, int depth, std::vector<double>& places) {
   constexpr double share = 0.02, least = 1e-6;
   const double middle = std::sqrt(low * high), here = curve(middle);
@@ -44,7 +45,8 @@ double CountedCurve::fitted(double im) const {
   return median_ > 0 && dispersion_ > 0 ? normal_cdf(std::log(im / median_) / dispersion_) : 0;
 }
 
-// The mean over the intensities of a bin, spread evenly in their logarithm about their mean.
+// The mean over the intensities of a bin, spread evenly in their logarithm about their mean. By midpoints: of a bin that is w
+// dispersions wide they are off by no more than (w/32)^2/24 of the curve's largest bend, 0.24, so by 1e-4 of one of three.
 double CountedCurve::over_bin(const CountedBin& bin) const {
   if (!(bin.from > 0) || !std::isfinite(bin.to)) return fitted(bin.im);
   constexpr int points = 32;
@@ -59,28 +61,26 @@ double CountedCurve::over_bin(const CountedBin& bin) const {
 
 double CountedCurve::operator()(double im) const {
   const double f = fitted(im);
-  const auto first = std::lower_bound(knots_.begin(), knots_.end(), f,
-                                      [](const Knot&knot, double x) { return knot.fitted < x; }),
-             behind =
-                 std::upper_bound(first, knots_.end(), f, [](double x, const Knot&knot) { return x < knot.fitted; });
-  if (first == behind) {
+  const auto same = std::ranges::equal_range(knots_, f, {}, &Knot::fitted);
+  if (same.empty()) {
     const Knot &lowest = knots_.front(), &highest = knots_.back();
-    const Knot low = first == knots_.begin() ? Knot{0, 0, std::max(0.0, lowest.probability - lowest.fitted)}
-                                             : *(first - 1),
-               high = first == knots_.end()
+    const Knot low = same.begin() == knots_.begin() ? Knot{0, 0, std::max(0.0, lowest.probability - lowest.fitted)}
+                                                    : *(same.begin() - 1),
+               high = same.begin() == knots_.end()
                           ? Knot{0, 1, highest.fitted > 0 ? std::min(1.0, highest.probability / highest.fitted) : 1}
-                          : *first;
+                          : *same.begin();
     return std::lerp(low.probability, high.probability, (f - low.fitted) / (high.fitted - low.fitted));
   }
-  const auto next = std::upper_bound(first, behind, im, [](double x, const Knot& knot) { return x < knot.im; });
-  if (next == first) return first->probability;
+  const auto next = std::ranges::upper_bound(same, im, {}, &Knot::im);
+  if (next == same.begin()) return next->probability;
   const Knot& low = *(next - 1);
-  return next == behind ? low.probability
-                        : std::lerp(low.probability, next->probability, (im - low.im) / (next->im - low.im));
+  return next == same.end() ? low.probability
+                            : std::lerp(low.probability, next->probability, (im - low.im) / (next->im - low.im));
 }
 
 std::vector<double> places_to_follow(const CountedCurve& curve, const std::vector<CountedBin>& bins, double least,
                                      double most) {
+  // Of a bin of three dispersions a line over a 32nd is off by (3/32)^2/8 of 0.24 at most, 3e-4.
   constexpr int halvings = 5;
   std::vector<double> ends, places;
   if (least > 0 && least < bins.front().im) ends.push_back(least);

@@ -1,5 +1,5 @@
 // P(EDP > C) over the intensity by the counted shares of the bins: what stands for a fitted curve that is not adequate. Rates integrate it,
-// discrete exports hand it on, and queries read it.
+// and discrete exports hand it on.
 //
 // Straight lines from bin to bin lie above a curve that bends up, and shares of whole bins lie above the share at their mean: of ten bins as
 // wide as the curve's dispersion annual rates come out 8 % too large at a hazard slope of 1.5, and 27 % at 2.5. So the shares are joined
