@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "formula/formula.hpp"
 #include "motion/offset.hpp"
 #include "motion/peaks.hpp"
+#include "study/formula_places.hpp"
 #include "study/problems.hpp"
 
 namespace freestand::study {
@@ -41,21 +41,6 @@ class Doubter {
   std::vector<std::string> said;
 };
 
-// u v theta omega t path normal side sigma speed, as formulas look at them.
-using Place = std::array<double, 10>;
-enum Coordinate : std::size_t { u, v, theta, t = 4, path, normal, sigma = 8, speed };
-
-// Where a block may well come.
-std::vector<Place> places() {
-  std::vector<Place> all;
-  for (const double at_u : {0.0, 0.1, -0.1, 0.3, -0.3, 1.0, -1.0})
-    for (const double at_v : {0.0, 0.2, -0.2, 2.0, -2.0})
-      for (const double at_theta : {0.0, 0.1, -0.1})
-        for (const double at_t : {0.0, 20.0})
-          for (const double slid : {0.0, 1.0}) all.push_back({at_u, at_v, at_theta, 0, at_t, slid, 1, 0, 0, 0});
-  return all;
-}
-
 // A formula with the usual numbers of its parameters.
 class UsualLaw {
  public:
@@ -75,30 +60,6 @@ class UsualLaw {
   formula::Formula law_;
   std::vector<double> numbers_;
 };
-
-// A force that leaps where the block stops, as friction does, for which alone the equations know how a block comes to rest.
-void ask_of_force(const EffectPart& part, double mu, Doubter& doubter) {
-  if (part.force.empty()) return;
-  const UsualLaw force(part.force, part, mu);
-  for (Place at : places()) {
-    constexpr double slow = 1e-12;  // [m/s]
-    at[path] = std::max(at[path], std::abs(at[u]));
-    at[speed] = slow;
-    double beside[2];
-    for (const int side : {0, 1}) {
-      at[v] = side == 0 ? -slow : slow;
-      at[sigma] = side == 0 ? -1 : 1;
-      beside[side] = force(at);
-    }
-    if (!(std::abs(beside[1] - beside[0]) > 1e-6 * (1 + std::abs(beside[0])))) continue;
-    doubter.said.push_back(fmt::format(
-        "force of effect {} leaps from {:.3g} to {:.3g} m/s2 where the block stops and turns round, where only "
-        "friction may: responses can be wrong, or break off; write it as friction, or let it pass through "
-        "v = 0 without a leap",
-        part.name, beside[0], beside[1]));
-    return;
-  }
-}
 
 // A formula of friction that falls below zero, at the usual numbers: where, with no more coordinates than it takes.
 void ask_of_friction(const EffectPart& part, double mu, Doubter& doubter) {
@@ -200,11 +161,8 @@ std::vector<std::string> doubts(const Study& study) {
   const FrictionPart& friction = study.model.friction;
   for (const auto& mu : {friction.mu, friction.mu_k, friction.mu_s})
     doubter.ask(mu, roughest, "is it a friction coefficient?");
-  for (const EffectPart& effect : study.model.effects) {
-    const double mu = usual(friction.mu ? *friction.mu : *friction.mu_k);
-    ask_of_friction(effect, mu, doubter);
-    ask_of_force(effect, mu, doubter);
-  }
+  for (const EffectPart& effect : study.model.effects)
+    ask_of_friction(effect, usual(friction.mu ? *friction.mu : *friction.mu_k), doubter);
   const bool shaken = shakes_vertically(study.model);
   for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, study.model.start.any(), doubter);

@@ -135,17 +135,6 @@ TEST(Doubts, FrictionBelowZeroWhereABlockMayCome) {
   EXPECT_THAT(with("mu*(a - 2*path)"), ElementsAre(HasSubstr("at path = 1 m,")));
 }
 
-// The equations know how a block stops against friction, and against no other force that turns round with it.
-TEST(Doubts, AForceThatLeapsWhereTheBlockStops) {
-  const auto with = [](const std::string& law) {
-    return doubts(parse(block + friction + motions + rest + "effects: [{name: push, force: \"" + law + "\"}]\n"));
-  };
-  EXPECT_THAT(with("if(v>0,-3,3)"), ElementsAre(HasSubstr("force of effect push leaps from 3 to -3 m/s2")));
-  EXPECT_THAT(with("-0.1*sigma"), ElementsAre(HasSubstr("leaps from 0.1 to -0.1")));
-  for (const char* law : {"-0.5*v", "-0.5*v*abs(v)", "if(u>0.01,-3,3)", "-abs(v)*if(v>0,1,3)", "-2*normal"})
-    EXPECT_THAT(with(law), IsEmpty()) << law;
-}
-
 // A wall stands behind every chain; where nobody says how far away it is, the block is told to touch it.
 TEST(Doubts, TheWallBehindAChain) {
   const auto chained = [](const std::string& more) {

@@ -114,6 +114,15 @@ TEST(StudyMistakes, InFrictionModelImpactAndEffects) {
       {sound + "effects:\n  - {name: seam, friction: \"mu*(1 + a/u)\", parameters: {a: 0.1}}\n", "7",
        "friction of effect seam is infinite at u = 0 m, v = 0 m/s"},
       {sound + "effects:\n  - {name: seam, force: \"log(-1 - speed)\"}\n", "7", "force of effect seam is no number"},
+      {sound + "effects:\n  - {name: brake, force: \"if(v>0,-3,3)\"}\n", "7",
+       "force of effect brake leaps from 3 to -3 m/s2 where the block stops and turns round (there only friction may, "
+       "which can "
+       "hold it): write it as friction: \"mu + 3/(g*normal)\""},
+      {sound + "effects:\n  - {name: motor, force: \"if(path>0.5,0.1*sigma,0)\"}\n", "7",
+       "leaps from -0.1 to 0.1 m/s2 where the block stops and turns round (there only friction may, which can hold "
+       "it): let it"},
+      {sound + "effects:\n  - {name: brake, force: \"-f*sigma\", parameters: {f: {uniform: [-1, 1]}}}\n", "7",
+       "force of effect brake leaps"},
       {sound + "effects:\n  - {name: seam, friction: \"-mu\"}\n", "7", "below zero it would push the block on"},
       {sound + "effects:\n  - {name: seam, friction: \"mu*sqrt(0.5 - t)\"}\n", "7",
        "is no number at u = 0.01 m, v = 0.2 m/s, t = 1 s"},
@@ -138,6 +147,13 @@ TEST(StudyMistakes, InFrictionModelImpactAndEffects) {
       {sound + "effects:\n  - {name: vertical_shaking, scal: 1}\n", "7", "did you mean scale?"},
       {sound + "effects: [{name: vertical_shaking}, {name: vertical_shaking}]\n", "6", "stands twice"},
   });
+}
+
+// Forces that bend at v = 0, or leap where the block does not stop, are laws like any other.
+TEST(StudyMistakes, ForcesThatDoNotLeapWhereTheBlockStops) {
+  for (const char* law : {"-0.5*v", "-0.5*v*abs(v)", "if(u>0.01,-3,3)", "-abs(v)*if(v>0,1,3)", "-2*normal",
+                          "-sigma*abs(v)^0.2", "-3*tanh(v/0.001)", "if(v>0.1,-3,0)"})
+    EXPECT_EQ(problems(sound + "effects:\n  - {name: law, force: \"" + law + "\"}\n"), "") << law;
 }
 
 // Each formula finds room for itself on the tape of a sample, both do not; nor with the chain, which bends twice.
