@@ -166,7 +166,8 @@ std::uint32_t Laws::sides_at(Series<double, 0>* values, std::uint32_t before) co
     const int to = j < tape.kink_count() ? tape.kink_node(j) : tape.size();
     tape.advance(from, to, 0, sides, values);
     from = to;
-    if (j < tape.kink_count() && (values[tape.kink_argument(j)][0] < 0 || tape.latched(j, before))) sides |= 1U << j;
+    if (j < tape.kink_count() && (tape.below(j, values[tape.kink_argument(j)][0]) || tape.latched(j, before)))
+      sides |= 1U << j;
   }
   return sides;
 }

@@ -63,12 +63,14 @@ struct Laws {
   // turned: kinks that were met at this instant stay.
   template <int N>
   std::uint32_t sides_of_slip(std::uint32_t sides, std::uint32_t turned, Series<double, N>* values) const {
+    constexpr std::uint32_t of_slip =
+        1U << static_cast<int>(Input::sigma) | 1U << static_cast<int>(Input::speed) | 1U << static_cast<int>(Input::v);
     for (int j = 0; j < tape.kink_count(); ++j) {
       const int node = tape.kink_node(j), argument = tape.kink_argument(j);
       if (node < forces_end || node >= friction_end || (turned >> j & 1U)) continue;
-      if (!tape.depends(argument, Input::sigma) && !tape.depends(argument, Input::speed)) continue;
+      if (!(tape.dependence(argument) & of_slip)) continue;
       tape.advance(forces_end, node, 0, sides, values);
-      sides = (sides & ~(1U << j)) | (values[argument][0] < 0 ? 1U << j : 0U);
+      sides = (sides & ~(1U << j)) | (tape.below(j, values[argument][0]) ? 1U << j : 0U);
     }
     return sides;
   }

@@ -8,6 +8,15 @@ namespace {
 // Whether the wall at which an edge is goes on pushing it.
 enum class AtWall { released, pushed };
 
+// A step whose argument is zero in the whole mode (a speed at rest, a rotation on both corners) and not greater.
+template <int N>
+bool stays_at_zero(const Tape& tape, const State& trial, int kink, const Series<double, N>& argument) {
+  if (!tape.is_step(kink) || trial.sides >> kink & 1U || trial.has_met(kink)) return false;
+  for (int i = 0; i < N; ++i)
+    if (argument[i] != 0) return false;
+  return true;
+}
+
 // Forces, slip speed and their directions may jump when the mode changes, and may end on the other side of a kink: a trial is
 // judged by the laws that hold where it is itself. What a kink looks at depends on the kinks before it alone, so that one
 // turn of each is enough; where the normal force lets them turn in a circle the laws stay as they were.
@@ -16,10 +25,15 @@ void settle_kinks(const Rig& rig, State& trial, KinksOf&& kinks_of) {
   const int count = rig.laws ? rig.laws->tape.kink_count() : 0;
   if (count == 0) return;
   const std::uint32_t before = trial.sides;
-  for (int turns = 0; turns <= count; ++turns) {
+  for (int turn = 0; turn <= count; ++turn) {
     const auto& kinks = kinks_of();
+    const auto turns = [&](int kink) {
+      const auto argument = past_instant(kinks.kink[kink], rig.instant_s);
+      return trial.watches(kink) &&
+             (sign_after(argument, {0, 0.0}) < 0 || stays_at_zero(rig.laws->tape, trial, kink, argument));
+    };
     int j = 0;
-    while (j < count && !(kinks.kink[j][0] < 0)) ++j;
+    while (j < count && !turns(j)) ++j;
     if (j == count) return;
     trial.sides ^= 1U << j;
   }
@@ -36,7 +50,7 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
   if (pivot == 0) trial.wall = 0;
   trial.released = trial.wall != 0 && at_wall == AtWall::released;
   if (sigma == 0) trial.foot = 0;
-  settle_kinks(rig, trial, [&] { return LawStep<1>(rig, trial, cursor.time(), cursor.local<1>()).run(); });
+  settle_kinks(rig, trial, [&] { return LawStep<3>(rig, trial, cursor.time(), cursor.local<3>()).run(); });
   const auto verdict = [&](const auto& arc) {
     AllHold all;
     for_each_witness(rig, trial, arc, all);
@@ -64,7 +78,7 @@ bool flies(const Rig& rig, const FloorCursor& cursor, State& state) {
   for (const bool released : {true, false}) {
     if (!released && trial.wall == 0) return false;
     trial.released = released && trial.wall != 0;
-    settle_kinks(rig, trial, [&] { return fly_with_laws<1>(rig, trial, cursor.time(), cursor.local<1>()); });
+    settle_kinks(rig, trial, [&] { return fly_with_laws<3>(rig, trial, cursor.time(), cursor.local<3>()); });
     if (with_flight_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) {
       state = trial;
       return true;

@@ -114,6 +114,10 @@ class Tape {
     return (sides >> kink & 1U) && nodes_[kinks_[kink]].op == Op::latch;
   }
 
+  // A step is 1 where its argument is greater than zero: not at rest, where a speed is zero for long.
+  bool is_step(int kink) const { return nodes_[kinks_[kink]].op == Op::step; }
+  bool below(int kink, double argument) const { return argument < 0 || (argument == 0 && is_step(kink)); }
+
   // Whether the kink can turn: what has broken cannot, nor what looks at no number (on a branch that is not taken).
   bool turns(int kink, std::uint32_t sides, double argument) const {
     return !latched(kink, sides) && argument == argument;

@@ -8,7 +8,7 @@ namespace freestand::study {
 
 // u v theta omega t path normal side sigma speed, as formulas look at them (dynamics/tape.hpp).
 using Place = std::array<double, 10>;
-enum Coordinate : std::size_t { u, v, theta, t = 4, path, normal, sigma = 8, speed };
+enum Coordinate : std::size_t { u, v, theta, omega, t, path, normal, side, sigma, speed };
 
 inline std::vector<Place> places() {
   std::vector<Place> all;

@@ -134,7 +134,7 @@ EffectPart read_formula(Section& section, const std::string& name) {
   if (part.effect) {
     check_used(section, part, names);
     check_values(section, part, names);
-    if (const std::string leap = leap_of_force(part, names); !leap.empty()) section.problem("force", leap);
+    if (const std::string leap = leap_against_speed(part); !leap.empty()) section.problem("name", leap);
   }
   return part;
 }

@@ -19,8 +19,8 @@ Specimen kind_of(const ModelPart&);
 // What is said where the laws of effects and chain do not find room together; "" where they do.
 std::string no_room_for(const std::vector<EffectPart>&, const std::optional<ChainPart>&);
 
-// What is said where the force of an effect leaps at v = 0, where only friction may; "" where it does not. parameters: their names in it.
-std::string leap_of_force(const EffectPart&, const std::vector<std::string>& parameters);
+// What is said where a formula leaps against the speed, and would hold the block at it; "" where it does not.
+std::string leap_against_speed(const EffectPart& formula);
 
 // Entries of `motions`; globs start at `folder`. vertical: the model feels vertical components, so that tables of records
 // are searched for them.

@@ -112,6 +112,37 @@ TEST_P(LawValues, ACaseForEachDirectionHoldsAtRest) {
   }
 }
 
+// What is zero for long (a speed at rest, the rotation of a block that stands) is not greater than zero: friction that falls when the
+// block slips is static friction, that of a tilted block no affair of one that stands, and one of a first slip holds until then.
+TEST_P(LawValues, WhatIsZeroForLongIsNotGreater) {
+  const FloorMotion motion = staircase({0.3, 0.2, 0.4, 0.3, 0.2, 0.5, 0.4}, {-4.5, 5.0, -4.8, 4.2, -3.0, -5.0, 0.0});
+  const auto falls_by_half_beyond = [](auto what) {
+    return friction_law([what](const At& at) { return 2.0 - step(what(at)); });
+  };
+  const auto same = [&](const Specimen& law, const Specimen& plain) {
+    const Response found = GetParam()(law, {&motion}), expected = GetParam()(plain, {&motion});
+    ASSERT_GT(expected.peak_slip_m, 0.01);
+    EXPECT_EQ(found.outcome, expected.outcome);
+    EXPECT_NEAR(found.peak_slip_m, expected.peak_slip_m, 1e-6);
+    EXPECT_NEAR(found.residual_slip_m, expected.residual_slip_m, 1e-6);
+    EXPECT_NEAR(found.slid_path_m, expected.slid_path_m, 1e-6);
+  };
+  Specimen with_static = block(Model::slide, {});
+  with_static.friction.mu_s = 2 * with_static.friction.mu_k;
+  Specimen rough = with_static;
+  rough.friction.mu_k = rough.friction.mu_s;
+  same(block(Model::slide, {falls_by_half_beyond([](const At& at) { return at.speed; })}), with_static);
+  same(block(Model::slide, {falls_by_half_beyond([](const At& at) { return abs(at.v); })}), with_static);
+  same(block(Model::slide, {falls_by_half_beyond([](const At& at) { return abs(at.theta); })}), rough);
+
+  const FloorMotion once = staircase({0.2, 0.3, 0.5, 1.0}, {-3.0, -4.5, 0.0, 0.0});
+  const Response held =
+      GetParam()(block(Model::slide, {falls_by_half_beyond([](const At& at) { return at.path; })}), {&once});
+  const Response expected = GetParam()(with_static, {&once});
+  ASSERT_GT(expected.peak_slip_m, 0.01);
+  EXPECT_NEAR(held.peak_slip_m, expected.peak_slip_m, 1e-6);
+}
+
 // max(normal, 1e-6) bends where the block takes off, and is normal again when it has landed.
 TEST_P(LawValues, AKinkOfTheNormalForceIsOverAfterALanding) {
   const FloorMotion throws = staircase({0.3, 0.2, 0.5, 0.6}, {-3.0, 2.0, -4.0, 0.0}, {4.0, -14.0, 6.0, 0.0});

@@ -114,15 +114,6 @@ TEST(StudyMistakes, InFrictionModelImpactAndEffects) {
       {sound + "effects:\n  - {name: seam, friction: \"mu*(1 + a/u)\", parameters: {a: 0.1}}\n", "7",
        "friction of effect seam is infinite at u = 0 m, v = 0 m/s"},
       {sound + "effects:\n  - {name: seam, force: \"log(-1 - speed)\"}\n", "7", "force of effect seam is no number"},
-      {sound + "effects:\n  - {name: brake, force: \"if(v>0,-3,3)\"}\n", "7",
-       "force of effect brake leaps from 3 to -3 m/s2 where the block stops and turns round (there only friction may, "
-       "which can "
-       "hold it): write it as friction: \"mu + 3/(g*normal)\""},
-      {sound + "effects:\n  - {name: motor, force: \"if(path>0.5,0.1*sigma,0)\"}\n", "7",
-       "leaps from -0.1 to 0.1 m/s2 where the block stops and turns round (there only friction may, which can hold "
-       "it): let it"},
-      {sound + "effects:\n  - {name: brake, force: \"-f*sigma\", parameters: {f: {uniform: [-1, 1]}}}\n", "7",
-       "force of effect brake leaps"},
       {sound + "effects:\n  - {name: seam, friction: \"-mu\"}\n", "7", "below zero it would push the block on"},
       {sound + "effects:\n  - {name: seam, friction: \"mu*sqrt(0.5 - t)\"}\n", "7",
        "is no number at u = 0.01 m, v = 0.2 m/s, t = 1 s"},
@@ -149,11 +140,33 @@ TEST(StudyMistakes, InFrictionModelImpactAndEffects) {
   });
 }
 
-// Forces that bend at v = 0, or leap where the block does not stop, are laws like any other.
-TEST(StudyMistakes, ForcesThatDoNotLeapWhereTheBlockStops) {
-  for (const char* law : {"-0.5*v", "-0.5*v*abs(v)", "if(u>0.01,-3,3)", "-abs(v)*if(v>0,1,3)", "-2*normal",
-                          "-sigma*abs(v)^0.2", "-3*tanh(v/0.001)", "if(v>0.1,-3,0)"})
-    EXPECT_EQ(problems(sound + "effects:\n  - {name: law, force: \"" + law + "\"}\n"), "") << law;
+// What holds a block at a speed, as friction holds it at rest, is told before the first sample; what bends, or lets it pass, is a law
+// like any other.
+TEST(StudyMistakes, LawsThatLeapAgainstTheSpeed) {
+  const auto with = [](const std::string& law) { return sound + "effects:\n  - {name: seam, " + law + "}\n"; };
+  expect_each({
+      {with("force: \"if(v>0,-3,3)\""), "7",
+       "force of effect seam leaps from 3 to -3 m/s2 where the block stops and turns round (there only friction may, "
+       "which can "
+       "hold it): write it as friction: \"mu + 3/(g*normal)\""},
+      {with("force: \"if(path>0.5,0.1*sigma,0)\""), "7", "leaps from -0.1 to 0.1 m/s2 where the block stops"},
+      {with("force: \"-f*sigma\", parameters: {f: {uniform: [-1, 1]}}"), "7", "force of effect seam leaps"},
+      {with("force: \"if(v>c,-3,1)\", parameters: {c_mps: {uniform: [0.1, 0.2]}}"), "7",
+       "leaps from 1 to -3 m/s2 where v = 0.15 m/s (it would hold the block at that speed): let it pass"},
+      {with("force: \"if(omega+0.1>0,-1,1)\""), "7", "where omega = -0.1 rad/s"},
+      {with("friction: \"if(speed>0.1,0.4,0.1)\""), "7",
+       "friction of effect seam leaps from 0.3333 to 1.333 times mu where the slip becomes faster than 0.1 m/s (it "
+       "would hold"},
+      {with("friction: \"if(v<-0.02*t,0.4,0.1)\""), "7", "faster than 0 m/s"},
+      {with("friction: \"if(speed>0,0.3,0.1)\""), "7", "faster than 0 m/s"},
+  });
+  for (const char* law :
+       {"force: \"-0.5*v\"", "force: \"-0.5*v*abs(v)\"", "force: \"if(u>0.01,-3,3)\"", "force: \"-abs(v)*if(v>0,1,3)\"",
+        "force: \"-2*normal\"", "force: \"-sigma*abs(v)^0.2\"", "force: \"-3*tanh(v/0.001)\"",
+        "force: \"if(v>0.1,3,0)\"", "friction: \"if(speed>0,0.1,0.3)\"", "friction: \"if(sigma>0,0.1,0.3)\"",
+        "friction: \"if(speed>0.1,0.1,0.4)\"", "friction: \"mu*(1+min(speed,0.1))\"",
+        "friction: \"if(path>0,0.1,0.3)\""})
+    EXPECT_EQ(problems(with(law)), "") << law;
 }
 
 // Each formula finds room for itself on the tape of a sample, both do not; nor with the chain, which bends twice.
