@@ -5,6 +5,8 @@
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
 #include "io/text_files.hpp"
+#include "parallel/finished_blocks.hpp"
+#include "study/sweep.hpp"
 
 namespace freestand::app {
 namespace {
@@ -60,26 +62,38 @@ void tell_diagnosis(const Json& json, const std::string& file) {
   fmt::print("results in {}\n", file);
 }
 
-Exit diagnose(const Context& context, const ValidationOptions& options) {
-  const std::filesystem::path folder = options.output;
-  context.world.on_root(
-      [&] { io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse); });
-  const Json json = study::diagnose(context.world, options.run(context));
+struct DiagnoseOptions : ValidationOptions {
+  bool resume = false;
+};
+
+Exit diagnose(const Context& context, const DiagnoseOptions& options) {
+  study::RunFolder folder(context.world, options.output,
+                          options.resume      ? io::Existing::resume
+                          : options.overwrite ? io::Existing::overwrite
+                                              : io::Existing::refuse,
+                          "go on with --resume");
+  const Json json = study::diagnose(context.world, options.run(context), folder);
+  folder.confirm();
   context.world.on_root([&] {
-    io::write_text(folder / "diagnosis.json", io::json_text(json));
+    const std::filesystem::path file = folder.path() / "diagnosis.json";
+    io::write_text(file, io::json_text(json));
     if (!json["proposed_law"].is_null())
-      io::write_text(folder / "proposed_law.yaml", json["proposed_law"]["entry"].get<std::string>());
-    if (!options.quiet) tell_diagnosis(json, (folder / "diagnosis.json").string());
+      io::write_text(folder.path() / "proposed_law.yaml", json["proposed_law"]["entry"].get<std::string>());
+    parallel::remove_finished_blocks(study::blocks_path(folder.path()));
+    if (!options.quiet) tell_diagnosis(json, file.string());
   });
+  folder.end();
   return Exit::done;
 }
 
 }  // namespace
 
 void add_diagnose(CLI::App& parser, Work& work) {
-  auto options = std::make_shared<ValidationOptions>();
+  auto options = std::make_shared<DiagnoseOptions>();
   CLI::App* verb = parser.add_subcommand("diagnose", "which physical effect does the model lack: diagnosis.json");
   add_options(*verb, *options, "folder for the results", "replace results that are already in the folder");
+  verb->add_flag("--resume", options->resume, "go on with a diagnosis that was stopped or killed")
+      ->excludes(verb->get_option("--overwrite"));
   verb->callback(
       [options, &work] { work = [options](const Context& context) { return diagnose(context, *options); }; });
 }

@@ -15,6 +15,7 @@
 #include "measurement/suggest_outcomes.hpp"
 #include "study/law_forms.hpp"
 #include "study/spread_jobs.hpp"
+#include "study/sweep.hpp"
 #include "study/validation_parts.hpp"
 
 namespace freestand::study {
@@ -178,10 +179,13 @@ const char* decided_by(const Bench& bench, const Diagnosis& d) {
 
 }  // namespace
 
-Json diagnose(const parallel::Communicator& world, const ValidationRun& run) {
+Json diagnose(const parallel::Communicator& world, const ValidationRun& run, RunFolder& folder) {
   const auto p = prepare(world, run, 32);
   const Bench& bench = *p->bench;
-  const Jobs jobs = spread_jobs(world, run.quiet);
+  const auto kept = std::make_shared<KeptAnswers>(world, blocks_path(folder.path()), content(*p));
+  folder.begin();
+  const Jobs jobs = spread_jobs(
+      world, run.quiet, [&] { folder.leave(); }, kept);
   std::vector<const dynamics::Effect*> catalogue;
   for (const auto& effect : effects::all()) catalogue.push_back(&effect);
   DiagnosisOptions options;

@@ -1,6 +1,7 @@
 #include "study/spread_jobs.hpp"
 
 #include <bit>
+#include <chrono>
 #include <memory>
 #include <numeric>
 
@@ -35,16 +36,29 @@ std::vector<Values> share(const parallel::Communicator& world, const std::vector
   return all;
 }
 
+// Of one job of a call: what is kept, or found now.
+Values answer(KeptAnswers* kept, std::int64_t call, std::size_t i, const Job& job) {
+  if (!kept) return job(i);
+  if (auto known = kept->find(call, i)) return std::move(*known);
+  const auto start = std::chrono::steady_clock::now();
+  Values found = job(i);
+  kept->keep(call, i, found, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  return found;
+}
+
 }  // namespace
 
-Jobs spread_jobs(const parallel::Communicator& world, bool quiet, std::function<void()> leave) {
+Jobs spread_jobs(const parallel::Communicator& world, bool quiet, std::function<void()> leave,
+                 std::shared_ptr<KeptAnswers> kept) {
   const auto display = std::make_shared<parallel::StepDisplay>(quiet || !world.is_root());
-  return [world, display, leave = std::move(leave)](const std::string& what, std::size_t n, const Job& job) {
+  return [world, display, leave = std::move(leave), kept = std::move(kept), call = std::int64_t{0}](
+             const std::string& what, std::size_t n, const Job& job) mutable {
+    ++call;
     std::vector<Values> mine(n);
     std::vector<std::int64_t> todo(n);
     std::iota(todo.begin(), todo.end(), 0);
     const auto compute = [&](std::int64_t i, const parallel::Beat&) {
-      mine[static_cast<std::size_t>(i)] = job(static_cast<std::size_t>(i));
+      mine[static_cast<std::size_t>(i)] = answer(kept.get(), call, static_cast<std::size_t>(i), job);
       display->show(what, static_cast<std::size_t>(i), n);
       return parallel::Counts{.samples = 1};
     };

@@ -12,6 +12,7 @@
 #include "measurement/outcome_fit.hpp"
 #include "study/problems.hpp"
 #include "study/read_measurements.hpp"
+#include "study/read_parts.hpp"
 #include "study/validation_parts.hpp"
 
 namespace freestand::study {
@@ -169,6 +170,17 @@ std::unique_ptr<Prepared> prepare(const parallel::Communicator& world, Validatio
 std::unique_ptr<Prepared> prepare(const parallel::Communicator& world, const ValidationRun& run, int replays) {
   world.on_root([&] { read_validation(run.study); });
   return prepare(world, read_validation(run.study), run, replays);
+}
+
+std::string content(const Prepared& p) {
+  std::string all = read_text(p.validation.file) + read_text(p.measurements);
+  for (const Test& test : p.data.tests) {
+    all += test.id;
+    for (const auto* numbers : {&test.slip_m, &test.rotation_rad, &test.block_acceleration_mps2, &test.motion.knot_s,
+                                &test.motion.horizontal_mps2, &test.motion.vertical_mps2})
+      all.append(reinterpret_cast<const char*>(numbers->data()), numbers->size() * sizeof(double));
+  }
+  return all;
 }
 
 ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {

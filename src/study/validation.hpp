@@ -65,6 +65,7 @@
 #include "measurement/diagnose.hpp"
 #include "parallel/communicator.hpp"
 #include "study/read_validation.hpp"
+#include "study/run_folder.hpp"
 
 namespace freestand::study {
 
@@ -82,7 +83,8 @@ struct Compared {
   std::string draws;   // the table of their joint draws beside it, posterior_table; empty: none
 };
 Compared compare(const parallel::Communicator&, const ValidationRun&, const std::filesystem::path& folder);
-nlohmann::ordered_json diagnose(const parallel::Communicator&, const ValidationRun&);
+// What its fits have found is kept in the folder, from which the same diagnosis goes on after an interruption.
+nlohmann::ordered_json diagnose(const parallel::Communicator&, const ValidationRun&, RunFolder&);
 
 // The study with the effect in it, fitted, as YAML text for a file in `folder`. effect: a name of the catalogue, a mapping in YAML
 // ("{name: bumps, friction: ..., parameters: {a: {calibrate: [0, 1]}}}"), or a file that holds one.

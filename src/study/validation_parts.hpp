@@ -22,6 +22,9 @@ struct Prepared {
 std::unique_ptr<Prepared> prepare(const parallel::Communicator&, const ValidationRun&, int replays);
 std::unique_ptr<Prepared> prepare(const parallel::Communicator&, Validation, const ValidationRun&, int replays);
 
+// All that answers to it follow from, but the program: the study's text, and what was measured, bit by bit.
+std::string content(const Prepared&);
+
 // The model fitted to the calibration tests: where every number has its value and refit is false, at those values.
 measurement::ModelFit fitted(const Prepared&, bool refit, const Jobs&);
 
