@@ -82,7 +82,8 @@ class Validation:
 
 
 # What the laboratory may state wrongly: candidates beside the effects.
-FAULTS = {"width_as_stated": "the stated width", "floor_gain_as_stated": "the gain of the floor's accelerometer"}
+FAULTS = {"width_as_stated": "the stated width", "centre_height_as_stated": "the stated height of the centre of mass",
+          "floor_gain_as_stated": "the gain of the floor's accelerometer"}
 
 
 def effect(name):

@@ -26,9 +26,10 @@ struct Noise {
 };
 
 // How far off a stated dimension or the gain of the floor's accelerometer may be: standard deviations, over what is stated.
-// As assumed where the laboratory states none: a tape on half a metre, an accelerometer as its maker calibrates it.
+// As assumed where the laboratory states none: a tape on half a metre, a centre of mass as it is found by balancing the specimen on an
+// edge, an accelerometer as its maker calibrates it.
 struct Tolerance {
-  double width = 0.01, floor_gain = 0.01;
+  double width = 0.01, centre_height = 0.02, floor_gain = 0.01;
 };
 
 // What is known of a test as single numbers.

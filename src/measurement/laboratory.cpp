@@ -24,13 +24,17 @@ bool shows(const Bench& bench, const ModelSpec& base, const Values& x, const Mod
 
 }  // namespace
 
-bool is_laboratory_fault(const std::string& name) { return name == width_fault || name == gain_fault; }
+bool is_laboratory_fault(const std::string& name) {
+  return name == width_fault || name == centre_fault || name == gain_fault;
+}
 
 std::string fault_sentence(const std::string& name, double factor) {
   const double percent = 100 * std::abs(factor - 1);
-  return name == width_fault
-             ? fmt::format("the width is {:.1f} % {} than stated", percent, factor < 1 ? "smaller" : "larger")
-             : fmt::format("the floor's accelerometer reads {:.1f} % too {}", percent, factor < 1 ? "much" : "little");
+  if (name == gain_fault)
+    return fmt::format("the floor's accelerometer reads {:.1f} % too {}", percent, factor < 1 ? "much" : "little");
+  const bool width = name == width_fault;
+  return fmt::format("the {} is {:.1f} % {} than stated", width ? "width" : "centre of mass", percent,
+                     factor < 1 ? (width ? "smaller" : "lower") : (width ? "larger" : "higher"));
 }
 
 std::vector<LaboratoryFault> laboratory_faults(const Bench& bench, const ModelSpec& base, const Values& x) {
@@ -49,6 +53,8 @@ std::vector<LaboratoryFault> laboratory_faults(const Bench& bench, const ModelSp
   };
   const bool fitted = base.width && base.width->free >= 0;
   if (!fitted && !base.slenderness) add(width_fault, &ModelSpec::width_factor, bench.data().tolerance.width);
+  if (!(base.centre_height && base.centre_height->free >= 0))
+    add(centre_fault, &ModelSpec::centre_height_factor, bench.data().tolerance.centre_height);
   add(gain_fault, &ModelSpec::floor_gain, bench.data().tolerance.floor_gain);
   return found;
 }

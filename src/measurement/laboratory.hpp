@@ -12,7 +12,8 @@ struct LaboratoryFault {
   ModelSpec model;
 };
 
-inline constexpr const char *width_fault = "width_as_stated", *gain_fault = "floor_gain_as_stated";
+inline constexpr const char *width_fault = "width_as_stated", *centre_fault = "centre_height_as_stated",
+                            *gain_fault = "floor_gain_as_stated";
 bool is_laboratory_fault(const std::string& name);
 // "the width is 1.9 % smaller than stated".
 std::string fault_sentence(const std::string& name, double factor);

@@ -46,6 +46,8 @@ Specimen specimen(const ModelSpec& model, const Dimensions& measured, std::span<
   const double mass = dimension(model.mass, measured.mass_kg, x, 1);
   auto centre_height = measured.centre_height_m, gyration_radius = measured.gyration_radius_m;
   if (model.centre_height) centre_height = model.centre_height->of(x);
+  if (const double factor = model.centre_height_factor.of(x); factor != 1)
+    centre_height = factor * centre_height.value_or(height / 2);
   if (model.gyration_radius) gyration_radius = model.gyration_radius->of(x);
   if (model.inertia) gyration_radius = std::sqrt(model.inertia->of(x) / mass);
   s.block = Block::of_outline(width, height, mass, centre_height, gyration_radius);

@@ -47,8 +47,10 @@ struct ModelSpec {
   // Sides, or slenderness atan(W/H) with half the diagonal; absent: the specimen's of the test.
   std::optional<Number> width, height, slenderness, size, mass;
   std::optional<Number> centre_height, gyration_radius, inertia;  // absent, and not measured: of a uniform rectangle
-  // What the laboratory may have read wrongly, over what it states: width, friction of one test, the floor's acceleration.
-  Number width_factor{.value = 1}, friction_factor{.value = 1}, floor_gain{.value = 1};
+  // What the laboratory may have read wrongly, over what it states: width, height of the centre of mass, friction of one test, the
+  // floor's acceleration.
+  Number width_factor{.value = 1}, centre_height_factor{.value = 1}, friction_factor{.value = 1},
+      floor_gain{.value = 1};
   Number mu_k;
   std::optional<Number> mu_s, static_ratio;  // neither: mu_s = mu_k
   Model model = Model::slide_rock;

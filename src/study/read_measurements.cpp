@@ -71,6 +71,7 @@ measurement::Tolerance read_tolerance(Section& file) {
   if (!node) return tolerance;
   Section section(*node, "tolerance", file.line("tolerance"), file.problems());
   tolerance.width = section.number("width", tolerance.width, tolerance_range);
+  tolerance.centre_height = section.number("centre_height", tolerance.centre_height, tolerance_range);
   tolerance.floor_gain = section.number("floor_gain", tolerance.floor_gain, tolerance_range);
   section.finish();
   return tolerance;

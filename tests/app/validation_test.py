@@ -2,12 +2,15 @@
 a formula as an effect, and what is said of broken measurements."""
 
 import json
+import os
 import pathlib
 import re
 import shutil
+import subprocess
+import time
 import unittest
 
-from support import CONFIGS, InFolder, run
+from support import CONFIGS, InFolder, command, finished_blocks, run
 
 WALK = CONFIGS / "walkthrough"
 ABOUT_THE_RUN = ("created_utc", "command", "ranks", "host", "study", "measurements")
@@ -33,13 +36,27 @@ class Validation(InFolder):
             (folder / "dataset.yaml").write_text(head + "".join("  - id: " + entry for entry in kept), encoding="utf-8")
         return folder / "cabinet.yaml"
 
+    def kill_on_the_way(self, arguments):
+        """Kills the run when it has kept something."""
+        process = subprocess.Popen(command(arguments), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and finished_blocks(arguments[3]) < 5:
+            time.sleep(0.01)
+        process.kill()
+        self.assertEqual(process.wait(), -9)
+
     def test_any_number_of_ranks(self):
         study = self.copy("few", ("t02", "t03", "t05", "t06"))
         found = {}
         for ranks in (1, 3):
             out = self.folder / f"{ranks}"
             self.succeed(["compare", study, "-o", out / "before", "--quiet"], ranks)
-            self.succeed(["diagnose", study, "-o", out / "diagnosis", "--quiet"], ranks)
+            if ranks == 1:  # killed on the way: its fits are kept
+                self.kill_on_the_way(["diagnose", study, "-o", out / "diagnosis", "--quiet"])
+                self.fail_with(2, ["diagnose", study, "-o", out / "diagnosis", "--quiet"], "--resume goes on")
+                self.fail_with(2, ["diagnose", self.study, "-o", out / "diagnosis", "--quiet", "--resume"], "of another study")
+            self.succeed(["diagnose", study, "-o", out / "diagnosis", "--quiet", "--resume"], ranks)
+            self.assertNotIn("blocks", os.listdir(out / "diagnosis"))
             after = study.with_name(f"with_{ranks}.yaml")
             self.succeed(["add", study, "rate_weakening", "-o", after, "--quiet"], ranks)
             found[ranks] = (read(out / "before" / "comparison.json"), read(out / "diagnosis" / "diagnosis.json"),

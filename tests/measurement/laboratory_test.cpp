@@ -25,16 +25,16 @@ std::vector<std::string> names(const Bench& bench, double mu) {
   return all;
 }
 
-TEST(Laboratory, TheWidthOfABlockThatOnlySlidesShowsNothing) {
+TEST(Laboratory, WidthAndCentreOfABlockThatOnlySlidesShowNothing) {
   const Dataset squat = test::made_dataset(rigid_block(0.8, 0.6, 0.2)),
                 slender = test::made_dataset(rigid_block(0.4, 1.4, 0.7));
   EXPECT_EQ(names(Bench(squat, 0), 0.2), std::vector<std::string>{gain_fault});
-  EXPECT_EQ(names(Bench(slender, 0), 0.7), (std::vector<std::string>{width_fault, gain_fault}));
+  EXPECT_EQ(names(Bench(slender, 0), 0.7), (std::vector<std::string>{width_fault, centre_fault, gain_fault}));
 }
 
 TEST(Laboratory, WhatIsKnownExactlyIsNotAskedAbout) {
   Dataset data = test::made_dataset(rigid_block(0.4, 1.4, 0.7));
-  data.tolerance = {.width = 0, .floor_gain = 0};
+  data.tolerance = {.width = 0, .centre_height = 0, .floor_gain = 0};
   EXPECT_TRUE(names(Bench(data, 0), 0.7).empty());
 }
 
@@ -47,6 +47,14 @@ TEST(Laboratory, FitsFindHowFarOffTheStatementIs) {
   descend_by_derivatives(wide, {&width}, run_here);
   EXPECT_NEAR(width.x[1], 1 / 1.015, 1e-3);
   EXPECT_EQ(fault_sentence(width_fault, width.x[1]), "the width is 1.5 % smaller than stated");
+
+  Dataset tall = test::made_dataset(rigid_block(0.4, 1.4, 0.7));
+  for (measurement::Test& t : tall.tests) t.specimen.centre_height_m = 0.7 * 1.03;
+  const Bench high(tall, 0);
+  ModelFit centre{.model = laboratory_faults(high, test::free_friction(), {0.7})[1].model, .x = {0.7, 1}};
+  descend_by_derivatives(high, {&centre}, run_here);
+  EXPECT_NEAR(centre.x[1], 1 / 1.03, 1e-3);
+  EXPECT_EQ(fault_sentence(centre_fault, centre.x[1]), "the centre of mass is 2.9 % lower than stated");
 
   Dataset loud = test::made_dataset(rigid_block(0.8, 0.6, 0.2));
   for (measurement::Test& t : loud.tests) t.scale = 1.02;  // the floor as it was read

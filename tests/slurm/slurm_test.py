@@ -1,5 +1,6 @@
 """jobs/freestand.slurm under a real Slurm: signalled while it sweeps and while it fits, queued again, and in the end the bits of mpirun."""
 
+import json
 import pathlib
 import re
 import sys
@@ -10,8 +11,9 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "app"))
 
 from catalogue_test import HEAD
 from cluster import Cluster, why_not
-from support import FREESTAND, InFolder, datasets, finished_blocks, result, slow_fit, study_text
+from support import CONFIGS, FREESTAND, InFolder, datasets, finished_blocks, result, slow_fit, study_text
 
+WALK = CONFIGS / "walkthrough"
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "jobs/freestand.slurm"
 
 
@@ -106,6 +108,19 @@ class Slurm(InFolder):
         self.ends("COMPLETED", 0)
         self.succeed(["catalogue", catalogue, "-o", self.folder / "here"], 3)
         self.assertEqual((self.out / "fragility.csv").read_text(), (self.folder / "here/fragility.csv").read_text())
+
+    def test_a_diagnosis_that_was_stopped_goes_on(self):
+        study = self.folder / "study.yaml"
+        study.write_text((WALK / "cabinet.yaml").read_text().replace("dataset.yaml", str(WALK / "dataset.yaml")))
+        self.submit(study, verb=["diagnose"])
+        self.wait_until(lambda: self.blocks() > 5, "answers of fits")
+        self.signal("--signal=TERM")
+        self.is_queued_again(1)
+        self.assertGreater(self.blocks(), 5)
+        self.starts_again()
+        self.wait_until(lambda: (self.out / "diagnosis.json").exists(), "the diagnosis", 300)
+        found = json.loads((self.out / "diagnosis.json").read_text())
+        self.assertEqual((found["verdict"], found["effects"]), ("missing", ["rate_weakening"]))
 
     def test_what_is_cancelled_or_has_to_be_cured_does_not_come_back(self):
         study = self.folder / "study.yaml"
