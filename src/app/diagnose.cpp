@@ -4,7 +4,9 @@
 
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
+#include "io/own_files.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 
 namespace freestand::app {
 namespace {
@@ -62,13 +64,15 @@ void tell_diagnosis(const Json& json, const std::string& file) {
 
 Exit diagnose(const Context& context, const ValidationOptions& options) {
   const std::filesystem::path folder = options.output;
-  context.world.on_root(
-      [&] { io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse); });
+  context.world.on_root([&] {
+    io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+                           {.writes = {"proposed_law.yaml"}, .reads = options.reads()});
+  });
   const Json json = study::diagnose(context.world, options.run(context));
   context.world.on_root([&] {
-    io::write_text(folder / "diagnosis.json", io::json_text(json));
+    io::write_result(folder / "diagnosis.json", io::json_text(json));
     if (!json["proposed_law"].is_null())
-      io::write_text(folder / "proposed_law.yaml", json["proposed_law"]["entry"].get<std::string>());
+      io::write_text(folder / "proposed_law.yaml", io::signed_text(json["proposed_law"]["entry"].get<std::string>()));
     if (!options.quiet) tell_diagnosis(json, (folder / "diagnosis.json").string());
   });
   return Exit::done;
