@@ -21,9 +21,11 @@ void tell_row(const Json& c, const std::string& name) {
   const std::string se = left_out && !c["error_left_out_se"].is_null()
                              ? fmt::format("+- {:.2g}", c["error_left_out_se"].get<double>())
                              : "";
-  fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11} {}\n", name, three_digits(c["error_calibration"]),
+  const std::string remark = left_out && c["remark"].is_string() ? " " + c["remark"].get<std::string>() : "";
+  fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11} {}{}\n", name, three_digits(c["error_calibration"]),
              left_out ? three_digits(c["error_left_out"]) : "-", se,
-             three_digits(c["error_left_out_floor_noise_allowed"]), c["as_good_as_best"].get<bool>() ? "<" : "");
+             three_digits(c["error_left_out_floor_noise_allowed"]), c["as_good_as_best"].get<bool>() ? "<" : "",
+             remark);
 }
 
 // Why the verdict names no effect, or more than one.

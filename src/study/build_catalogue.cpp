@@ -138,7 +138,7 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
   });
   resume = world.broadcast(resume);
   RunFolder run_folder(world, folder, resume[0] ? io::Existing::resume : io::Existing::overwrite,
-                       "go on with the same command", {study_path("").string()});
+                       "go on with the same command", {.writes = {study_path("").string()}});
   SweepSummary summary;
   if (work == refit)
     world.on_root([&] { write_study(entry.study, folder); });
@@ -149,7 +149,7 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
       {.from = folder, .command = options.command, .quiet = true, .sweep = work == refit ? nullptr : &summary});
   for (const IntensityPart& im : entry.others) {
     RunFolder other(world, intensity_folder(folder, short_name(im)), io::Existing::resume,
-                    "go on with the same command", {study_path("").string()});
+                    "go on with the same command", {.writes = {study_path("").string()}});
     fit(world, other, {.from = folder, .changes = {.im = short_name(im)}, .command = options.command, .quiet = true});
   }
 }
