@@ -28,7 +28,7 @@ constexpr const char* results[] = {"samples.h5",     "tally.h5",     "fragility.
 constexpr const char* other_results[] = {"ranking.csv",      "study.yaml",        "case.yaml", "fitted.yaml",
                                          "fitted_draws.csv", "proposed_law.yaml", "risk.csv",  "risk.json",
                                          "sensitivity.csv",  "sensitivity.json"};
-constexpr const char *certificate = "certificate.json", *database = "database.h5";
+constexpr const char *certificate = "certificate.json", *database = "database.h5", *figures_name = "figures";
 
 void check(const std::error_code& error, const char* action, const fs::path& path) {
   if (error) throw file_error(action, path, error.value());
@@ -74,12 +74,22 @@ std::vector<fs::path> exported(const fs::path& folder) {
   return found;
 }
 
+// Pictures of the results, as the list beside them has them.
+std::vector<fs::path> drawn(const fs::path& folder) {
+  std::vector<fs::path> found;
+  for (const std::string& name : written_names(folder / figures_name))
+    if (written(folder / figures_name / name) == Written::unchanged) found.push_back(folder / figures_name / name);
+  if (!found.empty()) found.push_back(folder / figures_name / written_name);
+  return found;
+}
+
 // What freestand wrote here, the list last. Throws Error where one of these was changed since.
 std::vector<fs::path> results_in(const fs::path& folder) {
   std::vector<std::string> names = written_names(folder), changed;
   names.insert(names.end(), std::begin(results), std::end(results));
   names.insert(names.end(), std::begin(other_results), std::end(other_results));
   std::vector<fs::path> found = exported(folder);
+  for (fs::path& picture : drawn(folder)) found.push_back(std::move(picture));
   names.emplace_back(certificate);
   for (const std::string& name : names) {
     if (was_changed(folder / name)) changed.push_back((folder / name).string());
@@ -137,6 +147,8 @@ void prepare_output_folder(const fs::path& folder, Existing existing, const Comm
   remove_file(aside_name(probe));
   if (existing != Existing::overwrite) return;
   for (const fs::path& file : doomed(folder, files)) remove_file(file);
+  std::error_code ignored;
+  fs::remove(folder / figures_name, ignored);  // where nothing is left in it
   remove_asides(folder);
   parallel::remove_finished_blocks(folder / blocks_name);
 }

@@ -48,7 +48,7 @@ std::string hash_text(std::string_view content) { return fmt::format("{:016x}", 
 Written written(const fs::path& file) {
   std::string found;
   for (const Line& line : lines_in(folder_of_result(file))) {
-    if (line.name != file.filename()) continue;
+    if (line.name != file.filename() || !is_there(file)) continue;
     if (found.empty()) found = hash_text(read_whole(file));
     if (line.hash == found) return Written::unchanged;
   }

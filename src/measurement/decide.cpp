@@ -169,8 +169,8 @@ class Decision {
 
   void mark_rivals(const Candidate& best) {
     for (Candidate& c : d_.candidates)
-      c.rival =
-          &c == &best || (c.practical && is_judged(c) && c.effects.size() <= best.effects.size() && as_good(best, c));
+      c.rival = &c == &best || (c.practical && is_judged(c) && better_than_base(c) &&
+                                c.effects.size() <= best.effects.size() && as_good(best, c));
     drop_needless();
   }
 

@@ -94,8 +94,12 @@ TEST(OutputFolder, OverwriteLeavesNoResultOfAnEarlierRun) {
                  hash_text("<nrml/>\n") + "\"}, \"lab.xml\": {\"hash\": \"0123456789abcdef\"}}\n}\n");
   write_text(scratch / "dataset.yaml", signed_text("name: bench\n"));  // what was imported is no result
   put(scratch / "hazard.csv");
+  fs::create_directory(scratch / "figures");
+  for (const char* name : {"surface.svg", "mine.svg"}) write_result(scratch / "figures" / name, "<svg/>\n");
+  write_text(scratch / "figures" / "mine.svg", "<svg>coloured</svg>\n");
   prepare_output_folder(scratch.folder(), Existing::overwrite);
-  EXPECT_EQ(names_in(scratch.folder()), (std::set<std::string>{"dataset.yaml", "hazard.csv", "lab.xml"}));
+  EXPECT_EQ(names_in(scratch.folder()),
+            (std::set<std::string>{"dataset.yaml", "hazard.csv", "lab.xml", "figures", "figures/mine.svg"}));
 }
 
 TEST(OutputFolder, OverwriteRemovesNothingThatWasChanged) {

@@ -65,6 +65,12 @@ TEST_F(OwnFiles, ResultsByTheirFormat) {
   EXPECT_FALSE(is_own(folder_.folder()));
 }
 
+// FNV-1a, 64 bits, as published.
+TEST(HashText, IsTheOneThatPicturesAreListedBy) {
+  EXPECT_EQ(hash_text("a"), "af63dc4c8601ec8c");
+  EXPECT_EQ(hash_text("foobar"), "85944171f73967e8");
+}
+
 // A table that was changed has the header of a result still.
 TEST_F(OwnFiles, TablesAsTheyWereWritten) {
   const std::string table = bins_csv({}) + "1,2\n";

@@ -30,6 +30,7 @@ TEST(Decide, WhereNothingHelpsTheBestIsTheOneOfLeastLeftOutError) {
   EXPECT_EQ(d.candidates[*d.best].effects, std::vector<std::string>{"friction_wear"});
   ask.enough = [](const Candidate&) { return chance(misfit_question, 0.3); };
   d.sentences.clear();
+  d.chances.resize(1);  // to be asked anew
   decide(bench, d, ask);
   EXPECT_EQ(d.verdict, Verdict::none);
   EXPECT_NE(d.sentences.at(0).find("the best, friction_wear, with numbers that are not met in practice, changes the "

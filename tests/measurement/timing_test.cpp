@@ -92,16 +92,16 @@ TEST(Quality, ATestThatIsHeldOutSpoilsNoVerdict) {
     EXPECT_TRUE(examined(data).spoilt()) << what;
     EXPECT_THAT(examined(data).findings, Not(Contains(HasSubstr("held out")))) << what;
   };
-  said([](Test& t) { mirror(t); }, "looks mirrored");
-  said([](Test& t) { delay(t, 12); }, "behind the floor's channel");
+  said([](measurement::Test& t) { mirror(t); }, "looks mirrored");
+  said([](measurement::Test& t) { delay(t, 12); }, "behind the floor's channel");
   const auto times = [](std::vector<double>& samples, double factor) {
     for (double& s : samples) s *= factor;
   };
-  said([&](Test& t) { times(t.slip_m, 1000); }, "is slip_m in metres?");
-  said([&](Test& t) { times(t.motion.horizontal_mps2, 100), index_runs(t.motion); },
+  said([&](measurement::Test& t) { times(t.slip_m, 1000); }, "is slip_m in metres?");
+  said([&](measurement::Test& t) { times(t.motion.horizontal_mps2, 100), index_runs(t.motion); },
        "is floor_acceleration_mps2 in m/s2?");
   said(
-      [](Test& t) {
+      [](measurement::Test& t) {
         for (double& s : t.slip_m) s += 0.05;
       },
       "does not start at zero");

@@ -51,7 +51,7 @@ TEST(Doubts, DistributionsThatSpanTooMuch) {
   EXPECT_THAT(friction_of("{log_uniform: [0.001, 0.999]}"), IsEmpty());
   EXPECT_THAT(friction_of("{lognormal: {median: 0.2, dispersion: 30, min: 0.1, max: 0.5}}"), IsEmpty());
   const std::string capacities =
-      "fragility: {edp: [peak_slip_m], capacities: {peak_slip_m: [{lognormal: {median: 0.1, dispersion: 30}}]}}\n";
+      "fragility: {edp: [peak_slip_m], capacities: {peak_slip_m: [0.1, {lognormal: {median: 0.1, dispersion: 30}}]}}\n";
   EXPECT_THAT(doubts(parse(block + friction + motions + samples + capacities)),
               ElementsAre(HasSubstr("damage.peak_slip_m_over_capacity_1.capacity has the dispersion 30")));
   const std::string target =
