@@ -188,7 +188,6 @@ std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) 
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, study.model.start.any(), doubter);
   for (const DamagePart& state : study.fragility.damage)
     for (const Quantity& quantity : state.parameters) doubter.ask_spread(quantity);
-  for (const Quantity& quantity : study.fragility.target) doubter.ask_spread(quantity);
   for (const MotionSource& source : study.motions) ask_of_polarity(source, one_sided(study), one_sample, doubter);
   const auto& chain = study.model.chain;
   if (chain && chain->wall_gap && chain->wall_gap->line == 0)

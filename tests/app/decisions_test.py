@@ -2,7 +2,6 @@
 
 import csv
 import json
-import re
 import unittest
 
 from support import InFolder, h5py, study_text
@@ -99,8 +98,7 @@ class Sensitivity(InFolder):
             self.assertGreater(one["total"]["value"], one["share"]["value"] - 4 * (one["total"]["se"] + one["share"]["se"]))
 
     def test_the_confidence_of_the_study(self):
-        path = self.out / "study.yaml"
-        path.write_text(re.sub(r"(?m)^  confidence: .*$", "  confidence: 0.8", path.read_text()))
+        self.succeed(["fit", self.out, "--confidence", 0.8])
         width = {}
         for more in ([], ["--confidence", 0.95]):
             self.succeed(["sensitivity", self.out, "-o", self.folder / "s", "--quiet"] + more)

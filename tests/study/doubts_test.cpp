@@ -54,10 +54,6 @@ TEST(Doubts, DistributionsThatSpanTooMuch) {
       "fragility: {edp: [peak_slip_m], capacities: {peak_slip_m: [0.1, {lognormal: {median: 0.1, dispersion: 30}}]}}\n";
   EXPECT_THAT(doubts(parse(block + friction + motions + samples + capacities)),
               ElementsAre(HasSubstr("damage.peak_slip_m_over_capacity_1.capacity has the dispersion 30")));
-  const std::string target =
-      "fragility: {edp: [overturned], target: {friction.mu: {lognormal: {median: 0.3, dispersion: 30}}}}\n";
-  EXPECT_THAT(doubts(parse(block + "friction: {mu: {uniform: [0.1, 0.5]}}\n" + motions + samples + target)),
-              ElementsAre(HasSubstr("friction.mu has the dispersion 30")));
 }
 
 TEST(Doubts, NothingThatShakes) {
