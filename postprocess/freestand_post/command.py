@@ -78,7 +78,7 @@ def _figures(arguments):
 
     from . import pictures, style
     from .database import is_database
-    from .writing import unwritten, write
+    from .writing import unwritten, write, write_list
     if any(is_database(folder) for folder in arguments.folders):
         raise Problem("a database has no pictures as files (its page draws what is chosen): use postprocess/report", USAGE)
     results = read(arguments.folders, arguments.history)
@@ -97,6 +97,7 @@ def _figures(arguments):
             write(target / f"{picture.name}.png", made.getvalue())
             captions[picture.name] = {"finding": picture.finding, "caption": picture.caption}
     write(target / "captions.json", json.dumps(captions, indent=1, ensure_ascii=False) + "\n")
+    write_list(target, [f"{name}.{kind}" for name in captions for kind in ("svg", "png")] + ["captions.json"])
     print(f"{len(captions)} pictures in {target}")
 
 

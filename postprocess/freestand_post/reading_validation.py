@@ -248,8 +248,11 @@ def _draws(root, folder):
 
 def _candidate(node):
     row = node.row("error_calibration error_left_out error_left_out_se error_left_out_floor_noise_allowed delta_bic", "effect", "as_good_as_best visible")
+    row["remark"] = node.text("remark")
     row["numbers_as_met_in_practice"] = node.value.get("numbers_as_met_in_practice") is not False
     row["left_out_refitted"] = node.value.get("left_out_refitted") is not False
+    if not row["left_out_refitted"]:  # there is none, whatever an older file says
+        row["error_left_out"] = row["error_left_out_se"] = np.nan
     row["effects"] = node.texts("effects") or [part for part in row["effect"].split("+") if part]
     parameters = node.node("parameters")
     row["parameters"] = []

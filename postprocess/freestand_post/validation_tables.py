@@ -96,7 +96,8 @@ def candidates(results):
     base = dict(results.diagnosis.base, effect="") if results.diagnosis.base else None
     for row in ([base] if base else []) + results.diagnosis.candidates:
         values = [_parameter(entry) for entry in row["parameters"]]
-        rows.append({"name": validation.effect(row["effect"]) or "base model", "visible": row["visible"],
+        rows.append({"name": validation.effect(row["effect"]) or "base model", "visible": row["visible"], "judged": row["left_out_refitted"],
+                     "remark": row["remark"] if row["left_out_refitted"] else "",
                      "rival": row["as_good_as_best"] and row is not base, "calibration": row["error_calibration"], "left_out": row["error_left_out"], "se": row["error_left_out_se"],
                      "delta_bic": words.count(row["delta_bic"]).replace("-", "−") if math.isfinite(row["delta_bic"]) else "–",
                      "values": "; ".join(_short(value) for value in values)})

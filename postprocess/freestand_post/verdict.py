@@ -74,6 +74,8 @@ def _others(diagnosis, named):
 
 def _against(row, best):
     """Why a row with the lesser error is not the best, as far as the row says."""
+    if row["remark"]:
+        return f", {row['remark']}"
     if not row["numbers_as_met_in_practice"]:
         return ", with numbers that are not met in practice"
     if len(row["effects"]) > len(best["effects"]):

@@ -20,6 +20,22 @@ def write(path, content):
         raise unwritten(path, why) from why
 
 
+LIST = "freestand.files"
+HEAD = "# What freestand wrote here, by a hash. A file of these that was changed since is yours, and is never replaced.\n"
+
+
+def write_list(folder, names):
+    """The list by which the program knows these files again (src/io/written_files.hpp): FNV-1a, 64 bits, and the name."""
+    before = (folder / LIST).read_text(encoding="utf-8").splitlines(True)[1:] if (folder / LIST).is_file() else []
+    lines = [line for line in before if line[17:].rstrip("\n") not in names]
+    for name in names:
+        found = 14695981039346656037
+        for byte in (folder / name).read_bytes():
+            found = (found ^ byte) * 1099511628211 & 0xFFFFFFFFFFFFFFFF
+        lines.append(f"{found:016x} {name}\n")
+    write(folder / LIST, HEAD + "".join(lines))
+
+
 def _aside(path, content):
     number, aside = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
     try:

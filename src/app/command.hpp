@@ -27,6 +27,7 @@ struct ValidationOptions {
   std::string study, measurements, output;
   bool overwrite = false, quiet = false;
   study::ValidationRun run(const Context&) const;
+  std::vector<std::filesystem::path> reads() const;  // what no --overwrite may remove
 };
 void add_options(CLI::App& verb, ValidationOptions&, const std::string& output, const std::string& overwrite);
 

@@ -5,9 +5,11 @@
 #include <memory>
 
 #include "app/command.hpp"
+#include "base/folder.hpp"
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 #include "study/posterior_tables.hpp"
 
 namespace freestand::app {
@@ -85,11 +87,13 @@ Exit compare(const Context& context, const ValidationOptions& options) {
   const std::filesystem::path folder = options.output;
   context.world.on_root([&] {
     io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
-                              {"fitted.yaml", study::posterior_table});
+                           {.writes = {"fitted.yaml", study::posterior_table}, .reads = options.reads()});
   });
   const study::Compared compared = study::compare(context.world, options.run(context), folder);
   context.world.on_root([&] {
-    io::write_text(folder / "comparison.json", io::json_text(compared.json));
+    io::write_result(folder / "comparison.json", io::json_text(compared.json));
+    if (compared.draws.empty() && io::is_own(folder / study::posterior_table))
+      remove_file(folder / study::posterior_table);
     if (!compared.draws.empty()) io::write_text(folder / study::posterior_table, io::signed_text(compared.draws));
     io::write_text(folder / "fitted.yaml", io::signed_text("# " + context.command_line + "\n" + compared.fitted));
     if (!options.quiet) tell_comparison(compared.json, folder.string());

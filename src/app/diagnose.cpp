@@ -4,7 +4,9 @@
 
 #include "app/command.hpp"
 #include "io/output_folder.hpp"
+#include "io/own_files.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 #include "parallel/finished_blocks.hpp"
 #include "study/sweep.hpp"
 
@@ -21,9 +23,11 @@ void tell_row(const Json& c, const std::string& name) {
   const std::string se = left_out && !c["error_left_out_se"].is_null()
                              ? fmt::format("+- {:.2g}", c["error_left_out_se"].get<double>())
                              : "";
-  fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11} {}\n", name, three_digits(c["error_calibration"]),
+  const std::string remark = left_out && c["remark"].is_string() ? " " + c["remark"].get<std::string>() : "";
+  fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11} {}{}\n", name, three_digits(c["error_calibration"]),
              left_out ? three_digits(c["error_left_out"]) : "-", se,
-             three_digits(c["error_left_out_floor_noise_allowed"]), c["as_good_as_best"].get<bool>() ? "<" : "");
+             three_digits(c["error_left_out_floor_noise_allowed"]), c["as_good_as_best"].get<bool>() ? "<" : "",
+             remark);
 }
 
 // Why the verdict names no effect, or more than one.
@@ -71,14 +75,15 @@ Exit diagnose(const Context& context, const DiagnoseOptions& options) {
                           options.resume      ? io::Existing::resume
                           : options.overwrite ? io::Existing::overwrite
                                               : io::Existing::refuse,
-                          "go on with --resume");
+                          "go on with --resume", {.writes = {"proposed_law.yaml"}, .reads = options.reads()});
   const Json json = study::diagnose(context.world, options.run(context), folder);
   folder.confirm();
   context.world.on_root([&] {
     const std::filesystem::path file = folder.path() / "diagnosis.json";
-    io::write_text(file, io::json_text(json));
     if (!json["proposed_law"].is_null())
-      io::write_text(folder.path() / "proposed_law.yaml", json["proposed_law"]["entry"].get<std::string>());
+      io::write_text(folder.path() / "proposed_law.yaml",
+                     io::signed_text(json["proposed_law"]["entry"].get<std::string>()));
+    io::write_result(file, io::json_text(json));
     parallel::remove_finished_blocks(study::blocks_path(folder.path()));
     if (!options.quiet) tell_diagnosis(json, file.string());
   });

@@ -64,7 +64,9 @@ Exit run(const Context& context, const FitOptions& options) {
                         here                ? io::Existing::resume
                         : options.overwrite ? io::Existing::overwrite
                                             : io::Existing::refuse,
-                        "start again", here ? std::vector<std::string>{} : std::vector{study::study_path("").string()});
+                        "start again",
+                        {.writes = here ? std::vector<std::string>{} : std::vector{study::study_path("").string()},
+                         .reads = {study::samples_path(options.folder), study::study_path(options.folder)}});
   const study::FitSummary summary = study::fit(context.world, into,
                                                {.from = options.folder,
                                                 .changes = options.changes,

@@ -169,10 +169,10 @@ void add_processing(CLI::App& verb, MotionOptions& options) {
   verb.add_option("--band-pass", options.band_hz, "corners in Hz, as 0.1 25; Butterworth, without shift of phase")
       ->expected(2);
   verb.add_option("--time-scale", options.time_scale, "of a model: times go with it")
-      ->check(above_zero("scale of times"));
+      ->check(within(0.01, 100, "scale of times"));
   verb.add_option("--length-scale", options.length_scale,
                   "of a model: lengths go with it; by itself times with its root")
-      ->check(above_zero("scale of lengths"));
+      ->check(within(1e-4, 1e4, "scale of lengths"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "study/fit.hpp"
 #include "study/known.hpp"
 #include "study/motion_summaries.hpp"
+#include "study/posterior_tables.hpp"
 #include "study/realise.hpp"
 #include "study/sweep.hpp"
 #include "study/sweep_size.hpp"
@@ -69,7 +70,8 @@ Exit sweep_and_fit(const Context& context, const RunOptions& options, bool with_
                           options.resume      ? io::Existing::resume
                           : options.overwrite ? io::Existing::overwrite
                                               : io::Existing::refuse,
-                          "go on with --resume", {study::study_path("").string()});
+                          "go on with --resume",
+                          {.writes = {study::study_path("").string()}, .reads = study::files_of_study(options.study)});
   const study::SweepSummary summary = sweep(context, study, {options.quiet, context.command_line, with_fit}, folder);
   study::FitSummary fitted;
   if (with_fit)

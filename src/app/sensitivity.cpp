@@ -55,7 +55,7 @@ void add_sensitivity(CLI::App& parser, Work& work) {
           "--total", options->pairs,
           "total shares too: this many samples are computed again for each parameter, with that one drawn again")
       ->check(above_zero("number of samples"));
-  verb->add_option("--confidence", options->confidence, "of the intervals (default 0.95)")
+  verb->add_option("--confidence", options->confidence, "of the intervals (default: that of the study)")
       ->check(within(0.5, 0.999, "confidence"));
   verb->add_flag("--quiet", options->quiet, "no progress, no table");
   verb->callback([options, &work] {

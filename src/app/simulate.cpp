@@ -9,6 +9,7 @@
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 #include "study/accuracy.hpp"
 
 namespace freestand::app {
@@ -22,15 +23,16 @@ struct SimulateOptions {
 Exit simulate(const SimulateOptions& options) {
   const study::Case c = study::read_case(options.file);
   const std::filesystem::path folder = options.folder;
-  io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse, {"case.yaml"});
+  io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+                         {.writes = {"case.yaml"}, .reads = {options.file}});
   const study::Simulation result = study::simulate(c, options.reference);
   for (const std::string& doubt : result.doubts) fmt::print(stderr, "doubtful: {}\n", doubt);
-  io::write_text(folder / "history.csv",
-                 io::history_csv(result.history, result.floor_displacement_m, result.specimen.block.mass_kg));
+  io::write_result(folder / "history.csv",
+                   io::history_csv(result.history, result.floor_displacement_m, result.specimen.block.mass_kg));
   nlohmann::ordered_json summary =
       io::response_summary(result.response, result.history.cross, result.specimen.block.mass_kg);
   summary["accuracy"] = study::accuracy_json(c.study.tolerance, result.response, result.tighter);
-  io::write_text(folder / "summary.json", io::json_text(summary));
+  io::write_result(folder / "summary.json", io::json_text(summary));
   io::write_text(folder / "case.yaml", io::signed_text(study::expanded(c, folder)));
   fmt::print("{}: peak slip {:.4g} m, peak rotation {:.4g} rad (alpha {:.4g} rad), {} events; results in {}\n",
              name(result.response.outcome), result.response.peak_slip_m, result.response.peak_rotation_rad,

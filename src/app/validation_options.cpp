@@ -1,10 +1,17 @@
 #include "app/command.hpp"
 #include "base/digits.hpp"
+#include "study/posterior_tables.hpp"
 
 namespace freestand::app {
 
 study::ValidationRun ValidationOptions::run(const Context& context) const {
   return {.study = study, .measurements = measurements, .command = context.command_line, .quiet = quiet};
+}
+
+std::vector<std::filesystem::path> ValidationOptions::reads() const {
+  std::vector<std::filesystem::path> files = study::files_of_study(study);
+  files.emplace_back(measurements);
+  return files;
 }
 
 void add_options(CLI::App& verb, ValidationOptions& options, const std::string& output, const std::string& overwrite) {

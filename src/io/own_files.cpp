@@ -6,8 +6,8 @@
 #include <fstream>
 
 #include "base/durable_file.hpp"
-#include "base/random.hpp"
 #include "io/h5.hpp"
+#include "io/written_files.hpp"
 
 namespace freestand::io {
 namespace {
@@ -16,9 +16,10 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view maker_of_page = "<meta name=\"generator\" content=\"freestand\">";
 
+constexpr std::string_view signed_by = "# Written by freestand (";
+
 std::string signature(std::string_view text) {
-  return fmt::format("# Written by freestand ({:016x}). Changed in any way it is yours, and is never replaced.\n",
-                     random::stable_hash(text));
+  return fmt::format("{}{}). Changed in any way it is yours, and is never replaced.\n", signed_by, hash_text(text));
 }
 
 bool is_signed(std::string_view content) {
@@ -60,6 +61,7 @@ bool is_own(const fs::path& path) {
   if (!fs::is_regular_file(path)) return false;
   try {
     if (kind == ".h5") return has_own_format(path);
+    if (const Written listed = written(path); listed != Written::unknown) return listed == Written::unchanged;
     if (kind == ".csv" && has_own_columns(beginning(path))) return true;
     if (kind == ".json") return beginning(path).find("\"format\": \"freestand-") != std::string::npos;
     if (kind == ".html") return beginning(path).find(maker_of_page) != std::string::npos;
@@ -67,6 +69,12 @@ bool is_own(const fs::path& path) {
   } catch (const Error&) {
     return false;
   }
+}
+
+bool was_changed(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored) || is_own(path)) return false;
+  return written(path) == Written::changed || beginning(path).starts_with(signed_by);
 }
 
 void refuse_others(const fs::path& folder, const std::vector<std::string>& names) {

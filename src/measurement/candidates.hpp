@@ -19,6 +19,10 @@ void judge_histories(const Bench&, const Judge&, Diagnosis&, const Jobs&);
 // 97.5 %: one that is as good in truth is held to be worse in one set of forty.
 bool worse_left_out(const Candidate& a, const Candidate& b);
 
+// Remarks of candidates that do as well as the best one and are not named.
+inline constexpr const char *odd_numbers = "with numbers that are not met in practice",
+                            *needless_effects = "with more effects, whose gain may be chance";
+
 // Orders the candidates, with the best of them first, and marks their differences to it. none: as they are, of the base.
 void put_in_order(const Bench&, const Candidate* best, Diagnosis&);
 

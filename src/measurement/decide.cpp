@@ -31,14 +31,21 @@ class Decision {
     });
     const Candidate* best = find_best();
     if (histories_ && only_friction_scatters(d_)) {
+      best = least_left_out();
       friction_scatters();
-    } else if (best && better_than_base(*best)) {
+    } else if (best) {
       mark_rivals(*best);
-      if (enough(*best))
-        best = name_rivals();
+      const std::vector<const Candidate*> rivals = rivals_by_left_out();
+      const bool suffices =
+          enough(*best) || std::any_of(rivals.begin(), rivals.end(), [&](const Candidate* c) { return enough(*c); });
+      best = rivals.front();
+      const std::string ahead = but_for(*best);
+      if (suffices)
+        name_rivals(rivals, ahead);
       else
-        nothing_suffices(*best);
+        nothing_suffices(*best, ahead);
     } else {
+      best = least_left_out();
       nothing_helps(best);
     }
     put_in_order(bench_, best, d_);
@@ -61,15 +68,23 @@ class Decision {
                                    : "";
   }
 
-  // Effects that do as well as the best one, with numbers far beyond where they are met.
+  // What does as well as the best one and is not named, each with the reason, which stands beside it in the table too.
   std::string but_for(const Candidate& best) {
-    std::vector<std::string> odd;
-    for (const Candidate& c : d_.candidates)
-      if (!c.practical && is_judged(c) && c.effects.size() <= best.effects.size() && c.effects != best.effects &&
-          as_good(best, c))
-        odd.push_back(joined(c.effects));
-    return odd.empty() ? ""
-                       : fmt::format(", but for {}, with numbers that are not met in practice", fmt::join(odd, ", "));
+    std::vector<std::string> told;
+    for (Candidate& c : d_.candidates) {
+      if (c.rival || !fitted_to_the_end(c) || c.effects == best.effects) continue;
+      const bool odd = !c.practical && c.effects.size() <= best.effects.size() && !brings_nothing(c);
+      if (odd ? !as_good(best, c) : !is_ahead(c, best)) continue;
+      c.remark = odd                 ? odd_numbers
+                 : brings_nothing(c) ? "with numbers that bring the fit to all tests no closer"
+                                     : needless_effects;
+      told.push_back(fmt::format("{} ({}), {}", joined(c.effects), three_digits(left_out(c)), c.remark));
+    }
+    return told.empty() ? "" : fmt::format(", but for {}", fmt::join(told, "; "));
+  }
+  // By what the table shows of both.
+  bool is_ahead(const Candidate& a, const Candidate& b) const {
+    return std::stod(three_digits(left_out(a))) < std::stod(three_digits(left_out(b)));
   }
 
   // The closest fit among those that were not judged on tests left out.
@@ -95,13 +110,14 @@ class Decision {
       if (part.visible && is_part(part, c)) least = std::min(least, part.misfit_of_fit);
     return least - c.misfit_of_fit < gain_of_chance();
   }
-  bool is_judged(const Candidate& c) const { return c.visible && c.fit.left_out_refitted && !brings_nothing(c); }
+  static bool fitted_to_the_end(const Candidate& c) { return c.visible && c.fit.left_out_refitted; }
+  bool is_judged(const Candidate& c) const { return fitted_to_the_end(c) && !brings_nothing(c); }
   // A test that alone tells of an effect is missed without it by whatever the fold's fit took instead: how the fits to all
   // tests miss, and what their leads are worth by simulation, says which effect it is.
   double missed_by(const Candidate& c) const { return histories_ ? c.misfit_of_fit : c.fit.mean_left_out(); }
 
-  // The simplest first: of each number of effects, those with numbers as met in practice, then those without. The one
-  // that misses least of each stands for its kind, and takes the place of the best so far if it overtakes it.
+  // Of those that do better than the base. The simplest first: of each number of effects, those with numbers as met in practice, then those without; and of these the
+  // ones that miss least. Each takes the place of the best so far if it overtakes it.
   const Candidate* find_best() {
     std::vector<const Candidate*> order;
     for (const Candidate& c : d_.candidates)
@@ -110,11 +126,16 @@ class Decision {
     std::stable_sort(order.begin(), order.end(), [&](const Candidate* a, const Candidate* b) {
       return std::pair(kind(a), missed_by(*a)) < std::pair(kind(b), missed_by(*b));
     });
-    const Candidate *best = nullptr, *before = nullptr;
-    for (const Candidate* c : order) {
-      if ((!before || kind(before) != kind(c)) && (!best || overtakes(*c, *best))) best = c;
-      before = c;
-    }
+    const Candidate* best = nullptr;
+    for (const Candidate* c : order)
+      if (better_than_base(*c) && (!best || overtakes(*c, *best))) best = c;
+    return best;
+  }
+
+  const Candidate* least_left_out() const {
+    const Candidate* best = nullptr;
+    for (const Candidate& c : d_.candidates)
+      if (fitted_to_the_end(c) && (!best || left_out(c) < left_out(*best))) best = &c;
     return best;
   }
 
@@ -148,16 +169,15 @@ class Decision {
 
   void mark_rivals(const Candidate& best) {
     for (Candidate& c : d_.candidates)
-      c.rival =
-          &c == &best || (c.practical && is_judged(c) && c.effects.size() <= best.effects.size() && as_good(best, c));
+      c.rival = &c == &best || (c.practical && is_judged(c) && better_than_base(c) &&
+                                c.effects.size() <= best.effects.size() && as_good(best, c));
     drop_needless();
   }
 
   // None is named alone over one that misses the tests left out by less, by what the table shows of both; nor with a lead
   // that data from the other would give it in more than one set of twenty.
   bool as_good(const Candidate& best, const Candidate& rival) {
-    const bool ahead = std::stod(three_digits(left_out(rival))) < std::stod(three_digits(left_out(best)));
-    return ahead || missed_by(rival) <= missed_by(best) || (enough(best) && by_chance(best, rival));
+    return is_ahead(rival, best) || missed_by(rival) <= missed_by(best) || (enough(best) && by_chance(best, rival));
   }
 
   bool by_chance(const Candidate& best, const Candidate& rival) {
@@ -243,13 +263,17 @@ class Decision {
                        three_digits(best.explained));
   }
 
-  // The rivals become the verdict. Returns the one of least left-out error.
-  const Candidate* name_rivals() {
+  std::vector<const Candidate*> rivals_by_left_out() const {
     std::vector<const Candidate*> rivals;
     for (const Candidate& c : d_.candidates)
       if (c.rival) rivals.push_back(&c);
     std::stable_sort(rivals.begin(), rivals.end(),
                      [&](const Candidate* a, const Candidate* b) { return left_out(*a) < left_out(*b); });
+    return rivals;
+  }
+
+  // They become the verdict.
+  void name_rivals(const std::vector<const Candidate*>& rivals, const std::string& ahead) {
     std::vector<std::string> told;
     for (const Candidate* rival : rivals) {
       told.push_back(fmt::format("{} ({})", joined(rival->effects), three_digits(left_out(*rival))));
@@ -271,16 +295,16 @@ class Decision {
     } else if (rivals.size() > 1)
       say(fmt::format(
           "{} cannot be told apart on these tests: by their errors on tests left out, in brackets{}, chance "
-          "may have put either first",
-          joined(told), scatter_allowed_for()));
+          "may have put either first{}",
+          joined(told), scatter_allowed_for(),
+          ahead.empty() ? "" : "; every other effect misses these tests by more" + ahead));
     else
       say(fmt::format(
           "{} brings the left-out error from {} to {}{}; every other effect of those fitted to the end "
           "misses the tests left out by more, beyond chance{}",
           joined(best.effects), three_digits(left_out(d_.base)), three_digits(left_out(best)),
           told_by_few(best) + (d_.friction_scatter > 0 ? scatter_allowed_for() : floor_noise_allowed_for(best)),
-          but_for(best) + what_remains(best)));
-    return &best;
+          ahead + what_remains(best)));
   }
 
   void friction_scatters() {
@@ -293,27 +317,29 @@ class Decision {
         "friction differs from test to test by {:.2g} % (standard deviation): with a friction of its own in each "
         "test the model leaves {:.2f} where noise explains 1{}",
         100 * own.scatter, std::sqrt(own.misfit / samples()),
-        best ? fmt::format(", and the best effect, {}, leaves {:.2f}", joined(best->effects),
+        best ? fmt::format(", and the effect that comes closest, {}, leaves {:.2f}", joined(best->effects),
                            std::sqrt(best->misfit_of_fit / samples()))
              : ""));
   }
 
-  void nothing_suffices(const Candidate& best) {
+  void nothing_suffices(const Candidate& best, const std::string& ahead) {
     d_.verdict = Verdict::unknown;
     d_.reason = Reason::none_suffices;
     say(
         fmt::format("the best effect, {}, still leaves an error of {:.2f} where noise explains 1: none of the "
-                    "catalogue is the one; look at the recovered force, and write its law as a formula",
-                    joined(best.effects), best.explained));
+                    "catalogue is the one; look at the recovered force, and write its law as a formula{}",
+                    joined(best.effects), best.explained,
+                    ahead.empty() ? "" : " (every other misses the tests left out by more" + ahead + ")"));
   }
 
   void nothing_helps(const Candidate* best) {
     if (enough(d_.base)) {
       d_.verdict = Verdict::none;
       say((best ? fmt::format(
-                      "no effect beats the base by more than chance (the best, {}, changes the left-out error from "
-                      "{:.4g} to {:.4g})",
-                      joined(best->effects), pooled_left_out(d_.base), pooled_left_out(*best))
+                      "no effect beats the base by more than chance (the best, {}{}, changes the left-out error from "
+                      "{} to {}{})",
+                      joined(best->effects), best->practical ? "" : fmt::format(", {}", odd_numbers),
+                      three_digits(left_out(d_.base)), three_digits(left_out(*best)), scatter_allowed_for())
                 : nothing_gained()) +
           what_remains(d_.base));
     } else {

@@ -1,11 +1,15 @@
 // From fitted candidates to a verdict. Constants: levels.hpp. Histories and peaks in the same steps:
 //
-//   best      of each number of effects the candidate that misses least. It gives way to a larger one only where that
-//             misses the tests left out by less, its lead is more than data from the smaller would give it, and so is the
-//             gain of one more effect, among all that may join
 //   helps     the largest gain of all effects tried is more than data from the base would give
+//   best      of one effect the candidate that misses least, of those that miss the tests left out by less than the base.
+//             It gives way to a larger one, or one with odd numbers, only where that misses the tests left out by less, its
+//             lead is more than data from the smaller would give it, and so is the gain of one more effect, among all
+//             that may join
 //   rivals    those whose own data would give the best its lead, and those that miss tests left out by less
 //   enough    its misfit is one that data from itself may have, or its own error is no larger than the noise
+//
+// Of the best and its rivals, and of all candidates where none helps, the one of least left-out error is told as the best.
+// What leaves less still, and what does as well with odd numbers, has a remark that says why it is not named.
 #pragma once
 
 #include <functional>

@@ -132,7 +132,17 @@ class OutcomeDiagnoser {
       say(fmt::format("{} cannot be told from it on these tests: its left-out score is {:.4f}, {:.4f} +- {:.4f} higher",
                       label(*rival), left_out(*rival), rival->difference, rival->difference_se));
     }
+    name_those_ahead(chosen);
     doubt(chosen);
+  }
+
+  // The table shows them with less.
+  void name_those_ahead(const Candidate& chosen) {
+    for (Candidate& c : out_.candidates) {
+      if (!c.visible || !c.fit.left_out_refitted || c.rival || left_out(c) >= left_out(chosen)) continue;
+      c.remark = c.practical ? needless_effects : odd_numbers;
+      say(fmt::format("{} leaves a left-out score of {:.4f}, {}", label(c), left_out(c), c.remark));
+    }
   }
 
   // What has been found stands by its own gain. But compare would say that something is missing, and so does this.

@@ -11,6 +11,7 @@
 #include "measurement/findings_motion.hpp"
 #include "measurement/ground.hpp"
 #include "measurement/plausible_offsets.hpp"
+#include "measurement/score.hpp"
 #include "measurement/smooth.hpp"
 
 namespace freestand::measurement {
@@ -44,7 +45,7 @@ class Doubter {
       offsets(i);
       if (test.start.upright_at_rest() &&
           (moves_before_floor(bench_, i, Channel::slip) || moves_before_floor(bench_, i, Channel::rotation)))
-        early_.add(test.id, 0);
+        early_.add(test, 0);
     }
     tell();
     columns();
@@ -75,8 +76,8 @@ class Doubter {
     const double slip =
         std::max({greatest(test.slip_m), test.peaks.peak_slip_m.value_or(0), test.peaks.residual_slip_m.value_or(0)});
     const double rotation = std::max(greatest(test.rotation_rad), test.peaks.peak_rotation_rad.value_or(0));
-    if (slip > longest_slip_m) slips_.add(test.id, slip);
-    if (rotation > largest_rotation_rad) rotations_.add(test.id, rotation);
+    if (slip > longest_slip_m) slips_.add(test, slip);
+    if (rotation > largest_rotation_rad) rotations_.add(test, rotation);
   }
 
   // Friction of any law takes the block's velocity towards the floor's, so that it stays among those that the floor has
@@ -96,11 +97,11 @@ class Doubter {
     const bool rotated = greatest(test.rotation_rad) > 8 * bench_.noise(Channel::rotation);
     const bool moved = rotated || greatest(test.slip_m) > 8 * bench_.noise(Channel::slip);
     if (peak_g > strongest_floor_g)
-      strong_.add(test.id, peak_g);
+      strong_.add(test, peak_g);
     else if (!test.start.upright_at_rest())
       return;
     else if (moved && (peak_g < weakest_floor_g || faster(test, rotated, impossibly_fast)))
-      weak_.add(test.id, peak_g);
+      weak_.add(test, peak_g);
     else if (moved && faster(test, rotated, strangely_fast))
       fast_.push_back(test.id);
   }
@@ -110,7 +111,7 @@ class Doubter {
     bool spoilt = false;
     const auto see = [&](Seen& seen, double offset, double least) {
       if (offset == 0) return;
-      seen.add(test.id, std::abs(offset));
+      seen.add(test, std::abs(offset));
       spoilt |= std::abs(offset) > least;
     };
     if (test.start.upright_at_rest()) {
@@ -119,14 +120,15 @@ class Doubter {
     }
     const std::vector<double> floor = test.pulse.empty() ? floor_samples(test) : std::vector<double>{};
     see(floors_, floor_offset_mps2(floor), 0.02 * greatest(floor));
-    out_.spoilt_tests += spoilt;
+    out_.spoilt_tests += spoilt && test.role == Role::calibration;
   }
 
   void tell() {
     const auto about = [&](const Seen& seen, const char* text, const char* question, bool spoils = true) {
-      out_.spoilt_tests += spoils ? seen.ids.size() : 0;
+      out_.spoilt_tests += spoils ? seen.calibration : 0;
       if (!seen.ids.empty())
-        out_.sentences.push_back(fmt::format(fmt::runtime(text), fmt::join(seen.ids, ", "), seen.most) + question);
+        out_.sentences.push_back(fmt::format(fmt::runtime(text), fmt::join(seen.ids, ", "), seen.most) + question +
+                                 held_out_note(bench_.data(), seen.ids));
     };
     about(slips_, "the slip of {} reaches {:.3g} m", ": is slip_m in metres?");
     about(rotations_, "the rotation of {} reaches {:.3g} rad", ": is rotation_rad in radians?");
@@ -163,7 +165,7 @@ class Doubter {
   void noise(Channel channel) {
     const double stated = bench_.noise(channel);
     std::vector<double> scatters;
-    for (std::size_t i = 0; i < bench_.size(); ++i)
+    for (const std::size_t i : tests_of(bench_.data(), Role::calibration))
       if (const double s = sensor_noise(history(bench_.test(i), channel)); s > 0) scatters.push_back(s);
     if (stated <= 0 || scatters.empty()) return;
     const auto middle = scatters.begin() + static_cast<long>(scatters.size() / 2);
@@ -176,8 +178,13 @@ class Doubter {
 
   struct Seen {
     std::vector<std::string> ids;
+    std::size_t calibration = 0;  // of them
     double most = 0;
-    void add(const std::string& id, double value) { ids.push_back(id), most = std::max(most, value); }
+    void add(const Test& test, double value) {
+      ids.push_back(test.id);
+      calibration += test.role == Role::calibration;
+      most = std::max(most, value);
+    }
   };
 
   const Bench& bench_;
@@ -187,6 +194,15 @@ class Doubter {
 };
 
 }  // namespace
+
+std::string held_out_note(const Dataset& data, const std::vector<std::string>& ids) {
+  std::vector<std::string> held_out;
+  for (const std::size_t i : tests_of(data, Role::holdout))
+    if (std::find(ids.begin(), ids.end(), data.tests[i].id) != ids.end()) held_out.push_back(data.tests[i].id);
+  if (held_out.empty()) return "";
+  return fmt::format(" ({} {} held out, which decides nothing here)", listed(held_out),
+                     held_out.size() > 1 ? "are" : "is");
+}
 
 double greatest(const std::vector<double>& samples) {
   double most = 0;

@@ -145,18 +145,34 @@ Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
 
 }  // namespace
 
-Interval Posterior::interval(std::size_t number, double level) const {
+Interval Posterior::interval(std::size_t number, double level, std::optional<double> held) const {
   std::vector<double> values;
   for (const Values& row : of_mean) values.push_back(row[number]);
   std::sort(values.begin(), values.end());
+  const auto count = static_cast<double>(values.size());
+  double below = (1 - level) / 2, above = below;  // shares left out
+  if (held) {
+    const auto [from, to] = std::equal_range(values.begin(), values.end(), *held);
+    const double least = static_cast<double>(from - values.begin()) / count,
+                 most = static_cast<double>(values.end() - to) / count;
+    if (least < below)
+      below = least, above = 1 - level - least;
+    else if (most < above)
+      above = most, below = 1 - level - most;
+  }
   const auto at = [&](double share) {
-    const double place =
-        std::clamp(share * static_cast<double>(values.size()) - 0.5, 0.0, static_cast<double>(values.size() - 1));
+    const double place = std::clamp(share * count - 0.5, 0.0, count - 1);
     const auto below = static_cast<std::size_t>(place);
     const double above = values[std::min(below + 1, values.size() - 1)];
     return values[below] + (place - static_cast<double>(below)) * (above - values[below]);
   };
-  return {at((1 - level) / 2), at((1 + level) / 2)};
+  const Interval interval{at(below), at(1 - above)};
+  return held ? Interval{std::min(interval.lower, *held), std::max(interval.upper, *held)} : interval;
+}
+
+Interval interval_of(const Posterior& open, const ModelFit& fit, std::size_t number, double level) {
+  const bool allowed = fit.evaluations > 0 || open.better.empty();
+  return open.interval(number, level, allowed ? std::optional(fit.x[number]) : std::nullopt);
 }
 
 Posterior posterior(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
@@ -191,7 +207,7 @@ Posterior open_numbers(const Bench& bench, ModelFit& fit, const Jobs& jobs) {
   }
   if (!open.of_mean.empty() && kind_of_set(bench) != Kind::outcome)
     for (fit.intervals.clear(); fit.intervals.size() < fit.x.size();)
-      fit.intervals.push_back(open.interval(fit.intervals.size(), 0.95));
+      fit.intervals.push_back(interval_of(open, fit, fit.intervals.size(), 0.95));
   return open;
 }
 

@@ -21,6 +21,8 @@
 // noise fans out say nothing (judge.hpp).
 #pragma once
 
+#include <optional>
+
 #include "measurement/judge.hpp"
 
 namespace freestand::measurement {
@@ -36,9 +38,14 @@ struct Posterior {
   double slip_bias_ln = 0, slip_scatter_ln = 0;
   Values better = {};  // numbers that fit the tests better than the fit does, beyond chance; empty: none were met
   double counted = 1;  // share of the points that count: (sum w)^2/(n sum w^2)
-  // Of one number: the values that a share of (1 - level)/2 of the draws lies beyond on either side.
-  Interval interval(std::size_t number, double level) const;
+  // Of one number: the values that a share of (1 - level)/2 of the draws lies beyond on either side. Where `held` lies beyond one
+  // of them the interval begins there, and leaves the whole 1 - level on the other side: a fit at the bound of its range, say,
+  // has all draws on one side of it.
+  Interval interval(std::size_t number, double level, std::optional<double> held = {}) const;
 };
+
+// Of a number of the fit, which it holds where a fit was made, or no draw does better than the numbers that were given.
+Interval interval_of(const Posterior&, const ModelFit&, std::size_t number, double level);
 
 // The k-th of `count` rows that lie evenly over all.
 inline const Values& spread_row(const std::vector<Values>& rows, std::size_t k, std::size_t count) {

@@ -139,10 +139,21 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
   std::vector<std::size_t> wrong, mirrored;
   std::vector<double> late;  // [s]
   std::size_t judged = 0;
+  const auto tests = tests_of(bench.data(), Role::calibration);
   std::vector<Timing> timings;
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const double dt = bench.test(i).dt_s;
     timings.push_back(dt > 0 ? slip_timing(bench, i, static_cast<int>(still_seconds / dt)) : Timing{});
+  }
+  const auto say = [&](std::size_t i) {
+    const Test& test = bench.test(i);
+    const std::string whose = "the slip of test " + test.id;
+    quality.findings.push_back((timings[i].mirrored ? fmt::format("{} {}", whose, check_sign)
+                                                    : clock_sentence(whose, timings[i].late_steps * test.dt_s)) +
+                               held_out_note(bench.data(), {test.id}));
+  };
+  for (const std::size_t i : tests) {
+    const double dt = bench.test(i).dt_s;
     judged += timings[i].judged();
     if (!timings[i].wrong()) continue;
     wrong.push_back(i);
@@ -159,14 +170,13 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     quality.late_s = late[late.size() / 2];
     quality.findings.push_back(clock_sentence("the response", quality.late_s));
   } else {
-    for (const std::size_t i : wrong) {
-      const Test& test = bench.test(i);
-      const std::string whose = "the slip of test " + test.id;
-      quality.findings.push_back(timings[i].mirrored ? fmt::format("{} {}", whose, check_sign)
-                                                     : clock_sentence(whose, timings[i].late_steps * test.dt_s));
-    }
+    for (const std::size_t i : wrong) say(i);
   }
-  return judged > 1 && 2 * judged >= bench.size();
+  for (const std::size_t i : tests_of(bench.data(), Role::holdout)) {
+    const bool said = timings[i].mirrored ? quality.mirrored_slip : quality.late_s * timings[i].late_steps > 0;
+    if (timings[i].wrong() && !said) say(i);
+  }
+  return judged > 1 && 2 * judged >= tests.size();
 }
 
 // Mean score of the base with its numbers fitted again to changed data.

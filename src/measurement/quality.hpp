@@ -1,4 +1,5 @@
-// What may be wrong with measurements that are formally in order.
+// What may be wrong with measurements that are formally in order. Of tests held out it is told; it decides nothing, since
+// they reach nothing but the last table.
 #pragma once
 
 #include <string>
@@ -11,9 +12,10 @@ namespace freestand::measurement {
 struct Quality {
   std::vector<std::string> findings;
   bool mirrored_slip = false, mirrored_rotation = false;
-  double late_s = 0;              // by which the response lags behind the floor's channel, beyond what the model gives
-  std::size_t doubtful = 0;       // tests whose slip alone looks mirrored, or late
-  std::size_t wrong_numbers = 0;  // tests whose floor or response looks as if in another unit, or dead
+  double late_s = 0;  // by which the response lags behind the floor's channel, beyond what the model gives
+  // Of the calibration tests:
+  std::size_t doubtful = 0;       // those whose slip alone looks mirrored, or late
+  std::size_t wrong_numbers = 0;  // those whose floor or response looks as if in another unit, or dead
   std::size_t moving = 0;         // tests with a history in which anything moved
 
   // No verdict on an effect can be drawn from such data.

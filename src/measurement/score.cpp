@@ -135,7 +135,7 @@ double least_motion(const Bench& bench, Channel channel) {
   const auto see = [&](const std::optional<double>& peak) {
     greatest = std::max(greatest, std::abs(peak.value_or(0)));
   };
-  for (std::size_t i = 0; i < bench.size(); ++i) {
+  for (const std::size_t i : tests_of(bench.data(), Role::calibration)) {
     const Peaks& p = bench.test(i).peaks;
     if (channel == Channel::slip)
       see(p.peak_slip_m), see(p.residual_slip_m);

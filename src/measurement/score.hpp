@@ -28,7 +28,7 @@ struct TestError {
 };
 
 // The least peak that is told from standing still, in the channel's unit (block acceleration: g): the sensor's noise;
-// where that is not stated, a thousandth of the greatest such peak in the set, and at least 1e-6.
+// where that is not stated, a thousandth of the greatest such peak of the calibration tests, and at least 1e-6.
 double least_motion(const Bench&, Channel);
 
 // ln(model/measured) of each peak that a test knows, limited, over the root of their count: the sum of their squares is its score.

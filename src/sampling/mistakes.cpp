@@ -45,7 +45,11 @@ Mistake check(const Uniform& d) { return ordered(d.lower, d.upper); }
 
 Mistake check(const LogUniform& d) {
   if (const Mistake m = ordered(d.lower, d.upper)) return m;
-  if (d.lower > 0) return {};
+  if (d.lower > 0 && std::isfinite(d.upper / d.lower)) return {};
+  if (d.lower > 0)
+    return fmt::format(
+        "impossible distribution (from {} to {} is more than numbers can tell apart): give a range that is met",
+        number_text(d.lower), number_text(d.upper));
   return fmt::format(
       "impossible distribution (log_uniform needs a lower end above zero, here {}): raise it or use uniform",
       number_text(d.lower));

@@ -16,11 +16,13 @@ std::vector<double> of_width(double width, const std::vector<double>& sorted) {
   const double least = sorted.front(), greatest = sorted.back(), values = static_cast<double>(sorted.size());
   const double first = std::floor(least / width), last = std::floor(greatest / width) + 1;
   const double most = std::clamp(values, most_bins_of_few, most_bins);
-  if (!(last - first <= most))
+  const double count = last - first;  // no number where the ends are beyond all numbers
+  if (!(count <= most))
     throw Error(
-        fmt::format("a width of {} makes {:.6g} bins (values reach from {:.4g} to {:.4g}, and {}): choose a "
+        fmt::format("a width of {} makes {} bins (values reach from {:.4g} to {:.4g}, and {}): choose a "
                     "width of at least {:.1g}, or count",
-                    sampling::number_text(width), last - first, least, greatest,
+                    sampling::number_text(width), std::isfinite(count) ? fmt::format("{:.6g}", count) : "countless",
+                    least, greatest,
                     most < most_bins ? fmt::format("{} samples do not fill so many", sorted.size())
                                      : fmt::format("no more than {} are held", most_bins),
                     2 * (greatest - least) / most));

@@ -17,6 +17,7 @@
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 #include "io/samples_file.hpp"
+#include "io/written_files.hpp"
 #include "parallel/step_display.hpp"
 #include "parallel/stop.hpp"
 #include "study/catalogue_rows.hpp"
@@ -137,7 +138,7 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
   });
   resume = world.broadcast(resume);
   RunFolder run_folder(world, folder, resume[0] ? io::Existing::resume : io::Existing::overwrite,
-                       "go on with the same command", {study_path("").string()});
+                       "go on with the same command", {.writes = {study_path("").string()}});
   SweepSummary summary;
   if (work == refit)
     world.on_root([&] { write_study(entry.study, folder); });
@@ -148,7 +149,7 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
       {.from = folder, .command = options.command, .quiet = true, .sweep = work == refit ? nullptr : &summary});
   for (const IntensityPart& im : entry.others) {
     RunFolder other(world, intensity_folder(folder, short_name(im)), io::Existing::resume,
-                    "go on with the same command", {study_path("").string()});
+                    "go on with the same command", {.writes = {study_path("").string()}});
     fit(world, other, {.from = folder, .changes = {.im = short_name(im)}, .command = options.command, .quiet = true});
   }
 }
@@ -299,10 +300,10 @@ CatalogueSummary build_catalogue(const Communicator& world, const Catalogue& cat
     others[0] = static_cast<std::int64_t>(db.entries.size() - catalogue.entries.size());
     lock->confirm();
     io::write_database(folder / io::database_name, db);
-    io::write_text(folder / io::entries_csv_name, io::entries_csv(db));
-    io::write_text(folder / io::curves_csv_name, io::curves_csv(db));
-    io::write_text(folder / io::points_csv_name, io::points_csv(db));
-    io::write_text(folder / io::words_name, io::words_json(db));
+    io::write_result(folder / io::entries_csv_name, io::entries_csv(db));
+    io::write_result(folder / io::curves_csv_name, io::curves_csv(db));
+    io::write_result(folder / io::points_csv_name, io::points_csv(db));
+    io::write_result(folder / io::words_name, io::words_json(db));
   });
   summary.others = world.broadcast(others)[0];
   summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

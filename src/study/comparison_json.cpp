@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -154,11 +156,19 @@ Json parameters_json(const ModelFit& fit, const Posterior& open, bool calibrated
     add_interval(list.back(), fit, i);
     list.back()["interval_90"] = nullptr;
     if (!open.of_mean.empty()) {
-      const auto [lower, upper] = open.interval(i, 0.9);
+      const auto [lower, upper] = measurement::interval_of(open, fit, i, 0.9);
       list.back()["interval_90"] = {lower, upper};
     }
   }
   return list;
+}
+
+// Of numbers that were given, where draws fit better than they do.
+std::string better_numbers(const ModelFit& fit, const Values& better) {
+  std::string each;
+  for (std::size_t i = 0; i < better.size(); ++i)
+    each += fmt::format("{}{} = {:.4g} in place of {:.4g}", i ? ", " : "", fit.model.free[i].name, better[i], fit.x[i]);
+  return "other numbers than those that are given fit the tests better, beyond chance: " + each;
 }
 
 Json posterior_json(const Posterior& open) {
@@ -186,6 +196,8 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
   const Quality quality = examine(bench, fit, effort, jobs);
   Comparison c = measurement::compare(bench, fit.model, fit.x, compare_tests(bench, fit, open, jobs), quality);
   for (std::string& finding : measurement::undetermined(fit)) c.findings.push_back(std::move(finding));
+
+  if (fit.evaluations == 0 && !open.better.empty()) c.findings.push_back(better_numbers(fit, open.better));
 
   std::vector<std::string> effects;
   for (const EffectTerm& term : fit.model.effects) effects.push_back(term.effect->name);

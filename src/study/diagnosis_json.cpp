@@ -26,9 +26,12 @@ using Json = nlohmann::ordered_json;
 
 std::string label(const Candidate& c) { return fmt::format("{}", fmt::join(c.effects, "+")); }
 
+// Errors on tests left out only where the model was fitted without them.
 Json candidate_json(const Bench& bench, const Candidate& c) {
   const auto tests = tests_of(bench.data(), Role::calibration);
+  const bool judged = c.visible && c.fit.left_out_refitted;
   const Pooled in = pooled(bench, tests, c.fit.calibration), out = pooled(bench, tests, c.fit.left_out);
+  const auto of_left_out = [&](double value) { return judged ? number_or_null(value) : Json(nullptr); };
   Json parameters = Json::object();
   for (std::size_t i = 0; i < c.fit.x.size() && c.visible; ++i) {
     const Free& free = c.fit.model.free[i];
@@ -40,17 +43,17 @@ Json candidate_json(const Bench& bench, const Candidate& c) {
           {"visible", c.visible},
           {"parameters", parameters},
           {"error_calibration", number_or_null(in.error)},
-          {"error_left_out", number_or_null(out.error)},
-          {"error_left_out_se", number_or_null(out.standard_error)},
-          {"error_left_out_floor_noise_allowed", number_or_null(c.explained)},
-          {"chi_square_left_out", number_or_null(c.misfit)},
+          {"error_left_out", of_left_out(out.error)},
+          {"error_left_out_se", of_left_out(out.standard_error)},
+          {"error_left_out_floor_noise_allowed", of_left_out(c.explained)},
+          {"chi_square_left_out", of_left_out(c.misfit)},
           {"chi_square_fit", number_or_null(c.misfit_of_fit)},
           {"delta_bic", number_or_null(c.delta_bic)},
-          {"score_left_out_above_best", number_or_null(c.difference)},
-          {"score_left_out_above_best_se", number_or_null(c.difference_se)},
+          {"score_left_out_above_best", of_left_out(c.difference)},
+          {"score_left_out_above_best_se", of_left_out(c.difference_se)},
           {"as_good_as_best", c.rival},
           {"numbers_as_met_in_practice", c.practical},
-          {"left_out_refitted", c.fit.left_out_refitted},
+          {"left_out_refitted", judged},
           {"remark", c.remark.empty() ? Json(nullptr) : Json(c.remark)},
           {"evaluations", c.fit.evaluations}};
 }

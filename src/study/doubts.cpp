@@ -8,8 +8,10 @@
 
 #include "base/units.hpp"
 #include "formula/formula.hpp"
+#include "intensity/intensity.hpp"
 #include "motion/offset.hpp"
 #include "motion/peaks.hpp"
+#include "motion/summary.hpp"
 #include "study/formula_places.hpp"
 #include "study/problems.hpp"
 
@@ -18,8 +20,10 @@ namespace {
 
 constexpr double longest_m = 10, steepest_rad = 1.2, roughest = 2, longest_period_s = 20, strongest_g = 10,
                  fastest_mps = 10, coarsest_step_s = 0.1;
-// Two thirds of a lognormal's values span a factor of e^(2 dispersion): here 100, which no dimension or coefficient does.
-constexpr double widest_dispersion = 2.3;
+// Of two thirds of the values, which no dimension or coefficient does: a lognormal's from a dispersion of 2.3 on.
+constexpr double widest_factor = 100;
+// The strongest floors that were recorded reach some g, and records are used from some hundredths of g on.
+constexpr double strongest_scaling = 100;
 
 double usual(const Quantity& quantity) { return sampling::quantile(quantity.value, 0.5); }
 
@@ -30,13 +34,18 @@ class Doubter {
     const double value = usual(*quantity);
     if (std::abs(value) > largest) said.push_back(fmt::format("{} is {:.4g}: {}", quantity->name, value, question));
   }
-  void ask_dispersion(const std::optional<Quantity>& quantity) {
-    const auto* lognormal = quantity ? std::get_if<sampling::Lognormal>(&quantity->value) : nullptr;
-    if (!lognormal || lognormal->dispersion <= widest_dispersion) return;
+  void ask_spread(const std::optional<Quantity>& quantity) {
+    if (!quantity) return;
+    const auto* lognormal = std::get_if<sampling::Lognormal>(&quantity->value);
+    if (!lognormal && !std::holds_alternative<sampling::LogUniform>(quantity->value)) return;
+    const double factor = quantile(quantity->value, 5.0 / 6) / quantile(quantity->value, 1.0 / 6);
+    if (!(factor > widest_factor)) return;
     said.push_back(
-        fmt::format("{} has the dispersion {:.4g}, with which two thirds of its values span a factor of {:.2g}: is "
-                    "it the standard deviation of the natural logarithm?",
-                    quantity->name, lognormal->dispersion, std::exp(2 * lognormal->dispersion)));
+        lognormal ? fmt::format("{} has the dispersion {:.4g}, with which two thirds of its values span a factor of "
+                                "{:.2g}: is it the standard deviation of the natural logarithm?",
+                                quantity->name, lognormal->dispersion, factor)
+                  : fmt::format("two thirds of the values of {} span a factor of {:.2g}: are its ends right?",
+                                quantity->name, factor));
   }
   std::vector<std::string> said;
 };
@@ -93,7 +102,7 @@ void ask_of_friction(const EffectPart& part, double mu, Doubter& doubter) {
 // moves: the block is on its way already.
 void ask_of_source(const MotionSource& source, bool shaken, bool moves, Doubter& doubter) {
   doubter.ask(source.period, longest_period_s, "is it in seconds?");
-  for (const auto& quantity : {source.amplitude, source.period}) doubter.ask_dispersion(quantity);
+  for (const auto& quantity : {source.amplitude, source.period}) doubter.ask_spread(quantity);
   if (!source.vertical_records.empty() && !shaken)
     doubter.said.push_back(fmt::format(
         "vertical_records of {} are read, but nothing lets them act: add the effect vertical_shaking", source.records));
@@ -118,42 +127,53 @@ void ask_of_source(const MotionSource& source, bool shaken, bool moves, Doubter&
   if (source.amplitude->unit == "m/s" && !sum) doubter.ask(source.amplitude, fastest_mps, "is it in m/s?");
 }
 
+// Does wall_impact stand on the same side in all samples, with none on the other?
+bool wall_on_one_side(const EffectPart& wall) {
+  const auto reach = [&](const char* name) {
+    const auto found = std::find_if(wall.parameters.begin(), wall.parameters.end(),
+                                    [&](const Quantity& q) { return q.name.ends_with(std::string(".") + name); });
+    return support(found->value);
+  };
+  const sampling::Support side = reach("side"), gap = reach("gap_m");
+  const bool by_sign = side.lower == 0 && side.upper == 0;
+  const bool left = by_sign ? gap.lower < 0 : side.lower < 0, right = by_sign ? gap.upper >= 0 : side.upper > 0;
+  return left != right && !(reach("other_gap_m").upper >= 0);
+}
+
 // What stands on one side only; "" of nothing.
 std::string one_sided(const Study& study) {
   if (study.model.chain) return "chain";
   if (study.model.neighbour) return "neighbour";
-  double least = 0, most = 0;
   for (const EffectPart& effect : study.model.effects)
-    if (effect.name == "wall_impact")
-      for (const Quantity& parameter : effect.parameters)
-        if (parameter.name.ends_with(".gap_m")) {
-          const sampling::Support gap = support(parameter.value);
-          least = std::min(least, gap.lower);
-          most = std::max(most, gap.upper >= 0 ? std::max(gap.upper, 1e-9) : 0.0);
-        }
-  if ((least < 0) != (most > 0)) return "wall of wall_impact";
+    if (effect.name == "wall_impact" && wall_on_one_side(effect)) return "wall of wall_impact";
   for (const std::string& edp : study.fragility.edp)
     if (edp == "peak_slip_right_m" || edp == "peak_slip_left_m") return "demand " + edp;
   return "";
 }
 
 // A record that is turned round is as likely a motion of the floor, and does something else to what stands on one side.
-void ask_of_polarity(const MotionSource& source, const std::string& what, Doubter& doubter) {
+void ask_of_polarity(const MotionSource& source, const std::string& what, bool one_sample, Doubter& doubter) {
   const bool one_sign = source.kind == MotionSource::Kind::records || (source.synthetic && source.synthetic->pulse);
   if (what.empty() || !one_sign || !source.amplitude) return;
   const sampling::Support amplitudes = support(source.amplitude->value);
   if (amplitudes.lower < 0 && amplitudes.upper > 0) return;
+  const std::string key = source.scale_to ? "scale_to: {" + source.scale_to->name + ": " : "scale: ";
+  const std::string value = one_sample        ? sampling::number_text(-usual(*source.amplitude))
+                            : source.scale_to ? "{uniform: [-2, 2]}"
+                                              : "{choice: [-1, 1]}";
   doubter.said.push_back(fmt::format(
       "the {} is on one side, and {} shakes with one sign only: turned round each record is as likely: is that "
-      "meant? a range of both signs turns them round too ({})",
+      "meant? {} ({})",
       what, source.synthetic ? source.synthetic->name : source.records,
-      source.scale_to ? fmt::format("scale_to: {{{}: {{uniform: [-2, 2]}}}}", source.scale_to->name)
-                      : "scale: {choice: [-1, 1]}"));
+      one_sample ? "a negative number turns it round: simulate that too" : "a range of both signs turns them round too",
+      key + value + (source.scale_to ? "}" : "")));
 }
 
 }  // namespace
 
-std::vector<std::string> doubts(const Study& study) {
+namespace {
+
+std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) {
   Doubter doubter;
   const BlockPart& block = study.model.block;
   for (const auto& length : {block.width, block.height, block.size}) doubter.ask(length, longest_m, "is it in metres?");
@@ -164,17 +184,17 @@ std::vector<std::string> doubts(const Study& study) {
   for (const EffectPart& effect : study.model.effects)
     ask_of_friction(effect, usual(friction.mu ? *friction.mu : *friction.mu_k), doubter);
   const bool shaken = shakes_vertically(study.model);
-  for (const Quantity& quantity : quantities(study.model)) doubter.ask_dispersion(quantity);
+  for (const Quantity& quantity : quantities(study.model)) doubter.ask_spread(quantity);
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, study.model.start.any(), doubter);
-  for (const MotionSource& source : study.motions) ask_of_polarity(source, one_sided(study), doubter);
+  for (const DamagePart& state : study.fragility.damage)
+    for (const Quantity& quantity : state.parameters) doubter.ask_spread(quantity);
+  for (const MotionSource& source : study.motions) ask_of_polarity(source, one_sided(study), one_sample, doubter);
   const auto& chain = study.model.chain;
   if (chain && chain->wall_gap && chain->wall_gap->line == 0)
     doubter.said.push_back(
         "chain.wall_gap_m is not given: the wall behind is taken to touch the block (0): say how far away it is");
   return std::move(doubter.said);
 }
-
-namespace {
 
 // A channel of a motion by itself, as a horizontal one; its name says which.
 FloorMotion channel_of(const FloorMotion& motion, std::vector<double> FloorMotion::*channel, const char* name) {
@@ -198,7 +218,20 @@ std::vector<FloorMotion> channels_of(const FloorMotion& motion, const Study& stu
   return channels;
 }
 
+// By how much a motion is scaled in the median; 0: not by an intensity of its own.
+double scaling(const MotionSource& source, const FloorMotion& ground) {
+  if (!source.scale_to) return 0;
+  const intensity::Measure& measure = intensity::find(source.scale_to->name);
+  const double parameter = intensity::parameter_of(measure, source.scale_to->period_s);
+  motion::SummaryRequest request;
+  if (measure.spectral) request.sa_period_s = {measure.parameter ? parameter : 1.0};
+  const double here = measure.value({.motion = motion::summarize(ground, request), .parameter = parameter});
+  return std::isfinite(here) && here != 0 ? std::abs(usual(*source.amplitude) / here) : 0;
+}
+
 }  // namespace
+
+std::vector<std::string> doubts(const Study& study) { return doubts_of_numbers(study, false); }
 
 std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& motions) {
   std::vector<std::string> said;
@@ -212,6 +245,9 @@ std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& 
       const double step = motion.duration_s() / static_cast<double>(motion.segments());
       if (step > coarsest_step_s)
         said.push_back(fmt::format("the time step of {} is {:.4g} s: is its time in seconds?", motion.name, step));
+      if (const double factor = scaling(source, motion); factor > strongest_scaling)
+        said.push_back(fmt::format("{} is scaled by {:.3g} to reach {} {:.3g}: is its unit right?", motion.name, factor,
+                                   source.scale_to->name, usual(*source.amplitude)));
       const double first_mps2 = (*motions.entries)[entry].peak_mps2;
       for (const FloorMotion& channel : channels_of(motion, study)) {
         if (const motion::Offset offset = motion::offset(channel); offset.doubtful())
@@ -237,6 +273,12 @@ std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& 
 std::vector<std::string> doubts(const Study& study, const MotionSet& motions) {
   std::vector<std::string> said = doubts(study);
   for (std::string& more : doubts_of_records(study, motions)) said.push_back(std::move(more));
+  return said;
+}
+
+std::vector<std::string> doubts(const Case& c, const MotionSet& motions) {
+  std::vector<std::string> said = doubts_of_numbers(c.study, true);
+  for (std::string& more : doubts_of_records(c.study, motions)) said.push_back(std::move(more));
   return said;
 }
 

@@ -12,5 +12,7 @@ std::vector<std::string> doubts(const Study&);
 std::vector<std::string> doubts_of_records(const Study&, const MotionSet&);
 // Both.
 std::vector<std::string> doubts(const Study&, const MotionSet&);
+// Of a case: one sample, whose numbers are no distributions.
+std::vector<std::string> doubts(const Case&, const MotionSet&);
 
 }  // namespace freestand::study

@@ -4,13 +4,13 @@
 #include <freestand/error.hpp>
 
 #include "base/durable_file.hpp"
-#include "base/random.hpp"
 #include "exports/certificate.hpp"
 #include "exports/exporter.hpp"
 #include "io/database_file.hpp"
 #include "io/fragility_file.hpp"
 #include "io/own_files.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 #include "study/export_parts.hpp"
 #include "study/study.hpp"
 #include "study/target.hpp"
@@ -113,8 +113,6 @@ ExportPlace place(const ExportRequest& request, const exports::Format& format) {
 
 namespace {
 
-std::string hash_of(const std::string& text) { return fmt::format("{:016x}", random::stable_hash(text)); }
-
 // What stands in the folder's certificate by now.
 Json certificate_in(const fs::path& folder) {
   const fs::path file = folder / certificate_name;
@@ -133,7 +131,7 @@ void refuse_to_replace(const fs::path& file, const Json& certificate, bool overw
         fmt::format("{} is there already (it would be replaced): name another one, or add --overwrite", file.string()));
   const Json& known = certificate["files"];
   const std::string name = file.filename().string();
-  if (!known.contains(name) || known[name].value("hash", "") != hash_of(read_whole(file)))
+  if (!known.contains(name) || known[name].value("hash", "") != io::hash_text(read_whole(file)))
     throw Error(fmt::format("{} would be replaced (freestand did not write it, or it was changed since): move it away",
                             file.string()));
 }
@@ -192,7 +190,7 @@ exports::Certified put_files(const ExportRequest& request, const exports::Format
   for (std::size_t i = 0; i < files.size(); ++i) {
     Json entry = i == 0 ? certified.json : Json{{"target", format.name}, {"belongs_to", files.front().name}};
     entry["from"] = origin;
-    entry["hash"] = hash_of(files[i].text);
+    entry["hash"] = io::hash_text(files[i].text);
     certificate["files"][files[i].name] = entry;
   }
   write_durably(to.folder / certificate_name, io::json_text(certificate));

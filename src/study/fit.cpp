@@ -12,6 +12,7 @@
 #include "io/samples_file.hpp"
 #include "io/tally_file.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 #include "study/accuracy.hpp"
 #include "study/analysis.hpp"
 #include "study/edited_study.hpp"
@@ -174,9 +175,9 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     for (const auto& warning : accuracy_warnings(nlohmann::json::parse(provenance.accuracy)))
       told.warnings.push_back(warning);
     io::write_fragility(folder / "fragility.h5", provenance, result);
-    io::write_text(folder / "bins.csv", io::bins_csv(result));
-    io::write_text(folder / "surface.csv", io::surface_csv(result));
-    io::write_text(folder / "ranking.csv", ranking_csv(ranking));
+    io::write_result(folder / "bins.csv", io::bins_csv(result));
+    io::write_result(folder / "surface.csv", io::surface_csv(result));
+    io::write_result(folder / "ranking.csv", ranking_csv(ranking));
     if (elsewhere) io::write_text(study_path(folder), io::signed_text(expanded(study, folder)));
     nlohmann::ordered_json summary = summary_of(study, provenance, result, told);
     summary["record_pulses"] = record_pulses_json(motions);
@@ -186,7 +187,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     summary["files"] = {"fragility.h5", "bins.csv", "surface.csv", "ranking.csv", "study.yaml"};
     if (!elsewhere) summary["files"].push_back("samples.h5");
     if (!elsewhere && reader.rows() < swept_samples(reader)) summary["files"].push_back("tally.h5");
-    io::write_text(folder / "summary.json", io::json_text(summary));
+    io::write_result(folder / "summary.json", io::json_text(summary));
   });
   into.end();
   told.wall_s = so_far();

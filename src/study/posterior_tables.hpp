@@ -14,6 +14,11 @@ namespace freestand::study {
 
 inline constexpr const char* posterior_table = "fitted_draws.csv";
 
+// A study, and the table that lies beside it where it was fitted.
+inline std::vector<std::filesystem::path> files_of_study(const std::filesystem::path& study) {
+  return {study, study.parent_path() / posterior_table};
+}
+
 // Puts `values` into every such mapping below `root` that has none. Tables lie in `folder`, where the study does.
 void read_posterior_tables(YAML::Node root, const std::filesystem::path& folder, Problems&);
 

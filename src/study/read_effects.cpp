@@ -177,10 +177,9 @@ void check_company(Section& section, const EffectPart& part, const std::vector<E
                                                    : "it has nothing to act on there"));
   for (const EffectPart& other : others) {
     if (other.name == part.name)
-      section.problem("name", fmt::format("effect {} stands twice (it acts once{}): remove one", part.name,
-                                          part.effect->wall ? "; the wall behind a chain, chain.wall_gap_m, may be a "
-                                                              "second one, on the side that `side` is not"
-                                                            : ""));
+      section.problem(
+          "name", fmt::format("effect {} stands twice (it acts once{}): remove one", part.name,
+                              part.effect->wall ? "; other_gap_m is how far a second wall is, on the other side" : ""));
     else if (excluded(*part.effect, other.name) || excluded(*other.effect, part.name))
       section.problem("name", fmt::format("effects {} and {} exclude each other (their laws cannot act together): "
                                           "remove one",

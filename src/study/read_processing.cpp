@@ -9,9 +9,17 @@
 namespace freestand::study {
 namespace {
 
-constexpr Range scale_range = {
-    .lower = 0,
-    .why = "a record without length or duration shakes nothing: a quarter-scale model has length_scale 0.25"};
+// Models on shake tables are down to some hundredths of what they stand for; lengths go with the square of times.
+constexpr Range length_range = {.lower = 1e-4,
+                                .upper = 1e4,
+                                .lower_open = false,
+                                .upper_open = false,
+                                .why = "it must lie from 1e-4 to 1e4: a quarter-scale model has length_scale 0.25"};
+constexpr Range time_range = {.lower = 1e-2,
+                              .upper = 1e2,
+                              .lower_open = false,
+                              .upper_open = false,
+                              .why = "it must lie from 0.01 to 100: a quarter-scale model has time_scale 0.5"};
 constexpr Range pulse_period_range = {.lower = 0, .why = "a period must be above zero"};
 
 std::optional<motion::BandPass> read_band(Section& section) {
@@ -37,8 +45,8 @@ motion::Processing read_processing(Section& section) {
   const auto chosen = section.choice("baseline", {"linear", "quadratic"}, 0);
   if (baseline) wanted.baseline = static_cast<motion::Baseline>(chosen);
   wanted.band = read_band(section);
-  const auto time = section.optional_number("time_scale", scale_range);
-  const auto length = section.optional_number("length_scale", scale_range);
+  const auto time = section.optional_number("time_scale", time_range);
+  const auto length = section.optional_number("length_scale", length_range);
   if (time || length) wanted.scale = motion::similitude(time, length);
   return wanted;
 }

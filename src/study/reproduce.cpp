@@ -11,6 +11,7 @@
 #include "io/own_files.hpp"
 #include "io/provenance.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 #include "report/own_peaks.hpp"
 #include "study/spread_jobs.hpp"
 
@@ -106,7 +107,7 @@ Reproduced reproduce(const parallel::Communicator& world, const ReproduceOptions
 
 void prepare(const ReproduceOptions& options) {
   io::take_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
-                            {json_name});
+                         {.writes = {json_name}, .reads = {options.peaks.value_or("")}});
 }
 
 Json reproduce_json(const Reproduced& found, const ReproduceOptions& options, int ranks) {
@@ -134,8 +135,8 @@ void write(const Reproduced& found, const ReproduceOptions& options, int ranks) 
   io::refuse_others(options.output, files);
   for (const auto& [entry, item] : found.items)
     for (const report::Sheet& sheet : item.sheets)
-      io::write_text(options.output / file_of(sheet), csv_of(entry, sheet));
-  io::write_text(options.output / json_name, io::json_text(reproduce_json(found, options, ranks)));
+      io::write_result(options.output / file_of(sheet), csv_of(entry, sheet));
+  io::write_result(options.output / json_name, io::json_text(reproduce_json(found, options, ranks)));
 }
 
 }  // namespace freestand::study

@@ -13,6 +13,7 @@
 #include "io/fragility_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 #include "study/build_catalogue.hpp"
 #include "study/damage_states.hpp"
 #include "study/read_parts.hpp"
@@ -218,9 +219,10 @@ void write_risk(const RiskAnswer& answer, const RiskOptions& options) {
   if (std::filesystem::equivalent(options.output, options.folder, ignored))
     throw Error(fmt::format("{} is the sweep itself (its results would be replaced): name another folder with -o",
                             options.output.string()));
-  io::take_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse);
-  io::write_text(options.output / "risk.csv", risk_csv(answer, options));
-  io::write_text(options.output / "risk.json", io::json_text(risk_json(answer, options)));
+  io::take_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+                         {.writes = {"risk.csv", "risk.json"}, .reads = {options.hazard}});
+  io::write_result(options.output / "risk.csv", risk_csv(answer, options));
+  io::write_result(options.output / "risk.json", io::json_text(risk_json(answer, options)));
 }
 
 }  // namespace freestand::study

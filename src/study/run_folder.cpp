@@ -40,16 +40,16 @@ fs::path note_path(const fs::path& folder) { return folder / io::begun_name; }
 }  // namespace
 
 RunFolder::RunFolder(const parallel::Communicator& world, const fs::path& folder, io::Existing existing,
-                     std::string go_on, const std::vector<std::string>& writes)
+                     std::string go_on, const io::CommandFiles& files)
     : world_(world),
       folder_(folder),
       go_on_(std::move(go_on)),
       stop_on_signal_({world.is_root() ? patience_of_root_s : patience_of_others_s, [this] { overdue(); }}) {
   std::signal(SIGPIPE, SIG_IGN);  // who read the progress may leave; the run goes on
   world_.on_root([&] {
-    io::make_output_folder(folder_, existing, writes);
+    io::make_output_folder(folder_, existing, files);
     lock_.emplace(folder_, io::FolderLock::Settings{.lost = parallel::request_stop});
-    io::prepare_output_folder(folder_, existing, writes);
+    io::prepare_output_folder(folder_, existing, files);
   });
   refuse_other_folders();
 }

@@ -19,12 +19,11 @@ namespace freestand::study {
 class RunFolder {
  public:
   // Makes the folder, takes its lock, and then does with what is in it as `existing` says. `go_on`: what the user is told
-  // to do after a stop ("go on with --resume"). `writes`: names that will be written beside the
-  // results. A run that has not ended 7 s after it was asked to stop is ended where it
+  // to do after a stop ("go on with --resume"). A run that has not ended 7 s after it was asked to stop is ended where it
   // stands. Collective, as all below. Throws Error as io::FolderLock and io::prepare_output_folder do, and where the folder is
   // another one for some rank (Exit::usage): local to its node.
   RunFolder(const parallel::Communicator&, const std::filesystem::path& folder, io::Existing existing,
-            std::string go_on, const std::vector<std::string>& writes = {});
+            std::string go_on, const io::CommandFiles& files = {});
 
   const std::filesystem::path& path() const { return folder_; }
 

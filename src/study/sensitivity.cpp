@@ -83,7 +83,7 @@ class Shares {
     Sensitivity found;
     for (const Sampled& one : sampled_) found.parameters.push_back(one.parameter);
     found.answers = answers_.answers();
-    found.confidence = options_.confidence;
+    found.confidence = options_.confidence.value_or(study_.fragility.confidence);
     found.pairs = options_.pairs;
     found.note = kept_told(reader_);
     if (!study_.fragility.target.empty())
@@ -98,13 +98,13 @@ class Shares {
     world_.sum_in_place(total.words());
     if (!world_.is_root()) return {};
     for (std::size_t a = 0; a < found.answers.size(); ++a) {
-      found.rows.push_back(first.row(a, options_.confidence));
+      found.rows.push_back(first.row(a, found.confidence));
       found.why_empty.push_back(too_few(found.answers[a], found.rows[a]));
       if (!found.why_empty[a].empty()) found.rows[a].share.clear();
       found.totals.emplace_back();
       if (options_.pairs > 0 && found.why_empty[a].empty())
         for (std::size_t p = 0; p < sampled_.size(); ++p)
-          found.totals[a].push_back(total.share(p, a, options_.confidence));
+          found.totals[a].push_back(total.share(p, a, found.confidence));
     }
     return found;
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct SensitivityOptions {
   std::filesystem::path folder;  // of the sweep
   std::filesystem::path output;  // for the two files; empty: the sweep's
   std::int64_t pairs = 0;        // samples that are computed again for each parameter, for total shares; 0: none
-  double confidence = 0.95;
+  std::optional<double> confidence = {};  // none: as the study has it
   bool quiet = false;
   std::string command;
 };

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 #include "study/sensitivity.hpp"
 
 namespace freestand::study {
@@ -88,8 +88,8 @@ void write_sensitivity(const Sensitivity& found, const SensitivityOptions& optio
   const std::filesystem::path folder = options.output.empty() ? options.folder : options.output;
   io::refuse_others(folder, {"sensitivity.json", "sensitivity.csv"});
   std::filesystem::create_directories(folder);
-  io::write_text(folder / "sensitivity.csv", sensitivity_csv(found));
-  io::write_text(folder / "sensitivity.json", io::json_text(sensitivity_json(found)));
+  io::write_result(folder / "sensitivity.csv", sensitivity_csv(found));
+  io::write_result(folder / "sensitivity.json", io::json_text(sensitivity_json(found)));
 }
 
 }  // namespace freestand::study

@@ -35,7 +35,7 @@ Simulation simulate(const Case& c, bool reference) {
   if (reference && dynamics::moves_in_plane(*sample.shaking.motion))
     throw Error("--reference integrates along one line (this floor moves in both horizontal directions): leave it out");
   Simulation out{
-      .specimen = sample.specimen, .response = {}, .tighter = {}, .history = {}, .doubts = doubts(c.study, motions)};
+      .specimen = sample.specimen, .response = {}, .tighter = {}, .history = {}, .doubts = doubts(c, motions)};
   out.history.step_s = c.output_step_s;
   out.history.forces = true;
   const auto solve = reference ? respond_reference : respond;

@@ -41,8 +41,9 @@
 //     error_calibration, error_left_out, error_left_out_se, error_left_out_floor_noise_allowed (sqrt of chi_square_left_out
 //     over samples: 1 where sensor and floor noise explain all), chi_square_left_out, chi_square_fit (of the fit to all
 //     tests), delta_bic, score_left_out_above_best (in the mean, paired), score_left_out_above_best_se, as_good_as_best
-//     (chance does not part it from `best`; of `best` too), numbers_as_met_in_practice, left_out_refitted, remark (why it
-//     was not fitted to the end, or null)}]: the best, those as good, others that were fitted to the end by left-out
+//     (chance does not part it from `best`; of `best` too), numbers_as_met_in_practice, left_out_refitted (else all that is of
+//     tests left out is null), remark (why it is not named though it misses them by less, or, of outcomes, was not fitted to
+//     the end; or null)}]: the best, those as good, others that were fitted to the end by left-out
 //     error, the rest; of
 //     `base` no effect
 //   noise_floor: error that sensor and floor noise alone would make; of outcomes the score that chance alone would make,

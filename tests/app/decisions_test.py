@@ -97,6 +97,17 @@ class Sensitivity(InFolder):
         for one in ln_delta["shares"].values():
             self.assertGreater(one["total"]["value"], one["share"]["value"] - 4 * (one["total"]["se"] + one["share"]["se"]))
 
+    def test_the_confidence_of_the_study(self):
+        self.succeed(["fit", self.out, "--confidence", 0.8])
+        width = {}
+        for more in ([], ["--confidence", 0.95]):
+            self.succeed(["sensitivity", self.out, "-o", self.folder / "s", "--quiet"] + more)
+            found = json.loads((self.folder / "s/sensitivity.json").read_text())
+            share = next(one for one in found["answers"] if one["shares"])["shares"]["motion.peak_acceleration_g"]["share"]
+            width[found["confidence"]] = share["upper"] - share["lower"]
+        self.assertEqual(sorted(width), [0.8, 0.95])
+        self.assertLess(width[0.8], 0.8 * width[0.95])
+
     def test_a_damage_state_has_the_shares_of_the_demand_that_it_asks_for(self):
         path = self.out / "study.yaml"
         text = path.read_text().replace("edp: [delta, overturned]", "edp: [delta, overturned, peak_slip_m]\n  damage:\n    gone: peak_slip_m > 0.1 or overturned")

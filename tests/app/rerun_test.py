@@ -119,6 +119,49 @@ class Kept(InFolder):
         self.fail_with(2, ["fit", out], "summary.json would be replaced")
         self.assertEqual((out / "summary.json").read_text(), '{"mine": 1}\n')
 
+    def test_a_number_that_was_changed_in_a_table(self):
+        study = self.write("mine.yaml", study_text(samples=200))
+        out = self.folder / "out"
+        self.succeed(["run", study, "-o", out, "--quiet"])
+        self.succeed(["fit", out])
+        for name in ("bins.csv", "surface.csv", "ranking.csv", "summary.json"):
+            before = (out / name).read_text()
+            place = max(before.rindex(digit) for digit in "0123456789" if digit in before)
+            changed = before[:place] + str((int(before[place]) + 1) % 10) + before[place + 1:]
+            (out / name).write_text(changed)
+            self.fail_with(2, ["fit", out], f"{name} would be replaced")
+            self.fail_with(2, ["run", study, "-o", out, "--overwrite"], name, "move it away")
+            self.assertEqual((out / name).read_text(), changed)
+            (out / name).write_text(before)
+        (out / "bins.csv").unlink()
+        self.succeed(["fit", out])
+        self.succeed(["run", study, "-o", out, "--quiet", "--overwrite"])
+
+    def test_no_result_of_an_earlier_run_stays_beside_the_new_ones(self):
+        study = self.write("mine.yaml", study_text(samples=200))
+        out = self.folder / "out"
+        self.succeed(["run", study, "-o", out, "--quiet"])
+        self.succeed(["sensitivity", out, "--quiet"])
+        self.succeed(["export", out, "--format", "csv", "-o", out])
+        (out / "notes.txt").write_text("mine\n")
+        self.assertLessEqual({"certificate.json", "fragility.csv", "sensitivity.csv", "ranking.csv", "study.yaml"}, set(os.listdir(out)))
+        case = self.write("one.yaml", "block: {width_m: 0.6, height_m: 1.8, mass_kg: 150}\nfriction: {mu: 0.2}\n"
+                          "motion: {pulse: B, period_s: 0.5, peak_acceleration_g: 0.6}\n")
+        self.succeed(["simulate", case, "-o", out, "--overwrite"])
+        self.assertEqual(set(os.listdir(out)), {"case.yaml", "freestand.files", "history.csv", "notes.txt", "summary.json"})
+        shutil.copytree(CONFIGS / "walkthrough", self.folder / "bench")
+        self.succeed(["compare", self.folder / "bench" / "cabinet.yaml", "-o", out, "--overwrite", "--quiet"])
+        compared = {"comparison.json", "fitted.yaml", "fitted_draws.csv", "freestand.files", "notes.txt"}
+        self.assertEqual(set(os.listdir(out)), compared)
+        # What a command reads is not removed by it.
+        self.fail_with(2, ["diagnose", out / "fitted.yaml", "-o", out, "--overwrite"], "fitted.yaml is read")
+        self.fail_with(2, ["run", out / "fitted.yaml", "-o", out, "--overwrite"], "fitted.yaml is read")
+        self.assertEqual(set(os.listdir(out)), compared)
+        self.succeed(["run", study, "-o", out, "--overwrite", "--quiet"])
+        self.assertNotIn("fitted.yaml", os.listdir(out))
+        self.fail_with(2, ["fit", out, "-o", out, "--overwrite"], "samples.h5 is read")
+        self.succeed(["run", out / "study.yaml", "-o", out, "--overwrite", "--quiet"])
+
     def test_history_that_was_the_floor_motion(self):
         here = os.getcwd()
         os.chdir(self.folder)

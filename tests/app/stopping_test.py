@@ -54,7 +54,7 @@ class Signals(Stopping):
         self.succeed(["run", study, "-o", folder, "--resume", "--quiet"], 3)
         self.assertEqual(result(folder), whole)
         self.assertEqual(sorted(path.name for path in folder.iterdir()),
-                         ["bins.csv", "fragility.h5", "ranking.csv", "samples.h5", "study.yaml", "summary.json", "surface.csv"])
+                         ["bins.csv", "fragility.h5", "freestand.files", "ranking.csv", "samples.h5", "study.yaml", "summary.json", "surface.csv"])
 
     def test_while_samples_are_written(self):
         """It is soon done: a sweep may end whole, with 0, or stopped, with 75. A run never goes on to fit."""

@@ -31,7 +31,7 @@ const std::map<std::string, std::vector<std::string>> names_and_keys = {
     {"flexible_legs", {"frequency_hz", "damping"}},
     {"slack_tether", {"slack_m", "frequency_hz", "rate_per_s"}},
     {"centering_spring", {"frequency_hz"}},
-    {"wall_impact", {"gap_m", "restitution"}},
+    {"wall_impact", {"gap_m", "restitution", "side", "other_gap_m"}},
     {"moving_contents", {"mass_ratio", "frequency_hz", "damping"}},
     {"impact_loss", {"factor"}},
     {"reduced_base", {"ratio"}},

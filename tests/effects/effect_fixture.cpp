@@ -40,8 +40,11 @@ Block plain_block(double width, double height) { return Block::rectangular(width
 
 EffectUse effect(const std::string& name, const std::vector<double>& parameters) {
   const effects::Effect* found = effects::find(name);
-  if (!found || found->parameters.size() != parameters.size()) throw std::invalid_argument(name);
-  return {found, parameters};
+  if (!found || found->parameters.size() < parameters.size()) throw std::invalid_argument(name);
+  EffectUse use{found, parameters};
+  for (std::size_t i = parameters.size(); i < found->parameters.size(); ++i)
+    use.parameters.push_back(found->parameters[i].fallback.value());
+  return use;
 }
 
 Specimen sliding(double mu, const std::vector<EffectUse>& effects) {

@@ -1,4 +1,5 @@
 // Law: a share r of the mass on a spring W and damping z inside; friction keeps the full weight.
+#include "dynamics/laws.hpp"
 #include "effects/effect_fixture.hpp"
 
 namespace freestand::test {
@@ -7,6 +8,25 @@ namespace {
 TEST(MovingContents, General) {
   expect_general(
       {"moving_contents", {0.3, 2, 0.05}, {0.3, 2, 0.05}, {0, 2, 0.05}, {Model::slide, Model::slide_rock}, 8});
+}
+
+// Two states each: there is room for three of them in one sample. A fourth is an outcome, not dropped without a word.
+TEST(MovingContents, StatesForWhichThereIsNoRoom) {
+  const FloorMotion push = rectangular_pulse(4, 0.3);
+  for (const Model model : {Model::slide, Model::slide_rock, Model::bouc_wen})
+    for (const bool too_many : {false, true}) {
+      Specimen block =
+          sliding(0.2, std::vector<EffectUse>(too_many ? 4 : 3, effect("moving_contents", {0.1, 2, 0.05})));
+      block.model = model;
+      const Outcome wanted = too_many ? Outcome::not_finite : Outcome::moved;
+      EXPECT_EQ(dynamics::Laws(block).excess, too_many ? dynamics::Excess::states : dynamics::Excess::none);
+      for (const Solver& solver : both_solvers) EXPECT_EQ(solver(block, {&push}).outcome, wanted) << solver.name;
+      const std::vector<Specimen> blocks(8, block);
+      const std::vector<Shaking> shaking(8, Shaking{&push});
+      std::vector<Response> responses(8);
+      respond_batch(blocks, shaking, {}, responses);
+      for (const Response& r : responses) EXPECT_EQ(r.outcome, wanted);
+    }
 }
 
 // On ice nothing outside holds block and contents: their centre of mass stays where it was in space, and the block moves

@@ -73,11 +73,16 @@ const std::vector<Law>& laws() {
        {},
        [](Rules& r, const Values& p) { r.laws.spring_per_s2 = squared(circular(p[0])); }},
       {"wall_impact",
-       {"gap_m", "restitution"},
-       {0},
+       {"gap_m", "restitution", "side", "other_gap_m"},
+       {0, 0, -1},
        [](Rules& r, const Values& p) {
-         auto& wall = r.laws.walls[p[0] < 0 ? 0 : 1];
-         if (!wall || std::abs(p[0]) < wall->gap_m) wall = {std::abs(p[0]), p[1]};
+         const auto stand = [&](bool right, double gap_m) {
+           auto& wall = r.laws.walls[right ? 1 : 0];
+           if (!wall || gap_m < wall->gap_m) wall = {gap_m, p[1]};
+         };
+         const bool right = p[2] == 0 ? p[0] >= 0 : p[2] > 0;
+         stand(right, std::abs(p[0]));
+         if (p[3] >= 0) stand(!right, p[3]);
        }},
       {"moving_contents",
        {"mass_ratio", "frequency_hz", "damping"},

@@ -4,6 +4,8 @@
 #include <set>
 
 #include "base/durable_file.hpp"
+#include "io/own_files.hpp"
+#include "io/written_files.hpp"
 #include "parallel/block_log.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
@@ -78,6 +80,68 @@ TEST(OutputFolder, OverwriteRemovesResultsAndNothingElse) {
   EXPECT_EQ(names_in(scratch.folder()), (std::set<std::string>{"thesis.txt", "blocks", "blocks/mine.txt"}));
 }
 
+// Of whichever verb: beside the new results they would be taken for theirs.
+TEST(OutputFolder, OverwriteLeavesNoResultOfAnEarlierRun) {
+  const test::Scratch scratch("out");
+  for (const char* name : {"ranking.csv", "risk.csv", "figure_4_1.csv", "words.json"})
+    write_result(scratch / name, "only the list tells whose it is\n");
+  for (const char* name : {"study.yaml", "fitted.yaml", "fitted_draws.csv", "case.yaml", "proposed_law.yaml"})
+    write_text(scratch / name, signed_text("x: 1\n"));
+  write_text(scratch / "fridge.xml", "<nrml/>\n");
+  write_text(scratch / "lab.xml", "<nrml/>\n");
+  write_text(scratch / "certificate.json",
+             "{\n  \"format\": \"freestand-certificate/1\",\n  \"files\": {\"fridge.xml\": {\"hash\": \"" +
+                 hash_text("<nrml/>\n") + "\"}, \"lab.xml\": {\"hash\": \"0123456789abcdef\"}}\n}\n");
+  write_text(scratch / "dataset.yaml", signed_text("name: bench\n"));  // what was imported is no result
+  put(scratch / "hazard.csv");
+  fs::create_directory(scratch / "figures");
+  for (const char* name : {"surface.svg", "mine.svg"}) write_result(scratch / "figures" / name, "<svg/>\n");
+  write_text(scratch / "figures" / "mine.svg", "<svg>coloured</svg>\n");
+  prepare_output_folder(scratch.folder(), Existing::overwrite);
+  EXPECT_EQ(names_in(scratch.folder()),
+            (std::set<std::string>{"dataset.yaml", "hazard.csv", "lab.xml", "figures", "figures/mine.svg"}));
+}
+
+TEST(OutputFolder, OverwriteRemovesNothingThatWasChanged) {
+  const test::Scratch scratch("out");
+  write_result(scratch / "bins.csv", "edp,unit,im\n1,2,3\n");
+  write_result(scratch / "risk.csv", "annual_rate,annual_rate_lower\n");
+  write_text(scratch / "study.yaml", signed_text("samples: 3\n"));
+  for (const auto& [name, text] :
+       {std::pair{"bins.csv", "edp,unit,im\n1,2,4\n"}, std::pair{"risk.csv", "annual_rate,annual_rate_lower\n1,2\n"},
+        std::pair{"study.yaml", "# Written by freestand (0123456789abcdef). Changed ...\n"}}) {
+    const std::string before = read_whole(scratch / name);
+    write_text(scratch / name, text);
+    const auto all = names_in(scratch.folder());
+    EXPECT_THAT(error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), Existing::overwrite); }),
+                AllOf(HasSubstr(name), HasSubstr("changed since")));
+    EXPECT_EQ(names_in(scratch.folder()), all);
+    write_text(scratch / name, before);
+  }
+  prepare_output_folder(scratch.folder(), Existing::overwrite);
+  EXPECT_TRUE(fs::is_empty(scratch.folder()));
+}
+
+TEST(OutputFolder, OverwriteRemovesNothingThatIsRead) {
+  const test::Scratch scratch("out");
+  write_text(scratch / "fitted.yaml", signed_text("x: 1\n"));
+  write_result(scratch / "comparison.json", "{}\n");
+  const std::vector<fs::path> reads = {scratch / "." / "fitted.yaml"};
+  EXPECT_THAT(
+      error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), Existing::overwrite, {.reads = reads}); }),
+      HasSubstr("fitted.yaml is read"));
+  EXPECT_TRUE(fs::exists(scratch / "comparison.json"));
+  prepare_output_folder(scratch.folder(), Existing::overwrite, {.writes = {"fitted.yaml"}, .reads = reads});
+  EXPECT_EQ(names_in(scratch.folder()), std::set<std::string>{"fitted.yaml"});
+}
+
+TEST(OutputFolder, OverwriteTakesNoDatabaseForAResult) {
+  const test::Scratch scratch("out");
+  put(scratch / "database.h5");
+  EXPECT_THAT(error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), Existing::overwrite); }),
+              HasSubstr("database of many entries"));
+}
+
 TEST(OutputFolder, OverwriteReplacesNoFileOfAnyoneElse) {
   const test::Scratch scratch("out");
   for (const char* name : {"summary.json", "study.yaml", "surface.csv"}) put(scratch / name);
@@ -85,8 +149,9 @@ TEST(OutputFolder, OverwriteReplacesNoFileOfAnyoneElse) {
               HasSubstr("summary.json would be replaced"));
   fs::remove(scratch / "summary.json");
   for (const Existing existing : {Existing::overwrite, Existing::resume})
-    EXPECT_THAT(error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), existing, {"study.yaml"}); }),
-                HasSubstr("study.yaml would be replaced"));
+    EXPECT_THAT(
+        error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), existing, {.writes = {"study.yaml"}}); }),
+        HasSubstr("study.yaml would be replaced"));
   EXPECT_EQ(names_in(scratch.folder()), (std::set<std::string>{"study.yaml", "surface.csv"}));
 }
 

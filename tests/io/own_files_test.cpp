@@ -8,6 +8,7 @@
 #include "io/fragility_file.hpp"
 #include "io/h5.hpp"
 #include "io/text_files.hpp"
+#include "io/written_files.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 
@@ -62,6 +63,29 @@ TEST_F(OwnFiles, ResultsByTheirFormat) {
   EXPECT_TRUE(own("report.html", "<!DOCTYPE html>\n<meta name=\"generator\" content=\"freestand\">\n"));
   EXPECT_FALSE(own("report.html", "<!DOCTYPE html>\n"));
   EXPECT_FALSE(is_own(folder_.folder()));
+}
+
+// FNV-1a, 64 bits, as published.
+TEST(HashText, IsTheOneThatPicturesAreListedBy) {
+  EXPECT_EQ(hash_text("a"), "af63dc4c8601ec8c");
+  EXPECT_EQ(hash_text("foobar"), "85944171f73967e8");
+}
+
+// A table that was changed has the header of a result still.
+TEST_F(OwnFiles, TablesAsTheyWereWritten) {
+  const std::string table = bins_csv({}) + "1,2\n";
+  for (const char* name : {"bins.csv", "summary.json", "any.csv"}) {
+    write_result(folder_ / name, table);
+    write_result(folder_ / name, table + "3,4\n");
+    EXPECT_TRUE(is_own(folder_ / name));
+    EXPECT_TRUE(own(name, table));  // as before: the run was killed when it had listed what it would write
+    EXPECT_FALSE(was_changed(folder_ / name));
+    EXPECT_FALSE(own(name, table + "3,5\n"));
+    EXPECT_TRUE(was_changed(folder_ / name));
+  }
+  write_result(folder_ / "any.csv", table);  // by order of the user, say
+  EXPECT_TRUE(is_own(folder_ / "any.csv"));
+  EXPECT_FALSE(own("any.csv", table + "3,4\n"));  // that one is long gone
 }
 
 TEST_F(OwnFiles, OthersAreRefusedByName) {

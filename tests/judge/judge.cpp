@@ -92,8 +92,10 @@ void doubt_edges(Evidence& evidence, const JudgedCase& c, double step) {
   Truth truth = c.truth;
   bool touches = false;
   for (TruthEffect& effect : truth.effects)
-    if (effect.name == "wall_impact" && effect.parameters.at("gap_m") == 0)
-      touches = true, effect.parameters["gap_m"] = off_m;
+    if (effect.name == "wall_impact")
+      for (const char* gap : {"gap_m", "other_gap_m"})
+        if (effect.parameters.count(gap) && effect.parameters.at(gap) == 0)
+          touches = true, effect.parameters[gap] = off_m;
   if (touches) doubt(evidence, simulate(truth, c.floor, 0.5 * step));
 }
 

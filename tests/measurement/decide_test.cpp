@@ -1,7 +1,6 @@
 // From fitted candidates to a verdict, on candidates whose errors are given.
 #include "measurement/decide.hpp"
 
-#include <gsl/gsl_cdf.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,61 +10,10 @@
 
 #include "effects/effects.hpp"
 #include "measurement/laboratory.hpp"
-#include "measurement/made_tests.hpp"
+#include "measurement/made_candidates.hpp"
 
 namespace freestand::measurement {
 namespace {
-
-constexpr double samples = 1000;
-
-Chance chance(const char* question, double p) {
-  return {.question = question, .about = {}, .p = p, .simulations = 2000};
-}
-
-// Answers as independent normal noise would give them: a lead L by exp(-L/2), a misfit by its normal deviate.
-Questions by_misfit() {
-  return {.lead =
-              [](const Candidate& best, const Candidate& rival) {
-                return chance(lead_question, std::min(1.0, std::exp((best.misfit - rival.misfit) / 2)));
-              },
-          .enough =
-              [](const Candidate& c) {
-                return chance(misfit_question,
-                              gsl_cdf_ugaussian_Q((c.misfit_of_fit - samples) / std::sqrt(2 * samples)));
-              },
-          .another = [](const Candidate&) { return chance(another_question, 0.001); }};
-}
-
-Dataset cabinet_tests() {
-  Specimen cabinet;
-  cabinet.block = Block::rectangular(0.8, 0.6, 100);
-  cabinet.friction = {0.2, 0.2};
-  return test::made_dataset(cabinet);
-}
-
-// error: of every test left out [noise units]; explained: sqrt(G/samples).
-Candidate candidate(const Bench& bench, std::vector<std::string> effects, double error, double explained) {
-  Candidate c{.effects = std::move(effects), .fit = {.model = test::free_friction(), .x = {0.2}}};
-  const std::size_t tests = tests_of(bench.data(), Role::calibration).size();
-  for (std::size_t i = 0; i < tests; ++i)
-    c.fit.left_out.push_back({.score = 2 * std::log(error), .noise_units = error});
-  c.fit.calibration = c.fit.left_out;
-  c.fit.left_out_refitted = true;
-  c.explained = explained;
-  c.misfits.assign(tests, samples / static_cast<double>(tests) * explained * explained);
-  c.misfit = c.misfit_of_fit = samples * explained * explained;
-  return c;
-}
-
-// strays: of every test of the base.
-Diagnosis undecided(const Bench& bench, double strays) {
-  const std::size_t tests = tests_of(bench.data(), Role::calibration).size();
-  Diagnosis d;
-  d.samples.assign(tests, samples / static_cast<double>(tests));
-  d.strays.assign(tests, strays);
-  d.base = candidate(bench, {}, 5.5, 2.9);
-  return d;
-}
 
 Diagnosis decided(const Bench& bench, double error, double explained, double strays = 0) {
   Diagnosis d = undecided(bench, strays);
@@ -98,22 +46,6 @@ TEST(Decide, AnEffectThatGainsLessThanReplaysOfTheBaseStrayIsNotMissing) {
   const Diagnosis d = decided(bench, 1.05, 1.0, samples * 2.9 * 2.9);
   EXPECT_EQ(d.verdict, Verdict::none);
   EXPECT_TRUE(d.effects.empty());
-}
-
-// As candidate(), with the error of each test left out [noise units].
-Candidate with_errors(const Bench& bench, std::vector<std::string> effects, const std::vector<double>& errors,
-                      double explained) {
-  Candidate c = candidate(bench, std::move(effects), 1, explained);
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    c.fit.left_out[i] = {.score = 2 * std::log(errors[i]), .noise_units = errors[i]};
-  return c;
-}
-
-Diagnosis decided_among(const Bench& bench, std::vector<Candidate> candidates, const Questions& ask = by_misfit()) {
-  Diagnosis d = undecided(bench, 0);
-  d.candidates = std::move(candidates);
-  decide(bench, d, ask);
-  return d;
 }
 
 // Static friction was hidden (mu_s/mu_k 1.51). The misfit that allows for the floor's noise prefers rate weakening by 60, the tests left

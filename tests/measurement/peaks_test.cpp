@@ -51,6 +51,16 @@ TEST(Peaks, StandingStillIsAHitAndSlidingAMiss) {
   EXPECT_EQ(error_at(bench, 0, 1).score, 9);  // and the other way round
 }
 
+// What counts as motion is of the calibration tests: another test held out changes no score.
+TEST(Peaks, ATestHeldOutDoesNotSayWhatMotionIs) {
+  Dataset data = made_peaks();
+  const double least = least_motion(Bench(data, 0), Channel::slip);
+  data.tests.push_back(data.tests[0]);
+  data.tests.back().role = Role::holdout;
+  *data.tests.back().peaks.peak_slip_m *= 100;
+  EXPECT_EQ(least_motion(Bench(data, 0), Channel::slip), least);
+}
+
 TEST(Peaks, BelowTheNoiseTheSizeOfAPeakSaysNothing) {
   Dataset data = made_peaks();
   data.noise.slip_m = 2e-3;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "effects/effects.hpp"
 #include "measurement/made_tests.hpp"
@@ -83,6 +84,41 @@ TEST(Posterior, AModelThatMissesIsLessSure) {
   const Posterior wrong = posterior(bench, test::fitted(bench, test::free_friction(), {0.17}), run_here);
   const Interval of_right = right.interval(0, 0.9), of_wrong = wrong.interval(0, 0.9);
   EXPECT_GT(of_wrong.upper - of_wrong.lower, 3 * (of_right.upper - of_right.lower));
+}
+
+// A hundred draws at 0.5, 1.5 ... 99.5: an interval of 90 % that must hold what lies beyond 5 % of them leaves out 10 % of the
+// others.
+TEST(Posterior, AnIntervalHoldsWhatItMust) {
+  Posterior p;
+  for (int i = 0; i < 100; ++i) p.of_mean.push_back({i + 0.5});
+  for (const auto& [held, lower, upper] :
+       {std::tuple{50.0, 5, 95}, std::tuple{7.0, 5, 95}, std::tuple{3.0, 3, 93}, std::tuple{-20.0, -20, 90},
+        std::tuple{98.0, 8, 98}, std::tuple{300.0, 10, 300}}) {
+    const Interval interval = p.interval(0, 0.9, held);
+    EXPECT_NEAR(interval.lower, lower, 1e-9) << held;
+    EXPECT_NEAR(interval.upper, upper, 1e-9) << held;
+  }
+}
+
+// Friction of 0.2 that may not be below 0.21: the fit ends there, and all draws lie above it.
+TEST(Posterior, AFittedNumberLiesWithinItsIntervalAtTheBoundOfItsRangeToo) {
+  const Dataset data = test::made_dataset(test::cabinet());
+  const Bench bench(data, 0);
+  for (const double bound : {0.05, 0.21, 0.19}) {
+    ModelSpec model = test::free_friction();
+    Free& mu = model.free[0];
+    (bound < 0.2 && bound > 0.1 ? mu.upper = mu.high : mu.lower = mu.low) = bound;
+    ModelFit fit = test::fitted(bench, model, {bound});
+    fit.evaluations = 1;
+    const Posterior open = open_numbers(bench, fit, run_here);
+    EXPECT_NEAR(fit.x[0], bound == 0.05 ? 0.2 : bound, 2e-3);
+    ASSERT_EQ(fit.intervals.size(), 1u);
+    for (const Interval& interval : {fit.intervals[0], interval_of(open, fit, 0, 0.9)}) {
+      EXPECT_LE(interval.lower, fit.x[0]);
+      EXPECT_GE(interval.upper, fit.x[0]);
+      EXPECT_LT(interval.lower, interval.upper);
+    }
+  }
 }
 
 TEST(Posterior, OfAModelWithoutFreeNumbersNothingIsOpen) {

@@ -76,6 +76,37 @@ TEST(Quality, NamesTheTestThatIsWrong) {
   EXPECT_FALSE(q.mirrored_slip);
 }
 
+// What is held out is told of, and decides nothing.
+TEST(Quality, ATestThatIsHeldOutSpoilsNoVerdict) {
+  const Dataset good = test::made_dataset(cabinet(0.2));
+  ASSERT_EQ(good.tests[4].role, Role::holdout);
+  const auto said = [&](auto change, const char* what) {
+    Dataset data = good;
+    change(data.tests[4]);
+    const Quality q = examined(data);
+    EXPECT_FALSE(q.spoilt()) << what;
+    EXPECT_THAT(q.findings,
+                Contains(testing::AllOf(HasSubstr(what), HasSubstr("t5 is held out, which decides nothing"))));
+    data = good;
+    change(data.tests[3]);
+    EXPECT_TRUE(examined(data).spoilt()) << what;
+    EXPECT_THAT(examined(data).findings, Not(Contains(HasSubstr("held out")))) << what;
+  };
+  said([](measurement::Test& t) { mirror(t); }, "looks mirrored");
+  said([](measurement::Test& t) { delay(t, 12); }, "behind the floor's channel");
+  const auto times = [](std::vector<double>& samples, double factor) {
+    for (double& s : samples) s *= factor;
+  };
+  said([&](measurement::Test& t) { times(t.slip_m, 1000); }, "is slip_m in metres?");
+  said([&](measurement::Test& t) { times(t.motion.horizontal_mps2, 100), index_runs(t.motion); },
+       "is floor_acceleration_mps2 in m/s2?");
+  said(
+      [](measurement::Test& t) {
+        for (double& s : t.slip_m) s += 0.05;
+      },
+      "does not start at zero");
+}
+
 TEST(Quality, SaysOnceWhatIsWrongWithAll) {
   Dataset data = test::made_dataset(cabinet(0.2));
   for (auto& t : data.tests) delay(t, 12);

@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 import support
+from freestand_post import writing
 from support import make_results
 
 import h5py
@@ -145,11 +146,22 @@ class Figures(Temporary):
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         target = folder / "figures"
         captions = json.loads((target / "captions.json").read_text(encoding="utf-8"))
+        listed = dict(line.split()[::-1] for line in (target / "freestand.files").read_text(encoding="utf-8").splitlines()[1:])
+        self.assertEqual(set(listed) | {"freestand.files"}, {path.name for path in target.iterdir()})
         self.assertEqual(set(captions), {"fragility_delta", "surface_delta", "goodness_delta", "overturning",
                                          "happening_connection_failed"})
         for name in captions:
             self.assertTrue((target / f"{name}.svg").read_text(encoding="utf-8").rstrip().endswith("</svg>"))
             self.assertEqual((target / f"{name}.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_the_list_is_the_programs(self):
+        """Hashes as published for FNV-1a, 64 bits; tests/io/own_files_test.cpp has the same. What others have listed stays."""
+        (self.folder / "one").write_text("a")
+        (self.folder / "two").write_text("foobar")
+        writing.write_list(self.folder, ["two"])
+        writing.write_list(self.folder, ["one"])
+        lines = (self.folder / "freestand.files").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(lines[1:], ["85944171f73967e8 two", "af63dc4c8601ec8c one"])
 
     def test_same_files_twice(self):
         case = make_results.make_history(self.folder / "case")

@@ -47,6 +47,9 @@ TEST(Bins, AWidthThatMakesMoreBinsThanCanBeHeldOrFilledIsAMistakeOfTheStudy) {
               testing::HasSubstr("199 samples do not fill so many): choose a width of at least 0.01"));
   EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { of_width(1e-300, 3); }),
               testing::HasSubstr("a width of 1e-300"));
+  for (const double width : {1e-310, 1e-320})
+    EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { of_width(width, 3); }),
+                testing::HasSubstr("makes countless bins"));
 }
 
 TEST(Bins, EqualCountPutsAsManyIntoEach) {

@@ -40,6 +40,22 @@ TEST(Doubts, DispersionsThatAreNoLogarithms) {
   EXPECT_THAT(with("1"), IsEmpty());
 }
 
+// Whatever the distribution is called, and whatever it is of: two thirds of the values of nothing span a factor of a hundred.
+TEST(Doubts, DistributionsThatSpanTooMuch) {
+  const auto friction_of = [](const char* value) {
+    return doubts(parse(block + "friction: {mu: " + value + "}\n" + motions + rest));
+  };
+  EXPECT_THAT(friction_of("{log_uniform: [1e-60, 1]}"),
+              ElementsAre("two thirds of the values of friction.mu span a factor of 1e+40: are its ends right?"));
+  EXPECT_THAT(friction_of("{log_uniform: [0.001, 1.0001]}"), ElementsAre(HasSubstr("span a factor of 1e+02")));
+  EXPECT_THAT(friction_of("{log_uniform: [0.001, 0.999]}"), IsEmpty());
+  EXPECT_THAT(friction_of("{lognormal: {median: 0.2, dispersion: 30, min: 0.1, max: 0.5}}"), IsEmpty());
+  const std::string capacities =
+      "fragility: {edp: [peak_slip_m], capacities: {peak_slip_m: [0.1, {lognormal: {median: 0.1, dispersion: 30}}]}}\n";
+  EXPECT_THAT(doubts(parse(block + friction + motions + samples + capacities)),
+              ElementsAre(HasSubstr("damage.peak_slip_m_over_capacity_1.capacity has the dispersion 30")));
+}
+
 TEST(Doubts, NothingThatShakes) {
   EXPECT_THAT(doubts(parse(block + friction + "motions: [{pulse: B, period_s: 0.5, peak_acceleration_g: 0}]\n" + rest)),
               ElementsAre("motion.peak_acceleration_g is 0: nothing will shake"));
@@ -62,6 +78,45 @@ TEST(Doubts, RecordsInAnotherUnit) {
   EXPECT_THAT(doubts(study, set(0.01, 9)), IsEmpty());
   EXPECT_THAT(doubts(study, set(0.01, 300)), ElementsAre(HasSubstr("the floor of some.csv reaches 61.2 g")));
   EXPECT_THAT(doubts(study, set(5, 9)), testing::Contains(HasSubstr("the time step of some.csv is 5 s")));
+}
+
+// A record in another unit is scaled by far more than any that is used.
+TEST(Doubts, RecordsThatAreScaledTooFar) {
+  const auto said = [](const std::string& to, double peak_mps2) {
+    Study study = parse(block + friction + motions + rest);
+    MotionSource& source = study.motions[0];
+    source.kind = MotionSource::Kind::records;
+    source.scale_to = IntensityPart{to, "", {}};
+    source.amplitude = Quantity{.name = "motion." + to, .unit = "g", .value = sampling::Uniform{0.5, 1.5}};
+    MotionSet set;
+    set.entries = std::make_shared<const std::vector<MotionSet::Entry>>(std::vector<MotionSet::Entry>{
+        {.motion =
+             piecewise_linear("some.csv", 0.01, {0, peak_mps2, 0, -peak_mps2, 0, -peak_mps2, 0, peak_mps2, 0}, {}),
+         .peak_mps2 = peak_mps2}});
+    set.of_source = {{0}};
+    return doubts(study, set);
+  };
+  EXPECT_THAT(said("pga_g", 9.80665e-9),
+              ElementsAre("some.csv is scaled by 1e+09 to reach pga_g 1: is its unit right?"));
+  EXPECT_THAT(said("pga_g", 0.0980), ElementsAre(HasSubstr("is scaled by 100 to reach pga_g 1")));
+  EXPECT_THAT(said("pga_g", 0.0981), IsEmpty());
+}
+
+// A case is one sample: it takes no choice, and is told what it takes.
+TEST(Doubts, OfACaseAdviseWhatACaseTakes) {
+  const auto said = [](const std::string& more, double scale) {
+    Case one = parse_case(block + friction + "motion: {pulse: B, period_s: 0.5, peak_acceleration_g: 0.6}\n" + more,
+                          "one.yaml");
+    MotionSource& source = one.study.motions[0];
+    source.kind = MotionSource::Kind::records;
+    source.records = "floor.csv";
+    source.amplitude = Quantity{.name = "motion.scale", .unit = "1", .value = sampling::Fixed{scale}};
+    MotionSet none;
+    none.of_source = {{}};
+    return doubts(one, none);
+  };
+  EXPECT_THAT(said("effects: [{name: wall_impact, gap_m: 0.05}]\n", 1.2),
+              ElementsAre(testing::EndsWith("a negative number turns it round: simulate that too (scale: -1.2)")));
 }
 
 // An accelerometer that feels gravity, a channel in other units, one that holds nothing: of the channels beside the first, too, where they shake
@@ -106,12 +161,18 @@ TEST(Doubts, RecordsOfOneSignBesideAWallOnOneSide) {
   };
   const std::string right = "effects: [{name: wall_impact, gap_m: 0.05}]\n",
                     both = "effects: [{name: wall_impact, gap_m: {uniform: [-0.05, 0.05]}}]\n",
+                    on_left = "effects: [{name: wall_impact, gap_m: 0, side: -1}]\n",
+                    drawn = "effects: [{name: wall_impact, gap_m: 0.05, side: {choice: [-1, 1]}}]\n",
+                    with_other = "effects: [{name: wall_impact, gap_m: 0.05, other_gap_m: 0}]\n",
                     behind = "chain: {stiffness_npm: 1e4, strength_n: 2736, wall_gap_m: 0.1}\n";
   EXPECT_THAT(said(right, sampling::Fixed{1}),
               ElementsAre(HasSubstr("the wall of wall_impact is on one side, and some/*.csv")));
   EXPECT_THAT(said(behind, sampling::Fixed{1}), ElementsAre(HasSubstr("scale: {choice: [-1, 1]}")));
   EXPECT_THAT(said(right, sampling::Uniform{-1, 1}), IsEmpty());
   EXPECT_THAT(said(both, sampling::Fixed{1}), IsEmpty());
+  EXPECT_THAT(said(on_left, sampling::Fixed{1}), ElementsAre(HasSubstr("the wall of wall_impact is on one side")));
+  EXPECT_THAT(said(drawn, sampling::Fixed{1}), IsEmpty());
+  EXPECT_THAT(said(with_other, sampling::Fixed{1}), IsEmpty());
   EXPECT_THAT(said("", sampling::Fixed{1}), IsEmpty());
   EXPECT_THAT(said(right, sampling::Fixed{1}, false), IsEmpty());
 }

@@ -95,7 +95,8 @@ std::uint64_t hash_of(const Evaluator& evaluator, std::uint64_t hash) {
                             column == "edp_peak_acceleration_g" || column == "edp_impacts" ||
                             column == "edp_overturned" || column == "edp_connection_failed" ||
                             column == "edp_wall_hit" || column == "edp_wall_speed_mps";
-    if (column.starts_with("edp_") && !old_demand) continue;
+    const bool new_parameter = column == "effects_wall_impact_side" || column == "effects_wall_impact_other_gap_m";
+    if ((column.starts_with("edp_") && !old_demand) || new_parameter) continue;
     const auto bits = std::isnan(values[i]) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(values[i]);
     hash = random::mix(hash ^ bits);
   }

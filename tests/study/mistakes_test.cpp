@@ -120,7 +120,7 @@ TEST(StudyMistakes, InFrictionModelImpactAndEffects) {
       {sound + "model: rock\neffects:\n  - {name: wall_impact, gap_m: 0.1}\n", "8",
        "the only wall there is the one behind a chain"},
       {sound + "effects:\n  - {name: wall_impact, gap_m: 0.1}\n  - {name: wall_impact, gap_m: -0.1}\n", "8",
-       "the wall behind a chain, chain.wall_gap_m, may be a second one"},
+       "other_gap_m is how far a second wall is, on the other side"},
       {sound + "model: bouc_wen\nbouc_wen: {yield_displacement_m: 0.001, exponent: 2}\n"
                "chain: {stiffness_npm: 1e4, strength_n: 2736, wall_gap_m: 0.1}\n",
        "8", "chain.wall_gap_m does not go with model bouc_wen"},

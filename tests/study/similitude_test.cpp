@@ -153,9 +153,9 @@ TEST_F(Scales, StandInTheExpandedStudyAndInItsFingerprint) {
 }
 
 TEST_F(Scales, ThatShakeNothingAreRefusedWithTheirLine) {
-  for (const char* value : {"0", "-0.5"}) {
+  for (const char* value : {"0", "-0.5", "1e-300", "1e-12", "2e4"}) {
     EXPECT_THAT(refusal(std::string(", time_scale: ") + value), HasSubstr("s.yaml:5: motions[0].time_scale"));
-    EXPECT_THAT(refusal(std::string(", length_scale: ") + value), HasSubstr("without length or duration"));
+    EXPECT_THAT(refusal(std::string(", length_scale: ") + value), HasSubstr("it must lie from 1e-4 to 1e4"));
   }
   EXPECT_THAT(refusal(", time_scale: {uniform: [0.5, 1]}"), HasSubstr("motions[0].time_scale"));
   EXPECT_THAT(problems(block + friction + samples + fragility +

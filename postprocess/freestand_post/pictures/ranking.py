@@ -10,21 +10,25 @@ SHOWN = 10
 CAPTION = ("Each point: error of one model on tests left out of its fit, in turn; bar: one standard error. Filled: the best and those "
            "that chance does not part from it. Models at the grey line gain nothing over the base. Effects that no test can see are left out.")
 
-CROSSES = " Crosses: error of the fit to all tests, of effects that gain too little on the base or the best to leave tests out."
+CROSSES = " Crosses, numbers in brackets: error of the fit to all tests, of effects that gain too little on the base or the best to leave tests out."
 
 
 def pictures(results):
     if isinstance(results, Validation):
         for k, diagnosis in enumerate(results.diagnoses):
-            if any(row.get("visible", True) and np.isfinite(row["error_left_out"]) for row in diagnosis.candidates):
+            if any(row.get("visible", True) and np.isfinite(_value(row)) for row in diagnosis.candidates):
                 yield _picture(diagnosis, k)
 
 
+def _value(row):
+    return row["error_left_out"] if row["left_out_refitted"] else row["error_calibration"]
+
+
 def _picture(diagnosis, k):
-    rows = [row for row in diagnosis.candidates if row.get("visible", True) and np.isfinite(row["error_left_out"])]
+    rows = [row for row in diagnosis.candidates if row.get("visible", True) and np.isfinite(_value(row))]
     more, rows = len(rows) - SHOWN, rows[:SHOWN]
-    value = np.array([row["error_left_out"] for row in rows])
-    error = np.nan_to_num([row["error_left_out_se"] * row["left_out_refitted"] for row in rows])
+    value = np.array([_value(row) for row in rows])
+    error = np.nan_to_num([row["error_left_out_se"] for row in rows])
     base, floor = diagnosis.base.get("error_left_out", np.nan), diagnosis.noise_floor
     fig = style.figure(7.4, 1.75 + 0.27 * len(rows))
     ax = fig.subplots()
@@ -47,7 +51,7 @@ def _picture(diagnosis, k):
         label.set(weight="bold" if row["as_good_as_best"] else "normal", color=style.BLUE if row["as_good_as_best"] else style.INK)
     ax.tick_params(axis="y", length=0)
     for i, row in enumerate(rows):
-        ax.text(1.02, y[i], validation.error(value[i]), transform=ax.get_yaxis_transform(), va="center", size=8.8,
+        ax.text(1.02, y[i], validation.error(value[i]) if row["left_out_refitted"] else f"({validation.error(value[i])})", transform=ax.get_yaxis_transform(), va="center", size=8.8,
                 color=style.BLUE if row["as_good_as_best"] else style.MUTED, weight="bold" if row["as_good_as_best"] else "normal")
     style.grid(ax, "x")
     _name_lines(ax, base, floor)
