@@ -54,7 +54,7 @@ std::string used_text(const fs::path& folder) {
   const std::string thrown = finished == 0   ? "starts again"
                              : finished == 1 ? "throws 1 finished block away"
                                              : fmt::format("throws {} finished blocks away", finished);
-  return fmt::format("{} holds an interrupted sweep (it is not empty): --resume goes on, --overwrite {}",
+  return fmt::format("{} holds an interrupted run (it is not empty): --resume goes on, --overwrite {}",
                      folder.string(), thrown);
 }
 

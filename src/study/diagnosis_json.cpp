@@ -14,6 +14,7 @@
 #include "measurement/suggest.hpp"
 #include "measurement/suggest_outcomes.hpp"
 #include "study/law_forms.hpp"
+#include "study/read_parts.hpp"
 #include "study/spread_jobs.hpp"
 #include "study/sweep.hpp"
 #include "study/validation_parts.hpp"
@@ -180,12 +181,26 @@ const char* decided_by(const Bench& bench, const Diagnosis& d) {
   return measurement::kind_of_set(bench) == Kind::history ? "chi_square_left_out" : "score_left_out_above_best";
 }
 
+// The diagnosis that lies in the folder; null: none. Throws Error (Exit::usage) where it is that of something else.
+Json finished(const std::filesystem::path& folder, const std::string& fingerprint) {
+  const std::filesystem::path file = folder / "diagnosis.json";
+  if (!std::filesystem::exists(file)) return nullptr;
+  Json found = Json::parse(read_text(file), nullptr, false);
+  if (found.is_object() && found.value("fingerprint", "") == fingerprint) return found;
+  throw Error(
+      fmt::format("{} is of another study or program (there is nothing to go on with): name another folder, or "
+                  "start again with --overwrite",
+                  file.string()));
+}
+
 }  // namespace
 
 Json diagnose(const parallel::Communicator& world, const ValidationRun& run, RunFolder& folder) {
   const auto p = prepare(world, run, 32);
   const Bench& bench = *p->bench;
-  const auto kept = std::make_shared<KeptAnswers>(world, blocks_path(folder.path()), content(*p));
+  const std::string fingerprint = fingerprint_of_answers(content(*p));
+  if (Json done = finished(folder.path(), fingerprint); !done.is_null()) return done;
+  const auto kept = std::make_shared<KeptAnswers>(world, blocks_path(folder.path()), fingerprint);
   folder.begin();
   const Jobs jobs = spread_jobs(
       world, run.quiet, [&] { folder.leave(); }, kept);
@@ -212,6 +227,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
   Json json = {{"format", "freestand-diagnosis/2"},
                {"study", run.study},
                {"measurements", p->measurements},
+               {"fingerprint", fingerprint},
                {"name", p->data.name},
                {"error_unit", error_unit(bench)},
                {"verdict", name(d.verdict)},

@@ -15,17 +15,17 @@ constexpr double worth_keeping_s = 0.01;
 
 std::int64_t block_of(std::int64_t call, std::size_t i) { return call << 32 | static_cast<std::int64_t>(i); }
 
-// Another version may fit otherwise.
-std::string fingerprint_of(const std::string& text) {
-  const io::Provenance here = io::provenance_here("", 1);
-  return fmt::format("answers {:016x}", random::stable_hash(here.version + "\n" + here.git_commit + "\n" + text));
-}
-
 }  // namespace
 
+// Another version may fit otherwise.
+std::string fingerprint_of_answers(const std::string& content) {
+  const io::Provenance here = io::provenance_here("", 1);
+  return fmt::format("answers {:016x}", random::stable_hash(here.version + "\n" + here.git_commit + "\n" + content));
+}
+
 KeptAnswers::KeptAnswers(const parallel::Communicator& world, const std::filesystem::path& folder,
-                         const std::string& followed_from)
-    : log_(folder, fingerprint_of(followed_from)) {
+                         const std::string& fingerprint)
+    : log_(folder, fingerprint) {
   world.on_root([&] { log_.find(); });
   found_ = log_.begin(world);
 }

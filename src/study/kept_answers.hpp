@@ -12,11 +12,13 @@
 
 namespace freestand::study {
 
+// Of all that answers follow from, this program included.
+std::string fingerprint_of_answers(const std::string& content);
+
 class KeptAnswers {
  public:
-  // folder: of the logs (parallel/block_log.hpp). followed_from: all that the answers follow from; answers that followed from
-  // something else are an Error (Exit::usage). Collective.
-  KeptAnswers(const parallel::Communicator&, const std::filesystem::path& folder, const std::string& followed_from);
+  // folder: of the logs (parallel/block_log.hpp). Answers of another fingerprint in it are an Error (Exit::usage). Collective.
+  KeptAnswers(const parallel::Communicator&, const std::filesystem::path& folder, const std::string& fingerprint);
 
   // Of job i of the call so many. On any rank.
   std::optional<std::vector<double>> find(std::int64_t call, std::size_t i) const;

@@ -66,7 +66,7 @@ std::optional<Quantity> read_scale_to(Section& section, MotionSource& source) {
   source.scale_to =
       IntensityPart{measure.name, measure.parameter ? measure.parameter->name : "", read_parameter(scale_to, measure)};
   auto target = scale_to.quantity("motion", measure.name, range::any);  // negative: mirrored
-  if (target) target->drawn_as = "motion.pta_g";  // the same shaking, whatever it is measured by
+  if (target) target->drawn_as = "motion.pta_g";                        // the same shaking, whatever it is measured by
   scale_to.finish();
   return target;
 }

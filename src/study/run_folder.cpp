@@ -67,9 +67,10 @@ void RunFolder::refuse_other_folders() const {
   world_.on_root([&] {
     const auto other = std::find(all.begin(), all.end(), parallel::Words{0});
     if (other != all.end())
-      throw Error(fmt::format("{} is not the same folder on every node (rank {} does not see what rank 0 has written there): "
-                              "name one on a file system that all nodes share",
-                              folder_.string(), other - all.begin()));
+      throw Error(
+          fmt::format("{} is not the same folder on every node (rank {} does not see what rank 0 has written there): "
+                      "name one on a file system that all nodes share",
+                      folder_.string(), other - all.begin()));
   });
 }
 
