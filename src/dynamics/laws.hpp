@@ -1,6 +1,7 @@
 // The dynamic effects of one specimen, recorded together: their factors of friction multiplied, their forces summed.
 #pragma once
 
+#include <algorithm>
 #include <freestand/floor_motion.hpp>
 #include <freestand/specimen.hpp>
 
@@ -60,16 +61,18 @@ struct Laws {
   // The same for the inputs in `values`, whose nodes are filled in; what has broken in `before` stays broken.
   std::uint32_t sides_at(Series<double, 0>* values, std::uint32_t before) const;
   // The same for the friction of a slip that is about to begin: other sides than those of forces, and than the opposite slip's.
-  // turned: kinks that were met at this instant stay.
+  // turned: kinks that were met at this instant stay, unless their argument is zero for good.
   template <int N>
   std::uint32_t sides_of_slip(std::uint32_t sides, std::uint32_t turned, Series<double, N>* values) const {
     constexpr std::uint32_t of_slip =
         1U << static_cast<int>(Input::sigma) | 1U << static_cast<int>(Input::speed) | 1U << static_cast<int>(Input::v);
     for (int j = 0; j < tape.kink_count(); ++j) {
       const int node = tape.kink_node(j), argument = tape.kink_argument(j);
-      if (node < forces_end || node >= friction_end || (turned >> j & 1U)) continue;
+      if (node < forces_end || node >= friction_end) continue;
       if (!(tape.dependence(argument) & of_slip)) continue;
-      tape.advance(forces_end, node, 0, sides, values);
+      const bool met = turned >> j & 1U;
+      for (int k = 0; k < (met ? std::max(N, 1) : 1); ++k) tape.advance(forces_end, node, k, sides, values);
+      if (met && !vanishes(values[argument])) continue;
       sides = (sides & ~(1U << j)) | (tape.below(j, values[argument][0]) ? 1U << j : 0U);
     }
     return sides;

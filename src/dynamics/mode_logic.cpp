@@ -11,10 +11,7 @@ enum class AtWall { released, pushed };
 // A step whose argument is zero in the whole mode (a speed at rest, a rotation on both corners) and not greater.
 template <int N>
 bool stays_at_zero(const Tape& tape, const State& trial, int kink, const Series<double, N>& argument) {
-  if (!tape.is_step(kink) || trial.sides >> kink & 1U || trial.has_met(kink)) return false;
-  for (int i = 0; i < N; ++i)
-    if (argument[i] != 0) return false;
-  return true;
+  return tape.is_step(kink) && !(trial.sides >> kink & 1U) && vanishes(argument);
 }
 
 // Forces, slip speed and their directions may jump when the mode changes, and may end on the other side of a kink: a trial is
@@ -29,8 +26,8 @@ void settle_kinks(const Rig& rig, State& trial, KinksOf&& kinks_of) {
     const auto& kinks = kinks_of();
     const auto turns = [&](int kink) {
       const auto argument = past_instant(kinks.kink[kink], rig.instant_s);
-      return trial.watches(kink) &&
-             (sign_after(argument, {0, 0.0}) < 0 || stays_at_zero(rig.laws->tape, trial, kink, argument));
+      return (trial.watches(kink) && sign_after(argument, {0, 0.0}) < 0) ||
+             stays_at_zero(rig.laws->tape, trial, kink, argument);
     };
     int j = 0;
     while (j < count && !turns(j)) ++j;
@@ -106,6 +103,7 @@ bool friction_holds(const Rig& rig, const FloorCursor& cursor, State trial, int 
   trial.mode = Mode::rest;
   trial.pivot = trial.sigma = trial.wall = 0;
   trial.foot = 0;
+  settle_kinks(rig, trial, [&] { return LawStep<3>(rig, trial, cursor.time(), cursor.local<3>()).run(); });
   bool holds = false;
   with_contact_arc<1>(rig, trial, cursor.time(), cursor.local<1>(), [&](const auto& arc) {
     for_each_witness(rig, trial, arc, [&](Witness witness, const auto& limit, ZeroTolerance zero) {

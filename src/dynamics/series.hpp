@@ -30,6 +30,14 @@ struct Series {
   }
 };
 
+// Of a series that is known to order N - 1: it is zero to that order.
+template <int N>
+bool vanishes(const Series<double, N>& y) {
+  for (int k = 0; k < (N > 0 ? N : 1); ++k)
+    if (y[k] != 0) return false;
+  return true;
+}
+
 // Coefficient k of the product a b.
 template <class Real, int N>
 [[gnu::always_inline]] inline Real product(const Series<Real, N>& a, const Series<Real, N>& b, int k) {

@@ -143,6 +143,36 @@ TEST_P(LawValues, WhatIsZeroForLongIsNotGreater) {
   EXPECT_NEAR(held.peak_slip_m, expected.peak_slip_m, 1e-6);
 }
 
+// A slip to the left ends while the floor pushes to the right, by less than friction at rest holds: it is at rest, though the condition
+// on its velocity was met at that very instant. Between +2.5 m/s2 for 0.2 s and -1.2 m/s2: w = -(2.5 - 0.17 g) 0.2 s, ended by
+// 1.2 m/s2 + 0.17 g.
+TEST_P(LawValues, AConditionThatIsMetWhereASlipEndsIsOver) {
+  const FloorMotion motion = staircase({0.2, 0.6, 0.2}, {2.5, -1.2, 0.0});
+  Specimen s = block(Model::slide, {friction_law([](const At& at) { return 1.7 - 0.9 * step(at.v); })});
+  s.friction = {0.1, 0.1};
+  const double hold = 0.17 * g, w = (2.5 - hold) * 0.2;
+  const double slip = 0.5 * w * 0.2 + 0.5 * w * w / (1.2 + hold);
+  const Response found = GetParam()(s, {&motion});
+  EXPECT_NEAR(found.peak_slip_m, slip, 1e-6);
+  EXPECT_NEAR(found.residual_slip_m, -slip, 1e-6);
+}
+
+// A condition on conditions turns with them: friction that falls after 0.3 s lets the block go, however that is written.
+TEST_P(LawValues, ConditionsOnConditionsTurnWithThem) {
+  const FloorMotion motion = staircase({0.2, 0.5, 0.2}, {1.5, -1.6, 1.4});  // mu g = 1.96
+  const auto run = [&](Law friction) { return GetParam()(block(Model::slide, {friction_law(friction)}), {&motion}); };
+  const Response plain = run([](const At& at) { return where(at.t - 0.3, at.t * 0.0 + 0.4, at.t * 0.0 + 1.0); });
+  const Response either =
+      run([](const At& at) { return where(step(at.t - 0.3) + step(at.u - 10.0), at.t * 0.0 + 0.4, at.t * 0.0 + 1.0); });
+  const Response least = run([](const At& at) { return min(at.t * 0.0 + 1.0, 1.1 - 0.7 * step(at.t - 0.3)); });
+  ASSERT_EQ(plain.outcome, Outcome::moved);
+  for (const Response& other : {either, least}) {
+    EXPECT_EQ(other.outcome, Outcome::moved);
+    EXPECT_NEAR(other.peak_slip_m, plain.peak_slip_m, 1e-9);
+    EXPECT_NEAR(other.residual_slip_m, plain.residual_slip_m, 1e-9);
+  }
+}
+
 // max(normal, 1e-6) bends where the block takes off, and is normal again when it has landed.
 TEST_P(LawValues, AKinkOfTheNormalForceIsOverAfterALanding) {
   const FloorMotion throws = staircase({0.3, 0.2, 0.5, 0.6}, {-3.0, 2.0, -4.0, 0.0}, {4.0, -14.0, 6.0, 0.0});
