@@ -1,13 +1,13 @@
 """The three-part demand model, evaluated from the parameters in fragility.h5.
 
-P(EDP > C) = p_over + (1 - p_over) (1 - p_still) (1 - Phi((ln C - lambda)/omega))      bins that fit (status 0)
-P(EDP > C) = (n_over + samples beyond C) / n, from the stored histogram of ln EDP      bins without a fit that holds (2, 3)
+P(EDP > C) = p_over + (1 - p_over) (1 - p_still) (1 - Phi((ln C - lambda)/omega))      bins whose lognormal is adequate (status 0)
+P(EDP > C) = (n_over + samples beyond C) / n, from the stored histogram of ln EDP      bins without one (2, 3, 4)
 nan                                                                                    bins with too few samples (status 1)
 """
 import numpy as np
 from scipy.special import ndtr
 
-from .reading import FITTED, REJECTED, TOO_FEW
+from .reading import FITTED, REJECTED, TOO_FEW, UNPROVEN
 
 
 def exceedance(edp, capacity):
@@ -28,9 +28,9 @@ def exceedance(edp, capacity):
 
 
 def kept_fits(edp):
-    """[im] true where a bin failed its test of fit and the study told to keep the fitted curve all the same."""
+    """[im] true where a lognormal is not known to be adequate and the study told to keep it all the same."""
     counted = np.isclose(edp.surface["probability"], edp.surface["empirical"], rtol=0, atol=1e-9).all(axis=1)
-    return (edp.bins["status"] == REJECTED) & ~counted
+    return np.isin(edp.bins["status"], (REJECTED, UNPROVEN)) & ~counted
 
 
 def crossing(x, y, level):

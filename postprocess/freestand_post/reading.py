@@ -11,10 +11,12 @@ from . import words
 from .problem import Problem
 
 OUTCOMES = ("at_rest", "moved", "overturned", "painleve", "step_limit", "not_finite")
-FITTED, TOO_FEW, REJECTED, COUNTED = 0, 1, 2, 3  # COUNTED: enough samples, too few that moved and stood
+# COUNTED: enough samples, too few that moved and stood. UNPROVEN: the lognormal passes its test, and may be off by more than is adequate.
+FITTED, TOO_FEW, REJECTED, COUNTED, UNPROVEN = 0, 1, 2, 3, 4
+TESTED = (FITTED, REJECTED, UNPROVEN)
 PER_BIN = ("n n_still n_over n_moved p_still p_still_lower p_still_upper p_over p_over_lower p_over_upper lambda lambda_se "
            "omega omega_se mean standard_deviation ks_statistic ks_p_textbook ks_critical_textbook ks_p_estimated "
-           "ks_critical_estimated ad_statistic ad_p_estimated fdr_rejected status").split()
+           "ks_critical_estimated ad_statistic ad_p_estimated off_by fdr_rejected status").split()
 
 
 @dataclass
@@ -290,7 +292,7 @@ def _read_sweep(folder):
         if edge.size < 2 or not np.all(np.diff(edge) > 0):
             raise Problem(f"{path}: /im/edge does not increase: the file is damaged; run `freestand fit` again")
         centre = _numbers(root["im"], "centre", (edge.size - 1,))
-        edps = [_edp(group, name, edge.size - 1) for name, group in root["edp"].items()]
+        edps = [_edp(root["edp"][name], name, edge.size - 1) for name in root["edp"]]
         overturning = _overturning(root)
     names = attributes.get("outcome_names", OUTCOMES)
     names = names.split() if isinstance(names, str) else names

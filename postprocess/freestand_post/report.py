@@ -11,7 +11,7 @@ from . import decisions_report, over_intensities, pictures, reproduce_report, st
 from .designs import Designs
 from .model import kept_fits
 from .pictures.coverage import classes, swept
-from .reading import COUNTED, FITTED, OUTCOMES, REJECTED, TOO_FEW, History, Sweep
+from .reading import COUNTED, FITTED, OUTCOMES, REJECTED, TESTED, TOO_FEW, UNPROVEN, History, Sweep
 from .reading_decisions import Risk
 from .reading_reproduce import Reproduction
 from .validation import Validation
@@ -112,8 +112,7 @@ def _headline(sweep, main, hero):
     elif main:
         edp = next(edp for edp in sweep.edps if edp.name == main)
         status, label = edp.bins["status"], edp.label
-        fitted, failed = int((status == FITTED).sum()), int((status == REJECTED).sum())
-        numbers.append((f"{fitted} of {fitted + failed}", f"bins of {label} pass the test of fit"))
+        numbers.append((f"{(status == FITTED).sum()} of {np.isin(status, TESTED).sum()}", f"bins of {label} have a lognormal that is adequate"))
     timing = sweep.summary.get("timing", {})
     if timing.get("wall_s"):
         numbers.append((_duration(timing["wall_s"]), f"on {words.plural(timing.get('ranks', 1), 'core')}{_phases(timing)}"))
@@ -142,15 +141,16 @@ def _duration(seconds):
 
 def _fit_table(sweep, name):
     edp = next(edp for edp in sweep.edps if edp.name == name)
-    verdict = {FITTED: "passes", TOO_FEW: "too few samples", COUNTED: "too few moved: counted",
-               REJECTED: "fails: counted"}
+    verdict = {FITTED: "off by at most {:.2f}", TOO_FEW: "too few samples", COUNTED: "too few moved: counted",
+               REJECTED: "fails, may be off by {:.2f}", UNPROVEN: "not refuted, may be off by {:.2f}"}
     kept = kept_fits(edp)
     rows = []
     for i in range(sweep.centre.size):
         row = {key: edp.bins[key][i] for key in edp.bins}
         row.update(range=words.span(sweep.edge[i], sweep.edge[i + 1]), median=math.exp(row["lambda"]),
                    failed=row["status"] == REJECTED, empty=row["status"] in (TOO_FEW, COUNTED),
-                   verdict="fails: fit kept" if kept[i] else verdict.get(row["status"], "unknown"))
+                   verdict=verdict.get(row["status"], "unknown").format(row["off_by"])
+                   + (": fit kept" if kept[i] else ": counted" if row["status"] in (REJECTED, UNPROVEN) else ""))
         row.update({key: np.nan_to_num(row[key]) for key in ("n", "n_still", "n_moved", "n_over")})
         rows.append(row)
     return {"rows": rows, "symbol": words.with_unit(edp.label, edp.unit),

@@ -31,10 +31,13 @@ void show(const study::Catalogue& catalogue) {
 }
 
 // What cannot be exported stops no database.
-void tell(const study::DatabaseExport& done, bool quiet) {
-  if (quiet) return;
+void tell(const study::DatabaseExport& done, const CatalogueOptions& options) {
+  if (options.quiet) return;
   fmt::print("{} entries over {} in {}\n", done.entries.size(), done.im, done.output.string());
   for (const std::string& refused : study::told_once(done.refused)) fmt::print("  not exported: {}\n", refused);
+  if (!done.refused.empty())
+    fmt::print("  options named here are those of: freestand export {} --format {} --im {} -o OUT\n", options.folder,
+               done.format, done.im);
 }
 
 Exit build(const Context& context, const CatalogueOptions& options) {
@@ -57,7 +60,7 @@ Exit build(const Context& context, const CatalogueOptions& options) {
                    stdout);
   context.world.on_root([&] {
     for (const study::DatabaseExport& done : study::export_beside(options.folder, catalogue.exports))
-      tell(done, options.quiet);
+      tell(done, options);
   });
   return Exit::done;
 }

@@ -89,7 +89,9 @@ void add_fit(CLI::App& parser, Work& work) {
                    "other bins: 12 (as many samples in each), 0.1,0.2,0.5 (edges), \"{count: 12, spacing: log}\"");
   verb->add_option("--edp", options->changes.edp, "other demands: peak_slip_m,overturned; see freestand edp")
       ->delimiter(',');
-  verb->add_option("--capacities", options->changes.capacities, "other capacities: peak_slip_m=0.05,0.1; once a demand")
+  verb->add_option("--capacities", options->changes.capacities,
+                   "other capacities: peak_slip_m=0.05,0.1; once a demand, or as a study has them, \"{peak_slip_m: "
+                   "[0.05, 0.1]}\"")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb->add_option(

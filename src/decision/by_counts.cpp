@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <limits>
 
 namespace freestand::decision {
 namespace {
@@ -17,17 +17,13 @@ constexpr double panel = 0.025;
 
 ByCounts::ByCounts(const HazardCurve& hazard, const fragility::Result& result, const fragility::EdpResult& edp,
                    std::size_t capacity, const fragility::FragilityFunction& f, const Range& swept)
-    : hazard_(hazard), result_(result), edp_(edp), f_(f), bins_(fragility::counted_bins(result, edp, capacity)) {
-  const std::size_t capacities = edp.capacity.size();
-  for (std::size_t i = 0; i < result.im.size(); ++i) {
-    const double p = edp.surface.probability[i * capacities + capacity];
-    if (!std::isfinite(p) || !(result.im[i] > 0)) continue;
-    at_.push_back(i * capacities + capacity);
-    bin_.push_back(i);
-    table_.im.push_back(result.im[i]);
-    table_.probability.push_back(p);
-  }
-  table_.known = {swept.from, std::numeric_limits<double>::infinity()};
+    : hazard_(hazard),
+      result_(result),
+      edp_(edp),
+      f_(f),
+      capacity_(capacity),
+      swept_from_(swept.from),
+      bins_(fragility::counted_bins(result, edp, capacity)) {
   if (empty()) return;
   weight_ = weights();
   const double first = std::max(hazard.first(), swept.from);
@@ -42,12 +38,14 @@ ByCounts::ByCounts(const HazardCurve& hazard, const fragility::Result& result, c
 }
 
 std::vector<double> ByCounts::weights() const {
-  std::vector<double> weight = rate_weights(hazard_, table_);
-  const auto next = static_cast<std::size_t>(std::upper_bound(table_.im.begin(), table_.im.end(), hazard_.last()) -
-                                             table_.im.begin());
-  const std::size_t low = next == 0 ? 0 : next - 1, high = std::min(next, table_.im.size() - 1);
+  TabulatedFragility table{{}, {}, {swept_from_, std::numeric_limits<double>::infinity()}};
+  for (const fragility::CountedBin& bin : bins_) table.im.push_back(bin.im);
+  std::vector<double> weight = rate_weights(hazard_, table);
+  const auto next =
+      static_cast<std::size_t>(std::upper_bound(table.im.begin(), table.im.end(), hazard_.last()) - table.im.begin());
+  const std::size_t low = next == 0 ? 0 : next - 1, high = std::min(next, table.im.size() - 1);
   const double share =
-      low == high ? 0 : std::log(hazard_.last() / table_.im[low]) / std::log(table_.im[high] / table_.im[low]);
+      low == high ? 0 : std::log(hazard_.last() / table.im[low]) / std::log(table.im[high] / table.im[low]);
   weight[low] += (1 - share) * hazard_.annual_rate.back();
   weight[high] += share * hazard_.annual_rate.back();
   return weight;
@@ -69,13 +67,15 @@ double ByCounts::rate(const Range& range) const {
 
 Rate ByCounts::banded(const CurveReach& curve) {
   struct Row {
-    double weight, to_lower, to_upper;  // P of the bin to its limits: down, up
+    double weight, to_lower, to_upper,
+        to_falling;  // P of the bin to its limits: down, up, up where P falls as the curve
   };
   std::vector<Row> known_by_limits;
-  for (std::size_t i = 0; i < at_.size(); ++i) {
+  for (std::size_t i = 0; i < bins_.size(); ++i) {
     if (!same(i)) continue;
     const fragility::Interval limits = rising_limits(i);
-    known_by_limits.push_back({weight_[i], table_.probability[i] - limits.lower, limits.upper - table_.probability[i]});
+    const double p = bins_[i].probability, falling = p == 0 ? std::fmin(limits.upper, falling_limit(i)) : limits.upper;
+    known_by_limits.push_back({weight_[i], p - limits.lower, limits.upper - p, falling - p});
   }
   // Of a row of which nothing (or all) was counted in tail^share of the cases.
   const auto added = [&](double Row::*reach, double share) {
@@ -93,15 +93,16 @@ Rate ByCounts::banded(const CurveReach& curve) {
     return -fragility::largest_beside_nothing(
         of, [&](double share, double rest) { return added(&Row::to_lower, share) - counted_lower(rest); });
   };
-  const auto upper = [&](double of) {
+  const auto upper_with = [&](double Row::*reach, double of) {
     return fragility::largest_beside_nothing(
-        of, [&](double share, double rest) { return added(&Row::to_upper, share) + counted_upper(rest); });
+        of, [&](double share, double rest) { return added(reach, share) + counted_upper(rest); });
   };
-  double least = lower(tail), most = upper(tail);
+  double least = lower(tail), most = upper_with(&Row::to_upper, tail);
   const double for_least = fragility::unused_tail(tail, +1, counted_upper, most),
                for_most = fragility::unused_tail(tail, -1, counted_lower, least);
   if (for_least > 0) least = lower(tail + for_least);
-  if (for_most > 0) most = upper(tail + for_most);
+  if (for_most > 0) most = upper_with(&Row::to_upper, tail + for_most);
+  upper_if_falling_ = std::min(most, upper_with(&Row::to_falling, tail));
   return {value, std::max(0.0, least), std::min(hazard_.annual_rate.front(), most)};
 }
 
@@ -110,42 +111,58 @@ std::vector<double> ByCounts::rates_left_out() const {
 }
 
 double ByCounts::rate_below(const HazardCurve& hazard, const Range& range) const {
-  const double p = table_.probability.front();
+  const fragility::CountedBin& first = bins_.front();
+  const double p = first.probability;
   if (!(p > 0) || !(range.from < range.to)) return 0;
+  const double level = p * (hazard.rate(std::max(range.from, hazard.first())) - hazard.rate(range.to));
   const auto larger =
-      std::find_if(table_.probability.begin(), table_.probability.end(), [p](double other) { return other > p; });
-  if (larger == table_.probability.end())
-    return p * (hazard.rate(std::max(range.from, hazard.first())) - hazard.rate(range.to));
+      std::find_if(bins_.begin(), bins_.end(), [p](const auto& other) { return other.probability > p; });
+  if (larger == bins_.end()) return level;
   // A share of 1 is that of all samples of the bin: half a sample less.
-  const auto next = static_cast<std::size_t>(larger - table_.probability.begin());
-  const double n = static_cast<double>(std::max<std::int64_t>(edp_.bins[bin_[next]].n, 1));
-  const double low = gsl_cdf_ugaussian_Pinv(p), high = gsl_cdf_ugaussian_Pinv(std::min(*larger, 1 - 0.5 / n));
-  if (!(high > low)) return p * (hazard.rate(std::max(range.from, hazard.first())) - hazard.rate(range.to));
-  const double dispersion = std::log(table_.im[next] / table_.im[0]) / (high - low);
-  return annual_rate(hazard, {table_.im[0] * std::exp(-low * dispersion), dispersion}, range);
+  const double n = static_cast<double>(std::max<std::int64_t>(edp_.bins[larger->index].n, 1));
+  const double low = gsl_cdf_ugaussian_Pinv(p),
+               high = gsl_cdf_ugaussian_Pinv(std::min(larger->probability, 1 - 0.5 / n));
+  if (!(high > low)) return level;
+  const double dispersion = std::log(larger->im / first.im) / (high - low);
+  return annual_rate(hazard, {first.im * std::exp(-low * dispersion), dispersion}, range);
 }
 
 // Of a row in which nothing was counted: its upper limit, or that of a row at a higher intensity where it is less. Of one in which all
 // was counted the lower limit alike.
 fragility::Interval ByCounts::rising_limits(std::size_t i) {
-  const double own_lower = edp_.surface.lower[at_[i]], own_upper = edp_.surface.upper[at_[i]];
-  fragility::Interval limits{own_lower, own_upper};
-  if (table_.probability[i] == 0)
-    for (std::size_t j = i; j < at_.size(); ++j) limits.upper = std::min(limits.upper, edp_.surface.upper[at_[j]]);
-  if (table_.probability[i] == 1)
-    for (std::size_t j = 0; j <= i; ++j) limits.lower = std::max(limits.lower, edp_.surface.lower[at_[j]]);
-  bounded_by_others_ = bounded_by_others_ || limits.lower > own_lower || limits.upper < own_upper;
+  const std::vector<double>&lower = edp_.surface.empirical_lower, &upper = edp_.surface.empirical_upper;
+  fragility::Interval limits{lower[at(i)], upper[at(i)]};
+  if (bins_[i].probability == 0)
+    for (std::size_t j = i; j < bins_.size(); ++j) limits.upper = std::min(limits.upper, upper[at(j)]);
+  if (bins_[i].probability == 1)
+    for (std::size_t j = 0; j <= i; ++j) limits.lower = std::max(limits.lower, lower[at(j)]);
+  bounded_by_others_ = bounded_by_others_ || limits.lower > lower[at(i)] || limits.upper < upper[at(i)];
   return limits;
+}
+
+// The limit of the lowest bin in which any was counted, times P here over P there by the resampled curves (what a tail of them exceeds).
+double ByCounts::falling_limit(std::size_t i) const {
+  const auto counted = std::find_if(bins_.begin(), bins_.end(), [](const auto& bin) { return bin.probability > 0; });
+  if (counted == bins_.end() || counted->im <= bins_[i].im) return fragility::unknown;
+  std::vector<double> falls;
+  for (std::size_t r = 0; r < f_.resampled_median.size(); ++r) {
+    const LognormalFragility f{f_.resampled_median[r], f_.resampled_dispersion[r]};
+    const double fall = f(bins_[i].im) / f(counted->im);
+    if (std::isfinite(fall)) falls.push_back(fall);
+  }
+  std::sort(falls.begin(), falls.end());
+  return edp_.surface.empirical_upper[at(static_cast<std::size_t>(counted - bins_.begin()))] *
+         fragility::sorted_quantile(falls, (1 + result_.confidence) / 2);
 }
 
 // Of each resample, or of each group left out: `again` is [of them, im, capacity], with the curves of the same.
 std::vector<double> ByCounts::rates(const std::vector<double>& again, const std::vector<double>& median,
                                     const std::vector<double>& dispersion) const {
-  const std::size_t size = edp_.surface.probability.size();
+  const std::size_t size = edp_.surface.empirical.size();
   std::vector<double> found(size == 0 ? 0 : again.size() / size, 0);
   std::vector<fragility::CountedBin> bins = bins_;
   for (std::size_t r = 0; r < found.size(); ++r) {
-    for (std::size_t i = 0; i < at_.size(); ++i) bins[i].probability = again[r * size + at_[i]];
+    for (std::size_t i = 0; i < bins.size(); ++i) bins[i].probability = again[r * size + at(i)];
     const bool curved = r < median.size() && std::isfinite(median[r]);
     found[r] = integral({bins, curved ? median[r] : f_.median, curved ? dispersion[r] : f_.dispersion});
   }
@@ -153,9 +170,8 @@ std::vector<double> ByCounts::rates(const std::vector<double>& again, const std:
 }
 
 bool ByCounts::same(std::size_t i) const {
-  const std::size_t size = edp_.surface.probability.size();
-  for (std::size_t at = at_[i]; at < edp_.surface.resampled.size(); at += size)
-    if (edp_.surface.resampled[at] != table_.probability[i]) return false;
+  for (std::size_t of = at(i); of < edp_.surface.resampled.size(); of += edp_.surface.empirical.size())
+    if (edp_.surface.resampled[of] != bins_[i].probability) return false;
   return true;
 }
 

@@ -19,9 +19,9 @@ class ByCounts {
   ByCounts(const HazardCurve&, const fragility::Result&, const fragility::EdpResult&, std::size_t capacity,
            const fragility::FragilityFunction&, const Range& swept);
 
-  bool empty() const { return table_.im.empty(); }
+  bool empty() const { return bins_.empty(); }
   bool nothing_counted() const {
-    return std::all_of(table_.probability.begin(), table_.probability.end(), [](double p) { return p == 0; });
+    return std::all_of(bins_.begin(), bins_.end(), [](const auto& bin) { return bin.probability == 0; });
   }
 
   // Of intensities within the range; the sum of ranges that follow each other is that of the whole.
@@ -38,10 +38,13 @@ class ByCounts {
   // P below the lowest bin: the counted share is followed down along the lognormal through it and the next bin with a larger one; it
   // stays where there is no such bin, and is 0 where nothing was counted.
   double rate_below(const HazardCurve&, const Range&) const;
-  double at_end() const { return table_.probability.back(); }
+  double at_end() const { return bins_.back().probability; }
 
   // An upper limit of a higher intensity (or a lower one of a lower) was taken for one in which nothing (or all) was counted.
   bool bounded_by_others() const { return bounded_by_others_; }
+
+  // Of the upper limit, what stays if P falls below the lowest bin in which any was counted at least as the curve does.
+  double upper_if_falling() const { return upper_if_falling_; }
 
  private:
   // Of straight lines through the bins: sum_i weight_i probability_i.
@@ -49,21 +52,24 @@ class ByCounts {
   // Of events within the range, with those beyond the hazard curve's end, which are as strong as there.
   double integral(const fragility::CountedCurve&, const Range& = {}) const;
   fragility::Interval rising_limits(std::size_t i);
+  double falling_limit(std::size_t i) const;
   std::vector<double> rates(const std::vector<double>& again, const std::vector<double>& median,
                             const std::vector<double>& dispersion) const;
   bool same(std::size_t i) const;
+  std::size_t at(std::size_t i) const { return bins_[i].index * edp_.capacity.size() + capacity_; }  // of the surface
 
   const HazardCurve& hazard_;
   const fragility::Result& result_;
   const fragility::EdpResult& edp_;
   const fragility::FragilityFunction& f_;
-  TabulatedFragility table_;
+  std::size_t capacity_;
+  double swept_from_;
   std::vector<fragility::CountedBin> bins_;
   // From the least intensity swept to the hazard curve's end: panels in which the curve hardly bends, their middles, and events a year.
   std::vector<double> node_, middle_, events_;
-  std::vector<double> weight_;         // over all intensities
-  std::vector<std::size_t> at_, bin_;  // points of the surface, and their bins
+  std::vector<double> weight_;  // over all intensities
   bool bounded_by_others_ = false;
+  double upper_if_falling_ = fragility::unknown;
 };
 
 }  // namespace freestand::decision

@@ -108,6 +108,13 @@ class Row {
           "; where no sample exceeds it the upper limit of P is the least of those there and at higher intensities "
           "(and "
           "where all do the lower limit alike), since P is taken not to fall as the intensity rises";
+    if (row_.recommended == By::counts && 2 * counts_.upper_if_falling() < row_.by_counts.upper) {
+      row_.upper_if_falling = counts_.upper_if_falling();
+      row_.why += fmt::format(
+          "; the upper limit is that of the lowest intensities, at which nothing exceeded it; if P falls there as the "
+          "fitted curve does, it is {:.2g} a year",
+          row_.upper_if_falling);
+    }
   }
 
   void outside() {

@@ -28,6 +28,20 @@ namespace freestand::decision {
 // counts with dispersions 0.35 and 0.25 and medians 0.6 and 1.5 (2000 repeats, error 0.006) in 0.918 to 0.929 with 14, 0.913 to 0.925 with
 // 40. The exact upper limit of bins in which nothing was counted is never crossed while P is small there, at whatever confidence (each
 // P from 0 to it leaves a count of nothing likely), so all misses are below.
+//
+// That limit is wide where events are rare, and is no artefact of its making: it is the lowest intensity's alone, 1 - tail^(1/motions) of
+// hundreds of times as many events as at the median. More motions lower it, more samples do not. A shape of P would: if it falls below the
+// lowest intensity at which any exceeded as the fitted curve does, the limit is upper_if_falling. But no count tells that it does: where one
+// record in twenty has 0.3 of the others' median it misses the truth far too often. So it is told beside the limit, not in its place. By
+// simulation (tests/decision/upper_limit_test.cpp, ten bins from 0.05, hazard slope 2.5, tail 0.05, 300 repeats) both over the true rate:
+//
+//   records  median  weak records  upper limit  missed  if P falls  missed
+//   14       0.6     none          34           0.00    1.8         0.10
+//   14       1.5     none          340          0.00    1.9         0.08
+//   14       0.6     one in 20     18           0.00    1.7         0.31
+//   40       0.6     none          13           0.00    1.4         0.08
+//   40       1.5     none          130          0.00    1.4         0.05
+//   40       1.5     one in 20     64           0.00    1.8         0.26
 struct Rate {
   double value = fragility::unknown, lower = fragility::unknown, upper = fragility::unknown;
 };
@@ -40,6 +54,8 @@ struct RiskRow {
   Rate by_function, by_counts;
   By recommended = By::function;
   std::string why;  // the recommended one is
+  // By counts: the upper limit if P falls as the fitted curve does where nothing was counted; NaN where it is not half of the other.
+  double upper_if_falling = fragility::unknown;
   bool rates_differ =
       false;  // by the function and by the counts, more than chance explains (FragilityFunction::rate_p)
   // Of the rate: what extrapolated fragility gives for intensities outside of the sweep; what may come from intensities outside of the

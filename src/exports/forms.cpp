@@ -125,16 +125,23 @@ Refusal make_discrete(LimitState& state, const Wanted& wanted, const fragility::
   const EdpResult& edp = *wanted.edp;
   std::vector<double> values;
   if (const Refusal refusal = rise(state, im, wanted, values); !refusal.empty()) return refusal;
-  std::vector<fragility::CountedBin> bins;
+  std::vector<fragility::CountedBin> bins, shares;
+  std::size_t lognormals = 0;
+  double off_by = 0;  // most of these
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Bin& bin = state.bins[i];
+    const double from = result.im_edge[bin.index], to = result.im_edge[bin.index + 1];
+    const bool by_law = !counted && !edp.binary && edp.bins[bin.index].status == BinStatus::fitted;
     state.pooled = std::max(state.pooled, std::fabs(values[i] - bin.probability));
-    bins.push_back({bin.im, values[i], result.im_edge[bin.index], result.im_edge[bin.index + 1],
-                    !counted && !edp.binary && edp.bins[bin.index].status == BinStatus::fitted});
+    bins.push_back({bin.im, values[i], from, to, by_law});
+    shares.push_back({bin.im, bin.counted, from, to});
+    if (!by_law) continue;
+    ++lognormals;
+    off_by = std::max(off_by, edp.bins[bin.index].off_by);
   }
   state.curve.form = Form::discrete;
-  state.counted.emplace(bins, state.fitted.median, state.fitted.dispersion);
-  state.drawn = straight ? fragility::CountedCurve(bins, unknown, unknown) : *state.counted;
+  state.counted.emplace(shares, state.fitted.median, state.fitted.dispersion);
+  state.drawn.emplace(bins, straight ? unknown : state.fitted.median, straight ? unknown : state.fitted.dispersion);
   double least = bins.front().im, most = bins.back().im;
   if (!straight && std::isfinite(state.fitted.median)) {
     const fragility::FragilityFunction& f = edp.functions[wanted.capacity];
@@ -142,6 +149,9 @@ Refusal make_discrete(LimitState& state, const Wanted& wanted, const fragility::
   }
   state.places = fragility::places_to_follow(*state.drawn, bins, least, most);
   state.why = "the counted shares";
+  if (lognormals > 0)
+    state.why = fmt::format("the {}lognormals of {} bins, off by at most {:.2g}",
+                            lognormals == bins.size() ? "" : "counted shares and the ", lognormals, off_by);
   return {};
 }
 
@@ -184,10 +194,10 @@ Refusal make_parts(LimitState& state, const Wanted& wanted, const fragility::Res
   for (const Bin& bin : state.bins) {
     const BinFit& fit = edp.bins[bin.index];
     if (!edp.binary && fit.n_moved > 0 && fit.status != BinStatus::fitted)
-      return fmt::format(
-          "{} has no three parts at {} {:.4g} (its lognormal there is not fitted, or fails its test): use "
-          "--form discrete",
-          label(wanted), im.name, result.im[bin.index]);
+      return fmt::format("{} has no three parts at {} {:.4g} ({}): use --form discrete", label(wanted), im.name,
+                         result.im[bin.index],
+                         std::isnan(fit.off_by) ? "its lognormal there is not fitted"
+                                                : fmt::format("its lognormal there may be off by {:.2g}", fit.off_by));
     parts.push_back(parts_of(edp, bin.index, bin.im));
   }
   if (!borrow_lognormals(parts))

@@ -46,7 +46,7 @@ struct LimitState {
   Fitted fitted;
   std::vector<Bin> bins;  // as they were, before anything was pooled
   double pooled = 0;      // largest change of a bin so that the curve does not fall
-  // Discrete: the curve that annual rates go by, the one of which points are taken at these places, and how far straight lines
+  // Discrete: the counted curve, which annual rates go by, the one of which points are taken at these places, and how far straight lines
   // between them are off the first: the largest difference, and their annual rate over its own under hazards of slope 1, 2 and 3.
   std::optional<fragility::CountedCurve> counted = {}, drawn = {};
   std::vector<double> places = {};

@@ -42,7 +42,9 @@ std::vector<Bin> bins_of(const Result& result, const Intensity& im, const Wanted
                       "wider and fit again, or add --skip-empty, which leaves the row out",
                       label(wanted), im.name, result.im[b], edp.bins[b].n));
     if (!std::isnan(p) && (table || result.im[b] > 0))
-      bins.push_back({b, result.im[b], p, surface.lower[at], surface.upper[at], surface.empirical[at], edp.bins[b].n});
+      bins.push_back({b, result.im[b], p, (request.counted ? surface.empirical_lower : surface.lower)[at],
+                      (request.counted ? surface.empirical_upper : surface.upper)[at], surface.empirical[at],
+                      edp.bins[b].n});
   }
   if (bins.empty())
     throw Error(fmt::format(
@@ -155,7 +157,8 @@ void take_notes(Model& model, const Result& result, Form form, bool table) {
     double off = 0;
     for (const LimitState& state : model.states) off = std::max(off, state.off_lines);
     model.notes.push_back(
-        fmt::format("straight lines between {} points of the curve through {} bins, off it by at most {:.2g}; below "
+        fmt::format("straight lines between {} points of the curve through {} bins, off that of the counts by at most "
+                    "{:.2g}; below "
                     "the lowest, at {:.4g}{}, to 0 at 0; above the highest, at {:.4g}{}, probabilities stay",
                     points.size() - 1, bins.size(), off, points[1].im, unit, points.back().im, unit));
     tell_rates_by_lines(model);
@@ -194,6 +197,20 @@ bool never_happened(const LimitState& state) {
   return std::all_of(state.bins.begin(), state.bins.end(), [](const Bin& bin) { return bin.counted == 0; });
 }
 
+bool always_happened(const LimitState& state) {
+  return std::all_of(state.bins.begin(), state.bins.end(), [](const Bin& bin) { return bin.counted == 1; });
+}
+
+// Where all states of a target always happened its file would say nothing but that shaking does it: refused. A table holds what is there.
+void refuse_what_says_nothing(const Model& model) {
+  if (!std::all_of(model.states.begin(), model.states.end(), always_happened)) return;
+  const LimitState& state = model.states.front();
+  throw Error(fmt::format(
+      "{} happened in every sample at every intensity swept, {} {:.4g} to {:.4g} (its probability would be 1 "
+      "throughout): name a larger capacity, or sweep lower intensities",
+      state.name, model.im.name, model.im_least, model.im_most));
+}
+
 // Of states that nobody asked for those that never happened are left out: of them it is known that they need more than was swept, and no
 // more. If that is all of them, none is.
 std::vector<std::string> leave_out_what_never_happened(Model& model, std::vector<Wanted>& wanted) {
@@ -208,7 +225,7 @@ std::vector<std::string> leave_out_what_never_happened(Model& model, std::vector
   return names;
 }
 
-// Those that were left out, and those that stay as zeros.
+// Those that were left out, and those that stay as zeros, or as ones.
 void tell_what_never_happened(Model& model, const std::vector<std::string>& left_out) {
   const std::string unit = model.im.unit == "1" ? "" : " " + model.im.unit;
   if (!left_out.empty())
@@ -219,6 +236,11 @@ void tell_what_never_happened(Model& model, const std::vector<std::string>& left
     if (never_happened(state))
       model.notes.push_back(fmt::format("{} never happened up to {:.4g}{}: its probability is 0 throughout", state.name,
                                         model.im_most, unit));
+    else if (always_happened(state))
+      model.notes.push_back(
+          fmt::format("{} happened in every sample, from {:.4g}{} on: its probability is 1 at every "
+                      "intensity swept, and nothing is known of where it begins",
+                      state.name, model.im_least, unit));
 }
 
 // Gives all limit states that form, or says why not.
@@ -263,6 +285,7 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
   if (fresh.asset_category.empty() && format.usual_category)
     fresh.asset_category = format.usual_category(fresh.states.size());
   take_range(fresh, wanted);
+  if (!format.table) refuse_what_says_nothing(fresh);
   std::string passed_over;
   Refusal refusal;
   for (const Form form : request.form ? std::vector<Form>{*request.form} : format.forms) {

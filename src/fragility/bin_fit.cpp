@@ -109,7 +109,7 @@ class Bin {
       fit_.ks_critical_estimated = null.ks_critical(test_level, n);
       fit_.ad_p_estimated = null.ad_p(goodness.ad, n);
     }
-    // The truth is no further from the fit than the samples are, and they from the truth (as S scatters under the null).
+    // The law is no further from the truth than the fit is from the samples, and as S scatters under the null.
     fit_.off_by = goodness.ks + goodness.resolution + fit_.ks_critical_estimated;
   }
 
@@ -137,9 +137,8 @@ std::vector<BinFit> fit_bins(const Tally& tally, std::size_t edp, EstimatedNull&
   for (std::size_t b = 0; b < bins.size(); ++b) {
     BinFit& bin = bins[b];
     bin.fdr_rejected = rejected[b];
-    // Where the histogram itself is too coarse to tell so small a misfit, nothing speaks for the fit.
-    if (bin.status == BinStatus::fitted && ((rejected[b] && bin.off_by > adequate) || bin.ks_resolution > adequate))
-      bin.status = BinStatus::rejected;
+    if (bin.status == BinStatus::fitted && !(bin.off_by <= adequate))
+      bin.status = rejected[b] ? BinStatus::rejected : BinStatus::not_refuted;
   }
   return bins;
 }

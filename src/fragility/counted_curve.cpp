@@ -8,6 +8,20 @@
 namespace freestand::fragility {
 namespace {
 
+// Intensities of a bin from `from` to 1 are taken to be spread as x^(p - 1), evenly in x^p (p = 1: in x; 0: in ln x), with the p that gives
+// them their mean, p/(p + 1) (1 - from^(p + 1))/(1 - from^p), which grows with p.
+constexpr double small_power = 1e-6;
+double power_with_mean(double from, double mean) {
+  if (from <= 0) return mean / (1 - mean);
+  double low = -40, high = 40;  // means within a fortieth of either end: from there on they do not matter
+  for (int i = 0; i < 40; ++i) {
+    const double p = (low + high) / 2 + 1e-12;
+    const double there = p / (p + 1) * std::expm1((p + 1) * std::log(from)) / std::expm1(p * std::log(from));
+    (there < mean ? low : high) = (low + high) / 2;
+  }
+  return (low + high) / 2;
+}
+
 // Puts the places between `low` and `high` that the curve needs behind `places`. A fiftieth at the middle of a line is a seventy-fifth on
 // its average, which does not show in the two digits that a rate is told in; 1e-6 is what exports are held to.
 void follow(const CountedCurve& curve, double low, double high, int depth, std::vector<double>& places) {
@@ -25,10 +39,9 @@ void follow(const CountedCurve& curve, double low, double high, int depth, std::
 std::vector<CountedBin> counted_bins(const Result& result, const EdpResult& edp, std::size_t capacity) {
   std::vector<CountedBin> bins;
   for (std::size_t i = 0; i < result.im.size(); ++i) {
-    const double p = edp.surface.probability[i * edp.capacity.size() + capacity];
+    const double p = edp.surface.empirical[i * edp.capacity.size() + capacity];
     if (std::isfinite(p) && result.im[i] > 0)
-      bins.push_back({result.im[i], p, result.im_edge[i], result.im_edge[i + 1],
-                      !edp.binary && edp.bins[i].status == BinStatus::fitted});
+      bins.push_back({result.im[i], p, result.im_edge[i], result.im_edge[i + 1], false, i});
   }
   return bins;
 }
@@ -45,17 +58,19 @@ double CountedCurve::fitted(double im) const {
   return median_ > 0 && dispersion_ > 0 ? normal_cdf(std::log(im / median_) / dispersion_) : 0;
 }
 
-// The mean over the intensities of a bin, spread evenly in their logarithm about their mean. By midpoints: of a bin that is w
-// dispersions wide they are off by no more than (w/32)^2/24 of the curve's largest bend, 0.24, so by 1e-4 of one of three.
+// The mean over the intensities of a bin. By midpoints: of a bin that is w dispersions wide they are off by no more than (w/32)^2/24 of the
+// curve's largest bend, 0.24, so by 1e-4 of one of three.
 double CountedCurve::over_bin(const CountedBin& bin) const {
-  if (!(bin.from > 0) || !std::isfinite(bin.to)) return fitted(bin.im);
+  if (!(bin.from >= 0) || !std::isfinite(bin.to) || !(bin.from < bin.im && bin.im < bin.to)) return fitted(bin.im);
   constexpr int points = 32;
-  double places[points], mean = 0, sum = 0;
+  const double from = bin.from / bin.to, power = power_with_mean(from, bin.im / bin.to), low = std::pow(from, power);
+  double sum = 0;
   for (int i = 0; i < points; ++i) {
-    places[i] = bin.from * std::pow(bin.to / bin.from, (i + 0.5) / points);
-    mean += places[i] / points;
+    const double u = (i + 0.5) / points;
+    sum += fitted(bin.to *
+                  (std::fabs(power) < small_power ? std::pow(from, 1 - u) : std::pow(low + u * (1 - low), 1 / power))) /
+           points;
   }
-  for (const double place : places) sum += fitted(place * bin.im / mean) / points;
   return sum;
 }
 
@@ -63,9 +78,8 @@ double CountedCurve::operator()(double im) const {
   const double f = fitted(im);
   const auto same = std::ranges::equal_range(knots_, f, {}, &Knot::fitted);
   if (same.empty()) {
-    const Knot &lowest = knots_.front(), &highest = knots_.back();
-    const Knot low = same.begin() == knots_.begin() ? Knot{0, 0, std::max(0.0, lowest.probability - lowest.fitted)}
-                                                    : *(same.begin() - 1),
+    const Knot& highest = knots_.back();
+    const Knot low = same.begin() == knots_.begin() ? Knot{0, 0, 0} : *(same.begin() - 1),
                high = same.begin() == knots_.end()
                           ? Knot{0, 1, highest.fitted > 0 ? std::min(1.0, highest.probability / highest.fitted) : 1}
                           : *same.begin();

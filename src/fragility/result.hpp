@@ -15,11 +15,14 @@ namespace freestand::fragility {
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 enum class BinStatus : int {
-  fitted = 0,    // lognormal fit that passes goodness of fit, or is off by at most Options::adequate
-  too_few = 1,   // fewer samples than the minimum: the row of the surface is empty
-  rejected = 2,  // fitted, but fails goodness of fit: the row of the surface is the empirical one
-  counts_only =
-      3  // enough samples but too few that moved and stood (or a binary EDP): no fit, the row is the empirical one
+  fitted = 0,   // lognormal fit that is off by at most Options::adequate
+  too_few = 1,  // fewer samples than the minimum: the row of the surface is empty
+  // The row of the surface is the empirical one where the fit may be off by more and fails goodness of fit,
+  rejected = 2,
+  // where too few moved and stood for a fit (or the EDP is binary),
+  counts_only = 3,
+  // and where the fit may be off by more and passes.
+  not_refuted = 4
 };
 
 // One IM bin of one EDP. Samples that failed numerically (painleve, step_limit, not_finite) are in none of the counts but
@@ -57,8 +60,9 @@ struct BinFit {
   double ks_critical_estimated = unknown;
   double ad_statistic = unknown;    // Anderson-Darling A^2
   double ad_p_estimated = unknown;  // NaN where samples are correlated or cut off: then S alone is judged
-  double off_by = unknown;          // upper 95 % bound of the largest error of the fitted probability
-  int fdr_rejected = 0;             // 1: rejected by ks_p_estimated with false discovery controlled over the bins
+  double off_by =
+      unknown;  // upper 95 % bound of the misfit: the truth's largest difference in P from the nearest lognormal
+  int fdr_rejected = 0;  // 1: rejected by ks_p_estimated with false discovery controlled over the bins
   BinStatus status = BinStatus::too_few;
 };
 
@@ -67,10 +71,10 @@ struct BinFit {
 struct Surface {
   std::vector<double> probability, lower, upper, empirical;
   std::vector<double> least, most;  // of `empirical`, had every sample that failed stayed below, or lain above
-  std::vector<double>
-      resampled;                 // [resample, im, capacity], `probability` from resampled motions: for bands of what is
-                                 // computed from several points
-  std::vector<double> left_out;  // [left out, im, capacity], `probability` without a group of motions
+  std::vector<double> empirical_lower, empirical_upper;  // its interval (share_interval.hpp)
+  // `empirical` from resampled motions [resample, im, capacity], and without a group of motions [left out, im, capacity]: for bands of
+  // what is computed from several points.
+  std::vector<double> resampled, left_out;
 };
 
 // P(EDP > C) over IM x a second axis, from counts, with band from resampled motions. All [im, axis, capacity] but n

@@ -50,8 +50,8 @@ void walk(Way& way, Regressions& r) {
 
 template <class Way>
 void walk(Way& way, Surface& s) {
-  auto& [probability, lower, upper, empirical, least, most, resampled, left_out] = s;
-  each(way, probability, lower, upper, empirical, least, most, resampled, left_out);
+  auto& [probability, lower, upper, empirical, least, most, empirical_lower, empirical_upper, resampled, left_out] = s;
+  each(way, probability, lower, upper, empirical, least, most, empirical_lower, empirical_upper, resampled, left_out);
 }
 
 template <class Way>

@@ -14,23 +14,14 @@ namespace {
 // One point of a surface.
 struct Point {
   double probability = unknown, lower = unknown, upper = unknown;
-  std::vector<double> resampled = {}, left_out = {};
 };
 
 // Share of the samples above a capacity, its counts in the given column of the groups' table.
-// totals: the same of each resample.
-Point empirical_point(const Eigen::MatrixXd& groups, const Eigen::MatrixXd& totals, const Eigen::MatrixXd& left_out,
-                      Eigen::Index column, std::size_t records, double confidence) {
+Point empirical_point(const Eigen::MatrixXd& groups, Eigen::Index column, std::size_t records, double confidence) {
   std::vector<GroupShare> shares;
   for (Eigen::Index g = 0; g < groups.rows(); ++g) shares.push_back({groups(g, 0), groups(g, column)});
   const Interval band = share_interval(shares, records, confidence);
-  const auto shares_of = [&](const Eigen::MatrixXd& all) {
-    std::vector<double> found;
-    for (Eigen::Index r = 0; r < all.rows(); ++r) found.push_back(all(r, column) / all(r, 0));
-    return found;
-  };
-  return {groups.col(column).sum() / groups.col(0).sum(), band.lower, band.upper, shares_of(totals),
-          shares_of(left_out)};
+  return {groups.col(column).sum() / groups.col(0).sum(), band.lower, band.upper};
 }
 
 struct Parts {
@@ -66,23 +57,13 @@ double lower_beside_none_never(const PercentileLimits& limits, double over, doub
   });
 }
 
-Point fitted_point(const Parts& parts, const Parts& left_out, const BinFit& bin, double capacity, double confidence,
-                   bool censored) {
-  const auto exceedance = [&](double over, double never) {
-    return three_part_exceedance(over, never, bin.lambda, bin.omega, capacity);
-  };
-  Point point;
-  point.probability = exceedance(bin.p_over, bin.p_never);
-  const auto each = [&](const Parts& p) {
-    std::vector<double> found;
-    for (std::size_t r = 0; r < p.lambda.size(); ++r)
-      found.push_back(three_part_exceedance(p.p_over[r], p.p_never[r], p.lambda[r], p.omega[r], capacity));
-    return found;
-  };
-  std::vector<double> values = each(parts);
-  point.left_out = each(left_out);
-  const PercentileLimits limits(values, point.probability, bin.motions);
-  point.resampled = std::move(values);
+Point fitted_point(const Parts& parts, const BinFit& bin, double capacity, double confidence, bool censored) {
+  Point point{three_part_exceedance(bin.p_over, bin.p_never, bin.lambda, bin.omega, capacity)};
+  std::vector<double> values;
+  for (std::size_t r = 0; r < parts.lambda.size(); ++r)
+    values.push_back(
+        three_part_exceedance(parts.p_over[r], parts.p_never[r], parts.lambda[r], parts.omega[r], capacity));
+  const PercentileLimits limits(std::move(values), point.probability, bin.motions);
   if (!limits.known()) return point;
   const double tail = (1 - confidence) / 2;
   const auto lower = [&](double of) {
@@ -109,6 +90,7 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
   Surface result;
   result.probability.assign(size, unknown);
   result.lower = result.upper = result.empirical = result.least = result.most = result.probability;
+  result.empirical_lower = result.empirical_upper = result.probability;
   result.resampled.assign(size * static_cast<std::size_t>(resampling.resamples()), unknown);
   result.left_out.assign(size * static_cast<std::size_t>(resampling.left_out()), unknown);
   for (std::size_t b = 0; b < bins.size(); ++b) {
@@ -116,32 +98,35 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
     if (bin.status == BinStatus::too_few) continue;
     const Eigen::MatrixXd groups = sums_by_group(tally, edp, b), totals = resampling.totals(groups),
                           left_out = resampling.totals_left_out(groups);
-    const bool has_fit = bin.status == BinStatus::fitted || bin.status == BinStatus::rejected;
-    const bool use_fit =
-        bin.status == BinStatus::fitted || (bin.status == BinStatus::rejected && !options.empirical_fallback);
-    const double still = options.edps[edp].still_threshold;
-    const Parts parts = has_fit ? resampled_parts(totals, bin.im_mean, still) : Parts{},
-                parts_left = use_fit ? resampled_parts(left_out, bin.im_mean, still) : Parts{};
+    const bool has_fit = bin.status != BinStatus::counts_only;
+    const bool use_fit = bin.status == BinStatus::fitted || (has_fit && !options.empirical_fallback);
+    const Parts parts = has_fit ? resampled_parts(totals, bin.im_mean, options.edps[edp].still_threshold) : Parts{};
     if (has_fit && bin.motions > 1) {
       bin.lambda_se = standard_deviation(parts.lambda);
       bin.omega_se = standard_deviation(parts.omega);
     }
     for (std::size_t c = 0; c < capacity.size(); ++c) {
       const Eigen::Index column = BinSums::size + static_cast<Eigen::Index>(c);
+      const Point counted = empirical_point(groups, column, records, options.confidence);
       const Point point =
-          use_fit ? fitted_point(parts, parts_left, bin, capacity[c], options.confidence, options.edps[edp].censored)
-                  : empirical_point(groups, totals, left_out, column, records, options.confidence);
+          use_fit ? fitted_point(parts, bin, capacity[c], options.confidence, options.edps[edp].censored) : counted;
       const double hits = groups.col(column).sum(), n = static_cast<double>(bin.n);
       const double failed = static_cast<double>(bin.n_failed);
       const std::size_t at = b * capacity.size() + c;
       result.probability[at] = point.probability;
       result.lower[at] = point.lower;
       result.upper[at] = point.upper;
-      for (std::size_t r = 0; r < point.resampled.size(); ++r) result.resampled[r * size + at] = point.resampled[r];
-      for (std::size_t i = 0; i < point.left_out.size(); ++i) result.left_out[i * size + at] = point.left_out[i];
-      result.empirical[at] = hits / n;
+      result.empirical[at] = counted.probability;
+      result.empirical_lower[at] = counted.lower;
+      result.empirical_upper[at] = counted.upper;
       result.least[at] = hits / (n + failed);
       result.most[at] = (hits + failed) / (n + failed);
+      const auto put = [&](const Eigen::MatrixXd& all, std::vector<double>& shares) {
+        for (Eigen::Index r = 0; r < all.rows(); ++r)
+          shares[static_cast<std::size_t>(r) * size + at] = all(r, column) / all(r, 0);
+      };
+      put(totals, result.resampled);
+      put(left_out, result.left_out);
     }
   }
   return result;

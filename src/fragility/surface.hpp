@@ -9,7 +9,7 @@
 namespace freestand::fragility {
 
 // IM x C. A row is the three-part fit of its bin, or the plain fraction of samples above C where the bin has no fit or
-// (with Options::empirical_fallback) fails goodness of fit, or empty where it has too few samples. Also sets the
+// (with Options::empirical_fallback) none that is known to be adequate, or empty where it has too few samples. Also sets the
 // standard errors of the bins by resampling.
 //
 // A row of plain fractions has the interval of a share with motions as the unit (share_interval.hpp). A fitted row in which nothing overturned

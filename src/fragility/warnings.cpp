@@ -44,8 +44,8 @@ void about_motions(const Tally& tally, const Result& result, std::vector<std::st
 }
 
 void about_bins(const EdpResult& edp, const Options& options, std::vector<std::string>& out) {
-  int too_few = 0, rejected = 0, adequate = 0, failed = 0;
-  double worst = 0, most_off = 0, most_failed = 0;
+  int too_few = 0, rejected = 0, adequate = 0, unproven = 0, failed = 0;
+  double worst = 0, most_off = 0, most_unproven = 0, most_failed = 0;
   for (const BinFit& bin : edp.bins) {
     if (bin.status == BinStatus::too_few) ++too_few;
     if (bin.n_failed > 0) {
@@ -56,6 +56,10 @@ void about_bins(const EdpResult& edp, const Options& options, std::vector<std::s
     if (bin.status == BinStatus::fitted && bin.fdr_rejected) {
       ++adequate;
       most_off = std::max(most_off, bin.off_by);
+    }
+    if (bin.status == BinStatus::not_refuted) {
+      ++unproven;
+      if (std::isfinite(bin.off_by)) most_unproven = std::max(most_unproven, bin.off_by);
     }
     if (bin.status != BinStatus::rejected) continue;
     ++rejected;
@@ -74,12 +78,17 @@ void about_bins(const EdpResult& edp, const Options& options, std::vector<std::s
         fmt::format("{}: the lognormal is not exact in {} of {} bins, but off by at most {:.3f} there, and is "
                     "used.",
                     edp.name, adequate, edp.bins.size(), most_off));
+  const char* rows = options.empirical_fallback ? "these rows are the empirical ones" : "these rows are still the fit";
+  if (unproven > 0)
+    out.push_back(
+        fmt::format("{}: the lognormal is not refuted in {} of {} bins, but may be off by up to {:.2f} there (more "
+                    "motions would tell); {}.",
+                    edp.name, unproven, edp.bins.size(), most_unproven, rows));
   if (rejected > 0)
     out.push_back(
         fmt::format("{}: the lognormal fails goodness of fit in {} of {} bins (its probabilities are off by up to "
                     "{:.3f}); {}.",
-                    edp.name, rejected, edp.bins.size(), worst,
-                    options.empirical_fallback ? "these rows are the empirical ones" : "these rows are still the fit"));
+                    edp.name, rejected, edp.bins.size(), worst, rows));
 }
 
 // "slip > 0.1 m (0.62), slip > 0.5 m (145)" of the capacities that are meant; "" of none.

@@ -15,7 +15,7 @@ double get(const Values& values) {
 }
 
 // The last value of an enumeration.
-constexpr auto last(fragility::BinStatus) { return fragility::BinStatus::counts_only; }
+constexpr auto last(fragility::BinStatus) { return fragility::BinStatus::not_refuted; }
 
 template <class Values, auto member>
 bool set(Values& values, double value) {
@@ -64,9 +64,9 @@ constexpr BinField fields[] = {
   {"ks_critical_estimated", false, one, "critical value of the same at 5 %", get<BinFit, &BinFit::ks_critical_estimated>, set<BinFit, &BinFit::ks_critical_estimated>},
   {"ad_statistic", false, one, "Anderson-Darling statistic", get<BinFit, &BinFit::ad_statistic>, set<BinFit, &BinFit::ad_statistic>},
   {"ad_p_estimated", false, one, "its p value for estimated parameters, of independent samples", get<BinFit, &BinFit::ad_p_estimated>, set<BinFit, &BinFit::ad_p_estimated>},
-  {"off_by", false, one, "upper 95 % bound of the error of the fitted probability", get<BinFit, &BinFit::off_by>, set<BinFit, &BinFit::off_by>},
+  {"off_by", false, one, "upper 95 % bound of what a lognormal is off the true probabilities", get<BinFit, &BinFit::off_by>, set<BinFit, &BinFit::off_by>},
   {"fdr_rejected", true, one, "1: rejected with false discovery controlled over the bins", get<BinFit, &BinFit::fdr_rejected>, set<BinFit, &BinFit::fdr_rejected>},
-  {"status", true, one, "0 fitted, 1 too few samples, 2 fails goodness of fit, 3 counts only", get<BinFit, &BinFit::status>, set<BinFit, &BinFit::status>},
+  {"status", true, one, "0 fitted, 1 too few samples, 2 fails goodness of fit, 3 counts only, 4 passes it, but may be off by more than is adequate; by counts but for 0", get<BinFit, &BinFit::status>, set<BinFit, &BinFit::status>},
 };
 
 using Fitted = fragility::FragilityFunction;

@@ -80,7 +80,9 @@ void write_surface(Group& parent, const Result& result, const EdpResult& edp) {
         Shown{"upper", &edp.surface.upper, "upper end of the band, from resampled motions"},
         Shown{"empirical", &edp.surface.empirical, "fraction of samples above, overturned included"},
         Shown{"least", &edp.surface.least, "the same, had every sample that failed stayed below"},
-        Shown{"most", &edp.surface.most, "the same, had every sample that failed lain above"}})
+        Shown{"most", &edp.surface.most, "the same, had every sample that failed lain above"},
+        Shown{"empirical_lower", &edp.surface.empirical_lower, "lower end of its interval, motions as the unit"},
+        Shown{"empirical_upper", &edp.surface.empirical_upper, "upper end of its interval, motions as the unit"}})
     group.put(curve.name, *curve.values, shape).attach(0, im).attach(1, capacity).describe("1", curve.description);
   if (edp.surface.resampled.empty()) return;
   const Dataset resample = resample_numbers(group, result);
@@ -88,14 +90,14 @@ void write_surface(Group& parent, const Result& result, const EdpResult& edp) {
       .attach(0, resample)
       .attach(1, im)
       .attach(2, capacity)
-      .describe("1", "probability from each resampled set of motions");
+      .describe("1", "fraction of samples above, from each resampled set of motions");
   const std::size_t left_out = edp.surface.left_out.size() / edp.surface.probability.size();
   if (left_out == 0) return;
   group.put("probability_left_out", edp.surface.left_out, {left_out, shape[0], shape[1]})
       .attach(0, left_out_numbers(group, left_out))
       .attach(1, im)
       .attach(2, capacity)
-      .describe("1", "probability without each group of motions");
+      .describe("1", "fraction of samples above, without each group of motions");
 }
 
 void write_distribution(Group& parent, const Result& result, const EdpResult& edp) {
@@ -278,7 +280,7 @@ void write_root(Group& root, const Provenance& provenance, const Result& result)
 }  // namespace
 
 const char* name(fragility::BinStatus status) {
-  constexpr const char* names[] = {"fitted", "too_few", "rejected", "counts_only"};
+  constexpr const char* names[] = {"fitted", "too_few", "rejected", "counts_only", "not_refuted"};
   return names[static_cast<int>(status)];
 }
 

@@ -34,7 +34,7 @@ std::string surface_csv(const fragility::Result&);
 // The intensity as `fit --im` takes it: "pga_g", "sa_g:0.5".
 std::string im_text(const fragility::Result&);
 
-// "fitted", "too_few", "rejected", "counts_only"
+// "fitted", "too_few", "rejected", "counts_only", "not_refuted"
 const char* name(fragility::BinStatus);
 
 }  // namespace freestand::io

@@ -105,6 +105,8 @@ fragility::Surface read_surface(const Group& group, std::size_t points) {
           values(group, "empirical", points),
           values(group, "least", points),
           values(group, "most", points),
+          values(group, "empirical_lower", points),
+          values(group, "empirical_upper", points),
           read_surfaces(group, "resampled", points),
           read_surfaces(group, "probability_left_out", points)};
 }

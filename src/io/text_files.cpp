@@ -23,7 +23,7 @@ Json function_summary(const fragility::FragilityFunction& curve) {
 }
 
 Json edp_summary(const fragility::EdpResult& edp) {
-  std::array<int, 4> bins{};
+  std::array<int, 5> bins{};  // by status
   for (const fragility::BinFit& bin : edp.bins) ++bins[static_cast<std::size_t>(bin.status)];
   Json json{{"unit", edp.unit}, {"kind", edp.binary ? "binary" : "continuous"}, {"bins", edp.bins.size()}};
   for (std::size_t i = 0; i < bins.size(); ++i) json[name(static_cast<fragility::BinStatus>(i))] = bins[i];

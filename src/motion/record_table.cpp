@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 // Columns that say how to read a record, and are no intensities.
 constexpr std::string_view own_columns[] = {
     "file",     "folder", "suite",   "dt_s",        "unit",       "format",     "channel",        "group", "component",
-    "vertical", "event",  "station", "azimuth_deg", "strike_deg", "pulse_type", "pulse_period_s", "cross"};
+    "vertical", "event",  "station", "azimuth_deg", "strike_deg", "pulse_type", "pulse_period_s", "cross", "weight"};
 // First words of columns that no scaling of the record changes, whatever their unit; their units are not those of shaking.
 constexpr std::string_view properties[] = {"magnitude", "mw",       "distance",  "depth",  "vs30",
                                            "elevation", "duration", "rjb",       "rrup",   "rhypo",
@@ -67,6 +67,10 @@ class Reader {
       throw Error(fmt::format("{} names no horizontal component (nothing would shake sideways): add some",
                               table_.file.string()),
                   Exit::data);
+    if (std::all_of(found_.rows.begin(), found_.rows.end(), [](const RecordRow& row) { return row.weight == 0; }))
+      throw Error(
+          fmt::format("{} gives no record a weight above 0 (none would be drawn): give some", table_.file.string()),
+          Exit::data);
     if (vertical_ && !has("vertical"))
       for (std::size_t i = 0; i < found_.rows.size(); ++i)
         if (const auto partner = verticals_.find(stations_[i]); partner != verticals_.end())
@@ -128,6 +132,7 @@ class Reader {
 
   void check(const CsvTable::Row& row, const RecordRow& record) {
     if (text(row, "file").empty()) wrong(row, "file is empty (which record is it?): name it");
+    if (!(record.weight >= 0)) wrong(row, "weight is not a number from 0 on (how often is it drawn?): correct it");
     if (record.dt_s && !(*record.dt_s > 0)) wrong(row, "dt_s is not above zero (a time step is): correct it");
     if (record.pulse.period_s && !(*record.pulse.period_s > 0))
       wrong(row, "pulse_period_s is not above zero (a period is): correct it");
@@ -163,6 +168,7 @@ class Reader {
     record.format = text(row, "format");
     record.channel = text(row, "channel");
     record.group = text(row, group_);
+    if (has("weight")) record.weight = number(row, "weight");
     for (const RecordNumber& column : found_.numbers) record.numbers.push_back(number(row, column.name));
     check(row, record);
     const std::string station = text(row, "suite") + "\n" + text(row, "event") + "\n" + text(row, "station");

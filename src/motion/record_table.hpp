@@ -4,6 +4,7 @@
 //   file       path of the record, from the table's folder (needed); with a column folder or suite: from that folder in it
 //   dt_s, unit, format, channel   as motion::ReadOptions; empty where the file says it
 //   group      records with the same word are one group of motions: of one earthquake, two components of one station
+//   weight     how often it is drawn beside the others of the table; without that column all alike
 //   component  000, NS, UD ...; vertical ones are left out
 //   vertical   path of the vertical component, as file; without that column, the row of a vertical component with the same
 //              suite, event and station is taken, where vertical components are asked for
@@ -49,6 +50,7 @@ struct RecordRow {
   // The other horizontal component, empty where there is none; of a pair (record_pairs.hpp) 90 degrees clockwise (1) or counterclockwise (-1) from this.
   std::filesystem::path cross = {};
   int cross_side = 1;
+  double weight = 1;
 };
 
 struct RecordTable {

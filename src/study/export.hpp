@@ -42,7 +42,7 @@ struct DatabaseExport {
   std::vector<Refusal> refused;                                // "fridge-vinyl: why" of fridge-vinyl
   std::vector<std::filesystem::path> files;                    // that hold all of them, the certificate last
   std::filesystem::path output;
-  std::string im;
+  std::string format, im;
   std::vector<std::string> other_ims;  // that the database has too
 };
 bool is_database(const std::filesystem::path& folder);

@@ -155,6 +155,7 @@ DatabaseExport export_database(const ExportRequest& request) {
   const Database db = io::read_database(request.folder / io::database_name);
   DatabaseExport done;
   done.output = request.output;
+  done.format = request.format;
   choose_intensity(db, request, done);
   if (format.write_all && !request.each)
     export_all(request, format, db, done);

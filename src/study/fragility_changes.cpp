@@ -71,6 +71,13 @@ void change_capacities(YAML::Node fragility, const FragilityChanges& changes) {
   YAML::Node capacities = of_demands(fragility["capacities"], changes.edp),
              still = of_demands(fragility["still"], changes.edp);
   for (const std::string& text : changes.capacities) {
+    if (text.starts_with("{")) {  // as a study has them
+      for (const auto& entry : loaded(text, "--capacities")) {
+        capacities[entry.first.Scalar()] = entry.second;
+        still.remove(entry.first.Scalar());
+      }
+      continue;
+    }
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos)
       throw Error(

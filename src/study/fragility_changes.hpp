@@ -13,7 +13,7 @@ struct FragilityChanges {
   std::string im = {};                       // "pgv_mps", "sa_g:0.5"
   std::string bins = {};                     // "12", "0.1,0.2,0.5", "{count: 12, spacing: log}"
   std::vector<std::string> edp = {};         // names
-  std::vector<std::string> capacities = {};  // "peak_slip_m=0.05,0.1"
+  std::vector<std::string> capacities = {};  // "peak_slip_m=0.05,0.1", "{peak_slip_m: [0.05, 0.1]}"
 
   std::vector<std::string> target = {};  // "friction.mu_k={lognormal: {median: 0.3, dispersion: 0.2}}"
 

@@ -93,6 +93,7 @@ Entry load_record(const MotionSource& source, const motion::RecordRow& row, cons
   Entry entry{std::move(motion), false, 0, 0, row.group};
   entry.motion.name = record_name(row.file, source, folder);
   entry.known_pulse = known_pulse(source, row);
+  entry.weight = row.weight;
   take_peaks(entry);
   if (!(entry.peak_mps2 > 0))
     throw Error(
@@ -273,6 +274,7 @@ std::string MotionSet::fingerprint() const {
     hash_values(motion.horizontal_mps2, hash);
     hash_values(motion.vertical_mps2, hash);
     if (!motion.cross_mps2.empty()) hash_values(motion.cross_mps2, hash);
+    if (entry.weight != 1) hash_values({entry.weight}, hash);
     if (!entry.known_pulse.any()) continue;
     hash = random::stable_hash(entry.known_pulse.type, hash);
     hash_values({entry.known_pulse.period_s.value_or(0)}, hash);

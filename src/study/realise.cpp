@@ -84,7 +84,11 @@ struct Source {
         period(drawn(plan, from.period)),
         storey(drawn(plan, from.storey)),
         storeys(from.storeys()),
-        item(plan, from.kind == MotionSource::Kind::pulses ? "motion.pulse" : "motion.record") {}
+        item(plan, from.kind == MotionSource::Kind::pulses ? "motion.pulse" : "motion.record"),
+        weights(from.pulses.weights) {
+    for (const motion::RecordRow& row : from.files) weights.push_back(row.weight);
+    if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 1; })) weights.clear();
+  }
 
   MotionSource part;
   Amplitude amplitude_kind;
@@ -93,11 +97,12 @@ struct Source {
   std::optional<Drawn> period, storey;
   std::vector<int> storeys;
   Stream item;
+  std::vector<double> weights;  // of the pulses or records; empty: all alike
 
   // The item of a sample: a pulse or a record, and with a building one of the record's floors.
   std::size_t pick(std::uint64_t sample, std::size_t items) const {
     const std::size_t floors = std::max<std::size_t>(1, storeys.size()), motions = items / floors;
-    const std::size_t one = motions == 1 ? 0 : sampling::pick(motions, part.pulses.weights, item(sample));
+    const std::size_t one = motions == 1 ? 0 : sampling::pick(motions, weights, item(sample));
     if (floors == 1) return one;
     const auto floor = std::find(storeys.begin(), storeys.end(), static_cast<int>((*storey)(sample)));
     return one * floors + static_cast<std::size_t>(floor - storeys.begin());

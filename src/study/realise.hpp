@@ -28,6 +28,7 @@ struct MotionSet {
     std::optional<std::size_t> ground = {};  // of a floor: the entry of the record, under its building
     int storey = 0;                          // of a floor: how many above the ground
     motion::KnownPulse known_pulse = {};     // of a record: what the study or its table says of its pulse
+    double weight = 1;                       // of a record: how often it is drawn beside the others of its source
   };
   std::vector<motion::RecordNumber> numbers;  // intensities that tables of records bring
   std::shared_ptr<const std::vector<Entry>> entries;

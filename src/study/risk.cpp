@@ -135,6 +135,7 @@ Json row_json(const decision::RiskRow& row, const std::vector<double>& years) {
                                 {"upper", decision::probability_in_years(told.upper, n)}});
   json["by_function"] = estimate_json(row.by_function);
   json["by_counts"] = estimate_json(row.by_counts);
+  if (std::isfinite(row.upper_if_falling)) json["upper_if_falling"] = row.upper_if_falling;
   json["outside_sweep"] = row.outside_sweep;
   json["outside_hazard"] = row.outside_hazard;
   json["median_im"] = row.median_im;

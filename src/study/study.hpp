@@ -242,10 +242,10 @@ struct FragilityPart {
   int resamples = 500;           // bootstrap repeats of the intervals
   double confidence = 0.95;
   int minimum_samples = 30;                  // a bin with fewer stays empty
-  double adequate = 0.05;                    // a fit that fails its test is used where it is off by no more
+  double adequate = 0.05;                    // a fit is used where it is off by no more
   std::map<std::string, double> still = {};  // by EDP: at or below it the block stood still; every one of `capacities`
   double false_discovery = 0.05;             // level of the goodness-of-fit tests over the bins
-  bool empirical_fallback = true;            // a bin that fails goodness of fit takes its curve from the counts
+  bool empirical_fallback = true;            // a bin whose fit may be off by more takes its curve from the counts
 };
 
 // Run until every wanted point of the surface is known to +- half_width, or `at_most` samples are done.

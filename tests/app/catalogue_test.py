@@ -182,6 +182,14 @@ class Catalogue(InFolder):
         self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"])
         self.assertEqual([len(list(folder.glob("fragility.xml"))) for folder in (self.folder / "db" / "exports" / "openquake").iterdir()], [1, 1])
 
+    def test_advice_on_what_cannot_be_exported_names_whose_options_it_means(self):
+        text = (HEAD + TALL).replace("bins: {count: 4}", "bins: {edges: [0.01, 0.02, 0.3, 0.8, 2.2]}").replace("entries:", "exports: [openquake]\nentries:")
+        said = self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"]).stdout
+        self.assertIn("add --skip-empty", said)
+        advice = f"freestand export {self.folder / 'db'} --format openquake --im pga_g -o OUT"
+        self.assertIn("options named here are those of: " + advice, said)
+        self.succeed([self.folder / "one.xml" if word == "OUT" else word for word in advice.split()[1:]] + ["--skip-empty"])
+
     def test_all_entries_are_exported_into_one_file_under_their_ids(self):
         # The low box slips and never falls: of what nobody asked for that is told and left out, where one list need not hold all.
         low = "  - {id: low-box, class: box, block: {width_m: 3, height_m: 0.5}, friction: {mu: 0.2}}\n"

@@ -32,10 +32,10 @@ inline HazardCurve power_law(double k0, double k, double first, double last) {
 
 // Records of which each overturns at its own intensity: ln of it is normal with `between` among records, and `within` among the
 // samples of one. A share `floor` overturns at whatever intensity, and only a share `ceiling` can overturn at all, so that the curve is no
-// lognormal where they are not 0 and 1.
+// lognormal where they are not 0 and 1. A share `weak` of the records overturns at 0.3 of the others' intensity.
 struct Sweep {
   int records = 40, per_record = 25;
-  double median = 0.6, between = 0.35, within = 0.25, floor = 0, ceiling = 1, least = 0.05, most = 3;
+  double median = 0.6, between = 0.35, within = 0.25, floor = 0, ceiling = 1, weak = 0, least = 0.05, most = 3;
   double dispersion() const { return std::hypot(between, within); }
 
   fragility::Result fit(std::uint64_t seed, int resamples) const {
@@ -53,7 +53,9 @@ struct Sweep {
     options.confidence = 0.9;
     fragility::Tally tally(options);
     for (int r = 0, i = 0; r < records; ++r) {
-      const double own = median * std::exp(between * normal(seed, static_cast<std::uint64_t>(r), "record"));
+      const auto record = static_cast<std::uint64_t>(r);
+      const double own = median * std::exp(between * normal(seed, record, "record")) *
+                         (uniform(seed, record, "weak") < weak ? 0.3 : 1);
       for (int k = 0; k < per_record; ++k, ++i) {
         const auto at = static_cast<std::uint64_t>(i);
         const double im = least * std::pow(most / least, uniform(seed, at, "im"));

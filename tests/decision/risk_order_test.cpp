@@ -28,7 +28,7 @@ TEST(Risk, OfNestedEventsTheInnerOneHasNoHigherRate) {
   outer.name = "peak_slip_m";
   outer.binary = false;
   outer.capacity = {0.1};
-  for (double& p : outer.surface.probability) p *= 0.9;  // contradicts, as two fits may
+  for (double& p : outer.surface.empirical) p *= 0.9;  // contradicts, as two fits may
   outer.functions[0].adequate = result.edps[0].functions[0].adequate = false;
   result.edps.insert(result.edps.begin(), outer);
   const Risk found = risk(result, power_law(1e-3, 1.5, 1e-3, 50), {"peak_slip_m"});

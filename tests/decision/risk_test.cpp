@@ -107,9 +107,10 @@ TEST(Risk, WhereNothingWasCountedTheLimitsOfHigherIntensitiesHold) {
   ASSERT_EQ(edp.surface.probability[0], 0);
   edp.functions.clear();  // by counts
   const HazardCurve hazard = power_law(1e-3, 2, 0.01, 20);
-  edp.surface.upper[0] = 0.9;
+  edp.surface.empirical_upper[0] = 0.9;
   const RiskRow wide = risk(result, hazard).rows.at(0);
-  edp.surface.upper[0] = *std::min_element(edp.surface.upper.begin(), edp.surface.upper.end());
+  edp.surface.empirical_upper[0] =
+      *std::min_element(edp.surface.empirical_upper.begin(), edp.surface.empirical_upper.end());
   const RiskRow narrow = risk(result, hazard).rows.at(0);
   EXPECT_DOUBLE_EQ(wide.by_counts.upper, narrow.by_counts.upper);
   EXPECT_THAT(wide.why, HasSubstr("taken not to fall"));
@@ -118,8 +119,41 @@ TEST(Risk, WhereNothingWasCountedTheLimitsOfHigherIntensitiesHold) {
   for (std::size_t i = 0; i < edp.surface.probability.size(); ++i)
     if (edp.surface.probability[i] > 0 && edp.surface.probability[i] < 1) some = i;
   ASSERT_GT(some, 0u);
-  edp.surface.upper[some] = 1;
+  edp.surface.empirical_upper[some] = 1;
   EXPECT_EQ(risk(result, hazard).rows.at(0).by_counts.upper, narrow.by_counts.upper);
+}
+
+// The lowest intensities, at which none of 40 records exceeded, make most of the upper limit: what P that falls as the curve does leaves of it
+// is told beside it.
+TEST(Risk, WhatOfTheUpperLimitNothingWasCountedForIsTold) {
+  fragility::Result result = Sweep{}.fit(3, 200);
+  result.edps[0].functions[0].adequate = false;
+  const RiskRow row = risk(result, power_law(1e-3, 2.5, 1e-3, 50)).rows.at(0);
+  EXPECT_GT(row.by_counts.upper, 5 * row.by_counts.value);
+  EXPECT_GT(row.upper_if_falling, row.by_counts.value);
+  EXPECT_LT(row.upper_if_falling, 3 * row.by_counts.value);
+  EXPECT_THAT(row.why, HasSubstr("at which nothing exceeded it; if P falls there as the fitted curve does, it is"));
+  result.edps[0].functions[0].adequate = true;
+  EXPECT_TRUE(std::isnan(risk(result, power_law(1e-3, 2.5, 1e-3, 50)).rows.at(0).upper_if_falling));
+}
+
+// A lognormal that stands for a bin's shares may be off by 0.05, which is many times a share of 0.001.
+TEST(Risk, ByCountsIsByCountsWhereABinHasALognormalToo) {
+  const fragility::Result counted = Sweep{}.fit(3, 50);
+  fragility::Result lognormals = counted;
+  fragility::EdpResult& edp = lognormals.edps[0];
+  edp.binary = false;
+  edp.capacity = {0.1};
+  for (std::size_t i = 0; i < edp.bins.size(); ++i) {
+    edp.bins[i].status = fragility::BinStatus::fitted;
+    edp.surface.probability[i] = std::min(1.0, edp.surface.probability[i] + 0.04);
+    edp.surface.lower[i] = edp.surface.upper[i] = edp.surface.probability[i];
+  }
+  const HazardCurve hazard = power_law(1e-3, 2, 0.01, 20);
+  const Rate expected = risk(counted, hazard).rows[0].by_counts, found = risk(lognormals, hazard).rows[0].by_counts;
+  EXPECT_EQ(found.value, expected.value);
+  EXPECT_EQ(found.lower, expected.lower);
+  EXPECT_EQ(found.upper, expected.upper);
 }
 
 TEST(Risk, AnAdequateCurveIsRecommendedAndAgreesWithTheCounts) {
@@ -259,7 +293,7 @@ TEST(Risk, WhatHappensWithinAnotherEventHasNoLargerLimit) {
   fragility::EdpResult& inner = result.edps[0];
   inner.functions.clear();  // by counts
   fragility::EdpResult outer = inner;
-  std::fill(inner.surface.upper.begin(), inner.surface.upper.end(), 0.9);
+  std::fill(inner.surface.empirical_upper.begin(), inner.surface.empirical_upper.end(), 0.9);
   outer.name = "peak_slip_m";
   outer.binary = false;
   outer.capacity = {0.05};
@@ -272,7 +306,7 @@ TEST(Risk, WhatHappensWithinAnotherEventHasNoLargerLimit) {
   EXPECT_EQ(within[1].rate().upper, apart[1].rate().upper);
   // The lower limit of what holds another is that of the other where it is larger.
   result.edps[0].surface = result.edps[1].surface;
-  for (double& lower : result.edps[1].surface.lower) lower = 0;
+  for (double& lower : result.edps[1].surface.empirical_lower) lower = 0;
   const std::vector<RiskRow> again = risk(result, hazard, {"peak_slip_m"}).rows;
   EXPECT_GE(again[1].rate().lower, again[0].rate().lower);
 }

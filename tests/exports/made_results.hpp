@@ -41,8 +41,8 @@ inline fragility::FragilityFunction function(double median, double dispersion, b
 
 inline void set_surface(fragility::EdpResult& edp, std::size_t at, double p) {
   edp.surface.probability[at] = edp.surface.empirical[at] = p;
-  edp.surface.lower[at] = p - 0.02;
-  edp.surface.upper[at] = p + 0.02;
+  edp.surface.lower[at] = edp.surface.empirical_lower[at] = p - 0.02;
+  edp.surface.upper[at] = edp.surface.empirical_upper[at] = p + 0.02;
 }
 
 inline fragility::EdpResult demand(const std::string& name, const std::string& unit, std::vector<double> capacities) {
@@ -53,7 +53,8 @@ inline fragility::EdpResult demand(const std::string& name, const std::string& u
   edp.capacity = edp.binary ? std::vector<double>{0.5} : capacities;
   edp.bins.resize(std::size(bins));
   const std::size_t size = edp.bins.size() * edp.capacity.size();
-  for (auto* values : {&edp.surface.probability, &edp.surface.lower, &edp.surface.upper, &edp.surface.empirical})
+  for (auto* values : {&edp.surface.probability, &edp.surface.lower, &edp.surface.upper, &edp.surface.empirical,
+                       &edp.surface.empirical_lower, &edp.surface.empirical_upper})
     values->assign(size, 0);
   return edp;
 }

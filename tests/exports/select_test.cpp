@@ -82,6 +82,21 @@ TEST(LimitStates, ThatNeverHappenedAreLeftOutWhereNobodyAskedForThem) {
   EXPECT_THAT(zeros.notes, testing::Contains(HasSubstr("overturned never happened up to 1.9 g: its probability is 0")));
 }
 
+// A capacity of a nanometre: that it is exceeded says nothing.
+TEST(LimitStates, ThatAlwaysHappenedAreToldAndRefusedWhereThereIsNoOther) {
+  fragility::Result results = made_results();
+  for (std::size_t b = 0; b < std::size(bins); ++b) {
+    fragility::Surface& surface = results.edps[0].surface;
+    surface.probability[2 * b] = surface.empirical[2 * b] = surface.upper[2 * b] = 1;
+  }
+  results.edps[0].functions[0] = {};
+  const Model beside = model("openquake", request({"peak_slip_m:0.05", "peak_slip_m:0.2"}), results);
+  EXPECT_THAT(beside.notes, testing::Contains(HasSubstr("peak_slip_m_over_0p05 happened in every sample, from")));
+  EXPECT_THAT(error_of([&] { model("openquake", request({"peak_slip_m:0.05"}), results); }),
+              HasSubstr("peak_slip_m_over_0p05 happened in every sample at every intensity swept"));
+  EXPECT_EQ(error_of([&] { model("csv", request({"peak_slip_m:0.05"}), results); }), "");
+}
+
 TEST(LimitStates, AreChosenAndNamed) {
   const Model found = model("openquake", request({"peak_slip_m:0.2=hits", "overturned=falls"}));
   ASSERT_EQ(found.states.size(), 2u);
@@ -172,7 +187,7 @@ TEST(Forms, DiscreteBendsAsTheFittedCurveDoes) {
     EXPECT_LT(bent.states[s].off_lines, 0.01);
   }
   EXPECT_LT(bent.states[0].curve.points.size(), 60u);
-  EXPECT_THAT(bent.notes, testing::Contains(HasSubstr("points of the curve through 5 bins, off it by at most")));
+  EXPECT_THAT(bent.notes, testing::Contains(HasSubstr("points of the curve through 5 bins, off that of the counts by at most")));
   EXPECT_THAT(bent.notes, Not(testing::Contains(HasSubstr("annual rates by these straight lines"))));
   // A database is read by straight lines, and so are its exports; how far off these are is said.
   Request as_a_database = request();

@@ -66,8 +66,8 @@ TEST(HalfWidth, IsTheLargestOfTheSurfacesAndTheirSecondAxes) {
 TEST(Outlook, SamplesOfTheirOwnAreNeededByTheSquare) {
   Options o = options(0, false);
   o.edps[0].capacities = {1};
-  const Result few = fitted(counted(o, {500, 1, 0, 0.6}, 40));
-  for (const double half : {0.02, 0.01}) {
+  const Result few = fitted(counted(o, {2000, 1, 0, 0.6}, 40));  // enough to know that the lognormal is adequate
+  for (const double half : {0.015, 0.01}) {
     const Outlook found = outlook(few, {.half_width = half});
     EXPECT_EQ(found.stays, 0);
     const int samples = static_cast<int>(found.samples);

@@ -20,9 +20,11 @@ using test::repeats_asked;
 
 // Records whose samples exceed a capacity with probability Phi((z + sqrt(correlation) u)/sqrt(1 - correlation)), u normal from record to
 // record and Phi(z) = share: ln demand is normal, `correlation` of its variance is that between records.
+// weights: dispersion of the records' weights, by which their samples go.
 struct Setting {
   int records, each;
   double share, correlation;
+  double weights = 0;
 };
 
 struct Misses {
@@ -34,14 +36,17 @@ struct Misses {
 // GSL's own generator: none of freestand's.
 Misses simulate(const Setting& s, int repeats) {
   const std::unique_ptr<gsl_rng, void (*)(gsl_rng*)> rng(gsl_rng_alloc(gsl_rng_mt19937), gsl_rng_free);
-  const double z = gsl_cdf_ugaussian_Pinv(s.share), root = std::sqrt(s.correlation), rest = std::sqrt(1 - s.correlation);
+  const double z = gsl_cdf_ugaussian_Pinv(s.share), root = std::sqrt(s.correlation),
+               rest = std::sqrt(1 - s.correlation);
   Misses misses;
   std::vector<GroupShare> groups(static_cast<std::size_t>(s.records));
   for (misses.repeats = 0; misses.repeats < repeats; ++misses.repeats) {
     for (GroupShare& g : groups) {
       const double p = gsl_cdf_ugaussian_P((z + root * gsl_ran_ugaussian(rng.get())) / rest);
-      g = {static_cast<double>(s.each),
-           static_cast<double>(gsl_ran_binomial(rng.get(), p, static_cast<unsigned>(s.each)))};
+      const auto samples = s.weights > 0
+                               ? gsl_ran_poisson(rng.get(), s.each * gsl_ran_lognormal(rng.get(), 0, s.weights))
+                               : static_cast<unsigned>(s.each);
+      g = {static_cast<double>(samples), static_cast<double>(gsl_ran_binomial(rng.get(), p, samples))};
     }
     const Interval found = share_interval(groups, groups.size(), 0.9);
     misses.below += s.share < found.lower;
@@ -51,8 +56,8 @@ Misses simulate(const Setting& s, int repeats) {
 }
 
 std::string text(const Setting& s, const Misses& m) {
-  return fmt::format("{} records of {}, P {}, correlation {}: {:.3f} +- {:.3f} (truth below {}, above {})", s.records,
-                     s.each, s.share, s.correlation, m.coverage(), m.error(), m.below, m.above);
+  return fmt::format("{} records of {}, weights {}, P {}, correlation {}: {:.3f} +- {:.3f} (truth below {}, above {})",
+                     s.records, s.each, s.weights, s.share, s.correlation, m.coverage(), m.error(), m.below, m.above);
 }
 
 // The table, where more repeats are asked for.
@@ -83,6 +88,20 @@ TEST(ShareCoverage, IsNinetyPercentWithSharedRecords) {
         ++settings;
       }
   EXPECT_NEAR(sum / settings, 0.91, 0.01);
+}
+
+// Records that are drawn by weights that differ by half and by twice (dispersion 0.5, 0.8) have as many samples.
+TEST(ShareCoverage, IsNinetyPercentWithRecordsOfDifferentWeights) {
+  const int repeats = repeats_asked(600);
+  for (const int records : {22, 40, 100})
+    for (const double weights : {0.5, 0.8})
+      for (const double share : {0.2, 0.5})
+        for (const double correlation : {0.2, 0.5}) {
+          const Setting s{records, 25, share, correlation, weights};
+          const Misses m = simulate(s, repeats);
+          tell(s, m);
+          expect_within(s, m, 0.87, 0.93);
+        }
 }
 
 // Where less than a record is expected to exceed, or hardly one more, the studies see none, one or two, and what they see does not tell one P

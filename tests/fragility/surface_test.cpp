@@ -31,8 +31,8 @@ Tally three_bins() {
   };
   for (std::uint64_t i = 0; i < 5; ++i) add(i, 0.5, Outcome::moved, 1);
   for (std::uint64_t i = 0; i < 200; ++i) add(i, 1.5, Outcome::at_rest, 0);
-  for (std::uint64_t i = 0; i < 1000; ++i) {
-    const Outcome outcome = i < 100 ? Outcome::overturned : i < 280 ? Outcome::at_rest : Outcome::moved;
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const Outcome outcome = i < 400 ? Outcome::overturned : i < 1120 ? Outcome::at_rest : Outcome::moved;
     add(i, 2.5, outcome, outcome == Outcome::moved ? std::exp(0.5 * test::normal(i, 91)) : 0);
   }
   return tally;
@@ -66,10 +66,36 @@ TEST(Surface, SecondAxisIsEmptyWhereItHasNoSamples) {
   const AxisSurface axis = fitted(three_bins()).edps[0].axes[0];
   ASSERT_EQ(axis.n.size(), 6u);
   EXPECT_EQ(axis.n[5], 0);
-  EXPECT_EQ(axis.n[4], 1000);
+  EXPECT_EQ(axis.n[4], 4000);
   EXPECT_TRUE(std::isnan(axis.probability[5 * 3]));
   EXPECT_NEAR(axis.probability[4 * 3 + 1], fitted(three_bins()).edps[0].surface.empirical[6 + 1], 1e-15);
   EXPECT_LT(axis.lower[4 * 3 + 1], axis.probability[4 * 3 + 1]);
+}
+
+// 200 samples of a true lognormal: its test passes, and would pass many that are off by 0.1.
+TEST(Surface, ABinThatIsMerelyNotRefutedFallsBackOnTheCountsAndSaysSo) {
+  Options o = options(0, false);
+  const auto of = [](const Options& with) {
+    Tally tally(with);
+    for (std::uint64_t i = 0; i < 200; ++i) {
+      const double value = std::exp(0.6 * test::normal(i, 53));
+      tally.add({i, 0.5, 0, Outcome::moved, {&value, 1}, {}});
+    }
+    return fitted(tally);
+  };
+  const Result found = of(o);
+  const BinFit& bin = found.edps[0].bins[0];
+  EXPECT_EQ(bin.fdr_rejected, 0);
+  EXPECT_GT(bin.off_by, o.adequate);
+  EXPECT_EQ(bin.status, BinStatus::not_refuted);
+  EXPECT_EQ(found.edps[0].surface.probability, found.edps[0].surface.empirical);
+  EXPECT_THAT(found.warnings,
+              testing::Contains(testing::HasSubstr("not refuted in 1 of 1 bins, but may be off by up")));
+  o.empirical_fallback = false;
+  const Surface kept = of(o).edps[0].surface;
+  EXPECT_NE(kept.probability[2], kept.empirical[2]);
+  o.adequate = 0.2;
+  EXPECT_EQ(of(o).edps[0].bins[0].status, BinStatus::fitted);
 }
 
 TEST(Surface, FailingBinFallsBackOnTheCounts) {
@@ -209,7 +235,7 @@ TEST(Surface, DistributionHoldsEverySampleThatMovedAndStood) {
   ASSERT_EQ(d.count.size(), 3 * cells);
   std::int64_t last = 0;
   for (std::size_t i = 2 * cells; i < 3 * cells; ++i) last += d.count[i];
-  EXPECT_EQ(last, 720);
+  EXPECT_EQ(last, 2880);
   EXPECT_NEAR(d.ln_edge[1] - d.ln_edge[0], 1.0 / 32, 1e-12);
 }
 

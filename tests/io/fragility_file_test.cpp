@@ -71,6 +71,8 @@ TEST(FragilityFile, ReadsBackAsItWasWritten) {
   EXPECT_EQ(surface_csv(result), surface_csv(written));
   EXPECT_EQ(fragility_summary(from, result).dump(), fragility_summary(provenance(), written).dump());
   EXPECT_EQ(result.im_edge, written.im_edge);
+  EXPECT_EQ(result.edps[1].surface.empirical_upper, written.edps[1].surface.empirical_upper);
+  EXPECT_EQ(result.edps[0].surface.empirical_upper[5], written.edps[0].surface.empirical_upper[5]);
   EXPECT_EQ(result.edps[0].surface.resampled, written.edps[0].surface.resampled);
   EXPECT_EQ(result.edps[0].surface.left_out, written.edps[0].surface.left_out);
   EXPECT_EQ(result.left_out_records, 2);

@@ -25,6 +25,8 @@ inline fragility::EdpResult continuous_edp() {
   edp.surface.upper = std::vector<double>(6, 9);
   edp.surface.empirical = {0, 0, 0, 0, fragility::unknown, 0.5};
   edp.surface.least = edp.surface.most = edp.surface.empirical;
+  edp.surface.empirical_lower = {0, 0, 0, 0, fragility::unknown, 0.25};
+  edp.surface.empirical_upper = {0.1, 0.1, 0.1, 0.1, fragility::unknown, 0.75};
   for (int i = 0; i < 12; ++i) edp.surface.resampled.push_back(i / 16.0);  // [2, 3, 2]
   for (int i = 0; i < 18; ++i) edp.surface.left_out.push_back(i / 32.0);   // [3, 3, 2]
   edp.distribution = {{-1, 0, 1}, {1, 2, 3, 4, 5, 6}};
@@ -69,6 +71,7 @@ inline fragility::Result example() {
   binary.capacity = {0.5};
   binary.surface.probability = binary.surface.lower = binary.surface.upper = binary.surface.empirical = {0, 0.5, 1};
   binary.surface.least = binary.surface.most = {0, 0.5, 1};
+  binary.surface.empirical_lower = binary.surface.empirical_upper = {0, 0.5, 1};
   result.edps = {continuous_edp(), binary};
   result.overturning.median = 1.5;
   result.overturning.dispersion = 0.5;

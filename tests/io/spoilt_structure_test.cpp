@@ -73,8 +73,9 @@ void expect_whole(const fragility::Result& result) {
   for (const fragility::EdpResult& edp : result.edps) {
     const std::size_t points = bins * edp.capacity.size();
     EXPECT_EQ(edp.bins.size(), bins);
-    for (const auto* values : {&edp.surface.probability, &edp.surface.lower, &edp.surface.upper, &edp.surface.empirical,
-                               &edp.surface.least, &edp.surface.most})
+    for (const auto* values :
+         {&edp.surface.probability, &edp.surface.lower, &edp.surface.upper, &edp.surface.empirical, &edp.surface.least,
+          &edp.surface.most, &edp.surface.empirical_lower, &edp.surface.empirical_upper})
       expect_size(*values, points, "surface");
     if (points) {
       EXPECT_EQ(edp.surface.resampled.size() % points, 0U);

@@ -230,6 +230,10 @@ class Pictures(unittest.TestCase):
         self.assertGreater(failed, 0)
         titles = [axes.get_title(loc="left") for axes in self.drawn["goodness_delta"].figure.axes]
         self.assertEqual(sum("fails" in title for title in titles), failed)
+        unproven = int((sweep.edps[0].bins["status"] == 4).sum())
+        self.assertIn(f"in {unproven} it is not refuted, but may be off by more", self.drawn["goodness_delta"].finding)
+        marks = len([line for line in self.drawn["surface_delta"].figure.axes[0].lines if line.get_marker() == "v"])
+        self.assertEqual(marks, failed + unproven)
         shown = " ".join(text for text, _ in texts(self.drawn["goodness_delta"].figure))
         self.assertIn("S = ", shown)
         self.assertIn("p* ", shown)

@@ -127,6 +127,17 @@ class Report(unittest.TestCase):
         self.assertEqual(self.text.count('<tr class="failed">'), failed)
         self.assertEqual(self.page.text.count("✗ fails"), failed)
 
+    def test_what_is_merely_not_refuted_is_told_with_its_bound(self):
+        with h5py.File(self.sweep / "fragility.h5") as root:
+            states = [root[f"edp/{name}"] for name in ("delta", "peak_rotation_over_alpha")]
+            unproven = [off_by for edp in states for off_by in edp["off_by"][()][edp["status"][()] == 4]]
+            adequate = [off_by for edp in states for off_by in edp["off_by"][()][edp["status"][()] == 0]]
+        self.assertGreater(len(unproven), 0)
+        for off_by in unproven:
+            self.assertIn(f"not refuted, may be off by {off_by:.2f}: counted", self.page.text)
+        for off_by in adequate:
+            self.assertIn(f"off by at most {off_by:.2f}", self.page.text)
+
     def test_text_from_files_is_escaped(self):
         with tempfile.TemporaryDirectory() as kept:
             folder = small(pathlib.Path(kept) / "sweep")

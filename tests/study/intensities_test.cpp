@@ -144,6 +144,11 @@ TEST_F(Changes, AreWrittenAsOnTheCommandLine) {
   EXPECT_THAT(part.edp, ElementsAre("peak_slip_m", "delta"));
   EXPECT_THAT(part.capacities[0].values, ElementsAre(0.1, 0.2));
   EXPECT_THAT(part.capacities[1].values, ElementsAre(1, 2));  // as they were
+  const FragilityPart as_a_study =
+      with_changes(study, {.edp = {"peak_slip_m", "delta"}, .capacities = {"{peak_slip_m: [0.3], delta: [3, 4]}"}})
+          .fragility;
+  EXPECT_THAT(as_a_study.capacities[0].values, ElementsAre(0.3));
+  EXPECT_THAT(as_a_study.capacities[1].values, ElementsAre(3, 4));
   EXPECT_THAT(with_changes(study, {.edp = {"overturned"}}).fragility.bins.edges, ElementsAre(0, 1, 2));
   EXPECT_EQ(with_changes(study, {.bins = "7"}).fragility.bins.count, 7);
   EXPECT_THAT(with_changes(study, {.bins = "0.1,0.5"}).fragility.bins.edges, ElementsAre(0.1, 0.5));
@@ -160,6 +165,7 @@ TEST_F(Changes, MistakesAreToldAsInAStudy) {
   EXPECT_THAT(refused({.edp = {"slip"}}), HasSubstr("demand parameter slip is not known"));
   EXPECT_THAT(refused({.edp = {"wall_hit"}}), HasSubstr("command line: fragility.edp: wall_hit would be 0"));
   EXPECT_THAT(refused({.capacities = {"0.1,0.2"}}), HasSubstr("names no demand"));
+  EXPECT_THAT(refused({.capacities = {"{delta: [1"}}), HasSubstr("cannot be read"));
   EXPECT_THAT(refused({.capacities = {"peak_slip_m=0.1"}}), HasSubstr("peak_slip_m"));
 }
 

@@ -17,6 +17,7 @@ namespace freestand::study::record_numbers_test {
 namespace {
 
 using namespace test;
+using testing::HasSubstr;
 
 class RecordNumbers : public testing::Test {
  protected:
@@ -54,6 +55,30 @@ TEST_F(RecordNumbers, AreScaledAsTheyAre) {
     EXPECT_THAT(SampleIntensity({"record.magnitude_mw"}, of)(rows), is({6.5, 7}));
   }
   EXPECT_EQ(SampleIntensity({"record.pga_g"}, summaries).beside(rows).columns.back().unit, "g");
+}
+
+// Drawn in proportion, so that all that is counted is of the weighted records, with no weights after.
+TEST_F(RecordNumbers, AWeightIsHowOftenARecordIsDrawn) {
+  const auto share_of_a = [&](const std::string& table) {
+    std::ofstream(folder_ / "INDEX.csv") << table;
+    const Study swept = study("report");
+    const Realiser realise(swept, load_motions(swept));
+    int first = 0;
+    for (std::uint64_t i = 0; i < 4096; ++i) first += realise(i).motion == 0;
+    return first / 4096.0;
+  };
+  const auto fingerprint = [&] { return load_motions(study("report")).fingerprint(); };
+  EXPECT_NEAR(share_of_a("file\na.csv\nb.csv\n"), 0.5, 0.03);
+  const std::string alike = fingerprint();
+  EXPECT_NEAR(share_of_a("file,weight\na.csv,3\nb.csv,1\n"), 0.75, 0.03);
+  EXPECT_NE(fingerprint(), alike);
+  EXPECT_EQ(share_of_a("file,weight\na.csv,0\nb.csv,1\n"), 0);
+  for (const char* wrong : {"-1", "", "much"})
+    EXPECT_THAT(freestand::test::error_text(
+                    Exit::usage, [&] { share_of_a("file,weight\na.csv," + std::string(wrong) + "\nb.csv,1\n"); }),
+                HasSubstr("INDEX.csv:2: weight is"));
+  EXPECT_THAT(freestand::test::error_text(Exit::usage, [&] { share_of_a("file,weight\na.csv,0\nb.csv,0\n"); }),
+              HasSubstr("no record a weight above 0"));
 }
 
 TEST_F(RecordNumbers, OnlyThoseOfTheTableAreKnown) {

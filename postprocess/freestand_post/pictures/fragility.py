@@ -3,12 +3,12 @@ import numpy as np
 
 from .. import style, words
 from ..model import chosen_capacities, crossing
-from ..reading import REJECTED, TOO_FEW, Sweep
+from ..reading import REJECTED, TOO_FEW, UNPROVEN, Sweep
 from . import Picture
 
 order = 10
 CAPTION = ("Lines: probability that {symbol} exceeds C; bands: {level} interval; points: share counted in each bin, hollow where "
-           "the lognormal fails its test of fit and the counted share replaces it. Below: what became of the samples of each bin.")
+           "the lognormal is not known to be adequate and the counted share replaces it. Below: what became of the samples of each bin.")
 
 
 def pictures(results):
@@ -38,15 +38,15 @@ def _picture(sweep, edp):
 
 
 def _curves(ax, sweep, edp, which, symbol):
-    labels, failed = [], edp.bins["status"] == REJECTED
+    labels, counts = [], np.isin(edp.bins["status"], (REJECTED, UNPROVEN))
     for k, colour in zip(which, style.series(len(which))):
         p, good = edp.surface["probability"][:, k], np.isfinite(edp.surface["probability"][:, k])
         x = sweep.centre
         ax.fill_between(x, edp.surface["lower"][:, k], edp.surface["upper"][:, k], color=colour, alpha=0.16, lw=0)
         ax.plot(x, p, color=colour)
         counted = edp.surface["empirical"][:, k]
-        ax.plot(x[~failed], counted[~failed], "o", ms=4, color=colour, mec="white", mew=0.6)
-        ax.plot(x[failed], counted[failed], "o", ms=4.5, mfc="white", mec=colour, mew=1.1)
+        ax.plot(x[~counts], counted[~counts], "o", ms=4, color=colour, mec="white", mew=0.6)
+        ax.plot(x[counts], counted[counts], "o", ms=4.5, mfc="white", mec=colour, mew=1.1)
         if good.any():
             last = np.flatnonzero(good)[-1]
             ax.plot([x[last], sweep.view[1]], [p[last], p[last]], color=colour, lw=0.7, alpha=0.7)

@@ -3,7 +3,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from .. import style, words
-from ..reading import FITTED, REJECTED, Sweep
+from ..reading import FITTED, REJECTED, TESTED, UNPROVEN, Sweep
 from . import Picture
 
 order = 40
@@ -16,13 +16,13 @@ CAPTION = ("Black: counted distribution of {symbol} in a bin, of the samples tha
 def pictures(results):
     if isinstance(results, Sweep):
         for edp in results.continuous():
-            if edp.cells[np.isin(edp.bins["status"], (FITTED, REJECTED))].any():
+            if edp.cells[np.isin(edp.bins["status"], TESTED)].any():
                 yield _picture(results, edp)
 
 
 def _picture(sweep, edp):
     symbol, im = edp.label, sweep.im_symbol
-    tested = np.flatnonzero(np.isin(edp.bins["status"], (FITTED, REJECTED)) & (edp.cells.sum(axis=1) > 0))
+    tested = np.flatnonzero(np.isin(edp.bins["status"], TESTED) & (edp.cells.sum(axis=1) > 0))
     n = tested.size
     rows = -(-n // COLUMNS)
     fig = style.figure(8.6, 0.95 + 1.62 * rows)
@@ -82,12 +82,13 @@ def _panel(ax, sweep, edp, i):
 
 def _finding(sweep, edp, symbol, im):
     status = edp.bins["status"]
-    tested = int(np.isin(status, (FITTED, REJECTED)).sum())
+    tested, unproven = int(np.isin(status, TESTED).sum()), int((status == UNPROVEN).sum())
     failed = np.flatnonzero(status == REJECTED)
     if failed.size == tested:
         return f"In none of the {words.plural(tested, 'bin')} does a lognormal describe {symbol}: the counted shares stand"
-    if failed.size == 0:
+    if failed.size + unproven == 0:
         return f"A lognormal describes {symbol} in {'the one bin' if tested == 1 else f'all {tested} bins'} tested"
     where = words.listing(words.span(sweep.edge[i], sweep.edge[i + 1]) for i in failed[:4])
-    return (f"A lognormal describes {symbol} in {tested - failed.size} of {tested} bins"
-            + (f"; it fails at {im} from {where}" if failed.size <= 4 else ""))
+    return (f"A lognormal describes {symbol} in {(status == FITTED).sum()} of {tested} bins"
+            + (f"; it fails at {im} from {where}" if 0 < failed.size <= 4 else "")
+            + (f"; in {unproven} it is not refuted, but may be off by more than is adequate" if unproven else ""))

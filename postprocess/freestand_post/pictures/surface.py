@@ -3,13 +3,13 @@ import numpy as np
 
 from .. import style, words
 from ..model import crossing, exceedance
-from ..reading import FITTED, REJECTED, TOO_FEW, Sweep
+from ..reading import REJECTED, TESTED, TOO_FEW, UNPROVEN, Sweep
 from . import Picture
 
 order = 20
 LEVELS = (0.1, 0.25, 0.5, 0.75, 0.9)
 CAPTION = ("Shade and contour lines: probability that {symbol} exceeds the capacity C (up) at an intensity (across), from the "
-           "three-part model of each bin; a triangle marks a bin whose lognormal failed and whose counted distribution is shown instead.")
+           "three-part model of each bin; a triangle marks a bin whose lognormal is not known to be adequate and whose counted distribution is shown instead.")
 
 
 def pictures(results):
@@ -43,15 +43,16 @@ def _picture(sweep, edp):
            ylabel=words.with_unit(f"capacity C of {symbol}", edp.unit))
     style.plain_log(ax.yaxis)
     _contours(ax, sweep, middle, p)
-    failed, tested = (int(np.isin(edp.bins["status"], which).sum()) for which in ((REJECTED,), (FITTED, REJECTED)))
-    for i in np.flatnonzero(edp.bins["status"] == REJECTED) if failed < tested else ():
+    marked = np.flatnonzero(np.isin(edp.bins["status"], (REJECTED, UNPROVEN)))
+    counted, tested = marked.size, int(np.isin(edp.bins["status"], TESTED).sum())
+    for i in marked if counted < tested else ():
         ax.plot(sweep.centre[i], 1.02, "v", ms=5, color=style.FAIL, transform=ax.get_xaxis_transform(), clip_on=False)
     _bar(fig, ax, mesh, symbol)
     finding = _finding(sweep, edp, symbol, im, p, middle)
-    note = ("The lognormal fails in every bin: the counted distributions are shown." if failed == tested > 0 else
-            f"Triangles: the {failed} bins where the lognormal fails and the counted distribution is shown." if failed > 1 else
-            "Triangle: the bin where the lognormal fails and the counted distribution is shown." if failed else
-            "The lognormal holds in every bin tested." if tested else "Too few moved for a lognormal: counted.")
+    note = ("In no bin is the lognormal known to be adequate: the counted distributions are shown." if counted == tested > 0 else
+            f"Triangles: the {counted} bins where the lognormal is not known to be adequate and the counted distribution is shown." if counted > 1 else
+            "Triangle: the bin where the lognormal is not known to be adequate and the counted distribution is shown." if counted else
+            "The lognormal is adequate in every bin tested." if tested else "Too few moved for a lognormal: counted.")
     grey = " Grey: too few samples." if (edp.bins["status"] == TOO_FEW).any() else ""
     style.headline(fig, finding, f"P({symbol} > C) over intensity and capacity. {note}{grey}")
     return Picture(f"surface_{edp.name}", fig, finding, CAPTION.format(symbol=symbol), "sweep", edp.name)
