@@ -29,6 +29,32 @@ TEST(Judge, AgreesWithTheKernelOnEveryEffectInEveryMode) {
   EXPECT_GT(tally.total().compared, tally.total().samples * 9 / 10);
 }
 
+// The same walls on the left at gap 0, and on both sides, which the cases above do not have.
+TEST(Judge, AgreesOnWallsOnTheLeftAndOnBothSides) {
+  const std::vector<Recipe> all = recipes();
+  int judged = 0, compared = 0, struck = 0;
+  for (std::uint64_t number = 0; number < all.size(); ++number) {
+    const std::vector<std::string>& about = all[number].effects;
+    if (std::count(about.begin(), about.end(), "wall_impact") != 1) continue;
+    JudgedCase c = judged_case(7, number);
+    const auto wall = std::find_if(c.truth.effects.begin(), c.truth.effects.end(),
+                                   [](const TruthEffect& effect) { return effect.name == "wall_impact"; });
+    const bool both = judged % 2 == 1;
+    wall->parameters["gap_m"] = both ? 0.03 : 0;
+    wall->parameters["side"] = -1;
+    if (both) wall->parameters["other_gap_m"] = judged % 4 == 1 ? 0 : 0.02;
+    const Judgement judgement = judge(c);
+    ++judged;
+    compared += judgement.finding == Finding::agrees;
+    struck +=
+        (judgement.deeds & (struck_by_face | struck_by_lower_edge | struck_by_upper_edge | struck_in_flight)) != 0;
+    EXPECT_NE(judgement.finding, Finding::disagrees) << number << ' ' << c.text() << "\n  " << judgement.what;
+  }
+  EXPECT_GE(judged, 15);
+  EXPECT_GE(compared, judged * 9 / 10);
+  EXPECT_GE(struck, judged / 2);
+}
+
 // Bouc-Wen's contact, with every effect that goes with it, alone and in pairs.
 TEST(Judge, AgreesWithTheKernelOnABoucWenContact) {
   Tally tally;

@@ -111,7 +111,6 @@ void to_other_side(TruthEffect& effect, const TruthEffect& first) {
     double& own = effect.parameters[key];
     if (own == 0) own = 0.03;
     own = std::copysign(own, first.parameters.at(key) < 0 ? 1 : -1);
-    for (const char* of_walls : {"side", "other_gap_m"}) effect.parameters.erase(of_walls);
   }
 }
 
@@ -125,12 +124,10 @@ TruthEffect draw_chain(KeyedRandom& random, const Truth& truth) {
            {"strength_mps2", random.chance(0.5) ? 1e3 : random.log_uniform(0.3, 5)}}};
 }
 
-// A wall in three touches the block from the start, on either side; one in four has another one across, which may touch it too.
+// A wall in three touches the block from the start, on its right.
 TruthEffect draw_wall(KeyedRandom& random) {
   TruthEffect wall = draw_effect(random, "wall_impact");
   if (random.chance(1.0 / 3)) wall.parameters["gap_m"] = 0;
-  if (random.chance(0.5)) wall.parameters["side"] = random.chance(0.5) ? 1 : -1;
-  if (random.chance(0.25)) wall.parameters["other_gap_m"] = random.chance(0.5) ? 0 : random.uniform(0, 0.05);
   return wall;
 }
 
