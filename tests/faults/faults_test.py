@@ -20,7 +20,7 @@ from support import command, datasets, result, study_text
 
 LIBRARY = os.environ["FAIL_ONE_CALL"]
 CURE, RESUMABLE = 74, 75
-LEFT = ["bins.csv", "fragility.h5", "ranking.csv", "samples.h5", "study.yaml", "summary.json", "surface.csv"]
+LEFT = ["bins.csv", "fragility.h5", "freestand.files", "ranking.csv", "samples.h5", "study.yaml", "summary.json", "surface.csv"]
 NOTES = ["freestand.lock", "freestand.begun", "blocks"]  # where one cannot be removed, all is done, and the next run removes it
 # What may come of it. A call that did a part, or tells an error though it is done, is no reason to end; one that was
 # interrupted only within a library, and then going on helps; MPI's files do not tell which error it was.
