@@ -17,10 +17,17 @@ constexpr int N = max_root_order;
 class BoucWenIntegrator {
  public:
   BoucWenIntegrator(const Setup& setup, const Settings& settings, History* history)
-      : life_(setup, settings, history), contact_(life_.contact) {}
+      : life_(setup, settings, history),
+        contact_(life_.contact),
+        least_progress_s_(
+            std::min(0.1 / setup.specimen.block.p_radps(),
+                     100 * std::sqrt(contact_.yield / std::max(contact_.strength * life_.gravity, 1e-6)))) {}
 
   Response run() {
-    while (!life_.finished()) step();
+    while (!life_.finished()) {
+      step();
+      give_up_where_stuck();
+    }
     return life_.result();
   }
 
@@ -186,8 +193,21 @@ class BoucWenIntegrator {
                                                       : std::numeric_limits<double>::infinity();
   }
 
+  // A law that is far stiffer than the contact takes steps that come no further, as in Integration::stop_when_done(): ten thousand within
+  // one segment of the motion, in which the contact itself, at a hundred steps a ring, goes through a hundred rings.
+  void give_up_where_stuck() {
+    if (life_.cursor.segment() != segment_) segment_ = life_.cursor.segment(), steps_ = 0;
+    if (steps_++ % Integration::steps_watched != 0) return;
+    if (steps_ > 1 && life_.cursor.time() - watched_from_s_ < least_progress_s_) life_.give_up();
+    watched_from_s_ = life_.cursor.time();
+  }
+
   BoucWenLife life_;
   const BoucWenContact& contact_;
+  const double least_progress_s_;
+  std::size_t segment_ = 0;
+  int steps_ = 0;  // within this segment
+  double watched_from_s_ = 0;
 };
 
 }  // namespace

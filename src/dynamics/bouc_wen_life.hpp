@@ -64,6 +64,7 @@ class BoucWenLife {
   double path() const { return response_.slid_path_m; }
   void begin_slide(double time);
   void check();  // ends the sample when its time is over or its state is no number
+  void give_up() { finish(Outcome::step_limit); }
 
  private:
   void event(double time, Mode from, Mode to);

@@ -34,6 +34,13 @@ TEST(BoucWenEffects, ACenteringSpringAddsToTheElasticStiffness) {
   }
 }
 
+// A drag that stops the block within a tenth of a microsecond takes steps of that length: the sample is given up, not followed for minutes.
+TEST(BoucWenEffects, ALawThatIsFarTooStiffIsGivenUp) {
+  const FloorMotion push = rectangular_pulse(0.5 * g, 20);
+  EXPECT_EQ(respond(on_contact(0.2, 1e-5, 20, {effect("viscous_drag", {1e7})}), {&push}).outcome, Outcome::step_limit);
+  EXPECT_EQ(respond(on_contact(0.2, 1e-5, 20, {effect("viscous_drag", {10})}), {&push}).outcome, Outcome::moved);
+}
+
 // Sliding under a steady push, as u_y goes to zero, Coulomb's block with the same effect: drag brings it to the speed
 // (a - mu g)/c, weakening friction to (a - mu (1 - d) g) t.
 TEST(BoucWenEffects, StiffContactsSlideAsCoulombsBlockWithTheSameEffect) {

@@ -66,6 +66,11 @@ std::vector<std::string> studies() {
       "block: {width_m: 0.7, height_m: 1, mass_kg: 100}\nfriction: {mu_k: {uniform: [0.6, 0.9]}}\n"
       "effects: [{name: flexible_legs, frequency_hz: 4, damping: 0.03}]\n" +
       records);
+  // Conditions on what is zero for long, and on conditions.
+  texts.push_back(
+      block + friction +
+      "model: slide\neffects: [{name: x, friction: \"if((path>0)*(abs(theta)<0.1),0.6,0.9)*if(v>0,mu,1.2*mu)\"}]\n" +
+      records);
   for (const char* design : {"monte_carlo", "latin_hypercube"})
     texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   return texts;
