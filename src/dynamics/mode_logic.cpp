@@ -15,14 +15,14 @@ bool stays_at_zero(const Tape& tape, const State& trial, int kink, const Series<
 }
 
 // Forces, slip speed and their directions may jump when the mode changes, and may end on the other side of a kink: a trial is
-// judged by the laws that hold where it is itself. What a kink looks at depends on the kinks before it alone, so that one
-// turn of each is enough; where the normal force lets them turn in a circle the laws stay as they were.
+// judged by the laws that hold where it is itself. What a kink looks at depends on the kinks before it, and on which way the trial
+// goes, which may change once as they turn; where the normal force lets them turn in a circle the laws stay as they were.
 template <class KinksOf>
 void settle_kinks(const Rig& rig, State& trial, KinksOf&& kinks_of) {
   const int count = rig.laws ? rig.laws->tape.kink_count() : 0;
   if (count == 0) return;
   const std::uint32_t before = trial.sides;
-  for (int turn = 0; turn <= count; ++turn) {
+  for (int turn = 0; turn <= 3 * count; ++turn) {
     const auto& kinks = kinks_of();
     const auto turns = [&](int kink) {
       const auto argument = past_instant(kinks.kink[kink], rig.instant_s);

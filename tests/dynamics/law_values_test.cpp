@@ -159,13 +159,19 @@ TEST_P(LawValues, AConditionThatIsMetWhereASlipEndsIsOver) {
 
 // A condition on conditions turns with them: friction that falls after 0.3 s lets the block go, however that is written.
 TEST_P(LawValues, ConditionsOnConditionsTurnWithThem) {
-  const FloorMotion motion = staircase({0.2, 0.5, 0.2}, {1.5, -1.6, 1.4});  // mu g = 1.96
+  const FloorMotion motion = staircase({0.2, 0.5, 0.2}, {1.5, -1.75, 1.4});  // mu g = 1.96
   const auto run = [&](Law friction) { return GetParam()(block(Model::slide, {friction_law(friction)}), {&motion}); };
   const Response plain = run([](const At& at) { return where(at.t - 0.3, at.t * 0.0 + 0.4, at.t * 0.0 + 1.0); });
   const Response either =
       run([](const At& at) { return where(step(at.t - 0.3) + step(at.u - 10.0), at.t * 0.0 + 0.4, at.t * 0.0 + 1.0); });
   const Response least = run([](const At& at) { return min(at.t * 0.0 + 1.0, 1.1 - 0.7 * step(at.t - 0.3)); });
   ASSERT_EQ(plain.outcome, Outcome::moved);
+  // Of a condition on the velocity: it asks which way the block goes, which depends on what it says.
+  const auto both = [](const At& at) { return min(at.t * 0.0 + 0.85, 0.95 - 0.55 * step(at.v)); };
+  const auto one = [](const At& at) { return 0.85 - 0.45 * step(at.v); };
+  EXPECT_NEAR(run(both).peak_slip_m, run(one).peak_slip_m, 1e-7);
+  EXPECT_NEAR(run(both).residual_slip_m, run(one).residual_slip_m, 1e-7);
+  ASSERT_GT(run(one).peak_slip_m, 0.01);
   for (const Response& other : {either, least}) {
     EXPECT_EQ(other.outcome, Outcome::moved);
     EXPECT_NEAR(other.peak_slip_m, plain.peak_slip_m, 1e-9);
