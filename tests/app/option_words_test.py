@@ -14,7 +14,7 @@ class OptionWords(InFolder):
     def test_numbers_that_an_option_cannot_take(self):
         for arguments, words in (
             (["motion", self.record, "--dt", "-1"], "-1 is no time step (it is above 0): give another one"),
-            (["motion", self.record, "--length-scale", "0"], "0 is no scale of lengths (it is above 0): give another one"),
+            (["motion", self.record, "--length-scale", "0"], "0 is no scale of lengths (it lies from 0.0001 to 10000): give another one"),
             (["sensitivity", self.folder, "--total", "0"], "0 is no number of samples (it is above 0): give another one"),
             (["sensitivity", self.folder, "--confidence", "3"], "3 is no confidence (it lies from 0.5 to 0.999): give another one"),
         ):
