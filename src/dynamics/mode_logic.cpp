@@ -47,7 +47,8 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
   if (pivot == 0) trial.wall = 0;
   trial.released = trial.wall != 0 && at_wall == AtWall::released;
   if (sigma == 0) trial.foot = 0;
-  settle_kinks(rig, trial, [&] { return LawStep<3>(rig, trial, cursor.time(), cursor.local<3>()).run(); });
+  settle_kinks(rig, trial,
+               [&] { return LawStep<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>()).run(); });
   const auto verdict = [&](const auto& arc) {
     AllHold all;
     for_each_witness(rig, trial, arc, all);
@@ -75,7 +76,8 @@ bool flies(const Rig& rig, const FloorCursor& cursor, State& state) {
   for (const bool released : {true, false}) {
     if (!released && trial.wall == 0) return false;
     trial.released = released && trial.wall != 0;
-    settle_kinks(rig, trial, [&] { return fly_with_laws<3>(rig, trial, cursor.time(), cursor.local<3>()); });
+    settle_kinks(rig, trial,
+                 [&] { return fly_with_laws<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>()); });
     if (with_flight_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) {
       state = trial;
       return true;
@@ -103,7 +105,8 @@ bool friction_holds(const Rig& rig, const FloorCursor& cursor, State trial, int 
   trial.mode = Mode::rest;
   trial.pivot = trial.sigma = trial.wall = 0;
   trial.foot = 0;
-  settle_kinks(rig, trial, [&] { return LawStep<3>(rig, trial, cursor.time(), cursor.local<3>()).run(); });
+  settle_kinks(rig, trial,
+               [&] { return LawStep<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>()).run(); });
   bool holds = false;
   with_contact_arc<1>(rig, trial, cursor.time(), cursor.local<1>(), [&](const auto& arc) {
     for_each_witness(rig, trial, arc, [&](Witness witness, const auto& limit, ZeroTolerance zero) {
