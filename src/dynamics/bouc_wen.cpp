@@ -26,7 +26,7 @@ class BoucWenIntegrator {
   Response run() {
     while (!life_.finished()) {
       step();
-      give_up_where_stuck();
+      if (life_.watch.stalls(life_.cursor.time(), least_progress_s_)) life_.give_up();
     }
     return life_.result();
   }
@@ -193,21 +193,11 @@ class BoucWenIntegrator {
                                                       : std::numeric_limits<double>::infinity();
   }
 
-  // A law that is far stiffer than the contact takes steps that come no further, as in Integration::stop_when_done(): ten thousand within
-  // one segment of the motion, in which the contact itself, at a hundred steps a ring, goes through a hundred rings.
-  void give_up_where_stuck() {
-    if (life_.cursor.segment() != segment_) segment_ = life_.cursor.segment(), steps_ = 0;
-    if (steps_++ % Integration::steps_watched != 0) return;
-    if (steps_ > 1 && life_.cursor.time() - watched_from_s_ < least_progress_s_) life_.give_up();
-    watched_from_s_ = life_.cursor.time();
-  }
-
   BoucWenLife life_;
   const BoucWenContact& contact_;
+  // A law that is far stiffer than the contact takes steps that come no further, as in Integration::stop_when_done(): the contact itself, at
+  // a hundred steps a ring, goes through a hundred rings in ten thousand.
   const double least_progress_s_;
-  std::size_t segment_ = 0;
-  int steps_ = 0;  // within this segment
-  double watched_from_s_ = 0;
 };
 
 }  // namespace

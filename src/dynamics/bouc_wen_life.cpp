@@ -136,6 +136,7 @@ void BoucWenLife::stand(double tau) {
 
 void BoucWenLife::next_segment() {
   cursor.next_segment();
+  watch.steps = 0;
   if (cursor.motion_over() && v == 0 && zeta == 0 && push == 0 && !laws) finish(Outcome::moved);
 }
 

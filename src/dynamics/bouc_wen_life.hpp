@@ -11,6 +11,7 @@
 #include "dynamics/floor_cursor.hpp"
 #include "dynamics/output_times.hpp"
 #include "dynamics/roots.hpp"
+#include "dynamics/step_watch.hpp"
 
 namespace freestand::dynamics {
 
@@ -34,6 +35,7 @@ class BoucWenLife {
   int direction = 0;       // of the motion, or of the motion that is about to begin; 0: none
   ContactPhase phase = ContactPhase::elastic;
   BoucWenLawState law_state;
+  StepWatch watch;
 
   bool finished() const { return finished_; }
   double displacement() const { return slip + contact.yield * zeta; }

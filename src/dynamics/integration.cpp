@@ -8,7 +8,7 @@
 
 namespace freestand::dynamics {
 namespace {
-// steps_watched that come no further than this, times p, stand before a place where a law has no value: at that pace a motion of a
+// Ten thousand steps that come no further than this, times p, stand before a place where a law has no value: at that pace a motion of a
 // minute would take 1e7 of them, minutes for one sample.
 constexpr double least_progress = 0.1;
 // Waits are halved for a grip that is no polynomial down to this, times p: in it a force that changes by g over 1/p changes by
@@ -96,7 +96,7 @@ void Integration::wait() {
 void Integration::pass_over_quiet_floor(const Rig::AtRest& rest) {
   const std::size_t from = cursor.segment();
   if (!cursor.pass_over([&](const FloorCursor::Bound& floor) { return rig.stays_put(floor.a, floor.v, rest); })) return;
-  steps_ = 0;
+  watch_.steps = 0;
   cursor.look_back(
       from, [&](const FloorCursor::Bound& floor) { return !peaks.may_exceed(floor.shaken, floor.v); },
       [&](const FloorCursor& at) { peaks.observe_rest(rig, at.local<wait_order>(), at.left()); });
@@ -294,10 +294,7 @@ void Integration::stop_when_done() {
     if (!(std::abs(value) < beyond_all_bounds)) return stop(Outcome::not_finite);
   if (!peaks.finite()) return stop(Outcome::not_finite);
   peaks.came_to(cursor.time(), rig.brief_s);
-  if (steps_++ % steps_watched == 0) {
-    if (steps_ > 1 && (cursor.time() - watched_from_) * p_ < least_progress) return stop(Outcome::step_limit);
-    watched_from_ = cursor.time();
-  }
+  if (watch_.stalls(cursor.time(), least_progress / p_)) return stop(Outcome::step_limit);
   if (!cursor.motion_over()) return;
   const bool out_of_time = cursor.time() >= shaking.duration_s() + settings.free_vibration_s;
   if (settles() || leans_for_good() || out_of_time) stop(moved_ ? Outcome::moved : Outcome::at_rest);

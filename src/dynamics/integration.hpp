@@ -7,6 +7,7 @@
 #include "dynamics/mode_logic.hpp"
 #include "dynamics/peaks.hpp"
 #include "dynamics/rig.hpp"
+#include "dynamics/step_watch.hpp"
 #include "dynamics/witness.hpp"
 
 namespace freestand::dynamics {
@@ -64,9 +65,6 @@ inline constexpr double beyond_all_bounds = 1e6;  // [m], [rad] and per second: 
 
 class Integration {
  public:
-  // After so many steps within one segment of the motion it is looked whether they come any further.
-  static constexpr int steps_watched = 10000;
-
   Integration(const Setup& setup, const Settings& settings, History* history, bool as_under_laws = false);
 
   bool finished() const { return finished_; }
@@ -81,12 +79,12 @@ class Integration {
   }
   void next_segment() {
     cursor.next_segment();
-    steps_ = 0;
+    watch_.steps = 0;
   }
   // Others have gone along the motion for it, in so many steps within the segment.
   void went_to(std::size_t segments_left, double start, double offset, int steps) {
     cursor.go_to(segments_left, start, offset);
-    steps_ = steps;
+    watch_.steps = steps;
     state.doubt = 1;
   }
   // In them it has struck the floor so many times and rocked on, stuck; told: of rotations that count as impacts.
@@ -96,7 +94,7 @@ class Integration {
     const State from = state;
     choose(from, true);
   }
-  int steps() const { return steps_; }
+  int steps() const { return watch_.steps; }
   int events_left() const { return settings.event_limit - resolved_; }
   // Time went on by tau: what was special about the last instant is over.
   void left_instant(double tau);
@@ -150,8 +148,8 @@ class Integration {
   bool moved_ = false;
   double rest_since_ = 0;                 // [s]
   double took_off_from_ = 0, flown_ = 0;  // of the centre of mass, in the last flight and in all [m]
-  double p_, watched_from_ = 0;
-  int steps_ = 0;     // within this segment of the motion
+  double p_;
+  StepWatch watch_;
   int resolved_ = 0;  // events, those that changed nothing included
   Outcome outcome_ = Outcome::moved;
 };

@@ -1,7 +1,6 @@
 // The dynamic effects of one specimen, recorded together: their factors of friction multiplied, their forces summed.
 #pragma once
 
-#include <algorithm>
 #include <freestand/floor_motion.hpp>
 #include <freestand/specimen.hpp>
 
@@ -71,7 +70,7 @@ struct Laws {
       if (node < forces_end || node >= friction_end) continue;
       if (!(tape.dependence(argument) & of_slip)) continue;
       const bool met = turned >> j & 1U;
-      for (int k = 0; k < (met ? std::max(N, 1) : 1); ++k) tape.advance(forces_end, node, k, sides, values);
+      for (int k = 0; k < (met ? N : 1); ++k) tape.advance(forces_end, node, k, sides, values);
       if (met && !vanishes(values[argument])) continue;
       sides = (sides & ~(1U << j)) | (tape.below(j, values[argument][0]) ? 1U << j : 0U);
     }

@@ -1,5 +1,8 @@
 #include "dynamics/mode_logic.hpp"
 
+#include <algorithm>
+#include <array>
+
 #include "dynamics/witness.hpp"
 
 namespace freestand::dynamics {
@@ -8,29 +11,37 @@ namespace {
 // Whether the wall at which an edge is goes on pushing it.
 enum class AtWall { released, pushed };
 
-// A step whose argument is zero in the whole mode (a speed at rest, a rotation on both corners) and not greater.
+// Arguments of the kinks in the trial's mode.
 template <int N>
-bool stays_at_zero(const Tape& tape, const State& trial, int kink, const Series<double, N>& argument) {
-  return tape.is_step(kink) && !(trial.sides >> kink & 1U) && vanishes(argument);
+std::array<Series<double, N>, max_kinks> kinks_in(const Rig& rig, const FloorCursor& cursor, const State& trial) {
+  std::array<Series<double, N>, max_kinks> kinks;
+  const auto take = [&](const auto& laws) { std::copy_n(laws.kink, rig.laws->tape.kink_count(), kinks.begin()); };
+  if (trial.mode == Mode::flight)
+    take(fly_with_laws<N>(rig, trial, cursor.time(), cursor.local<N>()));
+  else
+    take(LawStep<N>(rig, trial, cursor.time(), cursor.local<N>()).run());
+  return kinks;
 }
 
 // Forces, slip speed and their directions may jump when the mode changes, and may end on the other side of a kink: a trial is
 // judged by the laws that hold where it is itself. What a kink looks at depends on the kinks before it, and on which way the trial
 // goes, which may change once as they turn; where the normal force lets them turn in a circle the laws stay as they were.
-template <class KinksOf>
-void settle_kinks(const Rig& rig, State& trial, KinksOf&& kinks_of) {
+void settle_kinks(const Rig& rig, const FloorCursor& cursor, State& trial) {
   const int count = rig.laws ? rig.laws->tape.kink_count() : 0;
   if (count == 0) return;
   const std::uint32_t before = trial.sides;
   for (int turn = 0; turn <= 3 * count; ++turn) {
-    const auto& kinks = kinks_of();
-    const auto turns = [&](int kink) {
-      const auto argument = past_instant(kinks.kink[kink], rig.instant_s);
-      return (trial.watches(kink) && sign_after(argument, {0, 0.0}) < 0) ||
-             stays_at_zero(rig.laws->tape, trial, kink, argument);
+    const auto turns = [&](const auto& kinks, int j) {
+      const auto argument = past_instant(kinks[j], rig.instant_s);
+      const bool falls = trial.watches(j) && sign_after(argument, {0, 0.0}) < 0;
+      // A step whose argument is zero in the whole mode (a speed at rest, a rotation on both corners), and so not greater.
+      const bool stays_at_zero = rig.laws->tape.is_step(j) && !(trial.sides >> j & 1U) && vanishes(argument);
+      return falls || stays_at_zero;
     };
+    // A few terms mostly tell; where they are round-off, or zero, later ones may tell otherwise.
+    const auto few = kinks_in<3>(rig, cursor, trial);
     int j = 0;
-    while (j < count && !turns(j)) ++j;
+    while (j < count && !(turns(few, j) && turns(kinks_in<judge_order>(rig, cursor, trial), j))) ++j;
     if (j == count) return;
     trial.sides ^= 1U << j;
   }
@@ -47,8 +58,7 @@ bool stands(const Rig& rig, const FloorCursor& cursor, State& state, Mode mode, 
   if (pivot == 0) trial.wall = 0;
   trial.released = trial.wall != 0 && at_wall == AtWall::released;
   if (sigma == 0) trial.foot = 0;
-  settle_kinks(rig, trial,
-               [&] { return LawStep<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>()).run(); });
+  settle_kinks(rig, cursor, trial);
   const auto verdict = [&](const auto& arc) {
     AllHold all;
     for_each_witness(rig, trial, arc, all);
@@ -76,8 +86,7 @@ bool flies(const Rig& rig, const FloorCursor& cursor, State& state) {
   for (const bool released : {true, false}) {
     if (!released && trial.wall == 0) return false;
     trial.released = released && trial.wall != 0;
-    settle_kinks(rig, trial,
-                 [&] { return fly_with_laws<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>()); });
+    settle_kinks(rig, cursor, trial);
     if (with_flight_arc<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>(), consistent)) {
       state = trial;
       return true;
@@ -105,8 +114,7 @@ bool friction_holds(const Rig& rig, const FloorCursor& cursor, State trial, int 
   trial.mode = Mode::rest;
   trial.pivot = trial.sigma = trial.wall = 0;
   trial.foot = 0;
-  settle_kinks(rig, trial,
-               [&] { return LawStep<judge_order>(rig, trial, cursor.time(), cursor.local<judge_order>()).run(); });
+  settle_kinks(rig, cursor, trial);
   bool holds = false;
   with_contact_arc<1>(rig, trial, cursor.time(), cursor.local<1>(), [&](const auto& arc) {
     for_each_witness(rig, trial, arc, [&](Witness witness, const auto& limit, ZeroTolerance zero) {

@@ -33,7 +33,7 @@ struct Series {
 // Of a series that is known to order N - 1: it is zero to that order.
 template <int N>
 bool vanishes(const Series<double, N>& y) {
-  for (int k = 0; k < (N > 0 ? N : 1); ++k)
+  for (int k = 0; k < N; ++k)
     if (y[k] != 0) return false;
   return true;
 }

@@ -134,7 +134,7 @@ class LawBlows {
     alignas(64) double room[pack_lanes];
     for (int l = 0; l < pack_lanes; ++l) {
       const int i = first_ + l;
-      room[l] = rows_.blows[i] + 1 < rows_.room[i] && rows_.steps[i] % Integration::steps_watched != 0;
+      room[l] = rows_.blows[i] + 1 < rows_.room[i] && rows_.steps[i] % StepWatch::watched != 0;
     }
     return load(room) > Pack(0.0);
   }

@@ -336,11 +336,10 @@ class LawMarchOf {
     return at_end;
   }
 
-  // Those that look before their next step whether they come any further (Integration::steps_watched).
+  // Those that look before their next step whether they come any further (StepWatch::watched).
   unsigned watched() const {
     unsigned which = 0;
-    for (int l = 0; l < pack_lanes; ++l)
-      which |= unsigned{rows_.steps[first_ + l] % Integration::steps_watched == 0} << l;
+    for (int l = 0; l < pack_lanes; ++l) which |= unsigned{rows_.steps[first_ + l] % StepWatch::watched == 0} << l;
     return which;
   }
 
