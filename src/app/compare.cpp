@@ -86,7 +86,7 @@ void tell_comparison(const Json& json, const std::string& folder) {
 Exit compare(const Context& context, const ValidationOptions& options) {
   const std::filesystem::path folder = options.output;
   context.world.on_root([&] {
-    io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+    io::take_output_folder(folder, io::existing(options.overwrite),
                            {.writes = {"fitted.yaml", study::posterior_table}, .reads = options.reads()});
   });
   const study::Compared compared = study::compare(context.world, options.run(context), folder);

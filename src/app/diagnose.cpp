@@ -71,10 +71,7 @@ struct DiagnoseOptions : ValidationOptions {
 };
 
 Exit diagnose(const Context& context, const DiagnoseOptions& options) {
-  study::RunFolder folder(context.world, options.output,
-                          options.resume      ? io::Existing::resume
-                          : options.overwrite ? io::Existing::overwrite
-                                              : io::Existing::refuse,
+  study::RunFolder folder(context.world, options.output, io::existing(options.overwrite, options.resume),
                           "go on with --resume", {.writes = {"proposed_law.yaml"}, .reads = options.reads()});
   const Json json = study::diagnose(context.world, options.run(context), folder);
   folder.confirm();

@@ -60,10 +60,7 @@ void check(const FitOptions& options) {
 Exit run(const Context& context, const FitOptions& options) {
   context.world.on_root([&] { check(options); });
   const bool here = options.into.empty();
-  study::RunFolder into(context.world, here ? options.folder : options.into,
-                        here                ? io::Existing::resume
-                        : options.overwrite ? io::Existing::overwrite
-                                            : io::Existing::refuse,
+  study::RunFolder into(context.world, here ? options.folder : options.into, io::existing(options.overwrite, here),
                         "start again",
                         {.writes = here ? std::vector<std::string>{} : std::vector{study::study_path("").string()},
                          .reads = {study::samples_path(options.folder), study::study_path(options.folder)}});

@@ -22,8 +22,7 @@ Exit import(const Context& context, const ImportOptions& options) {
     const study::Imported imported = study::import_laboratory(study::read_laboratory(options.laboratory));
     std::vector<std::string> names;
     for (const auto& [name, text] : imported.files) names.push_back(name);
-    io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
-                           {.writes = names, .reads = {options.laboratory}});
+    io::take_output_folder(folder, io::existing(options.overwrite), {.writes = names, .reads = {options.laboratory}});
     for (const auto& [name, text] : imported.files)
       io::write_text(folder / name,
                      io::signed_text(name == "dataset.yaml" ? "# " + context.command_line + "\n" + text : text));

@@ -66,10 +66,7 @@ Exit sweep_and_fit(const Context& context, const RunOptions& options, bool with_
   if (options.check) return check(context, options);
   if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DIR");
   const study::Study study = read(context, options);
-  study::RunFolder folder(context.world, options.folder,
-                          options.resume      ? io::Existing::resume
-                          : options.overwrite ? io::Existing::overwrite
-                                              : io::Existing::refuse,
+  study::RunFolder folder(context.world, options.folder, io::existing(options.overwrite, options.resume),
                           "go on with --resume",
                           {.writes = {study::study_path("").string()}, .reads = study::files_of_study(options.study)});
   const study::SweepSummary summary = sweep(context, study, {options.quiet, context.command_line, with_fit}, folder);

@@ -23,8 +23,7 @@ struct SimulateOptions {
 Exit simulate(const SimulateOptions& options) {
   const study::Case c = study::read_case(options.file);
   const std::filesystem::path folder = options.folder;
-  io::take_output_folder(folder, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
-                         {.writes = {"case.yaml"}, .reads = {options.file}});
+  io::take_output_folder(folder, io::existing(options.overwrite), {.writes = {"case.yaml"}, .reads = {options.file}});
   const study::Simulation result = study::simulate(c, options.reference);
   for (const std::string& doubt : result.doubts) fmt::print(stderr, "doubtful: {}\n", doubt);
   io::write_result(folder / "history.csv",

@@ -10,7 +10,8 @@ namespace {
 
 // Intensities of a bin from `from` to 1 are taken to be spread as x^(p - 1), evenly in x^p (p = 1: in x; 0: in ln x), with the p that gives
 // them their mean, p/(p + 1) (1 - from^(p + 1))/(1 - from^p), which grows with p.
-constexpr double small_power = 1e-6;
+constexpr double small_power =
+    1e-6;  // nearer to 0 x^(1/p) loses over half of its figures, and ln x is off by p (ln from)^2/8 at most
 double power_with_mean(double from, double mean) {
   if (from <= 0) return mean / (1 - mean);
   double low = -40, high = 40;  // means within a fortieth of either end: from there on they do not matter

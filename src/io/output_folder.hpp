@@ -20,6 +20,11 @@ enum class Existing {
   resume      // everything stays
 };
 
+// As the options --overwrite and --resume say.
+constexpr Existing existing(bool overwrite, bool resume = false) {
+  return resume ? Existing::resume : overwrite ? Existing::overwrite : Existing::refuse;
+}
+
 // Of a command.
 struct CommandFiles {
   std::vector<std::string> writes = {};           // names in the folder, beside the usual results

@@ -169,10 +169,6 @@ void ask_of_polarity(const MotionSource& source, const std::string& what, bool o
       key + value + (source.scale_to ? "}" : "")));
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) {
   Doubter doubter;
   const BlockPart& block = study.model.block;
@@ -270,16 +266,22 @@ std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& 
   return said;
 }
 
-std::vector<std::string> doubts(const Study& study, const MotionSet& motions) {
-  std::vector<std::string> said = doubts(study);
+namespace {
+
+std::vector<std::string> with_those_of_records(std::vector<std::string> said, const Study& study,
+                                               const MotionSet& motions) {
   for (std::string& more : doubts_of_records(study, motions)) said.push_back(std::move(more));
   return said;
 }
 
+}  // namespace
+
+std::vector<std::string> doubts(const Study& study, const MotionSet& motions) {
+  return with_those_of_records(doubts(study), study, motions);
+}
+
 std::vector<std::string> doubts(const Case& c, const MotionSet& motions) {
-  std::vector<std::string> said = doubts_of_numbers(c.study, true);
-  for (std::string& more : doubts_of_records(c.study, motions)) said.push_back(std::move(more));
-  return said;
+  return with_those_of_records(doubts_of_numbers(c.study, true), c.study, motions);
 }
 
 }  // namespace freestand::study

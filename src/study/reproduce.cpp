@@ -106,7 +106,7 @@ Reproduced reproduce(const parallel::Communicator& world, const ReproduceOptions
 }
 
 void prepare(const ReproduceOptions& options) {
-  io::take_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+  io::take_output_folder(options.output, io::existing(options.overwrite),
                          {.writes = {json_name}, .reads = {options.peaks.value_or("")}});
 }
 

@@ -220,7 +220,7 @@ void write_risk(const RiskAnswer& answer, const RiskOptions& options) {
   if (std::filesystem::equivalent(options.output, options.folder, ignored))
     throw Error(fmt::format("{} is the sweep itself (its results would be replaced): name another folder with -o",
                             options.output.string()));
-  io::take_output_folder(options.output, options.overwrite ? io::Existing::overwrite : io::Existing::refuse,
+  io::take_output_folder(options.output, io::existing(options.overwrite),
                          {.writes = {"risk.csv", "risk.json"}, .reads = {options.hazard}});
   io::write_result(options.output / "risk.csv", risk_csv(answer, options));
   io::write_result(options.output / "risk.json", io::json_text(risk_json(answer, options)));
