@@ -206,6 +206,7 @@ bool land(const Rig& rig, State& state, int pivot, double time) {
   state.pivot = flat ? 0 : pivot;
   state.xi = flat ? state.x : state.x - r.rx - rig.offset(pivot);
   state.w = slip(r, before);
+  state.foot = 0;  // the blow stops a foot under legs, which has no mass
   // In the air there was no friction, and none of its kinks was followed.
   if (rig.laws) state.sides = law_values(rig, state, time, state.w < 0 ? -1 : 1).sides;
   const Grip friction = grip(rig, state, time);

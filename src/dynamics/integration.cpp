@@ -209,7 +209,9 @@ void Integration::resolve(Witness witness) {
     impact = true;
     regular = strike_floor();
   }
-  if (impact && regular && rig.laws && rig.laws->walls.any()) regular = meet_walls_too();
+  const bool beside_walls = regular && rig.laws && rig.laws->walls.any();
+  if (beside_walls && !impact) impact = comes_through_wall();  // a kink at the wall itself
+  if (beside_walls && impact) regular = meet_walls_too();
   if (impact && rig.point) {
     const Velocity<double> before = point_velocity(rig, from), after = point_velocity(rig, state);
     double& most = peaks.response().largest_blow_mps;

@@ -130,6 +130,7 @@ class Integration {
   void stop_without_mode();
   bool meet_wall(int side, Edge edge);
   bool meet_walls_too();
+  bool comes_through_wall() const;
   bool is_next_to(Edge edge, int side) const;
   void lie_against(int side);
   void keep_contents_velocity(double speed_before);

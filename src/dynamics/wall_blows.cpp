@@ -51,6 +51,17 @@ bool Integration::meet_walls_too() {
   return true;
 }
 
+// An edge has reached its wall at this very instant, and comes on.
+bool Integration::comes_through_wall() const {
+  for (const int side : sides(state))
+    for (const Edge edge : {Edge::upper, Edge::lower}) {
+      if (!rig.laws->walls.on(side).stands || !is_next_to(edge, side)) continue;
+      const EdgeNow now = edge_now(rig, state, side, edge);
+      if (now.gap <= 0 && now.speed > rig.slow() && !(state.at_wall() && state.is_by(side, edge))) return true;
+    }
+  return false;
+}
+
 // In flight either edge may meet the wall, on the floor the one next to it.
 bool Integration::is_next_to(Edge edge, int side) const {
   if (state.mode == Mode::flight) return true;

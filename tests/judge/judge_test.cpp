@@ -79,10 +79,14 @@ TEST(Judge, TheReferenceGoesOnFromTheRoundOffOfASlipThatStarts) {
 // reference passed over, down and up again within one step; a foot under legs that slips on while its block tips; hops
 // of microseconds, which the tolerance of a sweep does not go through: in them blocks are felt to accelerate by 4.93 and 5.22 m/s2, and by no
 // more than 3.21 and 5.06 without them; a corner that begins to rise under the floor by round-off, 1e-54 rad, and struck it; a block beside
-// a wall that slips briefly before it strikes the floor.
+// a wall that slips briefly before it strikes the floor; a chain that grows slack at the very wall that its block strikes, upright or
+// tipping; a foot under legs that comes down where it could as well slide on as stick, which the blow stops; a face that comes to its
+// wall upright but for round-off; a row of hops at which the floor changes while it lasts.
 TEST(Judge, LooksAsCloselyAsACaseAsks) {
   for (const auto& [seed, number] : {std::pair(2, 2123), std::pair(2, 359), std::pair(4, 871), std::pair(105, 140),
-                                     std::pair(2, 209), std::pair(8, 330), std::pair(303, 234), std::pair(301, 304)}) {
+                                     std::pair(2, 209), std::pair(8, 330), std::pair(303, 234), std::pair(301, 304),
+                                     std::pair(4711, 471), std::pair(4711, 4568), std::pair(4711, 1060),
+                                     std::pair(4711, 2155), std::pair(112613, 2058)}) {
     const Judgement judgement = judge(judged_case(seed, number));
     EXPECT_EQ(judgement.finding, Finding::agrees) << judgement.what;
   }

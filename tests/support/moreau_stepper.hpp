@@ -37,6 +37,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -172,7 +173,8 @@ class MoreauStepper {
   void turn(State& state, double theta) const;
   Arm edge_arm(int edge, double c, double s) const;
   double clearance(const State& state, int edge) const;  // from its wall
-  bool standing(const State& state) const { return state.theta == 0 && state.v.q == 0; }
+  // But for round-off: a rate under which it turns by less than 1e-16 in a minute.
+  bool standing(const State& state) const { return std::abs(state.theta) < 1e-18 && std::abs(state.v.q) < 1e-18; }
   double chain_displacement(double x, double c, double s) const;
   double chain_pull(const State& state) const;
   Step prepare(const State& state, const FloorLine& floor, double t, double dt) const;
