@@ -189,6 +189,7 @@ void Integration::resolve(Witness witness) {
       break;
     case Witness::slipping:
       stop_slip();
+      state.left_kinks();  // the slip may go on another way
       break;
     case Witness::upright:
       state.mode = Mode::overturned;

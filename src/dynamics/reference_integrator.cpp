@@ -129,19 +129,19 @@ class ReferenceIntegrator {
       check(flag, "ERKStepEvolve");
       int found[root_count] = {};
       if (flag == ARK_ROOT_RETURN) check(ERKStepGetRootInfo(ark, found), "ERKStepGetRootInfo");
-      const auto slot = std::find(found, found + witness_slots, -1) - found;
+      auto slot = static_cast<int>(std::find(found, found + witness_slots, -1) - found);
       const bool slips = slot < witness_slots && slots_[slot] == Witness::slipping;
       if (slips && slip_speed(rig(), from) == 0 && tau <= shortest_) {  // round-off of a slip that starts
         restart(ark, tau, h);
         continue;
       }
       if (slot < witness_slots)
-        tau = locate(static_cast<int>(slot), from, before, tau, h);
+        tau = locate(slot, from, before, tau, h);
       else if (flag == ARK_ROOT_RETURN && !integrate_again(from, before, tau))
         integrate_again(from, before, tau = before);
       arrive(from, tau);
       // A steady slip slower than the errors of the steps is turned by them, not by the motion: at the place there is no zero.
-      if (slips && tau > before + instant_ && !ends_at(static_cast<int>(slot), tau)) {
+      if (slips && tau > before + instant_ && !ends_at(slot, tau)) {
         restart(ark, tau, h);
         continue;
       }
@@ -219,14 +219,16 @@ class ReferenceIntegrator {
     return true;
   }
 
-  // Newton's method on the witness, and halfway back from where the laws do not lead.
-  double locate(int slot, const State& from, double before, double tau, double h) {
+  // Newton's method on the witness, and halfway back from where the laws do not lead. Behind the end of a slip laws see a
+  // speed of zero: a kink there is that end.
+  double locate(int& slot, const State& from, double before, double tau, double h) {
     constexpr int rounds = 8, halvings = 50;
     double g[root_count];
     for (int i = 0; i < halvings; ++i) {
       double next = 0.5 * (before + tau);
       if (integrate_again(from, before, tau)) {
         roots(tau, y_.get(), g, this);
+        if (slip_is_over_ && is_kink(slots_[slot]) && g[slot] == 0) slot = slot_of(Witness::slipping);
         const double newton = tau - g[slot] / rate_[slot];
         if (newton > before && newton <= h) next = newton;
         if (i >= rounds || !(std::abs(next - tau) > 1e-15)) return tau;
@@ -235,6 +237,10 @@ class ReferenceIntegrator {
     }
     integrate_again(from, before, before);
     return before;
+  }
+
+  int slot_of(Witness witness) const {
+    return static_cast<int>(std::find(slots_, slots_ + witness_slots, witness) - slots_);
   }
 
   // Whether the witness is zero within the time that is told from nothing; Newton's method has gone there.
@@ -317,6 +323,7 @@ class ReferenceIntegrator {
     const auto floor = me.floor_at(tau);
     std::fill(g, g + root_count, 1.0);
     int slot = 0;
+    me.slip_is_over_ = false;
     const auto fill = [&](Witness witness, const Series<double, 2>& series, ZeroTolerance) {
       const bool over_floor = witness == Witness::above_right || witness == Witness::above_left;
       me.slots_[slot] = witness;
@@ -331,6 +338,7 @@ class ReferenceIntegrator {
       if (me.watch_[0]) g[stationary_u] = s.vx - lever * s.omega;
     } else {
       with_contact_arc<2>(me.rig(), s, time, floor, [&](const auto& arc) {
+        me.slip_is_over_ = s.sigma * slip_speed(arc)[0] < 0;
         for_each_witness(me.rig(), s, arc, fill);
         if (me.watch_[0]) g[stationary_u] = midpoint(me.rig(), s, arc)[1];
         if (me.watch_[1] && s.pivot != 0) g[stationary_theta] = s.omega;
@@ -365,6 +373,7 @@ class ReferenceIntegrator {
   std::array<double, witness_slots> seen_{};  // witnesses at the point where they were last asked for
   double seen_at_ = -1;                       // its time within the leg [s]
   double slip_rate_ = 0;                      // there [m/s2]
+  bool slip_is_over_ = false;                 // there
   std::unique_ptr<_SUNContext, Delete> context_;
   std::unique_ptr<_generic_N_Vector, Delete> y_;
   Arkode stepper_, locator_;

@@ -123,9 +123,9 @@ TEST_P(LawValues, WhatIsZeroForLongIsNotGreater) {
     const Response found = GetParam()(law, {&motion}), expected = GetParam()(plain, {&motion});
     ASSERT_GT(expected.peak_slip_m, 0.01);
     EXPECT_EQ(found.outcome, expected.outcome);
-    EXPECT_NEAR(found.peak_slip_m, expected.peak_slip_m, 1e-6);
-    EXPECT_NEAR(found.residual_slip_m, expected.residual_slip_m, 1e-6);
-    EXPECT_NEAR(found.slid_path_m, expected.slid_path_m, 1e-6);
+    EXPECT_NEAR(found.peak_slip_m, expected.peak_slip_m, 1e-9);
+    EXPECT_NEAR(found.residual_slip_m, expected.residual_slip_m, 1e-9);
+    EXPECT_NEAR(found.slid_path_m, expected.slid_path_m, 1e-9);
   };
   Specimen with_static = block(Model::slide, {});
   with_static.friction.mu_s = 2 * with_static.friction.mu_k;
@@ -140,7 +140,7 @@ TEST_P(LawValues, WhatIsZeroForLongIsNotGreater) {
       GetParam()(block(Model::slide, {falls_by_half_beyond([](const At& at) { return at.path; })}), {&once});
   const Response expected = GetParam()(with_static, {&once});
   ASSERT_GT(expected.peak_slip_m, 0.01);
-  EXPECT_NEAR(held.peak_slip_m, expected.peak_slip_m, 1e-6);
+  EXPECT_NEAR(held.peak_slip_m, expected.peak_slip_m, 1e-9);
 }
 
 // A slip to the left ends while the floor pushes to the right, by less than friction at rest holds: it is at rest, though the condition
@@ -153,8 +153,8 @@ TEST_P(LawValues, AConditionThatIsMetWhereASlipEndsIsOver) {
   const double hold = 0.17 * g, w = (2.5 - hold) * 0.2;
   const double slip = 0.5 * w * 0.2 + 0.5 * w * w / (1.2 + hold);
   const Response found = GetParam()(s, {&motion});
-  EXPECT_NEAR(found.peak_slip_m, slip, 1e-6);
-  EXPECT_NEAR(found.residual_slip_m, -slip, 1e-6);
+  EXPECT_NEAR(found.peak_slip_m, slip, 1e-9);
+  EXPECT_NEAR(found.residual_slip_m, -slip, 1e-9);
 }
 
 // A condition on conditions turns with them: friction that falls after 0.3 s lets the block go, however that is written.

@@ -105,7 +105,8 @@ bool MoreauStepper::one_corner(const Step& step, Corner k, Grip grip, Case& c) c
         return missed(normal);
       };
       double low = 0, high = -lift / nn;
-      for (int wider = 0; wider < 40 && lift < 0 && missed_with_its_own(high) < 0; ++wider) high *= 1.25;
+      // Close to where it leaves the floor friction alone presses the corner, by as much as it grows there.
+      for (int wider = 0; wider < 200 && lift < 0 && missed_with_its_own(high) < 0; ++wider) high *= 1.25;
       if (lift < 0 && missed_with_its_own(high) < 0) return false;  // Painleve's paradox
       for (int half = 0; half < 60 && lift < 0; ++half) {
         const double middle = 0.5 * (low + high);
@@ -275,6 +276,12 @@ bool MoreauStepper::allowed(const Step& step, const State& state, Contacts conta
   return sigma * c.slip > 0;
 }
 
+// A blow comes from a corner that closes: the other one alone would stop its slip by a blow of its own making.
+bool MoreauStepper::meets_floor(const Step& step, const State& state, Contacts contacts) const {
+  return (contacts.left && step.near[left] && !state.closed[left]) ||
+         (contacts.right && step.near[right] && !state.closed[right]);
+}
+
 bool MoreauStepper::choose(const Step& step, State& state, Case& chosen, bool closing, Refused& refused) const {
   std::array<Grip, 4> order{Grip::none, Grip::stuck, Grip::to_right, Grip::to_left};
   if (!closing && state.grip == Grip::stuck) order = {Grip::stuck, Grip::none, Grip::to_right, Grip::to_left};
@@ -287,6 +294,7 @@ bool MoreauStepper::choose(const Step& step, State& state, Case& chosen, bool cl
       for (unsigned edges = 0; edges <= step.touching; ++edges) {
         if ((edges & ~step.touching) != 0) continue;
         const Contacts contacts{with_left, with_right, edges};
+        if (closing && step.struck < 0 && !contacts.none() && !meets_floor(step, state, contacts)) continue;
         if (!possible(step, state, contacts, grip) || !impulses(step, state, contacts, grip, chosen)) continue;
         if (allowed(step, state, contacts, grip, chosen)) {
           state.closed = {with_left, with_right};

@@ -19,8 +19,8 @@
 // tries to stick with mu_s, and reverses with mu_k otherwise. Both corners closed and stuck: only the sum of the two
 // friction forces is determined, and it is bounded by mu_s times the sum of the normal forces.
 //
-// Where friction is so strong that a corner could as well go on carrying as leave the floor (beyond Painleve's paradox, or where
-// pressure_friction makes it grow without bounds as the pressure falls), it goes on as it does.
+// Where friction is so strong that a corner could as well go on carrying as leave the floor, it goes on as it does beyond Painleve's
+// paradox, and leaves where pressure_friction makes it grow without bounds as the pressure falls.
 //
 // A block that cannot slip lifts off from both corners only; on one of them it turns about a hinge, as Housner's does.
 //
@@ -187,6 +187,7 @@ class MoreauStepper {
   void sway(const Step& step, const State& state, Grip grip, Case& c) const;
   bool allowed(const Step& step, const State& state, Contacts contacts, Grip grip, const Case& c) const;
   bool possible(const Step& step, const State& state, Contacts contacts, Grip grip) const;
+  bool meets_floor(const Step& step, const State& state, Contacts contacts) const;
   bool hinged(const Step& step) const;
   double holding(const Step& step, const Case& c) const;
   double margin(const Step& step, const Case& c) const;
