@@ -140,6 +140,7 @@ class ReferenceIntegrator {
       else if (flag == ARK_ROOT_RETURN && !integrate_again(from, before, tau))
         integrate_again(from, before, tau = before);
       arrive(from, tau);
+      if (slot < witness_slots && is_kink(slots_[slot]) && slip_ends_now()) slot = slot_of(Witness::slipping);
       // A steady slip slower than the errors of the steps is turned by them, not by the motion: at the place there is no zero.
       if (slips && tau > before + instant_ && !ends_at(slot, tau)) {
         restart(ark, tau, h);
@@ -237,6 +238,13 @@ class ReferenceIntegrator {
     }
     integrate_again(from, before, before);
     return before;
+  }
+
+  // A condition that the end of the slip meets comes after it.
+  bool slip_ends_now() const {
+    const double speed = life_.state.sigma * slip_speed(rig(), life_.state), loss = -life_.state.sigma * slip_rate_;
+    constexpr double located = 4;  // instants
+    return life_.state.sigma != 0 && speed <= loss * located * rig().instant_s;
   }
 
   int slot_of(Witness witness) const {
