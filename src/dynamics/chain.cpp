@@ -57,6 +57,7 @@ const Effect& law() {
                              .force = force,
                              .moment = moment,
                              .tension = tension,
+                             .strength = [](const Parameters& p) { return p[strength]; },
                              .wall = wall};
   return effect;
 }

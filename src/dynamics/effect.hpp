@@ -98,6 +98,7 @@ struct Effect {
   std::function<Value(const At&, const Parameters&)> moment = {};    // T, about the centre of mass [m2/s2]
   // Told as demands [m/s2]: the pull of one chain, and the total acceleration of what moves inside.
   std::function<Value(const At&, const Parameters&)> tension = {}, contents = {};
+  std::function<double(const Parameters&)> strength = {};  // of the tension at which it breaks [m/s2]
   std::function<void(Walls&, const Parameters&)> wall = {};
   std::function<void(Legs&, const Parameters&)> legs = {};
   std::function<double(const Parameters&)> carried_mass = {};  // M, share of the mass that the block carries sideways

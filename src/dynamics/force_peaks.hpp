@@ -17,6 +17,7 @@ namespace freestand::dynamics {
 class ForcePeaks {
  public:
   ForcePeaks(const Settings& settings, Response& response) : followed_(settings.contact_forces) {
+    sway_.see(0);  // upright
     if (followed_)
       response.peak_contact_horizontal_mps2 = response.peak_contact_vertical_mps2 = response.peak_chain_force_mps2 =
           response.peak_contents_acceleration_mps2 = response.peak_leg_deflection_m = 0;

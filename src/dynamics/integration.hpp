@@ -141,8 +141,9 @@ class Integration {
   bool feel_hop(State& hop);
   Rig::AtRest laws_at_rest() const;
   bool forces_have_values() const;
-  bool strikes_too() const;
+  bool strikes_too(double at_once) const;
   bool leans_for_good() const;
+  bool ends_with_the_motion() const;
   bool settles() const;  // at rest, for so long that nothing on it can move it any more
 
   bool finished_ = false;

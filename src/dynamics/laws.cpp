@@ -75,6 +75,7 @@ void Laws::record(const Specimen& specimen) {
       relative_velocity[state++] = own.relative_velocity;
     }
     if (effect->carried_mass) carried_mass -= 1 - effect->carried_mass(parameters);
+    if (effect->strength) strength = effect->strength(parameters);
     if (effect->wall) effect->wall(walls, parameters);
     if (effect->legs) effect->legs(legs, parameters);
     if (effect->settling_s) settling_s = std::max(settling_s, effect->settling_s(parameters));

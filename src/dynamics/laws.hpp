@@ -25,6 +25,7 @@ struct Laws {
   // [forces_end, friction_end) the friction, [friction_end, tape.size()) the rates of the states.
   int force = -1, moment = -1, friction = -1;
   int tension = -1, contents = -1;  // told alone: no part of the equations of motion
+  double strength = 0;              // of the tension, 0: it does not break [m/s2]
   int forces_end = input_count, friction_end = input_count;
   int states = 0;
   int rate[max_states] = {};

@@ -102,6 +102,10 @@ class Peaks {
   void ring_down(const Rig& rig, const SomeArc& arc) {
     forces_.ring_down(rig, arc, response_);
   }
+  // A pull that jumped over the strength was felt up to it.
+  void broke_at(double strength) {
+    if (forces_.followed()) response_.peak_chain_force_mps2 = std::fmax(response_.peak_chain_force_mps2, strength);
+  }
   void tell_fatigue() { forces_.tell_fatigue(response_); }
 
   // What the block feels at rest is looked at step by step.

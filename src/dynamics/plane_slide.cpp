@@ -126,7 +126,7 @@ class PlaneSlide {
   }
 
   void go_at_rest(double tau) {
-    peaks_.observe_rest(floor_, tau);
+    if (tau > 0) peaks_.observe_rest(floor_, tau);
     history_.rest(floor_, u_, along_.time(), tau);
     advance(tau);
   }

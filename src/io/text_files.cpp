@@ -95,6 +95,9 @@ Json response_summary(const Response& response, bool cross, double mass_kg) {
     json["peak_contact_horizontal_over_weight"] = response.peak_contact_horizontal_mps2 / standard_gravity_mps2;
     json["peak_contact_vertical_over_weight"] = response.peak_contact_vertical_mps2 / standard_gravity_mps2;
     json["peak_chain_force_n"] = response.peak_chain_force_mps2 * mass_kg;
+    json["peak_contents_acceleration_g"] = response.peak_contents_acceleration_mps2 / standard_gravity_mps2;
+    json["peak_leg_deflection_m"] = response.peak_leg_deflection_m;
+    json["leg_fatigue_m"] = response.leg_fatigue_m;
   }
   if (!cross) return json;
   json["residual_slip_m"] = std::hypot(response.residual_slip_m, response.residual_cross_slip_m);

@@ -34,6 +34,8 @@ Simulation simulate(const Case& c, bool reference) {
   check_rows(c, sample.shaking.duration_s());
   if (reference && dynamics::moves_in_plane(*sample.shaking.motion))
     throw Error("--reference integrates along one line (this floor moves in both horizontal directions): leave it out");
+  if (reference && sample.specimen.neighbour)
+    throw Error("--reference integrates one block (this one has a neighbour): leave it out");
   Simulation out{
       .specimen = sample.specimen, .response = {}, .tighter = {}, .history = {}, .doubts = doubts(c, motions)};
   out.history.step_s = c.output_step_s;

@@ -281,6 +281,14 @@ TEST(PlaneSlide, FrictionTakesWhatTheFloorGives) {
   }
 }
 
+// A floor that starts with more than friction holds: the block never has its acceleration, but that of friction.
+TEST(PlaneSlide, SlipsFromTheFirstInstant) {
+  const double mu = 0.2;
+  const FloorMotion motion = in_plane(staircase({0.1, 0.2}, {8.0, -8.0}), staircase({0.1, 0.2}, {0.0, 1.0}));
+  EXPECT_NEAR(respond(sliding_block(mu, mu), shaking_of(motion), {}).peak_acceleration_mps2, mu * g, 1e-12);
+  EXPECT_EQ(respond(sliding_block(0, 0), shaking_of(motion), {}).peak_acceleration_mps2, 0);
+}
+
 // Thrown up at an instant, it flies on along a straight line, and lands with friction's share of its fall.
 TEST(PlaneSlide, FliesAndLands) {
   const double mu = 0.3, F = mu * g, T1 = 0.3, T2 = 0.1, up = -1.5 * g;

@@ -88,6 +88,43 @@ TEST_P(ContactForces, OfAChainAreThoseOfItsSpring) {
   }
 }
 
+// A dashpot takes hold at once, with c v: more than the strength, so that the connection fails, and was pulled up to it.
+TEST_P(ContactForces, OfAChainThatFailsAsItGrowsTautReachItsStrength) {
+  const double v = 0.15, mass = 200, strength = 50, c = 2000;
+  const FloorMotion push = rectangular_pulse(-1.5, v / 1.5);
+  Specimen block{Block::rectangular(0.72, 1.81, mass), {0, 0}, {}, Model::slide};
+  block.effects = {dynamics::use(
+      {.slack_m = 0.02, .stiffness_npm = 100, .strength_n = strength, .height_m = 1.81, .damping_nspm = c}, block.block)};
+  ASSERT_GT(c * v, strength);
+  Settings settings = followed();
+  settings.free_vibration_s = 0.25;
+  const Response r = GetParam()(block, {&push}, settings, nullptr);
+  EXPECT_TRUE(r.connection_failed);
+  EXPECT_NEAR(r.peak_chain_force_mps2 * mass, strength, 1e-9);
+}
+
+// A chain without slack grows taut as a rocking block comes down, in the blow that leaves it e of its rate: it pulls with
+// c z cos(beta) e times the rate that the fall from theta gave, and with no more before.
+TEST_P(ContactForces, OfAChainWithoutSlackComeAfterTheBlow) {
+  const double width = 0.7, height = 1.5, mass = 100, c = 1000, theta = 0.05;
+  Specimen block{Block::rectangular(width, height, mass), {0.8, 0.8}, {}, Model::rock};
+  block.start.rotation_rad = -theta;
+  block.effects = {dynamics::use({.slack_m = 0,
+                                  .stiffness_npm = 1000,
+                                  .strength_n = 700,
+                                  .height_m = height,
+                                  .side = 1,
+                                  .damping_nspm = c},
+                                 block.block)};
+  const FloorMotion still = rectangular_pulse(0, 0.5);
+  const Response r = GetParam()(block, {&still}, followed(), nullptr);
+  const double b = 0.5 * width, h = 0.5 * height, R2 = b * b + h * h;
+  const double fallen = b * std::sin(theta) + h * (std::cos(theta) - 1), rate = std::sqrt(1.5 * g * fallen / R2);
+  const double kept = 1 - 1.5 * b * b / R2;
+  EXPECT_FALSE(r.connection_failed);
+  EXPECT_NEAR(r.peak_chain_force_mps2 * mass, c * height * kept * rate, 1e-6);
+}
+
 // A wall takes what friction cannot: the floor gives mu m g and no more, of a push that grows beyond that within a step and
 // falls below it again.
 TEST_P(ContactForces, OfABlockPressedAgainstAWallAreFriction) {

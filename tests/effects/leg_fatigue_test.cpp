@@ -29,6 +29,7 @@ Sway oscillator(double frequency_hz, double damping, const Shaking& shaking, dou
   };
   Sway sway;
   dynamics::Rainflow cycles;
+  cycles.see(0);
   double y = 0, v = 0;
   for (double t = 0; t < until; t += h) {
     const double k1 = rate(t, y, v), y2 = y + h / 2 * v, v2 = v + h / 2 * k1, k2 = rate(t + h / 2, y2, v2),
@@ -59,6 +60,18 @@ TEST(LegFatigue, OfAFootThatIsStuckIsThatOfAnOscillator) {
     const Response reference = on_legs(reference_solver, 50, frequency_hz, 0.03, noise.shaking);
     EXPECT_NEAR(reference.leg_fatigue_m, exact.fatigue, 1e-3 * exact.fatigue) << frequency_hz;
   }
+}
+
+// A floor that starts with a jump: the first swing, from upright to its far end, counts as well, at the tolerance of a sweep too.
+TEST(LegFatigue, CountsTheFirstSwing) {
+  const FloorMotion push = rectangular_pulse(2, 2);
+  Settings settings;
+  settings.contact_forces = true;
+  for (const double damping : {0.02, 0.08, 0.3})
+    for (const Solver& solver : both_solvers) {
+      const Response found = solver(sliding(50, {effect("flexible_legs", {5, damping})}), {&push}, settings, nullptr);
+      EXPECT_NEAR(found.leg_fatigue_m, oscillator(5, damping, {&push}, 6).fatigue, 1e-6) << damping;
+    }
 }
 
 // Legs pull a foot that slips with no more than its friction: W^2 y <= mu g but for damping.
