@@ -151,8 +151,11 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
       }
       if (let_go_) return static_cast<void>(act(k, 0.0));
       if (turns() && laws_see_the_normal_force()) {
-        act(k, solved(k == 0, y_.n[k] / standard_gravity_mps2, [&](double normal) { return act(k, normal) - normal; }));
-        return;
+        const auto missed = [&](double normal) { return act(k, normal) - normal; };
+        double normal = solved(k == 0, y_.n[k] / standard_gravity_mps2, missed);
+        // Friction that grows as the pressure falls has a second root, at which the floor pulls.
+        if (k == 0 && friction_sees_force_ && normal < 0) normal = detail::root_between(0.0, missed);
+        return static_cast<void>(act(k, normal));
       }
     }
     const bool seen = laws_.reads(Input::normal);
