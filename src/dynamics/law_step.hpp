@@ -239,7 +239,6 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   void reach(int k) {
     leaning_.reach(k, sine_, cosine_, y_, at_.mass * (floor_.a[k] - rx_omega2_[k]) - force_[k], at_.mass);
   }
-
   void lean_stuck(int k) {
     reach(k);
     const double pushed = leaning_.pushed[k];
@@ -380,7 +379,6 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   Real per_mass(const Real& x) const { return whole_ ? x : x / at_.mass; }
   Real W2() const { return at_.leg_rate * at_.leg_rate; }
   Real zW2() const { return Real(2.0) * at_.leg_damping * at_.leg_rate; }
-
   const bool whole_;  // all of the mass moves with the block
   const bool grip_changes_;
   bool rocks_plainly_;  // when it is stuck: nothing in the equations looks at forces or states, or pushes but laws
