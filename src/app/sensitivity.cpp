@@ -29,7 +29,8 @@ std::string line(const study::Sensitivity& found, std::size_t a) {
       text += fmt::format(" (total {:.2f} +-{:.2f})", found.totals[a][p].share.value, found.totals[a][p].share.se);
     text += ", ";
   }
-  return text + fmt::format("together {:.2f} +-{:.2f}", row.together.value, row.together.se);
+  text += fmt::format("together {:.2f} +-{:.2f}", row.together.value, row.together.se);
+  return found.why_no_total[a].empty() ? text : text + " (" + found.why_no_total[a] + ")";
 }
 
 void tell(const study::Sensitivity& found, const study::SensitivityOptions& options) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <freestand/error.hpp>
+#include <optional>
 
 #include "decision/annual_rate.hpp"
 #include "decision/by_counts.hpp"
@@ -206,10 +207,11 @@ void put_in_order(std::vector<RiskRow>& rows, const std::vector<std::string>& wi
 }
 
 // One sentence a cause, with all that it concerns.
-void warn(Risk& risk, const HazardCurve& hazard, double RiskRow::*share, const std::string& what) {
+void warn(Risk& risk, const HazardCurve& hazard, double RiskRow::*share, const std::string& what,
+          std::optional<By> by = {}) {
   std::string concerned;
   for (const RiskRow& row : risk.rows)
-    if (row.refused.empty() && row.*share > outside_to_warn_of)
+    if (row.refused.empty() && row.*share > outside_to_warn_of && (!by || row.recommended == *by))
       concerned += fmt::format("{}{} ({:.0f} %)", concerned.empty() ? "" : ", ", title(row), 100 * (row.*share));
   if (concerned.empty()) return;
   risk.warnings.push_back(fmt::format("{}: {} (swept {:.3g} to {:.3g}, hazard curve {:.3g} to {:.3g} {})", what,
@@ -257,7 +259,10 @@ Risk risk(const Result& result, const HazardCurve& hazard, const std::vector<std
                       "it is not theirs, by more than chance explains: the counts are taken",
                       title(row), row.by_function.value, row.by_counts.value));
   warn(found, hazard, &RiskRow::outside_sweep,
-       "much of the rate comes from a fragility that is extrapolated beyond the sweep");
+       "much of the rate comes from a fragility that is extrapolated beyond the sweep", By::function);
+  warn(found, hazard, &RiskRow::outside_sweep,
+       "much is left out of the rate, which goes by counts and no further than the sweep; of the whole it is about",
+       By::counts);
   warn(found, hazard, &RiskRow::outside_hazard,
        "much of the rate may come from intensities that the hazard curve does not reach");
   return found;

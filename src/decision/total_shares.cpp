@@ -1,5 +1,6 @@
 #include "decision/total_shares.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -45,6 +46,20 @@ TotalTally::Sums TotalTally::read(std::size_t at) const {
   return {number(0), number(1) / sum_scale, number(2) / sum_scale, number(3) / sum_scale};
 }
 
+TotalTally::Sums TotalTally::all(std::size_t parameter, std::size_t answer) const {
+  Sums sums;
+  for (std::size_t g = 0; g < static_cast<std::size_t>(groups_.count()); ++g) {
+    const Sums one = read(place(parameter, answer, g, first_side));
+    sums = {sums.n + one.n, sums.differences + one.differences, sums.sum + one.sum, sums.squares + one.squares};
+  }
+  return sums;
+}
+
+double TotalTally::rarer(std::size_t parameter, std::size_t answer) const {
+  const Sums sums = all(parameter, answer);
+  return 0.5 * std::min(sums.sum, 2 * sums.n - sums.sum);
+}
+
 TotalShare TotalTally::share(std::size_t parameter, std::size_t answer, double confidence) const {
   const auto of = [](const Sums& sums) {
     const double values = 2 * sums.n, mean = sums.sum / values;
@@ -52,21 +67,17 @@ TotalShare TotalTally::share(std::size_t parameter, std::size_t answer, double c
     return sums.n < 2 || !(variance > 0) ? undefined : sums.differences / values / variance;
   };
   const auto groups = static_cast<std::size_t>(groups_.count());
-  Sums all;
-  for (std::size_t g = 0; g < groups; ++g) {
-    const Sums one = read(place(parameter, answer, g, first_side));
-    all = {all.n + one.n, all.differences + one.differences, all.sum + one.sum, all.squares + one.squares};
-  }
+  const Sums whole = all(parameter, answer);
   fragility::LeftOut left_out(2);
   for (std::size_t g = 0; g < groups; ++g) {
-    Sums rest = all;
+    Sums rest = whole;
     for (const std::size_t side : {first_side, other_side}) {
       const Sums one = read(place(parameter, answer, g, side));
       rest = {rest.n - one.n, rest.differences - one.differences, rest.sum - one.sum, rest.squares - one.squares};
     }
-    if (rest.n < all.n) left_out[static_cast<std::size_t>(groups_.stratum(static_cast<int>(g)))].push_back(of(rest));
+    if (rest.n < whole.n) left_out[static_cast<std::size_t>(groups_.stratum(static_cast<int>(g)))].push_back(of(rest));
   }
-  return {fragility::jackknife_share(of(all), left_out, confidence), static_cast<std::int64_t>(all.n)};
+  return {fragility::jackknife_share(of(whole), left_out, confidence), static_cast<std::int64_t>(whole.n)};
 }
 
 }  // namespace freestand::decision

@@ -33,6 +33,8 @@ class TotalTally {
 
   std::vector<std::int64_t>& words() { return words_; }
   TotalShare share(std::size_t parameter, std::size_t answer, double confidence) const;
+  // Of an answer of yes or no: in so many of the samples of the pairs it is the rarer one, the half of both sides.
+  double rarer(std::size_t parameter, std::size_t answer) const;
 
  private:
   // Pairs, and their sums of (y - y')^2, y + y', y^2 + y'^2.
@@ -40,6 +42,7 @@ class TotalTally {
     double n = 0, differences = 0, sum = 0, squares = 0;
   };
   Sums read(std::size_t place) const;
+  Sums all(std::size_t parameter, std::size_t answer) const;
   std::size_t place(std::size_t parameter, std::size_t answer, std::size_t group, std::size_t side) const;
 
   std::vector<Answer> answers_;

@@ -9,7 +9,7 @@ const Register peak_acceleration_at_height{{
     .symbol = "PEA_z",
     .summary = "largest total acceleration at acceleration_height_m over the base, above the middle of its width, "
                "vector sum, blows "
-               "left out",
+               "left out, as is what is brief beside a wall (peak_acceleration_g)",
     .source = "[KM05 ch. 9], at a height",
     .wants = Wants::height,
     .by_default = false,

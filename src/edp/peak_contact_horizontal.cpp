@@ -7,7 +7,8 @@ const Register peak_contact_horizontal{{
     .name = "peak_contact_horizontal_over_weight",
     .unit = "1",
     .symbol = "F_x/W",
-    .summary = "largest force of the floor on the block along the floor, over its weight; blows left out",
+    .summary = "largest force of the floor on the block along the floor, over its weight; blows left out, as is what "
+               "is brief beside a wall (peak_acceleration_g)",
     .source = "momentum of the block, f_x and f_y of [KM05 ch. 6]",
     .wants = Wants::forces,
     .by_default = false,

@@ -210,7 +210,8 @@ Chance chance_of_lead(const Bench& bench, const Judge& judge, const ModelFit& be
   Chance chance{.question = lead_question, .about = {}};
   // Measured data lie by r from the best: e = r - d there.
   const VectorXd measured = sum.against - sum.gram.col(q - 1);
-  chance.observed = lead(measured);
+  // Both were fitted to them already; a rival at the end of its range would gain beyond it.
+  chance.observed = -2 * measured[q - 1] - difference;
   const NoiseDraws noise(sum, size_error(bench));
   weigh(chance, [&](std::uint64_t s) { return lead(noise.draw(s)); });
   // Data from the best lie by e from it.

@@ -33,8 +33,8 @@ struct Peak {
   double average(Channel channel) const { return root_mean_square(*table, of(channel)); }
   // In which the error changes more there, in noise units.
   Channel channel(const Bench& bench) const {
-    const double turn = growth(Channel::rotation) * bench.noise(Channel::slip);
-    return turn > growth(Channel::slip) * bench.noise(Channel::rotation) ? Channel::rotation : Channel::slip;
+    const auto units = [&](Channel c) { return bench.noise(c) > 0 ? growth(c) / bench.noise(c) : -1.0; };
+    return units(Channel::rotation) > units(Channel::slip) ? Channel::rotation : Channel::slip;
   }
   std::string place() const {
     const std::string& v = table->variable;

@@ -75,9 +75,13 @@ class LawSearch : EffectSearch {
   }
 
   const Candidate* simplest_that_leads() {
+    const auto tests = tests_of(bench_.data(), Role::calibration);
+    const auto left_out = [&](const ModelFit& fit) { return pooled(bench_, tests, fit.left_out).error; };
     std::vector<const Candidate*> forms;
     for (const Candidate& c : out_.candidates)
-      if (c.visible && c.fit.left_out_refitted && c.misfit < out_.base.misfit) forms.push_back(&c);
+      if (c.visible && c.fit.left_out_refitted && c.misfit < out_.base.misfit &&
+          left_out(c.fit) < left_out(out_.base.fit))
+        forms.push_back(&c);
     std::stable_sort(forms.begin(), forms.end(), [](const Candidate* a, const Candidate* b) {
       return std::pair(a->fit.x.size(), a->misfit) < std::pair(b->fit.x.size(), b->misfit);
     });
@@ -90,7 +94,7 @@ class LawSearch : EffectSearch {
   bool better_than_the_catalogue(const Candidate& form) {
     const Candidate* known = nullptr;
     for (const Candidate& c : diagnosis_.candidates)
-      if (c.visible && !c.laboratory && c.fit.left_out_refitted && (!known || c.misfit < known->misfit)) known = &c;
+      if (c.visible && c.fit.left_out_refitted && (!known || c.misfit < known->misfit)) known = &c;
     return !known || leads(form, *known);
   }
 

@@ -229,7 +229,7 @@ double expected_error(const Bench& bench, const Spread& spread) {
     if (variance.empty() || noise <= 0) continue;
     double sum = 0;
     for (const double v : variance) sum += v / (noise * noise);
-    square += 1 + sum / static_cast<double>(variance.size());
+    square += std::pow(bench.sensor(static_cast<Channel>(c)).size(), 2) + sum / static_cast<double>(variance.size());
     ++channels;
   }
   return std::sqrt(square / std::max(channels, 1));

@@ -28,6 +28,10 @@ Series channel(const LabTable& table, const LabColumn& column) {
                             shown(column.name), names),
                 Exit::data);
   }
+  if (std::count(table.columns.begin(), table.columns.end(), column.name) > 1)
+    throw Error(fmt::format("{} has two columns {} (it is not told which is meant): give one another name",
+                            table.file.string(), shown(column.name)),
+                Exit::data);
   Series values = table.values[place];
   for (double& value : values) value *= column.factor;
   return values;
@@ -137,10 +141,10 @@ class Importer {
             lab.id));
     // Where others show one clock's offset, it is told of all tests below.
     if (!together.empty() && found.size() < 2)
-      say(
-          fmt::format("{}: no offset between the clocks of floor and response is seen by the slips: they are taken as "
-                      "one (clock_s of a test says otherwise)",
-                      fmt::join(together, ", ")));
+      say(fmt::format(
+          "{}: no offset between the clocks of floor and response is seen by the slips, which are looked through up "
+          "to {} s either way: they are taken as one (clock_s of a test says otherwise)",
+          fmt::join(together, ", "), longest_offset_s));
     if (found.empty()) return each;
     std::sort(found.begin(), found.end());
     const double middle = 0.5 * (found[(found.size() - 1) / 2] + found[found.size() / 2]);
@@ -223,6 +227,12 @@ class Importer {
                     "and {:.4g} s are in both",
                     lab.id, floor.step_s, response.step_s, step_s_, step_s_ * static_cast<double>(t.floor.size() - 1),
                     floor.time.back() - floor.time.front(), response.time.back() - response.time.front()));
+    for (const File* file : {&floor, &response})
+      if (step_s_ > 1.5 * file->step_s)
+        say(fmt::format(
+            "{}: of {} one row in {:.3g} is taken, and what is faster than {:.3g} Hz seems slower: filter it "
+            "first, or leave sampling_dt_s out",
+            lab.id, file->table.file.filename().string(), step_s_ / file->step_s, 0.5 / step_s_));
     std::vector<std::string> unused;
     const auto see = [&](const LabTable& table, const std::vector<const LabColumn*>& used) {
       for (const std::string& name : table.columns)
@@ -266,8 +276,9 @@ class Importer {
 
   void tell_unit(const LabTest& lab, const LabColumn& column) {
     if (column.assumed)
-      say(fmt::format("{}: no unit of {} is given, nor does its name end with one: taken as {} (unit: says another)",
-                      lab.id, shown(column.name), shown(column.unit)));
+      say(fmt::format(
+          "{}: no unit of {} is given, nor does its name end with one that is known: taken as {} (unit: says another)",
+          lab.id, shown(column.name), shown(column.unit)));
     if (!column.named_unit.empty() && column.named_unit != column.unit)
       say(fmt::format("{}: the name of {} ends with {}, and unit: says {}: taken as {}", lab.id, shown(column.name),
                       shown(column.named_unit), shown(column.unit), shown(column.unit)));

@@ -155,6 +155,9 @@ void read_input(Section& section, const Dataset& set, Test& test) {
   read_peaks(section, test.peaks);
   const bool any_peak = std::any_of(peak_keys.begin(), peak_keys.end(),
                                     [&](const auto& key) { return section.has(key) && key != "peak_acceleration_g"; });
+  if (section.has("file") && (any_peak || test.peaks.peak_acceleration_g))
+    section.problem("file", fmt::format("{} and peaks are both given (a history holds its peaks): remove either",
+                                        section.name("file")));
   if (!section.has("file") && !any_peak && !test.peaks.peak_acceleration_g)
     section.problem("id", fmt::format("{} says nothing of what came out (there is nothing to compare with): add file, "
                                       "or one of {}",

@@ -102,7 +102,8 @@ class Shares {
       found.why_empty.push_back(too_few(found.answers[a], found.rows[a]));
       if (!found.why_empty[a].empty()) found.rows[a].share.clear();
       found.totals.emplace_back();
-      if (options_.pairs > 0 && found.why_empty[a].empty())
+      found.why_no_total.push_back(too_few_pairs(total, found.answers[a], a));
+      if (options_.pairs > 0 && found.why_empty[a].empty() && found.why_no_total[a].empty())
         for (std::size_t p = 0; p < sampled_.size(); ++p)
           found.totals[a].push_back(total.share(p, a, found.confidence));
     }
@@ -246,6 +247,17 @@ class Shares {
     if (yes < least) return fmt::format("it happens in {:.0f} of {:.0f} samples, fewer than {:.0f}", yes, n, least);
     if (n - yes < least)
       return fmt::format("it does not happen in {:.0f} of {:.0f} samples, fewer than {:.0f}", n - yes, n, least);
+    return "";
+  }
+
+  // Where it hardly ever differs in the pairs all of those may turn, and seem to say that nothing else matters.
+  std::string too_few_pairs(const decision::TotalTally& total, const decision::Answer& answer, std::size_t a) const {
+    const double least = study_.fragility.minimum_samples;
+    for (std::size_t p = 0; options_.pairs > 0 && answer.yes_or_no && p < sampled_.size(); ++p)
+      if (total.rarer(p, a) < least)
+        return fmt::format(
+            "no total shares: {} of the {} samples that were computed again differ from the others, fewer than {:.0f}",
+            std::floor(total.rarer(p, a)), options_.pairs, least);
     return "";
   }
 

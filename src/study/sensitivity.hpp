@@ -31,6 +31,7 @@ struct Sensitivity {
   std::vector<decision::ShareRow> rows;                   // [answer]; without shares where `why_empty` says so
   std::vector<std::vector<decision::TotalShare>> totals;  // [answer][parameter], empty where not asked for
   std::vector<std::string> why_empty;                     // [answer]
+  std::vector<std::string> why_no_total;                  // [answer], where pairs were asked for
   double confidence = 0.95;
   std::int64_t pairs = 0;
   std::string note = {};  // where not all samples of the sweep are kept

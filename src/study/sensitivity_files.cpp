@@ -54,6 +54,7 @@ Json sensitivity_json(const Sensitivity& found) {
     one["mean"] = row.mean;
     one["variance"] = row.variance;
     one["why_empty"] = found.why_empty[a];
+    if (found.pairs > 0) one["why_no_total"] = found.why_no_total[a];
     one["shares"] = Json::object();
     for (std::size_t p = 0; p < row.share.size(); ++p) {
       one["shares"][found.parameters[p].name] = {{"share", estimate_json(row.share[p])}};

@@ -97,6 +97,12 @@ class Sensitivity(InFolder):
         for one in ln_delta["shares"].values():
             self.assertGreater(one["total"]["value"], one["share"]["value"] - 4 * (one["total"]["se"] + one["share"]["se"]))
 
+    def test_pairs_that_are_too_few_give_no_total_shares(self):
+        done = self.succeed(["sensitivity", self.out, "--total", 64, "-o", self.folder / "few"])
+        self.assertRegex(done.stdout, r"overturned .*no total shares: \d+ of the 64 samples that were computed again differ from the others")
+        found = json.loads((self.folder / "few/sensitivity.json").read_text())
+        self.assertNotIn("total", next(one for one in found["answers"] if one["kind"] != "ln_demand" and one["shares"])["shares"]["friction.mu_k"])
+
     def test_the_confidence_of_the_study(self):
         self.succeed(["fit", self.out, "--confidence", 0.8])
         width = {}

@@ -132,7 +132,7 @@ class Import(InFolder):
         self.assertIn("t01: block_t01.csv has 1 gap in its rows, filled by straight lines: 0.11 s before line 41", self.imported().stdout)
         self.write("lab.yaml", text.replace("acceleration: {column: ACC1, unit: g}", "acceleration: ACC1"))
         told = self.imported("assumed").stdout
-        self.assertIn("t02: no unit of ACC1 is given, nor does its name end with one: taken as m/s2", told)
+        self.assertIn("t02: no unit of ACC1 is given, nor does its name end with one that is known: taken as m/s2", told)
         self.write("lab.yaml", text.replace("{column: t_ms, unit: ms}", "{column: t_ms, unit: s}"))
         done = run(["import", self.lab, "-o", self.folder / "clash"])
         self.assertTrue(done.returncode != 0 or "the name of t_ms ends with ms, and unit: says s: taken as s" in done.stdout, done.stdout)
@@ -140,7 +140,11 @@ class Import(InFolder):
             rows = [f"{comma(5 * i, 3)};{comma(-1000 * row['slip_m'])};" for i, row in enumerate(self.truth[name]) if i % 2 == 0]
             self.write(f"block_{name}.csv", "t_ms;LVDT 1;\n" + "\n".join(rows) + "\n")
         self.write("lab.yaml", text)
-        self.assertRegex(self.imported("in_step").stdout, "no offset between the clocks of floor and response is seen by the slips|clock runs 0.00")
+        self.assertRegex(self.imported("in_step").stdout, "no offset between the clocks of floor and response is seen by the slips, which are looked through up to 0.5 s|clock runs 0.00")
+        self.write("lab.yaml", "sampling_dt_s: 0.02\n" + text)
+        told = self.imported("coarse").stdout
+        self.assertIn("t01: of table t01.txt one row in 4 is taken, and what is faster than 25 Hz seems slower", told)
+        self.assertIn("t01: of block_t01.csv one row in 2", told)
 
     def test_mistakes(self):
         text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
@@ -163,6 +167,10 @@ class Import(InFolder):
         self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "time does not rise")
         self.write("block_t01.csv", "\n".join(block[:40] + ["1,5"] + block[41:]))
         self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "1 cells where the table has 2 columns")
+
+    def test_two_columns_of_one_name(self):
+        self.write("block_t01.csv", "t_ms;LVDT 1;LVDT 1\n0,0;0,0;1,0\n10,0;0,0;1,0\n20,0;0,0;1,0\n")
+        self.fail_with(3, ["import", self.lab, "-o", self.folder / "wrong"], "block_t01.csv has two columns LVDT 1")
 
     def test_a_folder_with_results_is_not_overwritten(self):
         self.imported()

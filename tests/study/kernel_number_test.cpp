@@ -71,6 +71,11 @@ std::vector<std::string> studies() {
       block + friction +
       "model: slide\neffects: [{name: x, friction: \"if((path>0)*(abs(theta)<0.1),0.6,0.9)*if(v>0,mu,1.2*mu)\"}]\n" +
       records);
+  // What the floor holds at rest until its motion ends.
+  texts.push_back(
+      block + friction +
+      "model: slide\neffects: [{name: slack_tether, slack_m: 0.02, frequency_hz: 3, rate_per_s: 0}]\nmotions: "
+      "[{pulse: rectangular, period_s: 0.7, peak_acceleration_g: {uniform: [-0.6, -0.2]}}]\n");
   for (const char* design : {"monte_carlo", "latin_hypercube"})
     texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   return texts;

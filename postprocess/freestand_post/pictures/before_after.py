@@ -36,8 +36,31 @@ def _common(before, after):
         pairs = [(i, int(np.argmin(np.abs(other.capacity - c)))) for i, c in enumerate(edp.capacity)] if other else []
         pairs = [(i, j) for i, j in pairs if np.isclose(edp.capacity[i], other.capacity[j])]
         if pairs:
-            return edp, other, pairs if len(pairs) <= 2 else [pairs[k] for k in chosen_capacities(edp, 3) if k < len(pairs)][:2]
+            return edp, other, _shown(before, after, edp, other, pairs)
     return None
+
+
+def _change(before, after, first, second, i, j):
+    """Of P(EDP > capacity i) at the intensities of the first sweep; NaN where the other does not reach."""
+    p, q = first.surface["probability"][:, i], second.surface["probability"][:, j]
+    good = np.isfinite(q)
+    if good.sum() < 2:
+        return np.full(len(p), np.nan)
+    return np.interp(before.centre, after.centre[good], q[good], left=np.nan, right=np.nan) - p
+
+
+def _largest(before, after, first, second, pair):
+    change = np.abs(_change(before, after, first, second, *pair))
+    return np.nanmax(change) if np.isfinite(change).any() else -1
+
+
+def _shown(before, after, first, second, pairs):
+    """Two capacities at most, the one that changes most among them."""
+    if len(pairs) <= 2:
+        return pairs
+    most = max(pairs, key=lambda pair: _largest(before, after, first, second, pair))
+    others = [pairs[k] for k in chosen_capacities(first, 3) if k < len(pairs) and pairs[k] != most]
+    return sorted([most] + others[:1])
 
 
 def _both_overturn(before, after):
@@ -94,14 +117,10 @@ def _finding(before, after, common, name):
     if not common:
         return f"Overturning {validation.by(name)}, and before"
     first, second, pairs = common
-    i, j = pairs[0]
-    p, q = first.surface["probability"][:, i], second.surface["probability"][:, j]
-    good = np.isfinite(q)
-    if good.sum() < 2 or not np.isfinite(p).any():
-        return "Too few samples to compare the fragilities"
-    change = np.interp(before.centre, after.centre[good], q[good], left=np.nan, right=np.nan) - p
+    i, j = max(pairs, key=lambda pair: _largest(before, after, first, second, pair))
+    p, change = first.surface["probability"][:, i], _change(before, after, first, second, i, j)
     if not np.isfinite(change).any():
-        return "The two sweeps share no range of intensity"
+        return "The two sweeps share too little to compare the fragilities"
     at = int(np.nanargmax(np.abs(change)))
     what = f"P({first.label}\u00a0>\u00a0{words.chosen(first.capacity[i], first.unit)})"
     if abs(change[at]) < 0.02:
