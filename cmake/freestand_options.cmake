@@ -37,8 +37,8 @@ function(freestand_not_analyzed)
   endif()
 endfunction()
 find_program(FREESTAND_CCACHE ccache)
-if(FREESTAND_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${FREESTAND_CCACHE})
+if(FREESTAND_CCACHE)  # it keeps what precompiled headers went into only where it is told to
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${FREESTAND_CCACHE})
 endif()
 
 # freestand_batches(TARGET SIZE): up to SIZE sources of the target are compiled as one, so that the headers that they share
