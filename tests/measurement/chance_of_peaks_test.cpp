@@ -59,7 +59,8 @@ Chance gain(const Dataset& data) {
 TEST(ChanceOfPeaks, HasItsSize) {
   const int sets = test::repeats_asked(50);
   int rejected = 0;
-  for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key) rejected += !gain(peaks_of(test::cabinet(), 0.25, key)).chance();
+  for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key)
+    rejected += !gain(peaks_of(test::cabinet(), 0.25, key)).chance();
   EXPECT_GE(rejected, 1);
   EXPECT_LE(rejected, test::likely_counts(sets, 0.05).most);
 }
