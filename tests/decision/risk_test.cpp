@@ -68,22 +68,22 @@ TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
       by_counts[i].count(found.rows[0].by_counts, truth);
     }
   }
-  // 87 to 93 % are 2.24 errors of 500 repeats about 0.90.
-  const double off = std::max(0.03, 2.24 * test::error_of_share(0.9, repeats)) + 1e-9;
   // By a test of 5 per cent the rates of a true curve are called other ones than those of the counts.
   RecordProperty("rates_differ", differ);
   EXPECT_LE(differ, repeats * (0.05 + 2 * std::sqrt(0.05 * 0.95 / repeats)));
   for (int i = 0; i < 2; ++i) {
     RecordProperty(fmt::format("by_function_{}", i), text(by_function[i]));
     RecordProperty(fmt::format("by_counts_{}", i), text(by_counts[i]));
-    EXPECT_NEAR(by_function[i].coverage(), 0.9, off) << slopes[i] << ": " << text(by_function[i]);
-    EXPECT_NEAR(by_counts[i].coverage(), 0.9, off) << slopes[i] << ": " << text(by_counts[i]);
+    EXPECT_GE(by_function[i].coverage(), 0.87) << slopes[i] << ": " << text(by_function[i]);
+    EXPECT_LE(by_function[i].coverage(), 0.93) << slopes[i] << ": " << text(by_function[i]);
+    EXPECT_GE(by_counts[i].coverage(), 0.87) << slopes[i] << ": " << text(by_counts[i]);
+    EXPECT_LE(by_counts[i].coverage(), 0.93) << slopes[i] << ": " << text(by_counts[i]);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, RiskBands,
-                         testing::Values(BandCase{40, 0.6, 250}, BandCase{40, 1.5, 250}, BandCase{14, 0.6, 250},
-                                         BandCase{14, 1.5, 250}),
+                         testing::Values(BandCase{40, 0.6, 500}, BandCase{40, 1.5, 500}, BandCase{14, 0.6, 500},
+                                         BandCase{14, 1.5, 500}),
                          [](const auto& info) { return fmt::format("{}Records{}", info.param.records, info.index); });
 
 // Of ten bins as wide as the curve's dispersion a polygon through their shares gives 1.08 and 1.27 times the rate.

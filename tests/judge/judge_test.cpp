@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "judge/known_gaps.hpp"
 #include "judge/tally.hpp"
@@ -56,13 +55,10 @@ TEST(Judge, AgreesOnWallsOnTheLeftAndOnBothSides) {
   EXPECT_GE(struck, judged / 2);
 }
 
-// Bouc-Wen's contact, with every effect that goes with it alone, and a third of the pairs; all of them where FREESTAND_LONG_TESTS is set.
+// Bouc-Wen's contact, with every effect that goes with it, alone and in pairs.
 TEST(Judge, AgreesWithTheKernelOnABoucWenContact) {
-  const bool longer = std::getenv("FREESTAND_LONG_TESTS") != nullptr;
-  const std::vector<Recipe> all = recipes(Family::bouc_wen);
   Tally tally;
-  for (std::uint64_t number = 0; number < all.size(); ++number) {
-    if (all[number].effects.size() == 2 && number % 3 != 0 && !longer) continue;
+  for (std::uint64_t number = 0; number < recipes(Family::bouc_wen).size(); ++number) {
     const JudgedCase c = judged_case(1, number, Family::bouc_wen);
     const Judgement judgement = judge(c);
     tally.add(c, judgement);
