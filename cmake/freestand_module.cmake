@@ -65,12 +65,31 @@ function(freestand_tests MODULE)
   target_compile_definitions(test_${MODULE} PRIVATE
     FREESTAND_DATA_DIR="${FREESTAND_DATA_DIR}" FREESTAND_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   freestand_batches(test_${MODULE} 16)
-  freestand_test_code(test_${MODULE})
-  target_link_libraries(test_${MODULE} PRIVATE ${links} GTest::gmock GTest::gtest_main)
+  target_link_libraries(test_${MODULE} PRIVATE ${links} GTest::gtest_main)
+  freestand_test_program(test_${MODULE})
   gtest_discover_tests(test_${MODULE} TEST_PREFIX "${MODULE}: " DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${MODULE})
 endfunction()
 
 # Code that runs once or a few times: what it calls is compiled with -O3, it itself in less time.
 function(freestand_test_code TARGET)
   target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:Release>:-finline-functions>)
+endfunction()
+
+# The same of GoogleTest programs. With batches the headers that nearly every test includes are read once for all of them.
+function(freestand_test_program TARGET)
+  freestand_test_code(${TARGET})
+  freestand_resolve(links fmt)
+  target_link_libraries(${TARGET} PRIVATE ${links} GTest::gmock)
+  if(NOT FREESTAND_BATCHES)
+    return()
+  endif()
+  target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
+  get_property(first GLOBAL PROPERTY FREESTAND_TEST_HEADERS)
+  if(first)
+    target_precompile_headers(${TARGET} REUSE_FROM ${first})
+  else()
+    set_property(GLOBAL PROPERTY FREESTAND_TEST_HEADERS ${TARGET})
+    target_precompile_headers(${TARGET} PRIVATE <gmock/gmock.h> <gtest/gtest.h> <fmt/format.h> <fmt/ranges.h> <algorithm> <cmath> <filesystem>
+                              <fstream> <functional> <map> <numbers> <numeric> <optional> <random> <set> <span> <sstream>)
+  endif()
 endfunction()

@@ -3,17 +3,28 @@
 import csv
 import json
 import os
+import pathlib
 import pty
+import shutil
 import subprocess
+import tempfile
 import unittest
 
-from support import InFolder, command, h5py, slow_fit, study_text
+from support import InFolder, command, h5py, run, slow_fit, study_text
 
 
 class Fit(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="freestand-test-")))
+        cls.kept, study = folder / "out", folder / "study.yaml"
+        study.write_text(study_text(samples=2000))
+        cls.done = run(["run", study, "-o", cls.kept], 2)
+        cls.done.check_returncode()
+
     def sweep(self):
         self.out = self.folder / "out"
-        self.done = self.succeed(["run", self.write("study.yaml", study_text(samples=2000)), "-o", self.out], 2)
+        shutil.copytree(self.kept, self.out)
 
     def edit(self, old, new):
         path = self.out / "study.yaml"
@@ -23,7 +34,7 @@ class Fit(InFolder):
 
     def test_on_a_terminal_it_tells_how_far_it_is_and_at_the_end_how_long_it_took(self):
         out = self.folder / "out"
-        self.succeed(["sweep", self.write("slow.yaml", slow_fit(study_text(samples=9000))), "-o", out, "--quiet"], 2)
+        self.succeed(["sweep", self.write("slow.yaml", slow_fit(study_text(samples=9000)).replace("15000", "5000")), "-o", out, "--quiet"], 2)
         ours, its = pty.openpty()
         process = subprocess.Popen(command(["fit", out]), stdout=subprocess.PIPE, stderr=its, text=True)
         os.close(its)

@@ -1,9 +1,11 @@
 """A run that is killed at any moment is completed by --resume to the same bits."""
 
 import os
+import pathlib
 import random
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -29,13 +31,14 @@ def ranks_of(launcher):
 class KillAndResume(InFolder):
     samples = 40000
 
-    def setUp(self):
-        super().setUp()
-        self.study = self.write("study.yaml", study_text(samples=self.samples))
-        self.whole = self.folder / "whole"
+    @classmethod
+    def setUpClass(cls):
+        folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="freestand-test-")))
+        cls.study, cls.whole = folder / "study.yaml", folder / "whole"
+        cls.study.write_text(study_text(samples=cls.samples))
         start = time.monotonic()
-        self.succeed(["sweep", self.study, "-o", self.whole, "--quiet"], 2)
-        self.seconds = time.monotonic() - start
+        run(["sweep", cls.study, "-o", cls.whole, "--quiet"], 2).check_returncode()
+        cls.seconds = time.monotonic() - start
 
     def start(self, folder, *options):
         return subprocess.Popen(command(["sweep", self.study, "-o", folder, "--quiet", *options], 2),

@@ -12,12 +12,13 @@ class SameBits(InFolder):
         for design in ("sobol", "monte_carlo", "latin_hypercube"):
             study = self.write(f"{design}.yaml", study_text(design=design, samples=1500))
             results = {}
-            for ranks in (1, 2, 3, 5):
+            all_ranks = (1, 2, 3, 5) if design == "sobol" else (1, 3)
+            for ranks in all_ranks:
                 folder = self.folder / f"{design}-{ranks}"
                 self.succeed(["run", study, "-o", folder, "--quiet"], ranks)
                 results[ranks] = result(folder)
             self.assertEqual(len(results[1][0]["samples/outcome"][1]), 4 * 1500)
-            for ranks in (2, 3, 5):
+            for ranks in all_ranks[1:]:
                 self.assertEqual(results[ranks], results[1], f"{design}: {ranks} ranks differ from one")
 
     def test_records_packs_and_effects(self):

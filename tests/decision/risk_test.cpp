@@ -15,6 +15,7 @@
 #include "fragility/fit.hpp"
 #include "fragility/fragility_function.hpp"
 #include "made_sweep.hpp"
+#include "support/repeats.hpp"
 
 namespace freestand::decision::risk_test {
 namespace {
@@ -51,8 +52,7 @@ TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
   Sweep sweep;
   sweep.records = at.records;
   sweep.median = at.median;
-  const char* asked = std::getenv("FREESTAND_REPEATS");
-  const int repeats = asked ? std::atoi(asked) : at.repeats;
+  const int repeats = test::repeats_asked(at.repeats);
   const double k0 = 1e-3, slopes[] = {1.5, 2.5};
   Misses by_function[2], by_counts[2];
   int differ = 0;
@@ -316,7 +316,7 @@ TEST(Risk, WhatHappensWithinAnotherEventHasNoLargerLimit) {
 // FREESTAND_REPEATS for more: 14 and 40 records by counts.
 TEST(Risk, LimitsInOrderHoldTheTruthAsOften) {
   const char* asked = std::getenv("FREESTAND_REPEATS");
-  const int repeats = asked ? std::atoi(asked) : 100;
+  const int repeats = test::repeats_asked(50);
   const double k = 2;
   for (const int records : {14, 40}) {
     Sweep inner, outer;

@@ -8,6 +8,7 @@
 
 #include "decision/risk.hpp"
 #include "made_sweep.hpp"
+#include "support/repeats.hpp"
 
 namespace freestand::decision::upper_limit_test {
 namespace {
@@ -48,8 +49,8 @@ Upper simulated(const Sweep& sweep, double k, int repeats) {
 // where a few records are of a kind that the others tell nothing of. FREESTAND_REPEATS for more; the figures of 300 stand in risk.hpp.
 TEST(UpperLimit, HoldsWhereAFewRecordsAreWeakAndWouldNotIfItWereLower) {
   const char* asked = std::getenv("FREESTAND_REPEATS");
-  const int repeats = asked ? std::atoi(asked) : 40;
-  const double chance = 3 * std::sqrt(0.05 * 0.95 / repeats);
+  const int repeats = test::repeats_asked(20);
+  const double chance = 3 * test::error_of_share(0.05, repeats);
   for (const int records : {14, 40})
     for (const double median : {0.6, 1.5})
       for (const double weak : {0.0, 0.05}) {

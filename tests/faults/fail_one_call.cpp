@@ -1,11 +1,13 @@
 // A library that is loaded before the C library (LD_PRELOAD): of the calls by which a process changes files below a folder,
 // one fails, or the process dies there. What it is to do stands in the environment:
 //   FAULT_FOLDER   only files below it count
+//   FAULT_NAME     only calls of this name count: write, rename, ...; all where it is not there
 //   FAULT_CALL     which of the calls, from 1
 //   FAULT_KIND     enospc, eio, eintr: the call fails with that error; short: a write does half; renamed: a rename is done
 //                  and tells ENOENT, as one that a network file system has sent twice; killed: the process dies
 //                  before the call; torn: it dies when half of a write is done; lost: it dies before the call, and with it the
-//                  machine: of what was not synced each write, new name and rename is kept, gone or spoilt (unsynced.hpp)
+//                  machine: of what was not synced each write, new name and rename is kept, gone or spoilt (unsynced.hpp);
+//                  listed: none fails, and the name of each is a line of FAULT_TOLD
 //   FAULT_SEED     of what becomes of that
 //   FAULT_LASTING  1: every call from then on, not that one alone
 //   FAULT_RANK     only the process of this rank under mpirun
@@ -30,7 +32,7 @@
 
 namespace {
 
-enum class Kind { none, enospc, eio, eintr, short_write, renamed, killed, torn, lost };
+enum class Kind { none, enospc, eio, eintr, short_write, renamed, killed, torn, lost, listed };
 
 const char* setting(const char* name) {
   const char* text = std::getenv(name);
@@ -40,8 +42,8 @@ const char* setting(const char* name) {
 Kind kind_in_environment() {
   const char* rank = std::getenv("FAULT_RANK");
   if (rank && std::strcmp(rank, setting("OMPI_COMM_WORLD_RANK")) != 0) return Kind::none;
-  const char* names[] = {"none", "enospc", "eio", "eintr", "short", "renamed", "killed", "torn", "lost"};
-  for (int i = 1; i < 9; ++i)
+  const char* names[] = {"none", "enospc", "eio", "eintr", "short", "renamed", "killed", "torn", "lost", "listed"};
+  for (int i = 1; i < 10; ++i)
     if (std::strcmp(setting("FAULT_KIND"), names[i]) == 0) return static_cast<Kind>(i);
   return Kind::none;
 }
@@ -70,9 +72,18 @@ bool minded(Where where) {
   return lost && is_below(where);
 }
 
-// Is this call, which counts, to fail?
-bool fails() {
+void list(const char* name) {
+  const std::string line = std::string(name) + '\n';
+  const long told = ::syscall(SYS_openat, AT_FDCWD, setting("FAULT_TOLD"), O_CREAT | O_WRONLY | O_APPEND, 0666);
+  ::syscall(SYS_write, told, line.data(), line.size());
+  ::syscall(SYS_close, told);
+}
+
+// Is this call, which changes a file of the folder, to fail?
+bool fails(const char* name) {
   static std::atomic<long> calls{0};
+  static const char* const only = setting("FAULT_NAME");
+  if (*only && std::strcmp(only, name) != 0) return false;
   static const long wanted = std::atol(setting("FAULT_CALL"));
   static const bool lasting = *setting("FAULT_LASTING") == '1';
   const long call = ++calls;
@@ -81,11 +92,13 @@ bool fails() {
   return call == wanted || (lasting && call > wanted);
 }
 
-// What the call is to do, if it changes a file of the folder.
+// What the call of that name is to do, if it changes a file of the folder.
 template <class Where>
-Kind fault(Where where) {
+Kind fault(const char* name, Where where) {
   static const Kind kind = kind_in_environment();
-  if (kind == Kind::none || !is_below(where) || !fails()) return Kind::none;
+  if (kind == Kind::none || !is_below(where)) return Kind::none;
+  if (kind == Kind::listed) list(name);
+  if (kind == Kind::listed || !fails(name)) return Kind::none;
   if (kind == Kind::lost) unsynced().lose(std::strtoul(setting("FAULT_SEED"), nullptr, 10));
   if (kind == Kind::killed || kind == Kind::lost) ::kill(::getpid(), SIGKILL);
   return kind;
@@ -106,8 +119,8 @@ Call next(const char* name) {
 
 // offset: -1 where the file is.
 template <class Write>
-ssize_t written(int descriptor, off_t offset, size_t size, const Write& write) {
-  const Kind kind = fault(descriptor);
+ssize_t written(const char* name, int descriptor, off_t offset, size_t size, const Write& write) {
+  const Kind kind = fault(name, descriptor);
   if (fails_at_once(kind, true)) return -1;
   if ((kind != Kind::short_write && kind != Kind::torn) || size < 2) {
     const ssize_t done = write(size);
@@ -122,8 +135,9 @@ ssize_t written(int descriptor, off_t offset, size_t size, const Write& write) {
 
 // Pieces are written by the first alone where a part is asked for.
 template <class Write>
-ssize_t pieces_written(int descriptor, off_t offset, const iovec* pieces, int count, const Write& write) {
-  return written(descriptor, offset, static_cast<size_t>(2 * count), [&](size_t twice) {
+ssize_t pieces_written(const char* name, int descriptor, off_t offset, const iovec* pieces, int count,
+                       const Write& write) {
+  return written(name, descriptor, offset, static_cast<size_t>(2 * count), [&](size_t twice) {
     return twice == static_cast<size_t>(2 * count) || count == 1 ? write(pieces, count)
                                                                  : write(pieces, static_cast<int>(twice / 2));
   });
@@ -134,7 +148,7 @@ bool opens_for_writing(int flags) { return (flags & (O_WRONLY | O_RDWR | O_CREAT
 template <class Open>
 int opened(const char* path, int flags, const Open& open) {
   if (!opens_for_writing(flags)) return open();
-  if (fails_at_once(fault(path), true)) return -1;
+  if (fails_at_once(fault("open", path), true)) return -1;
   const bool made = minded(path) && ::access(path, F_OK) != 0;
   const int descriptor = open();
   if (made && descriptor >= 0) unsynced().make(path);
@@ -143,15 +157,15 @@ int opened(const char* path, int flags, const Open& open) {
 
 template <class Sync>
 int synced(int descriptor, const Sync& sync) {
-  if (fails_at_once(fault(descriptor), true)) return -1;
+  if (fails_at_once(fault("fsync", descriptor), true)) return -1;
   const int result = sync();
   if (result == 0 && minded(descriptor)) unsynced().sync(path_of(descriptor));
   return result;
 }
 
 template <class Where, class Call>
-int done(Where where, bool may_be_interrupted, const Call& call) {
-  if (fails_at_once(fault(where), may_be_interrupted)) return -1;
+int done(const char* name, Where where, bool may_be_interrupted, const Call& call) {
+  if (fails_at_once(fault(name, where), may_be_interrupted)) return -1;
   return call();
 }
 
@@ -161,23 +175,23 @@ extern "C" {
 
 ssize_t write(int descriptor, const void* data, size_t size) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
-  return written(descriptor, -1, size, [&](size_t part) { return real(descriptor, data, part); });
+  return written(__func__, descriptor, -1, size, [&](size_t part) { return real(descriptor, data, part); });
 }
 ssize_t pwrite(int descriptor, const void* data, size_t size, off_t offset) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t, off_t)>("pwrite");
-  return written(descriptor, offset, size, [&](size_t part) { return real(descriptor, data, part, offset); });
+  return written(__func__, descriptor, offset, size, [&](size_t part) { return real(descriptor, data, part, offset); });
 }
 ssize_t pwrite64(int descriptor, const void* data, size_t size, off64_t offset) {
   return pwrite(descriptor, data, size, offset);
 }
 ssize_t writev(int descriptor, const iovec* pieces, int count) {
   static const auto real = next<ssize_t (*)(int, const iovec*, int)>("writev");
-  return pieces_written(descriptor, -1, pieces, count,
+  return pieces_written(__func__, descriptor, -1, pieces, count,
                         [&](const iovec* some, int n) { return real(descriptor, some, n); });
 }
 ssize_t pwritev(int descriptor, const iovec* pieces, int count, off_t offset) {
   static const auto real = next<ssize_t (*)(int, const iovec*, int, off_t)>("pwritev");
-  return pieces_written(descriptor, offset, pieces, count,
+  return pieces_written(__func__, descriptor, offset, pieces, count,
                         [&](const iovec* some, int n) { return real(descriptor, some, n, offset); });
 }
 ssize_t pwritev64(int descriptor, const iovec* pieces, int count, off64_t offset) {
@@ -211,13 +225,13 @@ int fdatasync(int descriptor) {
 }
 int ftruncate(int descriptor, off_t size) {
   static const auto real = next<int (*)(int, off_t)>("ftruncate");
-  return done(descriptor, true, [&] { return real(descriptor, size); });
+  return done(__func__, descriptor, true, [&] { return real(descriptor, size); });
 }
 int ftruncate64(int descriptor, off64_t size) { return ftruncate(descriptor, size); }
 
 int rename(const char* from, const char* to) {
   static const auto real = next<int (*)(const char*, const char*)>("rename");
-  const Kind kind = fault(to);
+  const Kind kind = fault(__func__, to);
   if (fails_at_once(kind, false)) return -1;
   if (minded(to)) unsynced().rename(from, to);
   const int result = real(from, to);
@@ -227,23 +241,23 @@ int rename(const char* from, const char* to) {
 }
 int link(const char* from, const char* to) {
   static const auto real = next<int (*)(const char*, const char*)>("link");
-  return done(to, false, [&] { return real(from, to); });
+  return done(__func__, to, false, [&] { return real(from, to); });
 }
 int unlink(const char* path) {
   static const auto real = next<int (*)(const char*)>("unlink");
-  return done(path, false, [&] { return real(path); });
+  return done(__func__, path, false, [&] { return real(path); });
 }
 int remove(const char* path) {
   static const auto real = next<int (*)(const char*)>("remove");
-  return done(path, false, [&] { return real(path); });
+  return done(__func__, path, false, [&] { return real(path); });
 }
 int rmdir(const char* path) {
   static const auto real = next<int (*)(const char*)>("rmdir");
-  return done(path, false, [&] { return real(path); });
+  return done(__func__, path, false, [&] { return real(path); });
 }
 int mkdir(const char* path, mode_t mode) {
   static const auto real = next<int (*)(const char*, mode_t)>("mkdir");
-  return done(path, false, [&] { return real(path, mode); });
+  return done(__func__, path, false, [&] { return real(path, mode); });
 }
 
 }  // extern "C"

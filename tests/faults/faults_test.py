@@ -1,8 +1,10 @@
 """Each call by which a run changes its folder fails in turn, or the run dies there. The rule: it is done with the right bits, or it tells
 and going on gives the right bits; nothing between.
 
-    faults_test.py [RANKS [EVERY [all|none]]]     every EVERYth call of each rank, for every kind of fault, until a run ends before the
-                                                  call; which samples the study keeps
+    faults_test.py [RANKS [EVERY [all|none]]]       every EVERYth call of each rank, for every kind of fault, until a run ends before the
+                                                    call; which samples the study keeps
+    faults_test.py RANKS drawn/SHARE [all|none]     for every kind of call and every fault that it may have one call drawn of those
+                                                    that the run makes; of these pairs one in SHARE, but each kind of both
 """
 
 import collections
@@ -10,6 +12,7 @@ import concurrent.futures
 import itertools
 import os
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -26,6 +29,9 @@ NOTES = ["freestand.lock", "freestand.begun", "blocks"]  # where one cannot be r
 # interrupted only within a library, and then going on helps; MPI's files do not tell which error it was.
 ALLOWED = {"enospc": {0, CURE}, "eio": {0, CURE}, "eintr": {0, RESUMABLE}, "short": {0}, "renamed": {0}, "killed": None, "torn": None, "lost": None}
 LASTING = ("enospc", "eio")
+KINDS = [(kind, False) for kind in ALLOWED] + [(kind, True) for kind in LASTING]
+WRITES = ("write", "pwrite", "writev", "pwritev")
+ONLY = {"short": WRITES, "torn": WRITES, "renamed": ("rename",), "eintr": WRITES + ("open", "fsync", "ftruncate")}  # others do what they do anyway
 
 
 def small_study(keep):
@@ -37,7 +43,9 @@ def small_study(keep):
 
 class Faults:
     def __init__(self, ranks=1, every=1, keep="all"):
-        self.ranks, self.every, self.keep = int(ranks), int(every), keep
+        self.ranks, self.keep = int(ranks), keep
+        drawn, _, number = str(every).rpartition("/")
+        self.every, self.share = (1, int(number)) if drawn else (int(number), 0)
         self.left = sorted(LEFT + (["tally.h5"] if keep == "none" else []))
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="freestand-faults-"))
         self.study = self.folder / "study.yaml"
@@ -58,12 +66,12 @@ class Faults:
             environment = {**os.environ, **settings, "OMPI_MCA_orte_tmpdir_base": session}
             return subprocess.run(arguments, env=environment, capture_output=True, text=True, timeout=120, check=check)
 
-    def one(self, kind, lasting, rank, call):
-        """What is wrong, nothing if all is well; None where the run ended before the call."""
-        name = f"{kind}{'-lasting' if lasting else ''}-{rank}-{call}"
+    def one(self, kind, lasting, rank, call, named=""):
+        """What is wrong, nothing if all is well; None where the run ended before the call. Which call of all, or of those with a name."""
+        name = f"{kind}{'-lasting' if lasting else ''}-{rank}-{named}{call}"
         out = self.folder / name
         try:
-            reached, code, wrong = self.struck(out, kind, lasting, rank, call)
+            reached, code, wrong = self.struck(out, kind, lasting, rank, call, named=named)
             wrong = wrong or self.gone_on(out, code)
             return (f"{name}: {wrong}" if wrong else "") if reached or wrong else None
         except subprocess.TimeoutExpired:
@@ -71,11 +79,11 @@ class Faults:
         finally:
             shutil.rmtree(out, ignore_errors=True)
 
-    def struck(self, out, kind, lasting, rank, call, *options):
+    def struck(self, out, kind, lasting, rank, call, *options, named=""):
         """Runs into the fault: was it reached, the exit code, and what is wrong with it."""
         told = out.with_name(f"{out.name}.told")
         try:
-            done = self.run(out, *options, FAULT_FOLDER=str(out), FAULT_CALL=str(call), FAULT_KIND=kind, FAULT_LASTING="01"[lasting],
+            done = self.run(out, *options, FAULT_FOLDER=str(out), FAULT_NAME=named, FAULT_CALL=str(call), FAULT_KIND=kind, FAULT_LASTING="01"[lasting],
                             FAULT_RANK=str(rank) if self.ranks > 1 else "", FAULT_TOLD=str(told), FAULT_SEED=str(call))
             wrong = self.wrong_end(out, kind, done)
             return told.exists(), done.returncode, f"{wrong}\n    {done.returncode}: {(done.stdout + done.stderr).strip()[-1500:]}" if wrong else ""
@@ -111,19 +119,46 @@ class Faults:
         names = sorted(path.name for path in out.iterdir())
         return "" if names == self.left else f"{when} {sorted(set(names) ^ set(self.left))} is there or missing"
 
+    def calls(self, rank):
+        """How often a rank of the whole run makes each kind of call."""
+        out, told = self.folder / f"listed-{rank}", self.folder / f"listed-{rank}.told"
+        self.run(out, check=True, FAULT_FOLDER=str(out), FAULT_KIND="listed", FAULT_RANK=str(rank) if self.ranks > 1 else "", FAULT_TOLD=str(told))
+        shutil.rmtree(out)
+        return collections.Counter(told.read_text().split() if told.exists() else [])
+
+    def every_one(self, pool):
+        """Each fault and what is wrong with its answer."""
+        for (kind, lasting), rank in itertools.product(KINDS, range(self.ranks)):
+            ended, calls = False, itertools.count(1 + (rank + KINDS.index((kind, lasting))) % self.every, self.every)
+            while not ended:
+                for wrong in pool.map(lambda call: self.one(kind, lasting, rank, call), itertools.islice(calls, 4)):
+                    ended = ended or wrong is None
+                    yield kind, lasting, wrong
+
+    def drawn(self, pool, share):
+        """The same of pairs of a fault and a call that it may strike. Ranks side by side do not make the same calls each time: where
+        that one is not reached, the root's first is taken."""
+        dice = random.Random(f"{self.ranks}/{self.keep}")
+        made = [self.calls(rank) for rank in range(self.ranks)]
+        pairs = [(kind, name) for kind in KINDS for name in sorted(made[0]) if name in ONLY.get(kind[0], made[0])]
+        dice.shuffle(pairs)
+        seen, faults = set(), []
+        for number, (kind, name) in enumerate(pairs):
+            if number % share == 0 or not seen.issuperset((kind, name)):
+                seen.update((kind, name))
+                rank = dice.choice([rank for rank in range(self.ranks) if made[rank][name]])
+                faults.append((*kind, rank, dice.randint(1, made[rank][name]), name))
+        for (*kind, _, _, name), wrong in zip(faults, pool.map(lambda fault: self.one(*fault), faults)):
+            yield *kind, self.one(*kind, 0, 1, name) if wrong is None else wrong
+
     def all(self):
         counts, faults = collections.Counter(), []
-        kinds = [(kind, False) for kind in ALLOWED] + [(kind, True) for kind in LASTING]
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            for (kind, lasting), rank in itertools.product(kinds, range(self.ranks)):
-                ended, calls = False, itertools.count(1 + (rank + kinds.index((kind, lasting))) % self.every, self.every)
-                while not ended:
-                    for wrong in pool.map(lambda call: self.one(kind, lasting, rank, call), itertools.islice(calls, 4)):
-                        ended = ended or wrong is None
-                        counts[kind + (", lasting" if lasting else "")] += wrong is not None
-                        if wrong:
-                            faults.append(wrong)
-                            print(wrong, flush=True)
+            for kind, lasting, wrong in self.drawn(pool, self.share) if self.share else self.every_one(pool):
+                counts[kind + (", lasting" if lasting else "")] += wrong is not None
+                if wrong:
+                    faults.append(wrong)
+                    print(wrong, flush=True)
         shutil.rmtree(self.folder)
         print(f"{self.ranks} ranks, keep {self.keep}: {sum(counts.values())} faults, {len(faults)} answered wrongly:", dict(counts), flush=True)
         return not faults

@@ -3,11 +3,11 @@
 
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
 #include "base/random.hpp"
 #include "base/units.hpp"
+#include "support/repeats.hpp"
 
 namespace freestand::test {
 
@@ -22,12 +22,6 @@ inline std::vector<double> lognormals(std::size_t n, double lambda, double omega
   std::vector<double> samples;
   for (std::size_t i = 0; i < n; ++i) samples.push_back(std::exp(lambda + omega * normal(i, stream)));
   return samples;
-}
-
-// Of a simulation: FREESTAND_REPEATS, where more are wanted than a test takes.
-inline int repeats_asked(int otherwise) {
-  const char* asked = std::getenv("FREESTAND_REPEATS");
-  return asked ? std::atoi(asked) : otherwise;
 }
 
 }  // namespace freestand::test

@@ -147,7 +147,7 @@ TEST_F(TestFile, TimesThatGoBackAreNoGap) {
 
 // A terminal obeys what stands in a binary file.
 TEST_F(TestFile, WhatIsNoTextReachesNoMessage) {
-  std::vector<std::string> files = {std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x1b[2J", 24),
+  std::vector<std::string> files = {std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\x1b[2J", 20),
                                     "\x1b[2J\x07\x9b,time_s\n1,2\n", file(needed + ",\x1b]0;x\x07", 1)};
   files.push_back(file(needed));
   files.back().replace(files.back().find("1.5"), 3, "\x1b[31m\xff");

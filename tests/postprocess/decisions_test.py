@@ -162,7 +162,8 @@ class Rates(InFolder):
 
 class Pages(InFolder):
     def text(self, *folders):
-        return html.unescape(page(read(folders)))
+        with support.words_alone():
+            return html.unescape(page(read(folders)))
 
     def test_several_sweeps_stand_on_one_page_with_their_risks(self):
         folders = [self.design("a", 2.0), self.design("b", 3.0, width=0.9), make_decisions.make_risk(self.folder / "ra"),

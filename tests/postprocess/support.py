@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from unittest import mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 POSTPROCESS = ROOT / "postprocess"
@@ -26,7 +27,7 @@ except ModuleNotFoundError as missing:
     sys.exit(77)
 
 import make_results  # noqa: E402
-from freestand_post import command  # noqa: E402
+from freestand_post import command, style  # noqa: E402
 
 BROWSER = shutil.which("chromium") or shutil.which("google-chrome")
 _kept = tempfile.TemporaryDirectory()
@@ -87,10 +88,18 @@ def start(program, *arguments):
     return subprocess.run([POSTPROCESS / program, *map(str, arguments)], capture_output=True, text=True, timeout=250)
 
 
-def run(program, *arguments):
-    """The same within this process, which has loaded its packages."""
+def words_alone():
+    """A page has empty frames for its pictures, whose svg takes most of the time; but pictures where FREESTAND_LONG_TESTS is set."""
+    if "FREESTAND_LONG_TESTS" in os.environ:
+        return contextlib.nullcontext()
+    return mock.patch.object(style, "svg", lambda figure: '<svg viewBox="0 0 1 1"></svg>')
+
+
+def run(program, *arguments, drawn=False):
+    """The same within this process, which has loaded its packages; drawn: a page with its pictures."""
     out, err = io.StringIO(), io.StringIO()
-    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+    pictures = contextlib.nullcontext() if drawn or program != "report" else words_alone()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err), pictures:
         try:
             code = command.main(program, list(map(str, arguments)))
         except SystemExit as end:

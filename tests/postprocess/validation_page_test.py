@@ -12,8 +12,8 @@ import make_validation as make
 
 
 class ThePage(Temporary):
-    def page(self, *folders):
-        result = support.run("report", *folders, "-o", self.folder / "page.html")
+    def page(self, *folders, drawn=False):
+        result = support.run("report", *folders, "-o", self.folder / "page.html", drawn=drawn)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         text = (self.folder / "page.html").read_text(encoding="utf-8")
         page = Page(text)
@@ -129,7 +129,7 @@ class ThePage(Temporary):
     def test_narrow_screens_cut_nothing(self):
         """Pictures fill the width; tables are written row under row, each cell with what it is."""
         _, text = self.page(make.comparison(self.folder / "before"), make.diagnosis(self.folder / "diag"),
-                            make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01))
+                            make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01), drawn=True)
         self.assertNotRegex(text, r"figure svg \{[^}]*min-width")
         tables = re.findall(r"<table class=\"([^\"]*)\">(.*?)</table>", text, re.S)
         self.assertEqual(len(tables), 4)
