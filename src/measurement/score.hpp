@@ -66,7 +66,7 @@ double mean_stride_score(const Bench&, const std::vector<std::size_t>& tests, co
 // all of it, and parts where the motion is chaotic say nothing.
 double explained_error(const Bench&, std::size_t test, const Prediction&, const Spread&);
 
-// e that the true model would show: sqrt(1 + mean(spread/noise^2)).
+// e that the true model would show: sqrt(sensor^2 + mean(spread/noise^2)), sensor: the size of its noise that was found, over the stated one.
 double expected_error(const Bench&, const Spread&);
 
 // Positions of the tests of one role.
