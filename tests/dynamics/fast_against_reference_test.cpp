@@ -116,7 +116,7 @@ void expect_agreement(const Count& count) {
   EXPECT_LT(count.still, 0.5 * count.samples);
 }
 
-TEST(FastAgainstReference, AllKindsOfBlocks) { expect_agreement(compare_family("all kinds", {}, 1500)); }
+TEST(FastAgainstReference, AllKindsOfBlocks) { expect_agreement(compare_family("all kinds", {}, 600)); }
 
 TEST(FastAgainstReference, SlenderBlocks) {
   CaseFamily family;
