@@ -137,7 +137,7 @@ constexpr const char* check_sign = "looks mirrored: check the sign of slip_m aga
 // Signs and clocks of the slips by themselves. True: enough tests could be judged, so that no model is needed.
 bool look_at_slips(const Bench& bench, Quality& quality) {
   std::vector<std::size_t> wrong, mirrored;
-  std::vector<double> late;  // [s]
+  std::vector<double> late, each;  // [s]; of tests that are wrong, of all that are judged
   std::size_t judged = 0;
   const auto tests = tests_of(bench.data(), Role::calibration);
   std::vector<Timing> timings;
@@ -155,6 +155,8 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
   for (const std::size_t i : tests) {
     const double dt = bench.test(i).dt_s;
     judged += timings[i].judged();
+    if (timings[i].judged() && !timings[i].mirrored && std::abs(timings[i].late_steps) > 1)
+      each.push_back(timings[i].late_steps * dt);
     if (!timings[i].wrong()) continue;
     wrong.push_back(i);
     if (timings[i].mirrored) mirrored.push_back(i);
@@ -171,6 +173,11 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     quality.findings.push_back(clock_sentence("the response", quality.late_s));
   } else {
     for (const std::size_t i : wrong) say(i);
+    // None alone is more than chance, and all go the same way.
+    std::sort(each.begin(), each.end());
+    if (wrong.empty() && each.size() > 2 && each.size() == judged && each.front() * each.back() > 0)
+      quality.findings.push_back(fmt::format("in all {} tests whose slips tell, friction is steadiest if {}", judged,
+                                             clock_sentence("the response", each[each.size() / 2])));
   }
   for (const std::size_t i : tests_of(bench.data(), Role::holdout)) {
     const bool said = timings[i].mirrored ? quality.mirrored_slip : quality.late_s * timings[i].late_steps > 0;

@@ -82,6 +82,18 @@ TEST(ChanceOfLead, SaysWhichOfTwoMadeTheData) {
   }
 }
 
+// The rival stands where its numbers end: straight lines through it would gain what it never reaches.
+TEST(ChanceOfLead, IsThatOfTheFitsThemselves) {
+  const Dataset data = test::with_noise(test::made_dataset(test::cabinet("viscous_drag", {0.8}), 0), 5);
+  const Bench bench(data, 0);
+  const ModelFit best = test::fitted(bench, with("viscous_drag", bench), {0.2, 0.8});
+  const ModelFit rival{.model = with("rate_weakening", bench), .x = {0.2, 1.0, 0.05}};
+  const Judge judge(bench);
+  const Chance chance = chance_of_lead(bench, judge, best, rival, run_here);
+  EXPECT_GT(chance.observed, 0);
+  EXPECT_LT(chance.p, 0.05);
+}
+
 // A model that leads itself leads by nothing: every set made from it does as well.
 TEST(ChanceOfLead, OfAModelOverItselfIsChance) {
   const Dataset data = test::with_noise(test::made_dataset(test::cabinet(), 0), 1);

@@ -169,6 +169,10 @@ TEST(Findings, OfRotationAlone) {
   for (const auto& sentence : said(data, fixed(0.2))) EXPECT_THAT(sentence, Not(HasSubstr("the slip")));
   EXPECT_THAT(said(data, fixed(0.2)), Contains(testing::ContainsRegex("missed by .*; rotation by [0-9.]+ mrad")));
   EXPECT_THAT(said(data, fixed(0.2)), Contains(HasSubstr("the model does not rotate in 3 of 3 tests")));
+  data.noise.slip_m = 0;
+  for (const double mu : {0.2, 0.3, 0.6})
+    for (const auto& sentence : said(data, fixed(mu)))
+      EXPECT_THAT(sentence, Not(testing::AnyOf(HasSubstr("the slip"), HasSubstr("nan")))) << mu;
 }
 
 // Long rocking near the edge: a little more noise on the floor, and it takes another way.

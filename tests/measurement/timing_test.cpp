@@ -116,6 +116,17 @@ TEST(Quality, SaysOnceWhatIsWrongWithAll) {
   EXPECT_THAT(q.findings[0], HasSubstr("behind the floor's channel"));
 }
 
+// Too little for a verdict from the slips alone, but the same way in every test.
+TEST(Quality, TellsOfALittleDelayThatAllHave) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  for (auto& t : data.tests) delay(t, 3);
+  const Quality q = examined(data);
+  EXPECT_FALSE(q.spoilt());
+  EXPECT_THAT(q.findings,
+              Contains(testing::ContainsRegex("in all [34] tests whose slips tell, friction is steadiest if the "
+                                              "response runs 0.01[0-9]* s behind the floor's channel")));
+}
+
 TEST(Quality, ClippedSensorsAndStillTests) {
   Dataset data = test::made_dataset(cabinet(0.2));
   for (double& s : data.tests[0].slip_m) s = std::clamp(s, -0.01, 0.01);
