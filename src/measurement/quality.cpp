@@ -173,9 +173,9 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     quality.findings.push_back(clock_sentence("the response", quality.late_s));
   } else {
     for (const std::size_t i : wrong) say(i);
-    // None alone is more than chance, and all go the same way.
+    // What alone may be chance is none where all go the same way.
     std::sort(each.begin(), each.end());
-    if (wrong.empty() && each.size() > 2 && each.size() == judged && each.front() * each.back() > 0)
+    if (each.size() > 2 && each.size() == judged && each.front() * each.back() > 0)
       quality.findings.push_back(fmt::format("in all {} tests whose slips tell, friction is steadiest if {}", judged,
                                              clock_sentence("the response", each[each.size() / 2])));
   }

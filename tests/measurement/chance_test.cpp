@@ -139,7 +139,7 @@ double misfit_of(const Judge& judge, const ModelFit& fit) {
 
 TEST(ChanceOfMisfit, HasItsSize) {
   const Dataset truth = test::made_dataset(test::cabinet(), 0);
-  const int sets = test::repeats_asked(40);
+  const int sets = test::repeats_asked(80);
   int rejected = 0;
   for (std::uint64_t key = 100; key < 100 + static_cast<std::uint64_t>(sets); ++key) {
     const Dataset data = test::with_noise(truth, key);
