@@ -62,8 +62,6 @@ function(freestand_tests MODULE)
   freestand_resolve(links ${ARG_LINKS})
   add_executable(test_${MODULE} ${sources})
   target_include_directories(test_${MODULE} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-  target_compile_definitions(test_${MODULE} PRIVATE
-    FREESTAND_DATA_DIR="${FREESTAND_DATA_DIR}" FREESTAND_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   freestand_batches(test_${MODULE} 16)
   target_link_libraries(test_${MODULE} PRIVATE ${links} GTest::gtest_main)
   freestand_test_program(test_${MODULE})
@@ -78,6 +76,8 @@ endfunction()
 # The same of GoogleTest programs. With batches the headers that nearly every test includes are read once for all of them.
 function(freestand_test_program TARGET)
   freestand_test_code(${TARGET})
+  target_compile_definitions(${TARGET} PRIVATE
+    FREESTAND_DATA_DIR="${FREESTAND_DATA_DIR}" FREESTAND_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   freestand_resolve(links fmt)
   target_link_libraries(${TARGET} PRIVATE ${links} GTest::gmock)
   if(NOT FREESTAND_BATCHES)

@@ -121,7 +121,7 @@ TEST(Quality, TellsOfALittleDelayThatAllHave) {
   Dataset data = test::made_dataset(cabinet(0.2));
   for (auto& t : data.tests) delay(t, 2);
   EXPECT_THAT(examined(data).findings,
-              Contains(testing::ContainsRegex("in all [34] tests whose slips tell, friction is steadiest if the "
+              Contains(testing::ContainsRegex("in [34] of [34] tests whose slips tell, friction is steadiest if the "
                                               "response runs 0.01[0-9]* s behind the floor's channel")));
 }
 
