@@ -169,7 +169,7 @@ class Import(InFolder):
         self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "1 cells where the table has 2 columns")
 
     def test_two_columns_of_one_name(self):
-        self.write("block_t01.csv", "t_ms;LVDT 1;LVDT 1\n0,0;0,0;1,0\n10,0;0,0;1,0\n20,0;0,0;1,0\n")
+        self.write("block_t01.csv", "t_ms;LVDT 1;LVDT 1\n" + "".join(f"{10 * i},0;0,0;1,0\n" for i in range(20)))
         self.fail_with(3, ["import", self.lab, "-o", self.folder / "wrong"], "block_t01.csv has two columns LVDT 1")
 
     def test_a_folder_with_results_is_not_overwritten(self):
