@@ -131,6 +131,7 @@ class Integration {
   bool meet_wall(int side, Edge edge);
   bool meet_walls_too();
   bool comes_through_wall() const;
+  bool reaches_wall(int side, Edge edge, double within, double faster_than) const;
   bool is_next_to(Edge edge, int side) const;
   void lie_against(int side);
   void keep_contents_velocity(double speed_before);

@@ -30,18 +30,23 @@ bool Integration::meet_wall(int side, Edge edge) {
   return true;
 }
 
+// The edge is free to meet that wall, no further off than this, and comes faster than that.
+bool Integration::reaches_wall(int side, Edge edge, double within, double faster_than) const {
+  const bool stays = state.at_wall() && state.is_by(side, edge);
+  if (!rig.laws->walls.on(side).stands || !is_next_to(edge, side) || stays) return false;
+  const EdgeNow now = edge_now(rig, state, side, edge);
+  return now.gap <= within && now.speed > faster_than;
+}
+
 // What a blow has turned towards a wall that it touches meets that wall at once.
 bool Integration::meet_walls_too() {
   const int most = blows_of_a_face(rig);
   for (const int side : sides(state)) {
-    if (!rig.laws->walls.on(side).stands) continue;
     bool met = true;
     for (int pass = 0; met && pass < most; ++pass) {
       met = false;
       for (const Edge edge : {Edge::upper, Edge::lower}) {
-        const EdgeNow now = edge_now(rig, state, side, edge);
-        const bool stays = state.at_wall() && state.is_by(side, edge);
-        if (!is_next_to(edge, side) || stays || now.gap > touching(rig) || now.speed <= -rig.slow()) continue;
+        if (!reaches_wall(side, edge, touching(rig), -rig.slow())) continue;
         if (!meet_wall(side, edge)) return false;
         met = true;
       }
@@ -54,11 +59,8 @@ bool Integration::meet_walls_too() {
 // An edge has reached its wall at this very instant, and comes on.
 bool Integration::comes_through_wall() const {
   for (const int side : sides(state))
-    for (const Edge edge : {Edge::upper, Edge::lower}) {
-      if (!rig.laws->walls.on(side).stands || !is_next_to(edge, side)) continue;
-      const EdgeNow now = edge_now(rig, state, side, edge);
-      if (now.gap <= 0 && now.speed > rig.slow() && !(state.at_wall() && state.is_by(side, edge))) return true;
-    }
+    for (const Edge edge : {Edge::upper, Edge::lower})
+      if (reaches_wall(side, edge, 0, rig.slow())) return true;
   return false;
 }
 

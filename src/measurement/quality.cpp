@@ -137,7 +137,7 @@ constexpr const char* check_sign = "looks mirrored: check the sign of slip_m aga
 // Signs and clocks of the slips by themselves. True: enough tests could be judged, so that no model is needed.
 bool look_at_slips(const Bench& bench, Quality& quality) {
   std::vector<std::size_t> wrong, mirrored;
-  std::vector<double> late, each;  // [s]; of tests that are wrong, of all that are judged
+  std::vector<double> late, each;  // [s]; of tests that are wrong, of all that are off by more than a sample
   std::size_t judged = 0;
   const auto tests = tests_of(bench.data(), Role::calibration);
   std::vector<Timing> timings;

@@ -3,20 +3,18 @@
 import csv
 import json
 import os
-import pathlib
 import pty
 import shutil
 import subprocess
-import tempfile
 import unittest
 
-from support import InFolder, command, h5py, run, slow_fit, study_text
+from support import InFolder, command, folder_of_class, h5py, run, slow_fit, study_text
 
 
 class Fit(InFolder):
     @classmethod
     def setUpClass(cls):
-        folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="freestand-test-")))
+        folder = folder_of_class(cls)
         cls.kept, study = folder / "out", folder / "study.yaml"
         study.write_text(study_text(samples=2000))
         cls.done = run(["run", study, "-o", cls.kept], 2)

@@ -1,15 +1,13 @@
 """A run that is killed at any moment is completed by --resume to the same bits."""
 
 import os
-import pathlib
 import random
 import signal
 import subprocess
-import tempfile
 import time
 import unittest
 
-from support import InFolder, command, datasets, finished_blocks, run, study_text
+from support import InFolder, command, datasets, finished_blocks, folder_of_class, run, study_text
 
 
 def ranks_of(launcher):
@@ -33,7 +31,7 @@ class KillAndResume(InFolder):
 
     @classmethod
     def setUpClass(cls):
-        folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="freestand-test-")))
+        folder = folder_of_class(cls)
         cls.study, cls.whole = folder / "study.yaml", folder / "whole"
         cls.study.write_text(study_text(samples=cls.samples))
         start = time.monotonic()

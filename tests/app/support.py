@@ -101,6 +101,11 @@ def result(folder):
     return datasets(folder / "samples.h5"), datasets(folder / "fragility.h5"), texts
 
 
+def folder_of_class(test_class):
+    """A folder that the tests of a class share."""
+    return pathlib.Path(test_class.enterClassContext(tempfile.TemporaryDirectory(prefix="freestand-test-")))
+
+
 class InFolder(unittest.TestCase):
     """Each test has a folder of its own."""
 
