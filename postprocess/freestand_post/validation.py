@@ -83,7 +83,8 @@ class Validation:
 
 # What the laboratory may state wrongly: candidates beside the effects.
 FAULTS = {"width_as_stated": "the stated width", "centre_height_as_stated": "the stated height of the centre of mass",
-          "floor_gain_as_stated": "the gain of the floor's accelerometer"}
+          "floor_gain_as_stated": "the gain of the floor's accelerometer",
+          "clock_as_stated": "the clock of the responses"}
 
 
 def effect(name):

@@ -27,6 +27,29 @@ FloorMotion with_noise(const FloorMotion& motion, double horizontal, double vert
   return piecewise_linear(motion.name, motion.knot_s[1] - motion.knot_s[0], a, v);
 }
 
+// The motion at so many steps from its beginning: between two points by the cubic through the values and rates of both,
+// accelerations by the line. Before it and after it as it begins and ends.
+HistoryPoint at_step(const std::vector<HistoryPoint>& points, double step, double dt_s) {
+  if (points.empty()) return {};
+  const double within = std::clamp(step, 0.0, static_cast<double>(points.size() - 1));
+  const auto i = static_cast<std::size_t>(within);
+  const double part = within - static_cast<double>(i);
+  HistoryPoint point = points[i];
+  if (part == 0) return point;
+  const HistoryPoint& next = points[i + 1];
+  const auto line = [&](double& from, double to) { from += part * (to - from); };
+  const auto cubic = [&](double& from, double rate, double to, double next_rate) {
+    const double rest = 1 - part;
+    from = rest * rest * (from * (1 + 2 * part) + rate * part * dt_s) +
+           part * part * (to * (3 - 2 * part) - next_rate * rest * dt_s);
+  };
+  cubic(point.slip_m, point.slip_velocity_mps, next.slip_m, next.slip_velocity_mps);
+  cubic(point.rotation_rad, point.rotation_rate_radps, next.rotation_rad, next.rotation_rate_radps);
+  line(point.slip_velocity_mps, next.slip_velocity_mps);
+  line(point.acceleration_mps2, next.acceleration_mps2);
+  return point;
+}
+
 Reach reach_of(const Test& test) {
   Reach reach;
   for (const double slip : test.slip_m) {
@@ -95,31 +118,17 @@ Prediction predict(const ModelSpec& model, const Test& test, std::span<const dou
   settings.free_vibration_s = 0;
   thread_local History history;
   history.step_s = test.dt_s;
+  history.forces = !test.block_acceleration_mps2.empty();
   out.response = respond(body, shaking, settings, &history);
   const std::size_t n = std::max({test.slip_m.size(), test.rotation_rad.size(), test.block_acceleration_mps2.size()});
-  const auto& points = history.points;
-  const auto at = [&](std::size_t i) {
-    return points.empty() ? HistoryPoint{} : points[std::min(i, points.size() - 1)];
-  };
+  const double steps_behind = model.clock_behind.of(x) / test.dt_s;
   for (std::size_t i = 0; i < n; ++i) {
-    const HistoryPoint point = at(i);
+    const HistoryPoint point = at_step(history.points, static_cast<double>(i) - steps_behind, test.dt_s);
     out.slip_m.push_back(point.slip_m);
     out.rotation_rad.push_back(point.rotation_rad);
     out.slip_velocity_mps.push_back(point.slip_velocity_mps);
     out.mode.push_back(point.mode);
-  }
-  if (!test.block_acceleration_mps2.empty()) {
-    // Absolute acceleration of the centre of mass: that of the floor, and the change of its velocity relative to it.
-    const double h = body.block.height_m;
-    const auto speed = [&](std::size_t i) {
-      const HistoryPoint point = at(std::min(i, n - 1));
-      return point.slip_velocity_mps + h * std::cos(point.rotation_rad) * point.rotation_rate_radps;
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, n - 1);
-      const double span = static_cast<double>(after - before) * test.dt_s;
-      out.block_acceleration_mps2.push_back(at(i).floor_acceleration_mps2 + (speed(after) - speed(before)) / span);
-    }
+    if (history.forces) out.block_acceleration_mps2.push_back(point.acceleration_mps2);
   }
   return out;
 }

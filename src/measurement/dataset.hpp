@@ -25,11 +25,12 @@ struct Noise {
   double slip_m = 0, rotation_rad = 0, block_acceleration_mps2 = 0, floor_acceleration_mps2 = 0;
 };
 
-// How far off a stated dimension or the gain of the floor's accelerometer may be: standard deviations, over what is stated.
-// As assumed where the laboratory states none: a tape on half a metre, a centre of mass as it is found by balancing the specimen on an
-// edge, an accelerometer as its maker calibrates it.
+// How far off a stated dimension or the gain of the floor's accelerometer may be: standard deviations, over what is stated;
+// and by how much the clock of the responses may differ from the floor's [s]. As assumed where the laboratory states none:
+// a tape on half a metre, a centre of mass as it is found by balancing the specimen on an edge, an accelerometer as its
+// maker calibrates it, recorders that one signal starts, each at its next sample of some 0.03 s at most.
 struct Tolerance {
-  double width = 0.01, centre_height = 0.02, floor_gain = 0.01;
+  double width = 0.01, centre_height = 0.02, floor_gain = 0.01, clock_s = 0.01;
 };
 
 // What is known of a test as single numbers.

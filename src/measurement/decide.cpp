@@ -311,7 +311,7 @@ class Decision {
     const Candidate* best = nullptr;
     for (const Candidate& c : d_.candidates)
       if (c.visible && !c.laboratory && (!best || c.misfit_of_fit < best->misfit_of_fit)) best = &c;
-    const OwnFriction& own = *d_.own_friction;
+    const OwnNumbers& own = *d_.own_friction;
     d_.verdict = Verdict::none;
     say(fmt::format(
         "friction differs from test to test by {:.2g} % (standard deviation): with a friction of its own in each "
@@ -372,18 +372,15 @@ const char* name(Reason reason) {
 
 bool effect_may_help(const Diagnosis& d) { return !help_of(d) || !help_of(d)->chance(); }
 
-bool only_friction_scatters(const Diagnosis& d) {
-  if (!d.own_friction || !d.friction_of_base) return false;
+double least_misfit(const Diagnosis& d) {
   double least = d.base.misfit_of_fit;
   for (const Candidate& c : d.candidates)
     if (c.visible && c.fit.left_out_refitted) least = std::min(least, c.misfit_of_fit);
-  return explains_scatter(*d.own_friction, total(d.samples), least);
+  return least;
 }
 
-bool explains_scatter(const OwnFriction& own, double samples, double least_misfit) {
-  const auto numbers = static_cast<double>(own.factors.size());
-  return own.misfit <= adequate * adequate * samples &&
-         least_misfit - own.misfit > gsl_cdf_chisq_Pinv(1 - chance_level, numbers);
+bool only_friction_scatters(const Diagnosis& d) {
+  return d.own_friction && d.friction_of_base && explain_tests(*d.own_friction, total(d.samples), least_misfit(d));
 }
 
 void decide(const Bench& bench, Diagnosis& d, const Questions& ask) { Decision(bench, d, ask).take(); }

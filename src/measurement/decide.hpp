@@ -30,8 +30,8 @@ bool effect_may_help(const Diagnosis&);
 // A friction of its own in each test takes the base to the noise, and the best candidate misses the tests by more than so
 // many numbers gain by chance.
 bool only_friction_scatters(const Diagnosis&);
-// Likewise, of any model: it comes near enough that way, and below the least misfit that effects reach.
-bool explains_scatter(const OwnFriction&, double samples, double least_misfit);
+// Of the base and of what was fitted to the end, with the fit to all tests.
+double least_misfit(const Diagnosis&);
 
 // Fills verdict, reason, effects, best, rivals, chances, differences, sentences, and orders the candidates.
 void decide(const Bench&, Diagnosis&, const Questions&);

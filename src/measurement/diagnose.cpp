@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <freestand/error.hpp>
 #include <map>
 
@@ -25,7 +26,7 @@ void withdraw(Diagnosis& d) {
   d.best.reset();
   for (Candidate& c : d.candidates) c.rival = false;
   d.sentences = {
-      "the measurements look wrong in a sign, a time or a unit (see the findings): no effect can be named before "
+      "the measurements look wrong in a sign, a clock or a unit (see the findings): no effect can be named before "
       "that is settled"};
 }
 
@@ -46,6 +47,11 @@ class Diagnoser : PairSearch {
     fit(singles);
     judge();
     look_for_chance();
+    if (clocks_differ()) {
+      out_.quality.findings.push_back(clocks_sentence());
+      withdraw(out_);
+      return std::move(out_);
+    }
     search_more();
     decide_all();
     name_untried();
@@ -125,14 +131,44 @@ class Diagnoser : PairSearch {
       out_.chances.clear();
       out_.strays = judge.strays();
       if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
-      if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance())
+      if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance()) {
         out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
+        own_clocks_ = own_clocks(bench_, judge, out_.base.fit, jobs_);
+      }
     };
     ask();
-    if (only_friction_scatters(out_) || !friction_scatters_beside_the_best()) return;
+    if (clocks_differ() || only_friction_scatters(out_) || !friction_scatters_beside_the_best()) return;
     judge();
     ask();
   }
+
+  // What every other model leaves at the least.
+  double least_of_all_else() const { return std::min(least_misfit(out_), out_.own_friction->misfit); }
+  // The tests whose clocks differ by more than half a sampling step.
+  std::vector<std::string> late_tests() const {
+    std::vector<std::string> late;
+    const auto tests = tests_of(bench_.data(), Role::calibration);
+    for (std::size_t k = 0; own_clocks_ && k < tests.size(); ++k) {
+      const Test& test = bench_.test(tests[k]);
+      const double behind_s = own_clocks_->of_tests[k];
+      if (std::abs(behind_s) > 0.5 * test.dt_s)
+        late.push_back(clock_sentence("the response of test " + test.id + " runs", behind_s));
+    }
+    return late;
+  }
+  // Does a clock of its own in each test take the base to the noise, as no effect does and no friction of its own?
+  bool clocks_differ() const {
+    return !late_tests().empty() && explain_tests(*own_clocks_, total(out_.samples), least_of_all_else());
+  }
+  std::string clocks_sentence() const {
+    const auto error = [&](double misfit) { return std::sqrt(misfit / total(out_.samples)); };
+    return fmt::format(
+        "{}: with that the model leaves {:.2f} where noise explains 1, and {:.2f} with the best of all else; check the "
+        "clocks of the channels",
+        fmt::join(late_tests(), ", "), error(own_clocks_->misfit), error(least_of_all_else()));
+  }
+
+  std::optional<OwnNumbers> own_clocks_;  // with the base, where it leaves more than chance
 
   // Where even the best effect leaves more than chance: does it less with a friction of its own in each test, and by more
   // than one more effect would? Then misfits allow for such a scatter.
@@ -140,9 +176,9 @@ class Diagnoser : PairSearch {
     const Candidate& known = best();
     if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return false;
     const Judge judge = judge_of(known.fit);
-    OwnFriction own = own_friction(bench_, judge, known.fit, jobs_);
+    OwnNumbers own = own_friction(bench_, judge, known.fit, jobs_);
     const double least = total(judge.misfit_of_fit(known.fit)) - chance_of_another(known).observed;
-    if (!explains_scatter(own, total(judge.samples()), least)) return false;
+    if (!explain_tests(own, total(judge.samples()), least)) return false;
     out_.friction_scatter = own.scatter;
     out_.own_friction = std::move(own);
     out_.friction_of_base = false;

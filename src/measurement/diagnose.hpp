@@ -8,7 +8,7 @@
 //   3. Histories: models are compared by their misfit G = r^T C^-1 r of the tests left out (judge.hpp), and by chance that
 //      is computed (chance.hpp): may the largest gain of all effects tried be chance, may the lead of the best over a
 //      rival? Beside the effects stand faults of the laboratory (laboratory.hpp), and a friction of its own in each test
-//      (own_friction.hpp). Peaks and outcomes: by paired differences of the left-out scores with their standard error.
+//      (own_numbers.hpp). Peaks and outcomes: by paired differences of the left-out scores with their standard error.
 //
 // Tests that say only whether the specimen overturned go their own way (diagnose_outcomes.hpp).
 //
@@ -29,7 +29,7 @@
 #include "measurement/chance.hpp"
 #include "measurement/judge.hpp"
 #include "measurement/model_fit.hpp"
-#include "measurement/own_friction.hpp"
+#include "measurement/own_numbers.hpp"
 #include "measurement/quality.hpp"
 
 namespace freestand::measurement {
@@ -65,14 +65,14 @@ struct Diagnosis {
   Reason reason = Reason::none;
   std::vector<std::string> effects;  // to add, in order; ambiguous: the rivals
   Candidate base;
-  std::vector<Candidate> candidates;        // the best, its rivals, others that were fitted to the end, the rest
-  std::optional<std::size_t> best;          // of the candidates: the one that the verdict speaks of
-  std::vector<double> noise_floor;          // error that the best model itself would show, of each calibration test
-  std::vector<double> samples;              // of each calibration test
-  std::vector<double> strays;               // Judge::strays() of the base
-  std::vector<Chance> chances;              // each that decided
-  std::optional<OwnFriction> own_friction;  // of the base, or of the best effect, where it leaves more than chance
-  bool friction_of_base = true;             // whose
+  std::vector<Candidate> candidates;       // the best, its rivals, others that were fitted to the end, the rest
+  std::optional<std::size_t> best;         // of the candidates: the one that the verdict speaks of
+  std::vector<double> noise_floor;         // error that the best model itself would show, of each calibration test
+  std::vector<double> samples;             // of each calibration test
+  std::vector<double> strays;              // Judge::strays() of the base
+  std::vector<Chance> chances;             // each that decided
+  std::optional<OwnNumbers> own_friction;  // of the base, or of the best effect, where it leaves more than chance
+  bool friction_of_base = true;            // whose
   // Standard deviation of ln friction from test to test that is allowed for, so that misfits count what it does not explain;
   // 0: as it makes no difference.
   double friction_scatter = 0;

@@ -14,6 +14,9 @@
 //                                                                  to one digit; half a decade further, sqrt(10), is
 //                                                                  another order of magnitude
 //   fault_deviations  how far a dimension or a gain is sought      of normal deviates one in 370 lies further off
+//   longest_lag_s     how far a clock is sought                    a strong motion swings to and fro in 0.3 s and more; half
+//                                                                  of that away a response turned round looks like one
+//                                                                  that is late
 #pragma once
 
 namespace freestand::measurement {
@@ -22,5 +25,6 @@ inline constexpr double chance_level = 0.05;
 inline constexpr double adequate = 1.4142135623730951;
 inline constexpr double beyond_practice = 3.1622776601683795;
 inline constexpr double fault_deviations = 3;
+inline constexpr double longest_lag_s = 0.15;
 
 }  // namespace freestand::measurement

@@ -10,6 +10,7 @@
 #include "base/units.hpp"
 #include "measurement/findings_motion.hpp"
 #include "measurement/ground.hpp"
+#include "measurement/plausible_channels.hpp"
 #include "measurement/plausible_offsets.hpp"
 #include "measurement/score.hpp"
 #include "measurement/smooth.hpp"
@@ -43,6 +44,7 @@ class Doubter {
         say("the floor's channel of test {} stays at its extreme value for several samples: the sensor looks clipped",
             test.id);
       offsets(i);
+      channels(i);
       if (test.start.upright_at_rest() &&
           (moves_before_floor(bench_, i, Channel::slip) || moves_before_floor(bench_, i, Channel::rotation)))
         early_.add(test, 0);
@@ -123,6 +125,28 @@ class Doubter {
     out_.spoilt_tests += spoilt && test.role == Role::calibration;
   }
 
+  void channels(std::size_t i) {
+    const Test& test = bench_.test(i);
+    for (int c = 0; c < channel_count; ++c) {
+      const auto channel = static_cast<Channel>(c);
+      if (const double frozen = frozen_s(bench_, i, channel); frozen > 0) frozen_[c].add(test, frozen);
+      for (std::size_t other = 0; other < bench_.size(); ++other)
+        if (other != i && same_history(bench_, i, other, channel)) {
+          copied_[c].add(test, 0);
+          break;
+        }
+    }
+    if (test.start.upright_at_rest() && turns_against_floor(bench_, i)) turned_.add(test, 0);
+    const double share = share_of_floor(bench_, i);
+    if (share != 0 && !is_nearest_to_one(share)) shares_.add(test, share);
+  }
+
+  // Of what is met where a sign or a unit is mistaken: in g instead of m/s2, m/s2 taken as g, either turned round.
+  static bool is_nearest_to_one(double share) {
+    const double half_way = std::sqrt(standard_gravity_mps2);
+    return share > 1 / half_way && share < half_way;
+  }
+
   void tell() {
     const auto about = [&](const Seen& seen, const char* text, const char* question, bool spoils = true) {
       out_.spoilt_tests += spoils ? seen.calibration : 0;
@@ -142,6 +166,18 @@ class Doubter {
     about(late_rotations_, "the rotation of {} does not start at zero ({:.2g} rad)", subtract, false);
     about(floors_, "the floor of {} is off zero before and after the shaking ({:.2g} m/s2)",
           ": subtract that from floor_acceleration_mps2, unless the floor is tilted", false);
+    for (int c = 0; c < channel_count; ++c) {
+      const std::string channel = name(static_cast<Channel>(c));
+      about(frozen_[c],
+            (channel + " of {} stays at one value for {:.2g} s, where its sensor's noise changes it").c_str(),
+            ": did the recording stop?");
+      about(copied_[c], (channel + " of {} is one and the same, sample by sample").c_str(),
+            ": one file was taken for another");
+    }
+    about(turned_, "the rotation of {} looks mirrored: the floor turns the block the wrong way",
+          ": rotation_rad is positive clockwise");
+    about(shares_, "block_acceleration_mps2 of {} is {:.3g} times the floor's before anything moves",
+          ": check its sign, and that it is in m/s2");
     if (!fast_.empty())
       say("the slip of {} is faster than the floor's velocities differ, which friction alone does not bring about: is "
           "floor_acceleration_mps2 in m/s2?",
@@ -183,13 +219,14 @@ class Doubter {
     void add(const Test& test, double value) {
       ids.push_back(test.id);
       calibration += test.role == Role::calibration;
-      most = std::max(most, value);
+      if (std::abs(value) > std::abs(most)) most = value;
     }
   };
 
   const Bench& bench_;
   Doubts out_;
-  Seen slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_;
+  Seen slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_, turned_, shares_;
+  Seen frozen_[channel_count], copied_[channel_count];
   std::vector<std::string> fast_;
 };
 

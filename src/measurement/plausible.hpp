@@ -20,7 +20,7 @@ std::string held_out_note(const Dataset&, const std::vector<std::string>& ids);
 // under which the block moves though it stays below 0.02 g, or three times as fast as the floor's velocities differ (other
 // units, or a dead channel; from 1.5 times on it is said, and spoils nothing); a floor that stays at its extreme; slips,
 // rotations and floors with an offset (plausible_offsets.hpp), which spoils the test from eight times the noise, or 2 % of the
-// floor's peak, on. Of all
+// floor's peak, on; channels that freeze, are another test's, are mirrored or in another unit (plausible_channels.hpp). Of all
 // calibration tests together: a sensor that scatters from sample to sample three times as much as the data set states, or a
 // hundredth of it.
 Doubts doubts(const Bench&);

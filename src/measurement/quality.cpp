@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "measurement/findings_motion.hpp"
+#include "measurement/laboratory.hpp"
+#include "measurement/levels.hpp"
 #include "measurement/plausible.hpp"
 #include "measurement/timing.hpp"
 
@@ -13,7 +15,6 @@ namespace freestand::measurement {
 namespace {
 
 constexpr double much_closer = 1.0;  // of the mean score: the error falls to 60 %
-constexpr double still_seconds = 0.15;
 
 // A data set like this one, but for its signs and times.
 Dataset changed(const Dataset& data, bool mirror_slip, bool mirror_rotation, double late_s) {
@@ -127,9 +128,8 @@ void look_at_sensors(const Bench& bench, Quality& quality) {
   }
 }
 
-std::string clock_sentence(const std::string& whose, double late_s) {
-  return fmt::format("{} runs {:.3f} s {} the floor's channel: check the clocks of the channels", whose,
-                     std::abs(late_s), late_s > 0 ? "behind" : "ahead of");
+std::string check_clock(const std::string& whose, double late_s) {
+  return clock_sentence(whose + " runs", late_s) + ": check the clocks of the channels";
 }
 
 constexpr const char* check_sign = "looks mirrored: check the sign of slip_m against that of the floor";
@@ -143,13 +143,13 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
   std::vector<Timing> timings;
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const double dt = bench.test(i).dt_s;
-    timings.push_back(dt > 0 ? slip_timing(bench, i, static_cast<int>(still_seconds / dt)) : Timing{});
+    timings.push_back(dt > 0 ? slip_timing(bench, i, static_cast<int>(longest_lag_s / dt)) : Timing{});
   }
   const auto say = [&](std::size_t i) {
     const Test& test = bench.test(i);
     const std::string whose = "the slip of test " + test.id;
     quality.findings.push_back((timings[i].mirrored ? fmt::format("{} {}", whose, check_sign)
-                                                    : clock_sentence(whose, timings[i].late_steps * test.dt_s)) +
+                                                    : check_clock(whose, timings[i].late_steps * test.dt_s)) +
                                held_out_note(bench.data(), {test.id}));
   };
   for (const std::size_t i : tests) {
@@ -170,15 +170,14 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
   } else if (most(wrong.size())) {
     std::nth_element(late.begin(), late.begin() + static_cast<long>(late.size() / 2), late.end());
     quality.late_s = late[late.size() / 2];
-    quality.findings.push_back(clock_sentence("the response", quality.late_s));
+    quality.findings.push_back(check_clock("the response", quality.late_s));
   } else {
     for (const std::size_t i : wrong) say(i);
     // What alone may be chance is none where most go the same way, and none the other.
     std::sort(each.begin(), each.end());
     if (each.size() > 2 && 3 * each.size() >= 2 * judged && each.front() * each.back() > 0)
       quality.findings.push_back(fmt::format("in {} of {} tests whose slips tell, friction is steadiest if {}",
-                                             each.size(), judged,
-                                             clock_sentence("the response", each[each.size() / 2])));
+                                             each.size(), judged, check_clock("the response", each[each.size() / 2])));
   }
   for (const std::size_t i : tests_of(bench.data(), Role::holdout)) {
     const bool said = timings[i].mirrored ? quality.mirrored_slip : quality.late_s * timings[i].late_steps > 0;
@@ -209,7 +208,7 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   const auto tests = tests_of(bench.data(), Role::calibration);
   if (tests.empty() || !bench.test(tests.front()).has_history() || fit.score < 2 * std::log(2.0)) return quality;
   const double dt = bench.test(tests.front()).dt_s;
-  const int most = std::max(1, static_cast<int>(still_seconds / dt));
+  const int most = std::max(1, static_cast<int>(longest_lag_s / dt));
   std::vector<double> lags;  // [s]
   for (int late = -most; late <= most && !settled; late += std::max(1, most / 15)) lags.push_back(late * dt);
   bool rotates = false;
@@ -242,7 +241,7 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   if (lags[best] != 0 && scores[2 + best][0] < fit.score - much_closer && !quality.mirrored_slip) {
     quality.late_s = lags[best];
     quality.findings.push_back(fmt::format("{}; shifted by that the model comes {:.1f} times closer",
-                                           clock_sentence("the response", lags[best]),
+                                           check_clock("the response", lags[best]),
                                            std::exp((fit.score - scores[2 + best][0]) / 2)));
   }
   return quality;

@@ -261,7 +261,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
                                         {"quiet_s", s.quiet_s}};
   }
   json["friction_scatter"] = d.own_friction ? Json{{"standard_deviation_ln", d.own_friction->scatter},
-                                                   {"factors", d.own_friction->factors},
+                                                   {"factors", d.own_friction->of_tests},
                                                    {"chi_square_fit", number_or_null(d.own_friction->misfit)}}
                                             : Json(nullptr);
   if (d.own_friction)

@@ -317,8 +317,9 @@ class Importer {
     noise("slip_m", noise_.slip_m), noise("rotation_rad", noise_.rotation_rad);
     noise("block_acceleration_mps2", noise_.block_acceleration_mps2);
     noise("floor_acceleration_mps2", noise_.floor_acceleration_mps2);
-    text += fmt::format("tolerance: {{width: {}, centre_height: {}, floor_gain: {}}}\ntests:\n", lab_.tolerance.width,
-                        lab_.tolerance.centre_height, lab_.tolerance.floor_gain);
+    text += fmt::format("tolerance: {{width: {}, centre_height: {}, floor_gain: {}, clock_s: {}}}\ntests:\n",
+                        lab_.tolerance.width, lab_.tolerance.centre_height, lab_.tolerance.floor_gain,
+                        lab_.tolerance.clock_s);
     for (const TestOfLab& t : tests_)
       text += fmt::format("  - {{id: {0}, file: {0}.csv, role: {1}}}\n", t.test.id,
                           t.test.role == measurement::Role::holdout ? "holdout" : "calibration");

@@ -26,6 +26,11 @@ constexpr Range tolerance_range = {.lower = 0,
                                    .upper = 0.1,
                                    .lower_open = false,
                                    .why = "it is a standard deviation over what is stated, 0.01 is 1 %"};
+constexpr Range clock_range = {
+    .lower = 0,
+    .upper = 0.05,
+    .lower_open = false,
+    .why = "it is a standard deviation [s]; clocks that differ by more than three of it are bad data"};
 constexpr Range noise_range = {.lower = 0, .why = "errors are told in units of it, so that it must be above zero"};
 const std::vector<std::string> peak_keys = {"peak_slip_m",         "residual_slip_m",           "peak_rotation_rad",
                                             "peak_acceleration_g", "block_peak_acceleration_g", "overturned"};
@@ -73,6 +78,7 @@ measurement::Tolerance read_tolerance(Section& file) {
   tolerance.width = section.number("width", tolerance.width, tolerance_range);
   tolerance.centre_height = section.number("centre_height", tolerance.centre_height, tolerance_range);
   tolerance.floor_gain = section.number("floor_gain", tolerance.floor_gain, tolerance_range);
+  tolerance.clock_s = section.number("clock_s", tolerance.clock_s, clock_range);
   section.finish();
   return tolerance;
 }

@@ -38,8 +38,9 @@ from coverage import interval_of_share
 COLUMNS = ["right", "ambiguous", "wrong", "none", "unknown", "failed"]
 STUDY = "measurements: {}/dataset.yaml\nmodel: {{friction: {{mu: {{calibrate: [0.03, 1.2]}}}}, effects: []}}\n"
 # Faults that a verdict may name, by a word of its sentence; noise and friction that scatter spoil no verdict.
-DIMENSIONS = {"gain": "accelerometer", "wrong_width": "width"}
-FAULTS = ["coloured_noise", "drift", "gain", "wrong_width", "friction_scatter", "understated_noise", "overstated_noise"]
+NAMED = {"gain": "accelerometer", "wrong_width": "width", "late_clock": "clock", "one_late_clock": "clock"}
+FAULTS = ["coloured_noise", "drift", "gain", "wrong_width", "friction_scatter", "understated_noise", "overstated_noise",
+          "late_clock", "one_late_clock"]
 SIZES = [1, 2, 3, 4, 6, 12, 30, math.inf]  # [noise units] of the plain model
 LEAST_BASE = 4.0  # [noise units]
 AT_NOISE = 1.2
@@ -92,7 +93,7 @@ def answer_kind(answer):
 def judged(answer, diagnosis):
     verdict, named, hidden = diagnosis["verdict"], set(diagnosis["effects"]), set(answer["effects"])
     kind, twins = answer_kind(answer), set(answer["twins"])
-    fault = DIMENSIONS.get(answer.get("fault"))
+    fault = NAMED.get(answer.get("fault"))
     if verdict == "bad_data":
         return "right" if fault and fault in " ".join(diagnosis["sentences"]) else "wrong"
     if kind == "outside":

@@ -47,6 +47,18 @@ void misread_floor(MadeSet& set, KeyedRandom& random) {
     for (double& value : test.measured_floor.horizontal_mps2) value *= gain;
 }
 
+// The first tests only, or all: those responses are written as if they came so much later, or sooner.
+void shift_clock(MadeSet& set, KeyedRandom& random, std::size_t tests) {
+  const double behind_s = (random.chance(0.5) ? 1 : -1) * random.uniform(0.01, 0.025);
+  for (std::size_t i = 0; i < std::min(tests, set.tests.size()); ++i)
+    for (std::vector<double>* samples : {&set.tests[i].slip_m, &set.tests[i].rotation_rad}) {
+      const std::vector<double> before = *samples;
+      const long steps = std::lround(behind_s / set.tests[i].floor.dt_s), last = static_cast<long>(before.size()) - 1;
+      for (long k = 0; k <= last; ++k)
+        (*samples)[static_cast<std::size_t>(k)] = before[static_cast<std::size_t>(std::clamp(k - steps, 0L, last))];
+    }
+}
+
 // What the specimen does with the friction of that test, and the sensors' noise as it was. A test that would overturn
 // keeps the friction of the set.
 void scatter_friction(MadeSet& set, KeyedRandom& random, double step_s) {
@@ -68,7 +80,8 @@ void scatter_friction(MadeSet& set, KeyedRandom& random, double step_s) {
 
 const std::vector<std::string>& laboratory_faults() {
   static const std::vector<std::string> all{
-      "coloured_noise", "drift", "gain", "wrong_width", "friction_scatter", "understated_noise", "overstated_noise"};
+      "coloured_noise",   "drift",      "gain",          "wrong_width", "friction_scatter", "understated_noise",
+      "overstated_noise", "late_clock", "one_late_clock"};
   return all;
 }
 
@@ -85,6 +98,8 @@ void spoil(MadeSet& set, const std::string& fault, KeyedRandom random, double st
   if (fault == "friction_scatter") scatter_friction(set, random, step_s);
   if (fault == "understated_noise") set.stated_noise = 0.5;
   if (fault == "overstated_noise") set.stated_noise = 2;
+  if (fault == "late_clock") shift_clock(set, random, set.tests.size());
+  if (fault == "one_late_clock") shift_clock(set, random, 1);
 }
 
 }  // namespace freestand::test

@@ -8,6 +8,8 @@
 //   friction_scatter   friction that differs from test to test by 6 % (standard deviation of its logarithm)
 //   understated_noise  noise of slip and rotation that is stated half as large as it is
 //   overstated_noise   and twice as large
+//   late_clock         responses that are written 10 to 25 ms too late, or too early
+//   one_late_clock     those of the first test only
 #pragma once
 
 #include "hidden_effect/make_set.hpp"

@@ -261,7 +261,7 @@ TEST(DecideByChance, FrictionThatScattersNeedsNoEffect) {
   for (const double lead : {9.0, 10.0}) {
     Diagnosis d = undecided(bench, 0);
     d.candidates = {candidate(bench, {"reduced_base"}, 1.05, 1.0)};
-    d.own_friction = OwnFriction{{1, 1.05, 0.95, 1}, 0.04, d.candidates[0].misfit_of_fit - lead};
+    d.own_friction = OwnNumbers{{1, 1.05, 0.95, 1}, 0.04, d.candidates[0].misfit_of_fit - lead};
     decide(bench, d, by_misfit());
     EXPECT_EQ(d.verdict, lead < 9.5 ? Verdict::missing : Verdict::none) << lead;
   }

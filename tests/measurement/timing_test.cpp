@@ -116,6 +116,57 @@ TEST(Quality, SaysOnceWhatIsWrongWithAll) {
   EXPECT_THAT(q.findings[0], HasSubstr("behind the floor's channel"));
 }
 
+// What a channel of one test cannot be, whatever the friction.
+TEST(Quality, AChannelOfOneTest) {
+  Specimen rocks = cabinet(0.9);
+  rocks.block = Block::rectangular(0.3, 1.2, 100);
+  rocks.model = Model::slide_rock;
+  Dataset slid = test::made_dataset(cabinet(0.2));
+  const Dataset rocked = test::made_dataset(rocks);
+  const auto said = [](Dataset data, auto change, const char* what) {
+    EXPECT_THAT(doubts(Bench(data, 0)).sentences, Not(Contains(HasSubstr(what))));
+    change(data.tests[1], data.tests[2]);
+    const Doubts found = doubts(Bench(data, 0));
+    EXPECT_THAT(found.sentences, Contains(HasSubstr(what)));
+    EXPECT_GT(found.spoilt_tests, 0U) << what;
+  };
+  said(
+      slid, [](measurement::Test& one, measurement::Test& other) { one.slip_m = other.slip_m; },
+      "slip_m of t2, t3 is one and the same, sample by sample: one file was taken for another");
+  said(
+      slid,
+      [](measurement::Test& one, measurement::Test&) { std::fill_n(one.slip_m.begin() + 350, 40, one.slip_m[350]); },
+      "slip_m of t2 stays at one value for 0.2 s, where its sensor's noise changes it: did the recording stop?");
+  said(
+      rocked,
+      [](measurement::Test& one, measurement::Test&) {
+        for (double& theta : one.rotation_rad) theta = -theta;
+      },
+      "the rotation of t2 looks mirrored: the floor turns the block the wrong way");
+  for (measurement::Test& test : slid.tests) {  // what a sensor on the block reads, of 0.05 m/s2
+    test.block_acceleration_mps2.assign(test.slip_m.size(), 0);
+    test.block_acceleration_mps2 =
+        predict(test::free_friction(), test, std::vector<double>{0.2}).block_acceleration_mps2;
+    for (std::size_t k = 0; k < test.slip_m.size(); ++k)
+      test.block_acceleration_mps2[k] += 0.05 * std::cos(7 * static_cast<double>(k * k));
+  }
+  for (const double factor : {-1.0, 1 / 9.80665, 9.80665})
+    said(
+        slid,
+        [&](measurement::Test& one, measurement::Test&) {
+          for (double& a : one.block_acceleration_mps2) a *= factor;
+        },
+        "times the floor's before anything moves: check its sign, and that it is in m/s2");
+}
+
+// A reading in steps larger than its noise stays at one value of its own accord.
+TEST(Quality, ARoundedChannelIsNotFrozen) {
+  Dataset data = test::made_dataset(cabinet(0.2));
+  for (measurement::Test& test : data.tests)
+    for (double& s : test.slip_m) s = std::round(s / 0.002) * 0.002;
+  EXPECT_THAT(doubts(Bench(data, 0)).sentences, Not(Contains(HasSubstr("stays at one value"))));
+}
+
 // Too little for a verdict from the slips alone, but the same way in every test.
 TEST(Quality, TellsOfALittleDelayThatAllHave) {
   Dataset data = test::made_dataset(cabinet(0.2));
