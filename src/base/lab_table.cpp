@@ -88,11 +88,15 @@ LabTable read_lab_table(const std::filesystem::path& file) {
       way = w;
       // The names stand right above, or with a line of units between.
       Cells names = cells_of(above, w.separator);
-      if (names.size() != cells.size()) names = cells_of(before, w.separator);
+      if (names.size() == cells.size())
+        table.units = cells_of(before, w.separator);
+      else
+        names = cells_of(before, w.separator);
       if (names.size() != cells.size()) {
         names.clear();
         for (std::size_t i = 0; i < cells.size(); ++i) names.push_back(std::to_string(i + 1));
       }
+      if (table.units.size() != names.size()) table.units.clear();
       table.columns = names;
       table.values.resize(cells.size());
     }

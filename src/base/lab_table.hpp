@@ -11,6 +11,7 @@ namespace freestand {
 struct LabTable {
   std::filesystem::path file;
   std::vector<std::string> columns;         // as the file names them; without names "1", "2", ...
+  std::vector<std::string> units;           // of the line between names and numbers; empty: there is none
   std::vector<std::vector<double>> values;  // of each column
   std::vector<int> lines;                   // of each row, 1 first
 

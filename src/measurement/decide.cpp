@@ -34,14 +34,15 @@ class Decision {
       best = least_left_out();
       friction_scatters();
     } else if (best) {
-      mark_rivals(*best);
+      const Candidate* chosen = best;
+      mark_rivals(*chosen);
       const std::vector<const Candidate*> rivals = rivals_by_left_out();
       const bool suffices =
           enough(*best) || std::any_of(rivals.begin(), rivals.end(), [&](const Candidate* c) { return enough(*c); });
       best = rivals.front();
       const std::string ahead = but_for(*best);
       if (suffices)
-        name_rivals(rivals, ahead);
+        name_rivals(rivals, ahead, *chosen);
       else
         nothing_suffices(*best, ahead);
     } else {
@@ -181,8 +182,20 @@ class Decision {
   }
 
   bool by_chance(const Candidate& best, const Candidate& rival) {
-    return chance_of(lead_question, fmt::format("{} before {}", joined(best.effects), joined(rival.effects)),
-                     [&] { return ask_.lead(best, rival); });
+    return chance_of(lead_question, lead_of(best, rival), [&] { return ask_.lead(best, rival); });
+  }
+  static std::string lead_of(const Candidate& best, const Candidate& rival) {
+    return fmt::format("{} before {}", joined(best.effects), joined(rival.effects));
+  }
+  // Which of these it was that makes the rival as good.
+  std::string why_as_good(const Candidate& best, const Candidate& rival) const {
+    const std::string name = joined(rival.effects);
+    if (const Chance* lead = told_of(lead_question, lead_of(best, rival)))
+      return fmt::format("chance may have put {} behind (p {:.2g})", name, lead->p);
+    return is_ahead(rival, best)
+               ? fmt::format("{} misses the tests left out by less than {}, which fits all tests more closely", name,
+                             joined(best.effects))
+               : fmt::format("{} fits all tests as closely as {}", name, joined(best.effects));
   }
 
   static std::string whole(const Candidate& c) { return c.effects.empty() ? "the model as it is" : joined(c.effects); }
@@ -273,10 +286,11 @@ class Decision {
   }
 
   // They become the verdict.
-  void name_rivals(const std::vector<const Candidate*>& rivals, const std::string& ahead) {
-    std::vector<std::string> told;
+  void name_rivals(const std::vector<const Candidate*>& rivals, const std::string& ahead, const Candidate& chosen) {
+    std::vector<std::string> told, reasons;
     for (const Candidate* rival : rivals) {
       told.push_back(fmt::format("{} ({})", joined(rival->effects), three_digits(left_out(*rival))));
+      if (rival != &chosen) reasons.push_back(why_as_good(chosen, *rival));
       for (const auto& effect : rival->effects)
         if (!rival->laboratory && std::find(d_.effects.begin(), d_.effects.end(), effect) == d_.effects.end())
           d_.effects.push_back(effect);
@@ -293,11 +307,9 @@ class Decision {
       say(fmt::format("with that the left-out error falls from {} to {}", three_digits(pooled_left_out(d_.base)),
                       three_digits(pooled_left_out(best))));
     } else if (rivals.size() > 1)
-      say(fmt::format(
-          "{} cannot be told apart on these tests: by their errors on tests left out, in brackets{}, chance "
-          "may have put either first{}",
-          joined(told), scatter_allowed_for(),
-          ahead.empty() ? "" : "; every other effect misses these tests by more" + ahead));
+      say(fmt::format("{} cannot be told apart on these tests (in brackets their errors on tests left out{}): {}{}",
+                      joined(told), scatter_allowed_for(), fmt::join(reasons, ", "),
+                      ahead.empty() ? "" : "; every other effect misses these tests by more" + ahead));
     else
       say(fmt::format(
           "{} brings the left-out error from {} to {}{}; every other effect of those fitted to the end "

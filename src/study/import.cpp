@@ -78,6 +78,7 @@ Series at_times(const Series& time, const Series& values, double start, double s
 
 struct TestOfLab {
   measurement::Test test;
+  double start_s = 0;  // of the floor's file
   Series floor, vertical;
 };
 
@@ -183,6 +184,7 @@ class Importer {
       return column ? at_times(time, channel(file.table, *column), start, step_s_, count) : Series{};
     };
     TestOfLab t;
+    t.start_s = start;
     t.floor = of(floor, floor.time, lab.acceleration);
     t.vertical = of(floor, floor.time, lab.vertical);
     t.test.id = lab.id;
@@ -227,6 +229,9 @@ class Importer {
                     "and {:.4g} s are in both",
                     lab.id, floor.step_s, response.step_s, step_s_, step_s_ * static_cast<double>(t.floor.size() - 1),
                     floor.time.back() - floor.time.front(), response.time.back() - response.time.front()));
+    if (std::abs(t.start_s) > 0.5 * step_s_)
+      say(fmt::format("{}: time 0 is now what was {:.6g} s in {}", lab.id, t.start_s,
+                      lab.floor.path.filename().string()));
     for (const File* file : {&floor, &response})
       if (step_s_ > 1.5 * file->step_s)
         say(fmt::format(
@@ -252,9 +257,11 @@ class Importer {
     if (!unused.empty()) say(fmt::format("{}: not used: {}", lab.id, fmt::join(unused, ", ")));
     tell_gaps(lab, floor, lab.floor);
     if (!one_file) tell_gaps(lab, response, lab.response);
-    for (const LabColumn* column : {&lab.floor.time, &lab.acceleration, if_there(lab.vertical), &lab.response.time,
-                                    if_there(lab.slip), if_there(lab.rotation), if_there(lab.block_acceleration)})
-      if (column) tell_unit(lab, *column);
+    for (const LabColumn* column : {&lab.floor.time, &lab.acceleration, if_there(lab.vertical)})
+      if (column) tell_unit(lab, *column, floor.table);
+    for (const LabColumn* column :
+         {&lab.response.time, if_there(lab.slip), if_there(lab.rotation), if_there(lab.block_acceleration)})
+      if (column) tell_unit(lab, *column, response.table);
   }
 
   // Rows that are missing: steps of more than one and a half of the usual one. Between their ends the channels go straight.
@@ -274,7 +281,25 @@ class Importer {
                       count > most_told ? " ..." : ""));
   }
 
-  void tell_unit(const LabTest& lab, const LabColumn& column) {
+  // "(mm)", "[mm]" -> "mm".
+  static std::string without_brackets(const std::string& unit) {
+    const auto first = unit.find_first_not_of("([ "), last = unit.find_last_not_of(")] ");
+    return first == std::string::npos ? "" : unit.substr(first, last - first + 1);
+  }
+
+  // What the file says of a column in its line of units is not passed over.
+  void tell_unit(const LabTest& lab, const LabColumn& column, const LabTable& table) {
+    const std::string written = table.units.empty() ? "" : without_brackets(table.units[table.column(column.name)]);
+    if (!written.empty() && written != column.unit) {
+      const std::string says =
+          fmt::format("{}: {} has {} in its line of units", lab.id, shown(column.name), shown(written));
+      if (column.assumed)
+        throw Error(
+            fmt::format("{}, and unit: is not given (without it {} would be taken): give it", says, column.unit),
+            Exit::data);
+      say(fmt::format("{}, and is taken as {}", says, shown(column.unit)));
+    }
+    if (!written.empty() && column.assumed) return;
     if (column.assumed)
       say(fmt::format(
           "{}: no unit of {} is given, nor does its name end with one that is known: taken as {} (unit: says another)",

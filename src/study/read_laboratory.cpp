@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <functional>
 #include <map>
 
+#include "base/shown_text.hpp"
 #include "base/units.hpp"
 #include "motion/record.hpp"
 #include "study/read_measurements.hpp"
@@ -34,16 +37,34 @@ Factor of(const Units& units) {
   return [&units](const std::string& unit) { return factor_of(units, unit); };
 }
 
+bool is_known(const std::string& unit, const Factor& factor) {
+  try {
+    factor(unit);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::string end_of_name(const std::string& name) {
+  const std::string end = name.substr(name.find_last_of("_([ ") + 1);
+  return end.substr(0, end.find_last_not_of(")] ") + 1);
+}
+
 // "t_ms", "Time (ms)": the unit at the end of a column's name, where it is one of the quantity; else `otherwise`.
 std::string unit_of_name(const std::string& name, const Factor& factor, const std::string& otherwise) {
-  std::string end = name.substr(name.find_last_of("_([ ") + 1);
-  end.erase(end.find_last_not_of(")] ") + 1);
-  try {
-    factor(end);
-    return end;
-  } catch (const Error&) {
-    return otherwise;
-  }
+  const std::string end = end_of_name(name);
+  return is_known(end, factor) ? end : otherwise;
+}
+
+// "slip (inches)", "slip_MM", "slip_ft": meant as a unit, and none of those that are known.
+bool ends_with_other_unit(const std::string& name, const Factor& factor) {
+  if (name.ends_with(')') || name.ends_with(']')) return true;
+  std::string end = end_of_name(name);
+  std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) { return std::tolower(c); });
+  constexpr const char* others[] = {"inch", "inches", "ft", "feet", "foot", "meter", "metre", "meters", "metres"};
+  return end != name &&
+         (is_known(end, factor) || std::find(std::begin(others), std::end(others), end) != std::end(others));
 }
 
 // "name", or {column: name, unit: mm, sign: -1}.
@@ -73,6 +94,9 @@ std::optional<LabColumn> read_column(Section& section, const std::string& key, c
   if (column.name.empty())
     section.problem(key, fmt::format("{} names no column: give its name, or {{column: NAME, unit: {}, sign: -1}}",
                                      section.name(key), unit));
+  if (column.assumed && ends_with_other_unit(column.name, factor))
+    section.problem(key, fmt::format("{}: the name of {} ends with {}, which is no unit that is known: give unit:",
+                                     section.name(key), shown(column.name), shown(end_of_name(column.name))));
   try {
     column.factor = sign * factor(column.unit);
   } catch (const Error& error) {

@@ -21,6 +21,7 @@ TEST = """  - id: TID
     floor: {file: "table TID.txt", time: "Time (s)", acceleration: {column: ACC1, unit: g}}
     response: {file: block_TID.csv, time: {column: t_ms, unit: ms}, slip: {column: LVDT 1, unit: mm, sign: -1}}
 """
+SLIP = "{column: LVDT 1, unit: mm, sign: -1}"
 
 
 def comma(value, digits=6):
@@ -131,6 +132,10 @@ class Import(InFolder):
         self.write("block_t01.csv", "\n".join(block[:40] + block[50:]))
         self.assertIn("t01: block_t01.csv has 1 gap in its rows, filled by straight lines: 0.11 s before line 41", self.imported().stdout)
         self.write("lab.yaml", text.replace("acceleration: {column: ACC1, unit: g}", "acceleration: ACC1"))
+        self.fail_with(3, ["import", self.lab, "-o", self.folder / "in_g"], "t01: ACC1 has g in its line of units", "without it m/s2 would be taken")
+        for name in self.truth:
+            table = self.folder / f"table {name}.txt"
+            table.write_text(table.read_text(encoding="utf-8").replace("(s)\t(g)\t(C)\n", ""), encoding="utf-8")
         told = self.imported("assumed").stdout
         self.assertIn("t02: no unit of ACC1 is given, nor does its name end with one that is known: taken as m/s2", told)
         self.write("lab.yaml", text.replace("{column: t_ms, unit: ms}", "{column: t_ms, unit: s}"))
@@ -145,6 +150,27 @@ class Import(InFolder):
         told = self.imported("coarse").stdout
         self.assertIn("t01: of table t01.txt one row in 4 is taken, and what is faster than 25 Hz seems slower", told)
         self.assertIn("t01: of block_t01.csv one row in 2", told)
+
+    def test_units_are_never_passed_over(self):
+        """A line of units below the names, a unit that is none, and the time that the set begins at."""
+        text = self.lab.read_text(encoding="utf-8")
+        block = (self.folder / "block_t01.csv").read_text(encoding="utf-8").split("\n")
+
+        def of_first_test(slip, names, units):
+            self.write("block_t01.csv", "\n".join([names, units] * (units != "") + [names] * (units == "") + block[1:]))
+            self.write("lab.yaml", text.replace(SLIP, slip, 1))
+            return ["import", self.lab, "-o", self.folder / "units", "--overwrite"]
+
+        self.fail_with(3, of_first_test("LVDT 1", "t_ms;LVDT 1;", "[ms];[mm];"), "t01: LVDT 1 has mm in its line of units",
+                       "unit: is not given (without it m would be taken): give it")
+        self.assertIn("t01: LVDT 1 has cm in its line of units, and is taken as mm",
+                      self.succeed(of_first_test(SLIP, "t_ms;LVDT 1;", "[ms];[cm];")).stdout)
+        self.fail_with(2, of_first_test("LVDT 1 (inches)", "t_ms;LVDT 1 (inches);", ""), "ends with", "inches", "give unit:")
+        self.fail_with(2, of_first_test("LVDT_MM", "t_ms;LVDT_MM;", ""), "ends with", "MM", "give unit:")
+        late = text.replace("    role:", "    clock_s: 0.05\n    role:", 1)
+        self.write("lab.yaml", late)
+        self.write("block_t01.csv", "\n".join(block))
+        self.assertIn("t01: time 0 is now what was 0.07 s in table t01.txt", self.imported("late").stdout)
 
     def test_mistakes(self):
         text = (self.folder / "lab.yaml").read_text(encoding="utf-8")

@@ -1,6 +1,7 @@
 // From fitted candidates to a verdict, on candidates whose errors are given.
 #include "measurement/decide.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -202,6 +203,9 @@ TEST(DecideByChance, ARivalWhoseDataGiveTheBestItsLeadIsOne) {
     ask.lead = [&](const Candidate&, const Candidate&) { return chance(lead_question, p); };
     decide(bench, d, ask);
     EXPECT_EQ(d.verdict, p < chance_level ? Verdict::missing : Verdict::ambiguous) << p;
+    // Where chance may have put one behind, its p is told.
+    EXPECT_EQ(d.sentences.front().find(fmt::format("behind (p {:.2g})", p)) != std::string::npos, p >= chance_level)
+        << d.sentences.front();
     const auto asked = std::count_if(d.chances.begin(), d.chances.end(), [](const Chance& c) {
       return c.question == lead_question && c.about == "reduced_base before impact_loss";
     });

@@ -7,9 +7,8 @@ from . import Picture
 
 order = 110
 SHOWN = 10
-CAPTION = ("Each point: error of one model on tests left out of its fit, in turn; bar: one standard error. Filled: the best and those "
-           "that chance does not part from it. Models at the grey line gain nothing over the base. Effects that no test can see are left out.")
-
+CAPTION = ("Each point: error of one model on tests left out of its fit, in turn; bar: one standard error. Models at the grey line gain nothing over the base. Effects that no test can see are left out.")
+FILLED = " Filled: the best and those that these tests do not tell from it."
 CROSSES = " Crosses, numbers in brackets: error of the fit to all tests, of effects that gain too little on the base or the best to leave tests out."
 
 
@@ -60,7 +59,8 @@ def _picture(diagnosis, k):
              f"grey: base model {validation.error(base)}" if np.isfinite(base) else ""]
     tail = f" {words.plural(more, 'more candidate')} not shown." if more > 0 else ""
     style.headline(fig, finding, words.capitalised("; ".join(line for line in lines if line)) + "; bars: one standard error." + tail)
-    caption = CAPTION + ("" if all(row["left_out_refitted"] for row in rows) else CROSSES)
+    caption = (CAPTION + FILLED * any(row["as_good_as_best"] for row in rows)
+               + CROSSES * (not all(row["left_out_refitted"] for row in rows)))
     return Picture("ranking" if k == 0 else f"ranking_{k + 1}", fig, finding, caption, "ranking")
 
 
