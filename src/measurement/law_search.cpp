@@ -9,6 +9,7 @@
 #include "base/digits.hpp"
 #include "measurement/decide.hpp"
 #include "measurement/effect_search.hpp"
+#include "measurement/levels.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -19,7 +20,8 @@ class LawSearch : EffectSearch {
             const Jobs& jobs, Diagnosis& diagnosis)
       : EffectSearch(bench, base, forms, options, jobs), diagnosis_(diagnosis) {
     out_.base = diagnosis.base;
-    out_.friction_scatter = diagnosis.friction_scatter;
+    // An effect that is enough only if friction scatters beside it is held against laws that need no scatter.
+    out_.friction_scatter = beside_scatter() ? 0 : diagnosis.friction_scatter;
   }
 
   void run() {
@@ -43,10 +45,13 @@ class LawSearch : EffectSearch {
   }
 
  private:
+  bool beside_scatter() const { return diagnosis_.friction_scatter > 0 && diagnosis_.verdict != Verdict::unknown; }
+
   void withdraw() {
-    diagnosis_.sentences.insert(diagnosis_.sentences.begin(),
-                                fmt::format("{} is not enough: in data made from it hardly any misfit is as large",
-                                            fmt::join(diagnosis_.effects, " or ")));
+    diagnosis_.sentences.insert(
+        diagnosis_.sentences.begin(),
+        fmt::format("{} is not enough: in data made from it{} hardly any misfit is as large",
+                    fmt::join(diagnosis_.effects, " or "), beside_scatter() ? ", with friction that scatters," : ""));
     diagnosis_.verdict = Verdict::unknown;
     diagnosis_.reason = Reason::none_suffices;
     diagnosis_.effects.clear();
@@ -80,7 +85,7 @@ class LawSearch : EffectSearch {
     std::vector<const Candidate*> forms;
     for (const Candidate& c : out_.candidates)
       if (c.visible && c.fit.left_out_refitted && c.misfit < out_.base.misfit &&
-          left_out(c.fit) < left_out(out_.base.fit))
+          left_out(c.fit) < left_out(out_.base.fit) && (!beside_scatter() || c.explained <= adequate))
         forms.push_back(&c);
     std::stable_sort(forms.begin(), forms.end(), [](const Candidate* a, const Candidate* b) {
       return std::pair(a->fit.x.size(), a->misfit) < std::pair(b->fit.x.size(), b->misfit);
@@ -115,9 +120,7 @@ void propose_law(const Bench& bench, const ModelSpec& base, const std::vector<co
                  const DiagnosisOptions& options, const Jobs& jobs, Diagnosis& diagnosis) {
   if (kind_of_set(bench) != Kind::history || diagnosis.reason == Reason::data) return;
   if (diagnosis.verdict == Verdict::none) return;
-  // What is left beside friction that scatters may be more than its first order, which is allowed for.
-  if (diagnosis.verdict != Verdict::unknown && (is_enough_by_chance(diagnosis) || diagnosis.friction_scatter > 0))
-    return;
+  if (diagnosis.verdict != Verdict::unknown && is_enough_by_chance(diagnosis)) return;
   LawSearch(bench, base, forms, options, jobs, diagnosis).run();
 }
 

@@ -43,12 +43,12 @@ const dynamics::Effect waves = friction_law(
 const dynamics::Effect line =
     friction_law("line", {number("a", -2, 2, 0)}, [](const At& at, const Parameters& p) { return 1.0 + p[0] * at.u; });
 
-Dataset measured(const std::vector<EffectUse>& effects) {
+Dataset measured(const std::vector<EffectUse>& effects, const std::vector<double>& friction = {}) {
   Specimen s;
   s.block = Block::rectangular(0.8, 0.6, 100);
   s.friction = {0.2, 0.2};
   s.effects = effects;
-  return test::made_dataset(s);
+  return test::made_dataset(s, 1, friction);
 }
 
 // The base fitted to the end, and nothing of the catalogue that suffices.
@@ -104,6 +104,30 @@ TEST(LawSearch, NothingIsProposedWhereNothingIsMissing) {
   EXPECT_EQ(d.verdict, Verdict::unknown);
   ASSERT_EQ(d.chances.size(), 1u);
   EXPECT_TRUE(d.chances[0].chance());
+}
+
+// An effect that is enough only with friction that scatters from test to test yields to a law that needs no scatter; where
+// friction does scatter no law is one.
+TEST(LawSearch, AnEffectThatNeedsScatterIsHeldAgainstLawsThatNeedNone) {
+  const auto named_beside_scatter = [](const Dataset& data) {
+    const Bench bench(data, 4);
+    Diagnosis d = unknown(bench);
+    d.verdict = Verdict::missing;
+    d.reason = Reason::none;
+    d.effects = {"line"};
+    d.friction_scatter = 0.05;
+    propose_law(bench, test::free_friction(), {&line, &waves}, {.effort = small_effort, .start = {}}, run_here, d);
+    return d;
+  };
+  const Diagnosis wavy = named_beside_scatter(measured({{.effect = &waves, .parameters = {0.4, 0.13}}}));
+  ASSERT_TRUE(wavy.proposal);
+  EXPECT_EQ(wavy.proposal->effects, std::vector<std::string>{"waves"});
+  EXPECT_EQ(wavy.verdict, Verdict::unknown);
+  EXPECT_TRUE(wavy.effects.empty());
+  const Diagnosis scattered =
+      named_beside_scatter(measured({{.effect = &line, .parameters = {1.2}}}, {1.06, 0.95, 1.04, 0.97, 1}));
+  EXPECT_FALSE(scattered.proposal);
+  EXPECT_EQ(scattered.verdict, Verdict::missing);
 }
 
 TEST(LawSearch, AVerdictThatNamesNothingStays) {
