@@ -103,6 +103,7 @@ Error RunFolder::stopped() const {
 }
 
 void RunFolder::leave() const {
+  parallel::request_stop();  // of a rank that was not asked itself, too: the signal may still be on its way to it
   world_.on_root([&] {
     lock_->confirm();
     throw stopped();

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <fstream>
 
 #include "parallel/block_log.hpp"
@@ -43,6 +45,21 @@ class RunFolderTest : public testing::Test {
 TEST_F(RunFolderTest, AStopIsResumable) {
   EXPECT_THAT(stopped_run(Exit::resumable, {1}), AllOf(HasSubstr("stopped early"), HasSubstr("go on with --resume")));
   EXPECT_FALSE(fs::exists(scratch_ / io::lock_name));
+}
+
+// Where another rank was asked to stop, this one leaves with it; the signal that comes to it on its way out must not end it.
+TEST_F(RunFolderTest, ARankThatLeavesWithOthersCountsAsAsked) {
+  const auto leaves = [&] {
+    std::signal(SIGTERM, SIG_DFL);  // whatever the tests before left
+    {
+      RunFolder folder({}, scratch_.folder(), io::Existing::resume, "go on with --resume");
+      folder.begin();
+      error_text(Exit::resumable, [&] { folder.leave(); });
+    }
+    std::raise(SIGTERM);
+    _exit(75);
+  };
+  EXPECT_EXIT(leaves(), testing::ExitedWithCode(75), "");
 }
 
 TEST_F(RunFolderTest, TwoStopsInARowWithoutProgressAskForACure) {
