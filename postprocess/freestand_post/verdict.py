@@ -20,7 +20,7 @@ def title(diagnosis, was=False):
     if diagnosis.verdict == "ambiguous" and faults(diagnosis):
         return f"the missing effect is {named}, or {words.listing(faults(diagnosis), 'or')} is off"
     if diagnosis.verdict == "ambiguous":
-        return f"the missing effect is {validation.effects(diagnosis.effects, ' or ')}, and these tests cannot tell which"
+        return f"the missing effect is {_rivals(diagnosis)}, and these tests cannot tell which"
     if diagnosis.verdict == "bad_data" and faults(diagnosis):
         return f"no effect is needed: {words.listing(faults(diagnosis), 'or')} is off"
     if diagnosis.verdict == "none":
@@ -29,9 +29,17 @@ def title(diagnosis, was=False):
         return (f"no effect of the catalogue explains it; {validation.effect(diagnosis.proposal['effect'])}, a law of no catalogue, "
                 f"leaves {_error(diagnosis.proposal)} of {_error(diagnosis.base)}")
     return {WITHDRAWN: "no verdict, since the measurements look wrong in a sign, a clock or a unit",
-            "none_helps": "the model misses more than noise explains, and no effect of the catalogue lowers that by more than chance",
+            "none_helps": "the model misses more than noise explains, and no effect of the catalogue predicts the tests left out better, beyond chance",
             "none_suffices": "no effect of the catalogue explains all that the model misses"}.get(
                 diagnosis.reason, "the model lacks something that no effect of the catalogue explains")
+
+
+def _rivals(diagnosis):
+    """"static friction or a tilt of the floor"; of pairs "floor tilt with viscous drag or floor tilt with a spring"."""
+    rivals = [row["effect"].split("+") for row in diagnosis.candidates if row["as_good_as_best"]]
+    if all(len(names) == 1 for names in rivals):
+        return validation.effects(diagnosis.effects, " or ")
+    return words.listing([validation.effects(names, " with ") for names in rivals], "or")
 
 
 def finding(diagnosis):

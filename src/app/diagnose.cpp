@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <memory>
 
@@ -35,9 +36,20 @@ std::string why(const Json& json) {
   if (json["verdict"] == "ambiguous") return " (these tests cannot tell them apart)";
   const std::string reason = json.contains("reason") && json["reason"].is_string() ? json["reason"] : "";
   if (reason == "data") return " (no effect can be named: the measurements look wrong)";
-  if (reason == "none_helps") return " (no effect of the catalogue lowers the error by more than chance)";
+  if (reason == "none_helps") return " (no effect of the catalogue predicts the tests left out better, beyond chance)";
   if (reason == "none_suffices") return " (effects help, and the best of them leaves more than noise makes)";
   return "";
+}
+
+// " floor_tilt", " floor_tilt or directional_friction", " a+b or a+c".
+std::string named(const Json& json) {
+  std::vector<std::string> effects, rivals;
+  for (const auto& effect : json["effects"]) effects.push_back(effect);
+  for (const auto& c : json["candidates"])
+    if (c["as_good_as_best"].get<bool>()) rivals.push_back(c["effect"]);
+  if (effects.empty()) return "";
+  return json["verdict"] == "ambiguous" ? fmt::format(" {}", fmt::join(rivals, " or "))
+                                        : fmt::format(" {}", fmt::join(effects, " "));
 }
 
 void tell_diagnosis(const Json& json, const std::string& file) {
@@ -50,9 +62,7 @@ void tell_diagnosis(const Json& json, const std::string& file) {
   for (const auto& c : json["candidates"])
     if (c["visible"].get<bool>() && seen++ < rows) tell_row(c, "with " + c["effect"].get<std::string>());
   if (seen > rows) fmt::print("and {} more\n", seen - rows);
-  std::string effects;
-  for (const auto& effect : json["effects"]) effects += " " + effect.get<std::string>();
-  fmt::print("verdict: {}{}{}\n", json["verdict"].get<std::string>(), effects, why(json));
+  fmt::print("verdict: {}{}{}\n", json["verdict"].get<std::string>(), named(json), why(json));
   for (const auto& c : json["tests_of_chance"])
     fmt::print(
         "{:<26} {:<52} p {}{:.4f} ({} sets{})\n", c["question"].get<std::string>(), c["about"].get<std::string>(),

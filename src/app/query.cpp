@@ -34,7 +34,7 @@ void read_intensity(const QueryOptions& options, database::Question& question) {
   } catch (const std::exception&) {
     used = 0;
   }
-  if (used == 0 || used != text.size())
+  if (used == 0 || used != text.size() || !std::isfinite(question.im_value))
     throw Error(fmt::format("--im {} is no intensity with a value (a number stands behind =): write --im {}=0.4",
                             options.im, question.im));
 }

@@ -14,7 +14,8 @@ namespace freestand::app {
 namespace {
 
 std::string percent(double probability) {
-  return std::isnan(probability) ? "-" : fmt::format("{:.2g} %", 100 * probability);
+  if (std::isnan(probability)) return "-";
+  return probability < 0.995 ? fmt::format("{:.2g} %", 100 * probability) : fmt::format("{:.4g} %", 100 * probability);
 }
 
 // Why rows go by counts, each reason with its rows.

@@ -255,13 +255,14 @@ Risk risk(const Result& result, const HazardCurve& hazard, const std::vector<std
   for (const RiskRow& row : found.rows)
     if (row.rates_differ && row.refused.empty())
       found.warnings.push_back(
-          fmt::format("{}: the fitted curve gives {:.2g} a year where the counts give {:.2g}; where shares are small "
+          fmt::format("{}: the fitted curve gives {:.3g} a year where the counts give {:.3g}; where shares are small "
                       "it is not theirs, by more than chance explains: the counts are taken",
                       title(row), row.by_function.value, row.by_counts.value));
   warn(found, hazard, &RiskRow::outside_sweep,
        "much of the rate comes from a fragility that is extrapolated beyond the sweep", By::function);
   warn(found, hazard, &RiskRow::outside_sweep,
-       "much is left out of the rate, which goes by counts and no further than the sweep; of the whole it is about",
+       "much may be missing from the rate, which goes by counts, and beyond the sweep by the share at its end; of the "
+       "whole at most",
        By::counts);
   warn(found, hazard, &RiskRow::outside_hazard,
        "much of the rate may come from intensities that the hazard curve does not reach");

@@ -79,7 +79,8 @@ void judge_histories(const Bench&, const Judge& judge, Diagnosis& d, const Jobs&
   const auto answers = jobs("judging", all.size(), [&](std::size_t i) {
     if (!all[i]->visible) return Values{};  // never fitted: its numbers are the base's alone
     Values misfits = judge.misfit(all[i]->fit);
-    misfits.push_back(total(judge.misfit_of_fit(all[i]->fit)));
+    const Values of_fit = judge.misfit_of_fit(all[i]->fit);
+    misfits.insert(misfits.end(), of_fit.begin(), of_fit.end());
     return misfits;
   });
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -87,13 +88,16 @@ void judge_histories(const Bench&, const Judge& judge, Diagnosis& d, const Jobs&
     if (!c.visible) {
       c.misfits = d.base.misfits;
       c.misfit = d.base.misfit;
+      c.misfits_of_fit = d.base.misfits_of_fit;
       c.misfit_of_fit = d.base.misfit_of_fit;
       c.explained = d.base.explained;
       continue;
     }
-    c.misfits.assign(answers[i].begin(), answers[i].end() - 1);
+    const auto middle = answers[i].begin() + static_cast<long>(answers[i].size() / 2);
+    c.misfits.assign(answers[i].begin(), middle);
+    c.misfits_of_fit.assign(middle, answers[i].end());
     c.misfit = total(c.misfits);
-    c.misfit_of_fit = answers[i].back();
+    c.misfit_of_fit = total(c.misfits_of_fit);
     c.explained = std::sqrt(c.misfit / n);
     c.delta_bic = bic(d.samples, c.fit) - base_bic;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/random.hpp"
 #include "base/units.hpp"
 #include "measurement/findings.hpp"
 #include "measurement/smooth.hpp"
@@ -233,19 +234,58 @@ Comparison compare(const Bench& bench, const ModelSpec& model, std::span<const d
   return comparison;
 }
 
+namespace {
+
+// What a sensor shows as the peak of a slip: mean and standard deviation of its logarithm.
+struct ShownPeak {
+  double ln = 0, deviation_ln = 0;
+};
+
+ShownPeak shown_peak(const std::vector<double>& slip, double noise, std::uint64_t key) {
+  constexpr int draws = 64, far = 6;  // no noise reaches as far
+  double peak = 0, sum = 0, square = 0;
+  for (const double s : slip) peak = std::max(peak, std::abs(s));
+  for (int draw = 0; draw < draws; ++draw) {
+    double most = 0;
+    for (std::size_t k = 0; k < slip.size(); ++k)
+      if (std::abs(slip[k]) > peak - 2 * far * noise)
+        most = std::max(
+            most, std::abs(slip[k] + noise * random::standard_normal(1 + static_cast<std::uint64_t>(draw), k, key)));
+    sum += std::log(most) / draws;
+    square += std::log(most) * std::log(most) / draws;
+  }
+  return {sum, std::sqrt(std::max(square - sum * sum, 0.0))};
+}
+
+}  // namespace
+
 PeakRatio peak_ratio(const Bench& bench, const std::vector<TestComparison>& tests, std::optional<Role> role) {
   std::vector<double> ln;
+  PeakRatio ratio{.bias_ln = unknown, .scatter_ln = unknown};
+  const double noise = bench.noise(Channel::slip) * bench.sensor(Channel::slip).size();
   for (const TestComparison& c : tests) {
     const Test& test = bench.test(c.test);
     if (role && test.role != *role) continue;
     double measured = test.peaks.peak_slip_m.value_or(0);
     for (const double slip : test.slip_m) measured = std::max(measured, std::abs(slip));
-    if (measured > 8 * bench.noise(Channel::slip) && c.model.response.peak_slip_m > 0 && !c.model.failed())
-      ln.push_back(std::log(c.model.response.peak_slip_m / measured));
+    const double model = c.model.response.peak_slip_m;
+    if (!(measured > 8 * noise) || !(model > 0) || c.model.failed()) continue;
+    ShownPeak shown{std::log(model), noise / measured};
+    if (!test.slip_m.empty() && noise > 0) {
+      shown = shown_peak(c.model.slip_m, noise, random::stable_hash(test.id));
+      double floor = 0;  // variance
+      if (!c.spread.empty())
+        for (const double variance : c.spread[static_cast<std::size_t>(Channel::slip)])
+          floor = std::max(floor, variance);
+      shown.deviation_ln = std::hypot(shown.deviation_ln, std::sqrt(floor) / measured);
+    }
+    ln.push_back(shown.ln - std::log(measured));
+    ratio.noise_ln += shown.deviation_ln * shown.deviation_ln;
   }
-  PeakRatio ratio{.count = ln.size(), .bias_ln = unknown, .scatter_ln = unknown};
+  ratio.count = ln.size();
   if (ln.size() < 2) return ratio;
   const auto n = static_cast<double>(ln.size());
+  ratio.noise_ln = std::sqrt(ratio.noise_ln / n);
   ratio.bias_ln = ratio.scatter_ln = 0;
   for (const double value : ln) ratio.bias_ln += value / n;
   for (const double value : ln) ratio.scatter_ln += std::pow(value - ratio.bias_ln, 2) / (n - 1);

@@ -57,10 +57,12 @@ TestComparison compare_test(const Bench&, std::size_t test, const ModelSpec&, st
 Comparison compare(const Bench&, const ModelSpec&, std::span<const double> x, std::vector<TestComparison> tests,
                    const Quality&);
 
-// Mean ln(model/measured) of the peaks of the tests of one role, and its standard deviation; nan below two.
+// Mean ln(model/measured) of the peak slips of the tests of one role, and its standard deviation; nan below two. The largest of
+// many readings is larger than the slip by some of their noise: the model's peak is the one that its history would show to the
+// sensor. noise_ln: root mean square of the standard deviations that the noise of sensor and floor makes of one.
 struct PeakRatio {
   std::size_t count = 0;
-  double bias_ln = 0, scatter_ln = 0;
+  double bias_ln = 0, scatter_ln = 0, noise_ln = 0;
 };
 PeakRatio peak_ratio(const Bench&, const std::vector<TestComparison>&, std::optional<Role> = {});
 

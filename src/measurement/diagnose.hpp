@@ -50,7 +50,8 @@ struct Candidate {
   bool practical = true;                     // its parameters lie where it is met
   std::vector<double> misfits = {};          // G, of each test left out
   double misfit = unjudged;                  // their sum; nan: not judged
-  double misfit_of_fit = unjudged;           // G, of the fit to all tests
+  std::vector<double> misfits_of_fit = {};   // the same of each test with the fit to all tests
+  double misfit_of_fit = unjudged;           // their sum
   double explained = unjudged;               // sqrt(G/samples): 1 where sensor and floor noise explain all
   double delta_bic = 0;                      // against the base; negative: better
   double difference = 0, difference_se = 0;  // of the left-out score to the best one's, paired over the tests

@@ -192,11 +192,14 @@ class Findings {
         ratio.count, ratio_text(ratio.bias_ln - within), ratio_text(ratio.bias_ln + within));
     const bool under = ratio.bias_ln < 0;
     const double factor = std::exp(ratio.scatter_ln);
-    if (std::abs(ratio.bias_ln) > within && std::abs(ratio.bias_ln) > 0.03)
+    // Beyond what noise makes of them, and by more than anybody would change a model for.
+    const double scatter_of_noise = ratio.noise_ln * std::sqrt(gsl_cdf_chisq_Pinv(0.95, n - 1) / (n - 1));
+    if (std::abs(ratio.bias_ln) > std::max(within, 1.96 * ratio.noise_ln / std::sqrt(n)) &&
+        std::abs(ratio.bias_ln) > 0.03)
       say("the model {} the peak slip: predicted ones are {} and scatter by a factor of {:.2f}; its resistance is too "
           "{}",
           under ? "underpredicts" : "overpredicts", middle, factor, under ? "high" : "low");
-    else if (ratio.scatter_ln > 0.05)
+    else if (ratio.scatter_ln > std::max(0.05, scatter_of_noise))
       say("predicted peak slips are {}: right in the mean, as far as these tests show, but they scatter by a factor of "
           "{:.2f} from test to test, which another friction would not mend: look for an effect that is missing, or for "
           "what differs between the tests",

@@ -141,7 +141,8 @@ Fitted once(const Jobs& jobs, Work&& work) {
   return {Values(values.begin() + 2, values.end()), values[0], static_cast<int>(values[1])};
 }
 
-// Takes the fit to the least S with replays, if that is at the noise: a model that is wrong would only hide behind them.
+// Takes the fit to the least S with replays, if that is at the noise: a model that is wrong would only hide behind them. And if it misses
+// less by the replays of where it came from, too: where the motion is chaotic, those of a worse fit fan out and leave nothing to miss.
 bool weigh_floor_noise(const Bench& bench, ModelFit& fit, const Tests& tests, const Jobs& jobs) {
   Fitted found{fit.x, 0, 0};
   for (int again = 0; again < 2; ++again) {
@@ -156,6 +157,9 @@ bool weigh_floor_noise(const Bench& bench, ModelFit& fit, const Tests& tests, co
     });
     fit.evaluations += found.evaluations;
   }
+  const Judge before(bench, fit.model, fit.x, jobs);
+  const double stays = least_squares_score(before, tests, fit.model, fit.x);
+  if (least_squares_score(before, tests, fit.model, found.x) > stays) return stays <= noise_score;
   if (found.score > noise_score) return false;
   fit.x = found.x;
   return true;

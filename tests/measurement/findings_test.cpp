@@ -225,6 +225,29 @@ TEST(Findings, OneSentenceInPlainWordsSaysWhereItFails) {
   }
 }
 
+// The largest of many readings is larger than the slip: a model that is right is not told to resist too much.
+TEST(Findings, PeaksOfATrueModelAreNeitherHighNorLow) {
+  const Dataset clean = test::made_dataset(test::cabinet(), 0);
+  double sum = 0, square = 0;
+  constexpr int sets = 20;
+  for (std::uint64_t key = 0; key < sets; ++key) {
+    const Dataset data = test::with_noise(clean, key);
+    const Bench bench(data, 2);
+    std::vector<TestComparison> tests;
+    for (std::size_t i = 0; i < bench.size(); ++i) {
+      const ModelSpec model = fixed(0.2);
+      tests.push_back(compare_test(bench, i, model, {}, bench.spread(model, i, {}, predict(model, bench.test(i), {}))));
+    }
+    const PeakRatio ratio = peak_ratio(bench, tests);
+    ASSERT_EQ(ratio.count, 5U);
+    const double z = ratio.bias_ln / (ratio.noise_ln / std::sqrt(5.0));
+    sum += z / sets, square += z * z / sets;
+    EXPECT_THAT(said(data, fixed(0.2)), Not(Contains(HasSubstr("peak slip")))) << key;
+  }
+  EXPECT_LT(std::abs(sum), 2.5 / std::sqrt(double(sets)));
+  EXPECT_NEAR(square, 1, 0.8);
+}
+
 // Seven peaks whose logarithms lie 0.1 beside 1/0.83, to and fro: the mean of seven with scatter 0.4.
 TEST(Findings, ABiasOfPeaksIsAsSureAsItsInterval) {
   Dataset data;

@@ -48,6 +48,7 @@ inline Candidate candidate(const Bench& bench, std::vector<std::string> effects,
   c.fit.left_out_refitted = true;
   c.explained = explained;
   c.misfits.assign(tests, samples / static_cast<double>(tests) * explained * explained);
+  c.misfits_of_fit = c.misfits;
   c.misfit = c.misfit_of_fit = samples * explained * explained;
   return c;
 }
