@@ -24,6 +24,7 @@ std::string names_of(const std::vector<Word>& words) {
 
 // "mu 0.2 (did you mean ...)": an unknown word, with the choices.
 Error not_there(const std::string& what, const std::string& word, const std::vector<std::string>& choices) {
+  if (choices.empty()) return Error(fmt::format("no entry of the database has a {}: leave it out", what));
   const std::string near = nearest(word, choices);
   constexpr std::size_t most = 24;
   const std::vector<std::string> some(choices.begin(),
