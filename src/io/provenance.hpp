@@ -25,7 +25,8 @@ struct Provenance {
   std::string kernel;           // study/kernel_number.hpp; "" in older files
   std::string study_name;
   std::uint64_t seed = 0;
-  std::int64_t samples = 0;
+  std::int64_t samples = 0;  // that were drawn
+  std::int64_t alike = 0;    // the first of them, up to which none was passed over (study/rounds.hpp)
 };
 
 // Of this program, now. The study's part is left empty.

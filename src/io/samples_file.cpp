@@ -14,6 +14,7 @@
 
 #include "base/durable_file.hpp"
 #include "base/open_file.hpp"
+#include "base/passed_over.hpp"
 #include "io/h5.hpp"
 
 namespace freestand::io {
@@ -47,6 +48,8 @@ void describe_outcome(h5::Dataset& dataset) {
     meanings += name(static_cast<Outcome>(i));
     values.push_back(i);
   }
+  meanings += std::string(" ") + passed_over_name;
+  values.push_back(static_cast<std::int64_t>(passed_over));
   dataset.attribute("flag_values", values);
   dataset.attribute("flag_meanings", meanings);
 }
