@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "io/h5.hpp"
@@ -26,7 +27,8 @@ struct Provenance {
   std::string study_name;
   std::uint64_t seed = 0;
   std::int64_t samples = 0;  // that were drawn
-  std::int64_t alike = 0;    // the first of them, up to which none was passed over (study/rounds.hpp)
+  std::optional<std::int64_t>
+      alike;  // the first of them, none of which was passed over (study/rounds.hpp); not there: all
 };
 
 // Of this program, now. The study's part is left empty.

@@ -166,7 +166,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   if (const auto words = counted_words(world, study, reader, options.from)) {
     const SampleCounts counts(study, target, reader.motions().group, motions, reader.read(0, bin_layout_samples));
     result = counts.result(*words, jobs);
-    if (world.is_root()) ranking = counts.ranking(*words, reader.provenance().alike, swept_samples(reader));
+    if (world.is_root()) ranking = counts.ranking(*words, samples_alike(reader), swept_samples(reader));
     told.samples = swept_samples(reader);
   } else {
     told.samples = rows_for(study, reader);
@@ -182,7 +182,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     ranking = rank_intensities(world, study, target, reader);
   }
   told.warnings = result.warnings;
-  const Drawn drawn{told.samples, std::min(told.samples, reader.provenance().alike)};
+  const Drawn drawn{told.samples, std::min(told.samples, samples_alike(reader))};
   if (const std::string note = passed_over_told(drawn); !note.empty()) {
     told.notes.push_back(note);
     if (world.is_root() && target.empty()) told.samples = result.samples;

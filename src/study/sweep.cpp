@@ -308,7 +308,7 @@ class Sweep {
     header.provenance.study_name = study_.name;
     header.provenance.seed = study_.seed;
     header.provenance.samples = samples;
-    header.provenance.alike = rounds_.alike();
+    if (rounds_.alike() < samples) header.provenance.alike = rounds_.alike();
     header.provenance.kernel = fmt::format("{:08x}", kernel_number);
     folder_.confirm();
     if (checkpoint_->counts()) {

@@ -13,9 +13,11 @@ namespace freestand::study {
 
 std::int64_t swept_samples(const io::SampleReader& samples) { return samples.provenance().samples; }
 
-std::int64_t rows_alike(const io::SampleReader& samples) {
-  return std::min(samples.rows(), samples.provenance().alike);
+std::int64_t samples_alike(const io::SampleReader& samples) {
+  return samples.provenance().alike.value_or(swept_samples(samples));
 }
+
+std::int64_t rows_alike(const io::SampleReader& samples) { return std::min(samples.rows(), samples_alike(samples)); }
 
 std::string kept_told(const io::SampleReader& samples, std::int64_t rows) {
   if (rows == swept_samples(samples)) return "";

@@ -66,7 +66,7 @@ class Rounds(InFolder):
                 self.assertTrue(numpy.isnan(values[~taken]).all(), name)
 
     def test_curves_are_those_of_the_samples_of_each_bin(self):
-        """Counted here, from the rows; and every band is as wanted, for less than half of the samples."""
+        """Counted here, from the rows; and every band is as wanted, for two thirds of the samples: two of the five bins stop one doubling earlier."""
         taken, bins = self.rows["outcome"] != PASSED_OVER, bins_of(self.out, self.rows)
         with open(self.out / "surface.csv", newline="") as file:
             surface = list(csv.DictReader(file))
@@ -78,7 +78,7 @@ class Rounds(InFolder):
         self.assertTrue(self.until["reached"] and everything["reached"])
         self.assertEqual((self.until["samples"], self.until["drawn"]), (taken.sum(), len(taken)))
         self.assertEqual(everything["samples"], everything["drawn"])
-        self.assertLess(self.until["samples"], 0.5 * everything["samples"])
+        self.assertLess(self.until["samples"], 2 / 3 * everything["samples"])
 
     def test_what_is_asked_of_all_intensities_comes_from_the_first_ones(self):
         alike = self.until["alike"]
@@ -97,9 +97,9 @@ class Rounds(InFolder):
         self.assertEqual((self.folder / "a" / "surface.csv").read_bytes(), (self.folder / "b" / "surface.csv").read_bytes())
         shares = [self.succeed(["sensitivity", folder]).stdout for folder in (self.out, self.folder / "plain")]
         self.assertIn(f"the first {alike} were taken whatever their intensity", shares[0])
-        table = [[line for line in text.splitlines() if line.startswith(("friction", "block", "motion"))] for text in shares]
-        self.assertTrue(table[0])
-        self.assertEqual(table[0], table[1])
+        tables = [[line for line in text.splitlines() if "friction.mu_k" in line] for text in shares]
+        self.assertEqual(len(tables[0]), 1)
+        self.assertEqual(tables[0], tables[1])
 
     def test_more_capacities_of_the_same_intensity_come_from_all(self):
         done = self.succeed(["fit", self.out, "--edp", "delta", "--capacities", "delta=0.1,1", "-o", self.folder / "more"])
@@ -174,7 +174,7 @@ class Rounds(InFolder):
         with open(self.folder / "rare" / "surface.csv", newline="") as file:
             for row in csv.DictReader(file):
                 half = (float(row["upper"]) - float(row["lower"])) / 2
-                self.assertLessEqual(half, 1.959964 * 0.2 * max(0.01, float(row["p"])), row)
+                self.assertLessEqual(half, 1.959964 * 0.2 * max(0.01, float(row["probability"])), row)
 
 
 if __name__ == "__main__":
