@@ -15,7 +15,7 @@ namespace freestand::study {
 namespace {
 
 // A line a round: where it ends, and a 1 for each bin from which it takes samples. The last line says that the file is whole.
-std::string text_of(const std::string& fingerprint, const std::vector<Round>& rounds) {
+std::string text_of_rounds(const std::string& fingerprint, const std::vector<Round>& rounds) {
   std::string text = fingerprint + "\n";
   for (const Round& round : rounds) {
     text += fmt::format("{} ", round.end);
@@ -39,7 +39,7 @@ std::vector<Round> rounds_of(const std::string& text, const std::string& fingerp
     for (const char takes : bins) round.bins.push_back(takes == '1');
     rounds.push_back(std::move(round));
   }
-  return text_of(fingerprint, rounds) == text ? rounds : std::vector<Round>{};
+  return text_of_rounds(fingerprint, rounds) == text ? rounds : std::vector<Round>{};
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ void Rounds::read() {
 
 void Rounds::add(Round round) {
   rounds_.push_back(std::move(round));
-  world_.on_root([&] { write_durably(file_, text_of(fingerprint_, rounds_)); });
+  world_.on_root([&] { write_durably(file_, text_of_rounds(fingerprint_, rounds_)); });
 }
 
 const Round& Rounds::of(std::int64_t sample) const {

@@ -32,7 +32,7 @@ std::string helps(const Study& study, const fragility::Outlook& outlook) {
                      study.until->at_most);
 }
 
-std::string samples_text(const fragility::Result& result, const Drawn& drawn) {
+std::string samples_told(const fragility::Result& result, const Drawn& drawn) {
   if (drawn.samples == drawn.alike) return fmt::format("{} samples", result.samples);
   return fmt::format("{} samples, {} of them integrated", drawn.samples, result.samples);
 }
@@ -51,7 +51,7 @@ fragility::Wanted wanted(const Study& study, const Drawn& drawn) {
 
 std::string round_told(const Study& study, const fragility::Result& result, const Drawn& drawn) {
   const fragility::HalfWidth reached = fragility::half_width(result, wanted(study, drawn));
-  std::string text = fmt::format("{}: the surface is known to +-{:.3g} (wanted {})", samples_text(result, drawn),
+  std::string text = fmt::format("{}: the surface is known to +-{:.3g} (wanted {})", samples_told(result, drawn),
                                  reached.largest, wanted_text(*study.until, "+-{:.3f}"));
   if (reached.times_wanted <= 1) return text;
   const fragility::Outlook outlook = fragility::outlook(result, wanted(study, drawn));
@@ -67,7 +67,7 @@ std::string not_reached(const Study& study, const fragility::Result& result, con
   const fragility::Outlook outlook = fragility::outlook(result, wanted(study, drawn));
   const bool all = drawn.samples == static_cast<std::int64_t>(study.until->at_most);
   return fmt::format("the surface was to be known to {}, and after {}{} it is known to +-{:.3g}{} ({})",
-                     wanted_text(*study.until, "+-{:.3g}"), samples_text(result, drawn),
+                     wanted_text(*study.until, "+-{:.3g}"), samples_told(result, drawn),
                      all                           ? ", the most that until allows,"
                      : std::isinf(outlook.samples) ? ", where more would hardly help,"
                                                    : "",
