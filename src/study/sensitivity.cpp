@@ -16,6 +16,7 @@
 #include "study/damage_states.hpp"
 #include "study/evaluator.hpp"
 #include "study/known.hpp"
+#include "study/motion_bytes.hpp"
 #include "study/sampled.hpp"
 #include "study/swept_study.hpp"
 
@@ -190,7 +191,7 @@ class Shares {
   // Every parameter times every stretch of samples is one piece of work.
   void compute_pairs(decision::TotalTally& total) const {
     const Study study = swept_study(world_, options_.folder, reader_);
-    const Evaluator whole(study, load_motions(study));
+    const Evaluator whole(study, load_motions_together(world_, study));
     std::vector<Evaluator> evaluators;
     for (const Sampled& one : sampled_) {
       Study other = study;

@@ -28,6 +28,7 @@
 #include "study/intensities.hpp"
 #include "study/kernel_number.hpp"
 #include "study/known.hpp"
+#include "study/motion_bytes.hpp"
 #include "study/read_parts.hpp"
 #include "study/rounds.hpp"
 #include "study/spread_jobs.hpp"
@@ -60,15 +61,14 @@ std::string why_other(const Study& study, const std::filesystem::path& folder, c
   return same_samples ? "a record has other contents now, or another name" : "their fingerprint differs";
 }
 
-// The root tries the records first, so that a broken one is told once and all ranks leave in order.
 MotionSet load_together(const Communicator& world, const Study& study, const SweepOptions& options) {
+  const MotionSet motions = load_motions_together(world, study);
   world.on_root([&] {
-    const MotionSet motions = load_motions(study);
     for (const std::string& doubt : doubts(study, motions))
       if (!options.doubts_told || options.doubts_told->insert(doubt).second)
         parallel::tell("doubtful: " + doubt + "\n");
   });
-  return load_motions(study);
+  return motions;
 }
 
 Evaluator evaluator_together(const Communicator& world, const Study& study, const SweepOptions& options) {
