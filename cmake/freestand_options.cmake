@@ -3,6 +3,7 @@ option(FREESTAND_TESTS "build the tests" ON)
 option(FREESTAND_BENCHMARKS "build the benchmark of the kernel (needs Google Benchmark and Boost)" OFF)
 option(FREESTAND_BATCHES "compile the sources of a target in batches: a third of the work for a whole build" ON)
 option(FREESTAND_WERROR "warnings are errors" OFF)
+set(FREESTAND_FUZZ "" CACHE PATH "the build folder of a release: what a fuzzer runs is built (needs clang), and what reads no files is taken from there")
 set(FREESTAND_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
 set(FREESTAND_ARCH "x86-64-v2" CACHE STRING "instruction set, as -march= takes it")
 set(FREESTAND_DATA_DIR "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH

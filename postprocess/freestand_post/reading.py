@@ -259,8 +259,9 @@ def _samples(path):
         if "ground" in root["motions"]:
             is_record[_numbers(root["motions"], "ground") != np.arange(len(motions))] = 2
         amplification = _amplification(root["motions"]) if "ground" in root.get("motions", {}) else {}
-    return ({name: values for name, values in draws.items() if values.shape == outcome.shape}, outcome, motions, is_record,
-            amplification)
+    integrated = outcome < len(OUTCOMES)  # the others were passed over
+    return ({name: values[integrated] for name, values in draws.items() if values.shape == outcome.shape}, outcome[integrated], motions,
+            is_record, amplification)
 
 
 def _amplification(group):

@@ -8,6 +8,7 @@
 #include "parallel/progress.hpp"
 #include "study/fit.hpp"
 #include "study/known.hpp"
+#include "study/motion_bytes.hpp"
 #include "study/motion_summaries.hpp"
 #include "study/posterior_tables.hpp"
 #include "study/realise.hpp"
@@ -36,8 +37,7 @@ study::Study read(const Context& context, const RunOptions& options) {
 // Records that cannot be read, and bins that cannot be laid, are told as the sweep would tell them.
 Exit check(const Context& context, const RunOptions& options) {
   const study::Study study = read(context, options);
-  context.world.on_root([&] { study::load_motions(study); });
-  const study::MotionSet motions = study::load_motions(study);
+  const study::MotionSet motions = study::load_motions_together(context.world, study);
   const study::Evaluator evaluator(study, motions, study::summarize_together(context.world, study, motions, nullptr));
   std::string size;
   context.world.on_root([&] {

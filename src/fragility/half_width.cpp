@@ -11,6 +11,11 @@ namespace freestand::fragility {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double hardly = 0.1;  // of h^2
+
+double drawn(const Result& result, const Wanted& wanted) {
+  return wanted.drawn > 0 ? wanted.drawn : static_cast<double>(result.samples);
+}
 
 // One point of any surface.
 struct Place {
@@ -19,30 +24,39 @@ struct Place {
   std::size_t bin, cell, capacity;
   std::int64_t n;
   double probability, half;  // NaN: no band
+  double wanted;             // of the half width
 };
 
 // Calls each(place) for all points that are wanted, and rare(cell) for cells that are not for their rarity.
 void for_each_place(const Result& result, const Wanted& wanted, const std::function<void(const Place&)>& each,
                     const std::function<void()>& rare) {
   const auto half = [](double lower, double upper) { return (upper - lower) / 2; };
+  const double z = gsl_cdf_ugaussian_Pinv((1 + result.confidence) / 2);
+  const auto half_wanted = [&](double probability) {
+    const double relative =
+        std::isinf(wanted.relative_error)
+            ? infinite
+            : z * wanted.relative_error * std::max(std::isnan(probability) ? 0 : probability, wanted.down_to);
+    return std::min(wanted.half_width, relative);
+  };
   for (const EdpResult& edp : result.edps) {
     const std::size_t capacities = edp.capacity.size();
     for (std::size_t i = 0; i < edp.surface.probability.size(); ++i)
       if (const std::size_t bin = i / capacities; edp.bins[bin].n > 0)
         each({&edp, nullptr, bin, 0, i % capacities, edp.bins[bin].n, edp.surface.probability[i],
-              half(edp.surface.lower[i], edp.surface.upper[i])});
+              half(edp.surface.lower[i], edp.surface.upper[i]), half_wanted(edp.surface.probability[i])});
     for (const AxisSurface& axis : edp.axes)
       for (std::size_t cell = 0; cell < axis.n.size(); ++cell) {
         const auto n = static_cast<double>(axis.n[cell]);
         if (n == 0) continue;
-        if (n * wanted.at_most < wanted.minimum_samples * static_cast<double>(result.samples)) {
+        if (n * wanted.at_most < wanted.minimum_samples * drawn(result, wanted)) {
           rare();
           continue;
         }
         for (std::size_t c = 0; c < capacities; ++c) {
           const std::size_t i = cell * capacities + c;
           each({&edp, &axis, cell / axis.centre.size(), cell % axis.centre.size(), c, axis.n[cell], axis.probability[i],
-                half(axis.lower[i], axis.upper[i])});
+                half(axis.lower[i], axis.upper[i]), half_wanted(axis.probability[i])});
         }
       }
   }
@@ -62,17 +76,27 @@ double variance_of_one(const Place& place) {
          by_law * by_law * (1 + y * y / 2) * n / moved;
 }
 
+// Of h^2 of a point that has a band: what more samples of these motions would take off, t^2 v/n.
+double falling(const Result& result, const Place& place) {
+  const double square = place.half * place.half;
+  const BinFit& bin = place.edp->bins[place.bin];
+  if (result.left_out_records == 0 || bin.motions >= bin.n) return square;
+  const double t = gsl_cdf_tdist_Pinv((1 + result.confidence) / 2, std::max(1, bin.motions - 1));
+  return std::min(square, t * t * variance_of_one(place) / static_cast<double>(place.n));
+}
+
 }  // namespace
 
 HalfWidth half_width(const Result& result, const Wanted& wanted) {
   HalfWidth width;
-  double largest = -1;
+  double most = -1, largest = 0.5;
   for_each_place(
       result, wanted,
       [&](const Place& place) {
         ++(std::isnan(place.half) ? width.empty_points : width.points);
         const double half = std::isnan(place.half) ? 0.5 : place.half;
-        if (half <= largest) return;
+        if (half / place.wanted <= most) return;
+        most = half / place.wanted;
         largest = half;
         width.edp = place.edp->name;
         width.im = result.im[place.bin];
@@ -81,34 +105,45 @@ HalfWidth half_width(const Result& result, const Wanted& wanted) {
         width.on_axis = place.axis ? place.axis->centre[place.cell] : unknown;
       },
       [&] { ++width.rare_cells; });
-  if (largest >= 0 && width.points > 0) width.largest = largest;
+  if (width.points > 0) width.largest = largest, width.times_wanted = most;
   return width;
 }
 
 Outlook outlook(const Result& result, const Wanted& wanted) {
   Outlook found;
-  const double all = static_cast<double>(result.samples);
+  const double all = drawn(result, wanted);
   for_each_place(
       result, wanted,
       [&](const Place& place) {
-        const auto n = static_cast<double>(place.n);
         if (std::isnan(place.half)) {
-          found.samples = std::max(found.samples, all * std::max(1.0, wanted.minimum_samples / n));
+          const double more = wanted.minimum_samples / static_cast<double>(place.n);
+          found.samples = std::max(found.samples, all * std::max(1.0, more));
           return;
         }
-        const double square = place.half * place.half;
-        const BinFit& bin = place.edp->bins[place.bin];
-        double falls = square;
-        if (result.left_out_records > 0 && bin.motions < bin.n) {
-          const double t = gsl_cdf_tdist_Pinv((1 + result.confidence) / 2, std::max(1, bin.motions - 1));
-          falls = std::min(square, t * t * variance_of_one(place) / n);
-        }
-        const double stays = square - falls, room = wanted.half_width * wanted.half_width - stays;
+        const double falls = falling(result, place), stays = place.half * place.half - falls,
+                     room = place.wanted * place.wanted - stays;
         found.stays = std::max(found.stays, std::sqrt(stays));
         found.samples = std::max(found.samples, room > 0 ? all * falls / room : infinite);
       },
       [] {});
   return found;
+}
+
+std::vector<bool> bins_that_want(const Result& result, const Wanted& wanted) {
+  std::vector<bool> want(result.im.size(), false);
+  for (const EdpResult& edp : result.edps)
+    for (std::size_t bin = 0; bin < want.size(); ++bin)
+      if (edp.bins[bin].n == 0) want[bin] = true;
+  for_each_place(
+      result, wanted,
+      [&](const Place& place) {
+        if (place.half <= place.wanted) return;
+        const double square = place.half * place.half, falls = std::isnan(place.half) ? square : falling(result, place);
+        const bool helps = !(falls < hardly * square) || square - falls <= place.wanted * place.wanted;
+        if (helps) want[place.bin] = true;
+      },
+      [] {});
+  return want;
 }
 
 }  // namespace freestand::fragility

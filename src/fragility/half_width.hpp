@@ -1,20 +1,24 @@
-// How well the surfaces are known, for `until: {half_width: ...}`, and what more samples would do.
+// How well the surfaces are known, for `until: {half_width: ..., relative_error: ...}`, what more samples would do, and in which
+// bins of intensity they would.
 #pragma once
 
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "fragility/result.hpp"
 
 namespace freestand::fragility {
 
-// The largest (upper - lower)/2 over all points of the surfaces, those over a second axis included. A point without a band (too few
-// samples, or too few motions) in a bin or cell that the sweep does reach counts as unknown, which is a half width of 0.5. Bins
-// without a single sample are not wanted, nor are cells of a second axis that would hold fewer than minimum_samples if as many samples
-// were made as there may be. 0.5 too if nothing has a band yet.
+// (upper - lower)/2 of the point of the surfaces that is farthest from what is wanted of it, those over a second axis included: of all
+// points the largest where one half width is wanted of all. A point without a band (too few samples, or too few motions) in a bin or
+// cell that the sweep does reach counts as unknown, which is a half width of 0.5. Bins without a single sample are not wanted, nor are
+// cells of a second axis that would hold fewer than minimum_samples if as many samples were drawn as there may be. 0.5 too if
+// nothing has a band yet.
 struct HalfWidth {
   double largest = 0.5;
-  std::string edp;  // where that is
+  double times_wanted = std::numeric_limits<double>::infinity();  // what is wanted is reached: at most 1
+  std::string edp;                                                // where that is
   double im = unknown, capacity = unknown;
   std::string axis = {};  // of a surface over a second axis: its name, and the middle of the cell
   double on_axis = unknown;
@@ -23,10 +27,15 @@ struct HalfWidth {
   int rare_cells = 0;    // of second axes, not wanted
 };
 
+// Of a point of probability P, with z the quantile of the confidence: a half width of at most
+//   min(half_width, z relative_error max(P, down_to))
+// so that P is known with a standard error of relative_error P, and where it is below down_to, with that of down_to.
 struct Wanted {
   double half_width = 0.5;
-  double at_most = std::numeric_limits<double>::infinity();  // samples
+  double relative_error = std::numeric_limits<double>::infinity(), down_to = 1;
+  double at_most = std::numeric_limits<double>::infinity();  // that are drawn
   int minimum_samples = 30;
+  double drawn = 0;  // so far: all of the result and those that were passed over; 0: all of the result
 };
 
 HalfWidth half_width(const Result& result, const Wanted& wanted = {});
@@ -41,8 +50,13 @@ HalfWidth half_width(const Result& result, const Wanted& wanted = {});
 // A point without a band needs minimum_samples at least.
 struct Outlook {
   double stays = 0;    // the largest over the wanted points
-  double samples = 0;  // of the whole sweep
+  double samples = 0;  // to be drawn in all
 };
 Outlook outlook(const Result& result, const Wanted& wanted);
+
+// The bins of intensity that want more samples: those with a point that is not known well enough, unless more samples hardly help there,
+// and those without a sample. More samples hardly help where stays is above what is wanted and t^2 v/n is less than a tenth of
+// h^2: all that more can take off the band then is a twentieth.
+std::vector<bool> bins_that_want(const Result& result, const Wanted& wanted);
 
 }  // namespace freestand::fragility

@@ -63,7 +63,8 @@ class Tally {
   void add(const Sample& sample);
 
   // Every row of a table with the columns im_<name>, edp_<name>, outcome, those of the axes, and motion where
-  // Options::motion_group is not empty. Row i is sample first_sample + i. Throws Error if a column is missing.
+  // Options::motion_group is not empty. Row i is sample first_sample + i; those that were passed over are left out. Throws Error if a
+  // column is missing.
   // `keeps`: which samples count; without it all.
   void add(const Table& table, std::uint64_t first_sample, const std::function<bool(std::uint64_t)>& keeps = {});
 

@@ -3,6 +3,7 @@
 #include <freestand/error.hpp>
 #include <limits>
 
+#include "base/passed_over.hpp"
 #include "fragility/tally.hpp"
 
 namespace freestand::fragility {
@@ -31,6 +32,7 @@ void Tally::add(const Table& table, std::uint64_t first_sample, const std::funct
   for (std::size_t row = 0; row < table.rows(); ++row) {
     Sample sample;
     sample.index = first_sample + row;
+    if (table.at(row, outcome) == static_cast<double>(passed_over)) continue;
     if (keeps && !keeps(sample.index)) continue;
     sample.im = table.at(row, im);
     sample.outcome = static_cast<Outcome>(whole(table.at(row, outcome), outcome_count, "outcome", sample.index));

@@ -90,8 +90,8 @@ class Dataset : public Object {
   // Rows first .. first+count-1 of a one-dimensional dataset.
   std::vector<double> read_rows(std::uint64_t first, std::uint64_t count) const;
 
-  // Where the values of a reserved dataset begin in the file [bytes], one behind the other, little endian.
-  std::int64_t offset() const;
+  // Of a dataset in pieces: the one that begins at this row, as packed() makes it, of the whole length also at the end.
+  void write_piece(std::uint64_t first, const std::string& packed);
 
   // Makes it a dimension scale of this name; attaches a scale to a dimension.
   Dataset& scale(const std::string& name);
@@ -111,8 +111,8 @@ class Group : public Object {
   bool has(const std::string& name) const;
   std::vector<std::string> names() const;  // of what is in it, in the order of creation
 
-  // A dataset without values: its place in the file is reserved, they are written there when the file is closed.
-  Dataset reserve_dataset(const std::string& name, Type type, const Dimensions& dimensions);
+  // A dataset of one dimension that is written in pieces of so many rows, packed (packed.hpp).
+  Dataset make_in_pieces(const std::string& name, Type type, std::uint64_t rows, std::uint64_t piece);
   Dataset open_dataset(const std::string& name) const;
 
   // A dataset with its values.
@@ -124,7 +124,7 @@ class Group : public Object {
 
  protected:
   friend class File;
-  Dataset make_dataset(const std::string& name, Type type, const Dimensions& dimensions, bool reserved);
+  Dataset make_dataset(const std::string& name, Type type, const Dimensions& dimensions, std::uint64_t piece);
   template <class T>
   Dataset put_values(const std::string& name, const std::vector<T>& values, Dimensions dimensions);
   using Object::Object;
@@ -135,8 +135,8 @@ class File {
   // A new file, by this process alone. It has its name after finish(); without finish() nothing is left.
   static File create(const std::filesystem::path& path);
 
-  // A new file at `aside`, which messages call `path`, for datasets that are reserved. It is there, for whoever writes their
-  // values and renames it, after close(); without close() nothing is left.
+  // A new file at `aside`, which messages call `path`, for datasets that are written in pieces. It is there, for whoever renames it,
+  // after close(); without close() nothing is left.
   static File create_at(const std::filesystem::path& aside, const std::filesystem::path& path);
   void close();
 

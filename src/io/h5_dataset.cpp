@@ -145,7 +145,12 @@ std::vector<std::string> Dataset::read_texts(std::size_t count) const {
   return counted(read_texts(), count, id(), *file_);
 }
 
-std::int64_t Dataset::offset() const { return static_cast<std::int64_t>(H5Dget_offset(id())); }
+void Dataset::write_piece(std::uint64_t first, const std::string& packed) {
+  const hsize_t at = first;
+  const std::string name = name_of(id());
+  if (H5Dwrite_chunk(id(), H5P_DEFAULT, 0, &at, packed.size(), packed.data()) < 0)
+    throw failure(*file_, name, Doing::writing);
+}
 
 std::vector<double> Dataset::read_rows(std::uint64_t first, std::uint64_t count) const {
   const std::string name = name_of(id());

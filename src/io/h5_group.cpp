@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "io/h5_internal.hpp"
+#include "io/packed.hpp"
 
 namespace freestand::io::h5 {
 namespace {
@@ -78,15 +79,17 @@ std::vector<std::string> Group::names() const {
   return names;
 }
 
-Dataset Group::make_dataset(const std::string& name, Type type, const Dimensions& dimensions, bool reserved) {
+Dataset Group::make_dataset(const std::string& name, Type type, const Dimensions& dimensions, std::uint64_t piece) {
   const std::string what = "dataset " + name + " cannot be made";
   const std::vector<hsize_t> extent(dimensions.begin(), dimensions.end());
   const Handle space = checked(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose,
                                *file_, what, Doing::writing);
   const Handle properties = dataset_properties(*file_);
-  if (reserved) {
-    H5Pset_alloc_time(properties.id(), H5D_ALLOC_TIME_EARLY);
-    H5Pset_fill_time(properties.id(), H5D_FILL_TIME_NEVER);
+  if (piece > 0) {
+    const hsize_t rows = piece;
+    H5Pset_chunk(properties.id(), 1, &rows);
+    H5Pset_shuffle(properties.id());
+    H5Pset_deflate(properties.id(), packing_level);
   }
   Handle dataset =
       checked(H5Dcreate2(id(), name.c_str(), file_type(type), space.id(), H5P_DEFAULT, properties.id(), H5P_DEFAULT),
@@ -94,8 +97,8 @@ Dataset Group::make_dataset(const std::string& name, Type type, const Dimensions
   return Dataset(std::move(dataset), file_);
 }
 
-Dataset Group::reserve_dataset(const std::string& name, Type type, const Dimensions& dimensions) {
-  return make_dataset(name, type, dimensions, true);
+Dataset Group::make_in_pieces(const std::string& name, Type type, std::uint64_t rows, std::uint64_t piece) {
+  return make_dataset(name, type, {rows}, rows > 0 ? piece : 0);
 }
 
 Dataset Group::open_dataset(const std::string& name) const {
@@ -107,7 +110,7 @@ Dataset Group::open_dataset(const std::string& name) const {
 template <class T>
 Dataset Group::put_values(const std::string& name, const std::vector<T>& values, Dimensions dimensions) {
   if (dimensions.empty()) dimensions = {values.size()};
-  Dataset dataset = make_dataset(name, type_for<T>(), dimensions, false);
+  Dataset dataset = make_dataset(name, type_for<T>(), dimensions, 0);
   dataset.write(values);
   return dataset;
 }

@@ -89,6 +89,7 @@ void write_provenance(h5::Group& root, const std::string& format, const Provenan
   root.attribute("doubts", from.doubts);
   root.attribute("seed", static_cast<std::int64_t>(from.seed));
   root.attribute("samples", from.samples);
+  if (from.alike) root.attribute("samples_alike", *from.alike);
   root.attribute("kernel", from.kernel);
   root.attribute("version", from.version);
   root.attribute("git_commit", from.git_commit);
@@ -116,6 +117,7 @@ Provenance read_provenance(const h5::Group& root, const std::string& format) {
   if (root.has_attribute("kernel")) from.kernel = root.text_attribute("kernel");
   from.seed = static_cast<std::uint64_t>(root.integer_attribute("seed"));
   from.samples = root.integer_attribute("samples");
+  if (root.has_attribute("samples_alike")) from.alike = root.integer_attribute("samples_alike");
   from.version = root.text_attribute("version");
   from.git_commit = root.text_attribute("git_commit");
   from.compiler = root.text_attribute("compiler");

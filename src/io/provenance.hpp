@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "io/h5.hpp"
@@ -25,7 +26,9 @@ struct Provenance {
   std::string kernel;           // study/kernel_number.hpp; "" in older files
   std::string study_name;
   std::uint64_t seed = 0;
-  std::int64_t samples = 0;
+  std::int64_t samples = 0;  // that were drawn
+  std::optional<std::int64_t>
+      alike;  // the first of them, none of which was passed over (study/rounds.hpp); not there: all
 };
 
 // Of this program, now. The study's part is left empty.

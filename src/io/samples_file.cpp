@@ -1,25 +1,28 @@
 #include "io/samples_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <freestand/error.hpp>
 #include <freestand/response.hpp>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <span>
 
 #include "base/durable_file.hpp"
-#include "base/open_file.hpp"
+#include "base/passed_over.hpp"
 #include "io/h5.hpp"
+#include "io/packed.hpp"
 
 namespace freestand::io {
 namespace {
 
+constexpr std::int64_t piece_rows = 8192;        // of a dataset, packed together: what a fit reads at once
 constexpr std::int64_t slab_values = 2'000'000;  // rows held at a time, times columns
+constexpr int most_packing = 64;                 // ranks at a time, whose pieces the root holds
 
 h5::Type type_of(ColumnKind kind) {
   switch (kind) {
@@ -47,6 +50,8 @@ void describe_outcome(h5::Dataset& dataset) {
     meanings += name(static_cast<Outcome>(i));
     values.push_back(i);
   }
+  meanings += std::string(" ") + passed_over_name;
+  values.push_back(static_cast<std::int64_t>(passed_over));
   dataset.attribute("flag_values", values);
   dataset.attribute("flag_meanings", meanings);
 }
@@ -97,102 +102,103 @@ void lay_out(h5::Group& group, const MotionRows& motions) {
       .describe("m/s2", "pseudo-spectral acceleration at scale 1, 5 % damping; of pulses with a period of 1 s");
 }
 
-// Where the values of each column begin in the file, those of the samples' numbers at the end.
-parallel::Words lay_out(const std::filesystem::path& aside, const std::filesystem::path& path,
-                        const SamplesHeader& header, std::int64_t rows) {
-  const h5::Dimensions all{static_cast<std::uint64_t>(rows)};
-  parallel::Words places;
-  h5::File file = h5::File::create_at(aside, path);
+// Datasets of the columns, that of the samples' numbers at the end.
+std::vector<h5::Dataset> lay_out(const h5::File& file, const SamplesHeader& header, std::int64_t samples_rows) {
+  const auto rows = static_cast<std::uint64_t>(samples_rows), piece = std::min<std::uint64_t>(rows, piece_rows);
+  std::vector<h5::Dataset> datasets;
   h5::Group root = file.root();
   write_provenance(root, samples_format, header.provenance);
   h5::Group samples = root.make_group("samples");
-  h5::Dataset scale = samples.reserve_dataset("sample", h5::Type::integer64, all);
+  h5::Dataset scale = samples.make_in_pieces("sample", h5::Type::integer64, rows, piece);
   scale.scale("sample").describe("", "number of the sample");
   for (const Column& column : header.columns) {
-    h5::Dataset dataset = samples.reserve_dataset(column.name, type_of(column.kind), all);
+    h5::Dataset dataset = samples.make_in_pieces(column.name, type_of(column.kind), rows, piece);
     dataset.attach(0, scale).describe(column.unit, column.description);
     if (column.name == "outcome") describe_outcome(dataset);
-    places.push_back(dataset.offset());
+    datasets.push_back(std::move(dataset));
   }
-  places.push_back(scale.offset());
+  datasets.push_back(std::move(scale));
   h5::Group motions = root.make_group("motions");
   lay_out(motions, header.motions);
-  file.close();
-  return places;
+  return datasets;
 }
 
-// Rows of consecutive blocks, row-major.
-struct Slab {
-  std::int64_t first = 0;
-  std::vector<double> values;
-};
-
-Slab read_slab(const BlockLayout& layout, std::size_t columns, std::int64_t first_block, std::int64_t end_block,
-               const ReadBlock& read) {
-  Slab slab{first_block * layout.block_size, {}};
-  for (std::int64_t block = first_block; block < end_block; ++block) {
-    const std::vector<double> rows = read(block);
-    if (rows.size() != static_cast<std::size_t>(layout.rows(block)) * columns)
-      throw Error(fmt::format("block {} cannot be used ({} values for {} rows of {} columns): run the sweep again",
-                              block, rows.size(), layout.rows(block), columns),
-                  Exit::data);
-    slab.values.insert(slab.values.end(), rows.begin(), rows.end());
-  }
-  return slab;
-}
-
-// The file's datasets, at the places where they begin.
-class Columns {
+// Rows of any range, from blocks; the last block is kept, since the next range begins in it.
+class Rows {
  public:
-  Columns(const std::filesystem::path& aside, const std::filesystem::path& path, const std::vector<Column>& columns,
-          parallel::Words places)
-      : path_(path), columns_(columns), places_(std::move(places)), file_(aside, O_WRONLY) {
-    check(static_cast<bool>(file_));
-  }
+  Rows(const BlockLayout& layout, std::size_t columns, const ReadBlock& read)
+      : layout_(layout), columns_(columns), read_(read) {}
 
-  void write(const Slab& slab) const {
-    const std::size_t rows = slab.values.size() / columns_.size();
-    std::vector<double> values(rows);
-    for (std::size_t c = 0; c < columns_.size(); ++c) {
-      for (std::size_t row = 0; row < rows; ++row) values[row] = slab.values[row * columns_.size() + c];
-      if (columns_[c].kind == ColumnKind::real) put(c, slab.first, values);
-      if (columns_[c].kind == ColumnKind::integer) put(c, slab.first, whole_numbers<std::int32_t>(values, columns_[c]));
-      if (columns_[c].kind == ColumnKind::flag) put(c, slab.first, whole_numbers<std::uint8_t>(values, columns_[c]));
+  std::vector<double> operator()(std::int64_t first, std::int64_t end) {
+    std::vector<double> values;
+    while (first < end) {
+      take(first / layout_.block_size);
+      const std::int64_t begin = block_ * layout_.block_size, until = std::min(end, begin + layout_.rows(block_));
+      const auto at = [&](std::int64_t row) {
+        return block_values_.begin() + (row - begin) * static_cast<std::int64_t>(columns_);
+      };
+      values.insert(values.end(), at(first), at(until));
+      first = until;
     }
-    std::vector<std::int64_t> numbers(rows);
-    std::iota(numbers.begin(), numbers.end(), slab.first);
-    put(columns_.size(), slab.first, numbers);
-  }
-
-  void finish() {
-    check(file_.sync());
-    check(file_.close());
+    return values;
   }
 
  private:
-  void check(bool done) const {
-    if (!done) throw file_error("write", path_, errno);
+  void take(std::int64_t block) {
+    if (block == block_) return;
+    block_values_ = read_(block);
+    block_ = block;
+    if (block_values_.size() != static_cast<std::size_t>(layout_.rows(block)) * columns_)
+      throw Error(fmt::format("block {} cannot be used ({} values for {} rows of {} columns): run the sweep again",
+                              block, block_values_.size(), layout_.rows(block), columns_),
+                  Exit::data);
   }
 
-  template <class T>
-  void put(std::size_t column, std::int64_t first, const std::vector<T>& values) const {
-    check(
-        file_.write(std::as_bytes(std::span(values)), places_[column] + first * static_cast<std::int64_t>(sizeof(T))));
-  }
-
-  const std::filesystem::path& path_;
-  const std::vector<Column>& columns_;
-  const parallel::Words places_;
-  OpenFile file_;
+  const BlockLayout& layout_;
+  const std::size_t columns_;
+  const ReadBlock& read_;
+  std::int64_t block_ = -1;
+  std::vector<double> block_values_;
 };
 
-// What is left under the name aside where an error ends the writing.
-struct Leftover {
-  std::filesystem::path path;
-  ~Leftover() {
-    if (!path.empty()) ::unlink(path.c_str());
+template <class T>
+std::string packed_piece(std::vector<T> values, std::int64_t piece) {
+  values.resize(static_cast<std::size_t>(piece));  // the last one too has its whole length
+  return packed(std::as_bytes(std::span(values)), sizeof(T));
+}
+
+// Of rows first ... of one piece each column's values, packed, those of their numbers at the end.
+std::vector<std::string> pieces_of(const std::vector<double>& rows, std::int64_t first, std::int64_t piece,
+                                   const std::vector<Column>& columns) {
+  std::vector<std::string> pieces;
+  std::vector<double> values(rows.size() / columns.size());
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    for (std::size_t row = 0; row < values.size(); ++row) values[row] = rows[row * columns.size() + c];
+    if (columns[c].kind == ColumnKind::real) pieces.push_back(packed_piece(values, piece));
+    if (columns[c].kind == ColumnKind::integer)
+      pieces.push_back(packed_piece(whole_numbers<std::int32_t>(values, columns[c]), piece));
+    if (columns[c].kind == ColumnKind::flag)
+      pieces.push_back(packed_piece(whole_numbers<std::uint8_t>(values, columns[c]), piece));
   }
-};
+  std::vector<std::int64_t> numbers(values.size());
+  std::iota(numbers.begin(), numbers.end(), first);
+  pieces.push_back(packed_piece(numbers, piece));
+  return pieces;
+}
+
+// Texts as words: the length of each and, in whole words, its bytes.
+void append(parallel::Words& words, const std::string& text) {
+  words.push_back(static_cast<std::int64_t>(text.size()));
+  const std::size_t at = words.size();
+  words.resize(at + (text.size() + sizeof(std::int64_t) - 1) / sizeof(std::int64_t));
+  std::memcpy(words.data() + at, text.data(), text.size());
+}
+std::string next_text(const parallel::Words& words, std::size_t& at) {
+  const auto size = static_cast<std::size_t>(words[at]);
+  const std::string text(reinterpret_cast<const char*>(words.data() + at + 1), size);
+  at += 1 + (size + sizeof(std::int64_t) - 1) / sizeof(std::int64_t);
+  return text;
+}
 
 Column column_of(const std::string& name, const h5::Dataset& dataset) {
   const auto text = [&](const char* key) { return dataset.has_attribute(key) ? dataset.text_attribute(key) : ""; };
@@ -235,24 +241,38 @@ std::int64_t BlockLayout::rows(std::int64_t block) const {
 void write_samples(const parallel::Communicator& world, const std::filesystem::path& path, const SamplesHeader& header,
                    const BlockLayout& layout, const ReadBlock& read) {
   const std::filesystem::path aside = path.parent_path() / fmt::format(".{}.part", path.filename().string());
-  Leftover leftover;
-  parallel::Words places;
-  if (world.is_root()) {
-    places = lay_out(aside, path, header, layout.samples);
-    leftover.path = aside;
-  }
-  Columns file(aside, path, header.columns, world.broadcast(places));
   const auto columns = static_cast<std::int64_t>(header.columns.size());
-  const std::int64_t run =
-      std::max<std::int64_t>(1, slab_values / std::max<std::int64_t>(1, columns * layout.block_size));
-  const std::int64_t blocks = layout.blocks();
-  for (std::int64_t first = world.rank() * run; columns > 0 && first < blocks; first += run * world.size())
-    file.write(read_slab(layout, header.columns.size(), first, std::min(first + run, blocks), read));
-  file.finish();
-  world.barrier();
+  const std::int64_t piece = std::min(layout.samples, piece_rows);
+  // Whole pieces; a block is read by two ranks at most.
+  const std::int64_t least = std::max(layout.block_size, slab_values / std::max<std::int64_t>(1, columns));
+  const std::int64_t slab = (least + piece_rows - 1) / piece_rows * piece_rows;
+  const int packing = std::min(world.size(), most_packing);
+  std::optional<h5::File> file;
+  std::vector<h5::Dataset> datasets;
   world.on_root([&] {
+    file.emplace(h5::File::create_at(aside, path));
+    datasets = lay_out(*file, header, layout.samples);
+  });
+  Rows rows(layout, header.columns.size(), read);
+  for (std::int64_t first = 0; columns > 0 && first < layout.samples; first += packing * slab) {
+    parallel::Words mine;
+    const std::int64_t begin = first + world.rank() * slab, end = std::min(layout.samples, begin + slab);
+    for (std::int64_t at = begin; world.rank() < packing && at < end; at += piece)
+      for (const std::string& one : pieces_of(rows(at, std::min(at + piece, end)), at, piece, header.columns))
+        append(mine, one);
+    const std::vector<parallel::Words> all = world.gather(mine);
+    world.on_root([&] {
+      std::int64_t row = first;
+      for (const parallel::Words& words : all)
+        for (std::size_t at = 0; at < words.size(); row += piece)
+          for (h5::Dataset& dataset : datasets)
+            dataset.write_piece(static_cast<std::uint64_t>(row), next_text(words, at));
+    });
+  }
+  world.on_root([&] {
+    datasets.clear();
+    file->close();
     publish_durably(aside, path);
-    leftover.path.clear();
   });
 }
 

@@ -1,7 +1,7 @@
 // samples.h5: one dataset per column, one row per sample.
 //
 // root attributes: provenance.hpp, format "freestand-samples/2". /samples/sample is the dimension scale 0..n-1;
-// /samples/NAME [sample] is float64, int32 or uint8 by the column's kind, with attributes unit and description; outcome
+// /samples/NAME [sample] is float64, int32 or uint8 by the column's kind, in pieces that are shuffled and deflated, with attributes unit and description; outcome
 // carries flag_values and flag_meanings. /motions/name [motion], scale /motions/motion: names of the floor motions,
 // which the column `motion` points to, and beside it [motion] what is kept of them at scale 1, with units;
 // /motions has an attribute fingerprint, of their contents; /motions/period_s is the scale of /motions/sa_mps2 [motion, period_s], spectral accelerations, 5 % damping. From these and
@@ -51,9 +51,9 @@ struct BlockLayout {
 // Values of one block, row-major, rows(block) x columns.
 using ReadBlock = std::function<std::vector<double>(std::int64_t block)>;
 
-// Writes the file, all ranks together: the root lays it out, then each reads runs of blocks, in order, and writes their rows
-// where they belong; it holds about 16 MiB of rows, or one block, at a time. Not by MPI's own files: those of Open MPI (4.1)
-// wait for ever where one rank cannot open the file, and take a write that did a part for a whole one.
+// Writes the file, all ranks together: each reads runs of blocks, in order, and packs their columns in pieces of 8192 rows; the root
+// writes them. A rank holds about 16 MiB of rows, or two blocks, at a time, the root what 64 of them have packed. Not by MPI's own files:
+// those of Open MPI (4.1) wait for ever where one rank cannot open the file, and take a write that did a part for a whole one.
 // The file does not depend on the number of ranks but for the provenance. Throws Error: a full disk is Exit::cure, a block of
 // another shape or a fraction in an integer column Exit::data. Collective.
 void write_samples(const parallel::Communicator&, const std::filesystem::path& path, const SamplesHeader&,

@@ -1,5 +1,5 @@
-// What lies in the folder of unfinished work, as a whole: the log of samples (block_log.hpp) and the sums over them
-// (block_sums.hpp), of whatever study.
+// What lies in the folder of unfinished work, as a whole: the log of samples (block_log.hpp), the sums over them
+// (block_sums.hpp) and the rounds in which they are made (study/rounds.hpp), of whatever study.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +22,7 @@ inline std::int64_t count_finished_blocks(const std::filesystem::path& folder) {
 inline void remove_finished_blocks(const std::filesystem::path& folder) {
   remove_run_files(folder, "log");
   remove_run_files(folder, "sums");
+  remove_run_files(folder, "rounds");
   remove_asides(folder);
   std::error_code error;
   if (std::filesystem::is_empty(folder, error)) std::filesystem::remove(folder, error);

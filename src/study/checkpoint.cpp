@@ -21,7 +21,8 @@ std::uint32_t kernel_of(const std::vector<Column>& columns) {
 }
 
 std::string fingerprint_of(const Study& study, const Evaluator& evaluator, bool all_kept) {
-  return samples_fingerprint(study) + (all_kept ? "" : counts_fingerprint(study)) + evaluator.motions().fingerprint();
+  return samples_fingerprint(study) + (all_kept ? "" : counts_fingerprint(study)) +
+         (study.until ? fingerprint(study) : "") + evaluator.motions().fingerprint();
 }
 
 // Samples 0 ... count - 1, of which every rank integrates a part: their bits travel as whole numbers.
@@ -75,13 +76,13 @@ bool Checkpoint::has_rows(std::int64_t block) const {
 }
 
 // The rows first: what is in the sums is never counted again, and rows that are missing are computed again when they are read.
-void Checkpoint::add(std::int64_t block, const Table& rows) {
+void Checkpoint::add(std::int64_t block, const Table& rows, bool alike) {
   const auto columns = static_cast<std::int64_t>(rows.columns.size());
   if (!has_rows(block))
     log_.write(block, {columns, {rows.values.begin(), rows.values.begin() + kept(block) * columns}});
   if (has_counts(block)) return;
   if (counted_->waiting.empty()) counted_->since = std::chrono::steady_clock::now();
-  counted_->counts.add(rows, block * layout_.block_size);
+  counted_->counts.add(rows, block * layout_.block_size, alike);
   counted_->waiting.push_back(block);
   if (std::chrono::steady_clock::now() - counted_->since >= pause_between_sums) add_to_sums();
 }

@@ -35,8 +35,9 @@ class Checkpoint {
   // Was all of this block finished by earlier runs?
   bool has(std::int64_t block) const { return has_rows(block) && has_counts(block); }
 
-  // A block that is finished, all its rows. Throws Error: a full disk is Exit::cure.
-  void add(std::int64_t block, const Table& rows);
+  // A block that is finished, all its rows; alike: of a round that takes samples of all intensities. Throws Error: a full disk is
+  // Exit::cure.
+  void add(std::int64_t block, const Table& rows, bool alike);
 
   // From here on every rank can read what any has added, and what was counted is in files. Collective.
   void share();

@@ -39,14 +39,15 @@ EarlierSamples::EarlierSamples(const Study& study, const std::filesystem::path& 
   if (draws_fingerprint(swept) != draws_fingerprint(study))
     throw Error(fmt::format("{} holds the results of another study ({}): take that back, or {}", folder.string(),
                             changes_told(study, swept), other_folder));
+  rows_ = rows_alike(*reader_);
   const std::int64_t there = swept_samples(*reader_);
   complete_ = study.until || swept.until ? expanded(swept) == expanded(study) : there == wanted;
   if (complete_) return;
-  if (rows() < there)
+  if (reader_->rows() < there)
     throw Error(
         fmt::format("{} holds the counts of {} samples of this study, of which {} are kept, and none can be added "
                     "(keep: all would have let it): {}",
-                    folder.string(), there, rows(), other_folder));
+                    folder.string(), there, reader_->rows(), other_folder));
   if (rows() > wanted)
     throw Error(
         fmt::format("{} holds {} samples of this study, and {} are asked for (none is taken away): `freestand "

@@ -19,7 +19,8 @@ class EarlierSamples {
   // than the study wants, or would be others with its number of samples.
   EarlierSamples(const Study&, const std::filesystem::path& folder);
 
-  std::int64_t rows() const { return reader_ ? reader_->rows() : 0; }
+  // Of a sweep that passed samples over, those before the first of them: which ones it passed over was for its own study.
+  std::int64_t rows() const { return rows_; }
 
   // All that the study asks for: nothing is left to do. With `until` only if it is the very same study.
   bool complete() const { return complete_; }
@@ -33,6 +34,7 @@ class EarlierSamples {
  private:
   std::shared_ptr<const io::SampleReader> reader_;
   std::filesystem::path folder_;
+  std::int64_t rows_ = 0;
   bool complete_ = false;
 };
 

@@ -3,6 +3,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/passed_over.hpp"
 #include "base/units.hpp"
 #include "edp/edp.hpp"
 
@@ -36,6 +37,13 @@ struct Evaluator::Parts {
       values.push_back(has_value(edp, response.outcome) ? edp.value(input) : nothing);
     values.push_back(static_cast<double>(response.outcome));
     values.push_back(response.events);
+  }
+
+  void append_passed_over(const Realisation& drawn, std::vector<double>& values) const {
+    values.insert(values.end(), drawn.draws.begin(), drawn.draws.end());
+    values.insert(values.end(), edp::all().size(), nothing);
+    values.push_back(static_cast<double>(passed_over));
+    values.push_back(0);
   }
 };
 
@@ -84,22 +92,31 @@ Outcome Evaluator::append_alone(std::uint64_t sample, std::vector<double>& value
   return response.outcome;
 }
 
-std::vector<Outcome> Evaluator::append(std::uint64_t first, std::size_t count, std::vector<double>& values) const {
+std::vector<Outcome> Evaluator::append(std::uint64_t first, std::size_t count, std::vector<double>& values,
+                                       const Taken& taken) const {
   std::vector<Realisation> drawn;
+  for (std::size_t i = 0; i < count; ++i) drawn.push_back(parts_->realise(first + i));
+  std::vector<bool> takes(count, true);
+  if (taken) {
+    Table draws{parts_->realise.draw_columns(), {}};
+    for (const Realisation& one : drawn) draws.values.insert(draws.values.end(), one.draws.begin(), one.draws.end());
+    takes = taken(draws);
+  }
   std::vector<Specimen> specimens;
   std::vector<Shaking> shakings;
-  for (std::size_t i = 0; i < count; ++i) {
-    drawn.push_back(parts_->realise(first + i));
-    specimens.push_back(drawn.back().specimen);
-    shakings.push_back(drawn.back().shaking);
-  }
-  std::vector<Response> responses(count);
-  respond_batch(specimens, shakings, parts_->settings, responses);
+  for (std::size_t i = 0; i < count; ++i)
+    if (takes[i]) specimens.push_back(drawn[i].specimen), shakings.push_back(drawn[i].shaking);
+  std::vector<Response> responses(specimens.size());
+  if (!responses.empty()) respond_batch(specimens, shakings, parts_->settings, responses);
 
   std::vector<Outcome> outcomes;
+  auto response = responses.begin();
   for (std::size_t i = 0; i < count; ++i) {
-    parts_->append(drawn[i], responses[i], values);
-    outcomes.push_back(responses[i].outcome);
+    outcomes.push_back(takes[i] ? response->outcome : passed_over);
+    if (takes[i])
+      parts_->append(drawn[i], *response++, values);
+    else
+      parts_->append_passed_over(drawn[i], values);
   }
   return outcomes;
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <freestand/simulate.hpp>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -31,9 +32,13 @@ class Evaluator {
   // The same, integrated by itself, never in a pack: to check those.
   Outcome append_alone(std::uint64_t sample, std::vector<double>& values) const;
 
+  // Which samples are integrated, from their draws.
+  using Taken = std::function<std::vector<bool>(const Table& draws)>;
+
   // The same as append(), for samples first ... first + count - 1, integrated in packs: the same rows, to the bit, in
-  // blocks of any size. Tells the outcomes in order.
-  std::vector<Outcome> append(std::uint64_t first, std::size_t count, std::vector<double>& values) const;
+  // blocks of any size. Tells the outcomes in order: passed_over of those that are not taken, whose rows hold their draws.
+  std::vector<Outcome> append(std::uint64_t first, std::size_t count, std::vector<double>& values,
+                              const Taken& taken = {}) const;
 
   // What is known of samples 0 ... count - 1 before they are integrated.
   Table draws(std::size_t count) const;

@@ -262,6 +262,14 @@ std::string fragility_text(const FragilityPart& f) {
                     number_text(f.adequate), f.empirical_fallback);
 }
 
+std::string until_text(const UntilPart& until) {
+  std::string text = fmt::format("until: {{half_width: {}, ", number_text(until.half_width));
+  if (until.relative_error)
+    text += fmt::format("relative_error: {}, down_to: {}, ", number_text(*until.relative_error),
+                        number_text(until.down_to));
+  return text + fmt::format("at_most: {}{}}}\n", until.at_most, until.everywhere ? ", everywhere: true" : "");
+}
+
 std::string keep_text(const KeepPart& keep) {
   return keep.one_in == 0 ? "none" : fmt::format("{{thin: {}}}", keep.one_in);
 }
@@ -272,8 +280,7 @@ std::string forces_text(const Study& study) { return study.contact_forces ? "con
 std::string samples_text(const Study& study) {
   std::string text = fmt::format("seed: {}\n", study.seed);
   if (study.until)
-    text += fmt::format("until: {{half_width: {}, at_most: {}}}\n", number_text(study.until->half_width),
-                        study.until->at_most);
+    text += until_text(*study.until);
   else
     text += fmt::format("samples: {}\n", study.samples);
   if (study.keep.one_in != 1) text += fmt::format("keep: {}\n", keep_text(study.keep));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -41,6 +42,7 @@ nlohmann::ordered_json timing_json(const SweepSummary* sweep, double fit_s, int 
     json["write_s"] = sweep->write_s;
     json["samples_per_s"] = sweep->samples_per_s;
     json["samples_computed"] = sweep->computed;
+    json["samples_passed_over"] = sweep->passed_over;
   }
   json["fit_s"] = fit_s;
   json["ranks"] = ranks;
@@ -84,6 +86,14 @@ std::optional<parallel::Words> counted_words(const parallel::Communicator& world
   return words;
 }
 
+// How many of the first samples the fit of this study is of: of a sweep that passed samples over for the intensity of its `until`, those
+// before them where the fit is over another one.
+std::int64_t rows_for(const Study& study, const io::SampleReader& reader) {
+  const IntensityPart swept = parse_stored(reader.provenance().study, "samples.h5").fragility.im,
+                      &im = study.fragility.im;
+  return im.name == swept.name && im.period_s == swept.period_s ? reader.rows() : rows_alike(reader);
+}
+
 io::Provenance provenance_of(const io::SampleReader& reader, const Study& study, const FitOptions& options, int ranks) {
   io::Provenance provenance = io::provenance_here(options.command, ranks);
   provenance.study = expanded(study);
@@ -94,11 +104,12 @@ io::Provenance provenance_of(const io::SampleReader& reader, const Study& study,
   provenance.kernel = reader.provenance().kernel;
   provenance.seed = reader.provenance().seed;
   provenance.samples = reader.provenance().samples;
+  provenance.alike = reader.provenance().alike;
   return provenance;
 }
 
 nlohmann::ordered_json summary_of(const Study& study, const io::Provenance& provenance, const fragility::Result& result,
-                                  const FitSummary& told) {
+                                  const FitSummary& told, const Drawn& drawn) {
   nlohmann::ordered_json summary = io::fragility_summary(provenance, result);
   if (study.fragility.im.period_s) summary["im_" + study.fragility.im.parameter] = *study.fragility.im.period_s;
   summary["accuracy"] = nlohmann::ordered_json::parse(provenance.accuracy);
@@ -106,7 +117,7 @@ nlohmann::ordered_json summary_of(const Study& study, const io::Provenance& prov
   for (const auto& doubt : nlohmann::json::parse(provenance.doubts))
     summary["warnings"].push_back(doubt.get<std::string>());
   for (const std::string& note : told.notes) summary["warnings"].push_back(note);
-  tell_until(study, result, summary);
+  tell_until(study, result, drawn, summary);
   summary["motion_entries"] = study.motions.size();
   summary["study_changed"] = told.changed;
   return summary;
@@ -155,11 +166,12 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   if (const auto words = counted_words(world, study, reader, options.from)) {
     const SampleCounts counts(study, target, reader.motions().group, motions, reader.read(0, bin_layout_samples));
     result = counts.result(*words, jobs);
-    if (world.is_root()) ranking = counts.ranking(*words, swept_samples(reader));
+    if (world.is_root()) ranking = counts.ranking(*words, samples_alike(reader), swept_samples(reader));
     told.samples = swept_samples(reader);
   } else {
-    if (const std::string note = kept_told(reader); !note.empty()) told.notes.push_back(note);
-    const io::BlockLayout layout{reader.rows(), rows_at_once};
+    told.samples = rows_for(study, reader);
+    if (const std::string note = kept_told(reader, told.samples); !note.empty()) told.notes.push_back(note);
+    const io::BlockLayout layout{told.samples, rows_at_once};
     const std::vector<std::string> columns = analysed_columns(study.fragility);
     const auto rows_of = [&](std::int64_t block) {
       return intensity.beside(reader.read(block * rows_at_once, layout.rows(block), columns));
@@ -170,6 +182,11 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     ranking = rank_intensities(world, study, target, reader);
   }
   told.warnings = result.warnings;
+  const Drawn drawn{told.samples, std::min(told.samples, samples_alike(reader))};
+  if (const std::string note = passed_over_told(drawn); !note.empty()) {
+    told.notes.push_back(note);
+    if (world.is_root() && target.empty()) told.samples = result.samples;
+  }
   world.on_root([&] {
     const io::Provenance provenance = provenance_of(reader, study, options, world.size());
     for (const auto& warning : accuracy_warnings(nlohmann::json::parse(provenance.accuracy)))
@@ -179,7 +196,7 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
     io::write_result(folder / "surface.csv", io::surface_csv(result));
     io::write_result(folder / "ranking.csv", ranking_csv(ranking));
     if (elsewhere) io::write_text(study_path(folder), io::signed_text(expanded(study, folder)));
-    nlohmann::ordered_json summary = summary_of(study, provenance, result, told);
+    nlohmann::ordered_json summary = summary_of(study, provenance, result, told, drawn);
     summary["record_pulses"] = record_pulses_json(motions);
     summary["ranking"] = ranking_json(ranking);
     summary["timing"] = timing_json(options.sweep, so_far(), world.size());

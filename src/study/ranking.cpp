@@ -12,6 +12,7 @@
 #include "study/fragility_changes.hpp"
 #include "study/intensities.hpp"
 #include "study/motion_summaries.hpp"
+#include "study/swept_study.hpp"
 
 namespace freestand::study {
 namespace {
@@ -181,21 +182,22 @@ void RankingCounts::add(const Table& rows, std::int64_t first) {
   }
 }
 
-Ranking RankingCounts::ranking(std::span<const std::int64_t> words, std::int64_t swept) const {
-  return {std::min(swept, most_ranked_samples), swept,
+Ranking RankingCounts::ranking(std::span<const std::int64_t> words, std::int64_t alike, std::int64_t swept) const {
+  return {std::min(alike, most_ranked_samples), swept,
           rank(fragility::RankingTally::from_words(tally_.options(), words))};
 }
 
 Ranking rank_intensities(const parallel::Communicator& world, const Study& study, const Target& target,
                          const io::SampleReader& reader) {
   RankingCounts counts(study, target, reader.motions().group, motion_summaries(reader.motions()));
-  const io::BlockLayout layout{std::min(reader.rows(), most_ranked_samples), rows_of_a_block};
+  const std::int64_t alike = rows_alike(reader);
+  const io::BlockLayout layout{std::min(alike, most_ranked_samples), rows_of_a_block};
   for (std::int64_t block = world.rank(); block < layout.blocks(); block += world.size())
     counts.add(reader.read(block * rows_of_a_block, layout.rows(block), counts.columns()), block * rows_of_a_block);
   parallel::Words words = counts.words();
   world.sum_in_place(words);
   if (!world.is_root()) return {};
-  return counts.ranking(words, reader.rows());
+  return counts.ranking(words, alike, reader.rows());
 }
 
 ordered_json ranking_json(const Ranking& ranking) {

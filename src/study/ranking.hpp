@@ -48,7 +48,8 @@ class RankingCounts {
     return fragility::RankingTally::from_words(tally_.options(), added).words();
   }
 
-  Ranking ranking(std::span<const std::int64_t> words, std::int64_t swept) const;
+  // alike: so many of the first samples could be added.
+  Ranking ranking(std::span<const std::int64_t> words, std::int64_t alike, std::int64_t swept) const;
 
  private:
   const Target& target_;
@@ -56,7 +57,8 @@ class RankingCounts {
   fragility::RankingTally tally_;
 };
 
-// On the root, the others get an empty one; the same to the bit on any number of ranks. Collective.
+// Of the samples that are kept and were taken whatever their intensity. On the root, the others get an empty one; the same to the bit on
+// any number of ranks. Collective.
 Ranking rank_intensities(const parallel::Communicator&, const Study&, const Target&, const io::SampleReader&);
 
 nlohmann::ordered_json ranking_json(const Ranking&);

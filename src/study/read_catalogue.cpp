@@ -375,6 +375,7 @@ class Reader {
     if (!found.empty()) return;
     study.name = words.id;
     if (!intensities_.empty()) study.fragility.im = intensities_.front();
+    if (study.until && intensities_.size() > 1) study.until->everywhere = true;  // the other intensities want them
     describe(study, words);
     catalogue_.entries.push_back({std::move(words), std::move(study), place, {}});
     if (!intensities_.empty()) catalogue_.entries.back().others.assign(intensities_.begin() + 1, intensities_.end());

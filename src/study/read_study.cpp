@@ -63,11 +63,23 @@ void read_until(Section& file, Study& study) {
   Section section(*node, "until", file.line("until"), file.problems());
   UntilPart until;
   until.half_width = section.number(
-      "half_width", 0.02, {.lower = 0, .upper = 0.5, .why = "a half width of a probability lies between 0 and 0.5"});
+      "half_width", until.half_width,
+      {.lower = 0, .upper = 0.5, .upper_open = false, .why = "a half width of a probability lies between 0 and 0.5"});
+  until.relative_error = section.optional_number(
+      "relative_error", {.lower = 0, .upper = 1, .why = "a standard error lies between 0 and 1 of the probability"});
+  until.down_to = section.number(
+      "down_to", until.down_to,
+      {.lower = 1e-9, .upper = 1, .lower_open = false, .why = "it is a probability, the least that is wanted"});
+  until.everywhere = section.flag("everywhere", false);
   until.at_most = section.integer("at_most", 10000000, 1, most_samples);
-  if (node->IsMap() && !section.has("half_width"))
+  if (node->IsMap() && !section.has("half_width") && !section.has("relative_error"))
     section.problem("half_width",
-                    "until.half_width is missing (how well must the surface be known?): add half_width: 0.02");
+                    "until.half_width is missing (how well must the surface be known?): add half_width: 0.02, or "
+                    "relative_error: 0.2");
+  if (section.has("down_to") && !section.has("relative_error"))
+    section.problem("down_to",
+                    "until.down_to is given without relative_error (of which it is the least probability): "
+                    "add relative_error: 0.2");
   section.finish();
   if (file.has("samples"))
     file.problem("until",

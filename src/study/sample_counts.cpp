@@ -30,8 +30,8 @@ SampleCounts::SampleCounts(const Study& study, const Target& target, const std::
       demand_words_(demands_.words().size()),
       size_(demand_words_ + ranking_.words().size()) {}
 
-void SampleCounts::add(Table rows, std::int64_t first) {
-  ranking_.add(rows, first);
+void SampleCounts::add(Table rows, std::int64_t first, bool alike) {
+  if (alike) ranking_.add(rows, first);
   demands_.add(intensity_.beside(std::move(rows)), static_cast<std::uint64_t>(first));
 }
 
@@ -55,8 +55,8 @@ fragility::Result SampleCounts::result(const parallel::Words& words, const Jobs&
   return demands_.result(std::span(words).first(demand_words_), jobs);
 }
 
-Ranking SampleCounts::ranking(const parallel::Words& words, std::int64_t swept) const {
-  return ranking_.ranking(std::span(words).subspan(demand_words_), swept);
+Ranking SampleCounts::ranking(const parallel::Words& words, std::int64_t alike, std::int64_t swept) const {
+  return ranking_.ranking(std::span(words).subspan(demand_words_), alike, swept);
 }
 
 }  // namespace freestand::study

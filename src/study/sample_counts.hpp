@@ -22,8 +22,8 @@ class SampleCounts {
   // first: the first samples' rows, over which the bins are laid. study and target outlive it.
   SampleCounts(const Study&, const Target&, const std::vector<int>& motion_group, const MotionSummaries&, Table first);
 
-  // Row i is sample first + i.
-  void add(Table rows, std::int64_t first);
+  // Row i is sample first + i. alike: of a round that takes samples of all intensities; others are not ranked by.
+  void add(Table rows, std::int64_t first, bool alike);
 
   // What was added since the last time, as words that may be added element by element.
   parallel::Words take();
@@ -34,7 +34,7 @@ class SampleCounts {
 
   // Of words that were added up.
   fragility::Result result(const parallel::Words&, const Jobs&) const;
-  Ranking ranking(const parallel::Words&, std::int64_t swept) const;
+  Ranking ranking(const parallel::Words&, std::int64_t alike, std::int64_t swept) const;
 
  private:
   SampleIntensity intensity_;

@@ -16,6 +16,7 @@
 #include "study/damage_states.hpp"
 #include "study/evaluator.hpp"
 #include "study/known.hpp"
+#include "study/motion_bytes.hpp"
 #include "study/sampled.hpp"
 #include "study/swept_study.hpp"
 
@@ -53,6 +54,7 @@ class Shares {
       : world_(world),
         options_(options),
         reader_(samples_of(options.folder)),
+        rows_(rows_alike(reader_)),
         study_(analysed_study(options.folder, reader_)),
         motions_(group_options(reader_, study_)),
         groups_(motions_),
@@ -71,11 +73,11 @@ class Shares {
           fmt::format("--total {} is too few (of so few pairs no share and no error is known): give {} at least, "
                       "and better thousands",
                       options.pairs, fewest_pairs));
-    if (options.pairs > reader_.rows())
+    if (options.pairs > rows_)
       throw Error(
           fmt::format("--total {} is more than the {} samples of {} (each is a sample of the sweep with one "
                       "parameter drawn again): ask for fewer, or sweep more",
-                      options.pairs, reader_.rows(), options.folder.string()));
+                      options.pairs, rows_, options.folder.string()));
     refuse_other_draws();
   }
 
@@ -85,7 +87,7 @@ class Shares {
     found.answers = answers_.answers();
     found.confidence = options_.confidence.value_or(study_.fragility.confidence);
     found.pairs = options_.pairs;
-    found.note = kept_told(reader_);
+    found.note = kept_told(reader_, rows_);
     if (!study_.fragility.target.empty())
       found.note += fmt::format(
           "{}the target of the study is not applied: shares are of what was swept, with its own "
@@ -138,7 +140,7 @@ class Shares {
 
   // The classes are those of the draws that this program makes; the samples must be made of them.
   void refuse_other_draws() const {
-    const std::int64_t rows = std::min<std::int64_t>(reader_.rows(), 64);
+    const std::int64_t rows = std::min<std::int64_t>(rows_, 64);
     for (const Quantity& quantity : quantities(study_.model)) {
       if (is_fixed(quantity.value)) continue;
       std::string column = quantity.name;
@@ -162,7 +164,7 @@ class Shares {
       for (const Sampled& one : *some) parameters.push_back(one.parameter), all.push_back(&one);
     decision::ShareTally tally(parameters, answers_.answers(), groups_,
                                study_.design == sampling::Design::sobol && study_.scrambles == 1);
-    const io::BlockLayout layout{reader_.rows(), rows_in_a_block};
+    const io::BlockLayout layout{rows_, rows_in_a_block};
     std::vector<std::string> names = columns_read();
     names.emplace_back("motion");
     parallel::StepDisplay display(options_.quiet || !world_.is_root());
@@ -189,7 +191,7 @@ class Shares {
   // Every parameter times every stretch of samples is one piece of work.
   void compute_pairs(decision::TotalTally& total) const {
     const Study study = swept_study(world_, options_.folder, reader_);
-    const Evaluator whole(study, load_motions(study));
+    const Evaluator whole(study, load_motions_together(world_, study));
     std::vector<Evaluator> evaluators;
     for (const Sampled& one : sampled_) {
       Study other = study;
@@ -264,6 +266,7 @@ class Shares {
   const parallel::Communicator& world_;
   const SensitivityOptions& options_;
   const io::SampleReader reader_;
+  const std::int64_t rows_;  // that shares are of
   const Study study_;
   const fragility::MotionGroups motions_;
   const fragility::LeaveOutGroups groups_;

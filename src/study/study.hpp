@@ -248,9 +248,12 @@ struct FragilityPart {
   bool empirical_fallback = true;            // a bin whose fit may be off by more takes its curve from the counts
 };
 
-// Run until every wanted point of the surface is known to +- half_width, or `at_most` samples are done.
+// Run until every wanted point of the surface is known well enough (fragility::Wanted), or `at_most` samples are drawn.
 struct UntilPart {
-  double half_width = 0;
+  double half_width = 0.5;
+  std::optional<double> relative_error = {};
+  double down_to = 0.001;   // the least probability that is wanted to relative_error
+  bool everywhere = false;  // samples of all intensities are taken, whether they are wanted there or not
   std::uint64_t at_most = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/passed_over.hpp"
 #include "fragility/half_width.hpp"
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
@@ -27,7 +28,9 @@
 #include "study/intensities.hpp"
 #include "study/kernel_number.hpp"
 #include "study/known.hpp"
+#include "study/motion_bytes.hpp"
 #include "study/read_parts.hpp"
+#include "study/rounds.hpp"
 #include "study/spread_jobs.hpp"
 #include "study/sweep_size.hpp"
 #include "study/until.hpp"
@@ -50,22 +53,22 @@ std::string why_other(const Study& study, const std::filesystem::path& folder, c
   try {
     const std::string told =
         changes_told(study, parse_stored(read_text(study_path(folder)), study_path(folder)),
-                     same_samples && kept_samples(study, samples) < samples ? Changes::of_counts : Changes::of_samples);
+                     same_samples && (study.until || kept_samples(study, samples) < samples) ? Changes::of_counts
+                                                                                             : Changes::of_samples);
     if (!told.empty()) return told;
   } catch (const Error&) {  // it is gone, or no study any more
   }
   return same_samples ? "a record has other contents now, or another name" : "their fingerprint differs";
 }
 
-// The root tries the records first, so that a broken one is told once and all ranks leave in order.
 MotionSet load_together(const Communicator& world, const Study& study, const SweepOptions& options) {
+  const MotionSet motions = load_motions_together(world, study);
   world.on_root([&] {
-    const MotionSet motions = load_motions(study);
     for (const std::string& doubt : doubts(study, motions))
       if (!options.doubts_told || options.doubts_told->insert(doubt).second)
         parallel::tell("doubtful: " + doubt + "\n");
   });
-  return load_motions(study);
+  return motions;
 }
 
 Evaluator evaluator_together(const Communicator& world, const Study& study, const SweepOptions& options) {
@@ -83,26 +86,27 @@ class Sweep {
         folder_(folder),
         earlier_(study, folder.path()),
         evaluator_(evaluator_together(world, study, options)),
-        target_(study) {
+        target_(study),
+        rounds_(world, blocks_path(folder.path()), fingerprint(study) + evaluator_.motions().fingerprint()) {
     earlier_.check(evaluator_.columns(), evaluator_.motions().fingerprint());
     look_at_size();
     checkpoint_.emplace(world, study, target_, evaluator_, folder.path());
+    if (study.until) bins_.emplace(study, target_, evaluator_);
   }
 
   SweepSummary run() {
     summary_.motions_s = seconds_since(start_);
     take_stock();
     folder_.begin();
-    std::int64_t samples = std::max(first_round(), earlier_.rows());
-    while (samples < checkpoint_->least_counted()) samples = std::min(total(), 2 * samples);  // those were too few
-    compute(samples);
-    while (samples < total() && !known_well_enough(samples)) {
-      samples = std::min(total(), 2 * samples);
-      compute(samples);
-    }
-    if (study_.until && samples == total() && !options_.fit_follows) tell_if_not_reached(samples);
+    if (rounds_.count() == 0) begin_rounds();
+    compute(rounds_[0].end);
+    for (std::int64_t i = 1; i < rounds_.count() || another_round(); ++i) compute(rounds_[i].end);
+    const std::int64_t samples = rounds_[rounds_.count() - 1].end;
+    if (study_.until && samples == total() && !options_.fit_follows)
+      tell_if_not_reached(result_so_far(samples), samples);
     write(samples);
     folder_.end();
+    count_integrated();
     summary_.samples = samples;
     summary_.wall_s = seconds_since(start_);
     if (summary_.compute_s > 0) summary_.samples_per_s = static_cast<double>(summary_.computed) / summary_.compute_s;
@@ -114,10 +118,18 @@ class Sweep {
   io::BlockLayout layout(std::int64_t samples) const { return {samples, static_cast<std::int64_t>(study_.block_size)}; }
 
   // With `until`: whole blocks, enough for the bins of the intensity measure to be laid.
-  std::int64_t first_round() const {
-    if (!study_.until) return total();
-    const auto block = static_cast<std::int64_t>(study_.block_size);
-    return std::min(total(), block * ((bin_layout_samples + block - 1) / block));
+  void begin_rounds() {
+    const std::int64_t block = layout(total()).block_size, least = std::max(bin_layout_samples, earlier_.rows());
+    Round first{study_.until ? std::min(total(), block * ((least + block - 1) / block)) : total()};
+    if (first.end < checkpoint_->least_counted())
+      throw Error(
+          fmt::format("{} cannot be gone on with (which samples its rounds have taken is not known any more): give "
+                      "--overwrite to begin anew",
+                      blocks_path(folder_.path()).string()));
+    if (study_.until)
+      rounds_.add(std::move(first));
+    else
+      rounds_.only(std::move(first));
   }
 
   // Before anything is made: the bins are laid over the first samples' intensities, which are known before any response is.
@@ -136,6 +148,7 @@ class Sweep {
       if (earlier_.rows() == 0) write_study();  // else it is of the samples that are there, until all are
     });
     checkpoint_->begin();
+    if (study_.until) rounds_.read();
   }
 
   void write_study() const {
@@ -180,28 +193,34 @@ class Sweep {
     summary_.compute_s += seconds_since(start);
     checkpoint_->share();
     if (!complete) folder_.leave();
-    summary_.computed += samples - there;
     finished_ = samples / layout(samples).block_size;
   }
 
   parallel::Counts compute_block(std::int64_t samples, std::int64_t block, const parallel::Beat& beat) {
     parallel::Counts counts;
-    checkpoint_->add(block, {evaluator_.columns(), rows_of(block, layout(samples).rows(block), counts, beat)});
+    const std::int64_t before = passed_over_;
+    const bool alike = block * layout(samples).block_size < rounds_.alike();
+    checkpoint_->add(block, {evaluator_.columns(), rows_of(block, layout(samples).rows(block), counts, beat)}, alike);
+    integrated_ += counts.samples - (passed_over_ - before);
     return counts;
   }
 
   // The first so many rows of a block.
   std::vector<double> rows_of(std::int64_t block, std::int64_t rows, parallel::Counts& counts,
-                              const parallel::Beat& beat) const {
+                              const parallel::Beat& beat) {
     std::vector<double> values;
     values.reserve(evaluator_.columns().size() * static_cast<std::size_t>(rows));
     const std::int64_t first = block * layout(total()).block_size, end = first + rows;
     const std::int64_t earlier = std::min(rows, earlier_rows(total(), block));
     if (earlier > 0) values = earlier_.read(first, earlier);
+    const Round& round = rounds_.of(first);
+    Evaluator::Taken taken;
+    if (!round.bins.empty()) taken = [&](const Table& draws) { return bins_->taken(round, draws); };
     for (std::int64_t sample = first + earlier; sample < end; sample += pack_samples) {
       const auto count = static_cast<std::size_t>(std::min(pack_samples, end - sample));
-      for (const Outcome outcome : evaluator_.append(static_cast<std::uint64_t>(sample), count, values)) {
+      for (const Outcome outcome : evaluator_.append(static_cast<std::uint64_t>(sample), count, values, taken)) {
         ++counts.samples;
+        passed_over_ += outcome == passed_over;
         counts.overturned += outcome == Outcome::overturned;
         counts.failed +=
             outcome == Outcome::painleve || outcome == Outcome::step_limit || outcome == Outcome::not_finite;
@@ -212,7 +231,7 @@ class Sweep {
   }
 
   // Of a finished block what is kept; where that has become unreadable since, it is computed again.
-  std::vector<double> finished_rows(std::int64_t samples, std::int64_t block) const {
+  std::vector<double> finished_rows(std::int64_t samples, std::int64_t block) {
     const std::int64_t rows = std::min(layout(samples).rows(block), checkpoint_->kept(block));
     if (earlier_rows(samples, block) == rows) return earlier_.read(block * layout(samples).block_size, rows);
     try {
@@ -239,26 +258,45 @@ class Sweep {
   }
 
   // However quiet: who asked for a half width must know that it was not reached.
-  void tell_if_not_reached(std::int64_t samples) {
-    const fragility::Result result = result_so_far(samples);
+  void tell_if_not_reached(const fragility::Result& result, std::int64_t samples) const {
     if (!world_.is_root()) return;
-    if (const std::string warning = not_reached(study_, result); !warning.empty()) parallel::tell(warning + "\n");
+    if (const std::string warning = not_reached(study_, result, drawn(samples)); !warning.empty())
+      parallel::tell(warning + "\n");
   }
 
-  // Is every wanted point of the surface within the half width asked for?
-  bool known_well_enough(std::int64_t samples) {
+  Drawn drawn(std::int64_t samples) const { return {samples, rounds_.alike()}; }
+
+  // Does any bin want more samples than all rounds so far have made? Then the next round begins.
+  bool another_round() {
+    const std::int64_t samples = rounds_[rounds_.count() - 1].end;
+    if (samples == total()) return false;
     const fragility::Result result = result_so_far(samples);
-    double half_width = 0;
-    if (world_.is_root()) half_width = fragility::half_width(result, wanted(study_)).largest;
-    half_width = world_.broadcast(std::vector<double>{half_width}).front();
-    if (world_.is_root() && !options_.quiet) parallel::tell(round_told(study_, result) + "\n");
-    return half_width <= study_.until->half_width;
+    parallel::Words want;
+    if (world_.is_root())
+      for (const bool wants : fragility::bins_that_want(result, wanted(study_, drawn(samples)))) want.push_back(wants);
+    want = world_.broadcast(want);
+    if (world_.is_root() && !options_.quiet) parallel::tell(round_told(study_, result, drawn(samples)) + "\n");
+    const auto bins = std::count(want.begin(), want.end(), 1);
+    if (bins == 0 && !options_.fit_follows) tell_if_not_reached(result, samples);
+    if (bins == 0) return false;
+    Round next{std::min(total(), 2 * samples)};
+    if (!study_.until->everywhere && bins < std::ssize(want)) next.bins.assign(want.begin(), want.end());
+    rounds_.add(std::move(next));
+    return true;
+  }
+
+  // Of all ranks.
+  void count_integrated() {
+    parallel::Words counts{integrated_, passed_over_};
+    world_.sum_in_place(counts);
+    summary_.computed = counts[0];
+    summary_.passed_over = counts[1];
   }
 
   void write(std::int64_t samples) {
     folder_.leave_if_asked();
     const auto check = Clock::now();
-    const Accuracy accuracy = check_accuracy(world_, study_, evaluator_, samples);
+    const Accuracy accuracy = check_accuracy(world_, study_, evaluator_, std::min(samples, rounds_.alike()));
     summary_.accuracy_s = seconds_since(check);
     const auto writing = Clock::now();
     io::SamplesHeader header{io::provenance_here(options_.command, world_.size()), evaluator_.columns(),
@@ -270,6 +308,7 @@ class Sweep {
     header.provenance.study_name = study_.name;
     header.provenance.seed = study_.seed;
     header.provenance.samples = samples;
+    if (rounds_.alike() < samples) header.provenance.alike = rounds_.alike();
     header.provenance.kernel = fmt::format("{:08x}", kernel_number);
     folder_.confirm();
     if (checkpoint_->counts()) {
@@ -297,7 +336,10 @@ class Sweep {
   const Evaluator evaluator_;
   const Target target_;
   std::optional<Checkpoint> checkpoint_;
-  std::int64_t finished_ = 0;  // whole blocks of the rounds so far
+  Rounds rounds_;
+  std::optional<RoundBins> bins_;                  // with `until`
+  std::int64_t finished_ = 0;                      // whole blocks of the rounds so far
+  std::int64_t integrated_ = 0, passed_over_ = 0;  // by this rank
   SweepSummary summary_;
 };
 

@@ -26,7 +26,8 @@ std::filesystem::path study_path(const std::filesystem::path& folder);  // the e
 
 struct SweepSummary {
   std::int64_t samples = 0;
-  std::int64_t computed = 0;  // by this run; the others were there
+  std::int64_t computed = 0;     // by this run; the others were there
+  std::int64_t passed_over = 0;  // by this run, without being integrated (rounds.hpp)
   // From the start to the end, and what of it went into reading motions with their spectra, into integrating samples, into
   // checking their accuracy and into writing samples.h5.
   double wall_s = 0, motions_s = 0, compute_s = 0, accuracy_s = 0, write_s = 0;
@@ -34,9 +35,9 @@ struct SweepSummary {
 };
 
 // Computes the blocks that are not there yet and writes samples.h5; nothing, if that is there with as many samples. Where
-// it holds fewer of the same study, these are taken over. With `until`, goes on in rounds, each twice as long as all
-// before, until every wanted point of the surface is known well enough. The same numbers, to the bit, on any number of
-// ranks and after any restart. Collective. Throws Error: another study's results (Exit::usage; the folder is then as it
+// it holds fewer of the same study, these are taken over. With `until`, goes on in rounds (rounds.hpp), each twice as long as all
+// before, until every wanted point of the surface is known well enough, or would hardly be known better by more samples. The same
+// numbers, to the bit, on any number of ranks and after any restart. Collective. Throws Error: another study's results (Exit::usage; the folder is then as it
 // was), full disk (Exit::cure), stopped on request (as RunFolder::leave).
 SweepSummary sweep(const parallel::Communicator&, const Study&, const SweepOptions&, RunFolder&);
 

@@ -71,7 +71,7 @@ std::string told(const SweepSize& size) {
   const std::string memory = fmt::format("{} of counts in the memory of each rank", bytes_text(size.memory_bytes));
   const bool all = size.kept == size.samples;
   const double files = size.samples_bytes + (all ? 0 : size.counts_bytes);
-  return fmt::format("{} samples, of which {} kept: {} in {}; while it runs {} more in blocks/{}; {}", size.samples,
+  return fmt::format("{} samples, of which {} kept: at most {} in {}; while it runs {} more in blocks/{}; {}", size.samples,
                      all ? "all are" : fmt::format("the first {} are", size.kept), bytes_text(files),
                      all ? "samples.h5" : "samples.h5 and tally.h5", bytes_text(size.blocks_bytes),
                      all ? "" : fmt::format(" and {} for each node", bytes_text(size.counts_bytes)), memory);

@@ -13,7 +13,7 @@ namespace freestand::study {
 
 struct SweepSize {
   std::int64_t samples = 0, kept = 0;
-  double samples_bytes = 0;  // of samples.h5 [B]
+  double samples_bytes = 0;  // of samples.h5, where nothing in it can be packed [B]
   double blocks_bytes = 0;   // of the kept samples in blocks/ while it runs [B]
   double counts_bytes = 0;   // of what is counted: of tally.h5, and of a node's file while it runs [B]
   double memory_bytes = 0;   // of the counts in each rank, at most [B]

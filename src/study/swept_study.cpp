@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <freestand/error.hpp>
 
 #include "io/fragility_file.hpp"
@@ -12,13 +13,24 @@ namespace freestand::study {
 
 std::int64_t swept_samples(const io::SampleReader& samples) { return samples.provenance().samples; }
 
-std::string kept_told(const io::SampleReader& samples) {
-  if (samples.rows() == swept_samples(samples)) return "";
+std::int64_t samples_alike(const io::SampleReader& samples) {
+  return samples.provenance().alike.value_or(swept_samples(samples));
+}
+
+std::int64_t rows_alike(const io::SampleReader& samples) { return std::min(samples.rows(), samples_alike(samples)); }
+
+std::string kept_told(const io::SampleReader& samples, std::int64_t rows) {
+  if (rows == swept_samples(samples)) return "";
+  if (rows < samples.rows())
+    return fmt::format(
+        "of the {} samples of the sweep the first {} were taken whatever their intensity, and these alone answer "
+        "what is asked of all intensities together, or over another one (until: {{everywhere: true}} takes more)",
+        swept_samples(samples), rows);
   return fmt::format(
       "of the {} samples of the sweep the first {} are kept, and these alone answer what was not asked before it "
       "(keep: all, "
       "or {{thin: 100}}, keeps more)",
-      swept_samples(samples), samples.rows());
+      swept_samples(samples), rows);
 }
 
 Study analysed_study(const std::filesystem::path& folder, const io::SampleReader& samples) {

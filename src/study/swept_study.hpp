@@ -15,8 +15,13 @@ namespace freestand::study {
 // How many samples were swept; the first reader.rows() of them are kept.
 std::int64_t swept_samples(const io::SampleReader&);
 
-// What is to be told where an answer comes from those that are kept; empty where all are.
-std::string kept_told(const io::SampleReader&);
+// How many of the first samples, and of those that are kept, were taken whatever their intensity: what is asked of all intensities together, or over another
+// one than `until` was, comes from them.
+std::int64_t samples_alike(const io::SampleReader&);
+std::int64_t rows_alike(const io::SampleReader&);
+
+// What is to be told where an answer comes from so many of the first samples; empty where these are all.
+std::string kept_told(const io::SampleReader&, std::int64_t rows);
 
 // As stored with the samples, records not looked for; the fragility block is that of fragility.h5 where there is one: what was fitted
 // last.

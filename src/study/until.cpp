@@ -13,6 +13,15 @@ std::string place_of(const fragility::HalfWidth& width) {
   return fmt::format(", {} at an intensity of {:.3g}{} the least", width.edp, width.im, axis);
 }
 
+// "+-0.020", "20 % of P down to 0.001", or both.
+std::string wanted_text(const UntilPart& until, const char* half_width) {
+  const std::string width = fmt::format(fmt::runtime(half_width), until.half_width);
+  if (!until.relative_error) return width;
+  const std::string relative =
+      fmt::format("a standard error of {:.3g} % of P down to {:g}", 100 * *until.relative_error, until.down_to);
+  return until.half_width < 0.5 ? width + " and " + relative : relative;
+}
+
 // What would help: more samples, or only more records.
 std::string helps(const Study& study, const fragility::Outlook& outlook) {
   if (std::isinf(outlook.samples))
@@ -23,51 +32,84 @@ std::string helps(const Study& study, const fragility::Outlook& outlook) {
                      study.until->at_most);
 }
 
-}  // namespace
-
-fragility::Wanted wanted(const Study& study) {
-  return {study.until->half_width, static_cast<double>(study.until->at_most), study.fragility.minimum_samples};
+std::string samples_told(const fragility::Result& result, const Drawn& drawn) {
+  if (drawn.samples == drawn.alike) return fmt::format("{} samples", result.samples);
+  return fmt::format("{} samples, {} of them integrated", drawn.samples, result.samples);
 }
 
-std::string round_told(const Study& study, const fragility::Result& result) {
-  const fragility::HalfWidth reached = fragility::half_width(result, wanted(study));
-  std::string text = fmt::format("{} samples: the surface is known to +-{:.3f} (wanted +-{:.3f})", result.samples,
-                                 reached.largest, study.until->half_width);
-  if (reached.largest <= study.until->half_width) return text;
-  const fragility::Outlook outlook = fragility::outlook(result, wanted(study));
+}  // namespace
+
+fragility::Wanted wanted(const Study& study, const Drawn& drawn) {
+  fragility::Wanted wanted{.half_width = study.until->half_width,
+                           .at_most = static_cast<double>(study.until->at_most),
+                           .minimum_samples = study.fragility.minimum_samples,
+                           .drawn = static_cast<double>(drawn.samples)};
+  if (study.until->relative_error)
+    wanted.relative_error = *study.until->relative_error, wanted.down_to = study.until->down_to;
+  return wanted;
+}
+
+std::string round_told(const Study& study, const fragility::Result& result, const Drawn& drawn) {
+  const fragility::HalfWidth reached = fragility::half_width(result, wanted(study, drawn));
+  std::string text = fmt::format("{}: the surface is known to +-{:.3g} (wanted {})", samples_told(result, drawn),
+                                 reached.largest, wanted_text(*study.until, "+-{:.3f}"));
+  if (reached.times_wanted <= 1) return text;
+  const fragility::Outlook outlook = fragility::outlook(result, wanted(study, drawn));
   if (outlook.samples <= static_cast<double>(study.until->at_most))
     return text + fmt::format("; some {:.2g} samples are needed", outlook.samples);
   return text + "; " + helps(study, outlook);
 }
 
-std::string not_reached(const Study& study, const fragility::Result& result) {
+std::string not_reached(const Study& study, const fragility::Result& result, const Drawn& drawn) {
   if (!study.until) return "";
-  const fragility::HalfWidth reached = fragility::half_width(result, wanted(study));
-  if (reached.largest <= study.until->half_width) return "";
-  return fmt::format(
-      "the surface was to be known to +-{:.3g}, and after {} samples, the most that until allows, it is known to "
-      "+-{:.3g}{} ({})",
-      study.until->half_width, result.samples, reached.largest, place_of(reached),
-      helps(study, fragility::outlook(result, wanted(study))));
+  const fragility::HalfWidth reached = fragility::half_width(result, wanted(study, drawn));
+  if (reached.times_wanted <= 1) return "";
+  const fragility::Outlook outlook = fragility::outlook(result, wanted(study, drawn));
+  const bool all = drawn.samples == static_cast<std::int64_t>(study.until->at_most);
+  return fmt::format("the surface was to be known to {}, and after {}{} it is known to +-{:.3g}{} ({})",
+                     wanted_text(*study.until, "+-{:.3g}"), samples_told(result, drawn),
+                     all                           ? ", the most that until allows,"
+                     : std::isinf(outlook.samples) ? ", where more would hardly help,"
+                                                   : "",
+                     reached.largest, place_of(reached), helps(study, outlook));
 }
 
-void tell_until(const Study& study, const fragility::Result& result, nlohmann::ordered_json& summary) {
+std::string passed_over_told(const Drawn& drawn) {
+  if (drawn.samples == drawn.alike) return "";
+  return fmt::format(
+      "from sample {} of {} on only those were integrated that lie in bins which were not known well enough: curves "
+      "and "
+      "surfaces over this intensity hold, and shares of all samples (how they ended, regressions over all bins) lean "
+      "towards those bins",
+      drawn.alike, drawn.samples);
+}
+
+void tell_until(const Study& study, const fragility::Result& result, const Drawn& drawn,
+                nlohmann::ordered_json& summary) {
   if (!study.until) return;
-  const fragility::HalfWidth reached = fragility::half_width(result, wanted(study));
-  const fragility::Outlook outlook = fragility::outlook(result, wanted(study));
-  const std::string warning = not_reached(study, result);
+  const fragility::HalfWidth reached = fragility::half_width(result, wanted(study, drawn));
+  const fragility::Outlook outlook = fragility::outlook(result, wanted(study, drawn));
+  const std::string warning = not_reached(study, result, drawn);
   nlohmann::ordered_json widest = {{"edp", reached.edp}, {"im", reached.im}, {"capacity", reached.capacity}};
   if (!reached.axis.empty()) widest[reached.axis] = reached.on_axis;
-  summary["until"] = {{"half_width_wanted", study.until->half_width},
-                      {"half_width_reached", reached.largest},
-                      {"reached", warning.empty()},
-                      {"samples", result.samples},
-                      {"at_most", study.until->at_most},
-                      {"widest", widest},
-                      {"stays_above", outlook.stays},
-                      {"samples_needed", nullptr},
-                      {"rare_cells", reached.rare_cells}};
-  if (std::isfinite(outlook.samples)) summary["until"]["samples_needed"] = std::round(outlook.samples);
+  nlohmann::ordered_json& until = summary["until"];
+  until["half_width_wanted"] = study.until->half_width;
+  if (study.until->relative_error) {
+    until["relative_error_wanted"] = *study.until->relative_error;
+    until["down_to"] = study.until->down_to;
+  }
+  until["half_width_reached"] = reached.largest;
+  until["times_wanted"] = std::isfinite(reached.times_wanted) ? nlohmann::ordered_json(reached.times_wanted) : nullptr;
+  until["reached"] = warning.empty();
+  until["samples"] = result.samples;
+  until["drawn"] = drawn.samples;
+  until["alike"] = drawn.alike;
+  until["at_most"] = study.until->at_most;
+  until["widest"] = widest;
+  until["stays_above"] = outlook.stays;
+  until["samples_needed"] = nullptr;
+  until["rare_cells"] = reached.rare_cells;
+  if (std::isfinite(outlook.samples)) until["samples_needed"] = std::round(outlook.samples);
   if (warning.empty()) return;
   summary["warnings"].push_back(warning);
   fmt::print(stderr, "{}\n", warning);

@@ -1,6 +1,7 @@
 // What `until` wanted, and what was reached.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -10,19 +11,28 @@
 
 namespace freestand::study {
 
-// What of the surfaces a study wants to be known, and how well. Of a study with `until`.
-fragility::Wanted wanted(const Study&);
+// Samples so far, with those that were passed over (rounds.hpp), and how many of the first ones none was passed over of.
+struct Drawn {
+  std::int64_t samples = 0, alike = 0;
+};
 
-// After a round: "8192 samples: the surface is known to +-0.061 (wanted +-0.020); 76,000 are needed", or that at_most is too few, or that only
-// more records would help.
-std::string round_told(const Study&, const fragility::Result&);
+// What of the surfaces a study wants to be known, and how well. Of a study with `until`.
+fragility::Wanted wanted(const Study&, const Drawn&);
+
+// After a round: "8192 samples: the surface is known to +-0.061 (wanted +-0.020); some 7.6e+04 samples are needed", or that at_most
+// is too few, or that only more records would help.
+std::string round_told(const Study&, const fragility::Result&, const Drawn&);
 
 // One sentence where `until` was not reached; "" where it was, or where the study has none.
-std::string not_reached(const Study&, const fragility::Result&);
+std::string not_reached(const Study&, const fragility::Result&, const Drawn&);
 
-// Of a study with `until`: summary["until"] = {half_width_wanted, half_width_reached, reached, samples, at_most, widest: {edp,
-// im, capacity, and the second axis with its place there}, stays_above: what more samples would not take away, samples_needed: null where
-// only more records would do, rare_cells: of second axes, not wanted}; where it was not reached also one of summary["warnings"], and a line on the terminal.
-void tell_until(const Study&, const fragility::Result&, nlohmann::ordered_json& summary);
+// Where some were passed over, what is true of the bins alone, and not of all samples together; else empty.
+std::string passed_over_told(const Drawn&);
+
+// Of a study with `until`: summary["until"] = {half_width_wanted, relative_error_wanted, down_to, half_width_reached, times_wanted,
+// reached, samples: that were integrated, drawn, alike, at_most, widest: {edp, im, capacity, and the second axis with its place there},
+// stays_above: what more samples would not take away, samples_needed: to be drawn, null where only more records would do, rare_cells: of
+// second axes, not wanted}; where it was not reached also one of summary["warnings"], and a line on the terminal.
+void tell_until(const Study&, const fragility::Result&, const Drawn&, nlohmann::ordered_json& summary);
 
 }  // namespace freestand::study

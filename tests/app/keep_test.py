@@ -138,10 +138,12 @@ class Keep(InFolder):
         for keep, files in (("all", ("samples.h5",)), ("none", ("samples.h5", "tally.h5"))):
             study, out = self.study(keep, samples=20000), self.folder / keep
             told = self.succeed(["run", study, "--check"]).stdout
-            number, unit = re.search(r"kept: (\S+) (\w*B) in samples.h5", told).groups()
+            number, unit = re.search(r"kept: at most (\S+) (\w*B) in samples.h5", told).groups()
             self.succeed(["sweep", study, "-o", out, "--quiet"])
             size = sum((out / name).stat().st_size for name in files)
-            self.assertAlmostEqual(float(number) * factor[unit], size, delta=0.03 * size)
+            most = float(number) * factor[unit]  # half of the columns are those of few values, and are packed to nothing
+            self.assertLess(size, most)
+            self.assertGreater(size, 0.2 * most)
         study = self.write("large.yaml", study_text().replace("count: 5", "count: 1000").replace("axes: [friction.mu_k]", """axes:
   [{name: friction.mu_k, bins: {count: 1000}}, {name: block.width_m, bins: {count: 1000}}, {name: motion.period_s, bins: {count: 1000}},
    {name: motion.pta_g, bins: {count: 1000}}],

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 LINES = 400
 # The header of a package -> its name in cmake/freestand_packages.cmake. First match counts.
 PACKAGES = (
-    (r"mpi\.h", "mpi"), (r"(hdf5|hdf5_hl|H5\w*)\.h", "hdf5"), (r"yaml-cpp/.*", "yaml"), (r"CLI/.*", "cli11"), (r"fmt/.*", "fmt"),
+    (r"mpi\.h", "mpi"), (r"(hdf5|hdf5_hl|H5\w*)\.h", "hdf5"), (r"zlib\.h", "zlib"), (r"yaml-cpp/.*", "yaml"), (r"CLI/.*", "cli11"), (r"fmt/.*", "fmt"),
     (r"gsl/.*", "gsl"), (r"fftw3.*\.h", "fftw"), (r"(Eigen|unsupported/Eigen)/.*", "eigen"), (r"nlohmann/.*", "json"),
     (r"Random123/.*", "Random123"), (r"(sundials|cvode|arkode|ida|kinsol|nvector|sunmatrix|sunlinsol|sunnonlinsol)/.*", "sundials"),
     (r"xsimd/.*", "xsimd"), (r"muParser\W.*", "muparser"),

@@ -39,6 +39,15 @@ TEST(Hazard, IsAPowerLawBetweenItsPointsAndBeyond) {
   EXPECT_NEAR(curve.rate(9), 0.001, 1e-15);
 }
 
+// Two points so close that the slope beside the first leads beyond all numbers: nothing is exceeded more often than once an hour, which is
+// what a point may say at most.
+TEST(Hazard, NoSlopeLeadsBeyondOnceAnHour) {
+  const HazardCurve curve = read("pga_g,annual_rate\n5.02,0.1\n5.05,0.00000005\n");
+  EXPECT_EQ(curve.rate(0.5), 8766);
+  EXPECT_NEAR(curve.rate(5.02), 0.1, 1e-12);
+  EXPECT_EQ(curve.rate(50), 0);
+}
+
 TEST(Hazard, WhatCannotBeIsToldWithItsLine) {
   using testing::HasSubstr;
   EXPECT_THAT(refusal(""), HasSubstr("hazard.csv:1: is empty"));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "fragility/fit.hpp"
 #include "fragility/made_study.hpp"
@@ -120,6 +121,66 @@ TEST(Outlook, OnlyMoreRecordsHelpWhereWhatStaysIsTooMuch) {
   EXPECT_TRUE(std::isinf(found.samples));
   EXPECT_GT(found.stays, 0.05);
   EXPECT_GT(half_width(fitted(counted(o, {20, 2000, 0.8, 0.5}, 60))).largest, 0.05);  // and so it is
+}
+
+// Samples of their own, of which a share happens to be hit: as many in each bin as given.
+Result hits(const std::vector<int>& samples, double share) {
+  Options o = options(0, false);
+  o.im_edge.clear();
+  for (std::size_t bin = 0; bin <= samples.size(); ++bin) o.im_edge.push_back(static_cast<double>(bin));
+  o.edps[0] = {"hit", "1", "", true, 0, {}};
+  Tally tally(o);
+  std::uint64_t i = 0;
+  for (std::size_t bin = 0; bin < samples.size(); ++bin)
+    for (int k = 0; k < samples[bin]; ++k, ++i) {
+      const double hit = k < share * samples[bin];
+      tally.add({i, static_cast<double>(bin) + 0.5, 0, Outcome::moved, {&hit, 1}, {}});
+    }
+  return fitted(tally);
+}
+
+// Of n samples of which np are hit the standard error is sqrt(p(1 - p)/n): 0.1 p at p = 0.01 and n = 9900. Exact intervals are up to a tenth
+// wider there.
+TEST(HalfWidth, IsRelativeDownToALeastProbability) {
+  const Result rare = hits({9900}, 0.01);
+  for (const auto& [relative, down_to, times] :
+       {std::tuple(0.1, 0.001, 1.0), {0.2, 0.001, 0.5}, {0.1, 0.04, 0.25}, {0.05, 0.01, 2.0}}) {
+    const Wanted wanted{.relative_error = relative, .down_to = down_to};
+    EXPECT_NEAR(half_width(rare, wanted).times_wanted / times, 1.05, 0.06) << relative;
+    EXPECT_NEAR(outlook(rare, wanted).samples / (9900 * times * times), 1.1, 0.12) << relative;
+  }
+  EXPECT_NEAR(half_width(rare, {.half_width = 0.001, .relative_error = 0.1, .down_to = 0.001}).times_wanted, 2, 0.2);
+}
+
+TEST(BinsThatWant, AreThoseThatAreNotKnownWellEnough) {
+  Result result = hits({20, 2000, 200, 2000}, 0.3);  // half widths: none, 0.02, 0.065, 0.02
+  const auto want = [&](double half) { return bins_that_want(result, {.half_width = half}); };
+  EXPECT_EQ(want(0.03), (std::vector<bool>{true, false, true, false}));
+  EXPECT_EQ(want(0.1), (std::vector<bool>{true, false, false, false}));
+  EXPECT_EQ(want(0.01), (std::vector<bool>(4, true)));
+  result.edps[0].bins[3].n = 0;  // never reached
+  EXPECT_EQ(want(0.1), (std::vector<bool>{true, false, false, true}));
+}
+
+// What is drawn counts for rare cells and for what is still needed, not what was integrated.
+TEST(HalfWidth, GoesByWhatIsDrawn) {
+  const Result result = with_axis();
+  EXPECT_EQ(half_width(result, {.half_width = 0.02, .at_most = 21000}).rare_cells, 0);
+  EXPECT_EQ(half_width(result, {.half_width = 0.02, .at_most = 21000, .drawn = 8080}).rare_cells, 1);
+  EXPECT_NEAR(outlook(result, {.half_width = 0.4, .drawn = 8080}).samples, 10 * 8080.0, 1);
+}
+
+// 20 records: of few samples each, more of them narrow the band; of many, the records alone make it, and it wants no more of them,
+// unless that is enough.
+TEST(BinsThatWant, AreNotThoseWhereOnlyMoreRecordsHelp) {
+  Options o = options(20);
+  o.edps[0].capacities = {1};
+  const Result few = fitted(counted(o, {20, 2, 0.8, 0.5}, 60)), many = fitted(counted(o, {20, 500, 0.8, 0.5}, 60));
+  EXPECT_TRUE(bins_that_want(few, {.half_width = 0.05})[0]);
+  ASSERT_GT(half_width(many).largest, 0.05);
+  EXPECT_FALSE(bins_that_want(many, {.half_width = 0.05})[0]);
+  const Result own = fitted(counted(options(0, false), {500, 1, 0, 0.5}, 60));
+  EXPECT_TRUE(bins_that_want(own, {.half_width = 0.001})[0]);
 }
 
 }  // namespace

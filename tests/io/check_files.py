@@ -63,8 +63,8 @@ def samples_h5py(path):
             if name != "sample":
                 assert group[name].dims[0].label == "" and group[name].dims[0][0].name == "/samples/sample"
         assert group["block_width_m"].attrs["unit"] == "m" and group["block_width_m"].attrs["description"] == "width"
-        assert group["outcome"].attrs["flag_meanings"] == "at_rest moved overturned painleve step_limit not_finite"
-        is_close(group["outcome"].attrs["flag_values"], np.arange(6))
+        assert group["outcome"].attrs["flag_meanings"] == "at_rest moved overturned painleve step_limit not_finite passed_over"
+        is_close(group["outcome"].attrs["flag_values"], np.arange(7))
         assert [text.decode() for text in root["motions/name"][:]] == ["A", "records/x y.AT2", "é"]
         is_close(root["motions/pga_mps2"][:], [1, 3.7, 1 / 3])
         assert root["motions/pga_mps2"].attrs["unit"] == "m/s2" and root["motions/pulse_type"].dtype == np.int32

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "base/durable_file.hpp"
-#include "base/open_file.hpp"
+#include "io/packed.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
 #include "support/trouble.hpp"
@@ -78,29 +78,29 @@ TEST(H5, ValuesComeBackToTheBit) {
   EXPECT_FALSE(root.has("flag"));
 }
 
-TEST(H5, RowsAreReadFromWhereTheyWereReserved) {
+// Pieces of four rows, the last of which has two; written in any order.
+TEST(H5, RowsAreReadFromPieces) {
   const test::Scratch scratch("h5");
   const std::filesystem::path aside = scratch / "aside.h5";
-  std::int64_t offset = 0;
+  std::vector<std::int32_t> rows{0, 1, 2, 3, 4, 5, 6, 7, 8, -9, 0, 0};
   {
     File file = File::create_at(aside, scratch / "x.h5");
-    offset = file.root().reserve_dataset("rows", Type::integer, {10}).offset();
+    Dataset dataset = file.root().make_in_pieces("rows", Type::integer, 10, 4);
+    for (const std::size_t first : {4, 0, 8})
+      dataset.write_piece(first, packed(std::as_bytes(std::span(rows).subspan(first, 4)), 4));
     file.close();
   }
-  const std::vector<std::int32_t> rows{0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
-  const OpenFile bytes(aside, O_WRONLY);
-  ASSERT_TRUE(bytes.write(std::as_bytes(std::span(rows)).subspan(24), offset + 24));
-  ASSERT_TRUE(bytes.write(std::as_bytes(std::span(rows)).first(24), offset));
   const File file = File::open(aside);
   const Dataset there = file.root().open_dataset("rows");
-  EXPECT_EQ(there.read_rows(4, 3), (std::vector<double>{4, 5, 6}));
+  EXPECT_EQ(there.rows(), 10U);
+  EXPECT_EQ(there.read_rows(2, 8), (std::vector<double>{2, 3, 4, 5, 6, 7, 8, -9}));
   EXPECT_EQ(there.read_rows(4, 0), std::vector<double>{});
   EXPECT_THROW(there.read_rows(8, 3), Error);
 }
 
 TEST(H5, AFileThatIsNotClosedIsGone) {
   const test::Scratch scratch("h5");
-  { File::create_at(scratch / "aside.h5", scratch / "x.h5").root().reserve_dataset("rows", Type::real, {10}); }
+  { File::create_at(scratch / "aside.h5", scratch / "x.h5").root().make_in_pieces("rows", Type::real, 10, 4); }
   EXPECT_TRUE(std::filesystem::is_empty(scratch.folder()));
 }
 

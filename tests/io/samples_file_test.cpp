@@ -149,7 +149,7 @@ TEST(SamplesFile, WholeNumberColumnsTakeOnlyWholeNumbers) {
 
 TEST(SamplesFile, AFullDiskHasToBeCuredAndLeavesNothing) {
   const test::Scratch scratch("samples");
-  const test::SmallDisk disk(scratch / "disk", "512k");
+  const test::SmallDisk disk(scratch / "disk", "64k");
   if (!disk.mounted()) GTEST_SKIP() << "no right to mount a small file system here";
   const BlockLayout layout{100000, 1000};
   EXPECT_THAT(

@@ -4,7 +4,7 @@
 ranks=$1; mpiexec=$2; program=$3
 folder=$(mktemp -d)
 trap 'umount "$folder" 2>/dev/null; rm -rf "$folder" "$folder.txt"' EXIT
-if ! mount -t tmpfs -o size=1m tmpfs "$folder" 2>/dev/null; then
+if ! mount -t tmpfs -o size=64k tmpfs "$folder" 2>/dev/null; then
   echo "skipped: no right to mount a small file system here"
   exit 77
 fi

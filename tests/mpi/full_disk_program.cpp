@@ -1,4 +1,4 @@
-// Writes a samples.h5 of about 5 MB into the folder of its first argument; run by full_disk.sh.
+// Writes a samples.h5 of 150,000 rows, some hundred kilobytes, into the folder of its first argument; run by full_disk.sh.
 #include <cstdio>
 
 #include "io/samples_file.hpp"

@@ -7,6 +7,7 @@
 #include "study/read_laboratory.hpp"
 #include "study/read_measurements.hpp"
 #include "study/read_validation.hpp"
+#include "study/rounds.hpp"
 #include "study/specimen_table.hpp"
 #include "study/study.hpp"
 
@@ -60,12 +61,23 @@ void building(std::string_view bytes) {
   });
 }
 
+// What is read is what would be stored again.
+void rounds(std::string_view bytes) {
+  const std::filesystem::path file = written(bytes, "run-0000.node-000000.rounds");
+  const parallel::Communicator alone;
+  study::Rounds read(alone, file.parent_path(), "0123456789abcdef");
+  read.read();
+  for (std::int64_t i = 0; i < read.count(); ++i) read.of(read[i].end);
+  std::filesystem::remove(file);
+}
+
 }  // namespace
 
 std::vector<Target> study_targets() {
   return {
-      {"study", study},         {"case", simulated_case},   {"measurements", measurements}, {"validation", validation},
-      {"catalogue", catalogue}, {"laboratory", laboratory}, {"specimens", specimens},       {"building", building},
+      {"study", study},           {"case", simulated_case}, {"measurements", measurements},
+      {"validation", validation}, {"catalogue", catalogue}, {"laboratory", laboratory},
+      {"specimens", specimens},   {"building", building},   {"rounds", rounds},
   };
 }
 

@@ -7,12 +7,15 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
+#include <tuple>
 
 #include "base/units.hpp"
 #include "motion/peaks.hpp"
 #include "motion/pulse.hpp"
 #include "study/doubts.hpp"
 #include "study/known.hpp"
+#include "study/motion_bytes.hpp"
 #include "study_text.hpp"
 #include "support/data.hpp"
 #include "support/error_text.hpp"
@@ -217,6 +220,38 @@ TEST_F(Records, ATableSaysWhatBelongsTogetherAndBringsItsNumbers) {
   EXPECT_THAT(numbers(0), testing::Pointwise(testing::NanSensitiveDoubleEq(), {0.3, 6.9, nan}));
   EXPECT_THAT(numbers(3), testing::Pointwise(testing::NanSensitiveDoubleEq(), {nan, nan, 12.0}));
   EXPECT_THAT(numbers(4), testing::Pointwise(testing::NanSensitiveDoubleEq(), {nan, nan, nan}));
+}
+
+// What one rank has read and another takes over: the same motions and samples, to the bit, with all that stands beside them.
+TEST_F(Records, TravelAsBytes) {
+  std::ofstream(folder_ / "records" / "INDEX.csv")
+      << "file,group,pga_g,magnitude_mw,pulse_type,pulse_period_s,weight\na.csv,loma,0.3,6.9,B,1.5,2\nb.csv,,,,,,1\n";
+  const Study swept = study(
+      "{records: records/INDEX.csv, scale: 2}, {pulse: [A, B], period_s: 1, peak_acceleration_g: 1}, "
+      "{records: records/a.csv, cross_records: records/b.csv, scale: 1}",
+      "model: slide\n");
+  MotionSet read = load_motions(swept);
+  std::vector<MotionSet::Entry> entries = *read.entries;
+  entries.back().ground = 1;
+  entries.back().storey = 2;
+  read.entries = std::make_shared<const std::vector<MotionSet::Entry>>(std::move(entries));
+  const MotionSet taken = motions_of(bytes_of(read));
+  EXPECT_EQ(taken.fingerprint(), read.fingerprint());
+  EXPECT_EQ(taken.names(), read.names());
+  EXPECT_EQ(taken.groups(), read.groups());
+  EXPECT_EQ(taken.of_source, read.of_source);
+  ASSERT_EQ(taken.numbers.size(), read.numbers.size());
+  EXPECT_EQ(taken.numbers[0].name, read.numbers[0].name);
+  EXPECT_EQ(taken.numbers[0].power, read.numbers[0].power);
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    const MotionSet::Entry &a = (*read.entries)[i], &b = (*taken.entries)[i];
+    EXPECT_EQ(a.motion.cross_mps2, b.motion.cross_mps2) << i;
+    EXPECT_EQ(a.motion.horizontal_run_mps2, b.motion.horizontal_run_mps2) << i;
+    EXPECT_EQ(a.motion.table == nullptr, b.motion.table == nullptr) << i;
+    EXPECT_EQ(std::tie(a.pulse, a.peak_mps2, a.peak_mps, a.group, a.ground, a.storey, a.known_pulse, a.weight),
+              std::tie(b.pulse, b.peak_mps2, b.peak_mps, b.group, b.ground, b.storey, b.known_pulse, b.weight));
+    EXPECT_THAT(b.numbers, testing::Pointwise(testing::NanSensitiveDoubleEq(), a.numbers));
+  }
 }
 
 TEST_F(Records, WhatATableSaysOtherwiseThanTheFileIsRefusedWithItsRow) {
