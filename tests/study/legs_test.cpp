@@ -13,7 +13,9 @@ using namespace test;
 using testing::HasSubstr;
 
 const std::string on_legs = "legs: {vertical_frequency_hz: {uniform: [2, 6]}, vertical_damping: 0.1}\n";
-std::string told(const std::string& more) { return problems(block + friction + samples + motions + on_legs + more); }
+std::string told(const std::string& more) {
+  return problems(block + friction + samples + motions + fragility + on_legs + more);
+}
 
 TEST(StudyLegs, ComeToTheSpecimenWithTheirDrawsAndAreWrittenBack) {
   const Study study = parse(block + friction + samples + motions + on_legs +
@@ -50,7 +52,7 @@ TEST(StudyLegs, WhatDoesNotGoWithThemIsRefusedWithTheReason) {
 
 TEST(StudyChain, ItsAngleToTheFloorComesToTheSpecimen) {
   const std::string held = "chain: {stiffness_npm: 1e5, strength_n: 1000, elevation_rad: {uniform: [-0.5, 0.5]}}\n";
-  const Study study = parse(block + friction + samples + motions + held);
+  const Study study = parse(block + friction + samples + motions + fragility + held);
   EXPECT_EQ(expanded(parse(expanded(study))), expanded(study));
   EXPECT_THAT(expanded(study), HasSubstr("elevation_rad"));
   const Realiser realise(study, load_motions(study));
