@@ -38,7 +38,8 @@ void respond_batch(std::span<const Specimen>, std::span<const Shaking>, const Se
 // slips and accelerations are the sizes of vectors. Other models and effects along one line are not_finite there.
 
 // Event-driven reference on SUNDIALS ARKODE (explicit Runge-Kutta, order 5) with root finding; stops at every knot of
-// the motion. Slow and exact. Of no motion in the plane, and of no block beside a neighbour.
+// the motion. Slow and exact. Of no motion in the plane, and of no block beside a neighbour or on legs
+// that give way.
 Response respond_reference(const Specimen&, const Shaking&, const Settings& = {}, History* history = nullptr);
 
 }  // namespace freestand

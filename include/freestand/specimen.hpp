@@ -49,6 +49,10 @@ struct Block {
 struct Friction {
   double mu_s = 0;  // static coefficient, >= mu_k
   double mu_k = 0;  // kinetic coefficient, >= 0
+  // On a floor that moves in both horizontal directions: coefficients across the axis along which they are these, over these, > 0; and
+  // how far that axis is turned from the first direction towards the second one (dynamics/plane_ellipse.hpp). Along one line only 1.
+  double ratio_across = 1;
+  double axis_rad = 0;
 };
 
 enum class ImpactLaw { housner, coulomb };
@@ -84,7 +88,7 @@ struct EffectUse {
 struct Start {
   double rotation_rad = 0;  // within pi/2
   double rotation_rate_radps = 0;
-  double slip_m = 0;             // of the corner that carries, from where it stood; of the base where the block is upright
+  double slip_m = 0;  // of the corner that carries, from where it stood; of the base where the block is upright
   double slip_velocity_mps = 0;  // of the corner that carries, along the floor; of the base where the block is upright
 
   bool upright_at_rest() const {
@@ -101,6 +105,12 @@ struct Neighbour {
   double restitution = 0;  // of their blows, in [0, 1]
 };
 
+// Legs under the two corners that give way up and down alone: springs with dashpots, which push and do not pull.
+struct SpringLegs {
+  double frequency_hz = 0;  // of the block that goes up and down on both, > 0
+  double damping = 0;       // share of critical damping of that, >= 0
+};
+
 struct Specimen {
   Block block;
   Friction friction;
@@ -110,6 +120,7 @@ struct Specimen {
   BoucWen bouc_wen = {};  // of model bouc_wen
   Start start = {};
   std::optional<Neighbour> neighbour = {};  // of model slide
+  std::optional<SpringLegs> legs = {};      // of model slide_rock
 };
 
 }  // namespace freestand

@@ -250,10 +250,10 @@ void sort_by_record(std::span<const Shaking> shakings, std::vector<std::size_t>&
   for (std::size_t i = 0; i < shakings.size(); ++i) order[starts[bin(i)]++] = i;
 }
 
-// No pack begins on its way, has a neighbour, or follows a point or forces.
+// No pack begins on its way, has a neighbour or legs that give way, or follows a point or forces.
 bool goes_alone(const Specimen& specimen, const Settings& settings) {
-  return !specimen.start.upright_at_rest() || specimen.neighbour || !std::isnan(settings.acceleration_height_m) ||
-         settings.contact_forces;
+  return !specimen.start.upright_at_rest() || specimen.neighbour || specimen.legs ||
+         !std::isnan(settings.acceleration_height_m) || settings.contact_forces;
 }
 
 }  // namespace

@@ -208,13 +208,13 @@ bool admissible_bouc_wen(const Specimen& specimen, const Shaking& shaking, const
   for (const double size : {law.yield_displacement_m, law.gamma, law.gamma + law.beta, shaking.stretch,
                             settings.tolerance, floor.gravity_factor})
     if (!(size > 0) || !std::isfinite(size)) return false;
-  const auto& [mu_s, mu_k] = specimen.friction;
-  return can_start(specimen) && law.exponent >= 1 && mu_k >= 0 && mu_s >= mu_k && std::isfinite(mu_s) &&
-         specimen.impact.factor >= 0 && specimen.impact.factor <= 1 && std::isfinite(law.exponent) &&
-         std::abs(law.beta) <= law.gamma && settings.free_vibration_s >= 0 &&
-         std::isfinite(settings.free_vibration_s) && std::isfinite(floor.push_mps2) && std::isfinite(shaking.scale) &&
-         std::isfinite(shaking.vertical_scale) && shaking.motion && shaking.motion->degree >= 0 &&
-         shaking.motion->degree <= max_floor_degree;
+  const double mu_s = specimen.friction.mu_s, mu_k = specimen.friction.mu_k;
+  return can_start(specimen) && specimen.friction.ratio_across == 1 && !specimen.legs && law.exponent >= 1 &&
+         mu_k >= 0 && mu_s >= mu_k && std::isfinite(mu_s) && specimen.impact.factor >= 0 &&
+         specimen.impact.factor <= 1 && std::isfinite(law.exponent) && std::abs(law.beta) <= law.gamma &&
+         settings.free_vibration_s >= 0 && std::isfinite(settings.free_vibration_s) && std::isfinite(floor.push_mps2) &&
+         std::isfinite(shaking.scale) && std::isfinite(shaking.vertical_scale) && shaking.motion &&
+         shaking.motion->degree >= 0 && shaking.motion->degree <= max_floor_degree;
 }
 
 Response respond_bouc_wen(const Setup& setup, const Settings& settings, History* history) {

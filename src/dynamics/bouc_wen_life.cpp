@@ -40,7 +40,7 @@ BoucWenLife::BoucWenLife(const Setup& setup, const Settings& settings_, History*
   if (history_) history_->points.clear(), history_->events.clear();
   if (settings.slip_by_side) response_.peak_slip_right_m = response_.peak_slip_left_m = 0;
   if (laws) law_state.sides = laws->initial_sides();
-  if (laws && !laws->sound()) finish(Outcome::not_finite);
+  if (laws && (!laws->sound() || laws->lift >= 0)) finish(Outcome::not_finite);
   if (cursor.motion_over() && push == 0 && !laws) finish(Outcome::moved);
 }
 

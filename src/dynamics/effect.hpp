@@ -5,8 +5,8 @@
 // Hooks act in this order: specimen, floor, friction, force, contact (walls and legs), states. All that an effect does
 // not need it leaves out.
 //
-//   per unit mass of the block, X acting through the centre of mass:
-//     f_x = M (x_c'' + a) - X,   f_y = y_c'' + g',   k^2 theta'' = r_x f_y - r_y f_x + T
+//   per unit mass of the block, X and Y acting through the centre of mass:
+//     f_x = M (x_c'' + a) - X,   f_y = y_c'' + g' - Y,   k^2 theta'' = r_x f_y - r_y f_x + T
 //     stuck while |f_x| <= mu_s F f_y;  slipping: f_x = -sigma mu_k F f_y
 #pragma once
 
@@ -22,7 +22,7 @@ namespace freestand::dynamics {
 
 // Where and how the block is, for the laws. Units as in Input.
 struct At {
-  Value u, v, theta, omega, t, path, normal, side, sigma, speed;
+  Value u, v, theta, omega, t, path, normal, side, sigma, speed, rise, climb;
   double mu = 0;                 // kinetic friction coefficient without the effects [1]
   Block block = {};              // as the effects leave it
   Value acceleration;            // absolute, of the centre of mass [m/s2]; rates of states only
@@ -95,6 +95,7 @@ struct Effect {
   std::function<void(FloorInput&, const Parameters&)> floor = {};
   std::function<Value(const At&, const Parameters&)> friction = {};  // F [1]
   std::function<Value(const At&, const Parameters&)> force = {};     // X [m/s2]
+  std::function<Value(const At&, const Parameters&)> lift = {};      // Y, up [m/s2]
   std::function<Value(const At&, const Parameters&)> moment = {};    // T, about the centre of mass [m2/s2]
   // Told as demands [m/s2]: the pull of one chain, and the total acceleration of what moves inside.
   std::function<Value(const At&, const Parameters&)> tension = {}, contents = {};
@@ -106,7 +107,9 @@ struct Effect {
   std::function<double(const Parameters&)> settling_s = {};  // a block at rest for so long stays: no state can move it
 
   // Acts inside the equations of motion, so that every step evaluates it.
-  bool dynamic() const { return friction || force || moment || wall || legs || carried_mass || !states.empty(); }
+  bool dynamic() const {
+    return friction || force || lift || moment || wall || legs || carried_mass || !states.empty();
+  }
 };
 
 }  // namespace freestand::dynamics

@@ -31,7 +31,7 @@ class ForcePeaks {
     if (!followed_) return;
     r.peak_contact_horizontal_mps2 = peak_floor_force(rig, state, arc, tau, r.peak_contact_horizontal_mps2);
     r.peak_contact_vertical_mps2 = max_of(arc.fy, tau, r.peak_contact_vertical_mps2);
-    by_laws(rig, state, u, arc, tau, r);
+    by_laws(rig, state, u, risen(rig, state, arc), arc, tau, r);
     by_legs(rig, arc, tau, r);
   }
   // The floor does nothing to it.
@@ -39,7 +39,7 @@ class ForcePeaks {
   void in_flight(const Rig& rig, const State& state, const LawFlight<N>& flight, const Series<double, N>& u, double tau,
                  Response& r) {
     if (!followed_) return;
-    by_laws(rig, state, u, flight, tau, r);
+    by_laws(rig, state, u, risen(rig, flight), flight, tau, r);
     by_legs(rig, flight, tau, r);
   }
   // A block at rest sways on over its stuck foot, for which nobody waits, by y'' + 2 z W y' + W^2 (y - y_e) = 0: from its first
@@ -70,16 +70,30 @@ class ForcePeaks {
   }
 
  private:
+  // Height of the middle of the base: B |sin(theta)| of a block on a corner.
+  template <int N>
+  static Series<double, N> risen(const Rig& rig, const State& state, const Arc<double, N>& arc) {
+    if (state.pivot == 0) return Series<double, N>::zero();
+    const double c = rig.offset(state.pivot), lever = state.pivot * rig.half_base() / (rig.h * rig.h + c * c);
+    return combination(lever * rig.h, arc.rx, lever * c, arc.ry);
+  }
+  template <int N>
+  static Series<double, N> risen(const Rig& rig, const Flight<double, N>& flight) {
+    return combination(0.5, flight.gap_right, 0.5, flight.gap_left);
+  }
+
   // A chain and contents look at where the block is and how it moves, and at their own states, alone.
   template <int N, class SomeArc>
-  void by_laws(const Rig& rig, const State& state, const Series<double, N>& u, const SomeArc& arc, double tau,
-               Response& r) const {
+  void by_laws(const Rig& rig, const State& state, const Series<double, N>& u, const Series<double, N>& rise,
+               const SomeArc& arc, double tau, Response& r) const {
     if (!rig.laws || (rig.laws->tension < 0 && rig.laws->contents < 0)) return;
     const Laws& laws = *rig.laws;
     Series<double, N> values[max_nodes];
     for (int i = 0; i < input_count; ++i) values[i] = Series<double, N>::zero();
     values[static_cast<int>(Input::u)] = u;
     values[static_cast<int>(Input::v)] = derivative(u);
+    values[static_cast<int>(Input::rise)] = rise;
+    values[static_cast<int>(Input::climb)] = derivative(rise);
     values[static_cast<int>(Input::theta)] = arc.theta;
     values[static_cast<int>(Input::omega)] = arc.omega;
     if constexpr (requires { arc.states; })

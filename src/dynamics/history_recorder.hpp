@@ -29,18 +29,18 @@ class HistoryRecorder {
 
   template <int N>
   void record(const State& state, const LawFlight<N>& flight, const Floor<double, N>& floor, double start, double tau) {
-    record(state, flight, floor, start, tau, flight.ax);
+    record(state, flight, floor, start, tau, flight.ax, flight.lift);
   }
   template <int N>
   void record(const State& state, const Flight<double, N>& flight, const Floor<double, N>& floor, double start,
               double tau) {
-    record(state, flight, floor, start, tau, Series<double, N>::zero());
+    record(state, flight, floor, start, tau, Series<double, N>::zero(), Series<double, N>::zero());
   }
 
-  // pull: what laws add to the acceleration of the centre of mass.
+  // pull, lift: what laws add to the acceleration of the centre of mass.
   template <int N>
   void record(const State&, const Flight<double, N>& flight, const Floor<double, N>& floor, double start, double tau,
-              const Series<double, N>& pull) {
+              const Series<double, N>& pull, const Series<double, N>& lift) {
     if (!wanted()) return;
     const auto beside = beside_the_centre(flight.theta[0], flight.omega);
     const double d = 0.5 * (rig_.right - rig_.left);
@@ -55,7 +55,7 @@ class HistoryRecorder {
                          Mode::flight};
       if (!beside) return point;
       point.acceleration_mps2 = pull.at(t) + beside->x.at(t) - rig_.push;
-      point.vertical_acceleration_mps2 = beside->y.at(t) - rig_.g;
+      point.vertical_acceleration_mps2 = lift.at(t) + beside->y.at(t) - rig_.g;
       return point;
     });
   }
@@ -93,7 +93,7 @@ class HistoryRecorder {
   void record_contact(const State& state, const ContactArc& arc, const Series<double, N>& pull,
                       const Floor<double, N>& floor, double start, double tau) {
     if (!wanted()) return;
-    const auto u = midpoint(rig_, state, arc);
+    const auto u = midpoint(rig_, state, arc), up = upward(rig_, arc);
     const auto beside = beside_the_centre(arc.theta[0], arc.omega);
     each_point(start, tau, [&](double t) {
       const double theta = arc.theta.at(t), omega = arc.omega.at(t);
@@ -103,7 +103,7 @@ class HistoryRecorder {
                          state.mode};
       if (!beside) return point;
       point.acceleration_mps2 = pull.at(t) + beside->x.at(t) - rig_.push;
-      point.vertical_acceleration_mps2 = arc.fy.at(t) + beside->y.at(t) - rig_.g;
+      point.vertical_acceleration_mps2 = up.at(t) + beside->y.at(t) - rig_.g;
       point.contact_x_mps2 = floor_force_at(rig_, state, arc, t);
       point.contact_y_mps2 = arc.fy.at(t);
       return point;

@@ -51,6 +51,10 @@ bool admissible(const Specimen& specimen, const Shaking& shaking, const FloorInp
   for (const double number :
        {specimen.friction.mu_s, specimen.friction.mu_k, specimen.impact.factor, settings.free_vibration_s})
     if (!(number >= 0) || !std::isfinite(number)) return false;
+  const double ratio = specimen.friction.ratio_across;
+  if (ratio != 1 && (!(ratio > 0) || !std::isfinite(ratio) || !std::isfinite(specimen.friction.axis_rad) ||
+                     specimen.model != Model::slide || !shaking.motion || shaking.motion->cross_mps2.empty()))
+    return false;
   return can_start(specimen) && std::isfinite(shaking.scale) && std::isfinite(shaking.vertical_scale) &&
          shaking.motion && shaking.motion->degree >= 0 && shaking.motion->degree <= max_floor_degree &&
          specimen.friction.mu_s >= specimen.friction.mu_k && specimen.impact.factor <= 1;
@@ -74,7 +78,7 @@ Rig::AtRest Integration::laws_at_rest() const {
   const LawValues left = law_values(rig, state, cursor.time(), -1);
   const LawValues right = law_values(rig, state, cursor.time(), 1);
   const bool constant = !rig.laws->uses(Input::t) && (!rig.laws->uses(Input::normal) || shaking.vertical_scale == 0);
-  return {std::max(std::abs(left.force), std::abs(right.force)),
+  return {std::max(std::abs(left.force), std::abs(right.force)), std::max(left.lift, right.lift),
           std::max(std::abs(left.moment), std::abs(right.moment)), std::min(left.factor, right.factor),
           constant && left.finite() && right.finite()};
 }

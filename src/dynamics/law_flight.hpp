@@ -1,6 +1,6 @@
 // Flight with effects: the added force and moment act on (the moment where the block may turn), friction does not.
 //
-//   x'' = -a + X/M,   y'' = -g',   k^2 theta'' = T;   u = x + d (cos(theta) - 1) - h sin(theta), d = (b_r - b_l)/2
+//   x'' = -a + X/M,   y'' = Y - g',   k^2 theta'' = T;   u = x + d (cos(theta) - 1) - h sin(theta), d = (b_r - b_l)/2
 //
 // An edge that stays at a wall, l over the centre of mass: x' + l omega = 0, and the push X_w of the wall adds to X, l X_w to T.
 //   (1/M + l^2/k^2) X_w = a - X/M - l T/k^2 - l' omega;  an upright block's whole face: X_w = M a - X, theta'' = 0
@@ -14,7 +14,7 @@ namespace freestand::dynamics {
 
 template <int N>
 struct LawFlight : Flight<double, N> {
-  Series<double, N> ax;          // absolute horizontal acceleration of the centre of mass [m/s2]
+  Series<double, N> ax, lift;    // absolute horizontal acceleration of the centre of mass, and Y [m/s2]
   Series<double, N> deflection;  // of the legs, whose foot has no mass: no force, W^2 y + 2 z W y' = 0 [m]
   Series<double, N> states[max_states];
   Series<double, N> kink[max_kinks];
@@ -131,7 +131,10 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     value(Input::omega)[k] = f.omega[k];
     value(Input::u)[k] = f.x[k] + d * (cosine[k] - one) - h * sine[k];
     value(Input::v)[k] = f.vx[k] - h * product(cosine, f.omega, k) - d * product(sine, f.omega, k);
+    value(Input::rise)[k] = f.y[k] - h * cosine[k] - d * sine[k];
+    value(Input::climb)[k] = f.vy[k] + h * product(sine, f.omega, k) - d * product(cosine, f.omega, k);
     laws.tape.advance(input_count, laws.forces_end, k, state.sides, values);
+    f.lift[k] = laws.lift < 0 ? 0.0 : values[laws.lift][k];
     double pull = laws.force < 0 ? 0.0 : values[laws.force][k] / laws.carried_mass;
     double turn = laws.moment < 0 || !rig.can_rock ? 0.0 : values[laws.moment][k] / rig.k2;
     wall.add(f, sine, cosine, floor.a, k, pull, turn);
@@ -142,13 +145,13 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
     f.x[k + 1] = f.vx[k] * over;
     f.vx[k + 1] = (pull - floor.a[k]) * over;
     f.y[k + 1] = f.vy[k] * over;
-    f.vy[k + 1] = -floor.g[k] * over;
+    f.vy[k + 1] = (f.lift[k] - floor.g[k]) * over;
     f.theta[k + 1] = f.omega[k] * over;
     f.omega[k + 1] = turn * over;
     sine[k + 1] = product(cosine, f.omega, k) * over;
     cosine[k + 1] = -product(sine, f.omega, k) * over;
   }
-  f.ax[N] = f.wall_push[N] = 0;
+  f.ax[N] = f.lift[N] = f.wall_push[N] = 0;
   f.gap_right = turning_gap(f, rig.right, h);
   f.gap_left = turning_gap(f, -rig.left, h);
   if (laws.walls.any()) measure_gaps(rig, f, sine, cosine);

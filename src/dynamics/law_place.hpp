@@ -18,7 +18,8 @@ class LawPlace {
         floor_(floor),
         legs_(laws.legs.frequency_radps > 0),
         kind_(kind),
-        sees_place_(laws.reads(Input::u) || laws.reads(Input::v) || laws.walls.any()) {
+        sees_place_(laws.reads(Input::u) || laws.reads(Input::v) || laws.sees_rise() || laws.walls.any()) {
+    if (laws.lift < 0) y_.lift = Series<Real, N>::zero();
     if (!legs_) y_.deflection = Series<Real, N>::zero();
   }
 
@@ -62,13 +63,15 @@ class LawPlace {
 
   // What presses a corner down when theta'' = 0.
   [[gnu::always_inline]] void press(int k) {
-    y_.n[k] = floor_.g[k];
     if (turns()) {
       omega2_[k] = product(y_.omega, y_.omega, k);
-      y_.n[k] = y_.n[k] - product(y_.ry, omega2_, k);
       rx_omega2_[k] = product(y_.rx, omega2_, k);
     }
+    y_.n[k] = without_lift(k);
     y_.d[k] = Real(0.0);
+  }
+  [[gnu::always_inline]] Real without_lift(int k) const {
+    return turns() ? floor_.g[k] - product(y_.ry, omega2_, k) : floor_.g[k];
   }
 
   [[gnu::always_inline]] void inputs(int k) {
@@ -90,6 +93,7 @@ class LawPlace {
     Series<Real, N>&u = value(Input::u), &v = value(Input::v);
     u[k] = y_.xi[k];
     v[k] = y_.w[k];
+    if (laws_.sees_rise()) value(Input::rise)[k] = value(Input::climb)[k] = Real(0.0);
     if (!turns()) return;
     if (k > 0) {
       const Real &c = at_.body.c, &h = at_.body.h, to_angle = Real(1.0) / (h * h + c * c);
@@ -98,6 +102,9 @@ class LawPlace {
     }
     u[k] = u[k] + at_.half_base * (k == 0 ? y_.versine : -cosine_[k]);
     v[k] = v[k] + at_.half_base * product(sine_, y_.omega, k);
+    if (!laws_.sees_rise()) return;
+    value(Input::rise)[k] = at_.half_base * sine_[k];
+    value(Input::climb)[k] = at_.half_base * product(cosine_, y_.omega, k);
   }
 
   // Stages of a step that reaches over a lift-off may ask for a floor that pulls, where laws mean nothing: they see no force
@@ -115,6 +122,9 @@ class LawPlace {
     if (laws_.forces_end > input_count) laws_.tape.advance(input_count, laws_.forces_end, k, numbers_, values_);
     force_[k] = laws_.force < 0 ? Real(0.0) : values_[laws_.force][k];
     if (laws_.moment >= 0) y_.moment[k] = values_[laws_.moment][k];
+    if (laws_.lift < 0) return;
+    y_.lift[k] = values_[laws_.lift][k];
+    y_.n[k] = without_lift(k) - y_.lift[k];
   }
   const Real& factor_from_tape(int k) {
     laws_.tape.advance(laws_.forces_end, laws_.friction_end, k, numbers_, values_);

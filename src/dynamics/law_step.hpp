@@ -1,7 +1,7 @@
 // The equations of motion with effects: contact.hpp's, with the friction factor F, the added force X and moment T, the
 // share M of the mass that moves sideways with the block, legs, and states of the effects' own.
 //
-//   f_x = M (w' + r_y theta'' - r_x omega^2 + a) - X,   f_y = g' - r_x theta'' - r_y omega^2
+//   f_x = M (w' + r_y theta'' - r_x omega^2 + a) - X,   f_y = g' - r_x theta'' - r_y omega^2;   g' less the laws' lift Y
 //   k^2 theta'' = r_x f_y - r_y f_x + T
 //
 //   rock        (k^2 + r_x^2 + M r_y^2) theta'' = r_x (g' - r_y omega^2) - r_y (M (a - r_x omega^2) - X) + T
@@ -62,7 +62,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
       : Place(laws, at, numbers, kind, floor),
         whole_(laws.carried_mass == 1),
         grip_changes_(laws.grip_changes()),
-        rocks_plainly_(whole_ && !legs_ && laws.states == 0 && !laws.sees_normal_force(false)) {
+        rocks_plainly_(whole_ && !legs_ && laws.states == 0 && laws.lift < 0 && !laws.sees_normal_force(false)) {
     if (laws_.moment < 0) y_.moment = Series<Real, N>::zero();
     if (turns() && !slips() && rocks_plainly_) y_.path = y_.foot = y_.n = y_.d = Series<Real, N>::zero();
     if (laws_.friction < 0) {
@@ -85,8 +85,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
     return y_;
   }
 
-  // The accelerations alone: coefficients 1 of the speeds.
-  const LawArc<N, Real>& accelerations() {
+  const LawArc<N, Real>& accelerations() {  // alone: coefficients 1 of the speeds
     begin();
     coefficient(0);
     return y_;
@@ -95,8 +94,8 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
  private:
   void begin() {
     Place::begin();
-    const Corner<Real>& body = at_.body;
-    if (whole_) over_inertia_ = Real(1.0) / (body.k2 + body.c * body.c + body.h * body.h);
+    const auto& [c, h, k2] = at_.body;
+    if (whole_) over_inertia_ = Real(1.0) / (k2 + c * c + h * h);
   }
 
   // Stuck on a corner, all of the mass moving with the block, the terms in omega^2 cancel in
@@ -159,6 +158,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
       }
     }
     const bool seen = laws_.reads(Input::normal);
+    if (seen && laws_.lift >= 0) see_normal(k, y_.n[k] * Real(1 / standard_gravity_mps2)), forces_of_laws(k);
     const Real normal = act(k, seen ? y_.n[k] * Real(1 / standard_gravity_mps2) : Real(0.0));
     if (seen) see_normal(k, normal);
   }
@@ -242,7 +242,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   void lean_stuck(int k) {
     reach(k);
     const double pushed = leaning_.pushed[k];
-    const double push = (y_.ry[0] * pushed - y_.rx[0] * floor_.g[k] - y_.moment[k]) / leaning_.height[0];
+    const double push = (y_.ry[0] * pushed - y_.rx[0] * y_.n[k] - y_.moment[k]) / leaning_.height[0];
     y_.alpha[k] = 0;
     y_.fy[k] = y_.n[k];
     y_.fx[k] = pushed - push;
@@ -319,7 +319,7 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
 
   void finish() {
     finish_arc(y_);
-    y_.ax[N] = y_.foot[N] = y_.moment[N] = Real(0.0);
+    y_.ax[N] = y_.foot[N] = y_.moment[N] = y_.lift[N] = Real(0.0);
     y_.friction = slips() ? factor_[0] : Real(1.0);
     y_.pressed = y_.fy;
     if constexpr (single)

@@ -24,9 +24,11 @@ double grip_missed(const Rig&, const State&, double, const Floor<double, 1>&, co
 // The laws at one instant of contact, the weight on a still floor as normal force and |w| as slip speed: in a blow, and at
 // rest.
 struct LawValues {
-  double force = 0, moment = 0, factor = 1;
+  double force = 0, lift = 0, moment = 0, factor = 1;
   std::uint32_t sides = 0;  // of the kinks
-  bool finite() const { return std::isfinite(force) && std::isfinite(moment) && std::isfinite(factor) && factor >= 0; }
+  bool finite() const {
+    return std::isfinite(force) && std::isfinite(lift) && std::isfinite(moment) && std::isfinite(factor) && factor >= 0;
+  }
 };
 
 inline LawValues law_values(const Rig& rig, const State& state, double time, int sigma) {
@@ -46,10 +48,12 @@ inline LawValues law_values(const Rig& rig, const State& state, double time, int
   set(Input::side, state.pivot);
   set(Input::sigma, sigma);
   set(Input::speed, std::abs(state.w));
+  set(Input::rise, B * rotation.sine);
+  set(Input::climb, B * rotation.cosine * state.omega);
   for (int i = 0; i < laws.states; ++i) values[static_cast<int>(Input::state) + i][0] = state.states[i];
   const std::uint32_t sides = laws.sides_at(values, state.sides);
   const auto value = [&](int node, double without) { return node < 0 ? without : values[node][0]; };
-  return {value(laws.force, 0), value(laws.moment, 0), value(laws.friction, 1), sides};
+  return {value(laws.force, 0), value(laws.lift, 0), value(laws.moment, 0), value(laws.friction, 1), sides};
 }
 
 }  // namespace freestand::dynamics

@@ -19,6 +19,8 @@ At inputs(Tape& tape, const Specimen& specimen) {
           .side = input(Input::side),
           .sigma = input(Input::sigma),
           .speed = input(Input::speed),
+          .rise = input(Input::rise),
+          .climb = input(Input::climb),
           .mu = specimen.friction.mu_k,
           .block = specimen.block,
           .acceleration = input(Input::acceleration),
@@ -58,6 +60,7 @@ void Laws::record(const Specimen& specimen) {
   };
   const auto sum = [](Value a, Value b) { return a + b; };
   combine(&Effect::force, force, sum);
+  combine(&Effect::lift, lift, sum);
   combine(&Effect::moment, moment, sum);
   combine(&Effect::tension, tension, sum);
   combine(&Effect::contents, contents, [](Value a, Value) { return a; });
@@ -81,13 +84,13 @@ void Laws::record(const Specimen& specimen) {
     if (effect->settling_s) settling_s = std::max(settling_s, effect->settling_s(parameters));
   }
   for (int node = input_count; node < tape.size(); ++node) read_ |= tape.dependence(node);
-  for (const int node : {force, moment, friction})
+  for (const int node : {force, lift, moment, friction})
     if (node >= 0) read_ |= tape.dependence(node);
   for (int i = 0; i < states; ++i) read_ |= tape.dependence(rate[i]);
 }
 
 bool Laws::uses(Input input) const {
-  for (const int node : {force, moment, friction})
+  for (const int node : {force, lift, moment, friction})
     if (node >= 0 && tape.depends(node, input)) return true;
   return false;
 }
@@ -133,6 +136,7 @@ bool Laws::in_packs(bool turns, bool slips) const {
 bool Laws::same_shape(const Laws& other) const {
   const auto numbers = [](const Laws& laws) {
     return std::array{laws.force,
+                      laws.lift,
                       laws.moment,
                       laws.friction,
                       laws.forces_end,

@@ -21,9 +21,9 @@ struct Laws {
   }
 
   Tape tape;
-  // Nodes of the results; -1 where no effect has a say. Nodes [input_count, forces_end) serve force and moment,
+  // Nodes of the results; -1 where no effect has a say. Nodes [input_count, forces_end) serve force, lift and moment,
   // [forces_end, friction_end) the friction, [friction_end, tape.size()) the rates of the states.
-  int force = -1, moment = -1, friction = -1;
+  int force = -1, lift = -1, moment = -1, friction = -1;
   int tension = -1, contents = -1;  // told alone: no part of the equations of motion
   double strength = 0;              // of the tension, 0: it does not break [m/s2]
   int forces_end = input_count, friction_end = input_count;
@@ -40,10 +40,11 @@ struct Laws {
   bool uses(Input input) const;
   // Any node looks at it.
   bool reads(Input input) const { return read_ >> static_cast<int>(input) & 1U; }
+  bool sees_rise() const { return reads(Input::rise) || reads(Input::climb); }
   // Of a block on a corner, that slips or not: forces, moments or friction depend on the normal force, which depends on them.
   bool sees_normal_force(bool slips) const {
     const auto looks = [&](int node) { return node >= 0 && tape.depends(node, Input::normal); };
-    return looks(force) || looks(moment) || (slips && looks(friction));
+    return looks(force) || looks(lift) || looks(moment) || (slips && looks(friction));
   }
   // The share of the normal force that friction may take changes while a contact is stuck.
   bool grip_changes() const;

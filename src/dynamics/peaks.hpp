@@ -78,8 +78,8 @@ class Peaks {
     observe_slip(u, tau);
     if (state.pivot != 0) response_.peak_rotation_rad = max_abs(arc.theta, tau, response_.peak_rotation_rad);
     response_.slid_path_m += arc.path.at(tau) - arc.path[0];
-    observe_acceleration(rig, arc.ax, arc.fy, tau);
-    observe_point(rig, arc.theta[0], arc.omega, arc.ax, arc.fy, tau);
+    observe_acceleration(rig, arc.ax, upward(rig, arc), tau);
+    observe_point(rig, arc.theta[0], arc.omega, arc.ax, upward(rig, arc), tau);
     forces_.on_floor(rig, state, arc, u, tau, response_);
   }
 
@@ -94,8 +94,8 @@ class Peaks {
   void observe(const Rig& rig, const State& state, const LawFlight<N>& flight, double tau) {
     const Series<double, N> u = observe_flight(rig, flight, tau);
     forces_.in_flight(rig, state, flight, u, tau, response_);
-    observe_acceleration(rig, flight.ax, Series<double, N>::zero(), tau);
-    observe_point(rig, flight.theta[0], flight.omega, flight.ax, Series<double, N>::zero(), tau);
+    observe_acceleration(rig, flight.ax, flight.lift, tau);
+    observe_point(rig, flight.theta[0], flight.omega, flight.ax, flight.lift, tau);
   }
 
   template <class SomeArc>

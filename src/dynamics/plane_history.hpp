@@ -12,7 +12,9 @@ namespace freestand::dynamics {
 
 class PlaneHistory {
  public:
-  PlaneHistory(History* history, const Shaking& shaking) : history_(history), shaking_(shaking), times_(history) {
+  // axis: direction in which what is given here has its x.
+  PlaneHistory(History* history, const Shaking& shaking, const PlaneVector& axis)
+      : history_(history), shaking_(shaking), axis_(axis), times_(history) {
     if (!history_) return;
     history_->points.clear();
     history_->events.clear();
@@ -50,7 +52,7 @@ class PlaneHistory {
   // The last state, held to the end of the motion.
   void hold(const PlaneVector& u, Mode mode) {
     times_.up_to(shaking_.duration_s(), [&](double t) {
-      add(t, {horizontal_acceleration(shaking_, t), cross_acceleration(shaking_, t)}, u, {}, mode);
+      add(t, {horizontal_acceleration(shaking_, t), cross_acceleration(shaking_, t)}, back(u), {}, mode);
     });
   }
 
@@ -61,7 +63,7 @@ class PlaneHistory {
   }
 
   void point(double time, const PlaneFloor& floor, double t, const PlaneVector& u, const PlaneVector& w, Mode mode) {
-    add(time, {floor.ax.at(t), floor.ay.at(t)}, u, w, mode);
+    add(time, back({floor.ax.at(t), floor.ay.at(t)}), back(u), back(w), mode);
   }
 
   void add(double time, const PlaneVector& a, const PlaneVector& u, const PlaneVector& w, Mode mode) {
@@ -72,8 +74,11 @@ class PlaneHistory {
     history_->points.push_back(point);
   }
 
+  PlaneVector back(const PlaneVector& x) const { return turned_back(x, axis_); }
+
   History* history_;
   const Shaking& shaking_;
+  const PlaneVector axis_;
   OutputTimes times_;
 };
 

@@ -23,6 +23,7 @@ class PlanePeaks {
       squared[k] += product(floor.ax, floor.ax, k) + product(floor.ay, floor.ay, k);
     observe_acceleration(squared, tau);
   }
+  void observe_friction(const SlipSeries& slip, double h) { observe_acceleration(slip.felt2, h); }
   void observe_friction(const PlaneFloor& floor, double tau) {
     PlaneSeries squared = squared_lift(floor);
     for (int k = 0; k <= plane_order; ++k) squared[k] += mu_k_ * mu_k_ * product(floor.g, floor.g, k);

@@ -5,6 +5,7 @@
 
 #include "dynamics/floor_cursor.hpp"
 #include "dynamics/integration.hpp"
+#include "dynamics/plane_ellipse.hpp"
 #include "dynamics/plane_history.hpp"
 #include "dynamics/plane_peaks.hpp"
 #include "dynamics/plane_slip.hpp"
@@ -31,6 +32,11 @@ class PlaneSlide {
         settings_(settings),
         mu_s_(setup.specimen.friction.mu_s),
         mu_k_(setup.specimen.friction.mu_k),
+        grip_{mu_k_, setup.specimen.friction.ratio_across},
+        elliptic_(grip_.ratio != 1),
+        axis_(elliptic_
+                  ? PlaneVector{std::cos(setup.specimen.friction.axis_rad), std::sin(setup.specimen.friction.axis_rad)}
+                  : PlaneVector{1, 0}),
         g_(standard_gravity_mps2),
         force_zero_(1e-11 * g_),
         length_(setup.specimen.block.size_m()),
@@ -40,7 +46,7 @@ class PlaneSlide {
         along_(shaking_, g_),
         across_(FloorCursor::across(shaking_)),
         peaks_(g_, mu_k_),
-        history_(history, shaking_) {}
+        history_(history, shaking_, axis_) {}
 
   Response run() {
     while (!finished_) {
@@ -62,12 +68,19 @@ class PlaneSlide {
     floor_.ax = along.a;
     floor_.g = along.g;
     floor_.ay = across_.local<N>().a;
+    for (int k = 0; k <= N && axis_.y != 0; ++k) {
+      const PlaneVector a = turned_back({floor_.ax[k], floor_.ay[k]}, {axis_.x, -axis_.y});
+      floor_.ax[k] = a.x, floor_.ay[k] = a.y;
+    }
     floor_.degree = along_.motion_over() ? 0 : shaking_.motion->degree;
     floor_.shakes_vertically = shaking_.vertical_scale != 0 && !shaking_.motion->vertical_mps2.empty();
     left_ = along_.motion_over() ? std::fmax(end_s() - along_.time(), 0.0) : along_.left();
   }
   double end_s() const { return shaking_.duration_s() + settings_.free_vibration_s; }
-  double F() const { return mu_k_ * floor_.g[0]; }
+  double F() const { return elliptic_ ? grip_.hardest(floor_.g[0]) : mu_k_ * floor_.g[0]; }
+  // |q| of elliptic friction.
+  double speed_of(const PlaneVector& w) const { return elliptic_ ? grip_.speed(w) : size(w); }
+  double drive() const { return elliptic_ ? size(grip_.scaled(floor_.a())) : size(floor_.a()); }
 
   void advance(double tau) {
     if (tau < left_ || along_.motion_over()) {
@@ -82,12 +95,12 @@ class PlaneSlide {
 
   // Rest.
 
-  // mu_s^2 g'^2 - |a|^2: not below zero while the block is stuck.
+  // mu_s^2 g'^2 - |a|^2, of elliptic friction with a_y/r: not below zero while the block is stuck.
   PlaneSeries grip() const {
     PlaneSeries grip;
     for (int k = 0; k <= N; ++k)
       grip[k] = mu_s_ * mu_s_ * product(floor_.g, floor_.g, k) - product(floor_.ax, floor_.ax, k) -
-                product(floor_.ay, floor_.ay, k);
+                product(floor_.ay, floor_.ay, k) / (grip_.ratio * grip_.ratio);
     return grip;
   }
   // Round-off of the grip, in the terms of the root search.
@@ -99,7 +112,8 @@ class PlaneSlide {
     const bool passed = along_.pass_over([&](const FloorCursor::Bound& floor) {
       const double cross = std::abs(shaking_.scale) * runs[along_.segment() / FloorMotion::run_length];
       const double push = std::hypot(floor.a, cross), peak = peaks_.response().peak_acceleration_mps2;
-      return push < mu_s_ * (g_ - floor.v) && push * push + floor.v * floor.v <= peak * peak;
+      return push < mu_s_ * std::fmin(1.0, grip_.ratio) * (g_ - floor.v) &&
+             push * push + floor.v * floor.v <= peak * peak;
     });
     if (!passed) return;
     const FloorCursor::Place place = along_.place();
@@ -146,13 +160,14 @@ class PlaneSlide {
 
   // The slip comes to its end within the step.
   bool ends_within(double limit) {
-    const double v = size(w_), A = size(floor_.a()), decelerates = F() * v + dot(floor_.a(), w_);
+    const double v = size(w_), A = size(floor_.a());
     if (v == 0) return false;
+    const double decelerates = elliptic_ ? slows(floor_, grip_, w_) : F() * v + dot(floor_.a(), w_);
     if (v <= 0.1 * settings_.tolerance * speed_ && decelerates > 0) {
       come_to_rest(0);
       return true;
     }
-    if (!(A < F())) return false;
+    if (elliptic_ || !(A < F())) return false;
     const SlipEnd end = slip_end(floor_.a(), F(), w_);
     const double changes = (std::hypot(floor_.ax[1], floor_.ay[1]) + mu_k_ * std::abs(floor_.g[1])) * end.after_s;
     const bool still = along_.motion_over() ||
@@ -178,13 +193,17 @@ class PlaneSlide {
 
   // A step in time of a slip that follows the drive.
   bool follows_drive(double limit) {
-    const double v = size(w_), A = size(floor_.a());
+    const double v = speed_of(w_), A = drive();
     if (v > settles_in * A * limit || !(limit > 0)) return false;
     DrivenSlip driven;
-    if (!driven_slip(floor_, mu_k_, w_, u_, force_zero_, driven)) return false;
+    if (!(elliptic_ ? elliptic_driven_slip(floor_, grip_, w_, u_, g_, force_zero_, driven)
+                    : driven_slip(floor_, mu_k_, w_, u_, force_zero_, driven)))
+      return false;
     const double turned = std::abs(driven.turned), tolerance = settings_.tolerance;
     // The direction settles within about v/A, and takes along what it loses of the speed and of the place.
-    if (v * turned * turned > tolerance * speed_ || v * v * turned > tolerance * length_ * A) return false;
+    if (v * turned * (turned + driven.bends) > tolerance * speed_ ||
+        v * v * turned > tolerance * length_ * driven.settles)
+      return false;
     double h = limit;
     for (int turn = 0;; ++turn) {
       const double fastest = std::abs(driven.slip.v[0]) + size_of_rest<1>(driven.slip.v, h);
@@ -195,7 +214,7 @@ class PlaneSlide {
       if (turn == 20) return false;
       h *= 0.95 * std::pow(missed, -1.0 / N);
     }
-    if (v > settles_in * A * h) return false;
+    if (v > settles_in * driven.settles * h) return false;
     double found = 0;
     const bool stops = first_root(driven.slip.v, h, ZeroTolerance{1, 0.0}, found);
     if (stops && found == 0) {  // it does not start
@@ -210,8 +229,8 @@ class PlaneSlide {
 
   // The series in s to the end of the step, or as far as its last terms are within the tolerance.
   void step_in_s(double limit) {
-    const double rate = size(floor_.a()) + std::abs(F()), to_knot = rate * limit / size(w_);
-    if (to_knot < longest_exponent && step_with<short_order>(limit, to_knot)) return;
+    const double rate = drive() + std::abs(F()), to_knot = rate * limit / speed_of(w_);
+    if (!elliptic_ && to_knot < longest_exponent && step_with<short_order>(limit, to_knot)) return;
     step_with<N>(limit, longest_exponent);
   }
 
@@ -220,8 +239,9 @@ class PlaneSlide {
   bool step_with(double limit, double exponent) {
     const double x = exponent * exponent;
     if (M < N && x * x * x > 720 * settings_.tolerance * speed_ / size(w_)) return false;
-    const SlipSeries slip = slip_series(floor_, mu_k_, w_, u_, M);
-    double h = longest_exponent / (size(floor_.a()) + std::abs(F()));
+    const SlipSeries slip =
+        elliptic_ ? elliptic_slip(floor_, grip_, w_, u_, g_) : slip_series(floor_, mu_k_, w_, u_, M);
+    double h = longest_exponent / (drive() + std::abs(F()));
     const double last =
         std::fmax(std::fmax(std::hypot(slip.wx[M], slip.wy[M]), std::abs(slip.v[M])) / speed_,
                   std::fmax(std::hypot(slip.ux[M], slip.uy[M]) / length_, std::abs(slip.t[M]) / own_time_));
@@ -239,7 +259,10 @@ class PlaneSlide {
 
   // To the place h of the series, at time tau.
   void step_along(const SlipSeries& slip, double h, double tau) {
-    peaks_.observe_friction(floor_, tau);
+    if (elliptic_)
+      peaks_.observe_friction(slip, h);
+    else
+      peaks_.observe_friction(floor_, tau);
     peaks_.observe_slip(slip, h);
     history_.along(slip, floor_, along_.time(), h, tau, Mode::slide);
     w_ = {slip.wx.at(h), slip.wy.at(h)};
@@ -279,9 +302,9 @@ class PlaneSlide {
 
   // The floor stops the block's fall by an impulse, against which friction takes what it can of the slip.
   void land() {
-    const double push = std::abs(vy_), v = size(w_);
+    const double push = std::abs(vy_), v = size({w_.x, w_.y / grip_.ratio});
     const double kept = v <= mu_s_ * push ? 0.0 : std::fmax(v - mu_k_ * push, 0.0) / v;
-    w_ = {w_.x * kept, w_.y * kept};
+    w_ = elliptic_ && kept > 0 ? slip_after_push(grip_, w_, push) : PlaneVector{w_.x * kept, w_.y * kept};
     ++peaks_.response().impacts;
     read_floor();
     const bool slips = kept > 0 || sign_after(grip(), grip_zero()) < 0;
@@ -313,8 +336,9 @@ class PlaneSlide {
   }
   Response result() {
     peaks_.response().outcome = outcome_;
-    peaks_.response().residual_slip_m = u_.x;
-    peaks_.response().residual_cross_slip_m = u_.y;
+    const PlaneVector residual = turned_back(u_, axis_);
+    peaks_.response().residual_slip_m = residual.x;
+    peaks_.response().residual_cross_slip_m = residual.y;
     peaks_.response().end_time_s = along_.time();
     if (outcome_ == Outcome::at_rest || outcome_ == Outcome::moved) history_.hold(u_, mode_);
     return peaks_.response();
@@ -322,7 +346,11 @@ class PlaneSlide {
 
   const Shaking shaking_;
   const Settings settings_;
-  const double mu_s_, mu_k_, g_, force_zero_, length_, speed_, own_time_, instant_s_;
+  const double mu_s_, mu_k_;
+  const EllipticGrip grip_;
+  const bool elliptic_;     // else as with the same friction in all directions
+  const PlaneVector axis_;  // of grip_, along which a, u and w have their x
+  const double g_, force_zero_, length_, speed_, own_time_, instant_s_;
   FloorCursor along_, across_;
   PlaneFloor floor_;
   double left_ = 0;  // to the next knot, or to the end of the time given [s]
@@ -342,6 +370,7 @@ std::string refusal_in_plane(const Specimen& specimen) {
   if (specimen.model != Model::slide) return "a block is followed in both horizontal directions where it only slides";
   if (!specimen.start.upright_at_rest()) return "in the plane a block begins at rest where it is counted from";
   if (specimen.neighbour) return "two blocks side by side are followed along one line";
+  if (specimen.legs) return "a block on legs that give way is followed along one line";
   for (const EffectUse& use : specimen.effects) {
     FloorInput floor;
     if (use.effect->floor) use.effect->floor(floor, use.parameters);

@@ -1,6 +1,6 @@
 // A block that slides in the plane of a floor which moves in both horizontal directions (FloorMotion::cross_mps2):
 //   u'' + a = -mu_k g' u'/|u'|,  stuck while |a| <= mu_s g'  (vectors; g' = g + v under vertical shaking)
-// Where g' <= 0 the block flies, and lands with an impulse mu |y'| at most against its slip. Turning about the vertical
+// Friction that differs between two directions: plane_ellipse.hpp. Where g' <= 0 the block flies, and lands with an impulse mu |y'| at most against its slip. Turning about the vertical
 // axis (yaw) is left out: forces act through the centre of mass, and no couple of friction turns the block.
 //
 // Between events nothing is approximated but by series (plane_slip.hpp): onset, stop, lift-off and landing are roots. A slip that

@@ -2,33 +2,12 @@
 
 #include <algorithm>
 
+#include "dynamics/along_slip.hpp"
+
 namespace freestand::dynamics {
 namespace {
 
 constexpr int N = plane_order;
-
-// A polynomial in time along a slip, as a series in s: each derivative D_j has dD_j/ds = D_(j+1) v.
-template <int Degree>
-class AlongSlip {
- public:
-  AlongSlip(const PlaneSeries& in_time, double factor) {
-    double factorial = factor;
-    for (int j = 0; j <= Degree; ++j) {
-      derivative_[j][0] = in_time[j] * factorial;
-      factorial *= j + 1;
-    }
-  }
-  // Coefficient k + 1, from v's coefficients up to k.
-  [[gnu::always_inline]] void advance(const PlaneSeries& v, int k) {
-    const double one_over = 1.0 / (k + 1);
-    for (int j = 0; j + 1 < Degree; ++j) derivative_[j][k + 1] = product(derivative_[j + 1], v, k) * one_over;
-    if constexpr (Degree > 0) derivative_[Degree - 1][k + 1] = derivative_[Degree][0] * v[k] * one_over;
-  }
-  const PlaneSeries& series() const { return derivative_[0]; }
-
- private:
-  PlaneSeries derivative_[Degree + 1];
-};
 
 PlaneVector along(const PlaneVector& axis, double x) { return {axis.x * x, axis.y * x}; }
 
@@ -196,6 +175,7 @@ bool driven_slip(const PlaneFloor& floor, double mu_k, const PlaneVector& w, con
     y.path[k + 1] = f.v[k] / (k + 1);
   }
   found.last_angle = f.theta[angles];
+  found.settles = f.A;
   found.turned = speed == 0 ? 0.0 : std::atan2(dot(two, w), dot(one, w)) - f.theta[0];
   return true;
 }

@@ -33,6 +33,12 @@ struct PlaneVector {
 inline double dot(const PlaneVector& p, const PlaneVector& q) { return p.x * q.x + p.y * q.y; }
 inline double size(const PlaneVector& p) { return std::sqrt(dot(p, p)); }
 
+// From axes whose x goes along `axis`, a unit vector, to those in which it is given; the same bits where they are the same.
+inline PlaneVector turned_back(const PlaneVector& p, const PlaneVector& axis) {
+  if (axis.y == 0) return p;
+  return {axis.x * p.x - axis.y * p.y, axis.y * p.x + axis.x * p.y};
+}
+
 using PlaneSeries = Series<double, plane_order>;
 
 // The floor about the present instant: accelerations, and effective gravity [m/s2]; degree of these polynomials.
@@ -47,6 +53,7 @@ struct PlaneFloor {
 // A slip about an instant, as series in s, or `in_time`. t: time since that instant.
 struct SlipSeries {
   PlaneSeries v, wx, wy, ux, uy, path, t;
+  PlaneSeries felt2;  // total acceleration, squared; of elliptic friction only [m2/s4]
   int order = plane_order;
   bool in_time = false;
 };
@@ -71,6 +78,9 @@ SlipEnd slip_end(const PlaneVector& a, double F, const PlaneVector& w);
 struct DrivenSlip {
   SlipSeries slip;
   double last_angle = 0;  // last coefficient of theta
+  double settles = 0;     // the direction does in |w| over this [m/s2]
+  double bends =
+      0;  // what turning changes of v', over the angle and `settles`; none where friction is the same in all directions
   double turned = 0;
 };
 bool driven_slip(const PlaneFloor& floor, double mu_k, const PlaneVector& w, const PlaneVector& u, double zero,

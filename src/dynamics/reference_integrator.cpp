@@ -393,8 +393,8 @@ Response respond_reference_on_line(const Specimen& specimen, const Shaking& shak
                                    History* history) {
   const Setup setup = set_up(specimen, shaking);
   if (specimen.model == Model::bouc_wen) return respond_bouc_wen_reference(setup, settings, history);
-  if (!admissible(setup, settings) || specimen.neighbour) return Response{.outcome = Outcome::not_finite};
-  return ReferenceIntegrator(setup, settings, history).run();
+  const bool alone = !specimen.neighbour && !specimen.legs && admissible(setup, settings);
+  return alone ? ReferenceIntegrator(setup, settings, history).run() : Response{.outcome = Outcome::not_finite};
 }
 
 }  // namespace freestand::dynamics

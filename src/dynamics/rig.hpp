@@ -71,14 +71,14 @@ struct Rig {
     if (!std::isnan(settings.acceleration_height_m)) point = {0.5 * (right - left), settings.acceleration_height_m - h};
   }
 
-  // What laws that do not change while the block rests do to it: the largest force and moment, the least friction factor.
+  // What laws that do not change while the block rests do to it: the largest force, lift and moment, the least friction factor.
   struct AtRest {
-    double force = 0, moment = 0, factor = 1;
+    double force = 0, lift = 0, moment = 0, factor = 1;
     bool constant = true;
   };
   // No floor acceleration with |a| <= a_max, |v| <= v_max can move the block from rest.
   bool stays_put(double a_max, double v_max, const AtRest& rest) const {
-    const double weight = g - v_max, push_max = carried_mass() * a_max + rest.force;
+    const double weight = g - v_max - rest.lift, push_max = carried_mass() * a_max + rest.force;
     return rest.constant && (!can_slip || push_max < mu_s * rest.factor * weight) &&
            (!can_rock || h * push_max + rest.moment < (right < left ? right : left) * weight) && weight > 0;
   }

@@ -313,7 +313,7 @@ class SideBySide {
 };
 
 bool sound(const Neighbour& neighbour) {
-  const auto& [mu_s, mu_k] = neighbour.friction;
+  const double mu_s = neighbour.friction.mu_s, mu_k = neighbour.friction.mu_k;
   return neighbour.mass_kg > 0 && std::isfinite(neighbour.mass_kg) && neighbour.gap_m >= 0 && mu_k >= 0 &&
          mu_s >= mu_k && std::isfinite(mu_s) && neighbour.restitution >= 0 && neighbour.restitution <= 1 &&
          std::abs(neighbour.side) == 1;

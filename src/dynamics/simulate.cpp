@@ -15,6 +15,11 @@ bool moves_in_plane(const FloorMotion& motion) {
 
 namespace {
 
+// Friction that differs between directions leads a block off the line along which its floor moves.
+bool goes_in_plane(const Specimen& specimen, const FloorMotion& motion) {
+  return moves_in_plane(motion) || specimen.friction.ratio_across != 1;
+}
+
 bool has_cross(const Shaking& shaking) { return shaking.motion && !shaking.motion->cross_mps2.empty(); }
 
 // A floor whose two channels are proportional moves along a line: as this motion along it, to the bit where the second channel
@@ -48,7 +53,7 @@ using Respond = Response (*)(const Specimen&, const Shaking&, const Settings&, H
 Response respond_with_cross(const Specimen& specimen, const Shaking& shaking, const Settings& settings,
                             History* history, Respond on_line) {
   if (!refusal_in_plane(specimen).empty()) return Response{.outcome = Outcome::not_finite};
-  if (moves_in_plane(*shaking.motion)) {
+  if (goes_in_plane(specimen, *shaking.motion)) {
     if (on_line != respond_on_line) return Response{.outcome = Outcome::not_finite};
     return respond_in_plane(set_up(specimen, shaking), settings, history);
   }
@@ -65,7 +70,7 @@ void respond_batch_with_cross(std::span<const Specimen> specimens, std::span<con
   std::vector<std::size_t> at;
   for (std::size_t i = 0; i < shakings.size(); ++i) {
     const bool cross = has_cross(shakings[i]);
-    if (cross && (moves_in_plane(*shakings[i].motion) || !refusal_in_plane(specimens[i]).empty())) {
+    if (cross && (goes_in_plane(specimens[i], *shakings[i].motion) || !refusal_in_plane(specimens[i]).empty())) {
       responses[i] = respond(specimens[i], shakings[i], settings);
       continue;
     }

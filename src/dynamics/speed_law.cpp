@@ -49,7 +49,7 @@ bool same_shape(const SpeedLaw& a, const SpeedLaw& b) {
 }
 
 std::optional<SpeedLaw> speed_law(const Laws& laws) {
-  const bool more = laws.force >= 0 || laws.moment >= 0 || laws.states > 0 || laws.walls.any() ||
+  const bool more = laws.force >= 0 || laws.lift >= 0 || laws.moment >= 0 || laws.states > 0 || laws.walls.any() ||
                     laws.legs.frequency_radps > 0 || laws.carried_mass != 1 || laws.tape.kink_count() > 0;
   if (more || laws.friction < 0) return {};
   constexpr int speed = static_cast<int>(Input::speed);

@@ -31,12 +31,14 @@ enum class Input : int {
   side,          // +1 on the right corner, -1 on the left one, 0 flat or in flight
   sigma,         // direction of the slip, or of the impending slip: +1 to the right, -1 to the left
   speed,         // |slip speed| of the contact [m/s]
+  rise,          // height of the middle of the base over the floor [m]
+  climb,         // its rate [m/s]
   acceleration,  // absolute horizontal acceleration of the centre of mass [m/s2]; only for the rates of states
   state          // first of the states that effects bring along
 };
 inline constexpr int max_states = 6;
 inline constexpr int input_count = static_cast<int>(Input::state) + max_states;
-inline constexpr int max_nodes = 160;
+inline constexpr int max_nodes = 162;
 inline constexpr int max_kinks = 16;
 
 enum class Op : std::uint8_t {

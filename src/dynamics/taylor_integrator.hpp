@@ -190,7 +190,8 @@ class TaylorIntegrator {
   double last_term(const LawFlight<N>& flight) const {
     return std::max({std::abs(flight.theta[N]) * size_.over_angle, std::abs(flight.omega[N]) * size_.over_rotation,
                      std::abs(flight.x[N]) * size_.over_length, std::abs(flight.vx[N]) * size_.over_speed,
-                     std::abs(flight.deflection[N]) * size_.over_length, last_of_states(flight.states)});
+                     std::abs(flight.vy[N]) * size_.over_speed, std::abs(flight.deflection[N]) * size_.over_length,
+                     last_of_states(flight.states)});
   }
   double last_of_states(const Series<double, N>* states) const {
     double most = 0;

@@ -75,6 +75,7 @@ Specimen specimen(const ModelSpec& model, const Dimensions& measured, std::span<
                        .side = chain->side,
                        .number = chain->number.of(x),
                        .plan_angle_rad = chain->plan_angle.of(x),
+                       .elevation_rad = chain->elevation.of(x),
                        .damping_nspm = chain->damping.of(x),
                        .wall_gap_m = chain->wall_gap ? std::optional(chain->wall_gap->of(x)) : std::nullopt},
                       s.block));

@@ -38,7 +38,7 @@ struct EffectTerm {
 struct ChainTerm {
   Number slack, stiffness, strength;
   std::optional<Number> height;  // absent: the block's
-  Number number{.value = 1}, plan_angle = {}, damping = {};
+  Number number{.value = 1}, plan_angle = {}, elevation = {}, damping = {};
   std::optional<Number> wall_gap = {};
   int side = 1;
 };

@@ -29,7 +29,8 @@ void friction_axes(const FrictionPart& friction, std::vector<AxisChoice>& axes) 
   axes.push_back(
       {"friction.mu_s", varies(friction.mu_s) || varies(friction.static_ratio) || (kinetic && !friction.mu_s)});
   if (friction.mu) axes.push_back({"friction.mu", kinetic});
-  if (friction.static_ratio) axes.push_back({"friction.static_ratio", varies(friction.static_ratio)});
+  for (const auto& q : {friction.static_ratio, friction.ratio_across, friction.axis})
+    if (q) axes.push_back({q->name, varies(*q)});
 }
 
 }  // namespace
@@ -45,6 +46,9 @@ std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<M
     for (const auto& parameter : effect.parameters) axes.push_back({parameter.name, varies(parameter)});
   if (model.neighbour)
     for (const auto& q : model.neighbour->given()) axes.push_back({q.name, varies(q)});
+  if (model.legs)
+    for (const auto& q : {std::optional(model.legs->frequency), model.legs->damping})
+      if (q) axes.push_back({q->name, varies(*q)});
   for (const auto& q : model.start.given()) axes.push_back({q.name, varies(q)});
   const bool several = motions.size() > 1;
   const auto any = [&](const auto& test) { return std::any_of(motions.begin(), motions.end(), test); };

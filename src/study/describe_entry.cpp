@@ -37,6 +37,8 @@ void describe_friction(const FrictionPart& friction, database::Entry& entry) {
 std::string model_words(const ModelPart& model) {
   constexpr const char* models[] = {"slide", "rock", "slide_rock", "bouc_wen"};
   std::string words = models[static_cast<int>(model.model)];
+  for (const auto& q : {model.friction.ratio_across, model.friction.axis})
+    if (q) words += fmt::format(" {}={}", q->name, number(*q));
   if (const auto& contact = model.bouc_wen)
     for (const auto& q : {contact->yield_displacement, contact->exponent, contact->gamma, contact->beta})
       words += fmt::format(" {}={}", q.name, number(q));
@@ -46,7 +48,8 @@ std::string model_words(const ModelPart& model) {
     words += fmt::format(" block.mass_kg={}", number(model.block.mass));
     for (const auto& q : {chain->slack, chain->stiffness, chain->strength})
       words += fmt::format(" {}={}", q.name, number(q));
-    for (const auto& q : {chain->height, chain->number, chain->plan_angle, chain->damping, chain->wall_gap})
+    for (const auto& q :
+         {chain->height, chain->number, chain->plan_angle, chain->elevation, chain->damping, chain->wall_gap})
       if (q) words += fmt::format(" {}={}", q->name, number(*q));
     words += chain->side > 0 ? " chain.side=right" : " chain.side=left";
   }
@@ -55,6 +58,9 @@ std::string model_words(const ModelPart& model) {
     for (const auto& q : neighbour->given()) words += fmt::format(" {}={}", q.name, number(q));
     words += neighbour->side > 0 ? " neighbour.side=right" : " neighbour.side=left";
   }
+  if (const auto& legs = model.legs)
+    for (const auto& q : {std::optional(legs->frequency), legs->damping})
+      if (q) words += fmt::format(" {}={}", q->name, number(*q));
   return words;
 }
 

@@ -59,7 +59,9 @@ std::string block_text(const BlockPart& block) {
 
 std::string friction_text(const FrictionPart& friction) {
   Mapping m;
-  for (const auto& quantity : {friction.mu, friction.mu_k, friction.mu_s, friction.static_ratio}) m.add(quantity);
+  for (const auto& quantity :
+       {friction.mu, friction.mu_k, friction.mu_s, friction.static_ratio, friction.ratio_across, friction.axis})
+    m.add(quantity);
   return m.flow();
 }
 
@@ -103,7 +105,8 @@ std::string chain_text(const std::optional<ChainPart>& chain) {
   if (!chain) return "";
   Mapping m;
   for (const auto& quantity : {chain->slack, chain->stiffness, chain->strength}) m.add(quantity);
-  for (const auto& quantity : {chain->height, chain->number, chain->plan_angle, chain->damping}) m.add(quantity);
+  for (const auto& quantity : {chain->height, chain->number, chain->plan_angle, chain->elevation, chain->damping})
+    m.add(quantity);
   m.add(chain->wall_gap);
   m.add("side", chain->side > 0 ? "right" : "left");
   return "chain: " + m.flow() + "\n";
@@ -117,6 +120,14 @@ std::string neighbour_text(const std::optional<NeighbourPart>& neighbour) {
   return "neighbour: " + m.flow() + "\n";
 }
 
+std::string legs_text(const std::optional<LegsPart>& legs) {
+  if (!legs) return "";
+  Mapping m;
+  m.add(legs->frequency);
+  m.add(legs->damping);
+  return "legs: " + m.flow() + "\n";
+}
+
 std::string start_text(const StartPart& start) {
   Mapping m;
   for (const auto& quantity : start.given()) m.add(quantity);
@@ -125,7 +136,8 @@ std::string start_text(const StartPart& start) {
 
 // The block, what holds it and what stands beside it, and how it begins.
 std::string specimen_text(const ModelPart& model) {
-  return model_text(model) + chain_text(model.chain) + neighbour_text(model.neighbour) + start_text(model.start);
+  return model_text(model) + chain_text(model.chain) + neighbour_text(model.neighbour) + legs_text(model.legs) +
+         start_text(model.start);
 }
 
 std::string height_text(const Study& study) {

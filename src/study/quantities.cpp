@@ -26,7 +26,9 @@ std::vector<Quantity> quantities(const ModelPart& model) {
   for (const auto& q : {model.block.width, model.block.height, model.block.slenderness, model.block.size}) add(q);
   add(model.block.mass);
   for (const auto& q : {model.block.centre_height, model.block.gyration_radius, model.block.inertia}) add(q);
-  for (const auto& q : {model.friction.mu, model.friction.mu_k, model.friction.mu_s, model.friction.static_ratio})
+  const FrictionPart& friction = model.friction;
+  for (const auto& q :
+       {friction.mu, friction.mu_k, friction.mu_s, friction.static_ratio, friction.ratio_across, friction.axis})
     add(q);
   if (const auto& b = model.bouc_wen)
     for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) add(q);
@@ -36,12 +38,17 @@ std::vector<Quantity> quantities(const ModelPart& model) {
   add(model.slip_discrepancy);
   if (model.chain) {
     for (const auto& q : {model.chain->slack, model.chain->stiffness, model.chain->strength}) add(q);
-    for (const auto& q : {model.chain->height, model.chain->number, model.chain->plan_angle, model.chain->damping})
+    for (const auto& q : {model.chain->height, model.chain->number, model.chain->plan_angle, model.chain->elevation,
+                          model.chain->damping})
       add(q);
     add(model.chain->wall_gap);
   }
   if (model.neighbour)
     for (const auto& q : model.neighbour->given()) add(q);
+  if (model.legs) {
+    add(model.legs->frequency);
+    add(model.legs->damping);
+  }
   for (const auto& q : model.start.given()) add(q);
   return all;
 }

@@ -27,6 +27,13 @@ bool MotionSource::in_plane() const {
 }
 
 void check_cross(Section& file, const Study& study) {
+  const bool on_a_line =
+      std::any_of(study.motions.begin(), study.motions.end(), [](const auto& source) { return !source.in_plane(); });
+  if (study.model.friction.ratio_across && on_a_line)
+    file.problem("friction",
+                 "friction.ratio_across is of sliding in both horizontal directions (motions move the floor along one "
+                 "line): give "
+                 "cross_records, or remove it");
   if (std::none_of(study.motions.begin(), study.motions.end(), [](const auto& source) { return source.in_plane(); }))
     return;
   const auto refuse = [&](const char* key, const std::string& why, const char* cure) {

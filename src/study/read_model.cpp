@@ -130,6 +130,8 @@ FrictionPart read_friction(Section& file) {
   friction.mu_k = section.quantity("friction", "mu_k", range::not_negative);
   friction.mu_s = section.quantity("friction", "mu_s", range::not_negative);
   friction.static_ratio = section.quantity("friction", "static_ratio", ratio_range);
+  friction.ratio_across = section.quantity("friction", "ratio_across", above_zero);
+  friction.axis = section.quantity("friction", "axis_rad", range::any);
   section.finish();
   if (!node->IsMap()) return friction;
 
@@ -141,6 +143,10 @@ FrictionPart read_friction(Section& file) {
   } else if (section.has("mu_s") && section.has("static_ratio")) {
     both(section, "mu_s", "static_ratio", "one determines the other");
   }
+  if (section.has("axis_rad") && !section.has("ratio_across"))
+    section.problem(
+        "axis_rad",
+        "friction.axis_rad turns what is the same in all directions: add friction.ratio_across, or remove it");
   check_static_friction(section, friction);
   return friction;
 }
@@ -225,6 +231,13 @@ std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
                                        .upper = pi / 2,
                                        .lower_open = false,
                                        .why = "chains stand at less than a right angle to the shaking"});
+  chain.elevation = section.quantity(
+      "chain", "elevation_rad",
+      {.lower = -pi / 2, .upper = pi / 2, .why = "chains stand at less than a right angle to the floor"});
+  if (chain.elevation && model.model == Model::bouc_wen)
+    section.problem(
+        "elevation_rad",
+        "chain.elevation_rad does not go with model bouc_wen (whose contact carries the whole weight): remove it");
   chain.damping = section.quantity("chain", "damping_nspm", range::not_negative);
   if (const std::string without = knows_no_walls(model); without.empty())
     chain.wall_gap = section.quantity("chain", "wall_gap_m", range::not_negative, 0);
@@ -295,6 +308,7 @@ ModelPart read_model(Section& file) {
   model.chain = read_chain(file, model);
   model.start = read_start(file, model);
   model.neighbour = read_neighbour(file, model);
+  model.legs = read_legs(file, model);
   if (const std::string text = no_room_for(model.effects, model.chain);
       model.chain && !text.empty() && no_room_for(model.effects, {}).empty())
     file.problem("chain", text);

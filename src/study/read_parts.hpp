@@ -13,6 +13,8 @@ std::vector<EffectPart> read_effects(Section& file, Model model);
 
 // The block beside this one, where there is one; problems where something does not go with it.
 std::optional<NeighbourPart> read_neighbour(Section& file, const ModelPart&);
+// Legs that give way, where it stands on such; problems where something does not go with them.
+std::optional<LegsPart> read_legs(Section& file, const ModelPart&);
 // The specimen as far as its kind goes: effects with values that are met in practice, so that none vanishes.
 Specimen kind_of(const ModelPart&);
 

@@ -101,6 +101,12 @@ void read_all(const YAML::Node& root, Validation& v, Problems& problems) {
   if (v.model.neighbour)
     problems.add(section.line("neighbour"),
                  "neighbour does not go with measurements (what stood beside the block is not in them): remove it");
+  if (v.model.friction.ratio_across)
+    problems.add(section.line("friction"),
+                 "friction.ratio_across does not go with measurements (they are of one direction): remove it");
+  if (v.model.legs)
+    problems.add(section.line("legs"),
+                 "legs does not go with measurements (models are fitted to them on rigid edges): remove it");
   if (section.has("start"))
     problems.add(section.line("start"),
                  "start is of a test (each begins in its own way): write it in dataset.yaml, beside the "
@@ -212,6 +218,7 @@ ModelSpec model_spec(const Validation& v, bool as_fitted) {
                                 .side = chain->side};
     if (chain->number) term.number = number(*chain->number);
     if (chain->plan_angle) term.plan_angle = number(*chain->plan_angle);
+    if (chain->elevation) term.elevation = number(*chain->elevation);
     if (chain->damping) term.damping = number(*chain->damping);
     term.wall_gap = number(chain->wall_gap);
     spec.chain = term;

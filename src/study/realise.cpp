@@ -137,6 +137,8 @@ const std::vector<Column>& motion_columns() {
   return columns;
 }
 
+constexpr double usual_leg_damping = 0.02;  // where a study does not say
+
 const Column storey_column = {"storey", "1", "how many floors above the ground the equipment stands",
                               ColumnKind::integer};
 
@@ -219,10 +221,12 @@ Block Realiser::Parts::block(const std::vector<double>& values) const {
 }
 
 Friction Realiser::Parts::friction(const std::vector<double>& values) const {
-  if (const auto mu = value(values, "friction.mu")) return {*mu, *mu};
+  const double across = value(values, "friction.ratio_across").value_or(1),
+               axis = value(values, "friction.axis_rad").value_or(0);
+  if (const auto mu = value(values, "friction.mu")) return {*mu, *mu, across, axis};
   const double mu_k = *value(values, "friction.mu_k");
-  if (const auto mu_s = value(values, "friction.mu_s")) return {*mu_s, mu_k};
-  return {mu_k * value(values, "friction.static_ratio").value_or(1), mu_k};
+  if (const auto mu_s = value(values, "friction.mu_s")) return {*mu_s, mu_k, across, axis};
+  return {mu_k * value(values, "friction.static_ratio").value_or(1), mu_k, across, axis};
 }
 
 std::vector<EffectUse> Realiser::Parts::effects(const std::vector<double>& values) const {
@@ -243,6 +247,7 @@ EffectUse Realiser::Parts::chain(const std::vector<double>& values, const Block&
                         .side = model.chain->side,
                         .number = value(values, "chain.number").value_or(1),
                         .plan_angle_rad = value(values, "chain.plan_angle_rad").value_or(0),
+                        .elevation_rad = value(values, "chain.elevation_rad").value_or(0),
                         .damping_nspm = value(values, "chain.damping_nspm").value_or(0),
                         .wall_gap_m = value(values, "chain.wall_gap_m")},
                        block);
@@ -313,6 +318,9 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
   out.slip_factor = parts.value(out.draws, "discrepancy.slip").value_or(1);
   if (parts.model.chain) out.specimen.effects.push_back(parts.chain(out.draws, out.specimen.block));
   if (parts.model.neighbour) out.specimen.neighbour = parts.neighbour(out.draws);
+  if (parts.model.legs)
+    out.specimen.legs = {*parts.value(out.draws, "legs.vertical_frequency_hz"),
+                         parts.value(out.draws, "legs.vertical_damping").value_or(usual_leg_damping)};
   const auto start = [&](const std::optional<Quantity>& part) {
     return part ? *parts.value(out.draws, part->name.c_str()) : 0.0;
   };

@@ -32,7 +32,12 @@ Excess excess(const std::vector<EffectPart>& effects, const std::optional<ChainP
     specimen.effects.push_back({part.effect.get(), {}});
     for (const Quantity& q : part.parameters) specimen.effects.back().parameters.push_back(pick(q.value, place++));
   }
-  if (chain) specimen.effects.push_back(dynamics::use({.stiffness_npm = 1, .strength_n = 1}, specimen.block));
+  if (chain)
+    specimen.effects.push_back(dynamics::use({.stiffness_npm = 1,
+                                              .strength_n = 1,
+                                              .elevation_rad = chain->elevation ? 0.3 : 0.0,
+                                              .damping_nspm = chain->damping ? 1.0 : 0.0},
+                                             specimen.block));
   return dynamics::Laws(specimen).excess;
 }
 

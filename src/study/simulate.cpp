@@ -32,10 +32,12 @@ Simulation simulate(const Case& c, bool reference) {
   const Realiser realise(c.study, motions);
   const Realisation sample = realise(0);
   check_rows(c, sample.shaking.duration_s());
-  if (reference && dynamics::moves_in_plane(*sample.shaking.motion))
+  if (reference && (dynamics::moves_in_plane(*sample.shaking.motion) || sample.specimen.friction.ratio_across != 1))
     throw Error("--reference integrates along one line (this floor moves in both horizontal directions): leave it out");
   if (reference && sample.specimen.neighbour)
     throw Error("--reference integrates one block (this one has a neighbour): leave it out");
+  if (reference && sample.specimen.legs)
+    throw Error("--reference integrates a block on rigid edges (this one stands on legs that give way): leave it out");
   Simulation out{
       .specimen = sample.specimen, .response = {}, .tighter = {}, .history = {}, .doubts = doubts(c, motions)};
   out.history.step_s = c.output_step_s;

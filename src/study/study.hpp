@@ -52,6 +52,8 @@ struct BlockPart {
 // Either mu for both coefficients, or mu_k with mu_s, or mu_k with static_ratio = mu_s/mu_k >= 1 (default 1).
 struct FrictionPart {
   std::optional<Quantity> mu, mu_k, mu_s, static_ratio;
+  // Of sliding in both horizontal directions (freestand/specimen.hpp); 1 and 0 where not given.
+  std::optional<Quantity> ratio_across, axis;  // friction.ratio_across, friction.axis_rad
 };
 
 struct ImpactPart {
@@ -72,8 +74,9 @@ struct EffectPart {
 struct ChainPart {
   Quantity slack, stiffness, strength;  // chain.slack_m, chain.stiffness_npm, chain.strength_n
   std::optional<Quantity> height;       // chain.height_m, the block's height where it is not given
-  // chain.number, chain.plan_angle_rad, chain.damping_nspm; one chain along the shaking, without damping, where not given
-  std::optional<Quantity> number, plan_angle, damping;
+  // chain.number, chain.plan_angle_rad, chain.elevation_rad, chain.damping_nspm; one level chain along the shaking, without damping,
+  // where not given
+  std::optional<Quantity> number, plan_angle, elevation, damping;
   std::optional<Quantity> wall_gap;  // chain.wall_gap_m, 0 where it is not given; none where the model knows no walls
   int side = 1;                      // +1: holds back what moves to the right
 };
@@ -86,6 +89,12 @@ struct NeighbourPart {
   int side = 1;                                       // +1: to the right
 
   std::vector<Quantity> given() const;
+};
+
+// Legs under the edges of the block that give way up and down (freestand/specimen.hpp).
+struct LegsPart {
+  Quantity frequency;               // legs.vertical_frequency_hz
+  std::optional<Quantity> damping;  // legs.vertical_damping, 0.02 where not given
 };
 
 // The contact of model bouc_wen.
@@ -111,6 +120,7 @@ struct ModelPart {
   std::vector<EffectPart> effects;
   std::optional<ChainPart> chain;
   std::optional<NeighbourPart> neighbour;
+  std::optional<LegsPart> legs;
   StartPart start;
   std::optional<Quantity>
       slip_discrepancy;  // discrepancy.slip: measured slips over those of the model, of which no law is known

@@ -228,6 +228,40 @@ TEST_P(Wall, AChainedBlockDoesNotFallThroughTheWallBehind) {
   EXPECT_LE(held_falls, free_falls / 4);  // its base may be drawn from under it
 }
 
+// In packs the upper edge stands where it does alone, of a block whose centre of mass is not in the middle of its height too.
+TEST(Walls, PacksKnowHowHighTheUpperEdgeStands) {
+  CaseFamily family;
+  family.seed = 171;
+  family.one_model = family.vertical = family.asymmetric = 0;
+  family.duration_low_s = 3;
+  family.duration_high_s = 4;
+  family.excess_low = 1.5;
+  std::vector<RandomCase> cases;
+  std::vector<Specimen> specimens;
+  std::vector<Shaking> shakings;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    cases.push_back(random_case(family, i));
+    Specimen specimen = cases.back().specimen;
+    const double height = 2 * specimen.block.height_m;
+    specimen.block = Block::of_outline(specimen.block.base_m(), height, 100, 0.35 * height, std::nullopt);
+    specimen.friction = {2, 2};
+    specimen.model = Model::slide_rock;
+    specimen.effects = {wall(0.02 + 0.001 * static_cast<double>(i), 0.5)};
+    specimens.push_back(specimen);
+    shakings.push_back(cases.back().shaking);
+  }
+  std::vector<Response> together(specimens.size());
+  respond_batch(specimens, shakings, {}, together);
+  int struck = 0;
+  for (std::size_t i = 0; i < specimens.size(); ++i) {
+    const Response alone = respond(specimens[i], shakings[i]);
+    EXPECT_EQ(together[i].wall_hits, alone.wall_hits) << i;
+    EXPECT_EQ(together[i].peak_rotation_rad, alone.peak_rotation_rad) << i;
+    struck += alone.wall_hits > 0 && alone.impacts > 1;
+  }
+  EXPECT_GT(struck, 10);
+}
+
 // A block that is all but upright beside a wall, thrown between wall and floor ever more slowly, has an answer.
 TEST(Walls, BlocksThatSettleBesideOneHaveAnAnswer) {
   CaseFamily family;

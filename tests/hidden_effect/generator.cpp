@@ -116,11 +116,12 @@ const std::vector<Law>& laws() {
        {},
        [](Rules& r, const Values& p) { r.laws.ageing = p[0], r.laws.ageing_time_s = p[1]; }},
       {"chain",
-       {"side", "height_m", "slack_m", "stiffness_per_s2", "strength_mps2"},
-       {},
+       {"side", "height_m", "slack_m", "stiffness_per_s2", "strength_mps2", "elevation_rad"},
+       {0},
        [](Rules& r, const Values& p) {
          const double left = r.body.left_m / r.left_of_base, right = r.body.right_m / r.left_of_base;
-         r.laws.chain = {static_cast<int>(p[0]), p[0] > 0 ? -left : right, p[1] - r.body.height_m, p[2], p[3], p[4]};
+         r.laws.chain = {
+             static_cast<int>(p[0]), p[0] > 0 ? -left : right, p[1] - r.body.height_m, p[2], p[3], p[4], p[5]};
        }},
   };
   return all;

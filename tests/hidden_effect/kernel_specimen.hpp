@@ -30,6 +30,7 @@ inline EffectUse chain_use(const TruthEffect& truth, const Block& block) {
   chain.strength_n = p.at("strength_mps2") * block.mass_kg;
   chain.height_m = p.at("height_m");
   chain.side = static_cast<int>(p.at("side"));
+  if (p.count("elevation_rad")) chain.elevation_rad = p.at("elevation_rad");
   return dynamics::use(chain, block);
 }
 

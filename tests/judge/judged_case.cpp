@@ -115,13 +115,15 @@ void to_other_side(TruthEffect& effect, const TruthEffect& first) {
 }
 
 TruthEffect draw_chain(KeyedRandom& random, const Truth& truth) {
-  const double circular = 2 * pi * random.log_uniform(1, 8);
+  const double circular = 2 * pi * random.log_uniform(1, 8), steepest = 1.2;
+  const bool level = truth.model == TruthModel::bouc_wen || random.chance(0.4);
   return {"chain",
           {{"side", random.chance(0.5) ? 1 : -1},
            {"height_m", random.uniform(0.6, 2) * truth.height_m},
            {"slack_m", random.chance(0.3) ? 0 : random.uniform(0, 0.03)},
            {"stiffness_per_s2", circular * circular},
-           {"strength_mps2", random.chance(0.5) ? 1e3 : random.log_uniform(0.3, 5)}}};
+           {"strength_mps2", random.chance(0.5) ? 1e3 : random.log_uniform(0.3, 5)},
+           {"elevation_rad", level ? 0 : random.uniform(-steepest, steepest)}}};
 }
 
 // A wall in three touches the block from the start, on its right.

@@ -115,11 +115,19 @@ TEST(Reproduce, ChainsAndQuarterScaleBlocks) {
   expect("table_9_2", "B.measured_ratio", 3.34, 0.005);
   expect("table_9_2", "C1.measured_ratio", 7.49, 0.005);
   for (const char* pulse : {"B", "C1"})
-    EXPECT_EQ(statement("table_9_2", std::string(pulse) + ".ratio").verdict, Verdict::agrees);
+    for (const char* what : {".ratio", ".chained"})
+      EXPECT_EQ(statement("table_9_2", std::string(pulse) + what).verdict, Verdict::agrees);
   expect("table_7_1", "rows", 18, 0);
   expect("table_7_1", "experiment", 16, 0);
   expect("table_7_1", "working_model", 14, 0);
   EXPECT_EQ(statement("table_7_1", "similitude").verdict, Verdict::agrees);
+}
+
+// FORMA lifted an edge by 0.489 alpha, where on rigid edges it lifts none.
+TEST(Reproduce, UpliftOnLegs) {
+  const Statement& uplift = statement("uplift_on_legs", "coulomb_fit");
+  EXPECT_EQ(uplift.verdict, Verdict::agrees);
+  EXPECT_EQ(uplift.ours.rfind("0 on rigid edges", 0), 0u) << uplift.ours;
 }
 
 TEST(Reproduce, FrictionOfParadox) {

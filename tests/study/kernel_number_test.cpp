@@ -71,6 +71,11 @@ std::vector<std::string> studies() {
       block + friction +
       "model: slide\neffects: [{name: x, friction: \"if((path>0)*(abs(theta)<0.1),0.6,0.9)*if(v>0,mu,1.2*mu)\"}]\n" +
       records);
+  // Walls beside a block whose centre of mass is not in the middle of its height.
+  texts.push_back(
+      "block: {width_m: {uniform: [0.5, 0.7]}, height_m: 1.6, centre_height_m: 0.5}\nfriction: {mu: 2}\n"
+      "effects: [{name: wall_impact, gap_m: {uniform: [0.01, 0.05]}, restitution: 0.5}]\n" +
+      records);
   // What the floor holds at rest until its motion ends.
   texts.push_back(
       block + friction +

@@ -46,7 +46,7 @@ BoucWenStepper::State BoucWenStepper::rates(double t, const State& y, const Floo
   place.time_s = t;
   const double friction = laws_.sliding(place, std::abs(y[v]), (y[z] > 0) - (y[z] < 0)) * press * y[z];
   double force = laws_.force(y[u], y[v]);
-  if (laws_.chain && !chain_broken_) force -= laws_.chain->side * laws_.chain->pull(y[u]);
+  if (laws_.chain && !chain_broken_) force -= laws_.chain->side * laws_.chain->pull(y[u], 0);
   const double W = laws_.contents_radps;
   const double hanging = W * W * y[contents] + 2 * laws_.contents_damping * W * y[contents_v];
   force += laws_.contents_ratio * hanging;
@@ -94,7 +94,7 @@ bool BoucWenStepper::go_to(double end, const FloorLine& floor) {
     step_ = dt * std::clamp(0.9 * std::pow(std::max(error, 1e-10), -0.2), 0.2, 5.0);
     if (error > 1 && dt > shortest) continue;
     if (last) step_ = std::max(step_, before);
-    if (laws_.chain && !chain_broken_ && laws_.chain->pull(after[u]) > laws_.chain->strength_mps2) {
+    if (laws_.chain && !chain_broken_ && laws_.chain->pull(after[u], 0) > laws_.chain->strength_mps2) {
       if (dt > instant) {
         step_ = 0.3 * dt;
         continue;

@@ -35,7 +35,7 @@ struct ContactLaws {
   // Forces per mass.
   double drag_per_s = 0;
   double quadratic_drag_per_m = 0;  // of no catalogue: -c v |v|
-  double spring_per_s2 = 0;  // (2 pi f)^2
+  double spring_per_s2 = 0;         // (2 pi f)^2
   struct Tether {
     double slack_m = 0, stiffness_per_s2 = 0, rate_per_s = 0;
   };
@@ -53,14 +53,17 @@ struct ContactLaws {
   std::array<std::optional<Wall>, 2> walls;  // to the left, to the right
   bool walled() const { return walls[0] || walls[1]; }
 
-  // A chain that runs level to a wall far behind and pulls at one point of the block.
+  // A chain that runs to a wall far behind, level or at an angle, and pulls at one point of the block.
   struct Chain {
-    int side = 1;                               // pulls back when the point has moved there
-    double right_m = 0, up_m = 0;               // the point, from the centre of mass
-    double slack_m = 0, stiffness_per_s2 = 0;   // stiffness over mass
-    double strength_mps2 = 0;                   // over mass; what pulls harder breaks it for good
-    double pull(double displacement_m) const {  // of the point
-      return stiffness_per_s2 * std::fmax(side * displacement_m - slack_m, 0);
+    int side = 1;                              // pulls back when the point has moved there
+    double right_m = 0, up_m = 0;              // the point, from the centre of mass
+    double slack_m = 0, stiffness_per_s2 = 0;  // stiffness over mass
+    double strength_mps2 = 0;                  // over mass; what pulls harder breaks it for good
+    double elevation_rad = 0;                  // of its far end over the point
+    double level() const { return std::cos(elevation_rad); }
+    double steep() const { return std::sin(elevation_rad); }
+    double pull(double displacement_m, double rise_m) const {  // of the point
+      return stiffness_per_s2 * std::fmax(side * displacement_m * level() - rise_m * steep() - slack_m, 0);
     }
   };
   std::optional<Chain> chain;

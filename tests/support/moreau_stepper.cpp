@@ -36,9 +36,13 @@ double MoreauStepper::chain_displacement(double x, double c, double s) const {
   return x - laws_.chain->right_m * (1 - c) + laws_.chain->up_m * s;
 }
 
+double MoreauStepper::chain_rise(double y, double c, double s) const {
+  return y - body_.height_m - laws_.chain->right_m * s - laws_.chain->up_m * (1 - c);
+}
+
 double MoreauStepper::chain_pull(const State& state) const {
   if (!laws_.chain || state.chain_broken) return 0;
-  return laws_.chain->pull(chain_displacement(state.x, state.c, state.s));
+  return laws_.chain->pull(chain_displacement(state.x, state.c, state.s), chain_rise(state.y, state.c, state.s));
 }
 
 double MoreauStepper::slip_of(const State& state) const {
@@ -95,7 +99,6 @@ MoreauStepper::Step MoreauStepper::prepare(const State& state, const FloorLine& 
   step.place.u_m = slip_of(state) + half * speed;
   step.place.path_m = state.path + half * std::abs(state.w);
   step.place.time_s = middle;
-  step.place.normal_g = (state.closed[left] && state.closed[right] ? step.g : state.normal) / standard_gravity_mps2;
   step.speed = std::max(0.0, std::abs(state.w + half * state.w_rate));
   step.age = middle - state.stuck_since;
 
@@ -114,11 +117,17 @@ MoreauStepper::Step MoreauStepper::prepare(const State& state, const FloorLine& 
   double moment = 0;
   if (laws_.chain && !state.chain_broken) {
     const ContactLaws::Chain& chain = *laws_.chain;
-    const double at = chain_displacement(state.x + half * state.v.x, middle_c, middle_s);
-    force -= chain.side * chain.pull(at);
-    if (body_.can_tip) moment = -chain.side * chain.pull(at) * (chain.up_m * middle_c - chain.right_m * middle_s);
+    const double pull = chain.pull(chain_displacement(state.x + half * state.v.x, middle_c, middle_s),
+                                   chain_rise(state.y + half * state.v.y, middle_c, middle_s));
+    const double across = chain.right_m * middle_c + chain.up_m * middle_s,
+                 over = chain.up_m * middle_c - chain.right_m * middle_s;
+    force -= chain.side * chain.level() * pull;
+    step.lift = chain.steep() * pull;
+    if (body_.can_tip) moment = -chain.side * chain.level() * pull * over - step.lift * across;
   }
-  step.free = {state.v.x + dt * (force / laws_.carried() - step.a), state.v.y - dt * step.g,
+  step.place.normal_g =
+      (state.closed[left] && state.closed[right] ? step.g - step.lift : state.normal) / standard_gravity_mps2;
+  step.free = {state.v.x + dt * (force / laws_.carried() - step.a), state.v.y + dt * (step.lift - step.g),
                state.v.q + dt * moment / body_.gyration2_m2};
   return step;
 }

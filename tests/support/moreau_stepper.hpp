@@ -129,6 +129,7 @@ class MoreauStepper {
     Velocity free;        // what the velocity becomes without contact
     double a = 0, g = 0;  // at the middle
     double leg_force = 0, contents_force = 0;
+    double lift = 0;    // by the chain
     double corner = 0;  // speed of the corner over the legs as the step begins
     ContactLaws::Place place;
     double speed = 0, age = 0;
@@ -176,6 +177,7 @@ class MoreauStepper {
   // But for round-off: a rate under which it turns by less than 1e-16 in a minute.
   bool standing(const State& state) const { return std::abs(state.theta) < 1e-18 && std::abs(state.v.q) < 1e-18; }
   double chain_displacement(double x, double c, double s) const;
+  double chain_rise(double y, double c, double s) const;
   double chain_pull(const State& state) const;
   Step prepare(const State& state, const FloorLine& floor, double t, double dt) const;
   bool impulses(const Step& step, const State& state, Contacts contacts, Grip grip, Case& c) const;

@@ -9,6 +9,9 @@ namespace freestand::test {
 
 struct PlaneBlock {
   double mu_s = 0, mu_k = 0, g = 9.80665;
+  // Friction across a direction that is turned by `axis_rad` from x, over that along it. What it can do is an ellipse, of which it takes what
+  // leaves the least of |w - w_free|^2/2 + impulse . w.
+  double ratio = 1, axis_rad = 0;
 };
 
 struct PlanePush {

@@ -8,7 +8,7 @@ from .report_peaks import column
 
 order = 260
 STRENGTH = "Points: six pulls of each kind; bar: mean and standard deviation."
-RATIO = ("Each point is one slack of the chains (0 to 40 mm), one stiffness (by the frequency of the equipment on them, 3 to 20 Hz), one friction and one sign of the pulse. Line: the ratio that was "
+RATIO = ("Each point is one tie of the two chains, crossed at 15 degrees or straight, one slack (0 to 40 mm), one stiffness (by the frequency of the equipment on them, 3 to 20 Hz), one friction and one sign of the pulse. Line: the ratio that was "
          "measured.")
 
 

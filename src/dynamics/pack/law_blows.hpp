@@ -22,7 +22,8 @@ class LawBlows {
         inertia_(number(Row::inertia)),
         inertia_there_(number(Row::other_inertia)),
         kept_(number(Row::kept)),
-        kept_next_(number(Row::kept_next)) {}
+        kept_next_(number(Row::kept_next)),
+        top_(xsimd::max(number(Row::right_up), number(Row::left_up))) {}
 
   // Not where friction in a blow follows laws, or legs pass none on.
   bool possible() const {
@@ -156,24 +157,25 @@ class LawBlows {
   }
   // The edges that are next to the walls on the corner on which the block now stands: corner_ is the other one.
   void face_walls(const PackMask& which, Standing<Pack>& at) const {
-    const Pack zero(0.0), between = at.body.c - corner_, top = Pack(2.0) * at.body.h;
+    const Pack zero(0.0), between = at.body.c - corner_;
     const PackMask right = which & (at.pivot > zero), left = which & ~right;
     const auto face = [](ToWall<Pack>& wall, const PackMask& lanes, const Pack& across, const Pack& up) {
       wall.across = choose(lanes, across, wall.across);
       wall.up = choose(lanes, up, wall.up);
     };
-    face(at.right_wall, right, zero, top);
+    face(at.right_wall, right, zero, top_);
     face(at.right_wall, left, between, zero);
     face(at.left_wall, right, between, zero);
-    face(at.left_wall, left, zero, top);
+    face(at.left_wall, left, zero, top_);
   }
 
   LawRows& rows_;
   const Laws& laws_;
   const int first_;
   Pack corner_, inertia_, inertia_there_, kept_, kept_next_;  // the other corner; about this one, and that one
-  Pack omega_;                                                // after the blow
-  unsigned told_ = 0;                                         // lanes whose impact counts
+  Pack top_;           // height of the upper edge: one side meets its wall with it
+  Pack omega_;         // after the blow
+  unsigned told_ = 0;  // lanes whose impact counts
 };
 
 }  // namespace

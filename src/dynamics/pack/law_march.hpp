@@ -278,7 +278,7 @@ class LawMarchOf {
   }
 
   unsigned see_acceleration(const Arc& arc, unsigned wanted) {
-    Series<Pack, N> x = arc.ax, y = arc.fy;
+    Series<Pack, N> x = arc.ax, y = laws_.lift < 0 ? arc.fy : combination(Pack(1.0), arc.fy, Pack(1.0), arc.lift);
     x[0] = x[0] - number(Row::push);
     y[0] = y[0] - number(Row::gravity);
     const Pack peak2 = acceleration_ * acceleration_;
@@ -357,7 +357,7 @@ class LawMarchOf {
     const auto copy = [&](int begin, int end) {
       for (int i = begin; i < end; ++i) to[i] = from[i * pack_lanes];
     };
-    copy(0, Numbers::walls);
+    copy(0, laws_.lift >= 0 ? Numbers::walls : Numbers::lift);
     if (laws_.walls.any()) copy(Numbers::walls, Numbers::states);
     copy(Numbers::states, Numbers::states + laws_.states * Numbers::series);
     copy(Numbers::kinks, Numbers::kinks + laws_.tape.kink_count() * Numbers::series);
