@@ -78,7 +78,7 @@ class ForcePeaks {
     return combination(lever * rig.h, arc.rx, lever * c, arc.ry);
   }
   template <int N>
-  static Series<double, N> risen(const Rig& rig, const Flight<double, N>& flight) {
+  static Series<double, N> risen(const Rig&, const Flight<double, N>& flight) {
     return combination(0.5, flight.gap_right, 0.5, flight.gap_left);
   }
 

@@ -3,6 +3,7 @@
 
 #include <freestand/response.hpp>
 
+#include "dynamics/law_values.hpp"
 #include "dynamics/output_times.hpp"
 #include "dynamics/peaks.hpp"
 
@@ -63,11 +64,7 @@ class HistoryRecorder {
   // A block at rest for the time tau to come.
   template <int N>
   void rest(const State& state, const Floor<double, N>& floor, double start, double tau) {
-    each_point(start, tau, [&](double t) {
-      const double a = floor.a.at(t), g = floor.g.at(t);
-      return HistoryPoint{start + t,     a - rig_.push, state.xi, 0.0, state.theta, 0.0, state.mode,
-                          a - rig_.push, g - rig_.g,    a,        g};
-    });
+    each_point(start, tau, [&](double t) { return at_rest(state, state.xi, start + t, floor.a.at(t), floor.g.at(t)); });
   }
 
   // The last state, held to the end of the motion: what rests, or has fallen, stays.
@@ -75,13 +72,27 @@ class HistoryRecorder {
     if (!wanted()) return;
     times_.up_to(end, [&](double t) {
       const double a = horizontal_acceleration(shaking, t), v = vertical_acceleration(shaking, t);
-      history_->points.push_back({t, a, slip, 0.0, state.theta, 0.0, state.mode, a, v, a + rig_.push, v + rig_.g});
+      history_->points.push_back(at_rest(state, slip, t, a + rig_.push, v + rig_.g));
     });
   }
 
   bool wanted() const { return times_.wanted(); }
 
  private:
+  // a, g: of the floor, with what a tilt adds. The floor holds the block against them and against what laws pull; of a
+  // block that is pressed against a wall as far as friction can.
+  HistoryPoint at_rest(const State& state, double slip, double time, double a, double g) const {
+    HistoryPoint point{time, a - rig_.push, slip, 0.0, state.theta, 0.0, state.mode, a - rig_.push, g - rig_.g, a, g};
+    if (!rig_.laws || !history_->forces || state.mode == Mode::overturned) return point;
+    const LawValues laws = law_values(rig_, state, time, 0);
+    point.contact_x_mps2 -= laws.force;
+    point.contact_y_mps2 -= laws.lift;
+    const Held held = helped_by_walls(rig_, state);
+    const double limit = rig_.mu_s * laws.factor * point.contact_y_mps2;
+    if (held.right) point.contact_x_mps2 = std::fmax(point.contact_x_mps2, -limit);
+    if (held.left) point.contact_x_mps2 = std::fmin(point.contact_x_mps2, limit);
+    return point;
+  }
   // The acceleration of the point that is followed beside that of the centre of mass, where it is asked for.
   template <int N>
   std::optional<PointAcceleration<N>> beside_the_centre(double theta, const Series<double, N>& omega) const {

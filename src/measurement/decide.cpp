@@ -379,16 +379,6 @@ class Decision {
 
 }  // namespace
 
-const char* name(Verdict verdict) {
-  constexpr const char* names[] = {"none", "missing", "ambiguous", "unknown", "bad_data"};
-  return names[static_cast<int>(verdict)];
-}
-
-const char* name(Reason reason) {
-  constexpr const char* names[] = {"", "data", "none_helps", "none_suffices"};
-  return names[static_cast<int>(reason)];
-}
-
 bool effect_may_help(const Diagnosis& d) { return !help_of(d) || !help_of(d)->chance(); }
 
 double least_misfit(const Diagnosis& d) {

@@ -188,6 +188,16 @@ class Diagnoser : PairSearch {
 
 }  // namespace
 
+const char* name(Verdict verdict) {
+  constexpr const char* names[] = {"none", "missing", "ambiguous", "unknown", "bad_data"};
+  return names[static_cast<int>(verdict)];
+}
+
+const char* name(Reason reason) {
+  constexpr const char* names[] = {"", "data", "none_helps", "none_suffices"};
+  return names[static_cast<int>(reason)];
+}
+
 Diagnosis diagnose(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue,
                    const DiagnosisOptions& options, const Jobs& jobs) {
   const std::size_t tests = tests_of(bench.data(), Role::calibration).size();

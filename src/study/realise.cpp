@@ -19,9 +19,9 @@ using sampling::Stream;
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 // A number of the study with its stream of uniforms; drawn only when it is no fixed number.
-class Drawn {
+class DrawnNumber {
  public:
-  Drawn(const Plan& plan, const Quantity& quantity) : value_(quantity.value), stream_(plan, quantity.stream()) {
+  DrawnNumber(const Plan& plan, const Quantity& quantity) : value_(quantity.value), stream_(plan, quantity.stream()) {
     if (const auto* fixed = std::get_if<sampling::Fixed>(&value_)) number_ = fixed->value;
   }
   double operator()(std::uint64_t sample) const { return number_ ? *number_ : quantile(value_, stream_(sample)); }
@@ -32,8 +32,8 @@ class Drawn {
   std::optional<double> number_;
 };
 
-std::optional<Drawn> drawn(const Plan& plan, const std::optional<Quantity>& quantity) {
-  return quantity ? std::optional<Drawn>(std::in_place, plan, *quantity) : std::nullopt;
+std::optional<DrawnNumber> drawn(const Plan& plan, const std::optional<Quantity>& quantity) {
+  return quantity ? std::optional<DrawnNumber>(std::in_place, plan, *quantity) : std::nullopt;
 }
 
 enum class Amplitude { acceleration_g, velocity_mps, pta_g, intensity, factor };
@@ -92,9 +92,9 @@ struct Source {
 
   MotionSource part;
   Amplitude amplitude_kind;
-  Drawn amplitude;
+  DrawnNumber amplitude;
   ScaleTarget target;
-  std::optional<Drawn> period, storey;
+  std::optional<DrawnNumber> period, storey;
   std::vector<int> storeys;
   Stream item;
   std::vector<double> weights;  // of the pulses or records; empty: all alike
@@ -167,7 +167,7 @@ struct Realiser::Parts {
   ModelPart model;
   MotionSet motions;
   std::vector<Quantity> quantities;
-  std::vector<Drawn> draws;  // one for each quantity
+  std::vector<DrawnNumber> draws;  // one for each quantity
   std::vector<Source> sources;
   std::vector<double> weights;
   Stream source_stream;

@@ -94,7 +94,8 @@ TEST_P(ContactForces, OfAChainThatFailsAsItGrowsTautReachItsStrength) {
   const FloorMotion push = rectangular_pulse(-1.5, v / 1.5);
   Specimen block{Block::rectangular(0.72, 1.81, mass), {0, 0}, {}, Model::slide};
   block.effects = {dynamics::use(
-      {.slack_m = 0.02, .stiffness_npm = 100, .strength_n = strength, .height_m = 1.81, .damping_nspm = c}, block.block)};
+      {.slack_m = 0.02, .stiffness_npm = 100, .strength_n = strength, .height_m = 1.81, .damping_nspm = c},
+      block.block)};
   ASSERT_GT(c * v, strength);
   Settings settings = followed();
   settings.free_vibration_s = 0.25;
@@ -109,13 +110,9 @@ TEST_P(ContactForces, OfAChainWithoutSlackComeAfterTheBlow) {
   const double width = 0.7, height = 1.5, mass = 100, c = 1000, theta = 0.05;
   Specimen block{Block::rectangular(width, height, mass), {0.8, 0.8}, {}, Model::rock};
   block.start.rotation_rad = -theta;
-  block.effects = {dynamics::use({.slack_m = 0,
-                                  .stiffness_npm = 1000,
-                                  .strength_n = 700,
-                                  .height_m = height,
-                                  .side = 1,
-                                  .damping_nspm = c},
-                                 block.block)};
+  block.effects = {dynamics::use(
+      {.slack_m = 0, .stiffness_npm = 1000, .strength_n = 700, .height_m = height, .side = 1, .damping_nspm = c},
+      block.block)};
   const FloorMotion still = rectangular_pulse(0, 0.5);
   const Response r = GetParam()(block, {&still}, followed(), nullptr);
   const double b = 0.5 * width, h = 0.5 * height, R2 = b * b + h * h;
@@ -142,6 +139,30 @@ TEST_P(ContactForces, OfABlockPressedAgainstAWallAreFriction) {
     EXPECT_NEAR(most, std::fmin(peak, 0.2 * g), 1e-4);
     EXPECT_NEAR(r.peak_contact_horizontal_mps2, std::fmin(peak, 0.2 * g), 1e-4);
   }
+}
+
+// At rest the floor holds the block against what it does itself, and against what a spring pulls: while the floor moves, and after it.
+TEST_P(ContactForces, AtRestHoldAgainstLawsToo) {
+  const double f = 0.4, w2 = 4 * pi * pi * f * f;
+  const Specimen block = sliding(0.2, {effect("centering_spring", {f})});
+  std::vector<double> floor(401, 0.0);
+  for (int i = 0; i < 40; ++i) floor[static_cast<std::size_t>(i)] = -5;
+  for (std::size_t i = 200; i < 300; ++i) floor[i] = 0.2;
+  const FloorMotion push = piecewise_linear("push", 0.01, floor, {});
+  Settings settings = followed();
+  settings.free_vibration_s = 0;
+  History history;
+  history.forces = true;
+  history.step_s = 0.01;
+  GetParam()(block, {&push}, settings, &history);
+  std::size_t resting = 0;
+  for (const HistoryPoint& p : history.points) {
+    if (p.mode != Mode::rest || p.slip_m == 0) continue;
+    EXPECT_NEAR(p.contact_x_mps2, p.floor_acceleration_mps2 + w2 * p.slip_m, 1e-9) << p.time_s;
+    EXPECT_NEAR(p.contact_y_mps2, g, 1e-12);
+    ++resting;
+  }
+  EXPECT_GT(resting, 100U);
 }
 
 // No point of a history is above the peak, and between points of a millisecond no force rises by much: peaks of random blocks
