@@ -6,6 +6,9 @@
 
 namespace freestand::decision {
 
+// [1/year] What no intensity is exceeded more often than: a point that says so is refused, and no slope leads beyond it.
+inline constexpr double once_an_hour = 8766;
+
 // Points in increasing intensity; between them ln rate is linear in ln intensity: rate = k0 im^-k.
 struct HazardCurve {
   std::string measure;  // name of the intensity with its unit: pga_g
