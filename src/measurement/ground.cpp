@@ -2,6 +2,10 @@
 
 namespace freestand::measurement {
 
+double floor_acceleration_mps2(const Test& test, std::size_t sample) {
+  return horizontal_acceleration(test.shaking(), static_cast<double>(sample) * test.dt_s);
+}
+
 std::vector<double> floor_displacement(const Test& test) {
   std::vector<double> d(test.slip_m.size());
   double velocity = 0;

@@ -93,12 +93,12 @@ Values round_from(Problem& problem, const Values& x) {
   return problem.point(gsl_multifit_nlinear_position(work.get()));
 }
 
+}  // namespace
+
 double misfit(const Judge& judge, std::size_t i, const ModelSpec& model, std::span<const double> x) {
   const auto r = judge.whitened(i, model, x);
   return std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
 }
-
-}  // namespace
 
 double least_squares_score(const Judge& judge, const Tests& tests, const ModelSpec& model, std::span<const double> x) {
   double sum = 0;

@@ -3,8 +3,8 @@
 #include <gsl/gsl_cdf.h>
 
 #include <cmath>
-#include <numeric>
 
+#include "measurement/least_squares.hpp"
 #include "measurement/levels.hpp"
 
 namespace freestand::measurement {
@@ -18,15 +18,14 @@ OwnNumbers fitted_to_each(const Bench& bench, const Judge& judge, const ModelFit
   model.*number = {.free = static_cast<int>(fit.x.size())};
   const std::size_t tests = tests_of(bench.data(), Role::calibration).size();
   const auto answers = jobs(task, tests, [&](std::size_t i) {
-    const Objective misfit = [&](std::span<const double> own) {
+    const Objective left = [&](std::span<const double> own) {
       Values x = fit.x;
       x.push_back(own[0]);
-      const auto r = judge.whitened(i, model, x);
-      return std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
+      return misfit(judge, i, model, x);
     };
     Fitted best{{}, 1e300};
     for (const double start : starts) {
-      const Fitted found = simplex({free}, misfit, {start}, step, budget);
+      const Fitted found = simplex({free}, left, {start}, step, budget);
       if (found.score < best.score) best = found;
     }
     return Values{best.x[0], best.score};

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/units.hpp"
+#include "measurement/ground.hpp"
 #include "measurement/smooth.hpp"
 
 namespace freestand::measurement {
@@ -22,10 +23,6 @@ struct Slope {
     return std::sqrt(std::max(yy - yz * value(), 0.0) / (zz * std::max(independent - 1, 1.0)));
   }
 };
-
-double floor_acceleration_at(const Test& test, std::size_t k) {
-  return horizontal_acceleration(test.shaking(), static_cast<double>(k) * test.dt_s);
-}
 
 // Samples before anything is displaced by more than five times its noise, which no noise does in a million.
 std::size_t samples_before_motion(const Bench& bench, const Test& test) {
@@ -87,7 +84,7 @@ bool turns_against_floor(const Bench& bench, std::size_t i) {
         !std::all_of(from, from + static_cast<long>(2 * motion.half + 1), [&](double s) { return side * s > least; }))
       continue;
     slope.add(motion.second[k] + p2 * side * std::sin(lean),
-              -p2 * floor_acceleration_at(test, k) / standard_gravity_mps2 * std::cos(lean));
+              -p2 * floor_acceleration_mps2(test, k) / standard_gravity_mps2 * std::cos(lean));
   }
   const double independent = slope.count / static_cast<double>(2 * motion.half + 1);
   return independent >= 4 && slope.value() < -4 * slope.error(independent);
@@ -97,7 +94,7 @@ double share_of_floor(const Bench& bench, std::size_t i) {
   const Test& test = bench.test(i);
   const std::size_t before = samples_before_motion(bench, test);
   Slope slope;
-  for (std::size_t k = 0; k < before; ++k) slope.add(test.block_acceleration_mps2[k], floor_acceleration_at(test, k));
+  for (std::size_t k = 0; k < before; ++k) slope.add(test.block_acceleration_mps2[k], floor_acceleration_mps2(test, k));
   const double floor_noise = bench.floor_noise_mps2(i);
   // The floor's own noise takes part of the slope: at most a fifth.
   const bool shaken = slope.count > 10 && slope.zz > 5 * slope.count * floor_noise * floor_noise;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/ground.hpp"
 #include "measurement/plausible.hpp"
 #include "measurement/smooth.hpp"
 
@@ -36,7 +37,7 @@ double start_offset(const Bench& bench, std::size_t i, Channel channel) {
   std::size_t n = 0;
   for (; n < std::min(most, samples.size()) && moved < 0.5 * bench.noise(channel) * arm; ++n) {
     sum += samples[n];
-    speed += test.dt_s * std::abs(horizontal_acceleration(test.shaking(), static_cast<double>(n) * test.dt_s));
+    speed += test.dt_s * std::abs(floor_acceleration_mps2(test, n));
     moved += test.dt_s * speed;
   }
   if (moved == 0) return 0;
@@ -54,8 +55,7 @@ bool moves_before_floor(const Bench& bench, std::size_t i, Channel channel) {
   const double least = surely * noise * rate_noise(test.dt_s, half_window_s);
   const Smooth motion = smooth(samples, test.dt_s, half_window_s);
   const auto shakes = [&](std::size_t k) {
-    const double floor = horizontal_acceleration(test.shaking(), static_cast<double>(k) * test.dt_s);
-    return std::abs(floor) > floor_noises * bench.floor_noise_mps2(i);
+    return std::abs(floor_acceleration_mps2(test, k)) > floor_noises * bench.floor_noise_mps2(i);
   };
   std::size_t begins = 0;
   while (begins < samples.size() && !shakes(begins)) ++begins;

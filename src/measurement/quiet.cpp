@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "measurement/ground.hpp"
 #include "measurement/smooth.hpp"
 
 namespace freestand::measurement {
@@ -37,10 +38,6 @@ std::vector<bool> motion_of(const Dataset& data, const Test& test, double times 
   return moves;
 }
 
-double floor_at(const Test& test, std::size_t i) {
-  return std::abs(horizontal_acceleration(test.shaking(), static_cast<double>(i) * test.dt_s));
-}
-
 // The least floor, over the tests, that had been reached when something was first seen to move beyond doubt.
 double floor_that_moves(const Dataset& data) {
   double least = std::numeric_limits<double>::infinity();
@@ -49,10 +46,10 @@ double floor_that_moves(const Dataset& data) {
     const std::vector<bool> moves = motion_of(data, test, surely);
     double reached = 0;
     std::size_t i = 0;
-    for (; i < moves.size() && !moves[i]; ++i) reached = std::max(reached, floor_at(test, i));
+    for (; i < moves.size() && !moves[i]; ++i) reached = std::max(reached, std::abs(floor_acceleration_mps2(test, i)));
     // A window that saw the motion ends two halves later: by then it had begun.
     const std::size_t end = std::min(moves.size(), i + 2 * half_window_samples(half_window_s, test.dt_s));
-    for (std::size_t k = i; k < end; ++k) reached = std::max(reached, floor_at(test, k));
+    for (std::size_t k = i; k < end; ++k) reached = std::max(reached, std::abs(floor_acceleration_mps2(test, k)));
     if (i < moves.size() && reached > 0) least = std::min(least, reached);
   }
   return least;
@@ -73,7 +70,7 @@ std::vector<QuietStretch> quiet_stretches(const Dataset& data, Channel channel) 
       std::fill(moves.begin(), std::find(moves.rbegin(), moves.rend(), true).base(), true);
     const std::size_t half = half_window_samples(half_window_s, test.dt_s);
     for (std::size_t i = 0; i < samples.size(); ++i)
-      if (floor_at(test, i) > loud)
+      if (std::abs(floor_acceleration_mps2(test, i)) > loud)
         std::fill(moves.begin() + static_cast<long>(i < half ? 0 : i - half),
                   moves.begin() + static_cast<long>(std::min(samples.size(), i + half + 1)), true);
     for (std::size_t from = 0; from < samples.size();) {
