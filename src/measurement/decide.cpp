@@ -76,9 +76,10 @@ class Decision {
       if (c.rival || !fitted_to_the_end(c) || c.effects == best.effects) continue;
       const bool odd = !c.practical && c.effects.size() <= best.effects.size() && !brings_nothing(c);
       if (odd ? !as_good(best, c) : !is_ahead(c, best)) continue;
-      c.remark = odd                 ? odd_numbers
-                 : brings_nothing(c) ? "with numbers that bring the fit to all tests no closer"
-                                     : needless_effects;
+      c.remark = odd ? odd_numbers
+                 : brings_nothing(c)
+                     ? "with numbers that bring the fit to all tests no closer, the floor's noise allowed for"
+                     : needless_effects;
       told.push_back(fmt::format("{} ({}), {}", joined(c.effects), three_digits(left_out(c)), c.remark));
     }
     return told.empty() ? "" : fmt::format(", but for {}", fmt::join(told, "; "));

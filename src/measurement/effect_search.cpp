@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "measurement/decide.hpp"
+#include "measurement/least_squares.hpp"
 #include "measurement/left_out.hpp"
 #include "measurement/pairs.hpp"
 #include "measurement/starts.hpp"
@@ -112,6 +113,11 @@ Chance EffectSearch::chance_of_another(const Candidate& candidate) const {
 void EffectSearch::judge() {
   if (kind_of_set(bench_) == Kind::history) {
     const Judge judge = judge_of(best().fit);
+    std::vector<ModelFit*> fits;
+    if (out_.base.fit.left_out_refitted) fits.push_back(&out_.base.fit);
+    for (Candidate& c : out_.candidates)
+      if (c.visible && c.fit.left_out_refitted) fits.push_back(&c.fit);
+    weigh_floor_noise(bench_, judge, fits, jobs_);
     out_.noise_floor = judge.expected();
     judge_histories(bench_, judge, out_, jobs_);
   }

@@ -254,6 +254,35 @@ void descend_by_derivatives(const Bench& bench, std::vector<ModelFit*> fits, con
   }
 }
 
+void weigh_floor_noise(const Bench& bench, const Judge& judge, const std::vector<ModelFit*>& fits, const Jobs& jobs) {
+  const auto calibration = tests_of(bench.data(), Role::calibration);
+  Tests all(calibration.size());
+  std::iota(all.begin(), all.end(), 0);
+  const auto answers = jobs("least squares", fits.size(), [&](std::size_t i) {
+    const ModelFit& fit = *fits[i];
+    if (fit.score > far_score) return Values{far_score};
+    const Fitted found = least_squares(judge, all, fit.model, fit.x, most_rounds);
+    Values packed = {found.score, mean_score(bench, calibration, fit.model, found.x),
+                     static_cast<double>(found.evaluations)};
+    packed.insert(packed.end(), found.x.begin(), found.x.end());
+    return packed;
+  });
+  std::vector<ModelFit*> near;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    if (answers[i][0] > noise_score) continue;
+    fits[i]->score = answers[i][1];
+    fits[i]->evaluations += static_cast<int>(answers[i][2]);
+    fits[i]->x.assign(answers[i].begin() + 3, answers[i].end());
+    near.push_back(fits[i]);
+  }
+  leave_out(
+      bench, near,
+      [&](const ModelFit& fit, std::size_t fold, const Tests& seen) {
+        return least_squares(judge, seen, fit.model, fit.fold_x[fold], 1);
+      },
+      jobs);
+}
+
 void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs& jobs) {
   const auto calibration = tests_of(bench.data(), Role::calibration);
   const Kind judged = calibration.empty() ? Kind::history : kind(bench.test(calibration.front()));

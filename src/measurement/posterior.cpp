@@ -175,6 +175,13 @@ Interval interval_of(const Posterior& open, const ModelFit& fit, std::size_t num
   return open.interval(number, level, allowed ? std::optional(fit.x[number]) : std::nullopt);
 }
 
+bool take_intervals(const Posterior& open, ModelFit& fit) {
+  if (open.of_mean.empty()) return false;
+  for (fit.intervals.clear(); fit.intervals.size() < fit.x.size();)
+    fit.intervals.push_back(interval_of(open, fit, fit.intervals.size(), 0.95));
+  return true;
+}
+
 Posterior posterior(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
   Posterior out;
   const Kind kind = kind_of_set(bench);
@@ -205,9 +212,7 @@ Posterior open_numbers(const Bench& bench, ModelFit& fit, const Jobs& jobs) {
     fit = std::move(from_there);
     open = posterior(bench, fit, jobs);
   }
-  if (!open.of_mean.empty() && kind_of_set(bench) != Kind::outcome)
-    for (fit.intervals.clear(); fit.intervals.size() < fit.x.size();)
-      fit.intervals.push_back(interval_of(open, fit, fit.intervals.size(), 0.95));
+  if (kind_of_set(bench) != Kind::outcome) take_intervals(open, fit);
   return open;
 }
 

@@ -47,6 +47,9 @@ struct Posterior {
 // Of a number of the fit, which it holds where a fit was made, or no draw does better than the numbers that were given.
 Interval interval_of(const Posterior&, const ModelFit&, std::size_t number, double level);
 
+// Makes them the fit's 95 % intervals; false where there are no draws.
+bool take_intervals(const Posterior&, ModelFit&);
+
 // The k-th of `count` rows that lie evenly over all.
 inline const Values& spread_row(const std::vector<Values>& rows, std::size_t k, std::size_t count) {
   return rows[(2 * k + 1) * rows.size() / (2 * count)];

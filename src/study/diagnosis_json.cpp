@@ -9,6 +9,7 @@
 #include "measurement/diagnose_outcomes.hpp"
 #include "measurement/law_search.hpp"
 #include "measurement/least_squares.hpp"
+#include "measurement/posterior.hpp"
 #include "measurement/quality.hpp"
 #include "measurement/recover.hpp"
 #include "measurement/suggest.hpp"
@@ -133,14 +134,17 @@ double noise_floor(const Bench& bench, const Diagnosis& d) {
   return d.noise_floor.empty() ? std::nan("") : std::sqrt(square);
 }
 
-// By the scores, whatever the refits did; intervals of outcomes are not of this kind.
-void widen_intervals(const Bench& bench, Diagnosis& d, const Jobs& jobs) {
+// Of the base and of what the verdict names, those that `compare` gives the same fit; of all others by the scores, whatever the refits did.
+// Intervals of outcomes are of another kind.
+void state_intervals(const Bench& bench, Diagnosis& d, const Jobs& jobs) {
   if (outcomes_only(bench.data())) return;
-  std::vector<ModelFit*> fits = {&d.base.fit};
+  std::vector<ModelFit*> named = {&d.base.fit}, others;
   for (Candidate& c : d.candidates)
-    if (c.visible) fits.push_back(&c.fit);
-  if (d.proposal) fits.push_back(&d.proposal->fit);
-  widen_by_score(bench, fits, jobs);
+    if (c.visible) (c.rival ? named : others).push_back(&c.fit);
+  if (d.proposal) named.push_back(&d.proposal->fit);
+  for (ModelFit* fit : named)
+    if (!take_intervals(posterior(bench, *fit, jobs), *fit)) others.push_back(fit);
+  widen_by_score(bench, others, jobs);
 }
 
 // The law, its numbers, and the entry with which `add` takes it into the study.
@@ -223,7 +227,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
   std::vector<const dynamics::Effect*> forms;
   for (const LawForm& form : law_forms()) forms.push_back(&form.effect);
   propose_law(bench, p->model, forms, options, jobs, d);
-  widen_intervals(bench, d, jobs);
+  state_intervals(bench, d, jobs);
   Json json = {{"format", "freestand-diagnosis/2"},
                {"study", run.study},
                {"measurements", p->measurements},
