@@ -77,12 +77,12 @@ class Keep(InFolder):
 
     def test_with_until_a_run_that_was_stopped_ends_where_it_would_have(self):
         """What was counted in a later round is not taken for the answer of an earlier one."""
-        text = study_text().replace("samples: 3000", "until: {half_width: 0.006, at_most: 1000000}").replace(", axes: [friction.mu_k]", "")
+        text = study_text().replace("samples: 3000", "until: {half_width: 0.01, at_most: 1000000}").replace(", axes: [friction.mu_k]", "")
         study = self.write("study.yaml", text + "keep: none\n")
         whole, out = self.folder / "whole", self.folder / "out"
         self.succeed(["run", study, "-o", whole, "--quiet"], 2)
         samples = json.loads((whole / "summary.json").read_text())["samples"]
-        self.assertTrue(100000 < samples < 1000000, samples)
+        self.assertTrue(30000 < samples < 1000000, samples)
         launcher = subprocess.Popen(command(["run", study, "-o", out, "--quiet"], 2), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         while summed_blocks(out) * 64 < 0.2 * samples and launcher.poll() is None:
             time.sleep(0.01)
@@ -96,7 +96,7 @@ class Keep(InFolder):
         self.assertEqual(tables(out), tables(whole))
 
     def test_killed_and_stopped_it_goes_on_to_the_same_bits(self):
-        study = self.study("none", samples=400000)
+        study = self.study("none", samples=150000)
         whole = self.folder / "whole"
         self.succeed(["run", study, "-o", whole, "--quiet"], 2)
         out, kept = self.folder / "out", []
@@ -117,10 +117,10 @@ class Keep(InFolder):
         self.succeed(["run", study, "-o", out, "--resume", "--quiet"], 3)
         self.assertEqual(tables(out), tables(whole))
         computed = json.loads((out / "summary.json").read_text())["timing"]["samples_computed"]
-        self.assertEqual(computed, 400000 - 64 * kept[1])
+        self.assertEqual(computed, 150000 - 64 * kept[1])
 
     def test_what_cannot_be_gone_on_with_is_refused(self):
-        study, out = self.study("none", samples=200000), self.folder / "out"
+        study, out = self.study("none", samples=80000), self.folder / "out"
         launcher = subprocess.Popen(command(["run", study, "-o", out, "--quiet"], 1), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         while not summed_blocks(out) and launcher.poll() is None:
             time.sleep(0.01)
@@ -130,8 +130,8 @@ class Keep(InFolder):
             other = self.write("other.yaml", study.read_text().replace(old, new))
             self.fail_with(2, ["run", other, "-o", out, "--resume"], why)
         self.succeed(["run", study, "-o", out, "--resume", "--quiet"], 2)
-        more = self.study("none", samples=210000)
-        self.fail_with(2, ["run", more, "-o", out, "--resume"], "counts of 200000 samples", "none can be added")
+        more = self.study("none", samples=90000)
+        self.fail_with(2, ["run", more, "-o", out, "--resume"], "counts of 80000 samples", "none can be added")
 
     def test_check_tells_how_large_it_is(self):
         factor = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9}

@@ -152,6 +152,57 @@ TEST(Settle, FrictionIsFoundCloserWhereTheFloorsNoiseIsWeighed) {
   EXPECT_LT(settled, 0.5 * plain) << std::sqrt(plain / 6) << " " << std::sqrt(settled / 6);
 }
 
+// Candidates are judged by the misfit in which the floor's noise is allowed for, and chance_of_misfit() holds that against data
+// that were fitted by it: a fit by the plain score misses by more, and its friction is further off, with a test left out too.
+TEST(WeighFloorNoise, FitsAreThoseOfTheMisfitThatTheyAreJudgedBy) {
+  double plain = 0, weighed = 0, plain_folds = 0, weighed_folds = 0, gain = 0;
+  const auto off = [](const ModelFit& fit) { return std::pow(fit.x[0] - 0.2, 2); };
+  const auto off_in_folds = [](const ModelFit& fit) {
+    double sum = 0;
+    for (const Values& x : fit.fold_x) sum += std::pow(x[0] - 0.2, 2);
+    return sum;
+  };
+  const auto total_of = [](const std::vector<double>& of_tests) {
+    return std::accumulate(of_tests.begin(), of_tests.end(), 0.0);
+  };
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Dataset data = test::made_dataset(cabinet(0.2));
+    disturb_floor(data, 0.03, seed);
+    const Bench bench(data, 16);
+    auto fits = fit_models(bench, {{.model = test::free_friction()}}, Effort{}, run_here);
+    polish(bench, {&fits[0]}, Effort{}, 0.05, run_here);
+    leave_out(bench, {&fits[0]}, Effort{}, run_here);
+    const Judge judge(bench, fits[0].model, fits[0].x, run_here);
+    plain += off(fits[0]);
+    plain_folds += off_in_folds(fits[0]);
+    const double before = total_of(judge.misfit_of_fit(fits[0]));
+    weigh_floor_noise(bench, judge, {&fits[0]}, run_here);
+    weighed += off(fits[0]);
+    weighed_folds += off_in_folds(fits[0]);
+    const double after = total_of(judge.misfit_of_fit(fits[0]));
+    EXPECT_LE(after, before);
+    gain += before - after;
+    EXPECT_EQ(fits[0].score, mean_score(bench, tests_of(data, Role::calibration), fits[0].model, fits[0].x));
+  }
+  EXPECT_LT(weighed, 0.5 * plain) << std::sqrt(plain / 6) << " " << std::sqrt(weighed / 6);
+  EXPECT_LT(weighed_folds, 0.5 * plain_folds);
+  EXPECT_GT(gain, 6 * 3.84);  // what one number gains by chance in one set of twenty, in each
+}
+
+TEST(WeighFloorNoise, AFitThatIsFarFromTheNoiseStaysWhereItIs) {
+  Specimen truth = cabinet(0.2);
+  truth.friction.mu_s = 0.4;
+  const Dataset data = test::made_dataset(truth);
+  const Bench bench(data, 8);
+  auto fits = fit_models(bench, {{.model = test::free_friction()}}, Effort{}, run_here);
+  leave_out(bench, {&fits[0]}, Effort{}, run_here);
+  const ModelFit before = fits[0];
+  weigh_floor_noise(bench, Judge(bench, before.model, before.x, run_here), {&fits[0]}, run_here);
+  EXPECT_EQ(fits[0].x, before.x);
+  EXPECT_EQ(fits[0].fold_x, before.fold_x);
+  EXPECT_EQ(fits[0].score, before.score);
+}
+
 // A block that only rocks says of friction no more than that it is enough.
 TEST(Settle, ANumberThatNoTestDeterminesHasAWideInterval) {
   Specimen slender;
