@@ -127,12 +127,15 @@ void add_point(const Line& line, double im, double rate, const std::string& file
 
 }  // namespace
 
+double HazardCurve::slope(std::size_t i) const {
+  return std::log(annual_rate[i] / annual_rate[i - 1]) / std::log(im[i] / im[i - 1]);
+}
+
 double HazardCurve::rate(double intensity) const {
   const auto above = std::upper_bound(im.begin(), im.end(), intensity);
   const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - im.begin(), 1, std::ssize(im) - 1));
-  const double slope = std::log(annual_rate[i] / annual_rate[i - 1]) / std::log(im[i] / im[i - 1]);
   return std::min(std::max(once_an_hour, annual_rate.front()),
-                  annual_rate[i - 1] * std::pow(intensity / im[i - 1], slope));
+                  annual_rate[i - 1] * std::pow(intensity / im[i - 1], slope(i)));
 }
 
 HazardCurve parse_hazard(const std::string& text, const std::string& file, const std::vector<std::string>& measures) {

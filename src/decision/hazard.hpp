@@ -18,6 +18,8 @@ struct HazardCurve {
 
   double first() const { return im.front(); }
   double last() const { return im.back(); }
+  // d ln rate/d ln im between point i - 1 and point i.
+  double slope(std::size_t i) const;
   // Rate of exceeding an intensity; before the first point and behind the last one by the slope beside it.
   double rate(double intensity) const;
 };

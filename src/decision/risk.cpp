@@ -24,7 +24,7 @@ constexpr int intervals = 24;
 // The hazard curve, with a point before its first one that goes on by its slope down to `im`, or as far as that leads to no more
 // than once an hour.
 HazardCurve begun_earlier(const HazardCurve& hazard, double im) {
-  const double slope = std::log(hazard.annual_rate[1] / hazard.annual_rate[0]) / std::log(hazard.im[1] / hazard.im[0]);
+  const double slope = hazard.slope(1);
   if (slope < 0) im = std::max(im, hazard.first() * std::pow(once_an_hour / hazard.annual_rate[0], 1 / slope));
   if (!(im < hazard.first())) return hazard;
   HazardCurve longer{hazard.measure, hazard.period_s, {im}, {hazard.rate(im)}};
