@@ -73,7 +73,10 @@ def _others(diagnosis, named):
             and all(row["effect"] != other["effect"] for other in named)]
     bar = min(row["error_left_out"] for row in named)
     low = [row for row in rest if row["error_left_out"] <= bar or (not row["numbers_as_met_in_practice"] and row["error_left_out"] < 1.1 * bar)]
-    parts = [f"{validation.effect(row['effect'])} leaves {_error(row)}{_against(row, named[0])}" for row in low]
+    alike = {}
+    for row in low:
+        alike.setdefault(_against(row, named[0]), []).append(f"{validation.effect(row['effect'])} leaves {_error(row)}")
+    parts = [words.listing(told) + reason for reason, told in alike.items()]
     worse = [row["error_left_out"] for row in rest if row not in low]
     if worse:
         parts.append(f"the next best leaves {validation.error(min(worse))}")

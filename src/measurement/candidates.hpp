@@ -21,7 +21,9 @@ bool worse_left_out(const Candidate& a, const Candidate& b);
 
 // Remarks of candidates that do as well as the best one and are not named.
 inline constexpr const char *odd_numbers = "with numbers that are not met in practice",
-                            *needless_effects = "with more effects, whose gain may be chance";
+                            *needless_effects = "with more effects, whose gain may be chance",
+                            *no_closer =
+                                "with numbers that bring the fit to all tests no closer, the floor's noise allowed for";
 
 // Orders the candidates, with the best of them first, and marks their differences to it. none: as they are, of the base.
 void put_in_order(const Bench&, const Candidate* best, Diagnosis&);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/digits.hpp"
 #include "measurement/laboratory.hpp"
@@ -69,20 +70,20 @@ class Decision {
                                    : "";
   }
 
-  // What does as well as the best one and is not named, each with the reason, which stands beside it in the table too.
+  // What does as well as the best one and is not named, with the reason, which stands beside each in the table too.
   std::string but_for(const Candidate& best) {
-    std::vector<std::string> told;
+    std::map<std::string, std::vector<std::string>> told;
     for (Candidate& c : d_.candidates) {
       if (c.rival || !fitted_to_the_end(c) || c.effects == best.effects) continue;
       const bool odd = !c.practical && c.effects.size() <= best.effects.size() && !brings_nothing(c);
       if (odd ? !as_good(best, c) : !is_ahead(c, best)) continue;
-      c.remark = odd ? odd_numbers
-                 : brings_nothing(c)
-                     ? "with numbers that bring the fit to all tests no closer, the floor's noise allowed for"
-                     : needless_effects;
-      told.push_back(fmt::format("{} ({}), {}", joined(c.effects), three_digits(left_out(c)), c.remark));
+      c.remark = odd ? odd_numbers : brings_nothing(c) ? no_closer : needless_effects;
+      told[c.remark].push_back(fmt::format("{} ({})", joined(c.effects), three_digits(left_out(c))));
     }
-    return told.empty() ? "" : fmt::format(", but for {}", fmt::join(told, "; "));
+    std::string text;
+    for (const auto& [remark, names] : told)
+      text += fmt::format("{}{}, {}", text.empty() ? ", but for " : "; ", fmt::join(names, ", "), remark);
+    return text;
   }
   // By what the table shows of both.
   bool is_ahead(const Candidate& a, const Candidate& b) const {
