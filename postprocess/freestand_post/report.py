@@ -141,7 +141,7 @@ def _duration(seconds):
 
 def _fit_table(sweep, name):
     edp = next(edp for edp in sweep.edps if edp.name == name)
-    verdict = {FITTED: "off by at most {:.2f}", TOO_FEW: "too few samples", COUNTED: "too few moved: counted",
+    verdict = {FITTED: "off by at most {:.2f}", TOO_FEW: "too few samples", COUNTED: "too few moved, or no lognormal fits: counted",
                REJECTED: "fails, may be off by {:.2f}", UNPROVEN: "not refuted, may be off by {:.2f}"}
     kept = kept_fits(edp)
     rows = []

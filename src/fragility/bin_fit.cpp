@@ -37,8 +37,10 @@ class Bin {
     fit_.status = BinStatus::counts_only;
     if (edp_.binary || fit_.n_moved < options_.minimum_samples) return fit_;
     const BinLine line = line_of(total_, fit_.im_mean);
-    const ThresholdFit found = fit_on(total_, line, edp_.still_threshold);
-    if (!(found.omega > least_omega)) return fit_;
+    const ThresholdFit found = fit_on(total_, line, edp_.still_threshold),
+                       tested = fit_on(total_, pilot_, edp_.still_threshold);
+    // A law that cannot be held against the samples is none.
+    if (!(found.omega > least_omega) || !(tested.omega > least_omega)) return fit_;
     fit_.status = BinStatus::fitted;
     fit_.slope = line.slope;
     fit_.lambda = found.lambda;
@@ -47,7 +49,7 @@ class Bin {
     const LognormalMoments moments = lognormal_moments(found.lambda, found.omega);
     fit_.mean = moments.mean;
     fit_.standard_deviation = moments.standard_deviation;
-    judge(null);
+    judge(tested, null);
     return fit_;
   }
 
@@ -82,9 +84,7 @@ class Bin {
   }
 
   // S of what the histogram holds, demands less the pilot's line, against their own lognormal.
-  void judge(EstimatedNull& null) {
-    const ThresholdFit found = fit_on(total_, pilot_, edp_.still_threshold);
-    if (!(found.omega > least_omega)) return;
+  void judge(const ThresholdFit& found, EstimatedNull& null) {
     const double n = total_.moved;
     const double ln_threshold = edp_.still_threshold > 0 ? std::log(edp_.still_threshold) : -INFINITY;
     const HistogramGoodness goodness = histogram_goodness(histogram_, found.lambda, found.omega, ln_threshold);

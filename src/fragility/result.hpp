@@ -19,7 +19,7 @@ enum class BinStatus : int {
   too_few = 1,  // fewer samples than the minimum: the row of the surface is empty
   // The row of the surface is the empirical one where the fit may be off by more and fails goodness of fit,
   rejected = 2,
-  // where too few moved and stood for a fit (or the EDP is binary),
+  // where too few moved and stood for a fit, or no lognormal has so heavy a tail (or the EDP is binary),
   counts_only = 3,
   // and where the fit may be off by more and passes.
   not_refuted = 4

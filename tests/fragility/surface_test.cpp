@@ -98,6 +98,26 @@ TEST(Surface, ABinThatIsMerelyNotRefutedFallsBackOnTheCountsAndSaysSo) {
   EXPECT_EQ(of(o).edps[0].bins[0].status, BinStatus::fitted);
 }
 
+// Demands that grow fast within the bin: about their line they are a lognormal, and as they stand, as they are tested, none has so heavy a
+// tail (S would be 0.3). Such a fit is not told, and not called "not refuted".
+TEST(Surface, ALawThatCannotBeTestedIsNone) {
+  Options o = options(0, false);
+  o.edps[0].still_threshold = 0.4;
+  Tally tally(o);
+  for (std::uint64_t i = 0; i < 330; ++i) {
+    const bool strong = i % 11 == 0;
+    const double value = 0.4 * std::exp((strong ? 8 : 0.01) + 0.3 * std::abs(test::normal(i, 54)));
+    tally.add({i, strong ? 0.9 : 0.2, 0, Outcome::moved, {&value, 1}, {}});
+  }
+  const Result found = fitted(tally);
+  const BinFit& bin = found.edps[0].bins[0];
+  EXPECT_EQ(bin.n_moved, 330);
+  EXPECT_EQ(bin.status, BinStatus::counts_only);
+  EXPECT_TRUE(std::isnan(bin.lambda));
+  EXPECT_EQ(found.edps[0].surface.probability, found.edps[0].surface.empirical);
+  EXPECT_THAT(found.warnings, testing::Not(testing::Contains(testing::HasSubstr("not refuted"))));
+}
+
 TEST(Surface, FailingBinFallsBackOnTheCounts) {
   Options o = options(0, false);
   const auto mixture = [&](const Options& with) {
