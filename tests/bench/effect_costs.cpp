@@ -59,6 +59,26 @@ struct Timed {
   double time() const { return test::median(microseconds); }
 };
 
+// Job P1 on records that move the floor in both horizontal directions, and the same under friction that differs between two.
+std::vector<FloorMotion> plane_records() {
+  const auto records = benchmark_records();
+  std::vector<FloorMotion> pairs = records;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i].cross_mps2 = records[(i + 7) % records.size()].horizontal_mps2;
+    index_runs(pairs[i]);
+  }
+  return pairs;
+}
+
+Job plane_job(Job job, const std::vector<FloorMotion>& pairs, bool elliptic) {
+  job.name = elliptic ? "ratio_across" : "two_directions";
+  for (std::size_t i = 0; i < job.samples(); ++i) {
+    job.shakings[i].motion = &pairs[i % pairs.size()];
+    if (elliptic) job.specimens[i].friction.ratio_across = 0.7, job.specimens[i].friction.axis_rad = 0.2;
+  }
+  return job;
+}
+
 void tell(const Job& job, Peer peer, bool alone) {
   auto as_accurate = std::make_shared<AsAccurate>(peer);
   const auto plain = [peer](const Specimen& b, const Shaking& s) { return answer(peer(b, s, {})); };
@@ -101,6 +121,11 @@ void tell_all(std::size_t samples, const std::string& only, bool alone) {
   row("none", job.specimens);
   for (const dynamics::Effect& effect : effects::all()) row(effect.name, with(effect, job.specimens));
   row(drag_by_formula().name, with(drag_by_formula(), job.specimens));
+  const auto pairs = plane_records();
+  for (const bool elliptic : {false, true}) {
+    const Job in_plane = plane_job(benchmark_jobs(records, pulses, samples)[0], pairs, elliptic);
+    if (only.empty() || in_plane.name == only) tell(in_plane, plane_peer, alone);
+  }
 }
 
 }  // namespace

@@ -38,6 +38,9 @@ PeerResponse pulse_peer(const Specimen& specimen, const Shaking& shaking, const 
 // dopri5 in the same way under one effect, whose law is written by hand (peer_laws.hpp). Null where there is none.
 Peer law_peer(const std::string& effect);
 
+// dopri5 in the same way where the floor moves in both horizontal directions (peer_plane.cpp).
+PeerResponse plane_peer(const Specimen& specimen, const Shaking& shaking, const OdeintSteps& steps);
+
 // The same two on model bouc_wen: dopri5 with its step chosen by its error, and CVODE, BDF where the contact is stiff.
 PeerResponse odeint_bouc_wen(const Specimen& specimen, const Shaking& shaking);
 PeerResponse cvode_bouc_wen(const Specimen& specimen, const Shaking& shaking);
