@@ -11,6 +11,7 @@
 #include "base/motion_table.hpp"
 #include "dynamics/bouc_wen_contact.hpp"
 #include "dynamics/law_rows.hpp"
+#include "dynamics/plane_rows.hpp"
 #include "dynamics/speed_law.hpp"
 
 namespace freestand::dynamics {
@@ -43,6 +44,7 @@ struct BatchKernels {
   BatchKernel slide_rock_shaken, slide_rock_shaken_coarse;  // the floor shakes vertically
   BatchKernel bouc_wen;                                     // with kappa = 0
   const LawMarch (*under_laws)[2], (*on_pulses)[2];         // [turns][slips]
+  const PlaneMarch (*in_plane)[2];                          // [elliptic friction][the floor shakes vertically]
   int lanes;                                                // of a pack
 };
 

@@ -3,6 +3,7 @@ function(freestand_kernels ISA)
   add_library(freestand_kernels_${ISA} OBJECT ${CMAKE_SOURCE_DIR}/src/dynamics/pack/kernels.cpp
               ${CMAKE_SOURCE_DIR}/src/dynamics/pack/shaken_kernels.cpp
               ${CMAKE_SOURCE_DIR}/src/dynamics/pack/law_kernels.cpp
+              ${CMAKE_SOURCE_DIR}/src/dynamics/pack/plane_kernels.cpp
               ${CMAKE_SOURCE_DIR}/src/dynamics/pack/pulse_kernels.cpp)
   target_include_directories(freestand_kernels_${ISA} PRIVATE ${CMAKE_SOURCE_DIR}/src ${CMAKE_SOURCE_DIR}/include)
   target_compile_definitions(freestand_kernels_${ISA} PRIVATE FREESTAND_ISA=${ISA} FREESTAND_ISA_NAME="${ISA}")

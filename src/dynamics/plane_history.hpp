@@ -28,7 +28,7 @@ class PlaneHistory {
   }
 
   // A step along a series up to its place h, which is tau later than `start`.
-  void along(const SlipSeries& slip, const PlaneFloor& floor, double start, double h, double tau, Mode mode) {
+  void along(const SlipSeries<double>& slip, const PlaneFloor& floor, double start, double h, double tau, Mode mode) {
     each_point(start, tau, [&](double t) {
       const double s = slip.in_time ? t : place_in_series(slip, t, h);
       point(start + t, floor, t, {slip.ux.at(s), slip.uy.at(s)}, {slip.wx.at(s), slip.wy.at(s)}, mode);
@@ -63,7 +63,7 @@ class PlaneHistory {
   }
 
   void point(double time, const PlaneFloor& floor, double t, const PlaneVector& u, const PlaneVector& w, Mode mode) {
-    add(time, back({floor.ax.at(t), floor.ay.at(t)}), back(u), back(w), mode);
+    add(time, back(floor.later(t).a), back(u), back(w), mode);
   }
 
   void add(double time, const PlaneVector& a, const PlaneVector& u, const PlaneVector& w, Mode mode) {

@@ -2,113 +2,108 @@
 
 #include <algorithm>
 
-#include "dynamics/along_slip.hpp"
+#include "base/units.hpp"
 
 namespace freestand::dynamics {
 namespace {
 
 constexpr int N = plane_order;
+constexpr int angles = N - 1;  // terms of a series from rest are kept to those that theta's equation determines
 
 PlaneVector along(const PlaneVector& axis, double x) { return {axis.x * x, axis.y * x}; }
 
-// Terms of a series from rest are kept to those that theta's equation determines.
-constexpr int angles = N - 1;
+// Coefficient k of (y0 + y1 tau) x.
+double times_linear(double y0, double y1, const PlaneSeries& x, int k) {
+  return k == 0 ? y0 * x[0] : y0 * x[k] + y1 * x[k - 1];
+}
 
-// The equation of theta, coefficient by coefficient; axes as in the header.
+// The rate at which a slip in a steady direction grows: where e_i = -A_i/(rate + F m_i) has length 1. False: it has no such direction. The
+// sum of squares falls with the rate and bends upwards, so that Newton's rule comes from below.
+bool steady_rate(const PlaneVector& A, double F, double m, double& rate) {
+  rate = m == 1 ? size(A) - F : std::fmax(std::abs(A.x) - F, std::abs(A.y) - m * F);
+  if (!(rate > -F * std::fmin(1.0, m))) return false;
+  for (int turn = 0; m != 1 && turn < 60; ++turn) {
+    const double x = rate + F, y = rate + m * F, ex = A.x / x, ey = A.y / y;
+    const double step = (ex * ex + ey * ey - 1) / (2 * (ex * ex / x + ey * ey / y));
+    rate += step;
+    if (!(step > 1e-16 * (std::abs(rate) + F))) break;
+  }
+  return std::isfinite(rate);
+}
+
+// The equation of theta, coefficient by coefficient.
 struct Follower {
-  PlaneSeries a1, a2, F, v, theta, c, s;
-  double A = 0;
+  PlaneVector A, B;  // the drive, and its rate
+  double F = 0, dF = 0, m = 1;
+  PlaneSeries v, theta, c, s, sc, ss;
+  double settles = 0;  // -dG/dtheta
 
   // One pass; `before`: theta of the pass before, for the term v_0 (k + 1) theta_(k+1). False: its direction does not follow.
   bool pass(const PlaneSeries& before, double zero) {
-    const double sine = -v[0] * before[1] / A;
-    if (!(std::abs(sine) < 0.5)) return false;
-    theta[0] = std::asin(sine);
-    s[0] = sine;
-    c[0] = std::sqrt(1 - sine * sine);
-    v[1] = -F[0] - a1[0] * c[0] - a2[0] * s[0];
+    const double bend = m - 1;
+    for (int turn = 0; v[0] > 0 && turn < 20; ++turn) {
+      const double sine = std::sin(theta[0]), cosine = std::cos(theta[0]);
+      const double missed = A.x * sine - A.y * cosine - F * bend * sine * cosine - v[0] * before[1];
+      const double slope = A.x * cosine + A.y * sine - F * bend * (cosine - sine) * (cosine + sine);
+      const double step = missed / slope;
+      if (!(std::abs(step) < 0.5)) return false;
+      theta[0] -= step;
+      if (std::abs(step) < 1e-8) break;  // and Newton's rule squares what is missing
+    }
+    c[0] = std::cos(theta[0]);
+    s[0] = std::sin(theta[0]);
+    sc[0] = s[0] * c[0];
+    ss[0] = s[0] * s[0];
+    const double turned = (c[0] - s[0]) * (c[0] + s[0]);
+    settles = -(A.x * c[0] + A.y * s[0] - F * bend * turned);
+    v[1] = -(A.x * c[0] + A.y * s[0] + F * (1 + bend * ss[0]));
     if (v[0] == 0 && std::abs(v[1]) <= zero) v[1] = 0;
     for (int k = 1; k <= angles; ++k) {
-      const double held = k * v[1] + A * c[0];
-      if (!(held > 0.5 * A)) return false;
-      double known_sine = 0, right = 0;
-      for (int j = 1; j < k; ++j) known_sine += j * theta[j] * c[k - j];
-      known_sine /= k;
-      right = -A * known_sine - v[0] * (k + 1) * (k < angles ? before[k + 1] : 0.0);
-      for (int i = 1; i <= k; ++i) right += a1[i] * s[k - i] - a2[i] * c[k - i];
+      const double held = k * v[1] + settles;
+      if (!(settles > 0) || !(held > 0.5 * settles)) return false;
+      double sine = 0, cosine = 0;  // but for what theta_k adds
+      for (int j = 1; j < k; ++j) sine += j * theta[j] * c[k - j], cosine -= j * theta[j] * s[k - j];
+      s[k] = sine / k;
+      c[k] = cosine / k;
+      double right = times_linear(A.x, B.x, s, k) - times_linear(A.y, B.y, c, k);
+      if (bend != 0) {
+        sc[k] = product(s, c, k);
+        right -= bend * times_linear(F, dF, sc, k);
+      }
+      right -= v[0] * (k + 1) * (k < angles ? before[k + 1] : 0.0);
       for (int j = 2; j <= k; ++j) right -= v[j] * (k - j + 1) * theta[k - j + 1];
       theta[k] = right / held;
-      s[k] = known_sine + theta[k] * c[0];
-      double cosine = 0;
-      for (int j = 1; j <= k; ++j) cosine -= j * theta[j] * s[k - j];
-      c[k] = cosine / k;
-      double push = F[k];
-      for (int i = 0; i <= k; ++i) push += a1[i] * c[k - i] + a2[i] * s[k - i];
-      v[k + 1] = -push / (k + 1);
+      s[k] += theta[k] * c[0];
+      c[k] -= theta[k] * s[0];
+      double rubs = k == 1 ? dF : 0.0;
+      if (bend != 0) {
+        sc[k] += theta[k] * turned;
+        ss[k] = product(s, s, k);
+        rubs += bend * times_linear(F, dF, ss, k);
+      }
+      v[k + 1] = -(times_linear(A.x, B.x, c, k) + times_linear(A.y, B.y, s, k) + rubs) / (k + 1);
     }
+    theta[N] = c[N] = s[N] = ss[N] = 0;
     return true;
   }
 };
 
-// The first M coefficients; `Shaken`: g' changes with time. Degree: of the floor's polynomials.
-template <int M, int Degree, bool Shaken>
-void slip_to_order(const PlaneFloor& floor, double mu_k, SlipSeries& y) {
-  AlongSlip<Degree> ax(floor.ax, 1), ay(floor.ay, 1);
-  AlongSlip<Shaken ? Degree : 0> F(floor.g, mu_k);
-  const double still = F.series()[0];
-#pragma GCC unroll 16
-  for (int k = 0; k < M; ++k) {
-    const double one_over = 1.0 / (k + 1);
-    const auto held = [&](const PlaneSeries& x) {
-      if constexpr (Shaken) return product(F.series(), x, k);
-      return still * x[k];
-    };
-    y.t[k + 1] = y.v[k] * one_over;
-    y.ux[k + 1] = product(y.v, y.wx, k) * one_over;
-    y.uy[k + 1] = product(y.v, y.wy, k) * one_over;
-    y.path[k + 1] = product(y.v, y.v, k) * one_over;
-    const double work = product(ax.series(), y.wx, k) + product(ay.series(), y.wy, k);
-    const double push_x = product(ax.series(), y.v, k), push_y = product(ay.series(), y.v, k);
-    y.wx[k + 1] = -(push_x + held(y.wx)) * one_over;
-    y.wy[k + 1] = -(push_y + held(y.wy)) * one_over;
-    y.v[k + 1] = -(work + held(y.v)) * one_over;
-    ax.advance(y.v, k);
-    ay.advance(y.v, k);
-    F.advance(y.v, k);
+// Pass by pass one more coefficient of theta is right, and those before it hardly change.
+bool settle(Follower& f, double zero, double h, double allowed) {
+  PlaneSeries before = PlaneSeries::zero();
+  for (int pass = 0; pass < N; ++pass) {
+    if (!f.pass(before, zero)) return false;
+    double change = 0;
+    for (int k = N; k >= 0; --k) change = change * h + std::abs(f.theta[k] - before[k]);
+    if (f.v[0] * change <= allowed) return true;
+    before = f.theta;
   }
-}
-
-template <int M>
-void slip_to_order(const PlaneFloor& floor, double mu_k, SlipSeries& y) {
-  if (floor.degree > 1)
-    return floor.shakes_vertically ? slip_to_order<M, plane_degree, true>(floor, mu_k, y)
-                                   : slip_to_order<M, plane_degree, false>(floor, mu_k, y);
-  return floor.shakes_vertically ? slip_to_order<M, 1, true>(floor, mu_k, y)
-                                 : slip_to_order<M, 1, false>(floor, mu_k, y);
+  return true;
 }
 
 }  // namespace
 
-SlipSeries slip_series(const PlaneFloor& floor, double mu_k, const PlaneVector& w, const PlaneVector& u, int order) {
-  SlipSeries y;
-  y.order = order;
-  y.v[0] = size(w);
-  y.wx[0] = w.x;
-  y.wy[0] = w.y;
-  y.ux[0] = u.x;
-  y.uy[0] = u.y;
-  y.path[0] = y.t[0] = 0;
-  if (order == N) {
-    slip_to_order<N>(floor, mu_k, y);
-    return y;
-  }
-  slip_to_order<short_order>(floor, mu_k, y);
-  for (PlaneSeries* x : {&y.v, &y.wx, &y.wy, &y.ux, &y.uy, &y.path, &y.t})
-    for (int k = short_order + 1; k <= N; ++k) (*x)[k] = 0;
-  return y;
-}
-
-double place_in_series(const SlipSeries& slip, double t, double s_end) {
+double place_in_series(const SlipSeries<double>& slip, double t, double s_end) {
   double low = 0, high = s_end, s = std::fmin(t / slip.v[0], s_end);
   for (int turn = 0; turn < 60 && high > low; ++turn) {
     const double miss = slip.t.at(s) - t;
@@ -134,68 +129,91 @@ SlipEnd slip_end(const PlaneVector& a, double F, const PlaneVector& w) {
       (F * v - A * b) / left, (v * v - 2 * A * x) / (2 * F), {ahead.x * x + aside.x * z, ahead.y * x + aside.y * z}};
 }
 
-bool driven_slip(const PlaneFloor& floor, double mu_k, const PlaneVector& w, const PlaneVector& u, double zero,
-                 DrivenSlip& found) {
+bool driven_slip(const PlaneFloor& floor, const EllipticGrip& grip, const PlaneVector& w, const PlaneVector& u,
+                 double weight, double zero, double h, double allowed, DrivenSlip& found) {
+  const double r = grip.ratio, speed = size(grip.scaled(w));
   Follower f;
-  f.A = size(floor.a());
-  if (!(f.A > 0)) return false;
-  const PlaneVector one = along(floor.a(), -1 / f.A), two{-one.y, one.x};
-  for (int k = 0; k <= N; ++k) {
-    f.a1[k] = one.x * floor.ax[k] + one.y * floor.ay[k];
-    f.a2[k] = two.x * floor.ax[k] + two.y * floor.ay[k];
-    f.F[k] = mu_k * floor.g[k];
-  }
-  f.a1[0] = -f.A;
-  f.a2[0] = 0;
-  const double speed = size(w);
+  f.m = r * r;
+  f.A = grip.scaled(floor.a);
+  f.B = grip.scaled(floor.da);
+  f.F = grip.mu * floor.g;
+  f.dF = grip.mu * floor.dg;
+  double rate = 0;
+  if (!(size(f.A) > 0) || !steady_rate(f.A, f.F, f.m, rate)) return false;
+  f.theta[0] = std::atan2(-f.A.y / (rate + f.m * f.F), -f.A.x / (rate + f.F));
   f.v[0] = speed;
-  PlaneSeries before = PlaneSeries::zero();
-  // Pass by pass one more coefficient of theta is right.
-  const int passes = speed == 0 ? 1 : N;
-  for (int pass = 0; pass < passes; ++pass) {
-    f.theta[N] = f.c[N] = f.s[N] = 0;
-    if (!f.pass(before, zero)) return false;
-    before = f.theta;
-  }
-  SlipSeries& y = found.slip;
+  if (!settle(f, zero, h, allowed)) return false;
+  SlipSeries<double>& y = found.slip;
   y.in_time = true;
   y.v = f.v;
   y.t = PlaneSeries::zero();
   y.t[1] = 1;
-  y.ux[0] = u.x;
-  y.uy[0] = u.y;
+  y.ux[0] = u.x, y.uy[0] = u.y;
   y.path[0] = 0;
+  // |w| = v (c^2 + s^2/r^2)^(1/2), and friction F (c, r s).
+  PlaneSeries square, length, F2 = PlaneSeries::zero();
+  F2[0] = f.F * f.F, F2[1] = 2 * f.F * f.dF, F2[2] = f.dF * f.dF;
+  const double lift = floor.g - weight;
   for (int k = 0; k <= N; ++k) {
-    const double w1 = product(f.v, f.c, k), w2 = product(f.v, f.s, k);
-    y.wx[k] = one.x * w1 + two.x * w2;
-    y.wy[k] = one.y * w1 + two.y * w2;
+    y.wx[k] = product(f.v, f.c, k);
+    y.wy[k] = product(f.v, f.s, k) / r;
+    y.felt2[k] = F2[k] + (k == 0   ? lift * lift
+                          : k == 1 ? 2 * lift * floor.dg
+                          : k == 2 ? floor.dg * floor.dg
+                                   : 0.0);
+    length[k] = k == 0 ? 1 : 0;
+    if (f.m != 1) {
+      y.felt2[k] += (f.m - 1) * (F2[0] * f.ss[k] + (k > 0 ? F2[1] * f.ss[k - 1] : 0) + (k > 1 ? F2[2] * f.ss[k - 2] : 0));
+      double rest = square[k] = (k == 0 ? 1 : 0) + (1 / f.m - 1) * f.ss[k];
+      for (int j = 1; j < k; ++j) rest -= length[j] * length[k - j];
+      length[k] = k == 0 ? std::sqrt(rest) : 0.5 * rest / length[0];
+    }
     if (k == N) break;
     y.ux[k + 1] = y.wx[k] / (k + 1);
     y.uy[k + 1] = y.wy[k] / (k + 1);
-    y.path[k + 1] = f.v[k] / (k + 1);
+    y.path[k + 1] = (f.m != 1 ? product(f.v, length, k) : f.v[k]) / (k + 1);
   }
   found.last_angle = f.theta[angles];
-  found.settles = f.A;
-  found.turned = speed == 0 ? 0.0 : std::atan2(dot(two, w), dot(one, w)) - f.theta[0];
+  found.settles = f.settles;
+  found.bends = std::abs(f.F * (f.m - 1) * f.sc[0]) / f.settles;
+  found.turned = speed == 0 ? 0.0 : std::remainder(std::atan2(r * w.y, w.x) - f.theta[0], 2 * pi);
   return true;
 }
 
-SlipSeries free_slip(const PlaneFloor& floor, const PlaneVector& w, const PlaneVector& u) {
-  SlipSeries y;
-  y.wx[0] = w.x;
-  y.wy[0] = w.y;
-  y.ux[0] = u.x;
-  y.uy[0] = u.y;
-  for (int k = 0; k < N; ++k) {
-    y.wx[k + 1] = -floor.ax[k] / (k + 1);
-    y.wy[k + 1] = -floor.ay[k] / (k + 1);
+SlipSeries<double> free_slip(const PlaneFloor& floor, const PlaneVector& w, const PlaneVector& u) {
+  SlipSeries<double> y;
+  for (PlaneSeries* x : {&y.v, &y.wx, &y.wy, &y.ux, &y.uy, &y.path, &y.t}) *x = PlaneSeries::zero();
+  y.wx[0] = w.x, y.wx[1] = -floor.a.x, y.wx[2] = -0.5 * floor.da.x;
+  y.wy[0] = w.y, y.wy[1] = -floor.a.y, y.wy[2] = -0.5 * floor.da.y;
+  y.ux[0] = u.x, y.uy[0] = u.y;
+  for (int k = 0; k < 3; ++k) {
     y.ux[k + 1] = y.wx[k] / (k + 1);
     y.uy[k + 1] = y.wy[k] / (k + 1);
   }
   y.in_time = true;
-  y.t = y.v = y.path = PlaneSeries::zero();
   y.t[1] = 1;
   return y;
+}
+
+// q (1 + P m_i/|q|) = q before: the length of q is the root of a sum of squares that falls with it.
+PlaneVector slip_after_push(const EllipticGrip& grip, const PlaneVector& w, double push) {
+  const double P = grip.mu * push, m = grip.ratio * grip.ratio;
+  const PlaneVector q = grip.scaled(w);
+  const auto shares = [&](double length) { return PlaneVector{q.x / (length + P), q.y / (length + m * P)}; };
+  if (dot(shares(0), shares(0)) <= 1) return {};
+  double low = 0, high = size(q);
+  for (int half = 0; half < 200 && high > low; ++half) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    (dot(shares(middle), shares(middle)) > 1 ? low : high) = middle;
+  }
+  const PlaneVector e = shares(high);
+  return {high * e.x, high * e.y / grip.ratio};
+}
+
+double slows(const PlaneFloor& floor, const EllipticGrip& grip, const PlaneVector& w) {
+  const PlaneVector q = grip.scaled(w), A = grip.scaled(floor.a);
+  return dot(A, q) + grip.mu * floor.g * (q.x * q.x + grip.ratio * grip.ratio * q.y * q.y) / size(q);
 }
 
 }  // namespace freestand::dynamics

@@ -62,22 +62,26 @@ Response respond_with_cross(const Specimen& specimen, const Shaking& shaking, co
   return response;
 }
 
-// Those that move along a line go in packs all the same.
+// Those in the plane, and those that move along a line all the same.
 void respond_batch_with_cross(std::span<const Specimen> specimens, std::span<const Shaking> shakings,
                               const Settings& settings, std::span<Response> responses) {
   std::vector<Specimen> blocks;
   std::vector<Shaking> lines;
-  std::vector<std::size_t> at;
+  std::vector<std::size_t> at, in_plane;
   for (std::size_t i = 0; i < shakings.size(); ++i) {
     const bool cross = has_cross(shakings[i]);
     if (cross && (goes_in_plane(specimens[i], *shakings[i].motion) || !refusal_in_plane(specimens[i]).empty())) {
-      responses[i] = respond(specimens[i], shakings[i], settings);
+      if (refusal_in_plane(specimens[i]).empty())
+        in_plane.push_back(i);
+      else
+        responses[i] = {.outcome = Outcome::not_finite};
       continue;
     }
     blocks.push_back(specimens[i]);
     lines.push_back(cross ? along_line(shakings[i]) : shakings[i]);
     at.push_back(i);
   }
+  respond_in_plane(specimens, shakings, settings, in_plane, responses);
   std::vector<Response> answers(at.size());
   respond_and_count(blocks, lines, settings, answers);
   for (std::size_t k = 0; k < at.size(); ++k) {

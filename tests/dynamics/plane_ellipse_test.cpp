@@ -1,5 +1,5 @@
 // Sliding in the plane under friction that differs between two directions: closed forms, turns, and the circle as its limit.
-#include "dynamics/plane_ellipse.hpp"
+#include "dynamics/plane_slip.hpp"
 
 #include <gtest/gtest.h>
 

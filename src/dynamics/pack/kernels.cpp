@@ -2,6 +2,7 @@
 #include "dynamics/batch.hpp"
 #include "dynamics/pack/bouc_wen.hpp"
 #include "dynamics/pack/law_kernels.hpp"
+#include "dynamics/pack/plane_kernels.hpp"
 #include "dynamics/pack/rock.hpp"
 #include "dynamics/pack/shaken_kernels.hpp"
 #include "dynamics/pack/slide.hpp"
@@ -23,6 +24,7 @@ const BatchKernels kernels{FREESTAND_ISA_NAME,
                            bouc_wen_samples,
                            law_marches,
                            pulse_marches,
+                           plane_marches,
                            pack_lanes};
 
 }  // namespace freestand::dynamics::FREESTAND_ISA

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "dynamics/law_step.hpp"
+#include "dynamics/pack/lane_extremes.hpp"
 #include "dynamics/pack/lane_floor.hpp"
 #include "dynamics/pack/lane_numbers.hpp"
 #include "dynamics/pack/law_blows.hpp"
@@ -169,7 +170,7 @@ class LawMarchOf {
   PackMask nothing_happens(const Arc& arc, unsigned lanes_here) {
     strikes_ = h_ < h_;
     PackMask sure = h_ > Pack(shortest_step) * number(Row::longest_step_s);
-    if (const unsigned within = lanes_here & ~ground_.to_knot(h_)) sure = sure & lanes(~(within & watched()));
+    if (const unsigned within = lanes_here & ~ground_.to_knot(h_)) sure = sure & lanes_of(~(within & watched()));
     if (slipping && laws_.friction >= 0) sure = sure & (arc.friction >= Pack(0.0));
     visit_contact(stance_, {}, arc, [&](Witness witness, const Series<Pack, N>& y) {
       PackMask positive = surely_positive(y, h_);
@@ -231,32 +232,10 @@ class LawMarchOf {
     return follows;
   }
 
-  // max_abs and max_of (roots.hpp) of the lanes wanted: mostly the extreme is at an end of the step or is no new one.
-  using Search = double (*)(const double* c, int order, double h, double floor);
-  Pack extreme(const Series<Pack, N>& y, const PackMask& within, const Pack& first, const Pack& last,
-               const Pack& before, unsigned wanted, Search search) const {
-    const Pack at_ends = xsimd::max(before, xsimd::max(first, last));
-    unsigned unsure = wanted & ~bits(within | surely_monotonic(y, reach_));
-    if (!unsure) return freestand::choose(within, before, at_ends);
-    const PackMask surely = within | surely_within_by_ends(y, last, reach_, before);
-    unsure &= ~bits(surely | surely_monotonic_by_ends(y, derivative(y).at(reach_), reach_));
-    alignas(64) double most[pack_lanes];
-    store(most, freestand::choose(surely, before, at_ends));
-    const double* numbers = reinterpret_cast<const double*>(&y);
-    for (unsigned open = unsure; open; open &= open - 1) {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(open));
-      double c[N + 1];
-      for (int k = 0; k <= N; ++k) c[k] = numbers[static_cast<std::size_t>(k * pack_lanes) + lane];
-      const double h = reach_.get(lane), floor = before.get(lane);
-      clear_upper_parts();
-      most[lane] = search(c, N, h, floor);
-    }
-    return load(most);
-  }
   Pack largest(const Series<Pack, N>& y, const Pack& before, unsigned wanted) const {
     const PackMask within = surely_within(y, reach_, before);
     if (!(wanted & ~bits(within))) return before;
-    return extreme(y, within, xsimd::abs(y[0]), xsimd::abs(y.at(reach_)), before, wanted, detail::max_abs);
+    return extreme(y, reach_, within, xsimd::abs(y[0]), xsimd::abs(y.at(reach_)), before, wanted, detail::max_abs);
   }
 
   // As Peaks::observe, of the lanes wanted; of which of them there are any.
@@ -267,7 +246,7 @@ class LawMarchOf {
     if (rows_.slip_by_side) {
       const Pack last = u.at(reach_);
       const auto side = [&](const Series<Pack, N>& y, const Pack& first, const Pack& end, const Pack& before) {
-        return extreme(y, surely_within(y, reach_, before), first, end, before, wanted, detail::max_of);
+        return extreme(y, reach_, surely_within(y, reach_, before), first, end, before, wanted, detail::max_of);
       };
       new_slip_right_ = side(u, u[0], last, slip_right_);
       new_slip_left_ = side(scaled(Pack(-1.0), u), -u[0], -last, slip_left_);
@@ -297,9 +276,9 @@ class LawMarchOf {
   // Those that are free go to the end of their step; bit l: lane l is at the end of its motion, or of its time.
   unsigned go_on(unsigned free) {
     const unsigned struck = bits(strikes_) & free, at_knot = ground_.to_knot(h_) & free & ~struck;
-    const PackMask goes = lanes(free);
+    const PackMask goes = lanes_of(free);
     ground_.advance(goes, reach_);
-    unsigned at_end = at_knot ? ground_.next_segment(at_knot, lanes(at_knot)) : 0;
+    unsigned at_end = at_knot ? ground_.next_segment(at_knot, lanes_of(at_knot)) : 0;
     const unsigned within = free & ~at_knot & ~struck;
     if (within) {
       const unsigned ends = ground_.at_end() & within;
@@ -309,7 +288,7 @@ class LawMarchOf {
     const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
     Standing<Pack>&at = here_, &to = to_;
     if (struck) {
-      blows_.stand(lanes(struck), struck, to);
+      blows_.stand(lanes_of(struck), struck, to);
       at.body.c = to.body.c;
       at.half_base = to.half_base;
       at.pivot = stance_.pivot = to.pivot;
@@ -341,12 +320,6 @@ class LawMarchOf {
     unsigned which = 0;
     for (int l = 0; l < pack_lanes; ++l) which |= unsigned{rows_.steps[first_ + l] % StepWatch::watched == 0} << l;
     return which;
-  }
-
-  static PackMask lanes(unsigned which) {
-    alignas(64) double mask[pack_lanes];
-    for (int l = 0; l < pack_lanes; ++l) mask[l] = which >> l & 1U;
-    return load(mask) > Pack(0.0);
   }
 
   // The series of one lane.

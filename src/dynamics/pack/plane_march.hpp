@@ -1,0 +1,68 @@
+// Slips in the plane, a pack of samples at once, each at its own time and in its own step, while they are in full swing.
+#pragma once
+
+#include "dynamics/pack/lane_extremes.hpp"
+#include "dynamics/pack/outside.hpp"
+#include "dynamics/plane_rows.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+// For OnePlane of plane_step.hpp, lane by lane.
+struct LanePlane {
+  static Pack choose(const PackMask& which, const Pack& yes, const Pack& no) {
+    return freestand::choose(which, yes, no);
+  }
+  static bool any(const PackMask& which) { return bits(which) != 0; }
+  static Pack sqrt(const Pack& x) { return xsimd::sqrt(x); }
+  static Pack root(const PackMask& which, const Pack& x, double degree) {
+    alignas(64) double each[pack_lanes];
+    store(each, x);
+    for (unsigned open = bits(which); open; open &= open - 1) {
+      double& one = each[__builtin_ctz(open)];
+      one = pow_outside(one, 1 / degree);
+    }
+    return load(each);
+  }
+  static Pack most(const PackMask& which, const Series<Pack, plane_order>& y, const Pack& h, const Pack& floor) {
+    return extreme(y, h, surely_within(y, h, floor), y[0], y.at(h), floor, bits(which), detail::max_of);
+  }
+};
+
+template <bool elliptic, bool shaken>
+unsigned plane_march(PlaneRows& rows) {
+  PlaneState<Pack> at;
+  Pack* numbers = reinterpret_cast<Pack*>(&at);
+  for (int k = 0; k < plane_numbers; ++k) numbers[k] = load(rows.numbers[k]);
+  PlaneStep<Pack, LanePlane, elliptic, shaken> step(at, rows.tolerance);
+  const int count = rows.lanes;
+  const unsigned here = (1U << count) - 1;
+  unsigned apart = 0;
+  while (!apart) {
+    step.look();
+    unsigned goes = bits(step.regular()) & here;
+    for (int l = 0; l < count; ++l)
+      if (rows.steps[l] >= most_steps_a_segment) goes &= ~(1U << l);
+    if (!goes) return apart | here;
+    apart = here & ~goes;
+    const Pack limit = step.left();
+    goes &= bits(step.expand(limit));
+    apart = here & ~goes;
+    step.follow(lanes_of(goes));
+    for (int k = 0; k < plane_numbers; ++k) store(rows.numbers[k], numbers[k]);
+    unsigned at_knot = bits(step.tau == limit) & goes;
+    for (unsigned open = goes & ~at_knot; open; open &= open - 1) ++rows.steps[__builtin_ctz(open)];
+    if (!at_knot) continue;
+    clear_upper_parts();
+    for (; at_knot; at_knot &= at_knot - 1) {
+      const int l = __builtin_ctz(at_knot);
+      if (!rows.next_segment(l)) apart |= 1U << l;
+    }
+    for (int k = 0; k < plane_numbers; ++k) numbers[k] = load(rows.numbers[k]);
+  }
+  clear_upper_parts();
+  return apart;
+}
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA

@@ -1,0 +1,224 @@
+// A step of a slip in the plane, in the series in s (plane_slip.hpp): one text for a sample and for a pack of samples, whose lanes have
+// the bits of single ones. Numbers: OnePlane below, or LanePlane in pack/plane_march.hpp.
+#pragma once
+
+#include <freestand/floor_motion.hpp>
+
+#include "base/units.hpp"
+#include "dynamics/plane_slip.hpp"
+#include "dynamics/roots.hpp"
+
+namespace freestand::dynamics {
+
+// A slip follows the drive where its direction settles, in the time |q|/A, this many times faster than the step lasts: then
+// the terms of its series that are left out, each N |q|/(A h) times the last, vanish.
+inline constexpr double settles_in = 0.25 / plane_order;
+// A step in s changes the speed by the factor e^2 at most.
+inline constexpr double longest_exponent = 2;
+inline constexpr int most_steps_a_segment = 1000000;
+inline constexpr double plane_bound = 1e6;  // of slip and velocity: beyond it a sample is not finite [m], [m/s]
+
+// What changes along a slip, and what it depends on. Directions: of the axes of friction.
+template <class Real>
+struct PlaneState {
+  Vector2<Real> u, w;
+  Real offset, length;  // time since the start of the segment, and to its end from there [s]
+  FloorAt<Real> floor;  // at the start of the segment
+  Real slip, path, acceleration;  // peaks, and the length of the path
+  Grip<Real> grip;
+  Real weight;                             // g' of a floor that does not shake vertically
+  Real over_speed, over_size, over_time;  // what errors are measured by: 1/(R p), 1/R, p
+  Real size;
+};
+inline constexpr int plane_numbers = sizeof(PlaneState<double>) / sizeof(double);
+
+struct OnePlane {
+  static double choose(bool which, double yes, double no) { return which ? yes : no; }
+  static bool any(bool which) { return which; }
+  static double sqrt(double x) { return std::sqrt(x); }
+  static double root(bool, double x, double degree) { return std::pow(x, 1 / degree); }
+  static double most(bool, const PlaneSeries& y, double h, double floor) { return max_of(y, h, floor); }
+};
+
+template <class Real, class Numbers, bool elliptic, bool shaken>
+struct PlaneStep {
+  static constexpr int N = plane_order;
+  using Mask = decltype(Real() < Real());
+
+  PlaneState<Real>& at;
+  const Real tolerance;
+  FloorAt<Real> floor{};
+  SlipSeries<Real> slip;
+  Real v{}, drive{}, hold{}, h{}, tau{};  // |q|, |A|, the larger F m_i; length of the step, in s and in time
+
+  PlaneStep(PlaneState<Real>& state, double tolerance) : at(state), tolerance(tolerance) {}
+
+  // The floor at this instant, and the speed.
+  [[gnu::always_inline]] void look() {
+    floor = at.floor.later(at.offset);
+    v = length(at.w);
+    drive = length(floor.a);
+    hold = at.grip.mu * abs(floor.g);
+    if constexpr (elliptic) hold = larger(Real(1.0), at.grip.ratio * at.grip.ratio) * hold;
+  }
+  Real left() const { return at.length - at.offset; }
+
+  // The slip goes on to the end of the segment beyond doubt: it does not end, follow the drive or lift off.
+  [[gnu::always_inline]] Mask regular() const {
+    const Real limit = left(), pushes = drive + hold, zero(0.0);
+    Mask is = (limit > zero) & (v > settles_in * drive * limit) & (v > Real(0.1) * tolerance / at.over_speed) &
+              (v * v > tolerance * at.size * pushes) &
+              (abs(at.u.x) + abs(at.u.y) + abs(at.w.x) + abs(at.w.y) < Real(plane_bound));
+    if constexpr (shaken) is = is & (floor.g > zero) & (floor.g + limit * floor.dg > zero);
+    return is;
+  }
+
+  // A step up to `limit`, or as far as the first term that its series leave out is within the tolerance. False: it went beyond, and is
+  // to be cut there.
+  [[gnu::always_inline]] Mask expand(const Real& limit) {
+    slip_series<elliptic, shaken>(floor, at.grip, at.weight, at.w, at.u, v, slip);
+    const Real rate = drive + hold, longest(longest_exponent);
+    const Real last = larger(larger(abs(slip.wx[N]) + abs(slip.wy[N]), abs(slip.v[N])) * at.over_speed,
+                             larger((abs(slip.ux[N]) + abs(slip.uy[N])) * at.over_size, abs(slip.t[N]) * at.over_time));
+    const Real missed = last * rate * Real(1.0 / (N + 1));  // the next term, in h^(N + 1)
+    Mask found;
+    const Real s = place(limit, rate, found);
+    const Real s2 = s * s, s4 = s2 * s2;
+    const Mask reaches = found & (missed * (s4 * s4 * s2 * s) <= tolerance) & (rate * s <= longest);
+    h = s;
+    tau = limit;
+    if (!Numbers::any(!reaches)) return reaches;
+    const Real reach = Numbers::root(!reaches, tolerance / missed, N + 1.0), full = longest / rate;
+    h = Numbers::choose(reaches, s, Numbers::choose(reach < full, reach, full));
+    tau = Numbers::choose(reaches, limit, slip.t.at(h));
+    return reaches | (tau < limit);
+  }
+
+  // To the end of the step, where `goes`; the peaks on the way.
+  [[gnu::always_inline]] void follow(const Mask& goes) {
+    see_acceleration(goes);
+    const Real path = slip.path.at(h);
+    const Mask far = goes & (Numbers::sqrt(at.u.x * at.u.x + at.u.y * at.u.y) + path > at.slip);
+    if (Numbers::any(far)) {
+      Series<Real, N> u2;
+      for (int k = 0; k <= N; ++k) u2[k] = detail::square(slip.ux, k) + detail::square(slip.uy, k);
+      const Real most = Numbers::most(far, u2, h, at.slip * at.slip);
+      at.slip = Numbers::choose(far, larger(at.slip, Numbers::sqrt(most)), at.slip);
+    }
+    at.path = Numbers::choose(goes, at.path + path, at.path);
+    at.w = {Numbers::choose(goes, slip.wx.at(h), at.w.x), Numbers::choose(goes, slip.wy.at(h), at.w.y)};
+    at.u = {Numbers::choose(goes, slip.ux.at(h), at.u.x), Numbers::choose(goes, slip.uy.at(h), at.u.y)};
+    at.offset = Numbers::choose(goes, at.offset + tau, at.offset);
+  }
+
+ private:
+  static Real abs(const Real& x) {
+    using std::abs;
+    return abs(x);
+  }
+  static Real larger(const Real& a, const Real& b) { return Numbers::choose(a < b, b, a); }
+  // Of a vector (x, r y).
+  Real length(const Vector2<Real>& p) const {
+    const Real y = elliptic ? at.grip.ratio * p.y : p.y;
+    return Numbers::sqrt(p.x * p.x + y * y);
+  }
+
+  // Where the series has gone for the time `limit`: Newton's rule, from the root of a parabola. found: it has, within a step.
+  [[gnu::always_inline]] Real place(const Real& limit, const Real& rate, Mask& found) const {
+    const Real zero(0.0), longest(longest_exponent), close = Real(1e-8) * limit;
+    const Real square = v * v + Real(2.0) * slip.v[1] * limit;
+    Real s = Real(2.0) * limit / (v + Numbers::sqrt(larger(square, zero)));
+    Mask sought = rate * limit < longest * v;
+    found = sought & (zero > zero);
+    for (int turn = 0; turn < 8 && Numbers::any(sought); ++turn) {
+      const Real missed = slip.t.at(s) - limit, speed = slip.v.at(s);
+      s = Numbers::choose(sought, s - missed / speed, s);
+      const Mask there = abs(missed) <= close;  // and Newton's rule squares what is missing
+      found = found | (sought & there);
+      sought = sought & !there & (speed > zero) & (s > zero) & (rate * s <= longest);
+    }
+    return s;
+  }
+
+  // At its ends, where friction is the same in all directions: there it is the root of a sum of squares of what is linear in time.
+  [[gnu::always_inline]] void see_acceleration(const Mask& goes) {
+    const Real before2 = at.acceleration * at.acceleration;
+    Real most = before2;
+    if constexpr (elliptic) {
+      const Mask loud = goes & (size_of_rest<0>(slip.felt2, h) > before2);
+      if (Numbers::any(loud)) most = Numbers::choose(loud, Numbers::most(loud, slip.felt2, h, before2), before2);
+    } else {
+      most = larger(most, felt2(floor));
+      if constexpr (shaken) most = larger(most, felt2(floor.later(tau)));
+    }
+    const Real peak = Numbers::choose(most > before2, Numbers::sqrt(most), at.acceleration);
+    at.acceleration = Numbers::choose(goes, larger(at.acceleration, peak), at.acceleration);
+  }
+  Real felt2(const FloorAt<Real>& f) const {
+    const Real rubs = at.grip.mu * f.g, lift = f.g - at.weight;
+    return rubs * rubs + lift * lift;
+  }
+};
+
+// The two or three channels of a record, segment by segment, along the axes of friction.
+class PlaneRoad {
+ public:
+  PlaneRoad() = default;
+  // axis: unit vector along which friction is mu. g: gravity [m/s2].
+  PlaneRoad(const Shaking& shaking, const PlaneVector& axis, double g)
+      : motion_(shaking.motion),
+        shaken_(shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty()),
+        scale_(shaking.scale),
+        vertical_scale_(shaking.vertical_scale),
+        stretch_(shaking.stretch),
+        g_(g),
+        axis_(axis) {}
+
+  bool shaken() const { return shaken_; }
+  bool over() const { return segment_ == motion_->segments(); }
+  double start() const { return start_; }
+  std::size_t segment() const { return segment_; }
+  void go_to(std::size_t segment) {
+    segment_ = segment;
+    start_ = motion_->knot_s[segment] * stretch_;
+  }
+  double length() const { return motion_->knot_s[segment_ + 1] * stretch_ - start_; }
+  // The floor at the start of the segment.
+  PlaneFloor floor() const {
+    if (over()) return {{0, 0}, {0, 0}, g_, 0};
+    const double *x = motion_->horizontal_mps2.data() + 2 * segment_, *y = motion_->cross_mps2.data() + 2 * segment_;
+    const double rate = scale_ / stretch_;
+    const PlaneVector back{axis_.x, -axis_.y};
+    PlaneFloor floor{turned_back({scale_ * x[0], scale_ * y[0]}, back), turned_back({rate * x[1], rate * y[1]}, back),
+                     g_, 0};
+    if (shaken_) {
+      const double* v = motion_->vertical_mps2.data() + 2 * segment_;
+      floor.g += vertical_scale_ * v[0];
+      floor.dg = vertical_scale_ / stretch_ * v[1];
+    }
+    return floor;
+  }
+  // Bounds of |a| and |v| over the run of segments that starts here; negative: none does.
+  double run_push() const {
+    if (segment_ % FloorMotion::run_length != 0) return -1;
+    const std::size_t run = segment_ / FloorMotion::run_length;
+    return std::abs(scale_) * std::hypot(motion_->horizontal_run_mps2[run], motion_->cross_run_mps2[run]);
+  }
+  double run_lift() const {
+    return shaken_ ? std::abs(vertical_scale_) * motion_->vertical_run_mps2[segment_ / FloorMotion::run_length] : 0;
+  }
+  void skip_run() {
+    const std::size_t end = segment_ + FloorMotion::run_length;
+    go_to(end < motion_->segments() ? end : motion_->segments());
+  }
+
+ private:
+  const FloorMotion* motion_ = nullptr;
+  bool shaken_ = false;
+  double scale_ = 1, vertical_scale_ = 0, stretch_ = 1, g_ = 0;
+  PlaneVector axis_;
+  std::size_t segment_ = 0;
+  double start_ = 0;
+};
+
+}  // namespace freestand::dynamics
