@@ -11,7 +11,7 @@
 #include "base/motion_table.hpp"
 #include "dynamics/bouc_wen_contact.hpp"
 #include "dynamics/law_rows.hpp"
-#include "dynamics/plane_rows.hpp"
+#include "dynamics/plane_march.hpp"
 #include "dynamics/speed_law.hpp"
 
 namespace freestand::dynamics {

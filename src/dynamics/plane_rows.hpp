@@ -1,6 +1,7 @@
 // Samples that slide in the plane in packs: a row for each number of PlaneState, a slot for each sample.
 #pragma once
 
+#include "dynamics/plane_march.hpp"
 #include "dynamics/plane_step.hpp"
 
 namespace freestand::dynamics {
@@ -19,8 +20,5 @@ struct PlaneRows {
   // The sample in that slot goes to its next segment. False: its motion is over.
   bool next_segment(int slot);
 };
-
-// Steps of all lanes while all of them are regular. Bit l: the next one of lane l is not, or its motion is over.
-using PlaneMarch = unsigned (*)(PlaneRows& rows);
 
 }  // namespace freestand::dynamics

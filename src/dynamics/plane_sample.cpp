@@ -8,7 +8,7 @@
 namespace freestand::dynamics {
 namespace {
 
-constexpr int N = plane_order;
+constexpr int N = plane_order, D = driven_order;
 // The floor may change by this share of F - A during what slip_end() computes with a floor that holds still.
 constexpr double still_enough = 0.1;
 
@@ -90,18 +90,21 @@ ZeroTolerance PlaneSample::grip_zero() const {
   return {0, 2 * force_zero_ * std::fmax(mu_s_ * floor_.g, force_zero_)};
 }
 
+// Where g' is steady, |a|^2 bends upwards between knots.
 void PlaneSample::pass_over_quiet() {
-  if (state_.offset != 0) return;
-  const std::size_t from = road_.segment();
-  const double peak2 = state_.acceleration * state_.acceleration;
-  while (!road_.over()) {
-    const double push = road_.run_push(), lift = push < 0 ? 0 : road_.run_lift();
-    if (push < 0 || !(push < mu_s_ * std::fmin(1.0, state_.grip.ratio) * (g_ - lift)) ||
-        !(push * push + lift * lift <= peak2))
-      break;
-    road_.skip_run();
+  const double r2 = state_.grip.ratio * state_.grip.ratio, hold2 = (1 - 1e-9) * mu_s_ * mu_s_ * g_ * g_;
+  const auto pull2 = [&](const PlaneFloor& f) { return f.a.x * f.a.x + f.a.y * f.a.y / r2; };
+  for (; !road_.over(); look()) {
+    if (state_.offset == 0 && road_.quiet_run(mu_s_ * std::fmin(1.0, state_.grip.ratio), state_.acceleration)) {
+      road_.skip_run();
+      enter_segment();
+    } else if (!shaken() && std::fmax(pull2(floor_), pull2(floor_.later(left_))) < hold2) {
+      observe_felt(left_);
+      next_segment();
+    } else {
+      return;
+    }
   }
-  if (road_.segment() != from) enter_segment();
 }
 
 void PlaneSample::rest() {
@@ -109,7 +112,6 @@ void PlaneSample::rest() {
   if (!history_.wanted()) {
     pass_over_quiet();
     if (road_.over()) return;
-    look();
   }
   double tau = left_, found = 0;
   const Series<double, 1> weight{{floor_.g, floor_.dg}};
@@ -127,6 +129,14 @@ void PlaneSample::rest() {
 }
 
 // Slip.
+
+template <class Use>
+auto PlaneSample::with_step(Use&& use) {
+  const double tolerance = settings_.tolerance;
+  if (elliptic())
+    return shaken() ? use(Step<true, true>(state_, tolerance)) : use(Step<true, false>(state_, tolerance));
+  return shaken() ? use(Step<false, true>(state_, tolerance)) : use(Step<false, false>(state_, tolerance));
+}
 
 void PlaneSample::slide() {
   if (++steps_ > most_steps_a_segment) return stop(Outcome::step_limit);
@@ -181,20 +191,16 @@ void PlaneSample::come_to_rest(double tau) {
 // A step in time of a slip that follows the drive.
 bool PlaneSample::follows_drive(double limit) {
   const Grip<double>& grip = state_.grip;
-  const PlaneVector q = grip.scaled(state_.w), drive = grip.scaled(floor_.a), changes = grip.scaled(floor_.da);
-  const double v = size(q), A = size(drive), tolerance = settings_.tolerance, speed = 1 / state_.over_speed;
-  if (v > settles_in * A * limit || !(limit > 0)) return false;
-  if (v > 0) {
-    // v theta', which is about v |A'|/A where it follows.
-    const double bend = grip.mu * floor_.g * (grip.ratio * grip.ratio - 1) * q.x * q.y / v;
-    const double turns = std::abs(drive.x * q.y - drive.y * q.x - bend) / v;
-    const double rate = size(changes) + grip.mu * std::abs(floor_.dg);
-    if (turns > 4 * (v * rate / A + A * std::sqrt(tolerance * speed / v))) return false;
-  }
+  const double v = size(grip.scaled(state_.w)), tolerance = settings_.tolerance, speed = 1 / state_.over_speed;
+  const bool may = limit > 0 && with_step([&](auto step) {
+                     step.look();
+                     return step.may_follow(limit);
+                   });
+  if (!may) return false;
   DrivenSlip driven;
   if (!driven_slip(floor_, grip, state_.w, state_.u, g_, force_zero_, limit, 1e-3 * tolerance * speed, driven))
     return false;
-  const double turned = std::abs(driven.turned);
+  const double turned = driven.turned;
   // The direction settles within about v/A, and takes along what it loses of the speed and of the place.
   if (v * turned * (turned + driven.bends) > tolerance * speed ||
       v * v * turned > tolerance * state_.size * driven.settles)
@@ -202,7 +208,9 @@ bool PlaneSample::follows_drive(double limit) {
   double h = cut(driven, limit);
   if (!(h > 0) || v > settles_in * driven.settles * h) return false;
   double found = 0;
-  const bool stops = first_root(driven.slip.v, h, ZeroTolerance{1, 0.0}, found);
+  Series<double, D> speeds;
+  std::copy_n(driven.slip.v.c, D + 1, speeds.c);
+  const bool stops = first_root(speeds, h, ZeroTolerance{1, 0.0}, found);
   if (stops && found == 0) {  // it does not start
     come_to_rest(std::fmin(h, instant_s_));
     return true;
@@ -227,20 +235,12 @@ double PlaneSample::cut(const DrivenSlip& driven, double limit) const {
   for (int turn = 0; turn < 20; ++turn) {
     const double fastest = std::abs(driven.slip.v[0]) + size_of_rest<1>(driven.slip.v, h);
     const double missed =
-        (std::abs(driven.slip.v[N]) * std::pow(h, N) + fastest * std::abs(driven.last_angle) * std::pow(h, N - 1)) *
+        (std::abs(driven.slip.v[D]) * h + fastest * std::abs(driven.last_angle)) * std::pow(h, D - 1) *
         state_.over_speed / settings_.tolerance;
     if (missed <= 1) return h;
-    h *= 0.95 * std::pow(missed, -1.0 / N);
+    h *= 0.95 * std::pow(missed, -1.0 / D);
   }
   return 0;
-}
-
-template <class Use>
-auto PlaneSample::with_step(Use&& use) {
-  const double tolerance = settings_.tolerance;
-  if (elliptic())
-    return shaken() ? use(Step<true, true>(state_, tolerance)) : use(Step<true, false>(state_, tolerance));
-  return shaken() ? use(Step<false, true>(state_, tolerance)) : use(Step<false, false>(state_, tolerance));
 }
 
 void PlaneSample::step_in_s(double limit) {
@@ -314,10 +314,10 @@ void PlaneSample::land() {
 // roots of sums of squares of what is linear in time, whose largest values are at the ends.
 
 void PlaneSample::observe_felt(double tau) {
-  double most = 0;
-  for (const PlaneFloor& f : {floor_, floor_.later(tau)})
-    most = std::fmax(most, dot(f.a, f.a) + (f.g - g_) * (f.g - g_));
-  state_.acceleration = std::fmax(state_.acceleration, std::sqrt(most));
+  const auto felt2 = [&](const PlaneFloor& f) { return dot(f.a, f.a) + (f.g - g_) * (f.g - g_); };
+  const double most = std::max(felt2(floor_), felt2(floor_.later(tau)));
+  if (most > state_.acceleration * state_.acceleration)
+    state_.acceleration = std::fmax(state_.acceleration, std::sqrt(most));
 }
 
 void PlaneSample::observe_friction(double tau) {

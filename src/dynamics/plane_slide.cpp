@@ -100,12 +100,8 @@ class PlanePool {
 
 bool PlaneRows::next_segment(int slot) {
   samples[slot]->next_segment();
-  const PlaneState<double>& now = samples[slot]->state();
-  const auto* from = reinterpret_cast<const double*>(&now);
-  const auto set = [&](const double& number) { numbers[&number - from][slot] = number; };
-  set(now.offset), set(now.length);
-  const auto* floor = reinterpret_cast<const double*>(&now.floor);
-  for (int k = 0; k < static_cast<int>(sizeof now.floor / sizeof *floor); ++k) set(floor[k]);
+  const auto* from = reinterpret_cast<const double*>(&samples[slot]->state());
+  for (int k = 0; k < numbers_of_segment; ++k) numbers[k][slot] = from[k];
   steps[slot] = 0;
   return !samples[slot]->motion_over();
 }

@@ -1,19 +1,19 @@
 #include "dynamics/plane_slip.hpp"
 
 #include <algorithm>
-
-#include "base/units.hpp"
-
 namespace freestand::dynamics {
 namespace {
 
-constexpr int N = plane_order;
+constexpr int N = driven_order;
 constexpr int angles = N - 1;  // terms of a series from rest are kept to those that theta's equation determines
+using DrivenSeries = Series<double, N>;
+constexpr double over[] = {0, 1, 1.0 / 2, 1.0 / 3, 1.0 / 4, 1.0 / 5, 1.0 / 6, 1.0 / 7};
+static_assert(sizeof over / sizeof over[0] == N + 1);
 
 PlaneVector along(const PlaneVector& axis, double x) { return {axis.x * x, axis.y * x}; }
 
 // Coefficient k of (y0 + y1 tau) x.
-double times_linear(double y0, double y1, const PlaneSeries& x, int k) {
+double times_linear(double y0, double y1, const DrivenSeries& x, int k) {
   return k == 0 ? y0 * x[0] : y0 * x[k] + y1 * x[k - 1];
 }
 
@@ -35,36 +35,36 @@ bool steady_rate(const PlaneVector& A, double F, double m, double& rate) {
 struct Follower {
   PlaneVector A, B;  // the drive, and its rate
   double F = 0, dF = 0, m = 1;
-  PlaneSeries v, theta, c, s, sc, ss;
-  double settles = 0;  // -dG/dtheta
+  DrivenSeries v, theta, c, s, sc, ss;  // cosine and sine of theta; theta_0 from the direction of the first pass
+  double settles = 0;                   // -dG/dtheta
 
   // One pass; `before`: theta of the pass before, for the term v_0 (k + 1) theta_(k+1). False: its direction does not follow.
-  bool pass(const PlaneSeries& before, double zero) {
+  bool pass(const DrivenSeries& before, double zero) {
     const double bend = m - 1;
     for (int turn = 0; v[0] > 0 && turn < 20; ++turn) {
-      const double sine = std::sin(theta[0]), cosine = std::cos(theta[0]);
-      const double missed = A.x * sine - A.y * cosine - F * bend * sine * cosine - v[0] * before[1];
-      const double slope = A.x * cosine + A.y * sine - F * bend * (cosine - sine) * (cosine + sine);
+      const double missed = A.x * s[0] - A.y * c[0] - F * bend * s[0] * c[0] - v[0] * before[1];
+      const double slope = A.x * c[0] + A.y * s[0] - F * bend * (c[0] - s[0]) * (c[0] + s[0]);
       const double step = missed / slope;
       if (!(std::abs(step) < 0.5)) return false;
       theta[0] -= step;
+      const double turned = 1 / std::sqrt(1 + step * step), cosine = c[0];
+      c[0] = (c[0] + step * s[0]) * turned;
+      s[0] = (s[0] - step * cosine) * turned;
       if (std::abs(step) < 1e-8) break;  // and Newton's rule squares what is missing
     }
-    c[0] = std::cos(theta[0]);
-    s[0] = std::sin(theta[0]);
     sc[0] = s[0] * c[0];
     ss[0] = s[0] * s[0];
     const double turned = (c[0] - s[0]) * (c[0] + s[0]);
     settles = -(A.x * c[0] + A.y * s[0] - F * bend * turned);
     v[1] = -(A.x * c[0] + A.y * s[0] + F * (1 + bend * ss[0]));
     if (v[0] == 0 && std::abs(v[1]) <= zero) v[1] = 0;
+    if (!(settles > 0) || !(angles * v[1] > -0.5 * settles)) return false;
     for (int k = 1; k <= angles; ++k) {
       const double held = k * v[1] + settles;
-      if (!(settles > 0) || !(held > 0.5 * settles)) return false;
       double sine = 0, cosine = 0;  // but for what theta_k adds
       for (int j = 1; j < k; ++j) sine += j * theta[j] * c[k - j], cosine -= j * theta[j] * s[k - j];
-      s[k] = sine / k;
-      c[k] = cosine / k;
+      s[k] = sine * over[k];
+      c[k] = cosine * over[k];
       double right = times_linear(A.x, B.x, s, k) - times_linear(A.y, B.y, c, k);
       if (bend != 0) {
         sc[k] = product(s, c, k);
@@ -81,7 +81,7 @@ struct Follower {
         ss[k] = product(s, s, k);
         rubs += bend * times_linear(F, dF, ss, k);
       }
-      v[k + 1] = -(times_linear(A.x, B.x, c, k) + times_linear(A.y, B.y, s, k) + rubs) / (k + 1);
+      v[k + 1] = -(times_linear(A.x, B.x, c, k) + times_linear(A.y, B.y, s, k) + rubs) * over[k + 1];
     }
     theta[N] = c[N] = s[N] = ss[N] = 0;
     return true;
@@ -90,7 +90,7 @@ struct Follower {
 
 // Pass by pass one more coefficient of theta is right, and those before it hardly change.
 bool settle(Follower& f, double zero, double h, double allowed) {
-  PlaneSeries before = PlaneSeries::zero();
+  DrivenSeries before = DrivenSeries::zero();
   for (int pass = 0; pass < N; ++pass) {
     if (!f.pass(before, zero)) return false;
     double change = 0;
@@ -99,6 +99,43 @@ bool settle(Follower& f, double zero, double h, double allowed) {
     before = f.theta;
   }
   return true;
+}
+
+// |w| = v (c^2 + s^2/r^2)^(1/2), and friction F (c, r s).
+void expand(const Follower& f, const EllipticGrip& grip, const PlaneFloor& floor, const PlaneVector& q,
+            const PlaneVector& u, double weight, DrivenSlip& found) {
+  SlipSeries<double>& y = found.slip;
+  for (PlaneSeries* x : {&y.v, &y.wx, &y.wy, &y.ux, &y.uy, &y.path, &y.t, &y.felt2}) *x = PlaneSeries::zero();
+  y.in_time = true;
+  y.t[1] = 1;
+  y.ux[0] = u.x, y.uy[0] = u.y;
+  DrivenSeries length = DrivenSeries::zero();
+  length[0] = 1;
+  if (f.m != 1) {
+    const double lift = floor.g - weight, F2[3] = {f.F * f.F, 2 * f.F * f.dF, f.dF * f.dF};
+    const double lift2[3] = {lift * lift, 2 * lift * floor.dg, floor.dg * floor.dg};
+    for (int k = 0; k <= N; ++k) {
+      double felt2 = k < 3 ? F2[k] + lift2[k] : 0.0, rest = (k == 0 ? 1 : 0) + (1 / f.m - 1) * f.ss[k];
+      for (int j = 0; j < 3 && j <= k; ++j) felt2 += (f.m - 1) * F2[j] * f.ss[k - j];
+      for (int j = 1; j < k; ++j) rest -= length[j] * length[k - j];
+      length[k] = k == 0 ? std::sqrt(rest) : 0.5 * rest / length[0];
+      y.felt2[k] = felt2;
+    }
+  }
+  for (int k = 0; k <= N; ++k) {
+    y.v[k] = f.v[k];
+    y.wx[k] = product(f.v, f.c, k);
+    y.wy[k] = product(f.v, f.s, k) / grip.ratio;
+    if (k == N) break;
+    y.ux[k + 1] = y.wx[k] * over[k + 1];
+    y.uy[k + 1] = y.wy[k] * over[k + 1];
+    y.path[k + 1] = (f.m != 1 ? product(f.v, length, k) : f.v[k]) * over[k + 1];
+  }
+  found.last_angle = f.theta[angles];
+  found.settles = f.settles;
+  found.bends = std::abs(f.F * (f.m - 1) * f.sc[0]) / f.settles;
+  const double ahead = f.c[0] * q.x + f.s[0] * q.y, aside = f.c[0] * q.y - f.s[0] * q.x;
+  found.turned = aside == 0 && ahead >= 0 ? 0.0 : ahead > 0 ? std::abs(aside) / ahead : 4.0;
 }
 
 }  // namespace
@@ -140,44 +177,13 @@ bool driven_slip(const PlaneFloor& floor, const EllipticGrip& grip, const PlaneV
   f.dF = grip.mu * floor.dg;
   double rate = 0;
   if (!(size(f.A) > 0) || !steady_rate(f.A, f.F, f.m, rate)) return false;
-  f.theta[0] = std::atan2(-f.A.y / (rate + f.m * f.F), -f.A.x / (rate + f.F));
+  const PlaneVector steady{-f.A.x / (rate + f.F), -f.A.y / (rate + f.m * f.F)};
+  f.theta[0] = 0;
+  f.c[0] = steady.x, f.s[0] = steady.y;
   f.v[0] = speed;
   if (!settle(f, zero, h, allowed)) return false;
-  SlipSeries<double>& y = found.slip;
-  y.in_time = true;
-  y.v = f.v;
-  y.t = PlaneSeries::zero();
-  y.t[1] = 1;
-  y.ux[0] = u.x, y.uy[0] = u.y;
-  y.path[0] = 0;
-  // |w| = v (c^2 + s^2/r^2)^(1/2), and friction F (c, r s).
-  PlaneSeries square, length, F2 = PlaneSeries::zero();
-  F2[0] = f.F * f.F, F2[1] = 2 * f.F * f.dF, F2[2] = f.dF * f.dF;
-  const double lift = floor.g - weight;
-  for (int k = 0; k <= N; ++k) {
-    y.wx[k] = product(f.v, f.c, k);
-    y.wy[k] = product(f.v, f.s, k) / r;
-    y.felt2[k] = F2[k] + (k == 0   ? lift * lift
-                          : k == 1 ? 2 * lift * floor.dg
-                          : k == 2 ? floor.dg * floor.dg
-                                   : 0.0);
-    length[k] = k == 0 ? 1 : 0;
-    if (f.m != 1) {
-      y.felt2[k] += (f.m - 1) * (F2[0] * f.ss[k] + (k > 0 ? F2[1] * f.ss[k - 1] : 0) + (k > 1 ? F2[2] * f.ss[k - 2] : 0));
-      double rest = square[k] = (k == 0 ? 1 : 0) + (1 / f.m - 1) * f.ss[k];
-      for (int j = 1; j < k; ++j) rest -= length[j] * length[k - j];
-      length[k] = k == 0 ? std::sqrt(rest) : 0.5 * rest / length[0];
-    }
-    if (k == N) break;
-    y.ux[k + 1] = y.wx[k] / (k + 1);
-    y.uy[k + 1] = y.wy[k] / (k + 1);
-    y.path[k + 1] = (f.m != 1 ? product(f.v, length, k) : f.v[k]) / (k + 1);
-  }
-  found.last_angle = f.theta[angles];
-  found.settles = f.settles;
-  found.bends = std::abs(f.F * (f.m - 1) * f.sc[0]) / f.settles;
-  found.turned = speed == 0 ? 0.0 : std::remainder(std::atan2(r * w.y, w.x) - f.theta[0], 2 * pi);
-  return true;
+  expand(f, grip, floor, w.x == 0 && w.y == 0 ? PlaneVector{} : grip.scaled(w), u, weight, found);
+  return found.turned < 1;
 }
 
 SlipSeries<double> free_slip(const PlaneFloor& floor, const PlaneVector& w, const PlaneVector& u) {

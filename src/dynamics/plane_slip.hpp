@@ -27,7 +27,8 @@
 
 namespace freestand::dynamics {
 
-inline constexpr int plane_order = 10;  // of series
+inline constexpr int plane_order = 10,  // of series in s
+    driven_order = 7;                   // and of those in time of slips that follow the drive
 
 template <class Real>
 struct Vector2 {
@@ -210,7 +211,7 @@ SlipEnd slip_end(const PlaneVector& a, double F, const PlaneVector& w);
 
 // Series in time of a slip whose direction follows the drive: from rest (w = 0, and A >= F, to within `zero`), or at a speed
 // that changes little while the direction settles. False: it does not follow, or not to within `allowed` of its velocity [m/s] for
-// the time h. `turned`: angle between q and the direction of the series [rad].
+// the time h. `turned`: angle between q and the direction of the series [rad], or more.
 struct DrivenSlip {
   SlipSeries<double> slip;
   double last_angle = 0;  // last coefficient of theta

@@ -21,9 +21,9 @@ inline constexpr double plane_bound = 1e6;  // of slip and velocity: beyond it a
 // What changes along a slip, and what it depends on. Directions: of the axes of friction.
 template <class Real>
 struct PlaneState {
-  Vector2<Real> u, w;
   Real offset, length;  // time since the start of the segment, and to its end from there [s]
   FloorAt<Real> floor;  // at the start of the segment
+  Vector2<Real> u, w;
   Real slip, path, acceleration;  // peaks, and the length of the path
   Grip<Real> grip;
   Real weight;                             // g' of a floor that does not shake vertically
@@ -31,6 +31,7 @@ struct PlaneState {
   Real size;
 };
 inline constexpr int plane_numbers = sizeof(PlaneState<double>) / sizeof(double);
+inline constexpr int numbers_of_segment = 2 + sizeof(PlaneFloor) / sizeof(double);  // the first ones
 
 struct OnePlane {
   static double choose(bool which, double yes, double no) { return which ? yes : no; }
@@ -66,29 +67,40 @@ struct PlaneStep {
   // The slip goes on to the end of the segment beyond doubt: it does not end, follow the drive or lift off.
   [[gnu::always_inline]] Mask regular() const {
     const Real limit = left(), pushes = drive + hold, zero(0.0);
-    Mask is = (limit > zero) & (v > settles_in * drive * limit) & (v > Real(0.1) * tolerance / at.over_speed) &
+    Mask is = (limit > zero) & !may_follow(limit) & (v > Real(0.1) * tolerance / at.over_speed) &
               (v * v > tolerance * at.size * pushes) &
               (abs(at.u.x) + abs(at.u.y) + abs(at.w.x) + abs(at.w.y) < Real(plane_bound));
     if constexpr (shaken) is = is & (floor.g > zero) & (floor.g + limit * floor.dg > zero);
     return is;
   }
 
-  // A step up to `limit`, or as far as the first term that its series leave out is within the tolerance. False: it went beyond, and is
-  // to be cut there.
+  // Whether it follows the drive is to be asked of driven_slip(). If so, theta' is about |A'|/A, and the angle that is missing small;
+  // nor does it slow down fast.
+  [[gnu::always_inline]] Mask may_follow(const Real& limit) const {
+    const Real F = at.grip.mu * floor.g, r = elliptic ? at.grip.ratio : Real(1.0), stiff = r * r - Real(1.0);
+    const Real least = elliptic ? smaller(F, r * r * F) : F, bend = F * stiff, qy = r * at.w.y;
+    const Real turns = abs((floor.a.x * qy - r * floor.a.y * at.w.x) * v - bend * at.w.x * qy) * drive;
+    const Real changes = length(floor.da) + at.grip.mu * abs(floor.dg);
+    const Real missing = drive * drive * Numbers::sqrt(tolerance * v / at.over_speed);
+    return (v <= settles_in * drive * limit) & (turns <= Real(4.0) * v * (v * v * changes + missing)) &
+           (Real(driven_order - 1.0) * (least - drive) < Real(0.5) * (drive + abs(bend)));
+  }
+
+  // A step up to `limit`, or as far as the last terms of its series are within the tolerance. False: it went beyond, and is to be cut
+  // there.
   [[gnu::always_inline]] Mask expand(const Real& limit) {
     slip_series<elliptic, shaken>(floor, at.grip, at.weight, at.w, at.u, v, slip);
     const Real rate = drive + hold, longest(longest_exponent);
     const Real last = larger(larger(abs(slip.wx[N]) + abs(slip.wy[N]), abs(slip.v[N])) * at.over_speed,
                              larger((abs(slip.ux[N]) + abs(slip.uy[N])) * at.over_size, abs(slip.t[N]) * at.over_time));
-    const Real missed = last * rate * Real(1.0 / (N + 1));  // the next term, in h^(N + 1)
     Mask found;
     const Real s = place(limit, rate, found);
     const Real s2 = s * s, s4 = s2 * s2;
-    const Mask reaches = found & (missed * (s4 * s4 * s2 * s) <= tolerance) & (rate * s <= longest);
+    const Mask reaches = found & (last * (s4 * s4 * s2) <= tolerance) & (rate * s <= longest);
     h = s;
     tau = limit;
     if (!Numbers::any(!reaches)) return reaches;
-    const Real reach = Numbers::root(!reaches, tolerance / missed, N + 1.0), full = longest / rate;
+    const Real reach = Numbers::root(!reaches, tolerance / last, N), full = longest / rate;
     h = Numbers::choose(reaches, s, Numbers::choose(reach < full, reach, full));
     tau = Numbers::choose(reaches, limit, slip.t.at(h));
     return reaches | (tau < limit);
@@ -117,6 +129,7 @@ struct PlaneStep {
     return abs(x);
   }
   static Real larger(const Real& a, const Real& b) { return Numbers::choose(a < b, b, a); }
+  static Real smaller(const Real& a, const Real& b) { return Numbers::choose(b < a, b, a); }
   // Of a vector (x, r y).
   Real length(const Vector2<Real>& p) const {
     const Real y = elliptic ? at.grip.ratio * p.y : p.y;
@@ -198,14 +211,14 @@ class PlaneRoad {
     }
     return floor;
   }
-  // Bounds of |a| and |v| over the run of segments that starts here; negative: none does.
-  double run_push() const {
-    if (segment_ % FloorMotion::run_length != 0) return -1;
+  // A run of segments starts here that holds a block at rest with friction mu, and in which it has no new peak of its acceleration.
+  bool quiet_run(double mu, double peak) const {
+    if (segment_ % FloorMotion::run_length != 0) return false;
     const std::size_t run = segment_ / FloorMotion::run_length;
-    return std::abs(scale_) * std::hypot(motion_->horizontal_run_mps2[run], motion_->cross_run_mps2[run]);
-  }
-  double run_lift() const {
-    return shaken_ ? std::abs(vertical_scale_) * motion_->vertical_run_mps2[segment_ / FloorMotion::run_length] : 0;
+    const double along = motion_->horizontal_run_mps2[run], across = motion_->cross_run_mps2[run];
+    const double push2 = scale_ * scale_ * (along * along + across * across);
+    const double lift = shaken_ ? std::abs(vertical_scale_) * motion_->vertical_run_mps2[run] : 0, held = mu * (g_ - lift);
+    return held > 0 && push2 < held * held && push2 + lift * lift <= peak * peak;
   }
   void skip_run() {
     const std::size_t end = segment_ + FloorMotion::run_length;

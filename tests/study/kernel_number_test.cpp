@@ -81,13 +81,20 @@ std::vector<std::string> studies() {
       block + friction +
       "model: slide\neffects: [{name: slack_tether, slack_m: 0.02, frequency_hz: 3, rate_per_s: 0}]\nmotions: "
       "[{pulse: rectangular, period_s: 0.7, peak_acceleration_g: {uniform: [-0.6, -0.2]}}]\n");
+  // In the plane of the floor: thrown up too, and under friction that differs between directions.
+  for (const char* friction_there : {"mu_k: {uniform: [0.1, 0.4]}, static_ratio: 1.2",
+                                     "mu: {uniform: [0.1, 0.4]}, ratio_across: 0.7, axis_rad: 0.3"})
+    for (const char* shaken : {"", "effects: [{name: vertical_shaking, scale: 6}]\n"})
+      texts.push_back(block + fmt::format("friction: {{{}}}\nmodel: slide\n{}", friction_there, shaken) +
+                      "motions: [{records: \"*.csv\", cross_records: \"across/*.csv\", scale_to: {pta_g: {uniform: [0.3, 1]}}}]\n");
   for (const char* design : {"monte_carlo", "latin_hypercube"})
     texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   return texts;
 }
 
-void write_records(const std::filesystem::path& folder) {
-  for (const int number : {1, 2}) {
+void write_records(const std::filesystem::path& folder, const std::vector<int>& numbers) {
+  std::filesystem::create_directories(folder);
+  for (const int number : numbers) {
     std::ofstream file(folder / fmt::format("record{}.csv", number));
     file << "time_s,floor_acceleration_mps2,floor_vertical_acceleration_mps2\n";
     // Triangular waves of growing length: no function of the mathematical library, whose last bits may differ.
@@ -120,7 +127,8 @@ std::uint64_t hash_of(const Evaluator& evaluator, std::uint64_t hash) {
 
 TEST(KernelNumber, IsThatOfTheNumbersThisProgramGives) {
   const freestand::test::Scratch scratch("kernel_number");
-  write_records(scratch.folder());
+  write_records(scratch.folder(), {1, 2});
+  write_records(scratch / "across", {3, 5});
   std::uint64_t hash = 0;
   for (const std::string& text : studies()) {
     const Study study = parse_study("seed: 3\nsamples: 12\nfragility: {im: pta_g, edp: [peak_slip_m]}\n" + text,

@@ -1,7 +1,7 @@
 // The steps of slips in the plane (pack/plane_march.hpp): [elliptic friction][the floor shakes vertically].
 #pragma once
 
-#include "dynamics/plane_rows.hpp"
+#include "dynamics/plane_march.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 

@@ -43,23 +43,24 @@ unsigned plane_march(PlaneRows& rows) {
     unsigned goes = bits(step.regular()) & here;
     for (int l = 0; l < count; ++l)
       if (rows.steps[l] >= most_steps_a_segment) goes &= ~(1U << l);
-    if (!goes) return apart | here;
     apart = here & ~goes;
+    if (apart) break;
     const Pack limit = step.left();
     goes &= bits(step.expand(limit));
     apart = here & ~goes;
     step.follow(lanes_of(goes));
-    for (int k = 0; k < plane_numbers; ++k) store(rows.numbers[k], numbers[k]);
     unsigned at_knot = bits(step.tau == limit) & goes;
     for (unsigned open = goes & ~at_knot; open; open &= open - 1) ++rows.steps[__builtin_ctz(open)];
     if (!at_knot) continue;
+    store(rows.numbers[0], at.offset);
     clear_upper_parts();
     for (; at_knot; at_knot &= at_knot - 1) {
       const int l = __builtin_ctz(at_knot);
       if (!rows.next_segment(l)) apart |= 1U << l;
     }
-    for (int k = 0; k < plane_numbers; ++k) numbers[k] = load(rows.numbers[k]);
+    for (int k = 0; k < numbers_of_segment; ++k) numbers[k] = load(rows.numbers[k]);
   }
+  for (int k = 0; k < plane_numbers; ++k) store(rows.numbers[k], numbers[k]);
   clear_upper_parts();
   return apart;
 }
