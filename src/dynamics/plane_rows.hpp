@@ -6,7 +6,7 @@
 
 namespace freestand::dynamics {
 
-inline constexpr int plane_slots = 8;  // lanes of the widest pack
+inline constexpr int plane_slots = 16;  // two of the widest packs
 
 class PlaneSample;
 

@@ -11,6 +11,8 @@ namespace {
 constexpr int N = plane_order, D = driven_order;
 // The floor may change by this share of F - A during what slip_end() computes with a floor that holds still.
 constexpr double still_enough = 0.1;
+// A slip that does not follow the drive is asked again after this share of the step.
+constexpr double ask_again = 0.2;
 
 PlaneVector axis_of(const Friction& friction) {
   if (friction.ratio_across == 1) return {1, 0};
@@ -57,7 +59,7 @@ void PlaneSample::look() {
 }
 
 void PlaneSample::enter_segment() {
-  state_.offset = 0;
+  state_.offset = state_.asks = 0;
   state_.floor = road_.floor();
   state_.length = road_.over() ? std::numeric_limits<double>::infinity() : road_.length();
   steps_ = 0;
@@ -145,7 +147,11 @@ void PlaneSample::slide() {
   const bool lifts = first_root(weight, limit, ZeroTolerance{0, force_zero_}, found);
   if (lifts && found == 0) return take_off();
   if (lifts) limit = found;
-  if (ends_within(limit) || follows_drive(limit)) return;
+  if (ends_within(limit)) return;
+  if (may_follow(limit)) {
+    if (follows_drive(limit)) return;
+    state_.asks = state_.offset + ask_again * limit;
+  }
   if (size(state_.w) == 0)
     return come_to_rest(std::fmin(limit, instant_s_));  // no floor acceleration gives a direction
   step_in_s(limit);
@@ -188,15 +194,17 @@ void PlaneSample::come_to_rest(double tau) {
   response_.events += slips;  // it starts again at once
 }
 
+bool PlaneSample::may_follow(double limit) {
+  return limit > 0 && with_step([&](auto step) {
+           step.look();
+           return step.may_follow(limit);
+         });
+}
+
 // A step in time of a slip that follows the drive.
 bool PlaneSample::follows_drive(double limit) {
   const Grip<double>& grip = state_.grip;
   const double v = size(grip.scaled(state_.w)), tolerance = settings_.tolerance, speed = 1 / state_.over_speed;
-  const bool may = limit > 0 && with_step([&](auto step) {
-                     step.look();
-                     return step.may_follow(limit);
-                   });
-  if (!may) return false;
   DrivenSlip driven;
   if (!driven_slip(floor_, grip, state_.w, state_.u, g_, force_zero_, limit, 1e-3 * tolerance * speed, driven))
     return false;

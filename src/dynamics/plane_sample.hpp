@@ -43,6 +43,7 @@ class PlaneSample {
   void slide();
   bool ends_within(double limit);
   void come_to_rest(double tau);
+  bool may_follow(double limit);
   bool follows_drive(double limit);
   double cut(const DrivenSlip&, double limit) const;
   template <bool is_elliptic, bool is_shaken>

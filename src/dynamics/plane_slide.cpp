@@ -22,12 +22,12 @@ bool sound(const Setup& setup, const Settings& settings) {
 class PlanePool {
  public:
   PlanePool(PlaneMarch march, int lanes, std::span<Response> responses, const Settings& settings)
-      : march_(march), pack_lanes_(lanes), responses_(responses), settings_(settings) {
+      : march_(march), most_lanes_(lanes), responses_(responses), settings_(settings) {
     rows_.tolerance = settings.tolerance;
   }
 
   void add(const Setup& setup, std::size_t sample) {
-    while (rows_.lanes == pack_lanes_) march();
+    while (rows_.lanes == most_lanes_) march();
     const int slot = rows_.lanes;
     lanes_[slot] = {sample, std::make_unique<PlaneSample>(setup, settings_, nullptr)};
     if (!walks_on(*lanes_[slot].sample)) return end(slot);
@@ -89,7 +89,7 @@ class PlanePool {
   }
 
   const PlaneMarch march_;
-  const int pack_lanes_;
+  const int most_lanes_;
   const std::span<Response> responses_;
   const Settings settings_;
   PlaneRows rows_;
@@ -141,7 +141,7 @@ void respond_in_plane(std::span<const Specimen> specimens, std::span<const Shaki
                shaken = setup.shaking.vertical_scale != 0 && !setup.shaking.motion->vertical_mps2.empty();
     std::unique_ptr<PlanePool>& pool = pools[elliptic][shaken];
     if (!pool)
-      pool = std::make_unique<PlanePool>(kernels->in_plane[elliptic][shaken], kernels->lanes, responses, settings);
+      pool = std::make_unique<PlanePool>(kernels->in_plane[elliptic][shaken], 2 * kernels->lanes, responses, settings);
     pool->add(setup, i);
   }
   for (auto& kind : pools)

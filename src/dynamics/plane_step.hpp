@@ -22,6 +22,7 @@ inline constexpr double plane_bound = 1e6;  // of slip and velocity: beyond it a
 template <class Real>
 struct PlaneState {
   Real offset, length;  // time since the start of the segment, and to its end from there [s]
+  Real asks;            // until when it is not asked again whether it follows the drive
   FloorAt<Real> floor;  // at the start of the segment
   Vector2<Real> u, w;
   Real slip, path, acceleration;  // peaks, and the length of the path
@@ -31,7 +32,7 @@ struct PlaneState {
   Real size;
 };
 inline constexpr int plane_numbers = sizeof(PlaneState<double>) / sizeof(double);
-inline constexpr int numbers_of_segment = 2 + sizeof(PlaneFloor) / sizeof(double);  // the first ones
+inline constexpr int numbers_of_segment = 3 + sizeof(PlaneFloor) / sizeof(double);  // the first ones
 
 struct OnePlane {
   static double choose(bool which, double yes, double no) { return which ? yes : no; }
@@ -75,15 +76,18 @@ struct PlaneStep {
   }
 
   // Whether it follows the drive is to be asked of driven_slip(). If so, theta' is about |A'|/A, and the angle that is missing small;
-  // nor does it slow down fast.
+  // nor does it slow down fast, which driven_slip() bounds by 0.5.
   [[gnu::always_inline]] Mask may_follow(const Real& limit) const {
-    const Real F = at.grip.mu * floor.g, r = elliptic ? at.grip.ratio : Real(1.0), stiff = r * r - Real(1.0);
-    const Real least = elliptic ? smaller(F, r * r * F) : F, bend = F * stiff, qy = r * at.w.y;
-    const Real turns = abs((floor.a.x * qy - r * floor.a.y * at.w.x) * v - bend * at.w.x * qy) * drive;
+    const Real F = at.grip.mu * floor.g, r = elliptic ? at.grip.ratio : Real(1.0), zero(0.0);
+    const Real bend = F * (r * r - Real(1.0)), qx = at.w.x, qy = r * at.w.y, Ay = r * floor.a.y;
+    const Real ahead = (floor.a.x * qx + Ay * qy) * v, aside = (floor.a.x * qy - Ay * qx) * v;
+    const Real turns = abs(aside - bend * qx * qy) * drive;
     const Real changes = length(floor.da) + at.grip.mu * abs(floor.dg);
     const Real missing = drive * drive * Numbers::sqrt(tolerance * v / at.over_speed);
-    return (v <= settles_in * drive * limit) & (turns <= Real(4.0) * v * (v * v * changes + missing)) &
-           (Real(driven_order - 1.0) * (least - drive) < Real(0.5) * (drive + abs(bend)));
+    const Real slows = ahead + F * v * v + bend * qy * qy, settles = bend * (qx * qx - qy * qy) - ahead;
+    return (v <= settles_in * drive * limit) & (at.offset >= at.asks) &
+           (turns <= Real(4.0) * v * (v * v * changes + missing)) &
+           ((v <= zero) | (Real(driven_order - 1.0) * slows < Real(0.75) * settles));
   }
 
   // A step up to `limit`, or as far as the last terms of its series are within the tolerance. False: it went beyond, and is to be cut
@@ -129,24 +133,30 @@ struct PlaneStep {
     return abs(x);
   }
   static Real larger(const Real& a, const Real& b) { return Numbers::choose(a < b, b, a); }
-  static Real smaller(const Real& a, const Real& b) { return Numbers::choose(b < a, b, a); }
   // Of a vector (x, r y).
   Real length(const Vector2<Real>& p) const {
     const Real y = elliptic ? at.grip.ratio * p.y : p.y;
     return Numbers::sqrt(p.x * p.x + y * y);
   }
 
-  // Where the series has gone for the time `limit`: Newton's rule, from the root of a parabola. found: it has, within a step.
+  // Where the series has gone for the time `limit`: Halley's rule, from the root of a parabola. found: it has, within a step.
   [[gnu::always_inline]] Real place(const Real& limit, const Real& rate, Mask& found) const {
-    const Real zero(0.0), longest(longest_exponent), close = Real(1e-8) * limit;
+    const Real zero(0.0), longest(longest_exponent), close = Real(1e-5) * limit;
     const Real square = v * v + Real(2.0) * slip.v[1] * limit;
     Real s = Real(2.0) * limit / (v + Numbers::sqrt(larger(square, zero)));
     Mask sought = rate * limit < longest * v;
     found = sought & (zero > zero);
     for (int turn = 0; turn < 8 && Numbers::any(sought); ++turn) {
-      const Real missed = slip.t.at(s) - limit, speed = slip.v.at(s);
-      s = Numbers::choose(sought, s - missed / speed, s);
-      const Mask there = abs(missed) <= close;  // and Newton's rule squares what is missing
+      Real time = slip.t[N], speed = zero, bend = zero;
+#pragma GCC unroll 16
+      for (int k = N - 1; k >= 0; --k) {
+        bend = bend * s + speed;
+        speed = speed * s + time;
+        time = time * s + slip.t[k];
+      }
+      const Real missed = time - limit;
+      s = Numbers::choose(sought, s - missed * speed / (speed * speed - missed * bend), s);
+      const Mask there = abs(missed) <= close;  // and Halley's rule leaves the third power of what is missing
       found = found | (sought & there);
       sought = sought & !there & (speed > zero) & (s > zero) & (rate * s <= longest);
     }

@@ -1,0 +1,50 @@
+// Two packs side by side, as one number: what the one waits for gives the other time.
+#pragma once
+
+#include "base/pack.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+inline constexpr int twin_lanes = 2 * pack_lanes;
+
+struct TwinMask {
+  PackMask a, b;
+
+  friend TwinMask operator&(const TwinMask& x, const TwinMask& y) { return {x.a & y.a, x.b & y.b}; }
+  friend TwinMask operator|(const TwinMask& x, const TwinMask& y) { return {x.a | y.a, x.b | y.b}; }
+  friend TwinMask operator!(const TwinMask& x) { return {!x.a, !x.b}; }
+};
+inline unsigned bits(const TwinMask& x) { return freestand::bits(x.a) | freestand::bits(x.b) << pack_lanes; }
+
+struct Twin {
+  Pack a, b;
+
+  Twin() = default;
+  Twin(double x) : a(x), b(x) {}
+  Twin(const Pack& first, const Pack& second) : a(first), b(second) {}
+
+  friend Twin operator+(const Twin& x, const Twin& y) { return {x.a + y.a, x.b + y.b}; }
+  friend Twin operator-(const Twin& x, const Twin& y) { return {x.a - y.a, x.b - y.b}; }
+  friend Twin operator*(const Twin& x, const Twin& y) { return {x.a * y.a, x.b * y.b}; }
+  friend Twin operator/(const Twin& x, const Twin& y) { return {x.a / y.a, x.b / y.b}; }
+  friend TwinMask operator<(const Twin& x, const Twin& y) { return {x.a < y.a, x.b < y.b}; }
+  friend TwinMask operator>(const Twin& x, const Twin& y) { return {x.a > y.a, x.b > y.b}; }
+  friend TwinMask operator<=(const Twin& x, const Twin& y) { return {x.a <= y.a, x.b <= y.b}; }
+  friend TwinMask operator>=(const Twin& x, const Twin& y) { return {x.a >= y.a, x.b >= y.b}; }
+  friend TwinMask operator==(const Twin& x, const Twin& y) { return {x.a == y.a, x.b == y.b}; }
+  friend Twin abs(const Twin& x) { return {xsimd::abs(x.a), xsimd::abs(x.b)}; }
+  friend Twin sqrt(const Twin& x) { return {xsimd::sqrt(x.a), xsimd::sqrt(x.b)}; }
+};
+
+inline Twin load_twin(const double* p) { return {load(p), load(p + pack_lanes)}; }
+inline void store(double* p, const Twin& x) {
+  freestand::store(p, x.a);
+  freestand::store(p + pack_lanes, x.b);
+}
+inline Twin choose(const TwinMask& mask, const Twin& yes, const Twin& no) {
+  return {freestand::choose(mask.a, yes.a, no.a), freestand::choose(mask.b, yes.b, no.b)};
+}
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
