@@ -150,7 +150,7 @@ void PlaneSample::slide() {
   if (ends_within(limit)) return;
   if (may_follow(limit)) {
     if (follows_drive(limit)) return;
-    state_.asks = state_.offset + ask_again * limit;
+    if (size(state_.w) > 0) state_.asks = state_.offset + ask_again * limit;
   }
   if (size(state_.w) == 0)
     return come_to_rest(std::fmin(limit, instant_s_));  // no floor acceleration gives a direction
@@ -163,17 +163,18 @@ bool PlaneSample::ends_within(double limit) {
   const Grip<double>& grip = state_.grip;
   const double v = size(w), tolerance = settings_.tolerance;
   if (v == 0) return false;
-  const double A = size(grip.scaled(floor_.a)), F = grip.mu * floor_.g, least = F * std::fmin(1.0, grip.ratio * grip.ratio);
-  if (v <= 0.1 * tolerance / state_.over_speed && slows(floor_, grip, w) > 0) {
+  const double F = grip.mu * floor_.g, slow = slows(floor_, grip, w);
+  if (v <= 0.1 * tolerance / state_.over_speed && slow > 0) {
     come_to_rest(0);
     return true;
   }
-  if (!(A < least)) return false;
-  // Where friction differs between directions it is over within |q|/(least - A), unseen.
-  const SlipEnd end = elliptic() ? SlipEnd{size(grip.scaled(w)) / (least - A), 0, {}} : slip_end(floor_.a, F, w);
-  const double changes = (size(grip.scaled(floor_.da)) + grip.mu * std::abs(floor_.dg)) * end.after_s;
-  const bool still =
-      v * end.after_s <= (elliptic() ? 0.01 : 1.0) * tolerance * state_.size && changes <= still_enough * (least - A);
+  const double m = grip.ratio * grip.ratio, A = size({floor_.a.x, floor_.a.y / grip.ratio});  // to be held by F
+  if (!(A < F) || !(slow > 0)) return false;
+  const double q = size(grip.scaled(w)), left = elliptic() ? slow / q : F - A;
+  const SlipEnd end = elliptic() ? SlipEnd{q / left, 0, {}} : slip_end(floor_.a, F, w);
+  const double changes = std::fmax(1.0, m) * (size(floor_.da) + grip.mu * std::abs(floor_.dg)) * end.after_s;
+  const double allowed = (elliptic() ? cut_off : 1.0) * tolerance * state_.size;
+  const bool still = q * end.after_s <= allowed && changes <= still_enough * left;
   if (!(still || (road_.over() && !elliptic())) || end.after_s > limit) return false;
   history_.end(floor_, state_.u, w, end.covers_m, time(), end.after_s);
   observe_friction(end.after_s);
@@ -214,7 +215,7 @@ bool PlaneSample::follows_drive(double limit) {
       v * v * turned > tolerance * state_.size * driven.settles)
     return false;
   double h = cut(driven, limit);
-  if (!(h > 0) || v > settles_in * driven.settles * h) return false;
+  if (!(h > 0)) return false;
   double found = 0;
   Series<double, D> speeds;
   std::copy_n(driven.slip.v.c, D + 1, speeds.c);

@@ -88,7 +88,7 @@ struct Follower {
   }
 };
 
-// Pass by pass one more coefficient of theta is right, and those before it hardly change.
+// Pass by pass theta changes less, while its direction settles fast against its changes. False: it does not.
 bool settle(Follower& f, double zero, double h, double allowed) {
   DrivenSeries before = DrivenSeries::zero();
   for (int pass = 0; pass < N; ++pass) {
@@ -98,7 +98,7 @@ bool settle(Follower& f, double zero, double h, double allowed) {
     if (f.v[0] * change <= allowed) return true;
     before = f.theta;
   }
-  return true;
+  return false;
 }
 
 // |w| = v (c^2 + s^2/r^2)^(1/2), and friction F (c, r s).

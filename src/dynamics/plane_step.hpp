@@ -10,9 +10,10 @@
 
 namespace freestand::dynamics {
 
-// A slip follows the drive where its direction settles, in the time |q|/A, this many times faster than the step lasts: then
-// the terms of its series that are left out, each N |q|/(A h) times the last, vanish.
-inline constexpr double settles_in = 0.25 / plane_order;
+// A slip is asked whether it follows the drive where its direction settles, in the time |q|/A, so much faster than the step lasts.
+inline constexpr double settles_in = 0.1;
+// Where friction differs between directions the end of a slip is not computed, but cut off: this share of what a step may miss.
+inline constexpr double cut_off = 0.01;
 // A step in s changes the speed by the factor e^2 at most.
 inline constexpr double longest_exponent = 2;
 inline constexpr int most_steps_a_segment = 1000000;
@@ -69,25 +70,27 @@ struct PlaneStep {
   [[gnu::always_inline]] Mask regular() const {
     const Real limit = left(), pushes = drive + hold, zero(0.0);
     Mask is = (limit > zero) & !may_follow(limit) & (v > Real(0.1) * tolerance / at.over_speed) &
-              (v * v > tolerance * at.size * pushes) &
+              (v * v > Real(elliptic ? cut_off : 1.0) * tolerance * at.size * pushes) &
               (abs(at.u.x) + abs(at.u.y) + abs(at.w.x) + abs(at.w.y) < Real(plane_bound));
     if constexpr (shaken) is = is & (floor.g > zero) & (floor.g + limit * floor.dg > zero);
     return is;
   }
 
-  // Whether it follows the drive is to be asked of driven_slip(). If so, theta' is about |A'|/A, and the angle that is missing small;
-  // nor does it slow down fast, which driven_slip() bounds by 0.5.
+  // Whether it follows the drive is to be asked of driven_slip(): nothing here says that it does not, or misses too much of its direction.
+  // To first order there theta' = G_t/(S + v'), S = -dG/dtheta.
   [[gnu::always_inline]] Mask may_follow(const Real& limit) const {
-    const Real F = at.grip.mu * floor.g, r = elliptic ? at.grip.ratio : Real(1.0), zero(0.0);
-    const Real bend = F * (r * r - Real(1.0)), qx = at.w.x, qy = r * at.w.y, Ay = r * floor.a.y;
-    const Real ahead = (floor.a.x * qx + Ay * qy) * v, aside = (floor.a.x * qy - Ay * qx) * v;
-    const Real turns = abs(aside - bend * qx * qy) * drive;
-    const Real changes = length(floor.da) + at.grip.mu * abs(floor.dg);
-    const Real missing = drive * drive * Numbers::sqrt(tolerance * v / at.over_speed);
-    const Real slows = ahead + F * v * v + bend * qy * qy, settles = bend * (qx * qx - qy * qy) - ahead;
+    const Real F = at.grip.mu * floor.g, r = elliptic ? at.grip.ratio : Real(1.0), zero(0.0), v2 = v * v;
+    const Real stiff = r * r - Real(1.0), bend = F * stiff, qx = at.w.x, qy = r * at.w.y, Ay = r * floor.a.y;
+    const Real ahead = (floor.a.x * qx + Ay * qy) * v, slows = ahead + F * v2 + bend * qy * qy;  // times v^2
+    const Real settles = bend * (qx * qx - qy * qy) - ahead;
+    const Real turns = (floor.a.x * qy - Ay * qx) * v - bend * qx * qy;
+    const Real changes = (floor.da.x * qy - r * floor.da.y * qx) * v - at.grip.mu * floor.dg * stiff * qx * qy;
+    const Real lag = v2 * v * changes / (settles - slows), rate = length(floor.da) + at.grip.mu * abs(floor.dg);
+    const Real lags = v * rate / (drive * drive);
+    const Real angle = smaller(Numbers::sqrt(tolerance / (v * at.over_speed)), tolerance * at.size * drive / v2);
     return (v <= settles_in * drive * limit) & (at.offset >= at.asks) &
-           (turns <= Real(4.0) * v * (v * v * changes + missing)) &
-           ((v <= zero) | (Real(driven_order - 1.0) * slows < Real(0.75) * settles));
+           ((v <= zero) | ((Real(driven_order - 1.0) * slows < Real(0.75) * settles) &
+                           (abs(turns - lag) <= Real(2.0) * v2 * drive * (angle + lags * lags))));
   }
 
   // A step up to `limit`, or as far as the last terms of its series are within the tolerance. False: it went beyond, and is to be cut
@@ -113,8 +116,10 @@ struct PlaneStep {
   // To the end of the step, where `goes`; the peaks on the way.
   [[gnu::always_inline]] void follow(const Mask& goes) {
     see_acceleration(goes);
-    const Real path = slip.path.at(h);
-    const Mask far = goes & (Numbers::sqrt(at.u.x * at.u.x + at.u.y * at.u.y) + path > at.slip);
+    const Real path = slip.path.at(h), x = slip.ux.at(h), y = slip.uy.at(h);
+    // No point of the way is farther than half of it beyond the mean of its ends.
+    const Real ends = Numbers::sqrt(at.u.x * at.u.x + at.u.y * at.u.y) + Numbers::sqrt(x * x + y * y);
+    const Mask far = goes & (Real(0.5) * (ends + path) > at.slip);
     if (Numbers::any(far)) {
       Series<Real, N> u2;
       for (int k = 0; k <= N; ++k) u2[k] = detail::square(slip.ux, k) + detail::square(slip.uy, k);
@@ -123,7 +128,7 @@ struct PlaneStep {
     }
     at.path = Numbers::choose(goes, at.path + path, at.path);
     at.w = {Numbers::choose(goes, slip.wx.at(h), at.w.x), Numbers::choose(goes, slip.wy.at(h), at.w.y)};
-    at.u = {Numbers::choose(goes, slip.ux.at(h), at.u.x), Numbers::choose(goes, slip.uy.at(h), at.u.y)};
+    at.u = {Numbers::choose(goes, x, at.u.x), Numbers::choose(goes, y, at.u.y)};
     at.offset = Numbers::choose(goes, at.offset + tau, at.offset);
   }
 
@@ -133,6 +138,7 @@ struct PlaneStep {
     return abs(x);
   }
   static Real larger(const Real& a, const Real& b) { return Numbers::choose(a < b, b, a); }
+  static Real smaller(const Real& a, const Real& b) { return Numbers::choose(b < a, b, a); }
   // Of a vector (x, r y).
   Real length(const Vector2<Real>& p) const {
     const Real y = elliptic ? at.grip.ratio * p.y : p.y;

@@ -121,7 +121,7 @@ TEST(PlaneSlide, CircularShaking) {
     const int turns = 30;
     double speed[2], diameter[2];
     for (const int finer : {0, 1}) {
-      const FloorMotion motion = circular(A, omega, turns, finer ? 1024 : 512);
+      const FloorMotion motion = circular(A, omega, turns, finer ? 2048 : 1024);
       History history;
       history.step_s = 2 * pi / omega / 64;
       const Response r = respond(sliding_block(mu, mu), shaking_of(motion), {.tolerance = 1e-12}, &history);
