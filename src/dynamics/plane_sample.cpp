@@ -164,7 +164,7 @@ bool PlaneSample::ends_within(double limit) {
   const double v = size(w), tolerance = settings_.tolerance;
   if (v == 0) return false;
   const double F = grip.mu * floor_.g, slow = slows(floor_, grip, w);
-  if (v <= 0.1 * tolerance / state_.over_speed && slow > 0) {
+  if (v * state_.over_speed <= 0.1 * tolerance && slow > 0) {
     come_to_rest(0);
     return true;
   }

@@ -58,7 +58,10 @@ struct PlaneStep {
 
   // The floor at this instant, and the speed.
   [[gnu::always_inline]] void look() {
-    floor = at.floor.later(at.offset);
+    floor.a.x = at.floor.a.x + at.offset * at.floor.da.x;
+    floor.a.y = at.floor.a.y + at.offset * at.floor.da.y;
+    floor.da.x = at.floor.da.x, floor.da.y = at.floor.da.y;
+    floor.g = at.floor.g + at.offset * at.floor.dg, floor.dg = at.floor.dg;
     v = length(at.w);
     drive = length(floor.a);
     hold = at.grip.mu * abs(floor.g);
@@ -69,7 +72,7 @@ struct PlaneStep {
   // The slip goes on to the end of the segment beyond doubt: it does not end, follow the drive or lift off.
   [[gnu::always_inline]] Mask regular() const {
     const Real limit = left(), pushes = drive + hold, zero(0.0);
-    Mask is = (limit > zero) & !may_follow(limit) & (v > Real(0.1) * tolerance / at.over_speed) &
+    Mask is = (limit > zero) & !may_follow(limit) & (v * at.over_speed > Real(0.1) * tolerance) &
               (v * v > Real(elliptic ? cut_off : 1.0) * tolerance * at.size * pushes) &
               (abs(at.u.x) + abs(at.u.y) + abs(at.w.x) + abs(at.w.y) < Real(plane_bound));
     if constexpr (shaken) is = is & (floor.g > zero) & (floor.g + limit * floor.dg > zero);
@@ -79,6 +82,8 @@ struct PlaneStep {
   // Whether it follows the drive is to be asked of driven_slip(): nothing here says that it does not, or misses too much of its direction.
   // To first order there theta' = G_t/(S + v'), S = -dG/dtheta.
   [[gnu::always_inline]] Mask may_follow(const Real& limit) const {
+    const Mask slow = (v <= settles_in * drive * limit) & (at.offset >= at.asks);
+    if (!Numbers::any(slow)) return slow;
     const Real F = at.grip.mu * floor.g, r = elliptic ? at.grip.ratio : Real(1.0), zero(0.0), v2 = v * v;
     const Real stiff = r * r - Real(1.0), bend = F * stiff, qx = at.w.x, qy = r * at.w.y, Ay = r * floor.a.y;
     const Real ahead = (floor.a.x * qx + Ay * qy) * v, slows = ahead + F * v2 + bend * qy * qy;  // times v^2
@@ -88,8 +93,7 @@ struct PlaneStep {
     const Real lag = v2 * v * changes / (settles - slows), rate = length(floor.da) + at.grip.mu * abs(floor.dg);
     const Real lags = v * rate / (drive * drive);
     const Real angle = smaller(Numbers::sqrt(tolerance / (v * at.over_speed)), tolerance * at.size * drive / v2);
-    return (v <= settles_in * drive * limit) & (at.offset >= at.asks) &
-           ((v <= zero) | ((Real(driven_order - 1.0) * slows < Real(0.75) * settles) &
+    return slow & ((v <= zero) | ((Real(driven_order - 1.0) * slows < Real(0.75) * settles) &
                            (abs(turns - lag) <= Real(2.0) * v2 * drive * (angle + lags * lags))));
   }
 
@@ -150,7 +154,7 @@ struct PlaneStep {
     const Real zero(0.0), longest(longest_exponent), close = Real(1e-5) * limit;
     const Real square = v * v + Real(2.0) * slip.v[1] * limit;
     Real s = Real(2.0) * limit / (v + Numbers::sqrt(larger(square, zero)));
-    Mask sought = rate * limit < longest * v;
+    Mask sought = rate * s <= longest;
     found = sought & (zero > zero);
     for (int turn = 0; turn < 8 && Numbers::any(sought); ++turn) {
       Real time = slip.t[N], speed = zero, bend = zero;

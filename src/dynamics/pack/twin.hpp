@@ -22,7 +22,14 @@ struct Twin {
 
   Twin() = default;
   Twin(double x) : a(x), b(x) {}
-  Twin(const Pack& first, const Pack& second) : a(first), b(second) {}
+  Twin(const Pack& first, const Pack& second) : a(first.data), b(second.data) {}
+  // Whole registers: left to itself the compiler copies halves, for which loads of the whole wait long.
+  Twin(const Twin& x) : a(x.a.data), b(x.b.data) {}
+  Twin& operator=(const Twin& x) {
+    a = Pack(x.a.data);
+    b = Pack(x.b.data);
+    return *this;
+  }
 
   friend Twin operator+(const Twin& x, const Twin& y) { return {x.a + y.a, x.b + y.b}; }
   friend Twin operator-(const Twin& x, const Twin& y) { return {x.a - y.a, x.b - y.b}; }
