@@ -14,7 +14,7 @@ struct PlaneRows {
   double tolerance = 0;
   int lanes = 0;
   alignas(64) double numbers[plane_numbers][plane_slots] = {};
-  int steps[plane_slots] = {};                // within the segment
+  int steps[plane_slots] = {};  // within the segment
   PlaneSample* samples[plane_slots] = {};
 
   // The sample in that slot goes to its next segment. False: its motion is over.

@@ -88,9 +88,7 @@ Series<double, 2> PlaneSample::grip() const {
            mu2 * f.dg * f.dg - f.da.x * f.da.x - f.da.y * f.da.y / r2}};
 }
 // Round-off of the grip, in the terms of the root search.
-ZeroTolerance PlaneSample::grip_zero() const {
-  return {0, 2 * force_zero_ * std::fmax(mu_s_ * floor_.g, force_zero_)};
-}
+ZeroTolerance PlaneSample::grip_zero() const { return {0, 2 * force_zero_ * std::fmax(mu_s_ * floor_.g, force_zero_)}; }
 
 // Where g' is steady, |a|^2 bends upwards between knots.
 void PlaneSample::pass_over_quiet() {
@@ -229,7 +227,8 @@ bool PlaneSample::follows_drive(double limit) {
   const double path = driven.slip.path.at(h);
   state_.path += path;
   if (size(state_.u) + path > state_.slip) observe_place(driven.slip, h);
-  if (elliptic()) state_.acceleration = std::sqrt(max_of(driven.slip.felt2, h, state_.acceleration * state_.acceleration));
+  if (elliptic())
+    state_.acceleration = std::sqrt(max_of(driven.slip.felt2, h, state_.acceleration * state_.acceleration));
   history_.along(driven.slip, floor_, time(), h, h, Mode::slide);
   state_.w = {driven.slip.wx.at(h), driven.slip.wy.at(h)};
   state_.u = {driven.slip.ux.at(h), driven.slip.uy.at(h)};
@@ -243,9 +242,8 @@ double PlaneSample::cut(const DrivenSlip& driven, double limit) const {
   double h = limit;
   for (int turn = 0; turn < 20; ++turn) {
     const double fastest = std::abs(driven.slip.v[0]) + size_of_rest<1>(driven.slip.v, h);
-    const double missed =
-        (std::abs(driven.slip.v[D]) * h + fastest * std::abs(driven.last_angle)) * std::pow(h, D - 1) *
-        state_.over_speed / settings_.tolerance;
+    const double missed = (std::abs(driven.slip.v[D]) * h + fastest * std::abs(driven.last_angle)) *
+                          std::pow(h, D - 1) * state_.over_speed / settings_.tolerance;
     if (missed <= 1) return h;
     h *= 0.95 * std::pow(missed, -1.0 / D);
   }

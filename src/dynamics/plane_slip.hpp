@@ -144,7 +144,7 @@ template <bool elliptic, bool shaken, class Real>
   const Real Ax = floor.a.x, Ay = r * floor.a.y, Bx = floor.da.x, By = r * floor.da.y;
   const Real F = grip.mu * floor.g, dF = grip.mu * floor.dg, m = r * r;
   detail::EllipticSeries<Real> ellipse(grip, v, w.y);
-  S t2, pull;                               // t^2; what t multiplies in dv/ds
+  S t2, pull;  // t^2; what t multiplies in dv/ds
   S &qx = y.wx, &qy = elliptic ? ellipse.qy : y.wy;
   y.v[0] = v;
   y.wx[0] = w.x, y.wy[0] = w.y;
@@ -216,7 +216,8 @@ struct DrivenSlip {
   SlipSeries<double> slip;
   double last_angle = 0;  // last coefficient of theta
   double settles = 0;     // the direction does in |q| over this [m/s2]
-  double bends = 0;  // what turning changes of v', over the angle and `settles`; none where friction is the same in all directions
+  double bends =
+      0;  // what turning changes of v', over the angle and `settles`; none where friction is the same in all directions
   double turned = 0;
 };
 bool driven_slip(const PlaneFloor& floor, const EllipticGrip& grip, const PlaneVector& w, const PlaneVector& u,

@@ -28,7 +28,7 @@ struct PlaneState {
   Vector2<Real> u, w;
   Real slip, path, acceleration;  // peaks, and the length of the path
   Grip<Real> grip;
-  Real weight;                             // g' of a floor that does not shake vertically
+  Real weight;                            // g' of a floor that does not shake vertically
   Real over_speed, over_size, over_time;  // what errors are measured by: 1/(R p), 1/R, p
   Real size;
 };
@@ -94,7 +94,7 @@ struct PlaneStep {
     const Real lags = v * rate / (drive * drive);
     const Real angle = smaller(Numbers::sqrt(tolerance / (v * at.over_speed)), tolerance * at.size * drive / v2);
     return slow & ((v <= zero) | ((Real(driven_order - 1.0) * slows < Real(0.75) * settles) &
-                           (abs(turns - lag) <= Real(2.0) * v2 * drive * (angle + lags * lags))));
+                                  (abs(turns - lag) <= Real(2.0) * v2 * drive * (angle + lags * lags))));
   }
 
   // A step up to `limit`, or as far as the last terms of its series are within the tolerance. False: it went beyond, and is to be cut
@@ -237,7 +237,8 @@ class PlaneRoad {
     const std::size_t run = segment_ / FloorMotion::run_length;
     const double along = motion_->horizontal_run_mps2[run], across = motion_->cross_run_mps2[run];
     const double push2 = scale_ * scale_ * (along * along + across * across);
-    const double lift = shaken_ ? std::abs(vertical_scale_) * motion_->vertical_run_mps2[run] : 0, held = mu * (g_ - lift);
+    const double lift = shaken_ ? std::abs(vertical_scale_) * motion_->vertical_run_mps2[run] : 0,
+                 held = mu * (g_ - lift);
     return held > 0 && push2 < held * held && push2 + lift * lift <= peak * peak;
   }
   void skip_run() {

@@ -1,12 +1,11 @@
 // Sliding in the plane under friction that differs between two directions: closed forms, turns, and the circle as its limit.
-#include "dynamics/plane_slip.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <freestand/simulate.hpp>
 
 #include "base/units.hpp"
+#include "dynamics/plane_slip.hpp"
 #include "support/floor_motions.hpp"
 #include "support/plane_motions.hpp"
 

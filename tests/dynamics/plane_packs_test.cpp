@@ -47,8 +47,8 @@ Samples random_samples(std::size_t count) {
       block.friction.axis_rad = random.uniform(-3, 3);
     }
     s.specimens.push_back(block);
-    s.shakings.push_back(
-        {&s.motions[number], random.uniform(-2, 2), random.uniform(0.5, 1.5), random.chance(0.7) ? c.vertical_scale() : 0});
+    s.shakings.push_back({&s.motions[number], random.uniform(-2, 2), random.uniform(0.5, 1.5),
+                          random.chance(0.7) ? c.vertical_scale() : 0});
   }
   return s;
 }
@@ -69,7 +69,8 @@ void expect_same(const Response& a, const Response& b, std::size_t sample) {
 
 std::vector<Response> one_by_one(const Samples& s, const Settings& settings) {
   std::vector<Response> alone;
-  for (std::size_t i = 0; i < s.specimens.size(); ++i) alone.push_back(respond(s.specimens[i], s.shakings[i], settings));
+  for (std::size_t i = 0; i < s.specimens.size(); ++i)
+    alone.push_back(respond(s.specimens[i], s.shakings[i], settings));
   return alone;
 }
 

@@ -85,8 +85,9 @@ std::vector<std::string> studies() {
   for (const char* friction_there : {"mu_k: {uniform: [0.1, 0.4]}, static_ratio: 1.2",
                                      "mu: {uniform: [0.1, 0.4]}, ratio_across: 0.7, axis_rad: 0.3"})
     for (const char* shaken : {"", "effects: [{name: vertical_shaking, scale: 6}]\n"})
-      texts.push_back(block + fmt::format("friction: {{{}}}\nmodel: slide\n{}", friction_there, shaken) +
-                      "motions: [{records: \"*.csv\", cross_records: \"across/*.csv\", scale_to: {pta_g: {uniform: [0.3, 1]}}}]\n");
+      texts.push_back(
+          block + fmt::format("friction: {{{}}}\nmodel: slide\n{}", friction_there, shaken) +
+          "motions: [{records: \"*.csv\", cross_records: \"across/*.csv\", scale_to: {pta_g: {uniform: [0.3, 1]}}}]\n");
   for (const char* design : {"monte_carlo", "latin_hypercube"})
     texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   return texts;
