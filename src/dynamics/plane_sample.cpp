@@ -186,6 +186,7 @@ bool PlaneSample::ends_within(double limit) {
 
 void PlaneSample::come_to_rest(double tau) {
   state_.w = {};
+  state_.asks = 0;
   advance(tau);
   look();
   const bool slips = sign_after(grip(), grip_zero()) < 0;

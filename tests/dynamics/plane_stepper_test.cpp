@@ -9,6 +9,8 @@
 #include <cstdlib>
 #include <freestand/simulate.hpp>
 #include <functional>
+#include <numeric>
+#include <vector>
 
 #include "base/units.hpp"
 #include "support/keyed_random.hpp"
@@ -31,7 +33,10 @@ double between(const std::vector<double>& samples, std::size_t i, double part) {
 // mu_k the block then has another speed by (mu_s - mu_k) g h. So the steps are halved twice before it is believed.
 void expect_agreement(const std::function<void(PlaneCase&, std::uint64_t)>& change) {
   int moved = 0, thrown = 0;
-  for (std::uint64_t i = 0; i < case_count(); ++i) {
+  std::vector<std::uint64_t> cases(case_count());
+  std::iota(cases.begin(), cases.end(), 0);
+  if (cases.size() < 135) cases.push_back(134);  // a slip that ends and begins again between two knots
+  for (const std::uint64_t i : cases) {
     PlaneCase c = plane_case(i);
     change(c, i);
     const Friction& friction = c.specimen.friction;
