@@ -28,14 +28,15 @@ TEST(SlackTether, CatchesABlockAsSpringAndDashpotDo) {
 // is, the more the answer is that of `wall_impact` with this share; what differs goes with the length of the contact.
 TEST(SlackTether, IsAWallThatGivesWay) {
   const double gap = 0.03, z = 0.25, back = std::exp(-z / std::sqrt(1 - z * z) * 2 * std::acos(z));
-  const FloorMotion push = staircase({0.3, 0.3, 0.2}, {-6, 5, -3});
+  const FloorMotion push = staircase({0.1, 1}, {-6, 0});
   const Response rigid = respond(sliding(0.2, {effect("wall_impact", {gap, back})}), {&push});
-  ASSERT_GT(rigid.wall_hits, 1);
+  ASSERT_EQ(rigid.wall_hits, 1);
   double before = 0;
-  for (const double f : {25.0, 50.0, 100.0, 200.0}) {
+  for (const double f : {100.0, 200.0, 400.0, 800.0}) {
     const Response r = respond(sliding(0.2, {effect("slack_tether", {gap, f, 4 * pi * f * z})}), {&push});
     const double differs = std::abs(r.residual_slip_m - rigid.residual_slip_m);
-    if (before > 0) EXPECT_NEAR(differs / before, 0.5, 0.15) << f;
+    // The next term goes with the square of the length, some 3 ms over the 0.1 s in which the block comes to rest, halved each time.
+    if (before > 0) EXPECT_NEAR(differs / before, 0.5, 0.01) << f;
     before = differs;
   }
   EXPECT_LT(before, 0.01 * std::abs(rigid.residual_slip_m));

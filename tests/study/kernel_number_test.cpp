@@ -81,6 +81,8 @@ std::vector<std::string> studies() {
       block + friction +
       "model: slide\neffects: [{name: slack_tether, slack_m: 0.02, frequency_hz: 3, rate_per_s: 0}]\nmotions: "
       "[{pulse: rectangular, period_s: 0.7, peak_acceleration_g: {uniform: [-0.6, -0.2]}}]\n");
+  for (const char* design : {"monte_carlo", "latin_hypercube"})
+    texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   // In the plane of the floor: thrown up too, and under friction that differs between directions.
   for (const char* friction_there : {"mu_k: {uniform: [0.1, 0.4]}, static_ratio: 1.2",
                                      "mu: {uniform: [0.1, 0.4]}, ratio_across: 0.7, axis_rad: 0.3"})
@@ -88,8 +90,6 @@ std::vector<std::string> studies() {
       texts.push_back(
           block + fmt::format("friction: {{{}}}\nmodel: slide\n{}", friction_there, shaken) +
           "motions: [{records: \"*.csv\", cross_records: \"across/*.csv\", scale_to: {pta_g: {uniform: [0.3, 1]}}}]\n");
-  for (const char* design : {"monte_carlo", "latin_hypercube"})
-    texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   return texts;
 }
 
