@@ -72,7 +72,7 @@ def _content(sweep, history, figures):
         "shared": [figure for figure in figures if figure is not hero and not figure["edp"] and figure["section"] not in ("risk", "sensitivity")],
         "fit": _fit_table(sweep, main) if main else None,
         "outcomes": _outcomes(sweep) if sweep else [], "computed": _computed(sweep) if sweep else None,
-        "draws": _draws(sweep) if sweep else [], "drawn_of": f", of the {words.count(sweep.kept)} samples kept" if sweep and sweep.kept < sweep.samples else "", "study": str(sweep.attributes.get("study", "")).strip() if sweep else "",
+        "draws": _draws(sweep) if sweep else [], "drawn_of": f", of the {words.count(sweep.kept)} samples{sweep.part}" if sweep and sweep.part else "", "study": str(sweep.attributes.get("study", "")).strip() if sweep else "",
         "accuracy": _accuracy(sweep), "effects": _effects(sweep), "warnings": _warnings(sweep), "provenance": _provenance(sweep) if sweep else [],
     }
 

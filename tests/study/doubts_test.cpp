@@ -196,6 +196,17 @@ TEST(Doubts, FrictionBelowZeroWhereABlockMayCome) {
   EXPECT_THAT(with("mu*(a - 2*path)"), ElementsAre(HasSubstr("at path = 1 m,")));
 }
 
+// Springs under the edges of a block of 0.6 by 1.8 m hold it upright from sqrt(g h)/(2 pi b) = 1.58 Hz on.
+TEST(Doubts, LegsThatDoNotHoldTheBlockUpright) {
+  const auto on_legs = [](const std::string& frequency) {
+    return parse(block + friction + motions + rest + "legs: {vertical_frequency_hz: " + frequency + "}\n");
+  };
+  EXPECT_THAT(doubts(on_legs("1.5")),
+              ElementsAre(HasSubstr("legs of less than 1.58 Hz do not hold this block upright")));
+  EXPECT_THAT(doubts(on_legs("{uniform: [1, 6]}")), ElementsAre(HasSubstr("goes down to 1.05")));
+  EXPECT_THAT(doubts(on_legs("{uniform: [1.6, 6]}")), IsEmpty());
+}
+
 // A wall stands behind every chain; where nobody says how far away it is, the block is told to touch it.
 TEST(Doubts, TheWallBehindAChain) {
   const auto chained = [](const std::string& more) {
