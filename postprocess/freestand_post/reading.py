@@ -2,6 +2,7 @@
 import csv
 import json
 import pathlib
+import re
 from dataclasses import dataclass, field
 
 import h5py
@@ -100,6 +101,11 @@ class Sweep:
     def kept(self):
         """Samples whose draws are known."""
         return self.outcome.size
+
+    @property
+    def model(self):
+        found = re.search(r"(?m)^model: *(\w+)", str(self.attributes.get("study", "")))
+        return found[1] if found else "slide_rock"
 
     @property
     def part(self):
