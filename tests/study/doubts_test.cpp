@@ -212,7 +212,8 @@ TEST(Doubts, TheWallBehindAChain) {
   const auto chained = [](const std::string& more) {
     return block + friction + motions + rest + "chain: {stiffness_npm: 1e4, strength_n: 2736" + more + "}\n";
   };
-  EXPECT_THAT(doubts(parse(chained(""))), ElementsAre(HasSubstr("chain.wall_gap_m is not given")));
+  EXPECT_THAT(doubts(parse(chained(""))),
+              ElementsAre(AllOf(HasSubstr("chain.wall_gap_m is not given"), HasSubstr("peak accelerations are 1 g"))));
   EXPECT_THAT(doubts(parse(chained(", wall_gap_m: 0.1"))), IsEmpty());
   const Study legs = parse(chained("") + "effects: [{name: flexible_legs, frequency_hz: 8}]\n");
   EXPECT_FALSE(legs.model.chain->wall_gap);
