@@ -81,6 +81,11 @@ std::vector<std::string> studies() {
       block + friction +
       "model: slide\neffects: [{name: slack_tether, slack_m: 0.02, frequency_hz: 3, rate_per_s: 0}]\nmotions: "
       "[{pulse: rectangular, period_s: 0.7, peak_acceleration_g: {uniform: [-0.6, -0.2]}}]\n");
+  // A row of hops that the floor's push keeps up.
+  texts.push_back(
+      "block: {width_m: 0.83, height_m: 1.5, mass_kg: 100}\nfriction: {mu_k: 0.51, static_ratio: 1.2}\n"
+      "impact: {law: coulomb}\neffects: [{name: offset_mass, eccentricity: -0.24}]\n"
+      "motions: [{records: \"record1.csv\", scale: 2.49}]\n");
   for (const char* design : {"monte_carlo", "latin_hypercube"})
     texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   return texts;
