@@ -36,7 +36,7 @@ bool outlasts_hops(int pivot, const double rate, const double w, Start&& start, 
   return goes_on();
 }
 
-// A hop that starts with `rate` and comes down after `time` turns the block by rate time/4. What ends as a row of hops is smaller than a
+// A hop that starts with `rate` and is over after `time` turns the block by rate time/4. What ends as a row of hops is smaller than a
 // tolerance under the pull of the weight alone, which slipping may take to a quarter. Where the floor's push takes nearly all of it, the
 // hop is no small one, and the floor decides what becomes of it.
 inline bool is_small_hop(double rate, double time, double rest_rotation) {
