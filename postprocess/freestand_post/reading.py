@@ -2,6 +2,7 @@
 import csv
 import json
 import pathlib
+import re
 from dataclasses import dataclass, field
 
 import h5py
@@ -100,6 +101,18 @@ class Sweep:
     def kept(self):
         """Samples whose draws are known."""
         return self.outcome.size
+
+    @property
+    def model(self):
+        found = re.search(r"(?m)^model: *(\w+)", str(self.attributes.get("study", "")))
+        return found[1] if found else "slide_rock"
+
+    @property
+    def part(self):
+        """Which samples those are, where they are not all."""
+        if self.kept >= self.samples:
+            return ""
+        return " before any was passed over" if "samples_alike" in self.attributes else " kept"
 
     def continuous(self):
         return [edp for edp in self.edps if edp.kind != "binary" and edp.capacity.size]
@@ -253,15 +266,15 @@ def _samples(path):
             if not skip and np.issubdtype(group[name].dtype, np.number):
                 draws[name] = _numbers(group, name)
         outcome = _numbers(group, "outcome").astype(int)
+        alike = int(root.attrs.get("samples_alike", outcome.size))  # of later ones only those of some intensities were integrated
         motions = [_text(item) for item in root["motions/name"][()]] if "motions/name" in root else []
         group = _numbers(root["motions"], "group") if "motions/group" in root else np.zeros(0)  # -1: pulses
         is_record = (group >= 0).astype(int)
         if "ground" in root["motions"]:
             is_record[_numbers(root["motions"], "ground") != np.arange(len(motions))] = 2
         amplification = _amplification(root["motions"]) if "ground" in root.get("motions", {}) else {}
-    integrated = outcome < len(OUTCOMES)  # the others were passed over
-    return ({name: values[integrated] for name, values in draws.items() if values.shape == outcome.shape}, outcome[integrated], motions,
-            is_record, amplification)
+    return ({name: values[:alike] for name, values in draws.items() if values.shape == outcome.shape}, outcome[:alike], motions, is_record,
+            amplification)
 
 
 def _amplification(group):

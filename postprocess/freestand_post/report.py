@@ -72,7 +72,7 @@ def _content(sweep, history, figures):
         "shared": [figure for figure in figures if figure is not hero and not figure["edp"] and figure["section"] not in ("risk", "sensitivity")],
         "fit": _fit_table(sweep, main) if main else None,
         "outcomes": _outcomes(sweep) if sweep else [], "computed": _computed(sweep) if sweep else None,
-        "draws": _draws(sweep) if sweep else [], "drawn_of": f", of the {words.count(sweep.kept)} samples kept" if sweep and sweep.kept < sweep.samples else "", "study": str(sweep.attributes.get("study", "")).strip() if sweep else "",
+        "draws": _draws(sweep) if sweep else [], "drawn_of": f", of the {words.count(sweep.kept)} samples{sweep.part}" if sweep and sweep.part else "", "study": str(sweep.attributes.get("study", "")).strip() if sweep else "",
         "accuracy": _accuracy(sweep), "effects": _effects(sweep), "warnings": _warnings(sweep), "provenance": _provenance(sweep) if sweep else [],
     }
 
@@ -171,7 +171,7 @@ def _computed(sweep):
     motions = f" under {kinds}" if kinds else ""
     one_motion = motions + (f", by one of the study's {words.plural(entries, 'entry').replace('entrys', 'entries')} of motions" if kinds and entries > 1 else "")
     over = f" over {words.listing(names)}" if names else ""
-    return (f"Each of {words.plural(sweep.samples, 'sample')} is one specimen{one_motion}: its slide-rock motion was integrated, its demand "
+    return (f"Each of {words.plural(sweep.samples, 'sample')} is one specimen{one_motion}: its {words.MOTIONS.get(sweep.model, sweep.model)} motion was integrated, its demand "
             f"measured, and the demands of all samples reduced to probabilities in {words.plural(sweep.centre.size, 'bin')} of "
             f"{sweep.im_symbol}. The sweep runs{over}." if names else
             f"{words.plural(sweep.samples, 'sample')}{motions}, in {words.plural(sweep.centre.size, 'bin')} of {sweep.im_symbol}.")
@@ -185,7 +185,8 @@ def _motions(sweep):
     if records:
         storeys = sorted({int(storey) for storey in sweep.draws.get("storey", [])})
         upstairs = "" if storeys in ([], [0]) else f" of the ground, on storey {words.listing([str(storey) for storey in storeys], 'or')} of a building"
-        found.append((f"one of {words.plural(len(records), 'record')}" if len(records) > 1 else "one record") + upstairs)
+        pairs = " in two horizontal directions" if "cross_records" in str(sweep.attributes.get("study", "")) else ""
+        found.append((f"one of {words.plural(len(records), 'record')}" if len(records) > 1 else "one record") + pairs + upstairs)
     if pulses:
         found.append(f"a pulse of {words.plural(len(pulses), 'kind')} ({', '.join(pulses)})" if len(pulses) > 1 else f"a pulse {pulses[0]}")
     return " or ".join(found)

@@ -57,7 +57,8 @@ DRAWS = {
     "motion": "motion",
 }
 UNIT_SUFFIXES = ("mps2", "radps", "mps", "rad", "kg", "g", "m", "s", "hz")
-UNITS = {"mps2": "m/s²", "radps": "rad/s", "mps": "m/s", "m/s2": "m/s²"}
+UNITS = {"mps2": "m/s²", "radps": "rad/s", "mps": "m/s", "m/s2": "m/s²", "hz": "Hz"}
+MOTIONS = {"slide": "sliding", "rock": "rocking", "slide_rock": "slide-rock", "bouc_wen": "sliding"}  # of a block, by the model
 OUTCOMES = {
     "at_rest": "stayed at rest",
     "moved": "moved and stood",

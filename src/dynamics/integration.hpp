@@ -12,6 +12,8 @@
 
 namespace freestand::dynamics {
 
+struct HopRow;
+
 // The model can start so.
 bool can_start(const Specimen&);
 // Sizes, friction, scales, effects and settings that can be integrated at all.
@@ -137,9 +139,10 @@ class Integration {
   void keep_contents_velocity(double speed_before);
   void stop_slip();
   bool strike_floor();
-  void feel_row_of_hops(State from);
+  bool feel_two_hops(State hop, HopRow& row);
   void feel_standing();
-  bool feel_hop(State& hop);
+  bool feel_hop(State& hop, HopRow& row);
+  void leave_row(double slip, double lasted);
   Rig::AtRest laws_at_rest() const;
   bool forces_have_values() const;
   bool strikes_too(double at_once) const;

@@ -74,7 +74,7 @@ class ReferenceIntegrator {
     double g[root_count];
     if (tau != seen_at_) roots(tau, y_.get(), g, this);
     const auto found = std::find_if(seen_.begin(), seen_.end(), [&](double x) { return x < -round_off_; });
-    return found == seen_.end() ? nullptr : &slots_[found - seen_.begin()];
+    return found == seen_.end() ? nullptr : &slots_[event_at(static_cast<int>(found - seen_.begin()))];
   }
 
   // To the next knot, output time or event.
@@ -146,17 +146,12 @@ class ReferenceIntegrator {
         restart(ark, tau, h);
         continue;
       }
-      if (slot < witness_slots) {
-        life_.cursor.advance(tau);
-        life_.resolve(slots_[slot]);
-        return false;
-      }
-      if (const Witness* passed = violated(tau)) {
-        if (tau - before > shortest_) {
-          end_before(from, before, path, tau - before);
+      if (const Witness* met = slot < witness_slots ? &slots_[slot] : violated(tau)) {
+        if (slot == witness_slots && tau - before > shortest_) {
+          end_before(from, before, path, tau - before);  // it was passed over
         } else {
           life_.cursor.advance(tau);
-          life_.resolve(*passed);
+          life_.resolve(*met);
         }
         return false;
       }
@@ -221,7 +216,7 @@ class ReferenceIntegrator {
   }
 
   // Newton's method on the witness, and halfway back from where the laws do not lead. Behind the end of a slip laws see a
-  // speed of zero: a kink there is that end.
+  // speed of zero, and no force on a corner that was let go: a kink there is that end.
   double locate(int& slot, const State& from, double before, double tau, double h) {
     constexpr int rounds = 8, halvings = 50;
     double g[root_count];
@@ -229,6 +224,7 @@ class ReferenceIntegrator {
       double next = 0.5 * (before + tau);
       if (integrate_again(from, before, tau)) {
         roots(tau, y_.get(), g, this);
+        slot = event_at(slot);
         if (slip_is_over_ && is_kink(slots_[slot]) && g[slot] == 0) slot = slot_of(Witness::slipping);
         const double newton = tau - g[slot] / rate_[slot];
         if (newton > before && newton <= h) next = newton;
@@ -247,6 +243,7 @@ class ReferenceIntegrator {
     return life_.state.sigma != 0 && speed <= loss * located * rig().instant_s;
   }
 
+  int event_at(int slot) const { return let_go_ && is_kink(slots_[slot]) ? slot_of(Witness::pressed) : slot; }
   int slot_of(Witness witness) const {
     return static_cast<int>(std::find(slots_, slots_ + witness_slots, witness) - slots_);
   }
@@ -331,11 +328,12 @@ class ReferenceIntegrator {
     const auto floor = me.floor_at(tau);
     std::fill(g, g + root_count, 1.0);
     int slot = 0;
-    me.slip_is_over_ = false;
+    me.slip_is_over_ = me.let_go_ = false;
     const auto fill = [&](Witness witness, const Series<double, 2>& series, ZeroTolerance) {
       const bool over_floor = witness == Witness::above_right || witness == Witness::above_left;
       me.slots_[slot] = witness;
       me.rate_[slot] = series[1];
+      if (witness == Witness::pressed) me.let_go_ = series[0] < me.rig().force_zero;
       g[slot++] = series[0] + (is_clearance(witness) ? me.off_wall_ : over_floor ? me.off_floor_ : 0);
     };
     const double time = me.life_.cursor.time() + tau;
@@ -378,10 +376,10 @@ class ReferenceIntegrator {
   Floor<double, judge_order> floor_{};
   Witness slots_[witness_slots]{};
   double rate_[witness_slots]{};
-  std::array<double, witness_slots> seen_{};  // witnesses at the point where they were last asked for
-  double seen_at_ = -1;                       // its time within the leg [s]
-  double slip_rate_ = 0;                      // there [m/s2]
-  bool slip_is_over_ = false;                 // there
+  std::array<double, witness_slots> seen_{};    // witnesses at the point where they were last asked for
+  double seen_at_ = -1;                         // its time within the leg [s]
+  double slip_rate_ = 0;                        // there [m/s2]
+  bool slip_is_over_ = false, let_go_ = false;  // there
   std::unique_ptr<_SUNContext, Delete> context_;
   std::unique_ptr<_generic_N_Vector, Delete> y_;
   Arkode stepper_, locator_;

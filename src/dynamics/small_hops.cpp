@@ -4,6 +4,7 @@
 // largest one. In the limit of small hops all that start on one corner are alike, so that two of them tell, one on either corner.
 #include "dynamics/impact.hpp"
 #include "dynamics/integration.hpp"
+#include "dynamics/row_of_hops.hpp"
 #include "dynamics/wall.hpp"
 
 namespace freestand::dynamics {
@@ -12,35 +13,57 @@ bool Integration::strike_floor() {
   const State from = state;
   if (!strike(rig, state, cursor.time(), cursor.local<1>())) return false;
   if (state.omega != 0 || within_reach_of_wall(rig, state, beside_wall(rig))) return true;
-  feel_row_of_hops(from);
-  if (slip_speed(rig, from) == 0 || slip_speed(rig, state) != 0) return true;
-  State stuck = from;  // its slip ends within the row
-  stand_still(rig, stuck);
-  feel_row_of_hops(stuck);
+  HopRow row{from.omega, from.w};
+  const auto two_hops = [&](HopRow& at) { return feel_two_hops(from, at); };
+  if (slip_speed(rig, from) == 0 || slip_speed(rig, state) != 0) {
+    two_hops(row);
+    return true;
+  }
+  const double after = slip_after_stops(row, two_hops);
+  if (after != 0) leave_row(after, row.lasts);
   return true;
 }
 
-// The corner of `hop` that is raised strikes.
-void Integration::feel_row_of_hops(State hop) {
-  constexpr int hops = 2;
-  for (int i = 0; i < hops; ++i)
-    if (!strike_and_hop(rig, hop, cursor.time()) || !feel_hop(hop)) return;
+// The block slides as it does when the row is over, and has done so since before it: nothing else tells of the time that it took.
+void Integration::leave_row(double slip, double lasted) {
+  State slid = state;
+  slid.mode = Mode::slide;
+  slid.sigma = slip > 0 ? 1 : -1;
+  slid.w = slid.foot = slip;
+  with_contact_arc<1>(rig, slid, cursor.time(), cursor.local<1>(),
+                      [&](const auto& arc) { slid.w -= lasted * arc.w[1]; });
+  if (slid.sigma * slid.w > 0) state.w = state.foot = slid.w;
+}
+
+// The corner of `hop` that is raised strikes. False: no two hops follow.
+bool Integration::feel_two_hops(State hop, HopRow& row) {
+  hop.omega = row.rate;
+  hop.w = row.slip;
+  for (int i = 0; i < 2; ++i)
+    if (!strike_and_hop(rig, hop, cursor.time()) || !feel_hop(hop, row)) return false;
+  row.rate = hop.omega;
+  row.slip = hop.w;
+  return true;
 }
 
 // False: it does not come down. Accelerations stay as they are until a slip ends or turns.
-bool Integration::feel_hop(State& hop) {
+bool Integration::feel_hop(State& hop, HopRow& row) {
   constexpr int pieces = 3;  // a slip ends, and turns
   for (int i = 0; i < pieces; ++i) {
+    row.stops = row.stops || slip_speed(rig, hop) == 0;
     if (!choose_mode(rig, cursor, hop) || hop.pivot == 0) return false;
     bool slips_on = true;
-    const bool comes_down = with_contact_arc<2>(rig, hop, cursor.time(), cursor.local<2>(), [&](const auto& arc) {
+    const bool goes_on = with_contact_arc<2>(rig, hop, cursor.time(), cursor.local<2>(), [&](const auto& arc) {
       peaks.observe(rig, hop, arc, 0);
       const double fall = fall_time(hop.pivot, arc.theta), stops = -slip_speed(arc)[0] / slip_speed(arc)[1];
       slips_on = hop.sigma == 0 || !(stops > 0 && stops < fall);
-      if (std::isfinite(fall)) go_to(rig, hop, arc, slips_on ? fall : stops);
-      return std::isfinite(fall);
+      const double time = slips_on ? fall : stops;
+      if (!is_small_hop(hop.omega, time, rig.rest_rotation)) return false;
+      go_to(rig, hop, arc, time);
+      row.lasts += time;
+      return true;
     });
-    if (slips_on) return comes_down;
+    if (slips_on || !goes_on) return goes_on;
     stand_still(rig, hop);
   }
   return false;

@@ -301,7 +301,7 @@ class OnSpringLegs {
     fallen.theta = at_.theta;
     fallen.mode = Mode::overturned;
     leave_out_fall(response, rig_.half_base(), rig_.offset(lower()), rig_.h, flown_);
-    recorder_.hold(fallen, response.residual_slip_m, shaking_.duration_s(), shaking_);
+    recorder_.hold(fallen, slip, shaking_.duration_s(), shaking_);
     return response;
   }
 

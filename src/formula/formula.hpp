@@ -6,7 +6,7 @@
 // Variables: u v theta omega t path normal side sigma speed (dynamics/tape.hpp says what they are and in which units),
 // mu (kinetic coefficient), g, pi, and the parameters of the effect, with or without their unit suffix.
 // Operators: + - * / ^ and comparisons < > (1 or 0).  Functions: exp log sqrt sin cos tanh abs min max step if.
-// step(x), and if(x, yes, no), ask whether x > 0. A law may leap, but not against the speed (study/leaping_laws.cpp).
+// step(x), and if(x, yes, no), ask whether x > 0. A law may leap, but not against the speed, nor where the block tips (study/leaping_laws.cpp).
 #pragma once
 
 #include <array>

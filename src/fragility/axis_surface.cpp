@@ -62,6 +62,8 @@ AxisSurface axis_surface(const Tally& tally, std::size_t edp, std::size_t axis) 
       result.lower[at * capacity + c] = band.lower;
       result.upper[at * capacity + c] = band.upper;
     }
+    nest(std::span(result.lower).subspan(at * capacity, capacity),
+         std::span(result.upper).subspan(at * capacity, capacity));
   }
   return result;
 }

@@ -89,15 +89,16 @@ double falling(const Result& result, const Place& place) {
 
 HalfWidth half_width(const Result& result, const Wanted& wanted) {
   HalfWidth width;
-  double most = -1, largest = 0.5;
+  double most = -1, largest = 0;
   for_each_place(
       result, wanted,
       [&](const Place& place) {
         ++(std::isnan(place.half) ? width.empty_points : width.points);
         const double half = std::isnan(place.half) ? 0.5 : place.half;
+        largest = std::max(largest, half);
         if (half / place.wanted <= most) return;
         most = half / place.wanted;
-        largest = half;
+        width.farthest = half;
         width.edp = place.edp->name;
         width.im = result.im[place.bin];
         width.capacity = place.edp->capacity[place.capacity];
@@ -111,6 +112,7 @@ HalfWidth half_width(const Result& result, const Wanted& wanted) {
 
 Outlook outlook(const Result& result, const Wanted& wanted) {
   Outlook found;
+  double most = 0;
   const double all = drawn(result, wanted);
   for_each_place(
       result, wanted,
@@ -122,7 +124,7 @@ Outlook outlook(const Result& result, const Wanted& wanted) {
         }
         const double falls = falling(result, place), stays = place.half * place.half - falls,
                      room = place.wanted * place.wanted - stays;
-        found.stays = std::max(found.stays, std::sqrt(stays));
+        if (std::sqrt(stays) > most * place.wanted) found.stays = std::sqrt(stays), most = found.stays / place.wanted;
         found.samples = std::max(found.samples, room > 0 ? all * falls / room : infinite);
       },
       [] {});

@@ -10,15 +10,16 @@
 
 namespace freestand::fragility {
 
-// (upper - lower)/2 of the point of the surfaces that is farthest from what is wanted of it, those over a second axis included: of all
-// points the largest where one half width is wanted of all. A point without a band (too few samples, or too few motions) in a bin or
+// (upper - lower)/2 of the points of the surfaces, those over a second axis included: the largest, and that of the point which is farthest
+// from what is wanted of it; the same where one half width is wanted of all. A point without a band (too few samples, or too few motions) in a bin or
 // cell that the sweep does reach counts as unknown, which is a half width of 0.5. Bins without a single sample are not wanted, nor are
 // cells of a second axis that would hold fewer than minimum_samples if as many samples were drawn as there may be. 0.5 too if
 // nothing has a band yet.
 struct HalfWidth {
   double largest = 0.5;
   double times_wanted = std::numeric_limits<double>::infinity();  // what is wanted is reached: at most 1
-  std::string edp;                                                // where that is
+  double farthest = 0.5;                                          // of the point where that is,
+  std::string edp;                                                // and where
   double im = unknown, capacity = unknown;
   std::string axis = {};  // of a surface over a second axis: its name, and the middle of the cell
   double on_axis = unknown;
@@ -49,7 +50,7 @@ HalfWidth half_width(const Result& result, const Wanted& wanted = {});
 //       + ((1 - over)(1 - never) phi(y))^2 (1 + y^2/2)/share that moved,   y = (ln C - lambda)/omega, Q = 1 - Phi(y).
 // A point without a band needs minimum_samples at least.
 struct Outlook {
-  double stays = 0;    // the largest over the wanted points
+  double stays = 0;    // of the wanted point for which that is most times what is wanted
   double samples = 0;  // to be drawn in all
 };
 Outlook outlook(const Result& result, const Wanted& wanted);

@@ -82,6 +82,11 @@ Point fitted_point(const Parts& parts, const BinFit& bin, double capacity, doubl
 
 }  // namespace
 
+void nest(std::span<double> lower, std::span<double> upper) {
+  for (std::size_t c = 1; c < upper.size(); ++c) upper[c] = std::fmin(upper[c], upper[c - 1]);
+  for (std::size_t c = lower.size(); c-- > 1;) lower[c - 1] = std::fmax(lower[c - 1], lower[c]);
+}
+
 Surface surface(const Tally& tally, std::size_t edp, const Resampling& resampling, std::vector<BinFit>& bins) {
   const Options& options = tally.options();
   const std::vector<double> capacity = capacities(options.edps[edp]);
@@ -128,6 +133,11 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
       put(totals, result.resampled);
       put(left_out, result.left_out);
     }
+    const auto of_bin = [&](std::vector<double>& all) {
+      return std::span(all).subspan(b * capacity.size(), capacity.size());
+    };
+    nest(of_bin(result.lower), of_bin(result.upper));
+    nest(of_bin(result.empirical_lower), of_bin(result.empirical_upper));
   }
   return result;
 }

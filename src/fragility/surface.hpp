@@ -1,6 +1,7 @@
 // Exceedance surfaces of one demand parameter, with bands from resampled motions.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "fragility/result.hpp"
@@ -25,5 +26,9 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
 
 // IM x axis x C, plain fractions.
 AxisSurface axis_surface(const Tally& tally, std::size_t edp, std::size_t axis);
+
+// Limits at capacities that increase: what exceeds one has exceeded those before, so that no upper limit lies above an earlier one and no
+// lower one below a later one. (The fewer records exceed, the less their own count says: one of 20 has a higher limit than two.)
+void nest(std::span<double> lower, std::span<double> upper);
 
 }  // namespace freestand::fragility

@@ -44,6 +44,10 @@ std::vector<AxisChoice> axis_choices(const ModelPart& model, const std::vector<M
     for (const auto& q : {b->yield_displacement, b->exponent, b->gamma, b->beta}) axes.push_back({q.name, varies(q)});
   for (const auto& effect : model.effects)
     for (const auto& parameter : effect.parameters) axes.push_back({parameter.name, varies(parameter)});
+  if (const auto& c = model.chain)
+    for (const auto& q : {std::optional(c->slack), std::optional(c->stiffness), std::optional(c->strength), c->height,
+                          c->number, c->plan_angle, c->elevation, c->damping, c->wall_gap})
+      if (q) axes.push_back({q->name, varies(q)});
   if (model.neighbour)
     for (const auto& q : model.neighbour->given()) axes.push_back({q.name, varies(q)});
   if (model.legs)

@@ -169,6 +169,25 @@ void ask_of_polarity(const MotionSource& source, const std::string& what, bool o
       key + value + (source.scale_to ? "}" : "")));
 }
 
+// Legs turn a block back by m W^2 b^2 theta, W = 2 pi f, and its weight tips it by m g h theta; of the usual block, and the softest legs
+// but for one in a hundred.
+void ask_of_legs(const ModelPart& model, Doubter& doubter) {
+  if (!model.legs) return;
+  const BlockPart& block = model.block;
+  const double angle = block.slenderness ? usual(*block.slenderness) : 0, size = block.size ? usual(*block.size) : 0;
+  const double b = block.width ? usual(*block.width) / 2 : size * std::sin(angle),
+               h = block.centre_height ? usual(*block.centre_height)
+                   : block.height      ? usual(*block.height) / 2
+                                       : size * std::cos(angle);
+  const double least_hz = std::sqrt(standard_gravity_mps2 * h) / (2 * M_PI * b),
+               softest_hz = quantile(model.legs->frequency.value, 0.01);
+  if (!(softest_hz < least_hz)) return;
+  doubter.said.push_back(
+      fmt::format("legs of less than {:.3g} Hz do not hold this block upright, and it falls without being shaken; "
+                  "legs.vertical_frequency_hz goes down to {:.3g}: are they so soft?",
+                  least_hz, softest_hz));
+}
+
 std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) {
   Doubter doubter;
   const BlockPart& block = study.model.block;
@@ -185,10 +204,13 @@ std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) 
   for (const DamagePart& state : study.fragility.damage)
     for (const Quantity& quantity : state.parameters) doubter.ask_spread(quantity);
   for (const MotionSource& source : study.motions) ask_of_polarity(source, one_sided(study), one_sample, doubter);
+  ask_of_legs(study.model, doubter);
   const auto& chain = study.model.chain;
   if (chain && chain->wall_gap && chain->wall_gap->line == 0)
     doubter.said.push_back(
-        "chain.wall_gap_m is not given: the wall behind is taken to touch the block (0): say how far away it is");
+        "chain.wall_gap_m is not given: the wall behind is taken to touch the block (0), and whenever the block falls "
+        "back to it the wall stops its upper edge and throws it up a little: peak accelerations are 1 g, those in the "
+        "air: say how far away it is");
   return std::move(doubter.said);
 }
 

@@ -86,12 +86,20 @@ std::optional<parallel::Words> counted_words(const parallel::Communicator& world
   return words;
 }
 
-// How many of the first samples the fit of this study is of: of a sweep that passed samples over for the intensity of its `until`, those
-// before them where the fit is over another one.
+// Does each of these bins lie within one that the sweep had? Laid by the same rule they are the same; given ones have all its edges.
+bool lie_within(const BinsPart& bins, const BinsPart& swept) {
+  if (bins.edges.empty() || swept.edges.empty())
+    return bins.edges == swept.edges && bins.width == swept.width && bins.count == swept.count &&
+           bins.spacing == swept.spacing;
+  return std::includes(bins.edges.begin(), bins.edges.end(), swept.edges.begin(), swept.edges.end());
+}
+
+// How many of the first samples the fit of this study is of: of a sweep that passed samples over for the intensity and the bins of its
+// `until`, those before them where the fit is over another intensity, or where a bin joins what was taken differently.
 std::int64_t rows_for(const Study& study, const io::SampleReader& reader) {
-  const IntensityPart swept = parse_stored(reader.provenance().study, "samples.h5").fragility.im,
-                      &im = study.fragility.im;
-  return im.name == swept.name && im.period_s == swept.period_s ? reader.rows() : rows_alike(reader);
+  const FragilityPart swept = parse_stored(reader.provenance().study, "samples.h5").fragility, &now = study.fragility;
+  const bool same = now.im.name == swept.im.name && now.im.period_s == swept.im.period_s;
+  return same && lie_within(now.bins, swept.bins) ? reader.rows() : rows_alike(reader);
 }
 
 io::Provenance provenance_of(const io::SampleReader& reader, const Study& study, const FitOptions& options, int ranks) {

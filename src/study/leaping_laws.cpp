@@ -1,6 +1,7 @@
 // Laws that leap against the speed. A force that falls by a leap where the block becomes faster, or friction that rises, holds the
 // block at that speed: neither side of the leap lets it go on. So friction holds a block that stands, and of no other such law do the
-// equations know. It is asked for before the first sample, with the parameters of a formula within their ranges.
+// equations know. Nor do they of a force that leaps where a block tips, or of friction that falls there: the block that stands may have to
+// tip, and once it has may have to stand. Both are asked for before the first sample, with the parameters of a formula within their ranges.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,11 +35,11 @@ Specimen under(const EffectPart& part, double quantile) {
   return specimen;
 }
 
-class LawAlongSpeed {
+class LawAlong {
  public:
-  LawAlongSpeed(const EffectPart& part, double quantile) : laws_(under(part, quantile)) {}
+  LawAlong(const EffectPart& part, double quantile) : laws_(under(part, quantile)) {}
 
-  // `which`: v or omega.
+  // `which`: v, omega, or theta, in which a block tips.
   void stand(const Place& at, Coordinate which) { place_ = at, which_ = which; }
   double force(double x) { return laws_.force < 0 ? 0 : evaluated(x)[laws_.force][0]; }
   double friction(double x) { return laws_.friction < 0 ? 0 : evaluated(x)[laws_.friction][0]; }
@@ -60,6 +61,7 @@ class LawAlongSpeed {
     at[path] = std::max(at[path], std::abs(at[u]));
     at[speed] = std::abs(at[v]);
     if (at[v] != 0) at[sigma] = at[v] < 0 ? -1 : 1;
+    if (which_ == theta && x != 0) at[omega] = x, at[side] = x < 0 ? -1 : 1;
     for (auto& value : values_) value[0] = 0;
     for (std::size_t i = 0; i < at.size(); ++i) values_[i][0] = at[i];
     laws_.sides_at(values_, 0);
@@ -120,7 +122,7 @@ std::string said_of_friction(const std::string& name, const Leap& leap) {
       name, leap.below, leap.above, std::abs(leap.at));
 }
 
-std::string said_of(LawAlongSpeed& law, const std::string& name, Coordinate which) {
+std::string said_of(LawAlong& law, const std::string& name, Coordinate which) {
   const auto force = [&](double x) { return law.force(x); };
   const auto friction = [&](double x) { return law.friction(x); };
   const Leap at_zero{0, force(-next_to_zero), force(next_to_zero)};
@@ -147,17 +149,41 @@ std::string said_of(LawAlongSpeed& law, const std::string& name, Coordinate whic
   return "";
 }
 
+// Of a block that stands where the law is now.
+std::string said_of_tipping(LawAlong& law, const std::string& name) {
+  for (const int way : {1, -1}) {
+    if (const Leap leap{0, law.force(0), law.force(way * next_to_zero)}; leap.falls() || leap.rises())
+      return fmt::format(
+          "force of effect {} leaps from {:.4g} to {:.4g} m/s2 where the block tips (it could then neither stand nor "
+          "tip): "
+          "let it grow with theta, as min(abs(theta)/0.001, 1) does",
+          name, leap.below, leap.above);
+    if (const Leap leap{0, law.friction(0), law.friction(way * next_to_zero)}; leap.falls())
+      return fmt::format(
+          "friction of effect {} leaps from {:.4g} to {:.4g} times mu where the block tips (it could then neither "
+          "stand "
+          "nor tip): let it fall over a range of theta, as min(abs(theta)/0.001, 1) grows over one",
+          name, leap.below, leap.above);
+  }
+  return "";
+}
+
 }  // namespace
 
-std::string leap_against_speed(const EffectPart& part) {
+std::string leap_that_holds(const EffectPart& part) {
   for (const double quantile : {0.5, 0.05, 0.95, 0.3}) {
-    LawAlongSpeed law(part, quantile);
+    LawAlong law(part, quantile);
     for (const Place& at : places())
       for (const Coordinate which : {v, omega}) {
         if (at[v] != 0 && which == v) continue;  // gone through anyway
         law.stand(at, which);
         if (std::string said = said_of(law, part.name, which); !said.empty()) return said;
       }
+    for (const Place& at : places()) {
+      if (at[theta] != 0) continue;
+      law.stand(at, theta);
+      if (std::string said = said_of_tipping(law, part.name); !said.empty()) return said;
+    }
   }
   return "";
 }

@@ -134,7 +134,7 @@ EffectPart read_formula(Section& section, const std::string& name) {
   if (part.effect) {
     check_used(section, part, names);
     check_values(section, part, names);
-    if (const std::string leap = leap_against_speed(part); !leap.empty()) section.problem("name", leap);
+    if (const std::string leap = leap_that_holds(part); !leap.empty()) section.problem("name", leap);
   }
   return part;
 }

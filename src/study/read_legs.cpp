@@ -28,6 +28,9 @@ std::optional<LegsPart> read_legs(Section& file, const ModelPart& model) {
     refuse("on legs that give way it sways, slips and rocks", "set model: slide_rock, or remove legs");
   else if (const std::string why = dynamics::refusal_on_spring_legs(kind_of(model)); !why.empty())
     refuse(why, "remove the effect, or legs");
+  const auto& factor = model.impact.factor.value;
+  if (model.impact.law != ImpactLaw::housner || !is_fixed(factor) || quantile(factor, 0.5) != 1)
+    refuse("impact is of blows, which legs that give way soften", "remove impact, or legs");
   if (model.chain) refuse("a chain is of a block on rigid edges", "remove one of them");
   if (model.start.any()) refuse("on them a block begins at rest where it stands", "remove start, or legs");
   return legs;

@@ -21,8 +21,8 @@ Specimen kind_of(const ModelPart&);
 // What is said where the laws of effects and chain do not find room together; "" where they do.
 std::string no_room_for(const std::vector<EffectPart>&, const std::optional<ChainPart>&);
 
-// What is said where a formula leaps against the speed, and would hold the block at it; "" where it does not.
-std::string leap_against_speed(const EffectPart& formula);
+// What is said where a formula leaps against the speed, or where the block tips, and would hold it there; "" where it does not.
+std::string leap_that_holds(const EffectPart& formula);
 
 // Entries of `motions`; globs start at `folder`. vertical: the model feels vertical components, so that tables of records
 // are searched for them.

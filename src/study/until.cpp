@@ -8,9 +8,15 @@ namespace freestand::study {
 namespace {
 
 std::string place_of(const fragility::HalfWidth& width) {
-  if (width.edp.empty()) return "";
   const std::string axis = width.axis.empty() ? "" : fmt::format(" and {} of {:.3g}", width.axis, width.on_axis);
-  return fmt::format(", {} at an intensity of {:.3g}{} the least", width.edp, width.im, axis);
+  return fmt::format("{} at an intensity of {:.3g}{}", width.edp, width.im, axis);
+}
+
+// Where errors are relative the widest band may be wide enough, and a narrower one not.
+std::string farthest_told(const Study& study, const fragility::HalfWidth& width) {
+  if (!study.until->relative_error || width.edp.empty()) return "";
+  return fmt::format(", and where most is missing ({}) to +-{:.3g}, which is {:.2g} times what is wanted",
+                     place_of(width), width.farthest, width.times_wanted);
 }
 
 // "+-0.020", "20 % of P down to 0.001", or both.
@@ -28,8 +34,9 @@ std::string helps(const Study& study, const fragility::Outlook& outlook) {
     return fmt::format(
         "it would stay at +-{:.2g} however many samples are made of these records: take more records, or wider bins",
         outlook.stays);
-  return fmt::format("some {:.2g} samples are needed: raise at_most from {}, or take wider bins", outlook.samples,
-                     study.until->at_most);
+  const std::string needed = fmt::format("some {:.2g} samples are needed", outlook.samples);
+  if (outlook.samples <= static_cast<double>(study.until->at_most)) return needed;
+  return needed + fmt::format(": raise at_most from {}, or take wider bins", study.until->at_most);
 }
 
 std::string samples_told(const fragility::Result& result, const Drawn& drawn) {
@@ -51,13 +58,11 @@ fragility::Wanted wanted(const Study& study, const Drawn& drawn) {
 
 std::string round_told(const Study& study, const fragility::Result& result, const Drawn& drawn) {
   const fragility::HalfWidth reached = fragility::half_width(result, wanted(study, drawn));
-  std::string text = fmt::format("{}: the surface is known to +-{:.3g} (wanted {})", samples_told(result, drawn),
-                                 reached.largest, wanted_text(*study.until, "+-{:.3f}"));
+  const std::string text =
+      fmt::format("{}: the surface is known to +-{:.3g}{} (wanted {})", samples_told(result, drawn), reached.largest,
+                  farthest_told(study, reached), wanted_text(*study.until, "+-{:.3f}"));
   if (reached.times_wanted <= 1) return text;
-  const fragility::Outlook outlook = fragility::outlook(result, wanted(study, drawn));
-  if (outlook.samples <= static_cast<double>(study.until->at_most))
-    return text + fmt::format("; some {:.2g} samples are needed", outlook.samples);
-  return text + "; " + helps(study, outlook);
+  return text + "; " + helps(study, fragility::outlook(result, wanted(study, drawn)));
 }
 
 std::string not_reached(const Study& study, const fragility::Result& result, const Drawn& drawn) {
@@ -71,7 +76,8 @@ std::string not_reached(const Study& study, const fragility::Result& result, con
                      all                           ? ", the most that until allows,"
                      : std::isinf(outlook.samples) ? ", where more would hardly help,"
                                                    : "",
-                     reached.largest, place_of(reached), helps(study, outlook));
+                     reached.farthest, reached.edp.empty() ? "" : fmt::format(", {} the least", place_of(reached)),
+                     helps(study, outlook));
 }
 
 std::string passed_over_told(const Drawn& drawn) {
@@ -90,8 +96,9 @@ void tell_until(const Study& study, const fragility::Result& result, const Drawn
   const fragility::HalfWidth reached = fragility::half_width(result, wanted(study, drawn));
   const fragility::Outlook outlook = fragility::outlook(result, wanted(study, drawn));
   const std::string warning = not_reached(study, result, drawn);
-  nlohmann::ordered_json widest = {{"edp", reached.edp}, {"im", reached.im}, {"capacity", reached.capacity}};
-  if (!reached.axis.empty()) widest[reached.axis] = reached.on_axis;
+  nlohmann::ordered_json farthest = {{"edp", reached.edp}, {"im", reached.im}, {"capacity", reached.capacity}};
+  if (!reached.axis.empty()) farthest[reached.axis] = reached.on_axis;
+  farthest["half_width"] = reached.farthest;
   nlohmann::ordered_json& until = summary["until"];
   until["half_width_wanted"] = study.until->half_width;
   if (study.until->relative_error) {
@@ -105,7 +112,7 @@ void tell_until(const Study& study, const fragility::Result& result, const Drawn
   until["drawn"] = drawn.samples;
   until["alike"] = drawn.alike;
   until["at_most"] = study.until->at_most;
-  until["widest"] = widest;
+  until["farthest"] = farthest;
   until["stays_above"] = outlook.stays;
   until["samples_needed"] = nullptr;
   until["rare_cells"] = reached.rare_cells;

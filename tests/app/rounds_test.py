@@ -105,6 +105,21 @@ class Rounds(InFolder):
         done = self.succeed(["fit", self.out, "--edp", "delta", "--capacities", "delta=0.1,1", "-o", self.folder / "more"])
         self.assertIn(f"{self.until['samples']} samples fitted", done.stdout)
 
+    def test_bins_that_join_those_of_the_sweep_come_from_the_first_samples(self):
+        alike, shares = self.until["alike"], {}
+        for folder in (self.out, self.every):
+            for name, edges in (("joined", "0,1,3"), ("same", "")):
+                out = self.folder / f"{folder.name}-{name}"
+                done = self.succeed(["fit", folder, *(["--bins", edges] if edges else ["--edp", "overturned"]), "-o", out])
+                self.assertEqual("were taken whatever their intensity" in done.stdout, (folder, name) == (self.out, "joined"))
+                with h5py.File(out / "fragility.h5") as file:
+                    surface = file["edp/overturned/surface"]
+                    shares[folder.name, name] = surface["empirical"][()].ravel(), surface["lower"][()].ravel(), surface["upper"][()].ravel()
+        for name in ("joined", "same"):
+            share = shares["every", name][0]
+            self.assertTrue((share >= shares["out", name][1]).all() and (share <= shares["out", name][2]).all(), (name, shares))
+        self.assertEqual(int(self.succeed(["fit", self.out, "--bins", "0,1,3", "-o", self.folder / "n"]).stdout.split(" samples fitted")[0].split()[-1]), alike)
+
     def test_the_same_bits_of_any_ranks_and_keep(self):
         for ranks, keep in ((1, "all"), (3, "none")):
             study = self.write(f"{keep}.yaml", UNTIL + f"keep: {keep}\n")

@@ -27,7 +27,8 @@ class Until(InFolder):
         self.assertIn("samples are needed", done.stderr)
         until = json.loads((folder / "summary.json").read_text())["until"]
         self.assertEqual(until["half_width_reached"], cells.max())
-        self.assertIn("friction_mu_k", until["widest"])
+        self.assertIn("friction_mu_k", until["farthest"])
+        self.assertEqual(until["farthest"]["half_width"], until["half_width_reached"])
         self.assertLessEqual(until["samples_needed"], samples)
         one = self.folder / "one"
         self.succeed(["run", self.write("u.yaml", TEXT), "-o", one, "--quiet"])

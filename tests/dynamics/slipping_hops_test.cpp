@@ -12,6 +12,7 @@
 
 #include "base/motion_table.hpp"
 #include "base/units.hpp"
+#include "dynamics/row_of_hops.hpp"
 #include "support/random_cases.hpp"
 #include "support/solvers.hpp"
 
@@ -120,11 +121,14 @@ Response by_reference(const RandomCase& c, const Settings& settings) {
   return respond_reference(c.specimen, c.shaking, settings);
 }
 
-// In 1804 the slip of each blow ends within its hop; 1294 and 2595 end a slip in hops of microseconds.
+// In 1804 the slip of each blow ends within its hop; 1294 and 2595 end a slip in hops of microseconds; a blow stops the slip of 12300,
+// which goes on after it. In 8108, 21845, 26259 and 29662 the floor's push takes nearly all of the weight's pull: what starts as a
+// small hop is none.
 TEST(SlippingHops, AreFeltAtAnyTolerance) {
   std::vector<std::uint64_t> all(1500);
   std::iota(all.begin(), all.end(), 0);
-  const std::vector<std::uint64_t> telling = {57, 1197, 1294, 1804, 2022, 2309, 2595, 2832};
+  const std::vector<std::uint64_t> telling = {57,   1197, 1294,  1804,  2022,  2309, 2595,
+                                              2832, 8108, 12300, 21845, 26259, 29662};
   for (const double vertical : {0.0, 1.0}) {
     CaseFamily family = unequal_corners();
     family.vertical = vertical;
@@ -156,6 +160,35 @@ TEST(RockingHops, AreFeltAtAnyToleranceAndInPacks) {
           << number << ' ' << c.text();
     }
   }
+}
+
+// Two hops keep q of the rate r, and take c r from the slip: from w it is w - c r (1 - q^n)/(1 - q) after n times two, in which it stops
+// if w (1 - q) < c r. From then on two hops end at the slip k r', r' their rate, or have none (k = 0): stopped once, or each time.
+TEST(RowOfHops, LeavesTheSlipThatItStopsAndThatGoesOn) {
+  constexpr double q = 0.6, c = 1, lasts = 2;
+  const auto leaves = [&](double w, double k, bool once) {
+    bool stopped = false;
+    dynamics::HopRow row{1, w};
+    const double slip = dynamics::slip_after_stops(row, [&](dynamics::HopRow& at) {
+      const bool stops = stopped ? !once : at.slip - c * at.rate <= 0;
+      at.lasts += lasts * at.rate;
+      at.slip = stops ? -k * at.rate : at.slip - c * at.rate;
+      at.stops = at.stops || stops;
+      stopped = stopped || stops;
+      at.rate *= q;
+      return true;
+    });
+    return std::pair(slip, row.lasts);
+  };
+  EXPECT_NEAR(leaves(3, 0, true).first, 3 - c / (1 - q), 1e-12);  // it does not stop
+  EXPECT_NEAR(leaves(3, 0, true).second, lasts / (1 - q), 1e-12);
+  EXPECT_EQ(leaves(2.4, 0, false).first, 0);
+  EXPECT_EQ(leaves(2.4, 0.3, false).first, 0);
+  // It stops in the seventh two hops: 2.4 < 2.5 (1 - q^7); then it goes on at -0.3 q^6, and so for good.
+  ASSERT_GT(2.4, c * (1 - std::pow(q, 6)) / (1 - q));
+  ASSERT_LT(2.4, c * (1 - std::pow(q, 7)) / (1 - q));
+  EXPECT_NEAR(leaves(2.4, 0.3, true).first, -0.3 * std::pow(q, 6) - c * std::pow(q, 7) / (1 - q), 1e-12);
+  EXPECT_NEAR(leaves(2.4, 0.3, true).second, lasts / (1 - q), 1e-12);
 }
 
 TEST(SlippingHops, EndInTheirLimitUnderHousnersLaw) { expect_limit(ImpactLaw::housner); }

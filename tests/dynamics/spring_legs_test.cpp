@@ -169,6 +169,25 @@ TEST(SpringLegs, StiffLegsAreRigidEdges) {
   }
 }
 
+// The history of a block that falls ends where it fell: its slip stays what it was, though the fall is no part of the peak and of what is left.
+TEST(SpringLegs, AHistoryEndsWhereTheBlockFell) {
+  std::vector<double> a(61, 0.0);
+  std::fill(a.begin(), a.begin() + 8, 6.0);
+  const FloorMotion push = piecewise_linear("push", 0.1, a, {});
+  Response r;
+  const auto points = history_of(on_legs(0.5, 1.5, 0.45, 6, 0.1), {&push}, 10, 0.01, &r);
+  ASSERT_EQ(r.outcome, Outcome::overturned);
+  const auto fallen = static_cast<std::size_t>(
+      std::find_if(points.begin(), points.end(), [](const HistoryPoint& p) { return p.mode == Mode::overturned; }) -
+      points.begin());
+  ASSERT_LT(fallen, points.size());
+  ASSERT_GT(fallen, 2u);
+  const double before = points[fallen - 1].slip_m - points[fallen - 2].slip_m,
+               at = points[fallen].slip_m - points[fallen - 1].slip_m;
+  EXPECT_LT(std::abs(at), 0.001 + 2 * std::abs(before));
+  EXPECT_GT(std::abs(points[fallen].slip_m - r.residual_slip_m), 0.01);
+}
+
 TEST(SpringLegs, MirrorToTheBit) {
   CaseFamily family;
   family.seed = 18;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "fragility/fit.hpp"
@@ -123,8 +124,8 @@ TEST(Outlook, OnlyMoreRecordsHelpWhereWhatStaysIsTooMuch) {
   EXPECT_GT(half_width(fitted(counted(o, {20, 2000, 0.8, 0.5}, 60))).largest, 0.05);  // and so it is
 }
 
-// Samples of their own, of which a share happens to be hit: as many in each bin as given.
-Result hits(const std::vector<int>& samples, double share) {
+// Samples of their own, of which a share happens to be hit, in the last bin another: as many in each bin as given.
+Result hits(const std::vector<int>& samples, double share, std::optional<double> last = {}) {
   Options o = options(0, false);
   o.im_edge.clear();
   for (std::size_t bin = 0; bin <= samples.size(); ++bin) o.im_edge.push_back(static_cast<double>(bin));
@@ -133,7 +134,7 @@ Result hits(const std::vector<int>& samples, double share) {
   std::uint64_t i = 0;
   for (std::size_t bin = 0; bin < samples.size(); ++bin)
     for (int k = 0; k < samples[bin]; ++k, ++i) {
-      const double hit = k < share * samples[bin];
+      const double hit = k < (bin + 1 == samples.size() ? last.value_or(share) : share) * samples[bin];
       tally.add({i, static_cast<double>(bin) + 0.5, 0, Outcome::moved, {&hit, 1}, {}});
     }
   return fitted(tally);
@@ -150,6 +151,40 @@ TEST(HalfWidth, IsRelativeDownToALeastProbability) {
     EXPECT_NEAR(outlook(rare, wanted).samples / (9900 * times * times), 1.1, 0.12) << relative;
   }
   EXPECT_NEAR(half_width(rare, {.half_width = 0.001, .relative_error = 0.1, .down_to = 0.001}).times_wanted, 2, 0.2);
+}
+
+// Of 900 samples each with P = 0.4 and P = 0.02 the standard errors are 4 % and 23 % of P; the wider band is that of the first.
+TEST(HalfWidth, TheWidestBandIsNotTheOneThatIsFarthestFromARelativeError) {
+  const Result result = hits({900, 900}, 0.4, 0.02);
+  const Wanted wanted{.relative_error = 0.1, .down_to = 0.001};
+  const HalfWidth found = half_width(result, wanted);
+  const Surface& surface = result.edps[0].surface;
+  EXPECT_EQ(found.largest, (surface.upper[0] - surface.lower[0]) / 2);
+  EXPECT_EQ(found.farthest, (surface.upper[1] - surface.lower[1]) / 2);
+  EXPECT_LT(2 * found.farthest, found.largest);
+  EXPECT_EQ(found.im, result.im[1]);
+  const HalfWidth plain = half_width(result, {.half_width = 0.01});
+  EXPECT_EQ(plain.farthest, plain.largest);
+}
+
+// By one half width more records are wanted where most stays; by a relative error where that is most of what is wanted.
+TEST(Outlook, WhatStaysIsOfThePointForWhichItIsMostOfWhatIsWanted) {
+  Options o = options(20);
+  o.im_edge = {0, 0.5, 1};
+  o.edps[0] = {"hit", "1", "", true, 0, {}};
+  Tally tally(o);
+  std::uint64_t i = 0;
+  for (int record = 0; record < 20; ++record)
+    for (int k = 0; k < 200; ++k, ++i)
+      for (const bool rare : {false, true}) {
+        const double hit = rare ? record < 4 : record % 2 == 0;
+        tally.add({2 * i + rare, rare ? 0.75 : 0.25, record, Outcome::moved, {&hit, 1}, {}});
+      }
+  const Result result = fitted(tally);
+  const double by_width = outlook(result, {.half_width = 0.01}).stays,
+               by_share = outlook(result, {.relative_error = 0.1, .down_to = 0.001}).stays;
+  EXPECT_LT(by_share, by_width);
+  EXPECT_NEAR(by_share, half_width(result, {.relative_error = 0.1, .down_to = 0.001}).farthest, 0.02);
 }
 
 TEST(BinsThatWant, AreThoseThatAreNotKnownWellEnough) {

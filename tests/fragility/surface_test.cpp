@@ -118,6 +118,30 @@ TEST(Surface, ALawThatCannotBeTestedIsNone) {
   EXPECT_THAT(found.warnings, testing::Not(testing::Contains(testing::HasSubstr("not refuted"))));
 }
 
+// Of 20 records two exceed the first capacity and one the second: by itself that one would have the higher limit.
+TEST(Surface, LimitsFallAsTheCapacityRises) {
+  Options o = options(20);
+  o.axes = {{"mu", "1", {0, 1}}};
+  o.edps[0].capacities = {1, 2, 3};
+  Tally tally(o);
+  std::uint64_t i = 0;
+  for (int record = 0; record < 20; ++record)
+    for (int k = 0; k < 40; ++k, ++i) {
+      const double value = record == 0 ? 2.5 : record == 1 ? 1.5 : 0.5, axis = 0.5;
+      tally.add({i, 0.5, record, Outcome::moved, {&value, 1}, {&axis, 1}});
+    }
+  const EdpResult edp = fitted(tally).edps[0];
+  const auto fall = [](const std::vector<double>& lower, const std::vector<double>& p,
+                       const std::vector<double>& upper) {
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_TRUE(lower[c] <= p[c] && p[c] <= upper[c]) << c;
+    EXPECT_TRUE(upper[0] >= upper[1] && upper[1] >= upper[2]) << upper[0] << ' ' << upper[1] << ' ' << upper[2];
+    EXPECT_TRUE(lower[0] >= lower[1] && lower[1] >= lower[2]);
+  };
+  EXPECT_NEAR(edp.surface.empirical[1], 0.05, 1e-12);
+  fall(edp.surface.empirical_lower, edp.surface.empirical, edp.surface.empirical_upper);
+  fall(edp.axes[0].lower, edp.axes[0].probability, edp.axes[0].upper);
+}
+
 TEST(Surface, FailingBinFallsBackOnTheCounts) {
   Options o = options(0, false);
   const auto mixture = [&](const Options& with) {

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 import support
-from freestand_post import writing
+from freestand_post import reading, writing
 from support import make_results
 
 import h5py
@@ -221,6 +221,22 @@ class MissingAndBroken(Temporary):
         text = (folder / "report.html").read_text()
         self.assertIn("drawn, of the 1\u202f000 samples kept", text)
         self.assertIn("samples kept shown", text)
+
+    def test_where_samples_were_passed_over_draws_are_those_before_them(self):
+        """What was integrated later lies in the bins that wanted it: its draws are not those of the study."""
+        folder = support.sweep_copy(self.folder / "sweep")
+        with h5py.File(folder / "samples.h5", "a") as root:
+            root.attrs["samples_alike"] = 2000
+            root["samples/outcome"][2000::2] = 6
+            root["samples/pulse_period_s"][2000:] *= 10
+            largest = root["samples/pulse_period_s"][:2000].max()
+        with h5py.File(folder / "fragility.h5", "a") as root:
+            root.attrs["samples_alike"] = 2000
+        found = reading.read_sweep(folder)
+        self.assertEqual(found.kept, 2000)
+        self.assertEqual(found.draws["pulse_period_s"].max(), largest)
+        self.assertEqual(support.run("report", folder).returncode, 0)
+        self.assertIn("drawn, of the 2\u202f000 samples before any was passed over", (folder / "report.html").read_text())
 
     def test_truncated_file_is_one_line_and_exit_3(self):
         path = support.sweep_copy(self.folder / "sweep") / "fragility.h5"

@@ -196,12 +196,24 @@ TEST(Doubts, FrictionBelowZeroWhereABlockMayCome) {
   EXPECT_THAT(with("mu*(a - 2*path)"), ElementsAre(HasSubstr("at path = 1 m,")));
 }
 
+// Springs under the edges of a block of 0.6 by 1.8 m hold it upright from sqrt(g h)/(2 pi b) = 1.58 Hz on.
+TEST(Doubts, LegsThatDoNotHoldTheBlockUpright) {
+  const auto on_legs = [](const std::string& frequency) {
+    return parse(block + friction + motions + rest + "legs: {vertical_frequency_hz: " + frequency + "}\n");
+  };
+  EXPECT_THAT(doubts(on_legs("1.5")),
+              ElementsAre(HasSubstr("legs of less than 1.58 Hz do not hold this block upright")));
+  EXPECT_THAT(doubts(on_legs("{uniform: [1, 6]}")), ElementsAre(HasSubstr("goes down to 1.05")));
+  EXPECT_THAT(doubts(on_legs("{uniform: [1.6, 6]}")), IsEmpty());
+}
+
 // A wall stands behind every chain; where nobody says how far away it is, the block is told to touch it.
 TEST(Doubts, TheWallBehindAChain) {
   const auto chained = [](const std::string& more) {
     return block + friction + motions + rest + "chain: {stiffness_npm: 1e4, strength_n: 2736" + more + "}\n";
   };
-  EXPECT_THAT(doubts(parse(chained(""))), ElementsAre(HasSubstr("chain.wall_gap_m is not given")));
+  EXPECT_THAT(doubts(parse(chained(""))),
+              ElementsAre(AllOf(HasSubstr("chain.wall_gap_m is not given"), HasSubstr("peak accelerations are 1 g"))));
   EXPECT_THAT(doubts(parse(chained(", wall_gap_m: 0.1"))), IsEmpty());
   const Study legs = parse(chained("") + "effects: [{name: flexible_legs, frequency_hz: 8}]\n");
   EXPECT_FALSE(legs.model.chain->wall_gap);

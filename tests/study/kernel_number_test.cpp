@@ -81,6 +81,10 @@ std::vector<std::string> studies() {
       block + friction +
       "model: slide\neffects: [{name: slack_tether, slack_m: 0.02, frequency_hz: 3, rate_per_s: 0}]\nmotions: "
       "[{pulse: rectangular, period_s: 0.7, peak_acceleration_g: {uniform: [-0.6, -0.2]}}]\n");
+  // A blow stops the slip within a row of hops, and it goes on.
+  texts.push_back(
+      "block: {width_m: 0.61, height_m: 1.6, mass_kg: 100}\nfriction: {mu: 0.4}\nimpact: {law: coulomb}\n"
+      "effects: [{name: offset_mass, eccentricity: -0.08}]\nmotions: [{records: \"record2.csv\", scale: 1.73}]\n");
   for (const char* design : {"monte_carlo", "latin_hypercube"})
     texts.push_back(block + friction + fmt::format("design: {}\n", design) + pulses);
   // In the plane of the floor: thrown up too, and under friction that differs between directions.

@@ -45,9 +45,28 @@ TEST(StudyLegs, WhatDoesNotGoWithThemIsRefusedWithTheReason) {
   EXPECT_THAT(told("chain: {stiffness_npm: 1e5, strength_n: 1000}\n"),
               HasSubstr("a chain is of a block on rigid edges"));
   EXPECT_THAT(told("start: {slip_m: 0.1}\n"), HasSubstr("begins at rest"));
+  EXPECT_EQ(told("impact: {law: housner, factor: 1}\n"), "");
+  for (const char* impact : {"{law: coulomb}", "{law: housner, factor: 0.5}", "{factor: {uniform: [0.5, 1]}}"})
+    EXPECT_THAT(told(std::string("impact: ") + impact + "\n"), HasSubstr("impact is of blows"));
   const std::string poor = problems(block + friction + samples + motions + "legs: {vertical_damping: -1}\n");
   for (const char* what : {"legs.vertical_frequency_hz is missing", "must not be negative"})
     EXPECT_THAT(poor, HasSubstr(what));
+}
+
+// All that is drawn of a chain may be an axis; a number that is fixed is told to have one value.
+TEST(StudyChain, WhatIsDrawnOfItMayBeAnAxis) {
+  const std::string held =
+      "chain: {stiffness_npm: {uniform: [1e4, 1e5]}, strength_n: {uniform: [500, 1000]}, slack_m: {uniform: [0, "
+      "0.02]}, "
+      "number: {choice: [1, 2]}, elevation_rad: {uniform: [-0.5, 0.5]}, damping_nspm: {uniform: [0, 50]}, wall_gap_m: "
+      "0.1}\n";
+  for (const char* axis : {"stiffness_npm", "strength_n", "slack_m", "number", "elevation_rad", "damping_nspm"})
+    EXPECT_EQ(problems(block + friction + samples + motions + held + "fragility: {edp: [overturned], axes: [chain." +
+                       axis + "]}\n"),
+              "");
+  EXPECT_THAT(problems(block + friction + samples + motions + held +
+                       "fragility: {edp: [overturned], axes: [chain.wall_gap_m]}\n"),
+              HasSubstr("has one value only"));
 }
 
 TEST(StudyChain, ItsAngleToTheFloorComesToTheSpecimen) {

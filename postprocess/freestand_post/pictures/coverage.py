@@ -115,9 +115,8 @@ def _picture(sweep, names):
             elif column < row:
                 ax.tick_params(labelleft=False)
     fig.align_labels()
-    kept = " kept" if sweep.kept < sweep.samples else ""
-    shown = (f"{words.count(some.size)} of {words.plural(sweep.kept, 'sample')}{kept} shown" if some.size < sweep.kept else
-             f"all {words.plural(sweep.kept, 'sample')}{kept} shown")
+    shown = (f"{words.count(some.size)} of {words.plural(sweep.kept, 'sample')}{sweep.part} shown" if some.size < sweep.kept else
+             f"all {words.plural(sweep.kept, 'sample')}{sweep.part} shown")
     finding = _finding(sweep, names)
     style.headline(fig, finding, f"Draws of the sweep, one by one and in pairs; {shown}.")
     _key(axes, sweep, count)

@@ -16,7 +16,8 @@ def pictures(results):
     if not isinstance(results, Sweep) or not results.edps:
         return
     bins = next((edp.bins for edp in results.edps if edp.name == "overturned"), results.edps[0].bins)
-    if np.isfinite(bins["p_over"]).any():
+    can_fall = results.model in ("rock", "slide_rock") or np.nansum(bins["n_over"])
+    if np.isfinite(bins["p_over"]).any() and can_fall:
         yield _picture(results, bins)
 
 

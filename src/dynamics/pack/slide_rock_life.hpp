@@ -214,16 +214,23 @@ class SlideRockLife : public SlideRockHops {
   // The row of hops that starts now, where corner `from` carried until now and slipped with `slip`, is over within the tolerance: it is felt
   // as in dynamics/small_hops.cpp.
   void end_hops(int from, double slip) {
-    feel_row_of_hops(from, omega_, slip);
-    if (slip != 0 && w_ == 0) feel_row_of_hops(from, omega_, 0);
+    HopRow row{omega_, slip};
+    const auto two_hops = [&](HopRow& at) {
+      return strike_and_hop(from, at) && feel_hop(-from, at) && strike_and_hop(-from, at) && feel_hop(from, at);
+    };
+    if (slip == 0 || w_ != 0)
+      two_hops(row);
+    else if (const double after = slip_after_stops(row, two_hops); after != 0)
+      leave_row(after, row.lasts);
     choose_flat();
   }
-  void feel_row_of_hops(int from, double omega, double w) {
-    constexpr int hops = 2;
-    for (int i = 0; i < hops; ++i, from = -from)
-      if (!strike_and_hop(from, omega, w) || !feel_hop(-from, omega, w)) return;
+  void leave_row(double slip, double lasted) {
+    sigma_ = slip > 0 ? 1 : -1;
+    slip += lasted * (a_ + sigma_ * mu_k(slip) * g_);
+    if (sigma_ * slip > 0) w_ = slip;
   }
-  bool strike_and_hop(int from, double& omega, double& w) const {
+  bool strike_and_hop(int from, HopRow& row) const {
+    double &omega = row.rate, &w = row.slip;
     if (c_.coulomb && (w != 0 || !sticks_)) {
       const Blow blow = coulomb_blow(c_, on(from), on(-from), omega, w);
       omega = blow.hops() ? blow.omega : 0;
@@ -233,10 +240,12 @@ class SlideRockLife : public SlideRockHops {
     }
     return omega != 0;
   }
-  bool feel_hop(int side, double& omega, double& w) {
+  bool feel_hop(int side, HopRow& row) {
     constexpr int pieces = 3;
+    double &omega = row.rate, &w = row.slip;
     double height = 0, rate = side * omega;
     for (int i = 0; i < pieces; ++i) {
+      row.stops = row.stops || w == 0;
       Forces f = rocking(-arm(side), c_.h, 0.0, field());
       const bool grips = w == 0 && magnitude(f.fx) <= c_.mu_s * f.fy;
       sigma_ = grips ? 0 : w > 0 || (w == 0 && f.fx < 0) ? 1 : -1;
@@ -244,10 +253,12 @@ class SlideRockLife : public SlideRockHops {
       const double bend = 0.5 * side * f.alpha;
       if (!(f.fy > 0)) return false;
       feel(f.fx, f.fy);
-      if (!(bend < 0)) return false;
-      const double fall = (rate + std::sqrt(rate * rate - 4 * bend * height)) / (-2 * bend), stops = -w / f.slip;
+      const double down = (rate + std::sqrt(rate * rate - 4 * bend * height)) / (-2 * bend), stops = -w / f.slip;
+      const double fall = bend < 0 ? down : 1e300;
       const bool slips_on = grips || !(stops > 0 && stops < fall);
       const double time = slips_on ? fall : stops;
+      if (!is_small_hop(rate, time, c_.rest_rotation)) return false;
+      row.lasts += time;
       height += time * (rate + time * bend);
       rate += 2 * bend * time;
       w = slips_on ? w + time * f.slip : 0;
