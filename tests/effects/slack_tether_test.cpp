@@ -36,7 +36,9 @@ TEST(SlackTether, IsAWallThatGivesWay) {
     const Response r = respond(sliding(0.2, {effect("slack_tether", {gap, f, 4 * pi * f * z})}), {&push});
     const double differs = std::abs(r.residual_slip_m - rigid.residual_slip_m);
     // The next term goes with the square of the length, some 3 ms over the 0.1 s in which the block comes to rest, halved each time.
-    if (before > 0) EXPECT_NEAR(differs / before, 0.5, 0.01) << f;
+    if (before > 0) {
+      EXPECT_NEAR(differs / before, 0.5, 0.01) << f;
+    }
     before = differs;
   }
   EXPECT_LT(before, 0.01 * std::abs(rigid.residual_slip_m));
