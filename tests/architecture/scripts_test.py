@@ -201,7 +201,7 @@ class Slurm(Stage):
         self.assertIn("--resume", self.called("srun")[0])
 
     def test_a_step_that_was_not_launched_is_tried_again(self):
-        """Slurm 22.05 ends such a step with 0."""
+        """Slurm 22.05 ends such a step with 0, or where some of its tasks were launched with 137."""
         self.environment["FREESTAND_PAUSE"] = "0"
         self.stand_in("srun", f'[ "$(grep -c ^srun {self.calls})" = 1 ] || {{ mkdir -p results; date >results/summary.json; }}')
         self.assertEqual(self.submit("s.yaml", "results").returncode, 0)
@@ -210,9 +210,17 @@ class Slurm(Stage):
         lost = self.submit("s.yaml", "results")
         self.assertEqual((lost.returncode, len(self.called("srun"))), (1, 5))
         self.assertIn("not launched", lost.stderr)
+        self.stand_in("srun", f'[ "$(grep -c ^srun {self.calls})" != 6 ] || exit 137; date +%N >results/summary.json')
+        self.assertEqual((self.submit("s.yaml", "results").returncode, len(self.called("srun"))), (0, 7))
+        self.environment["CODE"] = "137"
+        self.stand_in("srun", "exit 137")
+        self.assertEqual((self.submit("s.yaml", "results").returncode, len(self.called("srun"))), (137, 10))
         self.assertEqual(self.called("scontrol"), [])
 
     def test_mistakes_and_what_has_to_be_cured_do_not(self):
+        """Nor does a rank that was killed, which leaves its lock."""
+        (self.folder / "results").mkdir()
+        (self.folder / "results" / "freestand.lock").touch()
         for code in (2, 3, 74, 137):
             self.environment["CODE"] = str(code)
             self.assertEqual(self.submit("s.yaml", "results").returncode, code)
