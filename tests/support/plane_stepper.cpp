@@ -47,11 +47,12 @@ PlaneAnswer step_in_plane(const PlaneBlock& block, const std::function<PlanePush
     const bool stuck = wx == 0 && wy == 0;
     wx -= push.x * h;
     wy -= push.y * h;
-    // The impulse of the floor upwards: what keeps the block from sinking in.
+    // The impulse of the floor upwards: what stops a block that would sink in. A landing takes it in one step: parted by where the
+    // steps happen to lie, its friction would be another one wherever it turns the slip.
     climb -= (block.g + push.up) * h;
-    const double normal = height + climb * h < 0 ? -height / h - climb : 0.0;
+    const double normal = height + climb * h < 0 ? -climb : 0.0;
     climb += normal;
-    height = std::max(height + climb * h, 0.0);
+    height = normal > 0 ? 0 : height + climb * h;
     const double free_x = wx, free_y = wy;
     if (block.ratio != 1) {
       const Plane left = left_by_friction(block, {wx, wy}, normal, stuck);
