@@ -280,6 +280,52 @@ StartPart read_start(Section& file, const ModelPart& model) {
   return start;
 }
 
+// No sample begins with a part of the block beyond a wall. Numbers are drawn independently, so that their ranges are compared.
+class RoomAtStart {
+ public:
+  RoomAtStart(Section& file, const ModelPart& model) : file_(file), model_(model) {}
+  void check() const {
+    if (!model_.start.slip && !model_.start.rotation) return;
+    for (const EffectPart& effect : model_.effects) {
+      if (effect.name != "wall_impact") continue;
+      const sampling::Support gap = of(effect.parameters[0]), side = of(effect.parameters[2]),
+                              other = of(effect.parameters[3]);
+      const double nearest = gap.lower <= 0 && gap.upper >= 0 ? 0 : std::min(std::abs(gap.lower), std::abs(gap.upper));
+      const bool right = side.upper > 0 || (side.upper == 0 && gap.upper >= 0),
+                 left = side.lower < 0 || (side.lower == 0 && gap.lower < 0);
+      const bool by_sign = side.lower == 0 && side.upper == 0;
+      if (right) stands("wall_impact", 1, by_sign ? std::max(gap.lower, 0.0) : nearest);
+      if (left) stands("wall_impact", -1, by_sign ? std::max(-gap.upper, 0.0) : nearest);
+      if (other.upper >= 0) stands("wall_impact", right ? -1 : 1, std::max(other.lower, 0.0));
+    }
+    if (model_.chain && model_.chain->wall_gap) stands("chain", -model_.chain->side, of(*model_.chain->wall_gap).lower);
+  }
+
+ private:
+  static sampling::Support of(const std::optional<Quantity>& quantity) {
+    return quantity ? support(quantity->value) : sampling::Support{0, 0, false, false};
+  }
+  // Where the block tips towards the wall, its upper edge leads.
+  double reach(int side) const {
+    const sampling::Support slip = of(model_.start.slip), lean = of(model_.start.rotation);
+    const double height = model_.block.height ? of(model_.block.height).upper : 2 * of(model_.block.size).upper;
+    const double leans = std::max(0.0, side > 0 ? lean.upper : -lean.lower);
+    return (side > 0 ? slip.upper : -slip.lower) + (leans > 0 ? height * std::sin(leans) : 0);
+  }
+  void stands(const char* what, int side, double gap) const {
+    constexpr double touches = 1e-9;
+    if (reach(side) <= gap + touches) return;
+    file_.problem(
+        "start",
+        fmt::format("start sets the block down to {:.4g} m to the {}, and the wall of {} stands {:.4g} m there "
+                    "(a block cannot begin within a wall): start it nearer, or set the wall farther away",
+                    reach(side), side > 0 ? "right" : "left", what, gap));
+  }
+
+  Section& file_;
+  const ModelPart& model_;
+};
+
 std::optional<Quantity> read_discrepancy(Section& file) {
   const YAML::Node* node = file.find("discrepancy");
   if (!node) return {};
@@ -307,6 +353,7 @@ ModelPart read_model(Section& file) {
   model.slip_discrepancy = read_discrepancy(file);
   model.chain = read_chain(file, model);
   model.start = read_start(file, model);
+  RoomAtStart(file, model).check();
   model.neighbour = read_neighbour(file, model);
   model.legs = read_legs(file, model);
   if (const std::string text = no_room_for(model.effects, model.chain);
