@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "judge/known_gaps.hpp"
 #include "judge/tally.hpp"
@@ -56,14 +55,10 @@ TEST(Judge, AgreesOnWallsOnTheLeftAndOnBothSides) {
   EXPECT_GE(struck, judged / 2);
 }
 
-// Bouc-Wen's contact, with every effect that goes with it, alone and in every fourth pair; where FREESTAND_LONG_TESTS is set in all pairs.
+// Bouc-Wen's contact, with every effect that goes with it, alone and in pairs.
 TEST(Judge, AgreesWithTheKernelOnABoucWenContact) {
   Tally tally;
-  const std::vector<Recipe> all = recipes(Family::bouc_wen);
-  const std::uint64_t step = std::getenv("FREESTAND_LONG_TESTS") ? 1 : 4;
-  for (std::uint64_t number = 0; number < all.size(); ++number) {
-    const std::vector<std::string>& about = all[number].effects;
-    if (about.size() == 2 && number % step != 0 && about != std::vector<std::string>{"chain", "chain"}) continue;
+  for (std::uint64_t number = 0; number < recipes(Family::bouc_wen).size(); ++number) {
     const JudgedCase c = judged_case(1, number, Family::bouc_wen);
     const Judgement judgement = judge(c);
     tally.add(c, judgement);
