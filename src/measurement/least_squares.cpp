@@ -235,44 +235,56 @@ void widen_by_score(const Bench& bench, std::vector<ModelFit*> fits, const Jobs&
     widen(fits[places[p].fit]->intervals[places[p].number], ends[2 * p][0], ends[2 * p + 1][0]);
 }
 
-void descend_by_derivatives(const Bench& bench, std::vector<ModelFit*> fits, const Jobs& jobs) {
-  const auto calibration = tests_of(bench.data(), Role::calibration);
-  Tests all(calibration.size());
+namespace {
+
+Tests all_of(const Judge& judge) {
+  Tests all(judge.samples().size());
   std::iota(all.begin(), all.end(), 0);
-  const Judge sensors(bench);
-  const auto answers = jobs("least squares", fits.size(), [&](std::size_t i) {
-    const ModelFit& fit = *fits[i];
-    const Fitted found = least_squares(sensors, all, fit.model, fit.x, most_rounds);
-    Values packed = {mean_score(bench, calibration, fit.model, found.x), static_cast<double>(found.evaluations)};
-    packed.insert(packed.end(), found.x.begin(), found.x.end());
-    return packed;
-  });
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    fits[i]->score = answers[i][0];
-    fits[i]->evaluations += static_cast<int>(answers[i][1]);
-    fits[i]->x.assign(answers[i].begin() + 2, answers[i].end());
-  }
+  return all;
 }
 
-void weigh_floor_noise(const Bench& bench, const Judge& judge, const std::vector<ModelFit*>& fits, const Jobs& jobs) {
+struct Descent {
+  Fitted at;
+  double mean_score;
+  void take(ModelFit& fit) && {
+    fit.score = mean_score;
+    fit.evaluations += at.evaluations;
+    fit.x = std::move(at.x);
+  }
+};
+
+// Each from where it stands downhill in S.
+std::vector<Descent> descents(const Bench& bench, const Judge& judge, const std::vector<ModelFit*>& fits,
+                              const Jobs& jobs) {
   const auto calibration = tests_of(bench.data(), Role::calibration);
-  Tests all(calibration.size());
-  std::iota(all.begin(), all.end(), 0);
-  const auto answers = jobs("least squares", fits.size(), [&](std::size_t i) {
-    const ModelFit& fit = *fits[i];
-    if (fit.score > far_score) return Values{far_score};
-    const Fitted found = least_squares(judge, all, fit.model, fit.x, most_rounds);
-    Values packed = {found.score, mean_score(bench, calibration, fit.model, found.x),
-                     static_cast<double>(found.evaluations)};
-    packed.insert(packed.end(), found.x.begin(), found.x.end());
-    return packed;
-  });
+  const Tests all = all_of(judge);
+  std::vector<Descent> found;
+  for (const Values& answer : jobs("least squares", fits.size(), [&](std::size_t i) {
+         const ModelFit& fit = *fits[i];
+         const Fitted at = least_squares(judge, all, fit.model, fit.x, most_rounds);
+         Values packed = {at.score, static_cast<double>(at.evaluations),
+                          mean_score(bench, calibration, fit.model, at.x)};
+         packed.insert(packed.end(), at.x.begin(), at.x.end());
+         return packed;
+       }))
+    found.push_back({{Values(answer.begin() + 3, answer.end()), answer[0], static_cast<int>(answer[1])}, answer[2]});
+  return found;
+}
+
+}  // namespace
+
+void descend_by_derivatives(const Bench& bench, std::vector<ModelFit*> fits, const Jobs& jobs) {
+  auto found = descents(bench, Judge(bench), fits, jobs);
+  for (std::size_t i = 0; i < fits.size(); ++i) std::move(found[i]).take(*fits[i]);
+}
+
+void weigh_floor_noise(const Bench& bench, const Judge& judge, std::vector<ModelFit*> fits, const Jobs& jobs) {
+  std::erase_if(fits, [](const ModelFit* fit) { return fit->score > far_score; });
+  auto found = descents(bench, judge, fits, jobs);
   std::vector<ModelFit*> near;
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (answers[i][0] > noise_score) continue;
-    fits[i]->score = answers[i][1];
-    fits[i]->evaluations += static_cast<int>(answers[i][2]);
-    fits[i]->x.assign(answers[i].begin() + 3, answers[i].end());
+    if (found[i].at.score > noise_score) continue;
+    std::move(found[i]).take(*fits[i]);
     near.push_back(fits[i]);
   }
   leave_out(
@@ -291,9 +303,8 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
     if (judged == Kind::peaks) widen_by_score(bench, {&fit}, jobs);
     return;
   }
-  Tests all(calibration.size());
-  std::iota(all.begin(), all.end(), 0);
   const Judge sensors(bench);
+  const Tests all = all_of(sensors);
   const Fitted plain = once(jobs, [&] { return least_squares(sensors, all, fit.model, fit.x, most_rounds); });
   fit.evaluations += plain.evaluations;
   fit.x = plain.x;

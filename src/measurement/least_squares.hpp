@@ -26,7 +26,7 @@ Fitted least_squares(const Judge&, const std::vector<std::size_t>& of_judge, con
 // Of fits that end near the noise: each from where it stands, and without each fold from where that stood, downhill in S by what
 // this judge allows the floor's noise, so that rivals are fitted by the misfit that they are judged by. Fits that stay above the
 // noise stay where they are: a model that is wrong would only hide behind replays. Errors and intervals as by leave_out().
-void weigh_floor_noise(const Bench&, const Judge&, const std::vector<ModelFit*>&, const Jobs&);
+void weigh_floor_noise(const Bench&, const Judge&, std::vector<ModelFit*>, const Jobs&);
 
 // Each fit from where it stands downhill in S without replays; score is the mean score there.
 void descend_by_derivatives(const Bench&, std::vector<ModelFit*>, const Jobs&);
