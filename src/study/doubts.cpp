@@ -14,6 +14,7 @@
 #include "motion/summary.hpp"
 #include "study/formula_places.hpp"
 #include "study/problems.hpp"
+#include "study/read_parts.hpp"
 
 namespace freestand::study {
 namespace {
@@ -129,15 +130,8 @@ void ask_of_source(const MotionSource& source, bool shaken, bool moves, Doubter&
 
 // Does wall_impact stand on the same side in all samples, with none on the other?
 bool wall_on_one_side(const EffectPart& wall) {
-  const auto reach = [&](const char* name) {
-    const auto found = std::find_if(wall.parameters.begin(), wall.parameters.end(),
-                                    [&](const Quantity& q) { return q.name.ends_with(std::string(".") + name); });
-    return support(found->value);
-  };
-  const sampling::Support side = reach("side"), gap = reach("gap_m");
-  const bool by_sign = side.lower == 0 && side.upper == 0;
-  const bool left = by_sign ? gap.lower < 0 : side.lower < 0, right = by_sign ? gap.upper >= 0 : side.upper > 0;
-  return left != right && !(reach("other_gap_m").upper >= 0);
+  const NearestWalls walls = nearest_walls(wall);
+  return walls.right.has_value() != walls.left.has_value();
 }
 
 // What stands on one side only; "" of nothing.

@@ -288,15 +288,9 @@ class RoomAtStart {
     if (!model_.start.slip && !model_.start.rotation) return;
     for (const EffectPart& effect : model_.effects) {
       if (effect.name != "wall_impact") continue;
-      const sampling::Support gap = of(effect.parameters[0]), side = of(effect.parameters[2]),
-                              other = of(effect.parameters[3]);
-      const double nearest = gap.lower <= 0 && gap.upper >= 0 ? 0 : std::min(std::abs(gap.lower), std::abs(gap.upper));
-      const bool right = side.upper > 0 || (side.upper == 0 && gap.upper >= 0),
-                 left = side.lower < 0 || (side.lower == 0 && gap.lower < 0);
-      const bool by_sign = side.lower == 0 && side.upper == 0;
-      if (right) stands("wall_impact", 1, by_sign ? std::max(gap.lower, 0.0) : nearest);
-      if (left) stands("wall_impact", -1, by_sign ? std::max(-gap.upper, 0.0) : nearest);
-      if (other.upper >= 0) stands("wall_impact", right ? -1 : 1, std::max(other.lower, 0.0));
+      const NearestWalls walls = nearest_walls(effect);
+      if (walls.right) stands("wall_impact", 1, *walls.right);
+      if (walls.left) stands("wall_impact", -1, *walls.left);
     }
     if (model_.chain && model_.chain->wall_gap) stands("chain", -model_.chain->side, of(*model_.chain->wall_gap).lower);
   }
@@ -336,6 +330,23 @@ std::optional<Quantity> read_discrepancy(Section& file) {
 }
 
 }  // namespace
+
+NearestWalls nearest_walls(const EffectPart& wall) {
+  const sampling::Support gap = support(wall.parameters[0].value), side = support(wall.parameters[2].value),
+                          other = support(wall.parameters[3].value);
+  const bool by_sign = side.lower == 0 && side.upper == 0, may_go_by_sign = side.lower <= 0 && side.upper >= 0;
+  const double to_right = std::max(gap.lower, 0.0), to_left = std::max(-gap.upper, 0.0),
+               to_either = std::max(to_right, to_left);
+  NearestWalls walls;
+  if (side.upper > 0 || (may_go_by_sign && gap.upper >= 0)) walls.right = by_sign ? to_right : to_either;
+  if (side.lower < 0 || (may_go_by_sign && gap.lower < 0)) walls.left = by_sign ? to_left : to_either;
+  if (!(other.upper >= 0)) return walls;
+  const double second = std::max(other.lower, 0.0);
+  const auto beside = [&](const std::optional<double>& of, const std::optional<double>& opposite) {
+    return opposite ? std::optional(of ? std::min(*of, second) : second) : of;
+  };
+  return {beside(walls.right, walls.left), beside(walls.left, walls.right)};
+}
 
 ModelPart read_model(Section& file) {
   ModelPart model;

@@ -21,6 +21,12 @@ Specimen kind_of(const ModelPart&);
 // What is said where the laws of effects and chain do not find room together; "" where they do.
 std::string no_room_for(const std::vector<EffectPart>&, const std::optional<ChainPart>&);
 
+// How near the walls of a wall_impact may stand to the block's face on either side, in any sample [m]; none: there is no wall.
+struct NearestWalls {
+  std::optional<double> right, left;
+};
+NearestWalls nearest_walls(const EffectPart& wall_impact);
+
 // What is said where a formula leaps against the speed, or where the block tips, and would hold it there; "" where it does not.
 std::string leap_that_holds(const EffectPart& formula);
 
