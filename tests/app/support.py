@@ -1,6 +1,7 @@
 """What the tests of the program share: studies, runs, and the comparison of result files."""
 
 import atexit
+import json
 import math
 import os
 import pathlib
@@ -99,6 +100,23 @@ def result(folder):
     """All numbers of a result folder."""
     texts = {name: (folder / name).read_bytes() for name in ("bins.csv", "surface.csv")}
     return datasets(folder / "samples.h5"), datasets(folder / "fragility.h5"), texts
+
+
+def numbers(document):
+    """All that is found in a JSON document, without what it says of the run."""
+    about_the_run = ("created_utc", "command", "ranks", "host", "study", "measurements")
+    found = json.loads(pathlib.Path(document).read_text(encoding="utf-8"))
+    return {key: value for key, value in found.items() if key not in about_the_run}
+
+
+def walkthrough(folder, tests=None):
+    """The walk-through's study in a folder of its own, with some of its tests."""
+    shutil.copytree(CONFIGS / "walkthrough", folder)
+    if tests:
+        head, *entries = (folder / "dataset.yaml").read_text(encoding="utf-8").split("  - id: ")
+        kept = [entry for entry in entries if entry[:3] in tests]
+        (folder / "dataset.yaml").write_text(head + "".join("  - id: " + entry for entry in kept), encoding="utf-8")
+    return folder / "cabinet.yaml"
 
 
 def folder_of_class(test_class):

@@ -1,24 +1,14 @@
 """compare, diagnose and add as their users run them: the same answer on any number of ranks, a sweep of what was fitted,
 a formula as an effect, and what is said of broken measurements."""
 
-import json
 import os
-import pathlib
 import re
 import shutil
 import subprocess
 import time
 import unittest
 
-from support import CONFIGS, InFolder, command, finished_blocks, run
-
-WALK = CONFIGS / "walkthrough"
-ABOUT_THE_RUN = ("created_utc", "command", "ranks", "host", "study", "measurements")
-
-
-def read(path):
-    document = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
-    return {key: value for key, value in document.items() if key not in ABOUT_THE_RUN}
+from support import InFolder, command, finished_blocks, numbers, run, walkthrough
 
 
 class Validation(InFolder):
@@ -27,14 +17,7 @@ class Validation(InFolder):
         self.study = self.copy("all", None)
 
     def copy(self, name, tests):
-        """The walk-through's study in a folder of its own, with some of its tests."""
-        folder = self.folder / name
-        shutil.copytree(WALK, folder)
-        if tests:
-            head, *entries = (folder / "dataset.yaml").read_text(encoding="utf-8").split("  - id: ")
-            kept = [entry for entry in entries if entry[:3] in tests]
-            (folder / "dataset.yaml").write_text(head + "".join("  - id: " + entry for entry in kept), encoding="utf-8")
-        return folder / "cabinet.yaml"
+        return walkthrough(self.folder / name, tests)
 
     def kill_on_the_way(self, arguments):
         """Kills the run when it has kept something."""
@@ -59,7 +42,7 @@ class Validation(InFolder):
             self.assertNotIn("blocks", os.listdir(out / "diagnosis"))
             after = study.with_name(f"with_{ranks}.yaml")
             self.succeed(["add", study, "rate_weakening", "-o", after, "--quiet"], ranks)
-            found[ranks] = (read(out / "before" / "comparison.json"), read(out / "diagnosis" / "diagnosis.json"),
+            found[ranks] = (numbers(out / "before" / "comparison.json"), numbers(out / "diagnosis" / "diagnosis.json"),
                             [line for line in after.read_text(encoding="utf-8").split("\n") if not line.startswith("# ")])
         self.assertEqual(found[1], found[3])
         diagnosis = found[1][1]
@@ -78,7 +61,7 @@ class Validation(InFolder):
         self.succeed(["add", self.study, "rate_weakening", "-o", second, "--quiet"])
         out = self.folder / "after"
         self.succeed(["compare", second, "-o", out, "--quiet"])
-        comparison = read(out / "comparison.json")
+        comparison = numbers(out / "comparison.json")
         self.assertLess(comparison["holdout"]["error_noise_units"], 1.2)
         base, added = comparison["ladder"]
         self.assertEqual((base["step"], added["step"]), ("base", "rate_weakening"))
@@ -107,7 +90,7 @@ class Validation(InFolder):
         second = self.study.with_name("formula.yaml")
         self.succeed(["add", self.study, law, "-o", second, "--quiet"])
         self.succeed(["compare", second, "-o", self.folder / "formula", "--quiet"])
-        comparison = read(self.folder / "formula" / "comparison.json")
+        comparison = numbers(self.folder / "formula" / "comparison.json")
         self.assertLess(comparison["holdout"]["error_noise_units"], 1.2)
 
     def change(self, name, change):
@@ -158,7 +141,7 @@ class Validation(InFolder):
         early = self.rewritten("early", ("t02", "t03", "t05"),
                                lambda i, rows: rows[i] | {"slip_m": rows[min(i + 300, len(rows) - 1)]["slip_m"]})
         self.succeed(["diagnose", early, "-o", self.folder / "e", "--quiet"])
-        found = read(self.folder / "e" / "diagnosis.json")
+        found = numbers(self.folder / "e" / "diagnosis.json")
         self.assertEqual((found["verdict"], found["reason"], found["effects"], found["decided_by"]), ("bad_data", "data", [], "findings"))
         self.assertTrue(any("before its floor" in finding for finding in found["findings"]), found["findings"])
 
@@ -215,7 +198,7 @@ class Validation(InFolder):
         study = self.copy("fixed", ("t03", "t04", "t05"))
         study.write_text(study.read_text(encoding="utf-8").replace("{calibrate: [0.03, 1.2]}", "0.15"), encoding="utf-8")
         self.succeed(["diagnose", study, "-o", self.folder / "fixed_out", "--quiet"])
-        found = read(self.folder / "fixed_out" / "diagnosis.json")
+        found = numbers(self.folder / "fixed_out" / "diagnosis.json")
         self.assertEqual(found["base"]["parameters"], {})
 
     def test_tables_of_outcomes_and_of_peaks(self):
