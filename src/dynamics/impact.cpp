@@ -1,6 +1,7 @@
 #include "dynamics/impact.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "dynamics/blow.hpp"
 #include "dynamics/law_values.hpp"
@@ -136,6 +137,40 @@ bool slip_outlasts_hops(const Grip& friction, State state, double time, const Fl
   return outlasts_hops(state.pivot, state.omega, state.w, start, blow);
 }
 
+// On the corner of the upright block where it is less, until the floor's segment ends. w: slip.
+double given_ahead(const Rig& rig, const State& state, const FloorCursor& cursor, double w) {
+  State hop = state;
+  hop.mode = w == 0 ? Mode::rock : Mode::slide_rock;
+  hop.sigma = w == 0 ? 0 : w > 0 ? 1 : -1;
+  hop.w = hop.foot = w;
+  hop.theta = hop.omega = 0;
+  double given = std::numeric_limits<double>::infinity();
+  for (const int pivot : {1, -1}) {
+    hop.pivot = pivot;
+    with_contact_arc<2>(rig, hop, cursor.time(), cursor.local<2>(), [&](const auto& arc) {
+      const double least = dynamics::given_ahead(-pivot * arc.omega[1], -2 * pivot * arc.omega[2], cursor.left());
+      given = std::fmin(given, least);
+    });
+  }
+  return given;
+}
+
+// The row of hops that starts on `pivot` is over. Where a slip ends within it, the floor may tip the block as it may one that sticks.
+bool ends_hops(const Grip& friction, State state, const FloorCursor& cursor, int pivot, double rate) {
+  const Rig& rig = friction.rig;
+  const double rotation = rig.hop_rotation(pivot, rate);
+  if (on_legs(rig)) return rotation < rig.rest_rotation;
+  const double kept = std::fmax(kept_rate(rig, 1, -1), kept_rate(rig, -1, 1));
+  return row_is_over(rotation, rig.rest_rotation, rate, kept, [&] {
+    const double given = given_ahead(rig, state, cursor, state.w);
+    if (state.w == 0) return given;
+    state.pivot = pivot;
+    state.omega = rate;
+    if (slip_outlasts_hops(friction, state, cursor.time(), cursor.local<1>())) return given;
+    return std::fmin(given, given_ahead(rig, state, cursor, 0.0));
+  });
+}
+
 }  // namespace
 
 double kept_rate(const Rig& rig, int from, int to) {
@@ -144,17 +179,21 @@ double kept_rate(const Rig& rig, int from, int to) {
   return rig.impact.factor * std::fmax(kept, 0.0);
 }
 
-bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& floor) {
+bool strike(const Rig& rig, State& state, const FloorCursor& cursor) {
+  const double time = cursor.time();
+  const Floor<double, 1> floor = cursor.local<1>();
   const Grip friction = grip(rig, state, time);
   const int old_pivot = state.pivot, new_pivot = -state.pivot;
   const double omega = state.omega;
   state.theta = 0;
   state.wall = 0;
-  if (state.w == 0 && rig.hop_rotation(new_pivot, omega) < rig.rest_rotation) {
-    state.omega = 0;
+  bool over = state.w == 0 && ends_hops(friction, state, cursor, new_pivot, omega);
+  if (over) {
+    // Whatever the blow leaves.
   } else if (rig.impact.law == ImpactLaw::housner) {
     state.omega = kept_rate(rig, old_pivot, new_pivot) * omega;
-    if (state.w != 0 && rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation) {
+    over = ends_hops(friction, state, cursor, new_pivot, state.omega);
+    if (over && state.w != 0) {
       state.pivot = new_pivot;
       state.w = slip_outlasts_hops(friction, state, time, floor) ? slip_after_hops(friction, state, time) : 0;
     }
@@ -164,19 +203,19 @@ bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& f
     double w = 0;
     if (!plastic(friction, arm(rig, new_pivot, 0.0), before, after, w)) return false;
     const bool hops = after.omega * new_pivot > 0;
-    const bool last_hop = rig.hop_rotation(new_pivot, after.omega) < rig.rest_rotation;
     if (hops) {
       state.omega = after.omega;
       state.w = w;
       state.pivot = new_pivot;
     }
-    if (!hops || (last_hop && w != 0)) {
+    over = !hops || ends_hops(friction, state, cursor, new_pivot, after.omega);
+    if (!hops || (over && w != 0)) {
       const bool stops = hops && !slip_outlasts_hops(friction, state, time, floor);
       stay_flat(friction, state, before.vx, before.vy);
       if (stops) state.w = 0;
     }
   }
-  if (rig.hop_rotation(new_pivot, state.omega) < rig.rest_rotation) state.omega = 0;
+  if (over) state.omega = 0;
   state.pivot = state.omega == 0 ? 0 : new_pivot;
   return true;
 }

@@ -6,6 +6,7 @@
 //   corner's velocity:  w = V_x - omega r_y,   v_n = V_y + omega r_x
 #pragma once
 
+#include "dynamics/floor_cursor.hpp"
 #include "dynamics/rig.hpp"
 
 namespace freestand::dynamics {
@@ -18,8 +19,8 @@ namespace freestand::dynamics {
 //            where the old corner would be pushed into the floor, both stay down
 // Of a slipping block the endless row of ever smaller hops is replaced by its limit: under `coulomb` the blow on both
 // corners at once, with the friction of all its impulses; under `housner` the sum over its hops; under both nothing, if the slip
-// ends within the row. floor: at the instant.
-bool strike(const Rig& rig, State& state, double time, const Floor<double, 1>& floor);
+// ends within the row. cursor: at the instant.
+bool strike(const Rig& rig, State& state, const FloorCursor& cursor);
 
 // The same blow, and of however small a hop its start: omega and w after it, on the corner that struck. False: both corners
 // stay down, or Painleve's paradox.

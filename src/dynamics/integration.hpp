@@ -140,6 +140,7 @@ class Integration {
   void stop_slip();
   bool strike_floor();
   bool feel_two_hops(State hop, HopRow& row);
+  void feel_end_of_row(const State& from, const HopRow& row);
   void feel_standing();
   bool feel_hop(State& hop, HopRow& row);
   void leave_row(double slip, double lasted);

@@ -36,11 +36,26 @@ bool outlasts_hops(int pivot, const double rate, const double w, Start&& start, 
   return goes_on();
 }
 
-// A hop that starts with `rate` and is over after `time` turns the block by rate time/4. What ends as a row of hops is smaller than a
-// tolerance under the pull of the weight alone, which slipping may take to a quarter. Where the floor's push takes nearly all of it, the
-// hop is no small one, and the floor decides what becomes of it.
-inline bool is_small_hop(double rate, double time, double rest_rotation) {
-  return std::abs(rate) * time <= 16 * rest_rotation;
+// Whether a row of hops without slip, whose first one starts with `rate` and turns the block by `rotation` under its weight alone, is over:
+// too small to tell by the tolerance of rotations, and certain to end before the floor could lift the block. Its rates may be the
+// root of that tolerance, and a floor that tips the block while the row lasts makes a motion of them; only rates as small as the tolerance
+// are nothing by themselves.
+//
+// Each hop ends with the rate with which it started, turned round: the accelerations back to the floor give 2 rate to it, and to
+// all of the row 2 rate/(1 - kept), kept: of the rate, over an impact, at most. given(): what they give for sure, given_ahead of the corner
+// that gives less.
+template <class Given>
+bool row_is_over(double rotation, double tolerance, double rate, double kept, Given&& given) {
+  if (rotation < tolerance * tolerance) return true;
+  return rotation < tolerance && 2 * std::abs(rate) <= (1 - kept) * given();
+}
+
+// What an acceleration back to the floor that changes evenly gives within `time`, and before it is half of what it is now [rad/s].
+inline double given_ahead(double pull, double change, double time) {
+  if (!(pull > 0)) return 0;
+  if (!(change < 0)) return pull * time;
+  const double until = std::fmin(time, pull / (-2 * change));
+  return (pull + 0.5 * change * until) * until;
 }
 
 // A row of hops as a corner is about to strike.
@@ -49,6 +64,11 @@ struct HopRow {
   double lasts = 0;    // until now [s]
   bool stops = false;  // the slip was zero since this was last cleared
 };
+
+// A row that started with `rate`, as its first two hops tell [s].
+inline double lasts_in_all(double rate, const HopRow& after_two) {
+  return after_two.lasts / (1 - after_two.rate / rate);
+}
 
 // Along a row in which the slip stops, and maybe goes on; the slip with which it leaves the row, which is zero where it ends with the
 // row or goes on stopping in every two hops. What two hops without a stop do, so many more do as a geometric series.

@@ -11,12 +11,12 @@ namespace freestand::dynamics {
 
 bool Integration::strike_floor() {
   const State from = state;
-  if (!strike(rig, state, cursor.time(), cursor.local<1>())) return false;
+  if (!strike(rig, state, cursor)) return false;
   if (state.omega != 0 || within_reach_of_wall(rig, state, beside_wall(rig))) return true;
   HopRow row{from.omega, from.w};
   const auto two_hops = [&](HopRow& at) { return feel_two_hops(from, at); };
   if (slip_speed(rig, from) == 0 || slip_speed(rig, state) != 0) {
-    two_hops(row);
+    if (two_hops(row)) feel_end_of_row(from, row);
     return true;
   }
   const double after = slip_after_stops(row, two_hops);
@@ -33,6 +33,17 @@ void Integration::leave_row(double slip, double lasted) {
   with_contact_arc<1>(rig, slid, cursor.time(), cursor.local<1>(),
                       [&](const auto& arc) { slid.w -= lasted * arc.w[1]; });
   if (slid.sigma * slid.w > 0) state.w = state.foot = slid.w;
+}
+
+// The floor moves on while the row lasts. row: after its first two hops.
+void Integration::feel_end_of_row(const State& from, const HopRow& row) {
+  const double lasts = lasts_in_all(from.omega, row);
+  if (!(lasts < cursor.left())) return;
+  const FloorCursor here = cursor;
+  cursor.advance(lasts);
+  HopRow end{from.omega, from.w};
+  feel_two_hops(from, end);
+  cursor = here;
 }
 
 // The corner of `hop` that is raised strikes. False: no two hops follow.
@@ -58,7 +69,7 @@ bool Integration::feel_hop(State& hop, HopRow& row) {
       const double fall = fall_time(hop.pivot, arc.theta), stops = -slip_speed(arc)[0] / slip_speed(arc)[1];
       slips_on = hop.sigma == 0 || !(stops > 0 && stops < fall);
       const double time = slips_on ? fall : stops;
-      if (!is_small_hop(hop.omega, time, rig.rest_rotation)) return false;
+      if (!(time < cursor.left())) return false;  // the floor decides what becomes of it
       go_to(rig, hop, arc, time);
       row.lasts += time;
       return true;

@@ -293,13 +293,14 @@ INSTANTIATE_TEST_SUITE_P(Levels, BatchOnEachMachine,
                          testing::Combine(testing::ValuesIn(kinds), testing::Values("v3", "v4")),
                          [](const auto& info) { return std::get<0>(info.param).name + "_" + std::get<1>(info.param); });
 
-// Low friction, many hops that die out slowly.
+// Low friction, many hops that die out slowly. Where the floor might tip the block before a row is over, a single sample goes through all
+// of it, and tells more events; packs look further ahead.
 TEST(BatchOfSlenderBlocks, AgreesWithSingleSamples) {
   const int samples = 500;
   const Count count = compare("slender", random_block(Model::slide_rock, 143, samples, {.slender = true}));
   EXPECT_LE(count.differ, 1);
   EXPECT_LE(count.sensitive, 0.03 * samples);
-  EXPECT_LE(count.events, 0.01 * samples);
+  EXPECT_LE(count.events, 0.03 * samples);
 }
 
 // Friction that falls within a speed of a micrometre a second: series that hold for a small part of a step only.

@@ -89,7 +89,9 @@ double change_in_row(const RandomCase& c, double tolerance) {
   return row * (steepest(c.motion->table->acceleration) + steepest(c.motion->table->vertical));
 }
 
-// The hops of a row are felt, whether a tolerance goes through them or not.
+// The hops of a row are felt, whether a tolerance goes through them or not: as the floor is at its beginning, and at its end, whose time
+// is that of accelerations that stay. What that misses of the floor's change is less than this share (measured: all of these pass).
+constexpr double at_its_ends = 0.05;
 template <class Respond>
 void expect_the_same_peaks(const CaseFamily& family, const std::vector<std::uint64_t>& numbers, Respond&& respond) {
   Settings settings;
@@ -104,7 +106,7 @@ void expect_the_same_peaks(const CaseFamily& family, const std::vector<std::uint
       if (std::abs(r.residual_slip_m - exact[i].residual_slip_m) > 1e-6 || r.outcome != exact[i].outcome) continue;
       ++compared;
       EXPECT_NEAR(r.peak_acceleration_mps2, exact[i].peak_acceleration_mps2,
-                  1e-6 * exact[i].peak_acceleration_mps2 + change_in_row(c, settings.tolerance))
+                  1e-6 * exact[i].peak_acceleration_mps2 + at_its_ends * change_in_row(c, settings.tolerance))
           << numbers[i] << ", tolerance " << settings.tolerance << ' ' << c.text();
     }
     EXPECT_GE(compared, numbers.size() * 98 / 100);

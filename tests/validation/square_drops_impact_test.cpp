@@ -204,6 +204,7 @@ TEST(SquareDrops, TheSecondCornerThrowsBack) {
   const double mu = 0.5 * (fit_law(0, false, 1).mu + fit_law(1, false, 1).mu);
   std::vector<double> ratio, deviation, housner, coulomb, far_h, far_c, speed_h, speed_c;
   std::vector<int> drop;
+  const FloorMotion still = piecewise_linear("still", 1, {0, 0});
   for (const Strike& strike : strikes(drops())) {
     drop.push_back(strike.drop);
     ratio.push_back(strike.rate_after / strike.rate_before);
@@ -215,7 +216,7 @@ TEST(SquareDrops, TheSecondCornerThrowsBack) {
       state.omega = strike.rate_before;
       state.w = strike.slip_before;
       const Rig rig = square(mu, law);
-      ASSERT_TRUE(dynamics::strike(rig, state, 0, {{0, 0}, {rig.g, 0}}));
+      ASSERT_TRUE(dynamics::strike(rig, state, dynamics::FloorCursor({&still}, rig.g)));
       const bool first = law == ImpactLaw::housner;
       (first ? housner : coulomb).push_back(state.omega / strike.rate_before);
       (first ? far_h : far_c).push_back(std::abs(state.omega / strike.rate_before - ratio.back()));

@@ -4,9 +4,12 @@
 // A row of ever smaller hops that the floor cannot interrupt any more is taken at once: the block ends at rest.
 #pragma once
 
+#include <limits>
+
 #include "dynamics/pack/hopping.hpp"
 #include "dynamics/pack/rock_lanes.hpp"
 #include "dynamics/pack/rock_strikes.hpp"
+#include "dynamics/row_of_hops.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -62,9 +65,7 @@ class RockHops : public RockLanes {
       const Lane& lane = lanes_[hopper.slot];
       if (lane.events > most_events)
         decline(hopper.slot);
-      else if (hopper.ended)
-        come_to_rest(hopper.slot, true);
-      else if (hopper.many)
+      else if (hopper.ended || hopper.many)
         after_impact(hopper.slot);
       else
         go_on(hopper.slot);
@@ -96,12 +97,32 @@ class RockHops : public RockLanes {
   }
 
   void after_impact(int i) {
-    const Lane& lane = lanes_[i];
-    const bool rests = lane.hop_here * r_.omega[i] * r_.omega[i] < lane.sample->rest_rotation;
+    const bool rests = ends_hops(i);
     if (rests || dies_out(i)) return come_to_rest(i, rests);
     if (!small_hops(i)) return go_on(i);
     Hopper hopper{*this, i};
     hops_.add(hopper, i);
+  }
+
+  // The row of hops that starts here is over.
+  bool ends_hops(int i) const {
+    const Lane& lane = lanes_[i];
+    const BatchCase& c = *lane.sample;
+    const double omega = r_.omega[i], rotation = lane.hop_here * omega * omega;
+    return row_is_over(rotation, c.rest_rotation, omega, larger(lane.left.kept, lane.right.kept), [&] {
+      if (lane.after) return std::numeric_limits<double>::infinity();
+      const double time = r_.left[i];
+      const auto given = [&](const Lane::Side& on) {
+        const double now = pull(i, on, r_.a[i]);
+        return given_ahead(now, (pull(i, on, *r_.next[i]) - now) / time, time);
+      };
+      return smaller(given(lane.left), given(lane.right));
+    });
+  }
+
+  // Back to the floor, of the upright block; a: of the unit record.
+  double pull(int i, const Lane::Side& on, double a) const {
+    return magnitude(on.arm) * on.gravity + (on.arm > 0 ? a : -a) * lanes_[i].sample->h * on.push;
   }
 
   void come_to_rest(int i, bool rests) {
@@ -128,10 +149,24 @@ class RockHops : public RockLanes {
     if (!leave_rest(i, knot(i), 1 - r_.left[i])) refill(i);
   }
 
-  // As in dynamics/small_hops.cpp. Ends on the corner where it began.
+  // As in dynamics/small_hops.cpp.
   void feel_row_of_hops(int i) {
-    const int side = r_.side[i] > 0 ? 1 : -1;
+    const Lane& lane = lanes_[i];
+    const double rate = magnitude(r_.omega[i]), here = r_.a[i];
+    const Lane::Side &on = r_.side[i] > 0 ? lane.right : lane.left, &other = r_.side[i] > 0 ? lane.left : lane.right;
     r_.omega[i] = 0;
+    feel_on_both(i);
+    if (lane.after) return;
+    const double first = 2 * rate / pull(i, on, here), second = 2 * rate * on.kept / pull(i, other, here);
+    const double part = (first + second) / (1 - on.kept * other.kept) / r_.left[i];
+    if (!(part > 0 && part < 1)) return;
+    r_.a[i] += (*r_.next[i] - here) * part;
+    feel_on_both(i);
+    r_.a[i] = here;
+  }
+  // Ends on the corner where it began.
+  void feel_on_both(int i) {
+    const int side = r_.side[i] > 0 ? 1 : -1;
     feel(i);
     stand_on(i, -side);
     feel(i);

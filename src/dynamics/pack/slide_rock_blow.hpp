@@ -34,10 +34,9 @@ inline Blow coulomb_blow(const BatchCase& c, const Ground& from, const Ground& t
     if (!found) return {Blow::Ends::painleve, 0, 0, 0};
   }
   if (!(after.omega * way > 0)) after.omega = 0;
-  if (after.omega != 0 && (after.omega * after.omega >= to.rests || after.w == 0)) return after;
   const double push = magnitude(vy), speed = magnitude(vx), slip = speed - c.mu_k * push;
   after.flat = speed <= c.mu_s * push || slip < 0 ? 0 : vx > 0 ? slip : -slip;
-  after.ends = Blow::Ends::flat;
+  if (after.omega == 0) after.ends = Blow::Ends::flat;
   return after;
 }
 

@@ -1,8 +1,11 @@
 // Rows of small hops of a block that rocks itself to rest, without slip.
 #pragma once
 
+#include <limits>
+
 #include "dynamics/pack/slide_rock_lane.hpp"
 #include "dynamics/pack/slide_rock_search.hpp"
+#include "dynamics/row_of_hops.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -56,8 +59,9 @@ class SlideRockHops : public SlideRockLane {
     rx_ = c_.h * sine - arm(side_) * (1 - lost);
     ry_ = arm(side_) * sine + c_.h * (1 - lost);
     hops_ = false;
-    if (r.ended[i] > 0 || (r.hops[i] >= hops_at_once && dies_out())) return stand(Mode::rest, 0);
-    hops_ = r.hops[i] >= hops_at_once;
+    const bool small = r.ended[i] > 0, many = r.hops[i] >= hops_at_once;
+    if ((small && ends_hops(side_, omega_)) || (many && dies_out())) return stand(Mode::rest, 0);
+    hops_ = small || many;
   }
 
  protected:
@@ -97,6 +101,27 @@ class SlideRockHops : public SlideRockLane {
       omega *= on(side).kept;
       ++events_;
     }
+  }
+
+  // The row of hops that starts on `side`, without slip, is over.
+  bool ends_hops(int side, double omega) const {
+    return row_is_over(hop(side, omega), c_.rest_rotation, omega, most_kept(), [&] { return given_ahead(); });
+  }
+  double most_kept() const { return larger(on(-1).kept, on(1).kept); }
+
+  // Up to the next knot, on the corner where it is less. pull(corner, field): back to the floor, of the upright block.
+  template <class Pull>
+  double given_ahead(Pull&& pull) const {
+    const Field next{next_floor(), next_gravity()};
+    const double time = m_ < last_ ? h_ * left_ : std::numeric_limits<double>::infinity();
+    const auto given = [&](int corner) {
+      const double now = pull(corner, field());
+      return dynamics::given_ahead(now, (pull(corner, next) - now) / time, time);
+    };
+    return smaller(given(-1), given(1));
+  }
+  double given_ahead() const {
+    return given_ahead([&](int corner, Field at) { return on(corner).pull(at.a, at.g - c_.g); });
   }
 
  private:

@@ -189,18 +189,17 @@ class SlideRockLife : public SlideRockHops {
     const double slip = w_;
     double omega = on(from).kept * omega_;
     if (c_.coulomb && (w_ != 0 || !sticks_)) {
-      if (w_ == 0 && omega_ * omega_ < on(to).rests) return end_hops(from, slip);
+      if (w_ == 0 && ends_hops(to, omega_)) return end_hops(from, slip);
       const Blow blow = coulomb_blow(c_, on(from), on(to), omega_, w_);
       if (blow.ends == Blow::Ends::painleve) return decline();
       w_ = blow.w;
-      if (blow.ends == Blow::Ends::flat) {
+      if (blow.ends == Blow::Ends::flat || (w_ != 0 && ends_slipping_hops(to, blow.omega))) {
         w_ = blow.hops() && !slip_outlasts_hops(to, blow.omega) ? 0 : blow.flat;
         return end_hops(from, slip);
       }
       omega = blow.omega;
     }
-    const bool ends = hop(to, omega) < c_.rest_rotation;
-    if (ends) {
+    if (w_ == 0 ? ends_hops(to, omega) : ends_slipping_hops(to, omega)) {
       if (w_ != 0 && omega != 0) w_ = slip_outlasts_hops(to, omega) ? slip_after_hops(to, omega) : 0;
       return end_hops(from, slip);
     }
@@ -218,10 +217,20 @@ class SlideRockLife : public SlideRockHops {
     const auto two_hops = [&](HopRow& at) {
       return strike_and_hop(from, at) && feel_hop(-from, at) && strike_and_hop(-from, at) && feel_hop(from, at);
     };
-    if (slip == 0 || w_ != 0)
-      two_hops(row);
-    else if (const double after = slip_after_stops(row, two_hops); after != 0)
+    if (slip == 0 || w_ != 0) {
+      const double lasts = two_hops(row) && m_ < last_ ? lasts_in_all(omega_, row) : 0;
+      if (const double part = lasts / (h_ * left_); part > 0 && part < 1) {  // the floor moves on meanwhile
+        const Field here = field();
+        a_ += (next_floor() - a_) * part;
+        g_ += (next_gravity() - g_) * part;
+        HopRow end{omega_, slip};
+        two_hops(end);
+        a_ = here.a;
+        g_ = here.g;
+      }
+    } else if (const double after = slip_after_stops(row, two_hops); after != 0) {
       leave_row(after, row.lasts);
+    }
     choose_flat();
   }
   void leave_row(double slip, double lasted) {
@@ -257,7 +266,7 @@ class SlideRockLife : public SlideRockHops {
       const double fall = bend < 0 ? down : 1e300;
       const bool slips_on = grips || !(stops > 0 && stops < fall);
       const double time = slips_on ? fall : stops;
-      if (!is_small_hop(rate, time, c_.rest_rotation)) return false;
+      if (m_ < last_ && !(time < h_ * left_)) return false;  // the floor decides what becomes of it
       row.lasts += time;
       height += time * (rate + time * bend);
       rate += 2 * bend * time;
@@ -268,6 +277,17 @@ class SlideRockLife : public SlideRockHops {
       }
     }
     return false;
+  }
+
+  // Where the slip ends within the row, the floor may tip the block as it may one that sticks.
+  bool ends_slipping_hops(int side, double rate) {
+    return row_is_over(hop(side, rate), c_.rest_rotation, rate, most_kept(), [&] {
+      const bool outlasts = slip_outlasts_hops(side, rate);
+      sigma_ = w_ > 0 ? 1 : -1;
+      const double slipping_on =
+          given_ahead([&](int corner, Field at) { return -corner * slipping(-arm(corner), c_.h, 0.0, at, w_).alpha; });
+      return outlasts ? slipping_on : smaller(slipping_on, given_ahead());
+    });
   }
 
   // The row of hops starts on `side`.
