@@ -6,12 +6,12 @@ function at(curve, im) {
   const points = curve ? curve.points : [];
   if (!points.length || im < curve.im_least * (1 - 1e-6) || im > curve.im_most * (1 + 1e-6)) return null;
   const next = points.findIndex((p) => p[IM] >= im), last = points[points.length - 1];
-  const b = next < 0 ? last : points[next], a = next < 0 ? last : next === 0 ? [0, 0, 0, b[HIGH]] : points[next - 1];
-  const t = b === a ? 1 : (im - a[IM]) / (b[IM] - a[IM]);
-  let [p, low, high] = [P, LOW, HIGH].map((i) => (1 - t) * a[i] + t * b[i]);
-  if (!byLognormal(curve)) return [p, low, high];
-  const fitted = phi(Math.log(im / curve.median) / curve.dispersion), along = im < points[0][IM] || im > last[IM] ? fitted - p : 0;
-  return [fitted, Math.max(0, Math.min(low + along, fitted)), Math.min(1, Math.max(high + along, fitted))];
+  const b = next < 0 ? last : points[next], a = next > 0 ? points[next - 1] : next < 0 || byLognormal(curve) ? b : [0, 0, 0, b[HIGH]];
+  const t = b === a ? 1 : (im - a[IM]) / (b[IM] - a[IM]), between = (value) => (1 - t) * value(a) + t * value(b);
+  if (!byLognormal(curve)) return [P, LOW, HIGH].map((i) => between((p) => p[i]));
+  const fitted = (x) => phi(Math.log(x / curve.median) / curve.dispersion), here = fitted(im);  // its band goes along
+  const [low, high] = [LOW, HIGH].map((i) => here + between((p) => p[i] - fitted(p[IM])));
+  return [here, Math.max(0, Math.min(low, here)), Math.min(1, Math.max(high, here))];
 }
 const byLognormal = (curve) => curve.family === "lognormal" && curve.dispersion > 0;
 const ruleOf = (curve) => !curve ? "" : byLognormal(curve) ? "read by its lognormal, which is adequate" : "read by straight lines between its points over the intensity";

@@ -21,6 +21,11 @@ Probability of(const Point& point) { return {point.probability, point.lower, poi
 
 double drawn_in(double p, double resolution) { return std::clamp(p, resolution, 1 - resolution); }
 
+struct Node {
+  double im;
+  Probability p;
+};
+
 // The points that are known, at intensities above zero.
 std::vector<const Point*> usable(const Curve& curve) {
   std::vector<const Point*> points;
@@ -29,19 +34,14 @@ std::vector<const Point*> usable(const Curve& curve) {
   return points;
 }
 
-// Straight lines in P over the intensity: from 0 at 0 to the first point, level above the last.
-Probability straight(const std::vector<const Point*>& points, double im) {
-  const auto next = std::find_if(points.begin(), points.end(), [&](const Point* p) { return p->im >= im; });
-  if (next == points.end()) return of(*points.back());
-  Probability p = of(**next);
-  if (next == points.begin()) {
-    p.value *= im / (*next)->im;
-    p.lower *= im / (*next)->im;
-    return p;
-  }
-  const Point& before = **(next - 1);
-  const double rest = ((*next)->im - im) / ((*next)->im - before.im);
-  const Probability a = of(before);
+// Lines over the intensity, level beyond the points.
+Probability lines(const std::vector<Node>& nodes, double im) {
+  const auto next = std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return n.im >= im; });
+  if (next == nodes.end()) return nodes.back().p;
+  Probability p = next->p;
+  if (next == nodes.begin()) return p;
+  const auto& [before, a] = *(next - 1);
+  const double rest = (next->im - im) / (next->im - before);
   for (double Probability::*member : {&Probability::value, &Probability::lower, &Probability::upper})
     p.*member -= rest * (p.*member - a.*member);
   p.resolution = std::max(p.resolution, a.resolution);
@@ -70,16 +70,23 @@ Probability blend(std::span<const Probability> known, std::span<const double> we
 Probability at(const Curve& curve, double im) {
   const std::vector<const Point*> points = usable(curve);
   if (points.empty()) return {};
-  Probability p = straight(points, im);
-  if (!by_lognormal(curve)) return p;
-  const double by_points = p.value;
-  p.value = gsl_cdf_ugaussian_P(std::log(im / curve.median) / curve.dispersion);
-  if (im > points.back()->im || im < points.front()->im) {  // the band goes along
-    p.lower += p.value - by_points;
-    p.upper += p.value - by_points;
+  const auto fitted = [&](double x) { return gsl_cdf_ugaussian_P(std::log(x / curve.median) / curve.dispersion); };
+  std::vector<Node> nodes;
+  if (!by_lognormal(curve)) {
+    nodes.push_back({0, {0, 0, points.front()->upper, of(*points.front()).resolution}});
+    for (const Point* point : points) nodes.push_back({point->im, of(*point)});
+    return lines(nodes, im);
   }
-  p.lower = std::clamp(p.lower, 0.0, p.value);
-  p.upper = std::clamp(p.upper, p.value, 1.0);
+  for (const Point* point : points) {
+    Probability p = of(*point);
+    p.lower -= fitted(point->im);
+    p.upper -= fitted(point->im);
+    nodes.push_back({point->im, p});
+  }
+  Probability p = lines(nodes, im);
+  p.value = fitted(im);
+  p.lower = std::clamp(p.value + p.lower, 0.0, p.value);
+  p.upper = std::clamp(p.value + p.upper, p.value, 1.0);
   return p;
 }
 

@@ -63,6 +63,20 @@ TEST(Interpolate, ALognormalGoesOnBeyondThePointsAndTakesItsBandAlong) {
   EXPECT_FALSE(outside(curve, 0.3));
 }
 
+// Between points that are far apart the curve is far from the straight line, and its band is where the curve is.
+TEST(Interpolate, TheBandOfALognormalGoesAlongWithItBetweenThePoints) {
+  Curve curve = test::curve(0, 0.05, 0.4, 0.2);
+  const auto fitted = [](double im) { return test::lognormal(im, 0.4, 0.2); };
+  curve.points = {{0.3, fitted(0.3), fitted(0.3) - 0.04, fitted(0.3) + 0.06, 100},
+                  {0.9, fitted(0.9), fitted(0.9) - 0.02, 1, 100}};
+  for (const double im : {0.31, 0.4, 0.5, 0.6}) {
+    const Probability p = at(curve, im);
+    const double part = (im - 0.3) / 0.6;
+    EXPECT_NEAR(p.lower, fitted(im) - (1 - part) * 0.04 - part * 0.02, 1e-12) << im;
+    EXPECT_NEAR(p.upper, std::min(fitted(im) + (1 - part) * 0.06 + part * (1 - fitted(0.9)), 1.0), 1e-12) << im;
+  }
+}
+
 // As OpenQuake reads levels: straight over the intensity itself, from 0 at 0, level above the last.
 TEST(Interpolate, WithoutAnAdequateLognormalLinesBetweenThePointsAreStraight) {
   for (const char* family : {points_family, not_refuted_family}) {
