@@ -63,18 +63,24 @@ fragility::LeftOut by_stratum(const std::vector<double>& left_out, const fragili
 
 CurveReach::CurveReach(const fragility::FragilityFunction& f, const fragility::Result& result, RateOf rate_of)
     : rate_of_(std::move(rate_of)), curve_{f.median, f.dispersion}, ln_rate_(logarithm(rate_of_(curve_))) {
-  std::vector<double> ln_rate;
-  for (std::size_t g = 0; g < f.left_out_median.size(); ++g)
-    ln_rate.push_back(logarithm(rate_of_({f.left_out_median[g], f.left_out_dispersion[g]})));
-  const Variance of_rate = variance_of(by_stratum(ln_rate, result)),
-                 of_median = variance_of(by_stratum(each(f.left_out_median, logarithm), result)),
-                 of_square =
-                     variance_of(by_stratum(each(f.left_out_dispersion, [](double d) { return d * d; }), result));
+  std::vector<double> both, median_alone, dispersion_alone;  // ln rate, as each of them is left as it is
+  for (std::size_t g = 0; g < f.left_out_median.size(); ++g) {
+    const double median = f.left_out_median[g], dispersion = f.left_out_dispersion[g];
+    both.push_back(logarithm(rate_of_({median, dispersion})));
+    median_alone.push_back(logarithm(rate_of_({median, f.dispersion})));
+    dispersion_alone.push_back(logarithm(rate_of_({f.median, dispersion})));
+  }
+  const auto variance = [&](const std::vector<double>& left_out) { return variance_of(by_stratum(left_out, result)); };
+  const Variance of_rate = variance(both), of_median = variance(each(f.left_out_median, logarithm)),
+                 of_square = variance(each(f.left_out_dispersion, [](double d) { return d * d; }));
   for (const double value : {of_rate.value, of_median.value, of_square.value})
     if (!(value > 0) || !std::isfinite(value)) return;
   if (!std::isfinite(ln_rate_)) return;
   // A dispersion that is known to no more than its own size has no such limits: chi-square's have no end.
   if (!(2 * std::pow(f.dispersion, 4) >= of_square.value)) return;
+  const double alone = variance(median_alone).value + variance(dispersion_alone).value;
+  if (!(alone > 0) || !std::isfinite(alone)) return;
+  together_ = std::sqrt(of_rate.value / alone);
   variance_ = of_rate.value;
   median_se_ = std::sqrt(of_median.value);
   median_freedom_ = of_median.freedom;
@@ -88,7 +94,7 @@ double CurveReach::reach(double tail, double side) const {
                chi_square = chi_square_quantile(side > 0 ? tail : 1 - tail, dispersion_freedom_);
   const LognormalFragility by_median{curve_.median * std::exp(-side * far), curve_.dispersion},
       by_dispersion{curve_.median, curve_.dispersion * std::sqrt(dispersion_freedom_ / chi_square)};
-  return std::hypot(std::log(rate_of_(by_median)) - ln_rate_, std::log(rate_of_(by_dispersion)) - ln_rate_);
+  return together_ * std::hypot(std::log(rate_of_(by_median)) - ln_rate_, std::log(rate_of_(by_dispersion)) - ln_rate_);
 }
 
 RateLimits::RateLimits(double value, const std::vector<double>& left_out, std::vector<double> resampled,

@@ -21,7 +21,8 @@ fragility::LeftOut by_stratum(const std::vector<double>& left_out, const fragili
 //   dispersion^2 f/chi-square_f,   f = 2 dispersion^4/var(dispersion^2)
 // with variances by leaving groups out, and ln rate those that their distances, each taken alone, make as independent errors do (G. Zou,
 // C. Huo & J. Taleban, Environmetrics 20, 2009, for the mean of a lognormal; the median and the variance of normal numbers are
-// independent).
+// independent). Those of a fitted curve are not where what was swept ends near the median: the distance is scaled by the standard error
+// of ln rate, which groups left out tell as a whole, over that of independent errors.
 class CurveReach {
  public:
   using RateOf = std::function<double(const LognormalFragility&)>;
@@ -41,6 +42,7 @@ class CurveReach {
   LognormalFragility curve_;
   double ln_rate_ = 0, variance_ = 0;
   double median_se_ = 0, median_freedom_ = 0, dispersion_freedom_ = 0;
+  double together_ = 1;  // standard error of ln rate over that of independent errors
 };
 
 // The limits of a rate: as far as leaving out groups shows that it scatters, and as askew as that of the curve (CurveReach). Where there is

@@ -58,6 +58,30 @@ TEST(CurveReach, JoinsStudentsLimitsOfTheMedianWithChiSquaresOfTheDispersion) {
   EXPECT_TRUE(std::isfinite(reach.above(0)));
 }
 
+// Where the records reach down to about the median, a larger one comes with a larger dispersion, or a smaller one: their errors in ln rate
+// take from each other, or add.
+TEST(CurveReach, IsThatOfARateWhoseMedianAndDispersionErrTogether) {
+  for (const double sign : {1.0, -1.0}) {
+    Made made;
+    std::vector<double> ln_rate, square;
+    for (std::size_t g = 0; g < 5; ++g) {
+      made.f.left_out_dispersion[g] = whole + sign * 0.01 * (static_cast<double>(g) - 2);
+      square.push_back(std::pow(made.f.left_out_dispersion[g], 2));
+      ln_rate.push_back(std::log(power_law_rate({made.f.left_out_median[g], made.f.left_out_dispersion[g]})));
+    }
+    const double alone = slope * slope * made.median_variance +
+                         std::pow(slope, 4) / 4 * fragility::jackknife_variance(square),
+                 together = fragility::jackknife_variance(ln_rate);
+    const CurveReach reach(made.f, made.result, power_law_rate);
+    const double freedom = 2 * std::pow(whole, 4) / fragility::jackknife_variance(square);
+    const double by_median = slope * gsl_cdf_tdist_Qinv(0.05, 4) * std::sqrt(made.median_variance),
+                 by_dispersion =
+                     0.5 * slope * slope * whole * whole * std::fabs(freedom / gsl_cdf_chisq_Pinv(0.05, freedom) - 1);
+    EXPECT_NEAR(reach.above(0.05), std::hypot(by_median, by_dispersion) * std::sqrt(together / alone), 1e-9);
+    EXPECT_EQ(together<alone, sign> 0);
+  }
+}
+
 // A dispersion that hardly differs from sample to sample has limits close by, at once: GSL's sums of so many degrees of freedom have
 // no end.
 TEST(CurveReach, OfADispersionThatHardlyDiffersIsThatOfTheMedian) {
