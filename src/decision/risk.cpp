@@ -264,10 +264,11 @@ Risk risk(const Result& result, const HazardCurve& hazard, const std::vector<std
                       title(row), row.by_function.value, row.by_counts.value));
   warn(found, hazard, &RiskRow::outside_sweep,
        "much of the rate comes from a fragility that is extrapolated beyond the sweep", By::function);
-  warn(found, hazard, &RiskRow::outside_sweep,
-       "much may be missing from the rate, which goes by counts, and beyond the sweep by the share at its end; of the "
-       "whole at most",
-       By::counts);
+  warn(
+      found, hazard, &RiskRow::outside_sweep,
+      "much may be missing from the rate, which goes by counts over what was swept: sweep a wider range; of the whole, "
+      "as its lowest shares fall and at most above it, about",
+      By::counts);
   warn(found, hazard, &RiskRow::outside_hazard,
        "much of the rate may come from intensities that the hazard curve does not reach");
   return found;

@@ -59,7 +59,7 @@ struct RiskRow {
   bool rates_differ =
       false;  // by the function and by the counts, more than chance explains (FragilityFunction::rate_p)
   // What extrapolated fragility gives for intensities outside of the sweep: by the function a share of the rate, by counts what is missing
-  // from it at most, as a share of both together. Of the rate: what may come from intensities outside of the
+  // from it, as its lowest shares fall and at most above it, as a share of both together. Of the rate: what may come from intensities outside of the
   // hazard curve (above its end at most as many events as it has there; below its start by its slope there).
   double outside_sweep = fragility::unknown, outside_hazard = fragility::unknown;
   std::string refused;                    // why no rate is told; empty: one is
