@@ -11,9 +11,6 @@
 namespace freestand::dynamics {
 namespace {
 
-template <class Motion>
-using IntegratorOf = TaylorIntegrator<Motion::order, Motion::degree + 2>;
-
 // Samples of one mode, whose laws have the same shape.
 template <class Motion>
 class Group {

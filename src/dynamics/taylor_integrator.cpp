@@ -1,13 +1,36 @@
 #include "dynamics/taylor_integrator.hpp"
 
 #include "dynamics/bouc_wen.hpp"
-#include "dynamics/law_rows.hpp"
 #include "dynamics/pulse_slide.hpp"
 #include "dynamics/side_by_side.hpp"
 #include "dynamics/simulate.hpp"
 #include "dynamics/spring_legs.hpp"
 
 namespace freestand::dynamics {
+
+template <int N, int FlatN>
+void TaylorIntegrator<N, FlatN>::step() {
+  if (life_.waits())
+    life_.wait();
+  else if (life_.state.mode == Mode::flight)
+    fly_on(life_.cursor.template local<N>());
+  else if (life_.state.pivot == 0 && flat_exactly_)
+    slide_exactly(life_.cursor.template local<FlatN>());
+  else
+    move_on(life_.cursor.template local<N>());
+}
+
+template <int N, int FlatN>
+void TaylorIntegrator<N, FlatN>::step_along(const LawArc<N>& arc) {
+  const Floor<double, N> floor = life_.cursor.template local<N>();
+  if (has_forces(arc))
+    step_along(arc, floor, length_of_step(arc));
+  else
+    life_.resolve(Witness::regular);
+}
+
+template class TaylorIntegrator<OnRecords::order, OnRecords::degree + 2>;
+template class TaylorIntegrator<OnPulses::order, OnPulses::degree + 2>;
 
 Response respond_on_line(const Specimen& specimen, const Shaking& shaking, const Settings& settings, History* history) {
   const Setup setup = set_up(specimen, shaking);
@@ -16,8 +39,8 @@ Response respond_on_line(const Specimen& specimen, const Shaking& shaking, const
   if (specimen.model == Model::bouc_wen) return respond_bouc_wen(setup, settings, history);
   if (!admissible(setup, settings)) return Response{.outcome = Outcome::not_finite};
   if (!history && slides_on_pulse(setup, settings)) return slide_on_pulse(setup, settings);
-  if (shaking.motion->degree <= 1) return TaylorIntegrator<OnRecords::order, 3>(setup, settings, history).run();
-  return TaylorIntegrator<OnPulses::order, OnPulses::degree + 2>(setup, settings, history).run();
+  if (shaking.motion->degree <= 1) return IntegratorOf<OnRecords>(setup, settings, history).run();
+  return IntegratorOf<OnPulses>(setup, settings, history).run();
 }
 
 }  // namespace freestand::dynamics

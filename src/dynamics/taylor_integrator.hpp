@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dynamics/integration.hpp"
+#include "dynamics/law_rows.hpp"
 #include "dynamics/law_values.hpp"
 
 namespace freestand::dynamics {
@@ -65,39 +66,28 @@ class TaylorIntegrator {
     return !life_.finished();
   }
 
-  void step() {
-    if (life_.waits())
-      life_.wait();
-    else if (life_.state.mode == Mode::flight)
-      fly_on(life_.cursor.template local<N>());
-    else if (life_.state.pivot == 0 && flat_exactly_)
-      move_on(life_.cursor.template local<FlatN>());
-    else
-      move_on(life_.cursor.template local<N>());
-  }
-
-  // A step whose series is known.
-  void step_along(const LawArc<N>& arc) {
-    const Floor<double, N> floor = life_.cursor.template local<N>();
-    if (has_forces(arc))
-      step_along(arc, floor, length_of_step(arc));
-    else
-      life_.resolve(Witness::regular);
-  }
+  // Compiled once, in taylor_integrator.cpp. Along `arc`: a step whose series is known.
+  void step();
+  void step_along(const LawArc<N>& arc);
 
   Integration& life() { return life_; }
   const Sizes& sizes() const { return size_; }
 
  private:
-  template <int M>
-  void move_on(const Floor<double, M>& floor) {
-    const bool exact = life_.state.pivot == 0 && flat_exactly_;
-    with_contact_arc<M>(life_.rig, life_.state, life_.cursor.time(), floor, [&](const auto& arc) {
+  void move_on(const Floor<double, N>& floor) {
+    with_contact_arc<N>(life_.rig, life_.state, life_.cursor.time(), floor, [&](const auto& arc) {
       if (has_forces(arc))
-        step_along(arc, floor, exact ? whole_step() : length_of_step(arc));
+        step_along(arc, floor, length_of_step(arc));
       else
         life_.resolve(Witness::regular);
     });
+  }
+  void slide_exactly(const Floor<double, FlatN>& floor) {
+    const auto arc = contact_arc<FlatN>(life_.rig, life_.state, floor);
+    if (has_forces(arc))
+      step_along(arc, floor, whole_step());
+    else
+      life_.resolve(Witness::regular);
   }
 
   // What turns is seen over a tenth of a radian at most, for the gaps under the corners.
@@ -216,5 +206,8 @@ class TaylorIntegrator {
   bool straight_[2];   // laws of what is stuck, and of what slips
   Sizes size_;
 };
+
+template <class Motion>
+using IntegratorOf = TaylorIntegrator<Motion::order, Motion::degree + 2>;
 
 }  // namespace freestand::dynamics

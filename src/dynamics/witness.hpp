@@ -223,6 +223,14 @@ Arc<double, N> contact_arc(const Rig& rig, const State& state, const Floor<doubl
   return arc;
 }
 
+// Compiled once, in law_step.cpp.
+extern template class LawStep<1>;
+extern template class LawStep<2>;
+extern template class LawStep<3>;
+extern template class LawStep<7>;
+extern template class LawStep<8>;
+extern template class LawStep<10>;
+
 // Calls use(arc) with the series of the state's mode, with laws or without.
 template <int N, class Use>
 auto with_contact_arc(const Rig& rig, const State& state, double time, const Floor<double, N>& floor, Use&& use) {
