@@ -5,14 +5,16 @@
 #include <memory>
 #include <new>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace freestand {
 
 // Rows start where a cache line does, so that a pack of a run never lies across two.
 //
-// `held`: n values that are there already, for a vector of n values, which reads them and must not be changed; they stay
-// as long as it does. A copy of it has values of its own. So the ranks of a node share the records of a sweep.
+// `held`: n values that are there already, for a vector that is made with n values: it reads these and must not be changed
+// in place. They stay as long as it does; copies of it, and what it grows into, have values of their own. So the ranks
+// of a node share the records of a sweep.
 template <class T>
 class LineAllocator {
  public:
@@ -29,7 +31,8 @@ class LineAllocator {
   LineAllocator select_on_container_copy_construction() const { return {}; }
 
   T* allocate(std::size_t n) {
-    return held_ && n == n_ ? const_cast<T*>(held_.get()) : static_cast<T*>(::operator new(n * sizeof(T), line));
+    if (held_ && n == n_ && !std::exchange(given_, true)) return const_cast<T*>(held_.get());
+    return static_cast<T*>(::operator new(n * sizeof(T), line));
   }
   void deallocate(T* p, std::size_t) {
     if (!holds(p)) ::operator delete(p, line);
@@ -45,6 +48,7 @@ class LineAllocator {
   bool holds(const T* p) const { return held_ && p >= held_.get() && p < held_.get() + n_; }
   std::shared_ptr<const T> held_;
   std::size_t n_ = 0;
+  bool given_ = false;
 };
 
 using MotionValues = std::vector<double, LineAllocator<double>>;

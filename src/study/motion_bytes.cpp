@@ -1,6 +1,7 @@
 #include "study/motion_bytes.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <concepts>
 #include <cstring>
@@ -192,6 +193,8 @@ MotionSet load_motions_together(const parallel::Communicator& world, const Study
         "{} ranks each hold a copy of their own of the floor motions, {:.1f} MB (their node has less room than that in "
         "/dev/shm, where its ranks would share one): make room there, or start fewer ranks on a node\n",
         rows.own_copies, static_cast<double>(size) / 1e6));
+  motions = {};
+  ::malloc_trim(0);  // what the root has read goes back to the system
   return motions_of(bytes.words, rows.first);
 }
 
