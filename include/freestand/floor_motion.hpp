@@ -26,7 +26,7 @@ struct FloorMotion {
   int degree = 1;
   MotionValues horizontal_mps2;  // n * (degree + 1)
   MotionValues vertical_mps2;    // the same, up positive; empty where there is no vertical channel
-  MotionValues cross_mps2;  // the same, across the horizontal channel; empty where it moves along a line
+  MotionValues cross_mps2;       // the same, across the horizontal channel; empty where it moves along a line
 
   // Bounds of |a| over runs of `run_length` segments, from index_runs(): an integrator passes over the runs that cannot
   // move the block. Empty: not indexed, every segment is looked at.

@@ -57,9 +57,7 @@ FloorMotion with_halved_segments(const FloorMotion& motion) {
       for (std::size_t k = width - 1; k-- > i;) out[k] += tau * out[k + 1];
     return out;
   };
-  const auto append = [](MotionValues& to, const MotionValues& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
+  const auto append = [](MotionValues& to, const MotionValues& from) { to.insert(to.end(), from.begin(), from.end()); };
   for (std::size_t i = 0; i < motion.segments(); ++i) {
     const double start = motion.knot_s[i], half = 0.5 * (motion.knot_s[i + 1] - start);
     for (const double tau : {0.0, half}) {
