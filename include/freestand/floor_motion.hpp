@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <freestand/motion_values.hpp>
 #include <limits>
 #include <memory>
 #include <string>
@@ -21,16 +22,16 @@ struct MotionTable;
 // After the last knot the floor is still (a = 0). Before knot_s[0] = 0 nothing happens.
 struct FloorMotion {
   std::string name;
-  std::vector<double> knot_s;  // increasing, starts at 0
+  MotionValues knot_s;  // increasing, starts at 0
   int degree = 1;
-  std::vector<double> horizontal_mps2;  // n * (degree + 1)
-  std::vector<double> vertical_mps2;    // the same, up positive; empty where there is no vertical channel
-  std::vector<double> cross_mps2;  // the same, across the horizontal channel; empty where it moves along a line
+  MotionValues horizontal_mps2;  // n * (degree + 1)
+  MotionValues vertical_mps2;    // the same, up positive; empty where there is no vertical channel
+  MotionValues cross_mps2;       // the same, across the horizontal channel; empty where it moves along a line
 
   // Bounds of |a| over runs of `run_length` segments, from index_runs(): an integrator passes over the runs that cannot
   // move the block. Empty: not indexed, every segment is looked at.
   static constexpr std::size_t run_length = 32;
-  std::vector<double> horizontal_run_mps2, vertical_run_mps2, cross_run_mps2;
+  MotionValues horizontal_run_mps2, vertical_run_mps2, cross_run_mps2;
   // The cross channel is this times the horizontal one throughout, to round-off, and the floor shakes along one line; nan: it
   // is not. From index_runs().
   double cross_over_horizontal = std::numeric_limits<double>::quiet_NaN();

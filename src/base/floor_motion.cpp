@@ -9,7 +9,7 @@
 namespace freestand {
 namespace {
 
-double evaluate(const FloorMotion& motion, const std::vector<double>& coefficients, double t) {
+double evaluate(const FloorMotion& motion, const MotionValues& coefficients, double t) {
   if (coefficients.empty() || t < 0 || t >= motion.duration_s()) return 0;
   const auto next = std::upper_bound(motion.knot_s.begin(), motion.knot_s.end(), t);
   const auto segment = static_cast<std::size_t>(next - motion.knot_s.begin()) - 1;
@@ -21,9 +21,9 @@ double evaluate(const FloorMotion& motion, const std::vector<double>& coefficien
 }
 
 // max over each run of sum_k |c_k| h^k.
-std::vector<double> run_bounds(const FloorMotion& motion, const std::vector<double>& coefficients) {
+MotionValues run_bounds(const FloorMotion& motion, const MotionValues& coefficients) {
   const auto stride = static_cast<std::size_t>(motion.degree) + 1;
-  std::vector<double> bounds;
+  MotionValues bounds;
   for (std::size_t i = 0; i * stride < coefficients.size(); ++i) {
     const double h = motion.knot_s[i + 1] - motion.knot_s[i];
     double bound = 0;
@@ -36,8 +36,8 @@ std::vector<double> run_bounds(const FloorMotion& motion, const std::vector<doub
   return bounds;
 }
 
-std::vector<double> linear_coefficients(double dt_s, const std::vector<double>& samples) {
-  std::vector<double> c;
+MotionValues linear_coefficients(double dt_s, const std::vector<double>& samples) {
+  MotionValues c;
   c.reserve(2 * (samples.size() - 1));
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
     c.push_back(samples[i]);
@@ -50,7 +50,7 @@ std::vector<double> linear_coefficients(double dt_s, const std::vector<double>& 
 // Coefficients of degree k count over their segment's length^k.
 double ratio_of_channels(const FloorMotion& motion) {
   constexpr double independent = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<double>&along = motion.horizontal_mps2, &across = motion.cross_mps2;
+  const MotionValues &along = motion.horizontal_mps2, &across = motion.cross_mps2;
   if (across.empty() || across.size() != along.size()) return independent;
   const auto stride = static_cast<std::size_t>(motion.degree) + 1;
   std::size_t largest = 0;

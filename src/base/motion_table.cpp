@@ -21,7 +21,7 @@ double dip(double b, double by, double h) {
   return most * most * h / (-2 * by);
 }
 
-bool continuous(const FloorMotion& motion, const std::vector<double>& c) {
+bool continuous(const FloorMotion& motion, const MotionValues& c) {
   double most = 0;
   for (std::size_t i = 0; i < motion.segments(); ++i) most = std::max(most, std::abs(c[2 * i]));
   for (std::size_t i = 0; i + 1 < motion.segments(); ++i) {
@@ -32,7 +32,7 @@ bool continuous(const FloorMotion& motion, const std::vector<double>& c) {
 }
 
 // Values of a channel at the knots, the first of `row`.
-void fill(Row& row, const FloorMotion& motion, const std::vector<double>& c, double h) {
+void fill(Row& row, const FloorMotion& motion, const MotionValues& c, double h) {
   const std::size_t n = motion.segments();
   for (std::size_t j = 0; j < n; ++j) row[j] = c[2 * j];
   row[n] = c[2 * n - 2] + c[2 * n - 1] * h;

@@ -17,24 +17,11 @@
 #include <cstdint>
 #include <freestand/floor_motion.hpp>
 #include <memory>
-#include <new>
 #include <vector>
 
 namespace freestand {
 
-// Rows start where a cache line does, so that a pack of a run never lies across two.
-template <class T>
-struct LineAllocator {
-  using value_type = T;
-  static constexpr std::align_val_t line{64};
-  LineAllocator() = default;
-  template <class U>
-  LineAllocator(const LineAllocator<U>&) {}
-  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
-  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
-  bool operator==(const LineAllocator&) const = default;
-};
-using Row = std::vector<double, LineAllocator<double>>;
+using Row = MotionValues;
 using ShortRow = std::vector<std::uint16_t, LineAllocator<std::uint16_t>>;
 
 inline constexpr int table_run = 8;    // knots a run

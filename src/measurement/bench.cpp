@@ -9,7 +9,7 @@
 namespace freestand::measurement {
 namespace {
 
-std::vector<double> samples(const FloorMotion& motion, const std::vector<double>& coefficients) {
+std::vector<double> samples(const FloorMotion& motion, const MotionValues& coefficients) {
   std::vector<double> values;
   if (coefficients.empty()) return values;
   const std::size_t n = motion.segments(), stride = static_cast<std::size_t>(motion.degree) + 1;

@@ -18,7 +18,7 @@ namespace {
 double zeros_s(double low_hz) { return std::log(1e8) / (2 * pi * low_hz * std::sin(pi / (2 * band_pass_order))); }
 
 // Samples of a piecewise linear channel.
-std::vector<double> samples(const FloorMotion& record, const std::vector<double>& coefficients) {
+std::vector<double> samples(const FloorMotion& record, const MotionValues& coefficients) {
   std::vector<double> values;
   for (std::size_t i = 0; i < record.segments(); ++i) values.push_back(coefficients[2 * i]);
   values.push_back(segment(record, coefficients, record.segments() - 1)(length(record, record.segments() - 1)));
@@ -68,7 +68,7 @@ FloorMotion band_pass(const FloorMotion& record, const BandPass& band) {
   const double step_s = record.duration_s() / static_cast<double>(record.segments());
   check(record, band, step_s);
   const auto zeros = static_cast<std::size_t>(std::ceil(zeros_s(band.low_hz) / step_s));
-  const auto channel = [&](const std::vector<double>& coefficients) {
+  const auto channel = [&](const MotionValues& coefficients) {
     return coefficients.empty() ? std::vector<double>{} : filtered(samples(record, coefficients), zeros, step_s, band);
   };
   return piecewise_linear(record.name, step_s, channel(record.horizontal_mps2), channel(record.vertical_mps2));

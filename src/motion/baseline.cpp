@@ -9,7 +9,7 @@ namespace freestand::motion {
 namespace {
 
 // Means over the whole motion of velocity times s and s^2, s from 0 to 1.
-std::array<double, 2> velocity_moments(const FloorMotion& motion, const std::vector<double>& coefficients) {
+std::array<double, 2> velocity_moments(const FloorMotion& motion, const MotionValues& coefficients) {
   std::array<double, 2> moments{};
   double speed = 0;
   const double duration = motion.duration_s();
@@ -40,7 +40,7 @@ FloorMotion remove_baseline(FloorMotion motion, Baseline baseline) {
   if (motion.segments() == 0) return motion;
   const double duration = motion.duration_s();
   const auto terms = static_cast<std::size_t>(motion.degree) + 1;
-  for (std::vector<double>* channel : channels(motion)) {
+  for (MotionValues* channel : channels(motion)) {
     const Fit velocity = fit(velocity_moments(motion, *channel), baseline);
     const double constant = velocity.line / duration, slope = 2 * velocity.parabola / (duration * duration);
     for (std::size_t i = 0; i < motion.segments(); ++i) {

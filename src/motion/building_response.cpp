@@ -66,7 +66,7 @@ BuildingResponse::BuildingResponse(const FloorMotion& ground, std::vector<Mode> 
 }
 
 // Of a piecewise linear channel of the ground, at a sample or a part of a step behind it; 0 behind the end.
-double BuildingResponse::ground_at(const std::vector<double>& coefficients, std::size_t knot, int parts) const {
+double BuildingResponse::ground_at(const MotionValues& coefficients, std::size_t knot, int parts) const {
   const std::size_t n = static_cast<std::size_t>(parts), segment = knot / n, part = knot % n;
   if (segment > ground_.segments() || (segment == ground_.segments() && part > 0)) return 0;
   const bool last = segment == ground_.segments();

@@ -30,7 +30,7 @@ class BuildingResponse {
  private:
   using Histories = std::vector<std::vector<double>>;  // [mode][knot], (2 z w q' + w^2 q)
 
-  double ground_at(const std::vector<double>& coefficients, std::size_t knot, int parts) const;
+  double ground_at(const MotionValues& coefficients, std::size_t knot, int parts) const;
   std::size_t tail(int floor, const std::vector<double>& amplitude, double peak) const;
   void look_at_the_shaking();
   const Histories& histories(int parts);

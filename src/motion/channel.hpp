@@ -10,7 +10,7 @@
 namespace freestand::motion {
 
 // Acceleration of segment i in the time since its start.
-inline Polynomial segment(const FloorMotion& motion, const std::vector<double>& coefficients, std::size_t i) {
+inline Polynomial segment(const FloorMotion& motion, const MotionValues& coefficients, std::size_t i) {
   Polynomial p;
   p.degree = motion.degree;
   const std::size_t terms = static_cast<std::size_t>(motion.degree) + 1;
@@ -19,9 +19,9 @@ inline Polynomial segment(const FloorMotion& motion, const std::vector<double>& 
 }
 
 // The channels that a motion has: what is done to a record is done to each.
-inline std::vector<std::vector<double>*> channels(FloorMotion& motion) {
-  std::vector<std::vector<double>*> there;
-  for (std::vector<double>* channel : {&motion.horizontal_mps2, &motion.vertical_mps2})
+inline std::vector<MotionValues*> channels(FloorMotion& motion) {
+  std::vector<MotionValues*> there;
+  for (MotionValues* channel : {&motion.horizontal_mps2, &motion.vertical_mps2})
     if (!channel->empty()) there.push_back(channel);
   return there;
 }
@@ -34,7 +34,7 @@ inline std::size_t segment_at(const FloorMotion& motion, double t) {
 
 inline double length(const FloorMotion& motion, std::size_t i) { return motion.knot_s[i + 1] - motion.knot_s[i]; }
 
-inline const std::vector<double>& coefficients(const FloorMotion& motion, Channel channel) {
+inline const MotionValues& coefficients(const FloorMotion& motion, Channel channel) {
   return channel == Channel::horizontal ? motion.horizontal_mps2 : motion.vertical_mps2;
 }
 

@@ -10,7 +10,7 @@ namespace freestand::motion {
 
 MotionPeaks peaks(const FloorMotion& motion, Channel channel) {
   MotionPeaks peaks;
-  const std::vector<double>& c = coefficients(motion, channel);
+  const MotionValues& c = coefficients(motion, channel);
   if (c.empty()) return peaks;
   double speed = 0, place = 0;
   for (std::size_t i = 0; i < motion.segments(); ++i) {
@@ -32,7 +32,7 @@ MotionPeaks scaled(const MotionPeaks& peaks, double scale, double stretch) {
 
 FloorHistory floor_history(const FloorMotion& motion, double step_s, Channel channel) {
   if (!(step_s > 0)) throw Error("no history with a step of " + std::to_string(step_s) + " s: use a positive step");
-  const std::vector<double>& c = coefficients(motion, channel);
+  const MotionValues& c = coefficients(motion, channel);
   FloorHistory history{step_s, {}, {}, {}};
   if (c.empty()) return history;
   double speed = 0, place = 0;

@@ -18,7 +18,7 @@ FloorMotion at_scale(FloorMotion motion, const Similitude& scale) {
   if (scale.is_identity()) return motion;
   for (double& knot : motion.knot_s) knot *= scale.time;
   const auto terms = static_cast<std::size_t>(motion.degree) + 1;
-  for (std::vector<double>* channel : channels(motion))
+  for (MotionValues* channel : channels(motion))
     for (std::size_t first = 0; first < channel->size(); first += terms) {
       double factor = scale.acceleration();  // of t^k: L / T^(2 + k)
       for (std::size_t k = 0; k < terms; ++k, factor /= scale.time) (*channel)[first + k] *= factor;

@@ -19,15 +19,6 @@
 namespace freestand::parallel {
 namespace {
 
-// MPI counts elements with int; longer messages go in parts.
-constexpr std::size_t part_length = std::size_t{1} << 27;
-
-template <class Transfer>
-void in_parts(std::size_t length, const Transfer& transfer) {
-  for (std::size_t first = 0; first < length; first += part_length)
-    transfer(first, static_cast<int>(std::min(part_length, length - first)));
-}
-
 template <class Container>
 Container broadcast_any(Container value, MPI_Datatype type, int size) {
   if (size == 1) return value;

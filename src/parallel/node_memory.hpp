@@ -1,11 +1,12 @@
 // Whole numbers that the ranks of one node share, in memory of the node. Where they cannot, each rank has its own.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 
 #include "parallel/communicator.hpp"
+#include "parallel/node_pages.hpp"
 
 namespace freestand::parallel {
 
@@ -13,9 +14,6 @@ class NodeMemory {
  public:
   // All begin at 0. Collective.
   NodeMemory(const Communicator&, std::size_t numbers);
-  ~NodeMemory();
-  NodeMemory(NodeMemory&&) noexcept;
-  NodeMemory& operator=(NodeMemory&&) noexcept;
 
   // To be read and written by the rank that holds the lock.
   std::span<std::int64_t> numbers();
@@ -38,12 +36,11 @@ class NodeMemory {
   std::int64_t fetch_add(std::size_t position, std::int64_t amount);
 
   // The lowest rank on this node: another number for each memory.
-  std::int64_t node() const { return node_; }
+  std::int64_t node() const { return pages_.node; }
 
  private:
-  struct Shared;
-  std::unique_ptr<Shared> shared_;
-  std::int64_t node_ = 0;
+  NodePages pages_;
+  std::size_t numbers_ = 0;
 };
 
 }  // namespace freestand::parallel

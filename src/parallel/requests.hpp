@@ -4,7 +4,9 @@
 #define OMPI_SKIP_MPICXX 1  // the C++ bindings of old
 #include <mpi.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <thread>
 
 namespace freestand::parallel {
@@ -28,6 +30,14 @@ void wait(const Start& start, const While& meanwhile) {
 template <class Start>
 void wait(const Start& start) {
   wait(start, [] {});
+}
+
+// MPI counts elements with int; longer messages go in parts.
+template <class Transfer>
+void in_parts(std::size_t length, const Transfer& transfer) {
+  constexpr std::size_t part_length = std::size_t{1} << 27;
+  for (std::size_t first = 0; first < length; first += part_length)
+    transfer(first, static_cast<int>(std::min(part_length, length - first)));
 }
 
 }  // namespace freestand::parallel

@@ -209,7 +209,7 @@ std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) 
 }
 
 // A channel of a motion by itself, as a horizontal one; its name says which.
-FloorMotion channel_of(const FloorMotion& motion, std::vector<double> FloorMotion::*channel, const char* name) {
+FloorMotion channel_of(const FloorMotion& motion, MotionValues FloorMotion::*channel, const char* name) {
   FloorMotion alone;
   alone.name = name[0] == '\0' ? motion.name : fmt::format("the {} channel of {}", name, motion.name);
   alone.knot_s = motion.knot_s;

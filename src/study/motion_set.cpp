@@ -6,6 +6,7 @@
 #include <bit>
 #include <limits>
 #include <map>
+#include <span>
 
 #include "base/random.hpp"
 #include "motion/building_response.hpp"
@@ -103,7 +104,7 @@ Entry load_record(const MotionSource& source, const motion::RecordRow& row, cons
   return entry;
 }
 
-void hash_values(const std::vector<double>& values, std::uint64_t& hash) {
+void hash_values(std::span<const double> values, std::uint64_t& hash) {
   hash = random::mix(hash ^ values.size());
   for (const double value : values) hash = random::mix(hash * 31 ^ std::bit_cast<std::uint64_t>(value));
 }
@@ -274,10 +275,11 @@ std::string MotionSet::fingerprint() const {
     hash_values(motion.horizontal_mps2, hash);
     hash_values(motion.vertical_mps2, hash);
     if (!motion.cross_mps2.empty()) hash_values(motion.cross_mps2, hash);
-    if (entry.weight != 1) hash_values({entry.weight}, hash);
+    if (entry.weight != 1) hash_values(std::span(&entry.weight, 1), hash);
     if (!entry.known_pulse.any()) continue;
     hash = random::stable_hash(entry.known_pulse.type, hash);
-    hash_values({entry.known_pulse.period_s.value_or(0)}, hash);
+    const double period_s = entry.known_pulse.period_s.value_or(0);
+    hash_values(std::span(&period_s, 1), hash);
   }
   return fmt::format("{:016x}", hash);
 }

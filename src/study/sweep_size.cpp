@@ -12,6 +12,7 @@
 #include "fragility/tally_layout.hpp"
 #include "study/analysis.hpp"
 #include "study/intensities.hpp"
+#include "study/motion_bytes.hpp"
 #include "study/ranking.hpp"
 #include "study/sample_counts.hpp"
 
@@ -64,15 +65,18 @@ SweepSize size_of(const Study& study, const Target& target, const Evaluator& eva
       word_bytes * (static_cast<double>(layout.count_size) + words_of_a_sum * static_cast<double>(layout.sum_size) +
                     static_cast<double>(ranking.words().size()));
   size.memory_bytes = copies * size.counts_bytes;
+  size.motion_bytes = static_cast<double>(bytes_of(evaluator.motions()).row_bytes);
   return size;
 }
 
 std::string told(const SweepSize& size) {
-  const std::string memory = fmt::format("{} of counts in the memory of each rank", bytes_text(size.memory_bytes));
+  const std::string memory =
+      fmt::format("{} of counts in the memory of each rank, {} of floor motions in that of each node",
+                  bytes_text(size.memory_bytes), bytes_text(size.motion_bytes));
   const bool all = size.kept == size.samples;
   const double files = size.samples_bytes + (all ? 0 : size.counts_bytes);
-  return fmt::format("{} samples, of which {} kept: at most {} in {}; while it runs {} more in blocks/{}; {}", size.samples,
-                     all ? "all are" : fmt::format("the first {} are", size.kept), bytes_text(files),
+  return fmt::format("{} samples, of which {} kept: at most {} in {}; while it runs {} more in blocks/{}; {}",
+                     size.samples, all ? "all are" : fmt::format("the first {} are", size.kept), bytes_text(files),
                      all ? "samples.h5" : "samples.h5 and tally.h5", bytes_text(size.blocks_bytes),
                      all ? "" : fmt::format(" and {} for each node", bytes_text(size.counts_bytes)), memory);
 }

@@ -17,6 +17,7 @@ struct SweepSize {
   double blocks_bytes = 0;   // of the kept samples in blocks/ while it runs [B]
   double counts_bytes = 0;   // of what is counted: of tally.h5, and of a node's file while it runs [B]
   double memory_bytes = 0;   // of the counts in each rank, at most [B]
+  double motion_bytes = 0;   // of the floor motions in each node [B]
 };
 
 // Throws Error where the bins cannot be laid.

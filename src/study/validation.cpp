@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "io/provenance.hpp"
 #include "measurement/diagnose_outcomes.hpp"
@@ -176,9 +177,11 @@ std::string content(const Prepared& p) {
   std::string all = read_text(p.validation.file) + read_text(p.measurements);
   for (const Test& test : p.data.tests) {
     all += test.id;
-    for (const auto* numbers : {&test.slip_m, &test.rotation_rad, &test.block_acceleration_mps2, &test.motion.knot_s,
-                                &test.motion.horizontal_mps2, &test.motion.vertical_mps2})
-      all.append(reinterpret_cast<const char*>(numbers->data()), numbers->size() * sizeof(double));
+    for (const std::span<const double> numbers :
+         {std::span<const double>(test.slip_m), std::span<const double>(test.rotation_rad),
+          std::span<const double>(test.block_acceleration_mps2), std::span<const double>(test.motion.knot_s),
+          std::span<const double>(test.motion.horizontal_mps2), std::span<const double>(test.motion.vertical_mps2)})
+      all.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
   }
   return all;
 }

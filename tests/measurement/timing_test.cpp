@@ -94,7 +94,7 @@ TEST(Quality, ATestThatIsHeldOutSpoilsNoVerdict) {
   };
   said([](measurement::Test& t) { mirror(t); }, "looks mirrored");
   said([](measurement::Test& t) { delay(t, 12); }, "behind the floor's channel");
-  const auto times = [](std::vector<double>& samples, double factor) {
+  const auto times = [](auto& samples, double factor) {
     for (double& s : samples) s *= factor;
   };
   said([&](measurement::Test& t) { times(t.slip_m, 1000); }, "is slip_m in metres?");

@@ -22,7 +22,7 @@ inline constexpr double g = standard_gravity_mps2;
 
 // Samples of a piecewise linear motion: the starts of its segments and the end of the last.
 inline std::vector<double> samples(const FloorMotion& motion, Channel channel = Channel::horizontal) {
-  const std::vector<double>& c = channel == Channel::horizontal ? motion.horizontal_mps2 : motion.vertical_mps2;
+  const MotionValues& c = channel == Channel::horizontal ? motion.horizontal_mps2 : motion.vertical_mps2;
   std::vector<double> values;
   for (std::size_t i = 0; i < c.size(); i += 2) values.push_back(c[i]);
   if (!c.empty()) values.push_back(c[c.size() - 2] + c.back() * (motion.knot_s.back() - motion.knot_s.end()[-2]));

@@ -40,7 +40,7 @@ class Processed : public testing::Test {
     return load_motions(parse_study(block + friction + samples + fragility + "motions: [{" + keys + "}]\n",
                                     folder_ / "s.yaml", known()));
   }
-  std::vector<double> values(const std::string& keys) const { return motions(keys).motion(0).horizontal_mps2; }
+  MotionValues values(const std::string& keys) const { return motions(keys).motion(0).horizontal_mps2; }
   std::string refusal(Exit exit, const std::string& keys) const {
     return freestand::test::error_text(exit, [&] { motions(keys); });
   }

@@ -235,7 +235,11 @@ TEST_F(Records, TravelAsBytes) {
   entries.back().ground = 1;
   entries.back().storey = 2;
   read.entries = std::make_shared<const std::vector<MotionSet::Entry>>(std::move(entries));
-  const MotionSet taken = motions_of(bytes_of(read));
+  const MotionBytes bytes = bytes_of(read);
+  const std::shared_ptr<std::byte> rows(static_cast<std::byte*>(::operator new(bytes.row_bytes, std::align_val_t(64))),
+                                        [](std::byte* p) { ::operator delete(p, std::align_val_t(64)); });
+  bytes.write_rows(rows.get());
+  const MotionSet taken = motions_of(bytes.words, rows);
   EXPECT_EQ(taken.fingerprint(), read.fingerprint());
   EXPECT_EQ(taken.names(), read.names());
   EXPECT_EQ(taken.groups(), read.groups());

@@ -50,16 +50,14 @@ FloorMotion with_halved_segments(const FloorMotion& motion) {
   result.name = motion.name;
   result.degree = motion.degree;
   const auto width = static_cast<std::size_t>(motion.degree) + 1;
-  const auto shifted = [&](const std::vector<double>& c, std::size_t segment, double tau) {
-    std::vector<double> out(c.begin() + static_cast<std::ptrdiff_t>(segment * width),
-                            c.begin() + static_cast<std::ptrdiff_t>((segment + 1) * width));
+  const auto shifted = [&](const MotionValues& c, std::size_t segment, double tau) {
+    MotionValues out(c.begin() + static_cast<std::ptrdiff_t>(segment * width),
+                     c.begin() + static_cast<std::ptrdiff_t>((segment + 1) * width));
     for (std::size_t i = 0; i < width; ++i)  // Horner's shift: p(x + tau)
       for (std::size_t k = width - 1; k-- > i;) out[k] += tau * out[k + 1];
     return out;
   };
-  const auto append = [](std::vector<double>& to, const std::vector<double>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
+  const auto append = [](MotionValues& to, const MotionValues& from) { to.insert(to.end(), from.begin(), from.end()); };
   for (std::size_t i = 0; i < motion.segments(); ++i) {
     const double start = motion.knot_s[i], half = 0.5 * (motion.knot_s[i + 1] - start);
     for (const double tau : {0.0, half}) {

@@ -61,7 +61,7 @@ inline Specimen scaled(Specimen specimen, const Scale& scale) {
 
 inline FloorMotion scaled(FloorMotion motion, const Scale& scale) {
   for (double& knot : motion.knot_s) knot *= scale.time;
-  for (std::vector<double>* channel : {&motion.horizontal_mps2, &motion.vertical_mps2})
+  for (MotionValues* channel : {&motion.horizontal_mps2, &motion.vertical_mps2})
     for (std::size_t i = 0; i < channel->size(); ++i)
       (*channel)[i] /= std::pow(scale.time, static_cast<double>(i % (static_cast<std::size_t>(motion.degree) + 1)));
   index_runs(motion);
