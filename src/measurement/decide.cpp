@@ -318,13 +318,14 @@ class Decision {
       say(fmt::format("{} cannot be told apart on these tests (in brackets their errors on tests left out{}): {}{}",
                       joined(told), scatter_allowed_for(), fmt::join(reasons, ", "),
                       ahead.empty() ? "" : "; every other effect misses these tests by more" + ahead));
-    else
+    else {
+      const std::string allowed = d_.friction_scatter > 0 ? scatter_allowed_for() : floor_noise_allowed_for(best);
       say(fmt::format(
           "{} brings the left-out error from {} to {}{}; every other effect of those fitted to the end "
-          "misses the tests left out by more, beyond chance{}",
+          "misses the tests left out by more{}, beyond chance{}",
           joined(best.effects), three_digits(left_out(d_.base)), three_digits(left_out(best)),
-          told_by_few(best) + (d_.friction_scatter > 0 ? scatter_allowed_for() : floor_noise_allowed_for(best)),
-          ahead + what_remains(best)));
+          told_by_few(best) + allowed, allowed.empty() ? "" : " with that allowed for", ahead + what_remains(best)));
+    }
   }
 
   void friction_scatters() {
