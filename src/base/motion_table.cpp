@@ -26,7 +26,9 @@ bool continuous(const FloorMotion& motion, const MotionValues& c) {
   for (std::size_t i = 0; i < motion.segments(); ++i) most = std::max(most, std::abs(c[2 * i]));
   for (std::size_t i = 0; i + 1 < motion.segments(); ++i) {
     const double end = c[2 * i] + c[2 * i + 1] * (motion.knot_s[i + 1] - motion.knot_s[i]);
-    if (std::abs(end - c[2 * i + 2]) > 1e-12 * most) return false;
+    const double rounded =
+        4 * std::numeric_limits<double>::epsilon() * motion.knot_s[i + 1];  // length of a segment [s]
+    if (std::abs(end - c[2 * i + 2]) > 1e-12 * most + std::abs(c[2 * i + 1]) * rounded) return false;
   }
   return true;
 }

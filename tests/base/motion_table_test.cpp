@@ -119,6 +119,19 @@ TEST(MotionTable, DipsBoundHowFarASpeedFallsBetweenKnots) {
   EXPECT_GT(deep, 20);  // the bound is not a loose one
 }
 
+// The instants of a long record are rounded, more so the later they are.
+TEST(MotionTable, LongRoughRecordsHaveOne) {
+  for (const double step : {0.005, 0.01}) {
+    std::vector<double> rough(100000);
+    for (std::size_t i = 0; i < rough.size(); ++i) rough[i] = i % 3 == 0 ? 10 : -7;
+    EXPECT_TRUE(piecewise_linear("rough", step, rough, rough).table) << step;
+    FloorMotion jumps = piecewise_linear("jumps", step, rough);
+    jumps.horizontal_mps2[2 * 90000] += 1e-6;
+    index_runs(jumps);
+    EXPECT_FALSE(jumps.table) << step;
+  }
+}
+
 TEST(MotionTable, PulsesAndOddStepsHaveNone) {
   FloorMotion motion = record();
   motion.knot_s[7] += 0.001;
