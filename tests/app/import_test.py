@@ -62,7 +62,7 @@ class Import(InFolder):
     def test_what_was_written_comes_back(self):
         told = self.imported().stdout
         for word in ("ACC1 in g is floor_acceleration_mps2", "LVDT 1 in mm, turned round, is slip_m", "not used: Temp of table t01.txt",
-                     "response's clock runs 0.1"):
+                     "response's clock runs 0.1", "t01: block_t01.csv is read between its samples"):
             self.assertIn(word, told)
         # To a step: friction that follows the speed shifts it a little.
         offset = float(re.search(r"clock runs ([\d.]+) s behind", told).group(1))
