@@ -36,7 +36,7 @@ bool outlasts_hops(int pivot, const double rate, const double w, Start&& start, 
   return goes_on();
 }
 
-// Whether a row of hops without slip, whose first one starts with `rate` and turns the block by `rotation` under its weight alone, is over:
+// Whether a row of hops, whose first one starts with `rate` and turns the block by `rotation` under its weight alone, is over:
 // too small to tell by the tolerance of rotations, and certain to end before the floor could lift the block. Its rates may be the
 // root of that tolerance, and a floor that tips the block while the row lasts makes a motion of them; only rates as small as the tolerance
 // are nothing by themselves.
