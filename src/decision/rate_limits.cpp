@@ -78,9 +78,12 @@ CurveReach::CurveReach(const fragility::FragilityFunction& f, const fragility::R
   if (!std::isfinite(ln_rate_)) return;
   // A dispersion that is known to no more than its own size has no such limits: chi-square's have no end.
   if (!(2 * std::pow(f.dispersion, 4) >= of_square.value)) return;
-  const double alone = variance(median_alone).value + variance(dispersion_alone).value;
+  const double by_median = variance(median_alone).value, by_dispersion = variance(dispersion_alone).value,
+               alone = by_median + by_dispersion;
   if (!(alone > 0) || !std::isfinite(alone)) return;
-  together_ = std::sqrt(of_rate.value / alone);
+  const double excess = of_rate.value - alone, square = excess * excess / (4 * by_median * by_dispersion);
+  const double known = square > 0 ? std::fmax(1 - 1 / (of_rate.freedom * std::fmin(square, 1)), 0) : 0;
+  together_ = std::sqrt(1 + known * excess / alone);
   variance_ = of_rate.value;
   median_se_ = std::sqrt(of_median.value);
   median_freedom_ = of_median.freedom;
