@@ -25,7 +25,7 @@ namespace freestand::decision {
 // (dispersions 0.15 and 0.4, 0.25 and 0.35, 0.35 and 0.25, 0.5 and 0.2), medians 0.25, 0.6, 1.5, hazard slopes 1.5 and 2.5; 4000 repeats
 // with 14 records, 2500 with 40, 1500 with 100 (error 0.005 to 0.008), errors of median and dispersion taken as independent: by the function
 // they hold the truth in 0.885 to 0.907 of the cases with 14 records, in 0.897 to 0.924 with 40, in 0.901 to 0.919 with 100. With what groups
-// tell of errors that go together (CurveReach; the second dispersions, medians 0.6 and 1.5, 500 repeats, error 0.014) in 0.874 to 0.898 with
+// tell of errors that go together (CurveReach; dispersions 0.35 and 0.25, medians 0.6 and 1.5, 500 repeats, error 0.014) in 0.874 to 0.898 with
 // 14 and 0.890 to 0.904 with 40, and where a sweep of pulses begins near the median in 0.88 of 120 for 0.82. By
 // counts with dispersions 0.35 and 0.25 and medians 0.6 and 1.5 (2000 repeats, error 0.006) in 0.918 to 0.929 with 14, 0.913 to 0.925 with
 // 40. The exact upper limit of bins in which nothing was counted is never crossed while P is small there, at whatever confidence (each
