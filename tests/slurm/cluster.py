@@ -100,6 +100,7 @@ class Cluster:
         return self
 
     def __exit__(self, *_):
+        self._end_jobs()
         for process in reversed(self.started):
             process.send_signal(signal.SIGTERM)
             try:
@@ -108,6 +109,15 @@ class Cluster:
                 process.kill()
                 process.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
+
+    def _end_jobs(self):
+        """A test that failed may leave one, which outlives the daemons."""
+        if not any(process.poll() is None and "slurmctld" in str(process.args[0]) for process in self.started):
+            return
+        self.run("scancel", "--full", "--me")
+        deadline = time.monotonic() + 20
+        while time.monotonic() < deadline and self.run("squeue", "--noheader").stdout.strip():
+            time.sleep(0.1)
 
     def _start(self):
         text = CONFIGURATION.format(host=socket.gethostname(), ports=free_ports(3), folder=self.folder)
