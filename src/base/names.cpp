@@ -16,7 +16,8 @@ const char* failure(Outcome outcome) {
   constexpr const char* words[] = {"",
                                    "",
                                    "",
-                                   "no motion agrees with the contact forces, as in Painleve's paradox, or walls hold up a block whose floor falls away",
+                                   "no motion agrees with the contact forces, as in Painleve's paradox, or walls hold "
+                                   "up a block whose floor falls away",
                                    "more steps than allowed",
                                    "the motion grows beyond all bounds, or a law gives no finite number"};
   return words[static_cast<int>(outcome)];

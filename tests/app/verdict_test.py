@@ -1,20 +1,14 @@
 """A verdict, its table and its numbers say the same; what is held out decides nothing."""
 
-import json
 import math
-import pathlib
 import re
 import shutil
 import unittest
 
-from support import CONFIGS, InFolder
+from support import CONFIGS, InFolder, numbers
 
 SHAKE_TABLE = CONFIGS / "report" / "shake_table"
 WALK = CONFIGS / "walkthrough"
-
-
-def read(path):
-    return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
 
 
 class Verdict(InFolder):
@@ -34,7 +28,7 @@ class Verdict(InFolder):
 
     def test_best_of_peaks(self):
         told = self.succeed(["diagnose", SHAKE_TABLE / "asp_profile_calibrated.yaml", "-o", self.folder / "asp"]).stdout
-        found = read(self.folder / "asp" / "diagnosis.json")
+        found = numbers(self.folder / "asp" / "diagnosis.json")
         self.judged_by_its_table(found)
         self.assertEqual(found["verdict"], "none")
         judged = [c for c in found["candidates"] if c["left_out_refitted"]]
@@ -47,7 +41,7 @@ class Verdict(InFolder):
         for study in sorted(SHAKE_TABLE.glob("*_calibrated.yaml")):
             out = self.folder / study.stem
             self.succeed(["compare", study, "-o", out, "--quiet"])
-            parameters = read(out / "comparison.json")["parameters"]
+            parameters = numbers(out / "comparison.json")["parameters"]
             self.assertTrue(parameters)
             for number in parameters:
                 for interval in (number["interval"], number["interval_90"]):
@@ -75,7 +69,7 @@ class Verdict(InFolder):
                     row[slip] = repr(-float(row[slip]))
                 file.write_text("\n".join(",".join(row) for row in [names] + rows) + "\n", encoding="utf-8")
             self.succeed(["diagnose", self.folder / name / "cabinet.yaml", "-o", self.folder / f"{name} out", "--quiet"])
-            found[name] = read(self.folder / f"{name} out" / "diagnosis.json")
+            found[name] = numbers(self.folder / f"{name} out" / "diagnosis.json")
             self.judged_by_its_table(found[name])
         extra = [finding for finding in found["turned round"]["findings"] if finding not in found["as it is"]["findings"]]
         self.assertEqual(len(extra), 1, extra)

@@ -105,24 +105,23 @@ class RockHops : public RockLanes {
   }
 
   // The row of hops that starts here is over.
-  bool ends_hops(int i) const {
+  bool ends_hops(int i) {
     const Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
-    const double omega = r_.omega[i], rotation = lane.hop_here * omega * omega;
-    return row_is_over(rotation, c.rest_rotation, omega, larger(lane.left.kept, lane.right.kept), [&] {
+    const double h = c.table->step_s, omega = r_.omega[i], rotation = lane.hop_here * omega * omega;
+    return row_is_over(rotation, c.rest_rotation, omega / h, larger(lane.left.kept, lane.right.kept), [&] {
       if (lane.after) return std::numeric_limits<double>::infinity();
-      const double time = r_.left[i];
-      const auto given = [&](const Lane::Side& on) {
-        const double now = pull(i, on, r_.a[i]);
-        return given_ahead(now, (pull(i, on, *r_.next[i]) - now) / time, time);
+      const double time = h * r_.left[i];
+      const auto given = [&](const Ground& on) {
+        const double now = on.pull(c.scale * r_.a[i], 0);
+        return given_ahead(now, (on.pull(c.scale * *r_.next[i], 0) - now) / time, time);
       };
-      return smaller(given(lane.left), given(lane.right));
+      return smaller(given(grounds(i).left), given(grounds(i).right));
     });
   }
-
-  // Back to the floor, of the upright block; a: of the unit record.
-  double pull(int i, const Lane::Side& on, double a) const {
-    return magnitude(on.arm) * on.gravity + (on.arm > 0 ? a : -a) * lanes_[i].sample->h * on.push;
+  const Grounds& grounds(int i) {
+    std::optional<Grounds>& there = lanes_[i].grounds;
+    return there ? *there : there.emplace(*lanes_[i].sample);
   }
 
   void come_to_rest(int i, bool rests) {
@@ -152,13 +151,15 @@ class RockHops : public RockLanes {
   // As in dynamics/small_hops.cpp.
   void feel_row_of_hops(int i) {
     const Lane& lane = lanes_[i];
-    const double rate = magnitude(r_.omega[i]), here = r_.a[i];
-    const Lane::Side &on = r_.side[i] > 0 ? lane.right : lane.left, &other = r_.side[i] > 0 ? lane.left : lane.right;
+    const BatchCase& c = *lane.sample;
+    const double rate = magnitude(r_.omega[i]) / c.table->step_s, here = r_.a[i], side = r_.side[i];
+    const Ground &on = grounds(i).on(side), &other = grounds(i).on(-side);
     r_.omega[i] = 0;
     feel_on_both(i);
     if (lane.after) return;
-    const double first = 2 * rate / pull(i, on, here), second = 2 * rate * on.kept / pull(i, other, here);
-    const double part = (first + second) / (1 - on.kept * other.kept) / r_.left[i];
+    const double first = 2 * rate / on.pull(c.scale * here, 0),
+                 second = 2 * rate * on.kept / other.pull(c.scale * here, 0);
+    const double part = (first + second) / (1 - on.kept * other.kept) / (c.table->step_s * r_.left[i]);
     if (!(part > 0 && part < 1)) return;
     r_.a[i] += (*r_.next[i] - here) * part;
     feel_on_both(i);
@@ -239,9 +240,8 @@ class RockHops : public RockLanes {
   bool small_hops(int i) {
     Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
-    if (!lane.grounds) lane.grounds.emplace(c);
     const double h = c.table->step_s, rate = r_.omega[i] / h, square = rate * rate, a = c.scale * r_.a[i];
-    const double pull = lane.grounds->on(r_.side[i]).pull(a, 0);
+    const double pull = grounds(i).on(r_.side[i]).pull(a, 0);
     return square * square < limit2(i) * pull * pull && lane.grounds->bounds.fast * c.g * h * h < 1e-3 &&
            magnitude(a) <= largest_push(i) && free_of(i) > 0;
   }
