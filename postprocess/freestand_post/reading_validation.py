@@ -267,8 +267,8 @@ def _candidate(node):
 def _proposal(node):
     if not node:
         return {}
-    law = f"friction: {node.text('friction')}" if node.text("friction") else f"force per mass: {node.text('force')}"
-    return _candidate(node) | {"law": law, "variable": node.text("variable")}
+    laws = [f"{what}: {node.text(key)}" for key, what in (("friction", "friction"), ("force", "force per mass")) if node.text(key)]
+    return _candidate(node) | {"law": ", ".join(laws), "variable": node.text("variable")}
 
 
 def read_diagnosis(folder):

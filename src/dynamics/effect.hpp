@@ -22,7 +22,7 @@ namespace freestand::dynamics {
 
 // Where and how the block is, for the laws. Units as in Input.
 struct At {
-  Value u, v, theta, omega, t, path, normal, side, sigma, speed, rise, climb;
+  Value u, v, theta, omega, t, path, normal, side, sigma, speed, rest, rise, climb;
   double mu = 0;                 // kinetic friction coefficient without the effects [1]
   Block block = {};              // as the effects leave it
   Value acceleration;            // absolute, of the centre of mass [m/s2]; rates of states only

@@ -77,7 +77,7 @@ Rig::AtRest Integration::laws_at_rest() const {
   if (!rig.laws) return {};
   const LawValues left = law_values(rig, state, cursor.time(), -1);
   const LawValues right = law_values(rig, state, cursor.time(), 1);
-  const bool constant = !rig.laws->uses(Input::t) && (!rig.laws->uses(Input::normal) || shaking.vertical_scale == 0);
+  const bool constant = !rig.laws->change_at_rest() && (!rig.laws->uses(Input::normal) || shaking.vertical_scale == 0);
   return {std::max(std::abs(left.force), std::abs(right.force)), std::max(left.lift, right.lift),
           std::max(std::abs(left.moment), std::abs(right.moment)), std::min(left.factor, right.factor),
           constant && left.finite() && right.finite()};
@@ -186,6 +186,7 @@ bool Integration::strikes_too(double at_once) const {
 }
 
 void Integration::resolve(Witness witness) {
+  if (state.sigma != 0 || state.mode == Mode::flight) state.still_since = cursor.time();
   const State from = state;
   const double speed_before = rig.laws ? centre_speed(rig, state) : 0;
   bool impact = false, at_floor = false, regular = true;
@@ -326,7 +327,7 @@ bool Integration::settles() const {
 
 // On a floor that does not move, and with laws that do not change.
 bool Integration::leans_for_good() const {
-  return state.at_wall() && state.mode == Mode::rock && !rig.laws->evolve_at_rest() && !rig.laws->uses(Input::t);
+  return state.at_wall() && state.mode == Mode::rock && !rig.laws->evolve_at_rest() && !rig.laws->change_at_rest();
 }
 
 double Integration::slip() const {

@@ -106,7 +106,8 @@ LawFlight<N> fly_with_laws(const Rig& rig, const State& state, double time, cons
   const auto value = [&](Input input, int offset = 0) -> Series<double, N>& {
     return values[static_cast<int>(input) + offset];
   };
-  for (const Input constant : {Input::normal, Input::side, Input::sigma, Input::speed, Input::path, Input::t})
+  for (const Input constant :
+       {Input::normal, Input::side, Input::sigma, Input::speed, Input::path, Input::t, Input::rest})
     value(constant) = Series<double, N>::zero();
   value(Input::t)[0] = time;
   value(Input::t)[1] = 1;

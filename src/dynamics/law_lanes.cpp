@@ -72,6 +72,7 @@ class Group {
     set(Row::w, state.w);
     set(Row::path, state.path);
     set(Row::deflection, state.deflection);
+    set(Row::still_since, state.still_since);
     set(Row::right_gap, at.right_wall.gap);
     set(Row::right_across, at.right_wall.across);
     set(Row::right_up, at.right_wall.up);

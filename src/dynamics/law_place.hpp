@@ -45,6 +45,8 @@ class LawPlace {
     }
     for (int i = 0; i < laws_.states; ++i) value(Input::state, i)[0] = at_.states[i];
     if (laws_.reads(Input::t)) start(Input::t, at_.time, 1.0);
+    if (laws_.reads(Input::rest) && !slips()) start(Input::rest, at_.time - at_.still_since, 1.0);
+    if (laws_.reads(Input::rest) && slips()) start(Input::rest, Real(0.0), 0.0);
     if (laws_.reads(Input::side)) start(Input::side, at_.pivot, 0.0);
     if (laws_.reads(Input::sigma)) start(Input::sigma, at_.sigma, 0.0);
   }

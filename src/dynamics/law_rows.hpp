@@ -39,6 +39,7 @@ enum class Row : int {
   w,
   path,
   deflection,
+  still_since,
   right_gap,
   right_across,
   right_up,

@@ -48,6 +48,7 @@ inline LawValues law_values(const Rig& rig, const State& state, double time, int
   set(Input::side, state.pivot);
   set(Input::sigma, sigma);
   set(Input::speed, std::abs(state.w));
+  set(Input::rest, state.rested(time));
   set(Input::rise, B * rotation.sine);
   set(Input::climb, B * rotation.cosine * state.omega);
   for (int i = 0; i < laws.states; ++i) values[static_cast<int>(Input::state) + i][0] = state.states[i];

@@ -19,6 +19,7 @@ At inputs(Tape& tape, const Specimen& specimen) {
           .side = input(Input::side),
           .sigma = input(Input::sigma),
           .speed = input(Input::speed),
+          .rest = input(Input::rest),
           .rise = input(Input::rise),
           .climb = input(Input::climb),
           .mu = specimen.friction.mu_k,

@@ -40,6 +40,8 @@ struct Laws {
   bool uses(Input input) const;
   // Any node looks at it.
   bool reads(Input input) const { return read_ >> static_cast<int>(input) & 1U; }
+  // They change while nothing moves.
+  bool change_at_rest() const { return uses(Input::t) || uses(Input::rest); }
   bool sees_rise() const { return reads(Input::rise) || reads(Input::climb); }
   // Of a block on a corner, that slips or not: forces, moments or friction depend on the normal force, which depends on them.
   bool sees_normal_force(bool slips) const {

@@ -117,9 +117,10 @@ struct State : Kinks {
   double doubt = 1;  // by how much more than round-off the last choice of mode took for zero
 
   // With laws only.
-  double path = 0;        // slid by the contact [m]
-  double deflection = 0;  // of the legs [m]
-  double foot = 0;        // slip speed of the contact under the legs [m/s]
+  double path = 0;         // slid by the contact [m]
+  double deflection = 0;   // of the legs [m]
+  double foot = 0;         // slip speed of the contact under the legs [m/s]
+  double still_since = 0;  // the contact, if it stands still [s]
   std::array<double, max_states> states{};
   // An edge of the side face stays at the wall on that side (+1, -1; 0: none does), and which. One that is `released` leaves
   // the wall at this very instant. An upright block on the floor touches a wall by its displacement alone.
@@ -127,6 +128,8 @@ struct State : Kinks {
   Edge edge = Edge::face;
   bool released = false;
 
+  // For how long the contact has stood still [s].
+  double rested(double time) const { return sigma == 0 && mode != Mode::flight ? time - still_since : 0; }
   bool at_wall() const { return wall != 0 && !released; }
   // It is this edge of that side, alone or with its whole face, that is at the wall.
   bool is_by(int side, Edge which) const { return wall == side && (edge == Edge::face || edge == which); }

@@ -30,7 +30,8 @@ struct Standing {
   Real pivot, sigma;           // as in State
   Real theta, omega, xi, w, path, deflection, foot;
   Real states[max_states];
-  Real time;  // [s]
+  Real time;         // [s]
+  Real still_since;  // as in State [s]
   ToWall<Real> right_wall, left_wall;
 };
 
@@ -54,6 +55,7 @@ inline Standing<double> standing_of(const Rig& rig, const State& state, double t
   at.deflection = state.deflection;
   at.foot = state.foot;
   at.time = time;
+  at.still_since = state.still_since;
   for (int i = 0; i < rig.laws->states; ++i) at.states[i] = state.states[static_cast<std::size_t>(i)];
   if (!rig.laws->walls.any()) return at;
   for (const int side : {1, -1})

@@ -44,13 +44,14 @@ enum Kind {
 };
 
 const std::vector<std::string>& variables() {
-  static const std::vector<std::string> names = {"u",    "v",     "theta", "omega", "t", "path", "normal",
-                                                 "side", "sigma", "speed", "mu",    "g", "pi"};
+  static const std::vector<std::string> names = {"u",    "v",     "theta", "omega", "t",  "path", "normal",
+                                                 "side", "sigma", "speed", "rest",  "mu", "g",    "pi"};
   return names;
 }
 
 Value variable_value(const At& at, int i) {
-  const Value inputs[] = {at.u, at.v, at.theta, at.omega, at.t, at.path, at.normal, at.side, at.sigma, at.speed};
+  const Value inputs[] = {at.u,      at.v,    at.theta, at.omega, at.t,   at.path,
+                          at.normal, at.side, at.sigma, at.speed, at.rest};
   if (i < static_cast<int>(std::size(inputs))) return inputs[i];
   const double constants[] = {at.mu, standard_gravity_mps2, pi};
   return at.u.tape->constant(constants[i - static_cast<int>(std::size(inputs))]);
@@ -285,7 +286,7 @@ Value Formula::record(const At& at, const std::vector<double>& parameters) const
   return values[static_cast<std::size_t>(result_)];
 }
 
-double Formula::value(const std::array<double, 10>& inputs, double mu, const std::vector<double>& parameters) const {
+double Formula::value(const Inputs& inputs, double mu, const std::vector<double>& parameters) const {
   std::vector<double> known(inputs.begin(), inputs.end());
   known.insert(known.end(), {mu, standard_gravity_mps2, pi});
   known.insert(known.end(), parameters.begin(), parameters.end());
@@ -297,8 +298,14 @@ double Formula::value(const std::array<double, 10>& inputs, double mu, const std
   return values[static_cast<std::size_t>(result_)];
 }
 
-bool Formula::uses(std::size_t parameter) const {
-  const int sought = static_cast<int>(variables().size() + parameter);
+bool Formula::uses(std::size_t parameter) const { return looks_at(static_cast<int>(variables().size() + parameter)); }
+
+bool Formula::looks_at(const std::string& variable) const {
+  const auto found = std::find(variables().begin(), variables().end(), variable);
+  return looks_at(static_cast<int>(found - variables().begin()));
+}
+
+bool Formula::looks_at(int sought) const {
   const auto is_it = [&](int place) {
     const Operation& of = operations_[static_cast<std::size_t>(place)];
     return of.kind == variable && of.operands[0] == sought;
@@ -323,6 +330,9 @@ dynamics::Effect effect(const std::string& name, const std::string& friction, co
   if (!friction.empty() && !force.empty()) effect.law += ", force: " + force;
   for (const auto& parameter : parameters)
     effect.parameters.push_back({.name = parameter, .unit = "", .summary = "", .lower = -1e300, .upper = 1e300});
+  for (const std::string* text : {&friction, &force})
+    if (!text->empty() && Formula(*text, parameters).looks_at("rest"))
+      effect.excludes = {"bouc_wen"};  // never stands still
   if (!friction.empty()) {
     // The formula stands in the place of mu, but acts as a factor on it: a mu of 0 becomes one that no answer can tell from 0.
     effect.specimen = [](Specimen& specimen, const dynamics::Parameters&) {

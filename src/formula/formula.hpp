@@ -3,7 +3,7 @@
 //   friction: "mu*(1 + a*sin(2*pi*u/l))"       the friction coefficient
 //   force:    "-k*u - c*v"                     horizontal force per mass through the centre of mass [m/s2]
 //
-// Variables: u v theta omega t path normal side sigma speed (dynamics/tape.hpp says what they are and in which units),
+// Variables: u v theta omega t path normal side sigma speed rest (dynamics/tape.hpp says what they are and in which units),
 // mu (kinetic coefficient), g, pi, and the parameters of the effect, with or without their unit suffix.
 // Operators: + - * / ^ and comparisons < > (1 or 0).  Functions: exp log sqrt sin cos tanh abs min max step if.
 // step(x), and if(x, yes, no), ask whether x > 0. A law may leap, but not against the speed, nor where the block tips (study/leaping_laws.cpp).
@@ -28,6 +28,9 @@ class FormulaError : public std::runtime_error {
   std::size_t position_;
 };
 
+// u v theta omega t path normal side sigma speed rest
+using Inputs = std::array<double, 11>;
+
 class Formula {
  public:
   // Throws FormulaError. parameters: names of the effect's parameters, e.g. a, l_m.
@@ -35,9 +38,10 @@ class Formula {
 
   dynamics::Value record(const dynamics::At& at, const std::vector<double>& parameters) const;
 
-  // The number it gives: inputs in the order u v theta omega t path normal side sigma speed.
-  double value(const std::array<double, 10>& inputs, double mu, const std::vector<double>& parameters) const;
+  // The number it gives.
+  double value(const Inputs& inputs, double mu, const std::vector<double>& parameters) const;
   bool uses(std::size_t parameter) const;
+  bool looks_at(const std::string& variable) const;
 
  private:
   struct Operation {
@@ -46,6 +50,7 @@ class Formula {
     std::vector<int> operands;
   };
   friend struct Recorder;
+  bool looks_at(int known) const;
   std::vector<Operation> operations_;
   int result_ = 0;
 };

@@ -8,17 +8,17 @@
 
 #include "base/digits.hpp"
 #include "measurement/decide.hpp"
-#include "measurement/effect_search.hpp"
 #include "measurement/levels.hpp"
+#include "measurement/pair_search.hpp"
 
 namespace freestand::measurement {
 namespace {
 
-class LawSearch : EffectSearch {
+class LawSearch : PairSearch {
  public:
   LawSearch(const Bench& bench, const ModelSpec& base, const Catalogue& forms, const DiagnosisOptions& options,
             const Jobs& jobs, Diagnosis& diagnosis)
-      : EffectSearch(bench, base, forms, options, jobs), diagnosis_(diagnosis) {
+      : PairSearch(bench, base, forms, options, jobs), diagnosis_(diagnosis) {
     out_.base = diagnosis.base;
     // An effect that is enough only if friction scatters beside it is held against laws that need no scatter.
     out_.friction_scatter = beside_scatter() ? 0 : diagnosis.friction_scatter;
@@ -32,6 +32,9 @@ class LawSearch : EffectSearch {
       fit_again_by_strides(forms.tasks, forms.tasks.size(), options_.pair_finals, options_.effort);
     judge();
     if (!forms_may_help()) return;
+    // A law of two variables: one form's factor on friction, or force, beside another's.
+    const Candidate one = best();
+    if (!one.effects.empty() && one_more_wanted(one) && join_others_to(one)) judge();
     const Candidate* form = simplest_that_leads();
     if (!form || !better_than_the_catalogue(*form)) return;
     const auto tests = tests_of(bench_.data(), Role::calibration);
@@ -40,7 +43,7 @@ class LawSearch : EffectSearch {
     diagnosis_.sentences.push_back(fmt::format(
         "a law of no catalogue does better: {}; it brings the left-out error from {} to {} (proposed_law.yaml, "
         "which `freestand add` takes)",
-        law_of(*form).law, three_digits(pooled(bench_, tests, diagnosis_.base.fit.left_out).error),
+        law_of(*form), three_digits(pooled(bench_, tests, diagnosis_.base.fit.left_out).error),
         three_digits(pooled(bench_, tests, form->fit.left_out).error)));
   }
 
@@ -58,7 +61,12 @@ class LawSearch : EffectSearch {
     for (Candidate& c : diagnosis_.candidates) c.rival = false;
   }
 
-  static const dynamics::Effect& law_of(const Candidate& c) { return *c.fit.model.effects.back().effect; }
+  static std::string law_of(const Candidate& c) {
+    std::vector<std::string> laws;
+    const auto& terms = c.fit.model.effects;
+    for (std::size_t i = terms.size() - c.effects.size(); i < terms.size(); ++i) laws.push_back(terms[i].effect->law);
+    return fmt::format("{}", fmt::join(laws, " and "));
+  }
 
   bool forms_may_help() {
     std::vector<const ModelFit*> tried;

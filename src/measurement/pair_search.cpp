@@ -32,7 +32,10 @@ bool PairSearch::second_effect_wanted() const {
 
 bool PairSearch::add_one_more() {
   const Candidate whole = best();
-  if (whole.effects.size() < 2 || !one_more_wanted(whole)) return false;
+  return whole.effects.size() >= 2 && one_more_wanted(whole) && join_others_to(whole);
+}
+
+bool PairSearch::join_others_to(const Candidate& whole) {
   std::vector<const dynamics::Effect*> others;
   for (const auto* effect : catalogue_)
     if (goes_with(whole.fit.model, *effect) && fewer_numbers_than(tests_, whole.fit.model, *effect))

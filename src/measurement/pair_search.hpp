@@ -16,11 +16,13 @@ class PairSearch : public EffectSearch {
   // Adds candidates of two effects to those of one, where they are wanted, then of three and more, and judges them.
   void search_more();
   const Pairs& pairs() const { return pairs_; }
+  bool one_more_wanted(const Candidate&) const;
+  // Each other effect beside those of a candidate. False: none may join, or changes any prediction.
+  bool join_others_to(const Candidate& whole);
 
  private:
-  bool one_more_wanted(const Candidate&) const;
   bool second_effect_wanted() const;
-  // Joins all others to the best one of several effects. False: none may join, or help.
+  // To the best one of several effects.
   bool add_one_more();
   void fit_pairs();
   // Fits them, and the best few of them to the end, which become candidates.

@@ -147,21 +147,14 @@ void state_intervals(const Bench& bench, Diagnosis& d, const Jobs& jobs) {
   widen_by_score(bench, others, jobs);
 }
 
-// The law, its numbers, and the entry with which `add` takes it into the study.
-Json proposal_json(const Bench& bench, const Diagnosis& d, const Json& recovered) {
-  if (!d.proposal) return nullptr;
-  const Candidate& c = *d.proposal;
-  const auto& all = law_forms();
-  const LawForm& form =
-      *std::find_if(all.begin(), all.end(), [&](const LawForm& f) { return f.effect.name == c.effects[0]; });
-  const std::size_t own = fitted_numbers(form.effect);
-  Json json = candidate_json(bench, c);
-  json["variable"] = form.variable;
-  json["friction"] = form.friction.empty() ? Json(nullptr) : Json(form.friction);
-  json["force"] = form.force.empty() ? Json(nullptr) : Json(form.force);
-  const auto own_of = [own](const Values& x) { return Values(x.end() - static_cast<long>(own), x.end()); };
-  json["entry"] = entry_of(form, own_of(c.fit.x));
-  json["band"] = nullptr;
+Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+// One factor of friction or force of the law, of one variable, drawn over where friction was recovered. first: of its numbers.
+Json part_json(const LawForm& form, const ModelFit& fit, std::size_t first, const Json& recovered) {
+  Json json = {{"variable", form.variable},
+               {"friction", text_or_null(form.friction())},
+               {"force", text_or_null(form.force)},
+               {"band", nullptr}};
   for (const Json& table : recovered["tables"]) {
     Values seen, places;
     for (const Json& centre : table["centre"])
@@ -169,10 +162,40 @@ Json proposal_json(const Bench& bench, const Diagnosis& d, const Json& recovered
     if (table["variable"] != form.variable || seen.empty()) continue;
     const double low = seen.front(), high = seen.back();
     for (int i = 0; i <= 40; ++i) places.push_back(low + (high - low) * i / 40);
-    const LawBand band =
-        law_band(c.fit, [&](const Values& x) { return law_at(form, places, c.fit.model.mu_k.of(x), own_of(x)); });
+    const auto law = [&](const Values& x) {
+      const auto own = x.begin() + static_cast<long>(first);
+      return law_at(form, places, fit.model.mu_k.of(x), {own, own + static_cast<long>(fitted_numbers(form.effect))});
+    };
+    const LawBand band = law_band(fit, law);
     json["band"] = {{"at", places}, {"law", band.law}, {"lower", band.lower}, {"upper", band.upper}};
   }
+  return json;
+}
+
+// The law, its numbers, and the entry with which `add` takes it into the study.
+Json proposal_json(const Bench& bench, const Diagnosis& d, const Json& recovered) {
+  if (!d.proposal) return nullptr;
+  const Candidate& c = *d.proposal;
+  const auto& all = law_forms();
+  std::vector<LawForm> parts;
+  std::size_t own = 0;
+  for (const std::string& name : c.effects) {
+    parts.push_back(*std::find_if(all.begin(), all.end(), [&](const LawForm& f) { return f.effect.name == name; }));
+    own += fitted_numbers(parts.back().effect);
+  }
+  const LawForm law = together(parts);
+  std::size_t first = c.fit.x.size() - own;
+  Json json = candidate_json(bench, c);
+  json["variable"] = law.variable;
+  json["friction"] = text_or_null(law.friction());
+  json["force"] = text_or_null(law.force);
+  json["entry"] = entry_of(law, Values(c.fit.x.begin() + static_cast<long>(first), c.fit.x.end()));
+  json["parts"] = Json::array();
+  for (const LawForm& part : parts) {
+    json["parts"].push_back(part_json(part, c.fit, first, recovered));
+    first += fitted_numbers(part.effect);
+  }
+  json["band"] = parts.size() == 1 ? json["parts"][0]["band"] : Json(nullptr);
   return json;
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 
 #include "formula/formula.hpp"
 
@@ -16,11 +15,12 @@ struct FreeNumber {
   double low, high, nothing;
 };
 
-LawForm form(const char* name, const char* variable, const char* friction, const char* force,
+LawForm form(const char* name, const char* variable, const char* factor, const char* force,
              std::vector<FreeNumber> numbers) {
   std::vector<std::string> names;
   for (const FreeNumber& n : numbers) names.emplace_back(n.name);
-  LawForm form{variable, friction, force, formula::effect(name, friction, force, names)};
+  LawForm form{variable, factor, force, {}};
+  form.effect = formula::effect(name, form.friction(), force, names);
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     dynamics::Parameter& p = form.effect.parameters[i];
     const FreeNumber& n = numbers[i];
@@ -38,24 +38,40 @@ LawForm form(const char* name, const char* variable, const char* friction, const
 
 }  // namespace
 
-// Friction is mu times a factor. Waves of a floor are told by both amplitudes, so that no phase has to be found.
+// Waves of a floor are told by both amplitudes, so that no phase has to be found. No two variables have a name of a number in common.
 const std::vector<LawForm>& law_forms() {
   static const std::vector<LawForm> all = {
-      form("law_of_position", "position_m", "mu*(1 + a*u)", "", {{"a", -4, 4, 0}}),
-      form("law_of_position_squared", "position_m", "mu*(1 + a*u + b*u^2)", "", {{"a", -4, 4, 0}, {"b", -20, 20, 0}}),
-      form("waves_over_position", "position_m", "mu*(1 + a*sin(2*pi*u/l) + b*cos(2*pi*u/l))", "",
+      form("law_of_position", "position_m", "1 + a*u", "", {{"a", -4, 4, 0}}),
+      form("law_of_position_squared", "position_m", "1 + a*u + b*u^2", "", {{"a", -4, 4, 0}, {"b", -20, 20, 0}}),
+      form("waves_over_position", "position_m", "1 + a*sin(2*pi*u/l) + b*cos(2*pi*u/l)", "",
            {{"a", -0.6, 0.6, 0}, {"b", -0.6, 0.6, 0}, {"l_m", 0.03, 0.4, 0.1}}),
-      form("law_of_time", "time_s", "mu*(1 + a*t)", "", {{"a", -0.1, 0.1, 0}}),
-      form("saturating_over_time", "time_s", "mu*(1 + a*(1 - exp(-t/c)))", "",
-           {{"a", -0.6, 1.5, 0}, {"c_s", 0.5, 20, 5}}),
-      form("law_of_path", "path_m", "mu*(1 + a*path)", "", {{"a", -1, 1, 0}}),
-      form("law_of_speed", "speed_mps", "mu*(1 + a*speed + b*speed^2)", "", {{"a", -2, 2, 0}, {"b", -4, 4, 0}}),
-      form("law_of_normal_force", "normal_g", "mu*(1 + a*(normal - 1))", "", {{"a", -0.8, 0.8, 0}}),
+      form("law_of_time", "time_s", "1 + d*t", "", {{"d", -0.1, 0.1, 0}}),
+      form("saturating_over_time", "time_s", "1 + d*(1 - exp(-t/e))", "", {{"d", -0.6, 1.5, 0}, {"e_s", 0.5, 20, 5}}),
+      form("law_of_path", "path_m", "1 + f*path", "", {{"f", -1, 1, 0}}),
+      form("law_of_speed", "speed_mps", "1 + h*speed + i*speed^2", "", {{"h", -2, 2, 0}, {"i", -4, 4, 0}}),
+      form("law_of_normal_force", "normal_g", "1 + j*(normal - 1)", "", {{"j", -0.8, 0.8, 0}}),
+      form("healing_at_rest", "rest_s", "1 + q*log(1 + rest/r)", "", {{"q", 0, 0.5, 0}, {"r_s", 0.02, 1, 0.1}}),
       form("quadratic_drag", "speed_mps", "", "-c*v*abs(v)", {{"c", 0.3, 20, 0}}),
       form("cubic_spring", "position_m", "", "-k*u^3", {{"k", 1, 3000, 0}}),
-      form("force_in_waves", "position_m", "", "-a*sin(2*pi*u/l) - b*(cos(2*pi*u/l) - 1)",
-           {{"a", -1, 1, 0}, {"b", -1, 1, 0}, {"l_m", 0.03, 0.4, 0.1}}),
+      form("force_in_waves", "position_m", "", "-m*sin(2*pi*u/n) - o*(cos(2*pi*u/n) - 1)",
+           {{"m", -1, 1, 0}, {"o", -1, 1, 0}, {"n_m", 0.03, 0.4, 0.1}}),
   };
+  return all;
+}
+
+LawForm together(const std::vector<LawForm>& forms) {
+  LawForm all = forms.front();
+  for (std::size_t i = 1; i < forms.size(); ++i) {
+    const LawForm& next = forms[i];
+    all.variable += " and " + next.variable;
+    if (!next.factor.empty())
+      all.factor = all.factor.empty() ? next.factor : fmt::format("{})*({}", all.factor, next.factor);
+    if (!next.force.empty())
+      all.force = all.force.empty() ? next.force : fmt::format("{} + ({})", all.force, next.force);
+    all.effect.name += "_and_" + next.effect.name;
+    all.effect.parameters.insert(all.effect.parameters.end(), next.effect.parameters.begin(),
+                                 next.effect.parameters.end());
+  }
   return all;
 }
 
@@ -63,16 +79,16 @@ std::vector<double> law_at(const LawForm& form, const std::vector<double>& place
                            const std::vector<double>& values) {
   std::vector<std::string> names;
   for (const dynamics::Parameter& p : form.effect.parameters) names.push_back(p.name);
-  const formula::Formula law(form.friction.empty() ? form.force : form.friction, names);
+  const formula::Formula law(form.factor.empty() ? form.force : form.friction(), names);
   std::vector<double> found;
   for (const double x : places) {
-    // u v theta omega t path normal side sigma speed
-    std::array<double, 10> at = {0, 0, 0, 0, 0, 0, 1, 0, 1, 0};
+    formula::Inputs at = {0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0};
     if (form.variable == "position_m") at[0] = x;
     if (form.variable == "time_s") at[4] = x;
     if (form.variable == "path_m") at[5] = x;
     if (form.variable == "normal_g") at[6] = x;
     if (form.variable == "speed_mps") at[1] = at[9] = x;
+    if (form.variable == "rest_s") at[10] = x;
     found.push_back(law.value(at, mu, values));
   }
   return found;
@@ -89,9 +105,10 @@ std::string entry_of(const LawForm& form, const std::vector<double>& values) {
                     std::max(p.lower, p.low > 0 ? std::max(values[i] - reach, values[i] / 3) : values[i] - reach),
                     std::min(p.upper, values[i] + reach));
   }
-  const bool friction = !form.friction.empty();
-  return fmt::format("{{name: {}, {}: \"{}\", parameters: {{{}}}}}\n", form.effect.name,
-                     friction ? "friction" : "force", friction ? form.friction : form.force, parameters);
+  std::string laws;
+  if (!form.factor.empty()) laws += fmt::format("friction: \"{}\", ", form.friction());
+  if (!form.force.empty()) laws += fmt::format("force: \"{}\", ", form.force);
+  return fmt::format("{{name: {}, {}parameters: {{{}}}}}\n", form.effect.name, laws, parameters);
 }
 
 }  // namespace freestand::study

@@ -9,12 +9,16 @@
 namespace freestand::study {
 
 struct LawForm {
-  std::string variable;         // as tables of recovered friction call it
-  std::string friction, force;  // formulas (formula/formula.hpp), one of them
+  std::string variable;       // as tables of recovered friction call it
+  std::string factor, force;  // formulas (formula/formula.hpp), one of them: of friction, and force per mass [m/s2]
   dynamics::Effect effect;
+  std::string friction() const { return factor.empty() ? "" : "mu*(" + factor + ")"; }
 };
 
 const std::vector<LawForm>& law_forms();
+
+// One law of several: the product of their factors, the sum of their forces, their numbers in this order.
+LawForm together(const std::vector<LawForm>&);
 
 // The entry of a study's `effects`, as `freestand add` takes it, its numbers to be calibrated around these values.
 std::string entry_of(const LawForm&, const std::vector<double>& values);

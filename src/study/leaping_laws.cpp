@@ -60,7 +60,7 @@ class LawAlong {
     at[which_] = x;
     at[path] = std::max(at[path], std::abs(at[u]));
     at[speed] = std::abs(at[v]);
-    if (at[v] != 0) at[sigma] = at[v] < 0 ? -1 : 1;
+    if (at[v] != 0) at[sigma] = at[v] < 0 ? -1 : 1, at[rest] = 0;
     if (which_ == theta && x != 0) at[omega] = x, at[side] = x < 0 ? -1 : 1;
     for (auto& value : values_) value[0] = 0;
     for (std::size_t i = 0; i < at.size(); ++i) values_[i][0] = at[i];

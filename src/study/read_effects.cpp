@@ -73,11 +73,12 @@ void check_values(Section& section, const EffectPart& part, const std::vector<st
     if (!is_fixed(q.value)) return;
     parameters.push_back(std::get<sampling::Fixed>(q.value).value);
   }
-  // u v theta omega t path normal side sigma speed: at rest, and in slips either way.
-  const std::vector<std::array<double, 10>> states = {{0, 0, 0, 0, 0, 0, 1, 0, 1, 0},
-                                                      {0, 0, 0, 0, 0, 0, 1, 0, -1, 0},
-                                                      {0.01, 0.2, 0, 0, 1, 0.01, 1, 0, 1, 0.2},
-                                                      {-0.01, -0.2, 0, 0, 1, 0.01, 1, 0, -1, 0.2}};
+  // At rest, and in slips either way.
+  const std::vector<formula::Inputs> states = {{0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0},
+                                               {0, 0, 0, 0, 0, 0, 1, 0, -1, 0, 0},
+                                               {0, 0, 0, 0, 10, 0, 1, 0, 1, 0, 10},
+                                               {0.01, 0.2, 0, 0, 1, 0.01, 1, 0, 1, 0.2, 0},
+                                               {-0.01, -0.2, 0, 0, 1, 0.01, 1, 0, -1, 0.2, 0}};
   for (const char* key : {"friction", "force"}) {
     const bool friction = std::string(key) == "friction";
     const std::string& text = friction ? part.friction : part.force;

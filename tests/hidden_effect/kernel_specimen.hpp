@@ -1,18 +1,34 @@
 // A truth of the generator as the specimen of freestand, for tests that hold one against the other.
 #pragma once
 
+#include <algorithm>
 #include <freestand/floor_motion.hpp>
 #include <freestand/specimen.hpp>
 #include <stdexcept>
 
 #include "dynamics/chain.hpp"
 #include "effects/effects.hpp"
+#include "formula/formula.hpp"
 #include "hidden_effect/generator.hpp"
 
 namespace freestand::test {
 
+// What stands in no catalogue, as a study may write it.
+inline const effects::Effect* formula_of(const std::string& name) {
+  using formula::effect;
+  static const std::vector<effects::Effect> all = {
+      effect("rough_floor", "mu*(1 + ratio*sin(2*pi*u/length))", "", {"ratio", "length_m"}),
+      effect("friction_heating", "mu*(1 + rise*(1 - exp(-t/time)))", "", {"rise", "time_s"}),
+      effect("quadratic_drag", "", "-per*v*abs(v)", {"per_m"}),
+      effect("stick_ageing", "mu*(1 + rise*log(1 + rest/time))", "", {"rise", "time_s"}),
+  };
+  const auto found = std::find_if(all.begin(), all.end(), [&](const auto& effect) { return effect.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
 inline EffectUse effect_use(const TruthEffect& truth) {
   const effects::Effect* effect = effects::find(truth.name);
+  if (!effect) effect = formula_of(truth.name);
   if (!effect) throw std::invalid_argument(truth.name);
   EffectUse use{effect, {}};
   for (const auto& parameter : effect->parameters) {

@@ -17,7 +17,7 @@ constexpr double g = standard_gravity_mps2, floor_step_s = 0.005, most_mu = 0.65
 
 bool excludes(const std::string& effect, const std::string& other) {
   const effects::Effect* found = effects::find(effect);
-  if (!found) return false;
+  if (!found) return effect == "stick_ageing" && other == "bouc_wen";  // a contact that never stands still
   return std::find(found->excludes.begin(), found->excludes.end(), other) != found->excludes.end();
 }
 
@@ -188,6 +188,7 @@ const char* name(Setting setting) {
 const std::vector<std::string>& judged_effects() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names = catalogue_effects();
+    names.insert(names.end(), outside_effects().begin(), outside_effects().end());
     names.emplace_back("chain");
     return names;
   }();

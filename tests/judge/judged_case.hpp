@@ -21,7 +21,7 @@ enum class Setting {
 inline constexpr int rigid_setting_count = 5, setting_count = 6;
 const char* name(Setting setting);
 
-// The catalogue, and the chain.
+// The catalogue, the laws that the generator knows beside it, and the chain.
 const std::vector<std::string>& judged_effects();
 
 // What a case is drawn from: the effects that it is about, and its setting.

@@ -81,7 +81,7 @@ struct ContactLaws {
   struct Place {
     double u_m = 0, path_m = 0, normal_g = 1, time_s = 0;
   };
-  // Ratio of tangential to normal force: of a slip, and at most without one (stuck for age_s; sigma: the slip that would
+  // Ratio of tangential to normal force: of a slip, and at most without one (stuck for age_s, 0: it slips or flies; sigma: the slip that would
   // begin; speed: of the slip that a blow stops).
   double sliding(const Place& at, double speed, int sigma) const { return mu_k * factor(at, speed, sigma); }
   double holding(const Place& at, double age_s, int sigma, double speed = 0) const;

@@ -100,7 +100,7 @@ MoreauStepper::Step MoreauStepper::prepare(const State& state, const FloorLine& 
   step.place.path_m = state.path + half * std::abs(state.w);
   step.place.time_s = middle;
   step.speed = std::max(0.0, std::abs(state.w + half * state.w_rate));
-  step.age = middle - state.stuck_since;
+  step.age = state.grip == Grip::stuck ? middle - state.stuck_since : 0;
 
   double force = laws_.force(step.place.u_m, speed + half * state.base_rate);
   if (laws_.contents_ratio != 0) {

@@ -91,6 +91,7 @@ class LawMarchOf {
     at.leg_damping = number(Row::leg_damping);
     at.pivot = number(Row::pivot);
     at.sigma = number(Row::sigma);
+    at.still_since = number(Row::still_since);
     at.right_wall = {number(Row::right_gap), number(Row::right_across), number(Row::right_up)};
     at.left_wall = {number(Row::left_gap), number(Row::left_across), number(Row::left_up)};
   }
