@@ -186,7 +186,7 @@ bool Integration::strikes_too(double at_once) const {
 }
 
 void Integration::resolve(Witness witness) {
-  if (state.sigma != 0 || state.mode == Mode::flight) state.still_since = cursor.time();
+  if (state.sigma != 0 || state.mode == Mode::flight || is_clearance(witness)) state.still_since = cursor.time();
   const State from = state;
   const double speed_before = rig.laws ? centre_speed(rig, state) : 0;
   bool impact = false, at_floor = false, regular = true;

@@ -143,6 +143,7 @@ class Group {
     state.w = get(Row::w);
     state.path = get(Row::path);
     state.deflection = get(Row::deflection);
+    state.still_since = get(Row::still_since);
     for (int k = 0; k < laws_.states; ++k) state.states[static_cast<std::size_t>(k)] = state_row(k)[i];
     life.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset), rows_->steps[i]);
     life.rocked_on(rows_->blows[i] - rows_->struck[i], rows_->told[i]);

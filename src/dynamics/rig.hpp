@@ -120,7 +120,7 @@ struct State : Kinks {
   double path = 0;         // slid by the contact [m]
   double deflection = 0;   // of the legs [m]
   double foot = 0;         // slip speed of the contact under the legs [m/s]
-  double still_since = 0;  // the contact, if it stands still [s]
+  double still_since = 0;  // the contact, if it stands still: since the last slip, flight or blow [s]
   std::array<double, max_states> states{};
   // An edge of the side face stays at the wall on that side (+1, -1; 0: none does), and which. One that is `released` leaves
   // the wall at this very instant. An upright block on the floor touches a wall by its displacement alone.

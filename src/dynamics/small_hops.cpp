@@ -10,6 +10,7 @@
 namespace freestand::dynamics {
 
 bool Integration::strike_floor() {
+  state.still_since = cursor.time();
   const State from = state;
   if (!strike(rig, state, cursor)) return false;
   if (state.omega != 0 || within_reach_of_wall(rig, state, beside_wall(rig))) return true;

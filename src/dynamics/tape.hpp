@@ -31,7 +31,7 @@ enum class Input : int {
   side,          // +1 on the right corner, -1 on the left one, 0 flat or in flight
   sigma,         // direction of the slip, or of the impending slip: +1 to the right, -1 to the left
   speed,         // |slip speed| of the contact [m/s]
-  rest,          // for how long the contact has stood still, 0 in slips and in flight [s]
+  rest,          // for how long the contact has stood still, and nothing struck the block; 0 in slips and in flight [s]
   rise,          // height of the middle of the base over the floor [m]
   climb,         // its rate [m/s]
   acceleration,  // absolute horizontal acceleration of the centre of mass [m/s2]; only for the rates of states

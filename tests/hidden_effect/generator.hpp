@@ -6,7 +6,7 @@
 //   rough_floor      mu (1 + r sin(2 pi u/L)): ratio, length_m
 //   friction_heating mu (1 + d (1 - exp(-t/T))): rise, time_s
 //   quadratic_drag   force per mass -c v |v|: per_m
-//   stick_ageing     mu_s (1 + d ln(1 + tau/T)), tau = time since the contact stuck, from 0 at the start: rise, time_s
+//   stick_ageing     mu_s (1 + d ln(1 + tau/T)), tau = time since the contact stuck, or the block was struck, from 0 at the start: rise, time_s
 // And the chain of PHYSICS section 4, which pulls at a point of the side face away from `side` (+1, -1), height_m over
 // the base, when that has moved by more than slack_m along it; elevation_rad of its other end over that point; stiffness and strength over
 // the mass.

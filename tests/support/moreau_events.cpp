@@ -200,6 +200,7 @@ void MoreauStepper::collide(double t, double dt) {
   if (state_.closed[left] != state_.closed[right] && state_.theta == 0 && short_hop(dt)) lie_down();
   state_.margin = std::numeric_limits<double>::quiet_NaN();
   state_.struck = true;
+  state_.stuck_since = t;
   state_.w_rate = state_.corner_rate = state_.base_rate = 0;
   state_.contents_v -= state_.v.x - before.v.x;
 }
@@ -270,6 +271,7 @@ void MoreauStepper::meet_wall(int edge, double t, double dt) {
   }
   state_.margin = std::numeric_limits<double>::quiet_NaN();
   state_.struck = true;
+  state_.stuck_since = t;
   state_.w_rate = state_.corner_rate = state_.base_rate = 0;
   state_.contents_v -= state_.v.x - before.v.x;
 }

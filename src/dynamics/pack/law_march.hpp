@@ -123,6 +123,7 @@ class LawMarchOf {
     keep(Row::w, at.w);
     keep(Row::path, at.path);
     keep(Row::deflection, at.deflection);
+    keep(Row::still_since, at.still_since);
     for (int i = 0; i < laws_.states; ++i) keep(state_row(i), at.states[i]);
     ground_.save();
     keep(Row::peak_slip, slip_);
@@ -289,6 +290,7 @@ class LawMarchOf {
     const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
     Standing<Pack>&at = here_, &to = to_;
     if (struck) {
+      at.still_since = freestand::choose(lanes_of(struck), ground_.time(), at.still_since);
       blows_.stand(lanes_of(struck), struck, to);
       at.body.c = to.body.c;
       at.half_base = to.half_base;
