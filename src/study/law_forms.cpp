@@ -50,7 +50,7 @@ const std::vector<LawForm>& law_forms() {
       form("law_of_path", "path_m", "1 + f*path", "", {{"f", -1, 1, 0}}),
       form("law_of_speed", "speed_mps", "1 + h*speed + i*speed^2", "", {{"h", -2, 2, 0}, {"i", -4, 4, 0}}),
       form("law_of_normal_force", "normal_g", "1 + j*(normal - 1)", "", {{"j", -0.8, 0.8, 0}}),
-      form("healing_at_rest", "rest_s", "1 + q*log(1 + rest/r)", "", {{"q", 0, 0.5, 0}, {"r_s", 0.02, 1, 0.1}}),
+      form("healing_at_rest", "rest_s", "1 + q*log(1 + rest/r)", "", {{"q", 0.02, 0.6, 0}, {"r_s", 0.02, 1, 0.1}}),
       form("quadratic_drag", "speed_mps", "", "-c*v*abs(v)", {{"c", 0.3, 20, 0}}),
       form("cubic_spring", "position_m", "", "-k*u^3", {{"k", 1, 3000, 0}}),
       form("force_in_waves", "position_m", "", "-m*sin(2*pi*u/n) - o*(cos(2*pi*u/n) - 1)",

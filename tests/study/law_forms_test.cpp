@@ -5,8 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include "formula/formula.hpp"
 #include "study/read_validation.hpp"
 
 namespace freestand::study {
@@ -38,7 +40,39 @@ TEST(LawForms, TheLawOverItsVariable) {
   EXPECT_NEAR(law_at(named("law_of_path"), {0.5}, 0.2, {1})[0], 0.3, 1e-15);
   EXPECT_NEAR(law_at(named("law_of_speed"), {0.5}, 0.2, {1, -2})[0], 0.2, 1e-15);
   EXPECT_NEAR(law_at(named("quadratic_drag"), {-0.5}, 0.2, {3})[0], 0.75, 1e-15);
+  EXPECT_NEAR(law_at(named("healing_at_rest"), {std::exp(1.0) - 1}, 0.2, {0.3, 1})[0], 0.26, 1e-15);
   EXPECT_NEAR(law_at(named("waves_over_position"), {0.025}, 0.2, {0.5, 0.1, 0.1})[0], 0.3, 1e-12);
+}
+
+// Two of them in one entry, with the numbers of both, is what they are one after the other: factors multiply, forces add.
+TEST(LawForms, TwoTogetherAreOneLaw) {
+  const auto& all = law_forms();
+  for (const LawForm& one : all)
+    for (const LawForm& other : all) {
+      if (one.variable == other.variable) continue;
+      const LawForm both = together({one, other});
+      std::set<std::string> names;
+      std::vector<double> values;
+      for (const auto& p : both.effect.parameters) {
+        EXPECT_TRUE(names.insert(p.name).second) << p.name << " of " << both.effect.name;
+        values.push_back(0.5 * (p.low + p.high));
+      }
+      const std::string text = fmt::format(
+          "measurements: dataset.yaml\nmodel:\n  friction: {{mu: 0.2}}\n  effects:\n    - {}", entry_of(both, values));
+      const Validation study = parse_validation(text, "study.yaml");
+      ASSERT_EQ(study.model.effects.size(), 1u) << text;
+      const std::vector<std::string> known(names.begin(), names.end());
+      std::vector<double> sorted;
+      for (const std::string& name : known)
+        for (std::size_t i = 0; i < values.size(); ++i)
+          if (both.effect.parameters[i].name == name) sorted.push_back(values[i]);
+      const formula::Inputs at = {0.03, 0.2, 0, 0, 1.5, 0.3, 1.1, 0, 1, 0.2, 0.4};
+      const auto value = [&](const std::string& text, double without) {
+        return text.empty() ? without : formula::Formula(text, known).value(at, 0.2, sorted);
+      };
+      EXPECT_NEAR(value(both.friction(), 0.2), value(one.friction(), 0.2) * value(other.friction(), 0.2) / 0.2, 1e-12);
+      EXPECT_NEAR(value(both.force, 0), value(one.force, 0) + value(other.force, 0), 1e-12);
+    }
 }
 
 // Numbers to be calibrated hold the value that was found, within what is allowed.
