@@ -27,7 +27,7 @@
 namespace freestand::dynamics {
 
 template <int N, class Real = double, class Numbers = OwnNumbers, class Kind = AnyKind>
-class LawStep : LawPlace<N, Real, Numbers, Kind> {
+class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
   using Place = LawPlace<N, Real, Numbers, Kind>;
   using Place::force_, Place::factor_from_tape, Place::forces_of_laws, Place::see_normal;
   using Place::laws_, Place::at_, Place::numbers_, Place::floor_, Place::legs_, Place::y_, Place::values_;
@@ -43,11 +43,11 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
 
   // One sample.
   LawStep(const Rig& rig, const State& state, double time, const Floor<double, N>& floor)
-      : LawStep(*rig.laws, own_, OwnNumbers(rig.laws->tape, state.sides), AnyKind{state.pivot != 0, state.sigma != 0},
-                floor) {
-    own_ = standing_of(rig, state, time);
-    rig_ = &rig;
-    state_ = &state;
+      : OwnStanding<Real>{standing_of(rig, state, time)},
+        Place(*rig.laws, this->own, {rig.laws->tape, state.sides}, {state.pivot != 0, state.sigma != 0}, floor),
+        rig_(&rig),
+        state_(&state) {
+    prepare();
     leans_ = turns() && state.at_wall();
     rocks_plainly_ = rocks_plainly_ && !leans_;
     if (leans_) leaning_.lever = lever_over_corner(rig, state.pivot, state.wall, state.edge);
@@ -59,16 +59,8 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   // `floor` are read anew by every run().
   LawStep(const Laws& laws, const Standing<Real>& at, const Numbers& numbers, const Kind& kind,
           const Floor<Real, N>& floor)
-      : Place(laws, at, numbers, kind, floor),
-        whole_(laws.carried_mass == 1),
-        grip_changes_(laws.grip_changes()),
-        rocks_plainly_(whole_ && !legs_ && laws.states == 0 && laws.lift < 0 && !laws.sees_normal_force(false)) {
-    if (laws_.moment < 0) y_.moment = Series<Real, N>::zero();
-    if (turns() && !slips() && rocks_plainly_) y_.path = y_.foot = y_.n = y_.d = Series<Real, N>::zero();
-    if (laws_.friction < 0) {
-      factor_ = Series<Real, N>::zero();
-      factor_[0] = Real(1.0);
-    }
+      : Place(laws, at, numbers, kind, floor) {
+    prepare();
   }
   LawStep(const LawStep&) = delete;
   LawStep& operator=(const LawStep&) = delete;
@@ -92,6 +84,15 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   }
 
  private:
+  void prepare() {
+    if (laws_.moment < 0) y_.moment = Series<Real, N>::zero();
+    if (turns() && !slips() && rocks_plainly_) y_.path = y_.foot = y_.n = y_.d = Series<Real, N>::zero();
+    if (laws_.friction < 0) {
+      factor_ = Series<Real, N>::zero();
+      factor_[0] = Real(1.0);
+    }
+  }
+
   void begin() {
     Place::begin();
     const auto& [c, h, k2] = at_.body;
@@ -379,21 +380,20 @@ class LawStep : LawPlace<N, Real, Numbers, Kind> {
   Real per_mass(const Real& x) const { return whole_ ? x : x / at_.mass; }
   Real W2() const { return at_.leg_rate * at_.leg_rate; }
   Real zW2() const { return Real(2.0) * at_.leg_damping * at_.leg_rate; }
-  const bool whole_;  // all of the mass moves with the block
-  const bool grip_changes_;
-  bool rocks_plainly_;  // when it is stuck: nothing in the equations looks at forces or states, or pushes but laws
+  const bool whole_ = laws_.carried_mass == 1;  // all of the mass moves with the block
+  const bool grip_changes_ = laws_.grip_changes();
+  // When it is stuck: nothing in the equations looks at forces or states, or pushes but laws.
+  bool rocks_plainly_ = whole_ && !legs_ && laws_.states == 0 && laws_.lift < 0 && !laws_.sees_normal_force(false);
   Real over_inertia_, over_d_;  // 1/(k^2 + r^2); 1/D at the start
-  Series<Real, N> factor_, load_, inertia_, q_;
+  Series<Real, N> factor_, load_, inertia_, q_, friction_;
   Real acceleration_ = Real(0.0), deflection_rate_ = Real(0.0), wall_force_ = Real(0.0);
   // Of a single sample.
   struct None {};
-  [[no_unique_address]] std::conditional_t<single, Standing<double>, None> own_;
   const Rig* rig_ = nullptr;
   const State* state_ = nullptr;
   bool leans_ = false;                // an edge at a wall
   bool friction_sees_force_ = false;  // on the corner that it slips on
   bool let_go_ = false;               // that corner, by the floor
-  Series<Real, N> friction_;
   [[no_unique_address]] std::conditional_t<single, Leaning<N>, None> leaning_;
 };
 

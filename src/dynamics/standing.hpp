@@ -35,6 +35,14 @@ struct Standing {
   ToWall<Real> right_wall, left_wall;
 };
 
+// What the equations of one sample keep for themselves; those of a pack are read where the pack is.
+template <class Real>
+struct OwnStanding {};
+template <>
+struct OwnStanding<double> {
+  Standing<double> own;
+};
+
 inline Standing<double> standing_of(const Rig& rig, const State& state, double time) {
   const int pivot = state.pivot != 0 ? state.pivot : 1;
   Standing<double> at{};
