@@ -21,8 +21,8 @@ bool sound(const Setup& setup, const Settings& settings) {
 // Samples of one kind of friction and floor.
 class PlanePool {
  public:
-  PlanePool(PlaneMarch march, int lanes, std::span<Response> responses, const Settings& settings)
-      : march_(march), most_lanes_(lanes), responses_(responses), settings_(settings) {
+  PlanePool(PlaneMarch steps, int lanes, std::span<Response> responses, const Settings& settings)
+      : march_(steps), most_lanes_(lanes), responses_(responses), settings_(settings) {
     rows_.tolerance = settings.tolerance;
   }
 

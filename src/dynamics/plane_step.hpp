@@ -54,7 +54,7 @@ struct PlaneStep {
   SlipSeries<Real> slip;
   Real v{}, drive{}, hold{}, h{}, tau{};  // |q|, |A|, the larger F m_i; length of the step, in s and in time
 
-  PlaneStep(PlaneState<Real>& state, double tolerance) : at(state), tolerance(tolerance) {}
+  PlaneStep(PlaneState<Real>& state, double accuracy) : at(state), tolerance(accuracy) {}
 
   // The floor at this instant, and the speed.
   [[gnu::always_inline]] void look() {

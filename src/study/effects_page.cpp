@@ -80,7 +80,18 @@ std::string effects_list() {
   return text +
          "\n`freestand effects NAME` tells law, parameters, source and when to suspect it. A law of your own "
          "goes into\nthe study as a formula: effects: [{name: my_seam, friction: \"mu*(1 + a*sin(2*pi*u/l))\", "
-         "parameters: {a: 0.3, l_m: 0.05}}]\n";
+         "parameters: {a: 0.3, l_m: 0.05}}]\n"
+         "\nA formula looks at\n"
+         "  u, v          displacement of the middle of the base [m], its rate\n"
+         "  theta, omega  rotation [rad], its rate\n"
+         "  speed, sigma  of the slip [m/s], and its direction: 1 to the right, -1 to the left\n"
+         "  path          slid so far [m]\n"
+         "  rest          for how long the contact has stood still, since a slip, flight or blow [s]\n"
+         "  normal        normal force over the weight\n"
+         "  side          1 on the right corner, -1 on the left one, 0 on both\n"
+         "  t             time [s]\n"
+         "  mu, g, pi     and the effect's own numbers\n"
+         "through + - * / ^ < > exp log sqrt sin cos tanh abs min max step if(x, where x > 0, else).\n";
 }
 
 std::string effect_page(const Effect& effect) {
