@@ -8,7 +8,7 @@
     confusion.py -o DIR --table                                  what is done there, and nothing else
 
 Makes each set (make_sets), runs `freestand diagnose` on it, and, where the answer is right, `freestand add` for each
-hidden effect. One line per set as it is done; DIR/results.jsonl keeps them, so that a later run goes on from there, and
+hidden effect, or for the law that is proposed. One line per set as it is done; DIR/results.jsonl keeps them, so that a later run goes on from there, and
 shares of the work can be done one by one. The program sees the set alone, never DIR/sets/answers.json.
 
 What counts as what:
@@ -44,6 +44,7 @@ FAULTS = ["coloured_noise", "drift", "gain", "wrong_width", "friction_scatter", 
 SIZES = [1, 2, 3, 4, 6, 12, 30, math.inf]  # [noise units] of the plain model
 LEAST_BASE = 4.0  # [noise units]
 AT_NOISE = 1.2
+LAW_AT_NOISE, TIMES_LESS = 1.5, 5  # held-out errors after a proposed law
 
 
 def options():
@@ -167,6 +168,8 @@ class Bench:
                       best=[[c["effect"], c["error_left_out"], c["error_left_out_floor_noise_allowed"]] for c in visible[:5]])
         if result["kind"] == "catalogue" and result["judged"] == "right":
             result.update(self.added(name, answer["effects"]))
+        if result["proposed"]:
+            result.update(self.added(name, [f"{name}.diagnosis/proposed_law.yaml"]))
         return result
 
     # The ladder after all hidden effects have been added.
@@ -178,8 +181,8 @@ class Bench:
             if done.returncode != 0:
                 return {"held_out": None, "held_out_floor": None, "trouble": done.stderr.strip()[-400:]}
             study = after
-        step = ladder(self.sets / study)[-1]
-        return {"held_out": step.get("error_holdout"), "held_out_explained": step.get("explained_holdout"),
+        before, *_, step = ladder(self.sets / study)
+        return {"held_out_before": before.get("error_holdout"), "held_out": step.get("error_holdout"), "held_out_explained": step.get("explained_holdout"),
                 "held_out_floor": step.get("noise_floor_holdout", step.get("noise_floor"))}
 
 
@@ -257,6 +260,20 @@ def power(results):
             print(f"  {low:>3} to {high:<5} right {share(sum(r['judged'] == 'right' for r in rows), len(rows)):<26} {counts}")
 
 
+def laws(results):
+    of = [r for r in results if r["kind"] == "outside" and r.get("proposed")]
+    if not of:
+        return
+    known = [r for r in of if r.get("held_out") is not None]
+    at_noise = sum(r["held_out"] <= LAW_AT_NOISE for r in known)
+    less = sum(TIMES_LESS * r["held_out"] <= r["held_out_before"] for r in known)
+    print(f"\nlaws that are proposed where the effect is of no catalogue: {share(len(of), len([r for r in results if r['kind'] == 'outside']))}; "
+          f"held-out error with them at most {LAW_AT_NOISE:g}: {share(at_noise, len(known))}, "
+          f"{TIMES_LESS} times less than without: {share(less, len(known))}")
+    for r in of:
+        print(f"  {r['name']:<40} {r['proposed']:<44} held out {number(r.get('held_out_before')):>6} to {number(r.get('held_out')):>6}")
+
+
 def rates(results):
     clean = [r for r in results if not r.get("fault")]
     hidden = [r for r in clean if r["kind"] == "catalogue" and r.get("base_error", LEAST_BASE + 1) > LEAST_BASE]
@@ -294,6 +311,7 @@ def main():
     shown = list(results.values()) if o.table else [results[w.name] for w in wanted]
     table(shown)
     rates(shown)
+    laws(shown)
     by_fault(shown)
     power(shown)
     commits = sorted({r["commit"][:12] for r in shown if r.get("commit")})
