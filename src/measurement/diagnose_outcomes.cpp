@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/random.hpp"
+#include "measurement/levels.hpp"
 #include "measurement/outcome_screen.hpp"
 
 namespace freestand::measurement {
@@ -235,10 +237,19 @@ Pooled expected_brier(const std::vector<TestError>& errors) {
 }
 
 bool surer_than_it_may_be(const std::vector<TestError>& errors) {
-  double brier = 0;
-  for (const TestError& e : errors) brier += e.score / static_cast<double>(errors.size());
-  const Pooled chance = expected_brier(errors);
-  return brier > chance.error + 2 * chance.standard_error;
+  constexpr std::uint64_t simulations = 2000, stream = 61;
+  double observed = 0;
+  for (const TestError& e : errors) observed += e.score;
+  std::uint64_t as_large = 0;
+  for (std::uint64_t s = 0; s < simulations; ++s) {
+    double sum = 0;
+    for (std::size_t t = 0; t < errors.size(); ++t) {
+      const double p = errors[t].probability;
+      sum += std::pow(random::uniform(stream, s, t) < p ? 1 - p : p, 2);
+    }
+    as_large += sum >= observed - 1e-12;
+  }
+  return static_cast<double>(1 + as_large) <= chance_level * static_cast<double>(1 + simulations);
 }
 
 bool beyond_chance(const Pooled& difference, std::size_t tests, std::size_t tried) {

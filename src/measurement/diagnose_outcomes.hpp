@@ -20,8 +20,8 @@ Diagnosis diagnose_outcomes(const Bench&, const ModelSpec& base, const std::vect
 // it: sqrt(sum p (1 - p) (1 - 2 p)^2)/n.
 Pooled expected_brier(const std::vector<TestError>&);
 
-// Is Brier's score above what the model's own probabilities make by more than two standard deviations of chance? Then it
-// lacks something, whoever asks.
+// Is Brier's score as large as the model's own probabilities make it in one set of twenty at most? Of 2000 sets drawn from them: the
+// sum is skewed where they are near 0 or 1. Then the model lacks something, whoever asks.
 bool surer_than_it_may_be(const std::vector<TestError>&);
 
 // Is the difference above 0 by more than chance, when it is the best of so many?

@@ -26,7 +26,7 @@ std::vector<Values> plain_points(const ModelFit& without) {
 }  // namespace
 
 std::vector<std::size_t> other_numbers(const ModelSpec& model) {
-  const int scatter = model.placement_scatter ? model.placement_scatter->free : -1;
+  const int scatter = scatter_number(model);
   std::vector<std::size_t> numbers;
   for (std::size_t i = 0; i < model.free.size(); ++i)
     if (static_cast<int>(i) != placement_number(model) && static_cast<int>(i) != scatter) numbers.push_back(i);
@@ -116,19 +116,29 @@ std::size_t points_of_round(std::size_t per_number, const std::vector<std::size_
   return std::min(most, per_number * std::max<std::size_t>(numbers.size(), 1));
 }
 
-Places fine_places(const OutcomeTable& table, const Values& x) {
+// open: of each number, what the tests do not rule out so far; may be empty. Middles stand in the inner half of the places, which so
+// holds all of it.
+Places fine_places(const OutcomeTable& table, const Values& x, const std::vector<Interval>& open) {
   const ModelSpec& model = table.model;
   const double middle = placement_middle(model, x), scatter = placement_scatter(model, x);
   if (scatter <= 0 && placement_number(model) < 0) return places_about(middle, scatter);
   const double step = place_step(scatter > 0 ? scatter : room / 10) * (is_slow(table) ? 2 : 1);
   const double reach = room + 2 * scatter;
-  return places_between(middle - reach, middle + reach, step);
+  double first = middle - reach, last = middle + reach;
+  if (const int placed = placement_number(model); placed >= 0 && !open.empty()) {
+    const Interval& known = open[static_cast<std::size_t>(placed)];
+    const double low = std::log(std::max(known.lower, 1e-3 * known.upper)), high = std::log(known.upper);
+    first = std::min(first, low - (high - low) / 2);
+    last = std::max(last, high + (high - low) / 2);
+  }
+  return places_between(first, last, step);
 }
 
 // All from the table: the fit, its folds, its intervals. One job.
 class Reading {
  public:
-  Reading(const Bench& bench, const OutcomeTable& table, std::size_t resamples)
+  // known: what the coarse places leave open, over the whole range.
+  Reading(const Bench& bench, const OutcomeTable& table, const std::vector<Interval>& known, std::size_t resamples)
       : bench_(bench), table_(table), search_(bench, table), fold_(fold_of(table.tests.size())) {
     all_ = search_.best();
     add(all_);
@@ -142,7 +152,7 @@ class Reading {
       for (std::size_t t = 0; t < fold_.size(); ++t)
         if (fold_[t] == f) answer_.push_back(probability[t]);
     }
-    intervals(resamples);
+    intervals(known, resamples);
   }
   const Values& answer() const { return answer_; }
 
@@ -172,7 +182,7 @@ class Reading {
 
   void add(const TableFit& fit) { answer_.insert(answer_.end(), fit.x.begin(), fit.x.end()); }
 
-  void intervals(std::size_t resamples) {
+  void intervals(const std::vector<Interval>& known, std::size_t resamples) {
     const std::size_t n = table_.tests.size(), numbers = all_.x.size();
     std::vector<Values> found(numbers);
     Values drawn;
@@ -181,7 +191,7 @@ class Reading {
       for (std::size_t i = 0; i < numbers; ++i) found[i].push_back(fit.x[i]);
       drawn.insert(drawn.end(), fit.x.begin(), fit.x.end());
     }
-    const std::vector<Interval> open = search_.within_chance(all_);
+    const std::vector<Interval> open = search_.within_chance(all_, known);
     for (std::size_t i = 0; i < numbers; ++i) {
       std::sort(found[i].begin(), found[i].end());
       const double most = static_cast<double>(resamples) - 1;
@@ -240,11 +250,13 @@ std::vector<OutcomeTable*> pointers(std::vector<OutcomeTable>& tables) {
   return all;
 }
 
-// Other places where the fit has wandered off to the side, or its scatter wants finer ones. Outcomes are computed anew.
-void place_again(OutcomeTable& table, const Values& x) {
-  const double centre = table.places.at(0) + 0.5 * table.places.step * (table.places.count - 1);
-  const Places places = fine_places(table, x);
-  if (places.step >= table.places.step && std::abs(placement_middle(table.model, x) - centre) < 1.5 * room) return;
+// Other places where what the tests leave open lies beyond them, or they may be finer. Outcomes are computed anew.
+void place_again(const Bench& bench, OutcomeTable& table) {
+  const TableSearch search(bench, table);
+  const TableFit best = search.best();
+  const Places places = fine_places(table, best.x, search.within_chance(best)), before = table.places;
+  const auto last = [](const Places& p) { return p.at(p.count - 1); };
+  if (places.step >= before.step && places.first > before.first - room && last(places) < last(before) + room) return;
   table.places = places;
   for (TablePoint& point : table.points) point.outcomes.clear();
 }
@@ -254,34 +266,37 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
                                const OutcomeEffort& effort, const Jobs& jobs) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   std::vector<OutcomeTable> fine;
+  std::vector<std::vector<Interval>> known;
   for (const OutcomeTable* table : coarse) {
     const TableSearch search(bench, *table);
     const TableFit best = search.best();
     const auto numbers = other_numbers(table->model);
-    fine.push_back({table->model, table->without, tests, fine_places(*table, best.x)});
+    const std::vector<Interval>& open = known.emplace_back(search.within_chance(best));
+    fine.push_back({table->model, table->without, tests, fine_places(*table, best.x, open)});
     if (without) add_plain_points(fine.back(), *without);
     if (!table->points[best.point].plain) fine.back().points.push_back({best.x});
     const auto box = elite_box(table->model, numbers, *table, search.scores());
     const std::size_t near = points_of_round(effort.near, numbers, is_slow(*table) ? effort.most / 3 : effort.most);
     add_points(fine.back(), box, numbers, best.x, near);
-    if (!numbers.empty())
-      add_points(fine.back(), grown(box, numbers, search.within_chance(best)), numbers, best.x, near / 2);
+    if (!numbers.empty()) add_points(fine.back(), grown(box, numbers, open), numbers, best.x, near / 2);
   }
   compute(bench, pointers(fine), "outcomes near the best", jobs);
   for (OutcomeTable& table : fine) {
     const TableSearch search(bench, table);
     const TableFit best = search.best();
     const auto numbers = other_numbers(table.model);
-    place_again(table, best.x);
+    const std::vector<double> scores = search.scores();
+    place_again(bench, table);
     if (!numbers.empty())
-      add_points(table, elite_box(table.model, numbers, table, search.scores()), numbers, best.x,
+      add_points(table, elite_box(table.model, numbers, table, scores), numbers, best.x,
                  points_of_round(effort.nearest, numbers, is_slow(table) ? effort.most / 4 : effort.most));
   }
   compute(bench, pointers(fine), "outcomes nearest to the best", jobs);
-  for (OutcomeTable& table : fine) place_again(table, TableSearch(bench, table).best().x);
+  for (OutcomeTable& table : fine) place_again(bench, table);
   compute(bench, pointers(fine), "outcomes at finer places", jobs);
-  const auto answers = jobs("folds and resampled tests", fine.size(),
-                            [&](std::size_t i) { return Reading(bench, fine[i], effort.resamples).answer(); });
+  const auto answers = jobs("folds and resampled tests", fine.size(), [&](std::size_t i) {
+    return Reading(bench, fine[i], known[i], effort.resamples).answer();
+  });
   std::vector<ModelFit> fits;
   for (std::size_t i = 0; i < fine.size(); ++i) fits.push_back(unpacked(bench, fine[i], answers[i]));
   return fits;
@@ -331,7 +346,7 @@ std::vector<ModelFit> read_outcomes(const Bench& bench, const std::vector<Outcom
   std::vector<OutcomeTable> fine;
   for (const OutcomeTable* table : coarse) {
     const TableFit best = TableSearch(bench, *table).best();
-    fine.push_back({table->model, table->without, tests, fine_places(*table, best.x)});
+    fine.push_back({table->model, table->without, tests, fine_places(*table, best.x, {})});
     fine.back().points.push_back({best.x, table->points[best.point].plain});
   }
   compute(bench, pointers(fine), "outcomes of the others", jobs);

@@ -36,8 +36,6 @@ std::vector<double> between(double low, double high, double step) {
   return values;
 }
 
-int scatter_number(const ModelSpec& model) { return model.placement_scatter ? model.placement_scatter->free : -1; }
-
 // Scatters that the places of a table can tell apart, within what is allowed.
 std::vector<double> scatters_of(const OutcomeTable& table, const Values& x) {
   const int number = scatter_number(table.model);
@@ -170,7 +168,7 @@ TableFit TableSearch::best(const std::vector<double>& weight) const {
   return fit;
 }
 
-std::vector<Interval> TableSearch::within_chance(const TableFit& fit) const {
+std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std::vector<Interval>& known) const {
   const std::size_t n = overturned_.size();
   const double chance = n > 1 ? gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - 1)) : 0;
   std::vector<Interval> range;
@@ -190,6 +188,24 @@ std::vector<Interval> TableSearch::within_chance(const TableFit& fit) const {
     for (std::size_t i = 0; i < x.size(); ++i)
       range[i] = {std::min(range[i].lower, x[i]), std::max(range[i].upper, x[i])};
   }
+  // The next row is worse. What is open where the table ends is open beyond it, as far as is known, or allowed.
+  const auto beyond = [&](int number, double first, double last, double step) {
+    if (number < 0) return;
+    constexpr double at_end = 1e-6;
+    const auto i = static_cast<std::size_t>(number);
+    const Free& free = table_.model.free[i];
+    const Interval end = known.empty() ? Interval{free.lower, free.upper} : known[i];
+    Interval& open = range[i];
+    open.lower = std::min(open.lower, open.lower <= first * (1 + at_end) ? end.lower : open.lower * std::exp(-step));
+    open.upper = std::max(open.upper, open.upper >= last * (1 - at_end) ? end.upper : open.upper * std::exp(step));
+    open = {std::min(fit.x[i], std::max(open.lower, free.lower)), std::max(fit.x[i], std::min(open.upper, free.upper))};
+  };
+  const auto [least_middle, most_middle] =
+      std::minmax_element(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.middle < b.middle; });
+  const auto [least_scatter, most_scatter] =
+      std::minmax_element(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.scatter < b.scatter; });
+  beyond(placement_number(table_.model), std::exp(least_middle->middle), std::exp(most_middle->middle), middle_step);
+  beyond(scatter_number(table_.model), least_scatter->scatter, most_scatter->scatter, scatter_step);
   return range;
 }
 

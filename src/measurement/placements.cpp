@@ -7,11 +7,16 @@
 #include <cmath>
 
 namespace freestand::measurement {
+
+double placed_at(const ModelSpec& model, double place) {
+  constexpr double steepest = 1.5;  // rad; a slenderness lies below pi/2
+  return model.slenderness && model.size ? std::min(std::exp(place), steepest) : std::exp(place);
+}
+
 namespace {
 
 constexpr double reach = 2.5;  // of the scatter
 constexpr int most_places = 64;
-constexpr double steepest = 1.5;  // rad; a slenderness lies below pi/2
 
 const std::optional<Number>& placed(const ModelSpec& model) {
   return model.slenderness && model.size ? model.slenderness : model.width;
@@ -25,10 +30,7 @@ double mean_excess(double s, double middle, double scatter) {
 
 ModelSpec at_place(const ModelSpec& model, double place) {
   ModelSpec out = model;
-  if (model.slenderness && model.size)
-    out.slenderness = Number{.value = std::min(std::exp(place), steepest)};
-  else
-    out.width = Number{.value = std::exp(place)};
+  (model.slenderness && model.size ? out.slenderness : out.width) = Number{.value = placed_at(model, place)};
   return out;
 }
 
@@ -43,6 +45,8 @@ double placement_scatter(const ModelSpec& model, std::span<const double> x) {
 }
 
 int placement_number(const ModelSpec& model) { return placed(model) ? placed(model)->free : -1; }
+
+int scatter_number(const ModelSpec& model) { return model.placement_scatter ? model.placement_scatter->free : -1; }
 
 double place_step(double scatter) { return std::exp2(std::floor(std::log2(std::max(scatter, 1e-4) / 2.5))); }
 

@@ -23,8 +23,12 @@ struct Places {
 // Middle of ln(slenderness) or ln(width); 0 where every test has its own width, and places are relative to that.
 double placement_middle(const ModelSpec&, std::span<const double> x);
 double placement_scatter(const ModelSpec&, std::span<const double> x);
+// The slenderness or the width there.
+double placed_at(const ModelSpec&, double place);
 // The free number that moves the middle; -1: none.
 int placement_number(const ModelSpec&);
+// That of their scatter; -1: it is known.
+int scatter_number(const ModelSpec&);
 
 // Distance of places that is fine enough for a scatter: between a fifth and two fifths of it, a power of two.
 double place_step(double scatter);

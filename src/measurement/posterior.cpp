@@ -26,11 +26,10 @@ void leave_the_mean(const ModelFit& fit, Posterior& out) {
   for (std::size_t s = 0; s < out.draws.size(); ++s) {
     Values& x = out.draws[s];
     const double friction = std::exp(out.friction_scatter * random::standard_normal(39, s, 0));
-    const double width = std::exp(placement_scatter(fit.model, x) * random::standard_normal(39, s, 1));
+    const double aside = placement_scatter(fit.model, x) * random::standard_normal(39, s, 1);
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const Free& free = fit.model.free[k];
-      if (is_friction(free)) x[k] *= friction;
-      if (static_cast<int>(k) == placed) x[k] = std::clamp(x[k] * width, free.lower, free.upper);
+      if (is_friction(fit.model.free[k])) x[k] *= friction;
+      if (static_cast<int>(k) == placed) x[k] = placed_at(fit.model, std::log(x[k]) + aside);
     }
   }
 }

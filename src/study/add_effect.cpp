@@ -20,18 +20,11 @@ namespace {
 
 using namespace measurement;
 
-YAML::Node range_node(double lower, double upper) {
-  YAML::Node node(YAML::NodeType::Map);
-  for (const double end : {lower, upper}) node["calibrate"].push_back(fmt::format("{}", end));
-  node.SetStyle(YAML::EmitterStyle::Flow);
-  return node;
-}
-
 // All that a parameter may be without leaving what is plausible: ten times beyond the catalogue's range to both sides;
 // of numbers with a sign, all that is allowed.
 YAML::Node catalogue_range(const dynamics::Parameter& p) {
-  if (p.low > 0) return range_node(std::max(p.lower, p.low / 10), std::min(p.upper, 10 * p.high));
-  return range_node(std::max(p.lower, -1e3), std::min(p.upper, 1e3));
+  if (p.low > 0) return calibrate_node(std::max(p.lower, p.low / 10), std::min(p.upper, 10 * p.high));
+  return calibrate_node(std::max(p.lower, -1e3), std::min(p.upper, 1e3));
 }
 
 // The entry of `effects`: from a name of the catalogue, YAML text, or a file.
@@ -136,8 +129,7 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   YAML::Node root = YAML::Load(before->validation.text);
   YAML::Node model = root["model"];
   write_block(root, *before);
-  if (before->model.placement_scatter && !model["placement_scatter"])
-    model["placement_scatter"] = range_node(0.001, 0.5);
+  name_placement_scatter(root, *before);
   if (!model["effects"] || !model["effects"].IsSequence()) model["effects"] = YAML::Node(YAML::NodeType::Sequence);
   model["effects"].push_back(entry);
   model["effects"].SetStyle(YAML::EmitterStyle::Block);

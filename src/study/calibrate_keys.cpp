@@ -87,6 +87,13 @@ std::vector<Calibrated> take_calibrated(YAML::Node model, Problems& problems) {
   return found;
 }
 
+YAML::Node calibrate_node(double lower, double upper) {
+  YAML::Node node(YAML::NodeType::Map);
+  for (const double end : {lower, upper}) node["calibrate"].push_back(fmt::format("{}", end));
+  node.SetStyle(YAML::EmitterStyle::Flow);
+  return node;
+}
+
 void add_missing_parameters(YAML::Node model) {
   YAML::Node list = model["effects"];
   if (!list || !list.IsSequence()) return;
@@ -110,16 +117,37 @@ void add_missing_parameters(YAML::Node model) {
   }
 }
 
+namespace {
+
+// Of tests of which only the outcome is known: the width, or the slenderness, scatters from test to test about the model's, and so from
+// sample to sample of a sweep. Where it was fitted, its joint draws hold that already.
+void scatter_placements(YAML::Node block, double scatter) {
+  if (!block || !block.IsMap() || !(scatter > 0)) return;
+  for (const char* key : {"slenderness_rad", "width_m"}) {
+    if (!block[key] || !block[key].IsScalar()) continue;
+    YAML::Node spread(YAML::NodeType::Map);
+    spread["lognormal"]["median"] = block[key].Scalar();
+    spread["lognormal"]["dispersion"] = fmt::format("{:.6g}", scatter);
+    block[key] = spread;
+    return;
+  }
+}
+
+}  // namespace
+
 void sweep_model(YAML::Node root, Problems& problems, FittedAs fitted) {
   if (!root.IsMap() || !root["model"] || !root["model"].IsMap()) return;
-  const YAML::Node model = root["model"];
+  YAML::Node model = root["model"];
   add_missing_parameters(model);
+  YAML::Node scatter = model["placement_scatter"];
+  if (scatter && scatter.IsMap() && scatter["value"]) model["placement_scatter"] = scatter = scatter["value"];
   if (fitted == FittedAs::draws) leave_to_draws(model);
   for (const Calibrated& c : take_calibrated(model, problems))
     if (!c.value && c.name != "placement_scatter")
       problems.add(0, fmt::format("{} is not fitted yet (a sweep needs its value): let `freestand add` fit it, or give "
                                   "a number",
                                   c.name));
+  if (scatter && scatter.IsScalar()) scatter_placements(model["block"], scatter.as<double>(0));
   for (const char* key : {"model", "measurements", "ladder"}) root.remove(key);
   for (const auto& pair : model)
     if (pair.first.Scalar() != "placement_scatter") root[pair.first] = pair.second;

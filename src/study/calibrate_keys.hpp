@@ -14,13 +14,16 @@ namespace freestand::study {
 // stood there, in the order of the file.
 std::vector<Calibrated> take_calibrated(YAML::Node model, Problems&);
 
+// {calibrate: [lower, upper]}
+YAML::Node calibrate_node(double lower, double upper);
+
 // Entries of `effects` that are a name alone become mappings; parameters of catalogued effects that are absent and have
 // no default become {calibrate: [low, high]} of the catalogue.
 void add_missing_parameters(YAML::Node model);
 
 // A study file whose `model` is a mapping, as a sweep reads it: the keys of the model on the level of the file, numbers
 // that were calibrated at their values, or as joint draws where it names a table of these; what belongs to measurements
-// left out; numbers that were not fitted yet are problems. Any other file is left as it is.
+// left out, but for placements, by which the width scatters; numbers that were not fitted yet are problems. Any other file is left as it is.
 void sweep_model(YAML::Node root, Problems&, FittedAs);
 
 // A number that was fitted, with its interval; lower >= upper: none.

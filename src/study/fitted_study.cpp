@@ -46,6 +46,13 @@ void write_block(YAML::Node root, const Prepared& p) {
   block.SetStyle(YAML::EmitterStyle::Flow);
 }
 
+void name_placement_scatter(YAML::Node root, const Prepared& p) {
+  YAML::Node model = root["model"];
+  if (!p.model.placement_scatter || model["placement_scatter"]) return;
+  const Free& free = p.model.free[static_cast<std::size_t>(p.model.placement_scatter->free)];
+  model["placement_scatter"] = calibrate_node(free.lower, free.upper);
+}
+
 void write_numbers(YAML::Node root, const ModelFit& fit, const std::string& table) {
   write_fitted(root["model"], "", numbers_of(fit, table));
 }
@@ -76,6 +83,7 @@ std::string fitted_study(const Prepared& p, const ModelFit& fit, const Posterior
                          const std::filesystem::path& folder) {
   YAML::Node root = YAML::Load(p.validation.text);
   write_block(root, p);
+  name_placement_scatter(root, p);
   write_numbers(root, fit, open.draws.empty() ? "" : posterior_table);
   root["model"].remove("discrepancy");
   if (open.slip_scatter_ln > 0) {

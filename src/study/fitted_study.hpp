@@ -12,6 +12,9 @@ namespace freestand::study {
 // Dimensions that all tests have in common and the model does not give: with them a sweep can take the study as it is.
 void write_block(YAML::Node root, const Prepared&);
 
+// The scatter from test to test that outcomes are judged with, where the study does not name it.
+void name_placement_scatter(YAML::Node root, const Prepared&);
+
 // Values and intervals into every {calibrate: ...} of the model, and the table of their joint draws where there is one.
 void write_numbers(YAML::Node root, const measurement::ModelFit&, const std::string& table = "");
 

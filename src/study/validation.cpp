@@ -225,7 +225,7 @@ void average_over_draws(const Bench& bench, const ModelSpec& model, const Poster
   for (std::size_t t = 0; t < outcomes.size(); ++t) {
     double mean = 0;
     for (const Values& answer : answers) mean += answer[t] / static_cast<double>(count);
-    tests[outcomes[t]].error = outcome_error(bench.test(outcomes[t]), mean);
+    tests[outcomes[t]].error = outcome_error(bench.test(outcomes[t]), std::clamp(mean, 0.0, 1.0));
   }
 }
 

@@ -55,11 +55,11 @@ FloorMotion swing(double peak_mps2, double period_s) {
 constexpr double true_slenderness = 0.2, true_size_m = 0.6, true_scatter = 0.1;
 
 // Tests of a block whose slenderness scatters, with the effects of `truth`; motions that make about half overturn.
-Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& truth) {
+Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& truth, std::uint64_t seed = 7) {
   Dataset data;
   data.name = "made";
   for (std::size_t i = 0; i < count; ++i) {
-    const auto draw = [&](std::uint64_t stream) { return random::uniform(7, i, stream); };
+    const auto draw = [&](std::uint64_t stream) { return random::uniform(seed, i, stream); };
     Test test;
     test.id = "t" + std::to_string(i);
     test.motion = swing((draw(1) < 0.5 ? -1 : 1) * (2 + 3 * draw(2)), 0.5 + 0.7 * draw(3));
@@ -88,6 +88,49 @@ const Candidate& candidate(const Diagnosis& d, const std::string& effect) {
   for (const Candidate& c : d.candidates)
     if (c.effects == std::vector<std::string>{effect}) return c;
   throw Error(effect + " is no candidate");
+}
+
+// Five tests say little, and intervals of 95 % say so, whatever window the places of a fit lie in: of 40 sets 33 hold the truth in one of a
+// thousand programs that are right.
+TEST(OutcomeFit, IntervalsOfFewTestsHoldTheTruth) {
+  constexpr int sets = 40;
+  int slenderness = 0, scatter = 0;
+  for (std::uint64_t seed = 100; seed < 100 + sets; ++seed) {
+    const Dataset data = made_outcomes(5, {}, seed);
+    const ModelFit fit = fit_outcomes(Bench(data, 0), rocking_model(true_size_m), {}, {}, run_here);
+    const auto holds = [&](std::size_t k, double truth) {
+      return fit.intervals[k].lower <= truth && truth <= fit.intervals[k].upper;
+    };
+    slenderness += holds(0, true_slenderness);
+    scatter += holds(1, true_scatter);
+  }
+  EXPECT_GE(slenderness, 33);
+  EXPECT_GE(scatter, 33);
+}
+
+// All fell: however slender the block is, beyond some slenderness the tests say the same.
+TEST(OutcomeFit, TestsThatAllFellBoundASlendernessFromOneSide) {
+  Dataset data = made_outcomes(6, {});
+  for (measurement::Test& test : data.tests) test.peaks.overturned = true;
+  const ModelSpec model = rocking_model(true_size_m);
+  const ModelFit fit = fit_outcomes(Bench(data, 0), model, {}, {}, run_here);
+  EXPECT_NEAR(fit.intervals[0].lower, model.free[0].lower, 1e-9);
+  EXPECT_EQ(fit.intervals[1].lower, model.free[1].lower);
+}
+
+// Eight tests with a chance of 0.02 each: Brier's score is one of few values, far from normal.
+TEST(OutcomeFit, ProbabilitiesThatAreRightAreRarelyCalledTooSure) {
+  int called = 0;
+  constexpr int sets = 2000;
+  for (std::uint64_t s = 0; s < sets; ++s) {
+    std::vector<TestError> errors;
+    for (std::uint64_t t = 0; t < 8; ++t) {
+      const double p = 0.02, y = random::uniform(11, s, t) < p ? 1 : 0;
+      errors.push_back({.score = (p - y) * (p - y), .probability = p});
+    }
+    called += surer_than_it_may_be(errors);
+  }
+  EXPECT_LE(called, 0.065 * sets);
 }
 
 // A block that overturns where it is narrower than at s stands with probability Q((s - m)/scatter). Between two places

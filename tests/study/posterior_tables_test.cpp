@@ -76,6 +76,30 @@ TEST_F(PosteriorTables, WhatWasFittedIsDrawnOrAtItsBest) {
   EXPECT_EQ(std::get<sampling::Fixed>(mu(read(fitted, FittedAs::best))).value, 0.31);
 }
 
+// Outcomes are judged by a width that scatters from test to test: so it does from sample to sample of a sweep, about the number of the
+// study or the one that was fitted. Joint draws of a width hold the scatter already.
+TEST_F(PosteriorTables, PlacementsScatterInASweepAsInTheFit) {
+  const auto width = [&](const std::string& block, const std::string& scatter, FittedAs as) {
+    const std::string study = "model:\n  friction: {mu: 0.3}\n  placement_scatter: " + scatter + "\n  block: {" +
+                              block + "height_m: 1.8, mass_kg: 150}\n" + motions + "samples: 300\n" + fragility;
+    return read(study, as).model.block.width->value;
+  };
+  const auto expect_spread = [](const sampling::Distribution& found, double median) {
+    ASSERT_TRUE(std::holds_alternative<sampling::Lognormal>(found));
+    EXPECT_EQ(std::get<sampling::Lognormal>(found).median, median);
+    EXPECT_EQ(std::get<sampling::Lognormal>(found).dispersion, 0.17);
+  };
+  const std::string fitted =
+      "{calibrate: [0.001, 0.5], value: 0.17, interval: [0.1, 0.2], posterior: draws.csv, column: s}";
+  const std::string drawn = "width_m: {calibrate: [0.1, 1], value: 0.5, posterior: draws.csv, column: friction.mu}, ";
+  for (const FittedAs as : {FittedAs::draws, FittedAs::best}) {
+    expect_spread(width("width_m: 0.6, ", "0.17", as), 0.6);
+    expect_spread(width("width_m: 0.6, ", fitted, as), 0.6);
+  }
+  EXPECT_TRUE(std::holds_alternative<sampling::Posterior>(width(drawn, fitted, FittedAs::draws)));
+  expect_spread(width(drawn, fitted, FittedAs::best), 0.5);
+}
+
 // Shares of variance go by classes of a number's own values, whatever the order of the rows.
 TEST_F(PosteriorTables, ClassesGoByValue) {
   const Study study = read(drawn());
