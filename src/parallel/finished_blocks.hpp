@@ -1,5 +1,5 @@
 // What lies in the folder of unfinished work, as a whole: the log of samples (block_log.hpp), the sums over them
-// (block_sums.hpp) and the rounds in which they are made (study/rounds.hpp), of whatever study.
+// (block_sums.hpp), the rounds in which they are made (study/rounds.hpp) and the size of blocks (study/checkpoint.hpp), of whatever study.
 #pragma once
 
 #include <algorithm>
@@ -23,6 +23,7 @@ inline void remove_finished_blocks(const std::filesystem::path& folder) {
   remove_run_files(folder, "log");
   remove_run_files(folder, "sums");
   remove_run_files(folder, "rounds");
+  remove_run_files(folder, "size");
   remove_asides(folder);
   std::error_code error;
   if (std::filesystem::is_empty(folder, error)) std::filesystem::remove(folder, error);

@@ -18,6 +18,13 @@
 
 namespace freestand::study {
 
+// How many samples a block of the sweep holds: block_size of the study, halved while it is even and a block would take longer than
+// block_s seconds, as some first samples tell that the root integrates. Not below 8, which go in packs, nor where that would make more
+// than a million blocks. Earlier runs in the folder have decided it for good. The numbers of a study do not depend on it. Collective.
+// Throws Error: a full disk is Exit::cure; blocks are finished, and it cannot be read how many samples they hold: Exit::usage.
+std::int64_t samples_in_a_block(const parallel::Communicator&, const Study&, const Evaluator&,
+                                const std::filesystem::path& folder, double block_s = 2);
+
 class Checkpoint {
  public:
   // The study, its target and the evaluator outlive it. Where not all samples are kept, the ranks integrate the first ones
@@ -31,6 +38,8 @@ class Checkpoint {
 
   // Takes over what the root has found. Collective.
   void begin();
+
+  std::int64_t block_size() const { return layout_.block_size; }
 
   // Was all of this block finished by earlier runs?
   bool has(std::int64_t block) const { return has_rows(block) && has_counts(block); }
@@ -67,8 +76,8 @@ class Checkpoint {
 
   const parallel::Communicator world_;
   const std::int64_t kept_;
-  const io::BlockLayout layout_;  // of all samples of the study
   parallel::BlockLog log_;
+  const io::BlockLayout layout_;      // of all samples of the study
   std::vector<std::int64_t> logged_;  // blocks whose rows are in the log, ascending
   std::unique_ptr<Counted> counted_;
 };

@@ -115,11 +115,12 @@ class Sweep {
 
  private:
   std::int64_t total() const { return static_cast<std::int64_t>(study_.samples); }
-  io::BlockLayout layout(std::int64_t samples) const { return {samples, static_cast<std::int64_t>(study_.block_size)}; }
+  io::BlockLayout layout(std::int64_t samples) const { return {samples, checkpoint_->block_size()}; }
 
   // With `until`: whole blocks, enough for the bins of the intensity measure to be laid.
   void begin_rounds() {
-    const std::int64_t block = layout(total()).block_size, least = std::max(bin_layout_samples, earlier_.rows());
+    const auto block = static_cast<std::int64_t>(study_.block_size);  // not the sweep's own, which time decides
+    const std::int64_t least = std::max(bin_layout_samples, earlier_.rows());
     Round first{study_.until ? std::min(total(), block * ((least + block - 1) / block)) : total()};
     if (first.end < checkpoint_->least_counted())
       throw Error(
