@@ -164,26 +164,15 @@ TEST(StudyMistakes, LawsThatLeapAgainstTheSpeed) {
        "friction of effect seam leaps from 1 to 0.5 times mu where the block tips (it could then"},
       {with("force: \"-3*side\""), "7", "from 0 to -3 m/s2 where the block tips (it could then neither stand"},
   });
-  for (const char* law : {"force: \"-0.5*v\"",
-                          "force: \"-0.5*v*abs(v)\"",
-                          "force: \"if(u>0.01,-3,3)\"",
-                          "force: \"-abs(v)*if(v>0,1,3)\"",
-                          "force: \"-2*normal\"",
-                          "force: \"-sigma*abs(v)^0.2\"",
-                          "force: \"-3*tanh(v/0.001)\"",
-                          "force: \"if(v>0.1,3,0)\"",
-                          "friction: \"if(speed>0,0.1,0.3)\"",
-                          "friction: \"if(sigma>0,0.1,0.3)\"",
-                          "friction: \"if(speed>0.1,0.1,0.4)\"",
-                          "friction: \"mu*(1+0.1*log(1+rest))\"",
-                          "friction: \"mu*(1+min(speed,0.1))\"",
-                          "friction: \"if(path>0,0.1,0.3)\"",
-                          "friction: \"if(abs(theta)>0,0.6,0.3)\"",
-                          "friction: \"if(abs(theta)>0.01,0.1,0.3)\"",
-                          "friction: \"mu*(1-0.5*min(abs(theta)/0.001,1))\"",
-                          "force: \"if(theta>0.01,-1,0)\"",
-                          "force: \"-3*min(abs(theta)/0.001,1)\"",
-                          "force: \"-2*theta\""})
+  for (const char* law :
+       {"force: \"-0.5*v*abs(v)\"", "force: \"if(u>0.01,-3,3)\"", "force: \"-abs(v)*if(v>0,1,3)\"",
+        "force: \"-2*normal\"", "force: \"-sigma*abs(v)^0.2\"", "force: \"-3*tanh(v/0.001)\"",
+        "force: \"if(v>0.1,3,0)\"", "friction: \"if(speed>0,0.1,0.3)\"", "friction: \"if(sigma>0,0.1,0.3)\"",
+        "friction: \"if(speed>0.1,0.1,0.4)\"", "friction: \"mu*(1+0.1*log(1+rest))\"",
+        "friction: \"mu*(1+min(speed,0.1))\"", "friction: \"if(path>0,0.1,0.3)\"",
+        "friction: \"if(abs(theta)>0,0.6,0.3)\"", "friction: \"if(abs(theta)>0.01,0.1,0.3)\"",
+        "friction: \"mu*(1-0.5*min(abs(theta)/0.001,1))\"", "force: \"if(theta>0.01,-1,0)\"",
+        "force: \"-3*min(abs(theta)/0.001,1)\"", "force: \"-2*theta\""})
     EXPECT_EQ(problems(with(law)), "") << law;
 }
 
