@@ -76,7 +76,7 @@ void check_values(Section& section, const EffectPart& part, const std::vector<st
   // At rest, and in slips either way.
   const std::vector<formula::Inputs> states = {{0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0},
                                                {0, 0, 0, 0, 0, 0, 1, 0, -1, 0, 0},
-                                               {0, 0, 0, 0, 10, 0, 1, 0, 1, 0, 10},
+                                               {0, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1},
                                                {0.01, 0.2, 0, 0, 1, 0.01, 1, 0, 1, 0.2, 0},
                                                {-0.01, -0.2, 0, 0, 1, 0.01, 1, 0, -1, 0.2, 0}};
   for (const char* key : {"friction", "force"}) {
