@@ -76,9 +76,9 @@ void check_values(Section& section, const EffectPart& part, const std::vector<st
   // At rest, and in slips either way.
   const std::vector<formula::Inputs> states = {{0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0},
                                                {0, 0, 0, 0, 0, 0, 1, 0, -1, 0, 0},
-                                               {0, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1},
                                                {0.01, 0.2, 0, 0, 1, 0.01, 1, 0, 1, 0.2, 0},
-                                               {-0.01, -0.2, 0, 0, 1, 0.01, 1, 0, -1, 0.2, 0}};
+                                               {-0.01, -0.2, 0, 0, 1, 0.01, 1, 0, -1, 0.2, 0},
+                                               {0, 0, 0, 0, 1, 0, 1, 0, 1, 0, 1}};
   for (const char* key : {"friction", "force"}) {
     const bool friction = std::string(key) == "friction";
     const std::string& text = friction ? part.friction : part.force;

@@ -29,6 +29,19 @@ TEST(Judge, AgreesWithTheKernelOnEveryEffectInEveryMode) {
   EXPECT_GT(tally.total().compared, tally.total().samples * 9 / 10);
 }
 
+// Laws of no catalogue, in every setting and with every other effect: of position, time, speed, and time at rest.
+TEST(Judge, AgreesWithTheKernelOnLawsThatAreFormulas) {
+  int compared = 0;
+  const std::uint64_t count = recipes(Family::formulas).size();
+  for (std::uint64_t number = 0; number < count; ++number) {
+    const JudgedCase c = judged_case(4, number, Family::formulas);
+    const Judgement judgement = judge(c);
+    compared += judgement.finding == Finding::agrees;
+    EXPECT_NE(judgement.finding, Finding::disagrees) << c.text() << "\n  " << judgement.what;
+  }
+  EXPECT_GT(compared, 0.9 * static_cast<double>(count));
+}
+
 // The same walls on the left at gap 0, and on both sides, which the cases above do not have.
 TEST(Judge, AgreesOnWallsOnTheLeftAndOnBothSides) {
   const std::vector<Recipe> all = recipes();

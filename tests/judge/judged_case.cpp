@@ -188,33 +188,41 @@ const char* name(Setting setting) {
 const std::vector<std::string>& judged_effects() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> names = catalogue_effects();
-    names.insert(names.end(), outside_effects().begin(), outside_effects().end());
     names.emplace_back("chain");
+    names.insert(names.end(), outside_effects().begin(), outside_effects().end());
     return names;
   }();
   return all;
 }
 
+namespace {
+bool outside(const std::string& effect) {
+  const auto& all = outside_effects();
+  return std::find(all.begin(), all.end(), effect) != all.end();
+}
+}  // namespace
+
 std::vector<Recipe> recipes(Family family) {
-  const int first = family == Family::rigid ? 0 : static_cast<int>(Setting::bouc_wen);
-  const int settings = family == Family::rigid ? rigid_setting_count : 1;
+  const bool on_contact = family == Family::bouc_wen, formulas = family == Family::formulas;
+  const int first = on_contact ? static_cast<int>(Setting::bouc_wen) : 0;
+  const int settings = on_contact ? 1 : rigid_setting_count;
   std::vector<Recipe> all;
   const auto add = [&](std::vector<std::string> effects, int setting) {
     Recipe recipe{std::move(effects), static_cast<Setting>(first + setting % settings)};
     if (possible(recipe)) all.push_back(std::move(recipe));
   };
   const auto stands = [&](const std::string& effect) {
-    return family == Family::rigid || goes_with({effect}, TruthModel::bouc_wen);
+    return on_contact ? goes_with({effect}, TruthModel::bouc_wen) && !outside(effect) : formulas || !outside(effect);
   };
   std::vector<std::string> effects;
   std::copy_if(judged_effects().begin(), judged_effects().end(), std::back_inserter(effects), stands);
-  for (int setting = 0; setting < settings; ++setting) add({}, setting);
+  for (int setting = 0; setting < settings && !formulas; ++setting) add({}, setting);
   for (const std::string& effect : effects)
-    for (int setting = 0; setting < settings; ++setting) add({effect}, setting);
+    for (int setting = 0; setting < settings && (!formulas || outside(effect)); ++setting) add({effect}, setting);
   int turn = 0;
   for (std::size_t i = 0; i < effects.size(); ++i)
     for (std::size_t j = i; j < effects.size(); ++j)
-      if (go_together(effects[i], effects[j])) {
+      if (go_together(effects[i], effects[j]) && (!formulas || outside(effects[j]))) {
         // Settings that the pair does not go with are passed over.
         const std::size_t before = all.size();
         while (all.size() == before) add({effects[i], effects[j]}, turn++);
@@ -242,8 +250,8 @@ namespace {
 
 // A pair comes in another setting each time that its turn comes.
 Recipe recipe_of(std::uint64_t number, Family family) {
-  static const std::vector<Recipe> rigid = recipes(), on_a_contact = recipes(Family::bouc_wen);
-  const std::vector<Recipe>& all = family == Family::rigid ? rigid : on_a_contact;
+  static const std::vector<Recipe> known[] = {recipes(), recipes(Family::bouc_wen), recipes(Family::formulas)};
+  const std::vector<Recipe>& all = known[static_cast<int>(family)];
   Recipe recipe = all[number % all.size()];
   if (recipe.effects.size() < 2 || family == Family::bouc_wen) return recipe;
   const auto next = [&] {

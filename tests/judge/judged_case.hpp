@@ -21,7 +21,7 @@ enum class Setting {
 inline constexpr int rigid_setting_count = 5, setting_count = 6;
 const char* name(Setting setting);
 
-// The catalogue, the laws that the generator knows beside it, and the chain.
+// The catalogue and the chain, and the laws that the generator knows beside them.
 const std::vector<std::string>& judged_effects();
 
 // What a case is drawn from: the effects that it is about, and its setting.
@@ -30,11 +30,13 @@ struct Recipe {
   Setting setting = Setting::slide_rock;
 };
 
-// What the block stands on. Each family has recipes and numbers of its own.
-enum class Family { rigid, bouc_wen };
+// What the block stands on, and laws of no catalogue on a rigid contact, which studies write as formulas. Each family has recipes and
+// numbers of its own.
+enum class Family { rigid, bouc_wen, formulas };
 
 // Every effect alone in every setting that it goes with, then every pair of effects that go together (slack_tether and
-// wall_impact with themselves too, one a side); the settings of pairs take turns. On a Bouc-Wen contact there is one setting.
+// wall_impact with themselves too, one a side); the settings of pairs take turns. On a Bouc-Wen contact there is one setting. Of formulas:
+// each law of no catalogue alone, and with every other effect.
 std::vector<Recipe> recipes(Family family = Family::rigid);
 
 struct JudgedCase {

@@ -59,8 +59,11 @@ int main(int count, char** words) {
       ->expected(2);
   bool bouc_wen = false;
   parser.add_flag("--bouc-wen", bouc_wen, "cases of model bouc_wen, which have numbers of their own");
+  bool formulas = false;
+  parser.add_flag("--formulas", formulas, "laws of no catalogue, as formulas, which have numbers of their own");
   CLI11_PARSE(parser, count, words);
   if (bouc_wen) options.family = freestand::test::Family::bouc_wen;
+  if (formulas) options.family = freestand::test::Family::formulas;
   if (!options.show_s.empty()) {
     const freestand::test::JudgedCase c = freestand::test::judged_case(options.seed, options.first, options.family);
     fmt::print("{}\n{}", c.text(), freestand::test::side_by_side(c, options.show_s[0], options.show_s[1]));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -85,7 +86,8 @@ std::vector<std::string> Tally::empty_cells(Family family) const {
     return empty;
   }
   for (const std::string& effect : judged_effects())
-    for (const auto& [bit, deed] : deeds) look(effect, deed);
+    if (const auto& outside = outside_effects(); std::find(outside.begin(), outside.end(), effect) == outside.end())
+      for (const auto& [bit, deed] : deeds) look(effect, deed);
   for (const auto& [bit, deed] : wall_deeds) look("wall_impact", deed);
   look("chain", "broken");
   return empty;

@@ -191,7 +191,7 @@ TEST(StudyMistakes, FormulasThatDoNotFindRoomTogether) {
   expect_each({
       {with_effects(formula("one", "u" + factors + factors)), "7", "the laws of one are too long for one sample"},
       {with_effects(formula("one", "u" + factors) + formula("two", "theta" + factors)), "8",
-       "the laws of one, two are too long for one sample (they make more than 143 operations)"},
+       "the laws of one, two are too long for one sample (they make more than 142 operations)"},
       {with_effects(formula("one", bends) + formula("two", "abs(v)+abs(v-0.1)")), "8",
        "the laws of one, two bend too often for one sample"},
       {with_effects(formula("one", bends)) + chain, "8", "the laws of one and the chain bend too often"},
