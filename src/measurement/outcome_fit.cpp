@@ -251,9 +251,7 @@ std::vector<OutcomeTable*> pointers(std::vector<OutcomeTable>& tables) {
 }
 
 // Other places where what the tests leave open lies beyond them, or they may be finer. Outcomes are computed anew.
-void place_again(const Bench& bench, OutcomeTable& table) {
-  const TableSearch search(bench, table);
-  const TableFit best = search.best();
+void place_again(const TableSearch& search, const TableFit& best, OutcomeTable& table) {
   const Places places = fine_places(table, best.x, search.within_chance(best)), before = table.places;
   const auto last = [](const Places& p) { return p.at(p.count - 1); };
   if (places.step >= before.step && places.first > before.first - room && last(places) < last(before) + room) return;
@@ -286,13 +284,16 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
     const TableFit best = search.best();
     const auto numbers = other_numbers(table.model);
     const std::vector<double> scores = search.scores();
-    place_again(bench, table);
+    place_again(search, best, table);
     if (!numbers.empty())
       add_points(table, elite_box(table.model, numbers, table, scores), numbers, best.x,
                  points_of_round(effort.nearest, numbers, is_slow(table) ? effort.most / 4 : effort.most));
   }
   compute(bench, pointers(fine), "outcomes nearest to the best", jobs);
-  for (OutcomeTable& table : fine) place_again(bench, table);
+  for (OutcomeTable& table : fine) {
+    const TableSearch search(bench, table);
+    place_again(search, search.best(), table);
+  }
   compute(bench, pointers(fine), "outcomes at finer places", jobs);
   const auto answers = jobs("folds and resampled tests", fine.size(), [&](std::size_t i) {
     return Reading(bench, fine[i], known[i], effort.resamples).answer();

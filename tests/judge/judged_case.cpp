@@ -195,12 +195,10 @@ const std::vector<std::string>& judged_effects() {
   return all;
 }
 
-namespace {
-bool outside(const std::string& effect) {
+bool outside_catalogue(const std::string& effect) {
   const auto& all = outside_effects();
   return std::find(all.begin(), all.end(), effect) != all.end();
 }
-}  // namespace
 
 std::vector<Recipe> recipes(Family family) {
   const bool on_contact = family == Family::bouc_wen, formulas = family == Family::formulas;
@@ -212,17 +210,19 @@ std::vector<Recipe> recipes(Family family) {
     if (possible(recipe)) all.push_back(std::move(recipe));
   };
   const auto stands = [&](const std::string& effect) {
-    return on_contact ? goes_with({effect}, TruthModel::bouc_wen) && !outside(effect) : formulas || !outside(effect);
+    return on_contact ? goes_with({effect}, TruthModel::bouc_wen) && !outside_catalogue(effect)
+                      : formulas || !outside_catalogue(effect);
   };
   std::vector<std::string> effects;
   std::copy_if(judged_effects().begin(), judged_effects().end(), std::back_inserter(effects), stands);
   for (int setting = 0; setting < settings && !formulas; ++setting) add({}, setting);
   for (const std::string& effect : effects)
-    for (int setting = 0; setting < settings && (!formulas || outside(effect)); ++setting) add({effect}, setting);
+    for (int setting = 0; setting < settings && (!formulas || outside_catalogue(effect)); ++setting)
+      add({effect}, setting);
   int turn = 0;
   for (std::size_t i = 0; i < effects.size(); ++i)
     for (std::size_t j = i; j < effects.size(); ++j)
-      if (go_together(effects[i], effects[j]) && (!formulas || outside(effects[j]))) {
+      if (go_together(effects[i], effects[j]) && (!formulas || outside_catalogue(effects[j]))) {
         // Settings that the pair does not go with are passed over.
         const std::size_t before = all.size();
         while (all.size() == before) add({effects[i], effects[j]}, turn++);

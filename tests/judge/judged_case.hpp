@@ -23,6 +23,7 @@ const char* name(Setting setting);
 
 // The catalogue and the chain, and the laws that the generator knows beside them.
 const std::vector<std::string>& judged_effects();
+bool outside_catalogue(const std::string& effect);
 
 // What a case is drawn from: the effects that it is about, and its setting.
 struct Recipe {

@@ -86,7 +86,7 @@ std::vector<std::string> Tally::empty_cells(Family family) const {
     return empty;
   }
   for (const std::string& effect : judged_effects())
-    if (const auto& outside = outside_effects(); std::find(outside.begin(), outside.end(), effect) == outside.end())
+    if (!outside_catalogue(effect))
       for (const auto& [bit, deed] : deeds) look(effect, deed);
   for (const auto& [bit, deed] : wall_deeds) look("wall_impact", deed);
   look("chain", "broken");
