@@ -26,6 +26,9 @@ struct Reached {
 
 struct Motions {
   Reached slip, rotation;
+  // Only where more was measured: outcomes alone are judged by their probabilities.
+  std::optional<bool> specimen_overturns = {};
+  bool model_overturns = false;
   bool specimen_moves() const { return slip.specimen_moves() || rotation.specimen_moves(); }
   bool model_stands() const { return slip.model_stands() && rotation.model_stands(); }
 };
@@ -52,6 +55,8 @@ Motions motions(const Bench& bench, const TestComparison& c, double half_base_m)
   model_slip = std::max(0.0, model_slip - rolled(model_turn));
   Motions m{reached(slip, model_slip, least_motion(bench, Channel::slip)),
             reached(turn, model_turn, least_motion(bench, Channel::rotation))};
+  if (kind(test) != Kind::outcome) m.specimen_overturns = p.overturned;
+  m.model_overturns = c.model.response.outcome == Outcome::overturned;
   if (!p.overturned.value_or(false)) return m;
   if (!m.rotation.known) m.rotation = {.known = true, .measured = infinity, .model = m.rotation.model};
   if (c.error.probability > 1e-3) m.rotation.model = infinity;
@@ -95,6 +100,15 @@ class MotionFindings {
           if (!of(i).rotation.specimen_moves()) return std::string("its friction is too low");
           return above(i) ? std::string() : rather(i);
         });
+    say(
+        "the model overturns in {} of {} tests in which the specimen stays on its base",
+        [](const Motions& m) { return m.specimen_overturns == false; },
+        [](const Motions& m) { return m.model_overturns; },
+        [](std::size_t) { return "it is too slender, too small, or lacks what takes energy from rocking"; });
+    say(
+        "the model stays on its base in {} of {} tests in which the specimen overturns",
+        [](const Motions& m) { return m.specimen_overturns == true; },
+        [](const Motions& m) { return !m.model_overturns; }, [](std::size_t) { return std::string(); });
     return std::move(said_);
   }
 

@@ -25,14 +25,6 @@ std::vector<Values> plain_points(const ModelFit& without) {
 
 }  // namespace
 
-std::vector<std::size_t> other_numbers(const ModelSpec& model) {
-  const int scatter = scatter_number(model);
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < model.free.size(); ++i)
-    if (static_cast<int>(i) != placement_number(model) && static_cast<int>(i) != scatter) numbers.push_back(i);
-  return numbers;
-}
-
 void add_points(OutcomeTable& table, const std::vector<Free>& box, const std::vector<std::size_t>& numbers,
                 const Values& x, std::size_t count) {
   if (numbers.empty()) {
@@ -95,7 +87,7 @@ std::vector<Free> elite_box(const ModelSpec& model, const std::vector<std::size_
   return box;
 }
 
-// With all that the tests do not rule out, so that resampled ones find their own best there.
+// With all that the tests do not rule out: in what was seen resampled ones find their own best; beyond it intervals find their ends.
 std::vector<Free> grown(std::vector<Free> box, const std::vector<std::size_t>& numbers,
                         const std::vector<Interval>& open) {
   for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -276,7 +268,9 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
     const auto box = elite_box(table->model, numbers, *table, search.scores());
     const std::size_t near = points_of_round(effort.near, numbers, is_slow(*table) ? effort.most / 3 : effort.most);
     add_points(fine.back(), box, numbers, best.x, near);
-    if (!numbers.empty()) add_points(fine.back(), grown(box, numbers, open), numbers, best.x, near / 2);
+    if (numbers.empty()) continue;
+    add_points(fine.back(), grown(box, numbers, search.seen_within_chance(best)), numbers, best.x, near / 2);
+    add_points(fine.back(), grown(box, numbers, open), numbers, best.x, near / 4);
   }
   compute(bench, pointers(fine), "outcomes near the best", jobs);
   for (OutcomeTable& table : fine) {

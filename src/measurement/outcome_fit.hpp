@@ -18,9 +18,6 @@ struct OutcomeEffort {
   std::size_t seen_tests = 24, screened_tests = 60;  // with which effects are looked at before they are fitted
 };
 
-// Numbers other than those of the placements.
-std::vector<std::size_t> other_numbers(const ModelSpec&);
-
 // Adds points of the fit without the effect, to all tests and with folds left out, with the effect at nothing: with it no
 // fit is worse than without.
 void add_plain_points(OutcomeTable&, const ModelFit& without);

@@ -168,7 +168,7 @@ TableFit TableSearch::best(const std::vector<double>& weight) const {
   return fit;
 }
 
-std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std::vector<Interval>& known) const {
+std::vector<Interval> TableSearch::seen_within_chance(const TableFit& fit) const {
   const std::size_t n = overturned_.size();
   const double chance = n > 1 ? gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - 1)) : 0;
   std::vector<Interval> range;
@@ -188,24 +188,52 @@ std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std:
     for (std::size_t i = 0; i < x.size(); ++i)
       range[i] = {std::min(range[i].lower, x[i]), std::max(range[i].upper, x[i])};
   }
-  // The next row is worse. What is open where the table ends is open beyond it, as far as is known, or allowed.
-  const auto beyond = [&](int number, double first, double last, double step) {
+  return range;
+}
+
+std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std::vector<Interval>& known) const {
+  std::vector<Interval> range = seen_within_chance(fit);
+  const auto known_end = [&](std::size_t i) {
+    const Free& free = table_.model.free[i];
+    return known.empty() ? Interval{free.lower, free.upper} : known[i];
+  };
+  // out: the ends if the table goes on beyond.
+  const auto widen = [&](std::size_t i, bool first, bool last, const Interval& out) {
+    const Free& free = table_.model.free[i];
+    const Interval end = known_end(i), open = range[i];
+    range[i] = {std::clamp(first ? end.lower : out.lower, free.lower, std::max(free.lower, open.lower)),
+                std::clamp(last ? end.upper : out.upper, std::min(free.upper, open.upper), free.upper)};
+    range[i] = {std::min(fit.x[i], range[i].lower), std::max(fit.x[i], range[i].upper)};
+  };
+  const auto to_next_row = [&](int number, double first, double last, double step) {
     if (number < 0) return;
     constexpr double at_end = 1e-6;
     const auto i = static_cast<std::size_t>(number);
-    const Free& free = table_.model.free[i];
-    const Interval end = known.empty() ? Interval{free.lower, free.upper} : known[i];
-    Interval& open = range[i];
-    open.lower = std::min(open.lower, open.lower <= first * (1 + at_end) ? end.lower : open.lower * std::exp(-step));
-    open.upper = std::max(open.upper, open.upper >= last * (1 - at_end) ? end.upper : open.upper * std::exp(step));
-    open = {std::min(fit.x[i], std::max(open.lower, free.lower)), std::max(fit.x[i], std::min(open.upper, free.upper))};
+    const Interval open = range[i];
+    widen(i, open.lower <= first * (1 + at_end), open.upper >= last * (1 - at_end),
+          {open.lower * std::exp(-step), open.upper * std::exp(step)});
   };
   const auto [least_middle, most_middle] =
       std::minmax_element(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.middle < b.middle; });
   const auto [least_scatter, most_scatter] =
       std::minmax_element(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.scatter < b.scatter; });
-  beyond(placement_number(table_.model), std::exp(least_middle->middle), std::exp(most_middle->middle), middle_step);
-  beyond(scatter_number(table_.model), least_scatter->scatter, most_scatter->scatter, scatter_step);
+  to_next_row(placement_number(table_.model), std::exp(least_middle->middle), std::exp(most_middle->middle),
+              middle_step);
+  to_next_row(scatter_number(table_.model), least_scatter->scatter, most_scatter->scatter, scatter_step);
+  const std::vector<std::size_t> others = other_numbers(table_.model);
+  const double points = static_cast<double>(table_.points.size()), numbers = static_cast<double>(others.size());
+  for (const std::size_t i : others) {
+    const auto further = static_cast<std::size_t>(std::ceil(std::pow(points, 1 - 1 / numbers)));
+    std::vector<double> below, above;
+    for (const TablePoint& point : table_.points) {
+      if (point.x[i] < range[i].lower) below.push_back(point.x[i]);
+      if (point.x[i] > range[i].upper) above.push_back(point.x[i]);
+    }
+    std::sort(below.begin(), below.end(), std::greater<>());
+    std::sort(above.begin(), above.end());
+    const bool first = below.size() < further, last = above.size() < further;
+    widen(i, first, last, {first ? 0 : below[further - 1], last ? 0 : above[further - 1]});
+  }
   return range;
 }
 

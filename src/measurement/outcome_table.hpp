@@ -41,8 +41,12 @@ class TableSearch {
   // Least score of each point of the table over middle and scatter, all tests alike; infinite where it was left out.
   std::vector<double> scores() const;
   // Of each number, from all points whose scores are worse than those of the fit by no more than chance: by their paired
-  // difference over the tests and its standard error, at 95 %. Middle and scatter that are open where the table ends are open
-  // as far as is known (of each number; empty: to the end of its range).
+  // difference over the tests and its standard error, at 95 %.
+  std::vector<Interval> seen_within_chance(const TableFit&) const;
+  // Out to what is certainly worse. Middle and scatter: to the next row.
+  // The n points of the table spread over d other numbers, so that a slab that they are sure to have seen from all sides holds
+  // n^(1-1/d) of them: as many points further. What is open where the table ends is open as far as is known (of each number;
+  // empty: to the end of its range).
   std::vector<Interval> within_chance(const TableFit&, const std::vector<Interval>& known = {}) const;
   // Of each test, at a point with the middle and scatter of x.
   std::vector<double> probabilities(std::size_t point, const Values& x) const;

@@ -48,6 +48,14 @@ int placement_number(const ModelSpec& model) { return placed(model) ? placed(mod
 
 int scatter_number(const ModelSpec& model) { return model.placement_scatter ? model.placement_scatter->free : -1; }
 
+std::vector<std::size_t> other_numbers(const ModelSpec& model) {
+  const int scatter = scatter_number(model);
+  std::vector<std::size_t> numbers;
+  for (std::size_t i = 0; i < model.free.size(); ++i)
+    if (static_cast<int>(i) != placement_number(model) && static_cast<int>(i) != scatter) numbers.push_back(i);
+  return numbers;
+}
+
 double place_step(double scatter) { return std::exp2(std::floor(std::log2(std::max(scatter, 1e-4) / 2.5))); }
 
 Places places_between(double low, double high, double step) {

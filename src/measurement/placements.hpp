@@ -29,6 +29,8 @@ double placed_at(const ModelSpec&, double place);
 int placement_number(const ModelSpec&);
 // That of their scatter; -1: it is known.
 int scatter_number(const ModelSpec&);
+// All others.
+std::vector<std::size_t> other_numbers(const ModelSpec&);
 
 // Distance of places that is fine enough for a scatter: between a fifth and two fifths of it, a power of two.
 double place_step(double scatter);

@@ -128,10 +128,11 @@ class Faults:
 
     def every_one(self, pool):
         """Each fault and what is wrong with its answer."""
-        for (kind, lasting), rank in itertools.product(KINDS, range(self.ranks)):
-            ended, calls = False, itertools.count(1 + (rank + KINDS.index((kind, lasting))) % self.every, self.every)
+        kinds = [(*kind, name) for kind in KINDS for name in ONLY.get(kind[0], [""])]
+        for number, ((kind, lasting, name), rank) in enumerate(itertools.product(kinds, range(self.ranks))):
+            ended, calls = False, itertools.count(1 + number % self.every, self.every)
             while not ended:
-                for wrong in pool.map(lambda call: self.one(kind, lasting, rank, call), itertools.islice(calls, 4)):
+                for wrong in pool.map(lambda call: self.one(kind, lasting, rank, call, name), itertools.islice(calls, 4)):
                     ended = ended or wrong is None
                     yield kind, lasting, wrong
 

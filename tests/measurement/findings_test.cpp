@@ -86,6 +86,20 @@ TEST(Findings, OfPeaksAlone) {
                        "1.50 g to move it"));
 }
 
+TEST(Findings, OverturningOfTestsWithPeaks) {
+  Dataset data;
+  data.tests = {of_peaks(tall(0.9), 8, 0.6), of_peaks(tall(0.9), 8, 0.6)};
+  for (auto& made : data.tests) made.peaks.overturned = false;
+  const auto overturns = HasSubstr("overturn");
+  EXPECT_THAT(said(data, fixed(0.9)), Not(Contains(overturns)));
+  data.tests[1].motion = test::swings(30, 1.5);
+  EXPECT_THAT(said(data, fixed(0.9)),
+              Contains(HasSubstr("the model overturns in 1 of 2 tests in which the specimen stays on its base (p)")));
+  data.tests[0].peaks.overturned = data.tests[1].peaks.overturned = true;
+  EXPECT_THAT(said(data, fixed(0.9)),
+              Contains(HasSubstr("the model stays on its base in 1 of 2 tests in which the specimen overturns (p)")));
+}
+
 TEST(Findings, AModelThatOnlySlidesAgainstOverturning) {
   Dataset data;
   data.tests = {of_peaks(tall(0.9), 8, 0.6), of_peaks(tall(0.9), 8, 0.6)};
