@@ -17,7 +17,7 @@ constexpr double fewest_records = 3;  // that make a count whose error is known
 struct CountedSums {
   double n = 0, hits = 0, squares = 0, miss_squares = 0;
   double single = 0, single_hits = 0;
-  int records = 0;
+  int records = 0, records_that_hit = 0, records_that_missed = 0;  // at least once
 
   CountedSums(std::span<const GroupShare> groups, std::size_t record_groups) {
     for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -29,6 +29,8 @@ struct CountedSums {
         single_hits += above;
       } else if (all > 0) {
         ++records;
+        records_that_hit += above > 0;
+        records_that_missed += above < all;
         squares += above * above;
         miss_squares += (all - above) * (all - above);
       }
@@ -95,9 +97,14 @@ Interval share_interval(std::span<const GroupShare> groups, std::size_t record_g
     return exact_interval(sums.share() * sums.motions(), sums.motions(), confidence);
   if (sums.motions() < 2) return {0, 1};
   const OddsLimits limits(groups.first(record_groups), sums);
+  // No share is greater than that of the records that show anything of it, whose own limit lies above what they are of all.
+  const auto at_most = [&](double limit, int shown, double of) {
+    if (sums.single > 0 || limit * sums.records <= shown) return limit;
+    return std::min(limit, exact_interval(shown, sums.records, 1 - 2 * of).upper);
+  };
   const double tail = (1 - confidence) / 2, of_none = -std::expm1(std::log(tail) / sums.motions());
-  const auto own_lower = [&](double of) { return limits.lower(of); };
-  const auto own_upper = [&](double of) { return limits.upper(of); };
+  const auto own_lower = [&](double of) { return 1 - at_most(1 - limits.lower(of), sums.records_that_missed, of); };
+  const auto own_upper = [&](double of) { return at_most(limits.upper(of), sums.records_that_hit, of); };
   const auto lower = [&](double of) {
     return sums.that_missed() < fewest_records ? std::min(own_lower(of), 1 - of_none) : own_lower(of);
   };

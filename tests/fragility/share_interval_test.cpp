@@ -52,6 +52,16 @@ TEST(ShareInterval, OfOneRecordHasTheUpperLimitOfNone) {
   EXPECT_NEAR(share_interval(groups, 14, 0.9).upper, of_none, 1e-12);
 }
 
+// One record of ten shows all of it. Its error has hardly a degree of freedom, by which anything up to 0.97 would be within; but what nine
+// records show nothing of is rarer than a record that shows something.
+TEST(ShareInterval, IsNoMoreThanThatOfRecordsThatShowAnything) {
+  std::vector<GroupShare> groups(10, {100, 0});
+  groups[3].hits = 80;
+  EXPECT_NEAR(share_interval(groups, 10, 0.9).upper, exact_interval(1, 10, 0.9).upper, 1e-12);
+  for (GroupShare& g : groups) g.hits = g.n - g.hits;
+  EXPECT_NEAR(share_interval(groups, 10, 0.9).lower, exact_interval(9, 10, 0.9).lower, 1e-12);
+}
+
 TEST(ShareInterval, OfMissesIsTheMirror) {
   const std::vector<std::vector<GroupShare>> sets{
       {{10, 1}, {20, 3}, {10, 0}, {5, 2}}, {{10, 0}, {20, 13}, {10, 0}, {5, 0}}, {{4, 4}, {4, 0}}, {{9, 9}, {9, 9}}};
@@ -71,7 +81,8 @@ TEST(ShareInterval, AddsWhatSamplesOfTheirOwnScatter) {
   std::vector<GroupShare> groups;
   for (int g = 0; g < 20; ++g) groups.push_back({10, g < 10 ? 10.0 : 0.0});
   for (int g = 0; g < 4; ++g) groups.push_back({50, 25});
-  const double records = 0.25 / 19 / 4, own = 0.25 / 200 / 4, freedom = std::pow(records + own, 2) / (records * records / 19);
+  const double records = 0.25 / 19 / 4, own = 0.25 / 200 / 4,
+               freedom = std::pow(records + own, 2) / (records * records / 19);
   const double reach = gsl_cdf_tdist_Qinv(0.05, freedom) * std::sqrt(records + own) / 0.25;
   EXPECT_NEAR(share_interval(groups, 20, 0.9).upper, odds_limit(0.5, reach), 1e-12);
 }
