@@ -71,12 +71,24 @@ struct PlaneStep {
 
   // The slip goes on to the end of the segment beyond doubt: it does not end, follow the drive or lift off.
   [[gnu::always_inline]] Mask regular() const {
-    const Real limit = left(), pushes = drive + hold, zero(0.0);
-    Mask is = (limit > zero) & !may_follow(limit) & (v * at.over_speed > Real(0.1) * tolerance) &
-              (v * v > Real(elliptic ? cut_off : 1.0) * tolerance * at.size * pushes) &
+    const Real limit = left(), zero(0.0);
+    Mask is = (limit > zero) & !may_follow(limit) & (v * at.over_speed > Real(0.1) * tolerance) & lasts() &
               (abs(at.u.x) + abs(at.u.y) + abs(at.w.x) + abs(at.w.y) < Real(plane_bound));
     if constexpr (shaken) is = is & (floor.g > zero) & (floor.g + limit * floor.dg > zero);
     return is;
+  }
+
+  // The slip covers more until its end than what PlaneSample::ends_within() computes in one, by a hundredth, as their sums round otherwise.
+  [[gnu::always_inline]] Mask lasts() const {
+    const Real allowed = Real(1.01 * (elliptic ? cut_off : 1.0)) * tolerance * at.size;
+    const Real F = at.grip.mu * floor.g, ahead = floor.a.x * at.w.x + floor.a.y * at.w.y;
+    if constexpr (!elliptic) {
+      const Real rubs = F * v;
+      return (F <= drive) | (rubs + ahead <= Real(0.0)) | (v * (rubs - ahead) > allowed * (F - drive) * (F + drive));
+    }
+    const Real m = at.grip.ratio * at.grip.ratio, v2 = v * v, y2 = m * at.w.y * at.w.y;
+    const Real along = floor.a.x * at.w.x + m * floor.a.y * at.w.y;
+    return v2 * v2 > allowed * (along * v + F * (at.w.x * at.w.x + m * y2));
   }
 
   // Whether it follows the drive is to be asked of driven_slip(): nothing here says that it does not, or misses too much of its direction.
