@@ -52,9 +52,12 @@ def _compared(comparison):
     value, expected = mine.get("error", math.nan), mine.get("error_expected", math.nan)
     ratio = comparison.peak_ratio.get("ratio", math.nan)
     if comparison.unit == "noise units" and math.isfinite(expected):
-        if value < 1.2 * expected and expected > FANNED_OUT:
+        role = "calibration" if comparison.calibration else "holdout"
+        told = [test for test in comparison.tests if test["role"] == role and test["error_expected"] <= FANNED_OUT]
+        if not told:
             return "the floor's noise alone drowns its tests, which cannot judge the model"
-        if 0.8 * expected < value < 1.2 * expected:
+        value, expected = (math.sqrt(sum(test[key] ** 2 for test in told) / len(told)) for key in ("error_noise_units", "error_expected"))
+        if value < 1.2 * expected:
             return "the model is as good as the noise can tell"
         return f"the model misses its tests by {validation.error(value)} times the sensor noise"
     if comparison.unit == "ln ratio" and math.isfinite(ratio):

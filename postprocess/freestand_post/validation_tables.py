@@ -99,7 +99,7 @@ def candidates(results):
         rows.append({"name": validation.effect(row["effect"]) or "base model", "visible": row["visible"], "judged": row["left_out_refitted"],
                      "remark": row["remark"] if row["left_out_refitted"] else "",
                      "rival": row["as_good_as_best"] and row is not base, "calibration": row["error_calibration"], "left_out": row["error_left_out"], "se": row["error_left_out_se"],
-                     "delta_bic": words.count(row["delta_bic"]).replace("-", "−") if math.isfinite(row["delta_bic"]) else "–",
+                     "delta_bic": words.count(round(row["delta_bic"])).replace("-", "−") if math.isfinite(row["delta_bic"]) else "–",
                      "values": "; ".join(_short(value) for value in values)})
     return rows
 

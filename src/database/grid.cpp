@@ -23,9 +23,8 @@ std::string rest_of(const Entry& entry, Wanted wanted) {
                                 entry.effects, entry.scatter);
   for (const Coordinate c : coordinates)
     if (!wanted[static_cast<std::size_t>(c)]) key += number(value(entry, c)) + "\n";
-  if (!wanted[static_cast<std::size_t>(Coordinate::mu)])
-    key += fmt::format("{}\n{}", entry.friction, number(entry.mu_s / entry.mu_k));
-  return key;
+  if (!wanted[static_cast<std::size_t>(Coordinate::mu)]) key += entry.friction + "\n";
+  return key + number(entry.mu_s / entry.mu_k);
 }
 
 // Values of one coordinate in a group, increasing.
@@ -56,13 +55,15 @@ std::optional<Side> side_of(const std::vector<double>& levels, double wanted) {
   return Side{{a, b}, {1 - t, t}, t < 0 || t > 1};
 }
 
-std::optional<std::size_t> entry_at(const Database& db, const std::vector<std::size_t>& group,
+// More than one differ in what nobody says of them: in their seeds, say.
+std::vector<std::size_t> entries_at(const Database& db, const std::vector<std::size_t>& group,
                                     const std::vector<std::pair<Coordinate, double>>& place) {
+  std::vector<std::size_t> there;
   for (const std::size_t i : group)
     if (std::all_of(place.begin(), place.end(),
                     [&](const auto& at) { return same(value(db.entries[i], at.first), at.second); }))
-      return i;
-  return {};
+      there.push_back(i);
+  return there;
 }
 
 // Sides of a group in the wanted coordinates, combined.
@@ -88,9 +89,12 @@ std::optional<GridPoint> point_in(const Database& db, const std::vector<std::siz
     corners = std::move(more);
   }
   for (const auto& [place, weight] : corners) {
-    const auto entry = entry_at(db, group, place);
-    if (!entry) return {};
-    point.parts.push_back({*entry, weight});
+    const std::vector<std::size_t> there = entries_at(db, group, place);
+    if (there.empty()) return {};
+    point.parts.push_back({there.front(), weight});
+    for (std::size_t k = 1; k < there.size(); ++k)
+      point.notes.push_back(fmt::format("{} is described as {} is, whose curves these are: name one by its id",
+                                        db.entries[there[k]].id, db.entries[there[0]].id));
   }
   return point;
 }

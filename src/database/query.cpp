@@ -156,7 +156,7 @@ std::string rule(const std::vector<Between>& parts) {
                      : lognormal == 0
                          ? "read by straight lines between the points over the intensity, as exports by levels are"
                          : "read by the lognormal where it is adequate, else by straight lines between the points";
-  if (all > 1) text += "; between entries and capacities by Phi^-1(P) over logarithms";
+  if (all > 1) text += "; between entries and capacities by Phi^-1(P) over logarithms, whose error no band holds";
   return text;
 }
 

@@ -62,7 +62,7 @@ double ByCounts::integral(const fragility::CountedCurve& curve, const Range& ran
 }
 
 double ByCounts::rate(const Range& range) const {
-  return integral(fragility::CountedCurve(bins_, f_.median, f_.dispersion), range);
+  return integral({bins_, {f_.median, f_.dispersion, f_.cell_im, f_.rising}}, range);
 }
 
 Rate ByCounts::banded(const CurveReach& curve) {
@@ -164,7 +164,8 @@ std::vector<double> ByCounts::rates(const std::vector<double>& again, const std:
   for (std::size_t r = 0; r < found.size(); ++r) {
     for (std::size_t i = 0; i < bins.size(); ++i) bins[i].probability = again[r * size + at(i)];
     const bool curved = r < median.size() && std::isfinite(median[r]);
-    found[r] = integral({bins, curved ? median[r] : f_.median, curved ? dispersion[r] : f_.dispersion});
+    found[r] = integral(
+        {bins, {curved ? median[r] : f_.median, curved ? dispersion[r] : f_.dispersion, f_.cell_im, f_.rising}});
   }
   return found;
 }

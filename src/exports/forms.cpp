@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exports/rising.hpp"
+#include "fragility/rising.hpp"
 
 namespace freestand::exports {
 namespace {
@@ -21,7 +21,7 @@ Refusal rise(const LimitState& state, const Intensity& im, const Wanted& wanted,
     fallen.push_back(bin.probability);
     weights.push_back(static_cast<double>(bin.n));
   }
-  values = risen(fallen, weights);
+  values = fragility::risen(fallen, weights);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Bin& bin = state.bins[i];
     const double change = std::fabs(values[i] - bin.probability);
@@ -140,8 +140,14 @@ Refusal make_discrete(LimitState& state, const Wanted& wanted, const fragility::
     off_by = std::max(off_by, edp.bins[bin.index].off_by);
   }
   state.curve.form = Form::discrete;
-  state.counted.emplace(shares, state.fitted.median, state.fitted.dispersion);
-  state.drawn.emplace(bins, straight ? unknown : state.fitted.median, straight ? unknown : state.fitted.dispersion);
+  using Shape = fragility::CountedCurve::Shape;
+  Shape shape{state.fitted.median, state.fitted.dispersion};
+  if (!edp.functions.empty()) {
+    shape.cell_im = edp.functions[wanted.capacity].cell_im;
+    shape.rising = edp.functions[wanted.capacity].rising;
+  }
+  state.counted.emplace(shares, shape);
+  state.drawn.emplace(bins, straight ? Shape{} : shape);
   double least = bins.front().im, most = bins.back().im;
   if (!straight && std::isfinite(state.fitted.median)) {
     const fragility::FragilityFunction& f = edp.functions[wanted.capacity];

@@ -47,16 +47,29 @@ std::vector<CountedBin> counted_bins(const Result& result, const EdpResult& edp,
   return bins;
 }
 
-CountedCurve::CountedCurve(const std::vector<CountedBin>& bins, double median, double dispersion)
-    : median_(median), dispersion_(dispersion) {
+CountedCurve::CountedCurve(const std::vector<CountedBin>& bins, Shape shape) : shape_(std::move(shape)) {
   for (const CountedBin& bin : bins) {
     const double shown = bin.by_law ? fitted(bin.im) : over_bin(bin);
     knots_.push_back({bin.im, knots_.empty() ? shown : std::max(shown, knots_.back().fitted), bin.probability});
   }
 }
 
+double CountedCurve::lognormal(double im) const {
+  return shape_.median > 0 && shape_.dispersion > 0 ? normal_cdf(std::log(im / shape_.median) / shape_.dispersion) : 0;
+}
+
 double CountedCurve::fitted(double im) const {
-  return median_ > 0 && dispersion_ > 0 ? normal_cdf(std::log(im / median_) / dispersion_) : 0;
+  const std::vector<double>&at = shape_.cell_im, &share = shape_.rising;
+  if (share.empty()) return lognormal(im);
+  const auto next = std::upper_bound(at.begin(), at.end(), im);
+  if (next == at.begin()) {
+    const double first = lognormal(at.front());
+    return first > 0 ? share.front() * lognormal(im) / first : share.front();
+  }
+  const std::size_t i = static_cast<std::size_t>(next - at.begin()) - 1;
+  if (next != at.end()) return std::lerp(share[i], share[i + 1], (im - at[i]) / (at[i + 1] - at[i]));
+  const double left = 1 - lognormal(at.back());
+  return left > 0 ? 1 - (1 - share.back()) * (1 - lognormal(im)) / left : share.back();
 }
 
 // The mean over the intensities of a bin. By midpoints: of a bin that is w dispersions wide they are off by no more than (w/32)^2/24 of the

@@ -6,6 +6,7 @@
 #include "fragility/goodness.hpp"
 #include "fragility/intervals.hpp"
 #include "fragility/probit.hpp"
+#include "fragility/rising.hpp"
 #include "fragility/small_shares.hpp"
 
 namespace freestand::fragility {
@@ -169,6 +170,20 @@ class Resampled {
     }
   }
 
+  // Eight cells a bin: what a bin alone does not tell, and a refuted curve tells wrongly, how its probability grows within it.
+  void shares_of_cells(FragilityFunction& curve) const {
+    if (curve.adequate || not_refuted(curve)) return;
+    std::vector<double> share, weight;
+    for (Eigen::Index i = 0; i < cells_.n.cols(); ++i) {
+      const double im = cells_.im[static_cast<std::size_t>(i)], n = cells_.n.col(i).sum();
+      if (!(im > 0)) continue;
+      curve.cell_im.push_back(im);
+      share.push_back(cells_.above.col(i).sum() / n);
+      weight.push_back(n);
+    }
+    curve.rising = risen(share, weight);
+  }
+
   // The resampled misfits scatter about those of the samples as those do about the true ones.
   void misfit(FragilityFunction& curve) const {
     const std::size_t bins = tally_.layout().bins;
@@ -255,6 +270,7 @@ FragilityFunction function_of(const Tally& tally, const Cells& cells, const Resa
   resampled.errors(curve);
   resampled.band(curve);
   resampled.misfit(curve);
+  resampled.shares_of_cells(curve);
   return curve;
 }
 

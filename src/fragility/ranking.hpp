@@ -20,10 +20,10 @@ namespace freestand::fragility {
 
 // A property of motions that a demand may depend on beside the intensity.
 struct MotionProperty {
-  std::string name;           // with unit suffix
-  bool of_pulses = false;     // each sample has its own, as the period of a pulse; else each record
+  std::string name;                // with unit suffix
+  bool of_pulses = false;          // each sample has its own, as the period of a pulse; else each record
   std::vector<double> value = {};  // [motion], NaN: not known; empty where of_pulses
-  bool logarithm = true;      // of its logarithm
+  bool logarithm = true;           // of its logarithm
 };
 
 struct RankedEdp {

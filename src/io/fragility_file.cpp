@@ -170,6 +170,15 @@ void write_functions(Group& parent, const Result& result, const EdpResult& edp) 
       [&](Curve c) { return per_resample(c.resampled_median, result); });
   put("resampled_dispersion", resample, "1", "dispersion of each resampled set of motions",
       [&](Curve c) { return per_resample(c.resampled_dispersion, result); });
+  const auto refuted =
+      std::find_if(edp.functions.begin(), edp.functions.end(), [](Curve c) { return !c.rising.empty(); });
+  if (refuted != edp.functions.end()) {
+    const Dataset cell = coordinate(group, "cell", refuted->cell_im, result.im_unit, "mean IM of the fine cells");
+    put("rising", cell, "1", "of curves that are refuted: the shares of fine cells, pooled where they fall",
+        [&](Curve c) {
+          return c.rising.empty() ? std::vector<double>(refuted->rising.size(), fragility::unknown) : c.rising;
+        });
+  }
   std::size_t left_out = 0;
   for (Curve curve : edp.functions) left_out = std::max(left_out, curve.left_out_median.size());
   if (left_out == 0) return;

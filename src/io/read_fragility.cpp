@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <freestand/error.hpp>
 
 #include "io/bin_fields.hpp"
@@ -67,6 +68,17 @@ void read_curves(const Group& group, std::vector<FragilityFunction>& curves) {
   for (FragilityFunction& curve : curves) curve.grid = grid;
 }
 
+void read_cells(const Group& group, std::vector<FragilityFunction>& curves) {
+  if (!group.has("rising")) return;
+  const std::vector<double> cell = values(group, "cell");
+  read_curve(group, &FragilityFunction::rising, "rising", cell.size(), curves);
+  for (FragilityFunction& curve : curves)
+    if (!curve.rising.empty() && std::isnan(curve.rising.front()))
+      curve.rising.clear();
+    else
+      curve.cell_im = cell;
+}
+
 void read_functions(const Group& group, EdpResult& edp) {
   edp.functions.resize(edp.capacity.size());
   for (const FunctionField& field : function_fields()) {
@@ -74,6 +86,7 @@ void read_functions(const Group& group, EdpResult& edp) {
     for (std::size_t c = 0; c < edp.functions.size(); ++c) set(group, field, edp.functions[c], read[c]);
   }
   read_curves(group, edp.functions);
+  read_cells(group, edp.functions);
 }
 
 AxisSurface read_axis(const Group& group, const std::string& name, std::size_t bins, std::size_t capacities) {

@@ -128,7 +128,7 @@ void fill(ErrorTable& table, std::size_t count, const std::vector<Sample>& sampl
 std::vector<ErrorTable> tables(const Bench& bench, const std::vector<TestComparison>& tests, Role role) {
   std::vector<Sample> samples;
   for (const TestComparison& c : tests)
-    if (bench.test(c.test).role == role && !c.model.failed()) add_samples(bench, c, samples);
+    if (bench.test(c.test).role == role && !c.model.failed() && !(c.expected > drowned)) add_samples(bench, c, samples);
   std::vector<ErrorTable> all;
   if (samples.empty()) return all;
   ErrorTable by_phase{.variable = "phase", .unit = "1"};

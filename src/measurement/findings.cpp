@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "base/digits.hpp"
 #include "measurement/diagnose_outcomes.hpp"
@@ -132,18 +131,17 @@ class Findings {
     if (role == Role::calibration && tests <= model_.free.size())
       return fmt::format(": as {} numbers fitted to {} tests may bring about with any model", model_.free.size(),
                          tests);
-    const std::string left = structure();
-    if (left.empty()) return ": nothing is left to explain";
-    return ": little is left to explain" + (std::exchange(structure_said_, true) ? "" : left);
+    const std::string left = structure(pool);
+    return (left.empty() ? ": nothing is left to explain" : ": little is left to explain") + left;
   }
 
   // Residuals that go on from sample to sample, where they are more than one in twenty by chance.
-  std::string structure() const {
+  std::string structure(const Pool& pool) const {
     unsigned going = 0, n = 0;
-    for (const TestComparison& t : c_.tests)
-      for (const ChannelError& e : t.channels) {
-        if (!(bench_.noise(e.channel) > 0) || t.expected > drowned) continue;
-        const auto& variance = t.spread[static_cast<std::size_t>(e.channel)];
+    for (const TestComparison* t : pool.tests)
+      for (const ChannelError& e : t->channels) {
+        if (!(bench_.noise(e.channel) > 0) || t->expected > drowned) continue;
+        const auto& variance = t->spread[static_cast<std::size_t>(e.channel)];
         double spread = 0;
         for (const double v : variance)
           spread += v / (std::pow(bench_.noise(e.channel), 2) * static_cast<double>(variance.size()));
@@ -306,7 +304,6 @@ class Findings {
   const ModelSpec& model_;
   std::span<const double> x_;
   const Comparison& c_;
-  bool structure_said_ = false;
   std::vector<std::string> said_;
 };
 

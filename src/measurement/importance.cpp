@@ -43,10 +43,12 @@ struct Proposal {
     for (int k = 0; k < proposed_freedom; ++k) chi2 += std::pow(normal(1000 + static_cast<std::uint64_t>(k)), 2);
     return middle + root * z * std::sqrt(proposed_freedom / chi2);
   }
+  double distance2(const VectorXd& z) const {
+    return root.triangularView<Eigen::Lower>().solve(z - middle).squaredNorm();
+  }
   // ln.
   double density(const VectorXd& z) const {
-    const double p = static_cast<double>(z.size());
-    const double d2 = root.triangularView<Eigen::Lower>().solve(z - middle).squaredNorm();
+    const double p = static_cast<double>(z.size()), d2 = distance2(z);
     const double at_middle = std::lgamma(0.5 * (proposed_freedom + p)) - std::lgamma(0.5 * proposed_freedom) -
                              0.5 * p * std::log(proposed_freedom * pi) - root.diagonal().array().log().sum();
     const double about = std::exp(at_middle - 0.5 * (proposed_freedom + p) * std::log1p(d2 / proposed_freedom));
@@ -80,7 +82,7 @@ Values from_cube(const ModelSpec& model, const VectorXd& z) {
 class Sampler {
  public:
   Sampler(const ModelFit& fit, Proposal proposal, const Misfits& misfits, Posterior& out)
-      : fit_(fit), proposal_(std::move(proposal)), misfits_(misfits), out_(out) {
+      : fit_(fit), first_(std::move(proposal)), proposal_(first_), misfits_(misfits), out_(out) {
     of_fit_ = least_ = misfits({fit.x}).front();
   }
 
@@ -91,7 +93,7 @@ class Sampler {
       if (round + 1 == most_proposals || (out_.counted >= enough && contained())) break;
       learn();
     }
-    temper();
+    if (!temper()) take_linear();
     resample();
     if (of_fit_ - least_ > told_lead * square(out_.dispersion)) out_.better = best_;
   }
@@ -118,8 +120,13 @@ class Sampler {
     for (std::size_t s = 0; s < draw_count; ++s) {
       const double rise = (G_[s] - least_) / s2;
       ln.push_back((nu > 0 ? -0.5 * (nu + p) * std::log1p(rise / nu) : -0.5 * rise) - proposal_.density(z_[s]));
-      if (points_[s].empty()) ln.back() = -std::numeric_limits<double>::infinity();
     }
+    weigh(ln);
+  }
+
+  void weigh(std::vector<double>& ln) {
+    for (std::size_t s = 0; s < draw_count; ++s)
+      if (points_[s].empty()) ln[s] = -std::numeric_limits<double>::infinity();
     const double top = *std::max_element(ln.begin(), ln.end());
     weight_.clear();
     for (const double l : ln) weight_.push_back(std::isfinite(top) ? std::exp(l - top) : 1.0);
@@ -159,12 +166,40 @@ class Sampler {
     proposal_ = {known * middle + (1 - known) * proposal_.middle, root_of(known * spread + (1 - known) * before)};
   }
 
-  // Where G is so rough that single points stand out, its rises are taken to say less, until a tenth of the points count.
-  void temper() {
+  // Where G is so rough that single points stand out, its rises are taken to say less, until a tenth of the points count. False: of those
+  // that then count most come from anywhere, one in ten of all, and tell of the cube alone.
+  bool temper() {
     constexpr double least_counted = 0.1, factor = 1.5;
     double widened = 1;
-    for (int k = 0; k < 60 && out_.counted < least_counted; ++k) weigh_points(widened *= factor);
+    for (int k = 0; k < 60 && out_.counted < least_counted; ++k) {
+      weigh_points(widened *= factor);
+      if (of_anywhere() > 0.5) return false;
+    }
     out_.dispersion *= std::sqrt(widened);
+    return out_.counted >= least_counted;
+  }
+
+  double of_anywhere() const {
+    double sum = 0;
+    for (std::size_t s = 0; s < draw_count; s += Proposal::one_anywhere) sum += weight_[s];
+    return sum / sum_;
+  }
+
+  // As if G had at each point what derivatives at the fit foretell.
+  void take_linear() {
+    proposal_ = first_;
+    z_.clear();
+    points_.clear();
+    const double nu = out_.freedom, p = static_cast<double>(fit_.x.size());
+    std::vector<double> ln;
+    for (std::uint64_t s = 0; s < draw_count; ++s) {
+      z_.push_back(proposal_.draw(most_proposals, s));
+      points_.push_back(from_cube(fit_.model, z_.back()));
+      const double d2 = proposal_.distance2(z_.back());
+      ln.push_back((nu > 0 ? -0.5 * (nu + p) * std::log1p(d2 / nu) : -0.5 * d2) - proposal_.density(z_.back()));
+    }
+    weigh(ln);
+    out_.counted = 0;
   }
 
   // Systematic: each point as often as its weight says, to one.
@@ -178,6 +213,7 @@ class Sampler {
   }
 
   const ModelFit& fit_;
+  const Proposal first_;
   Proposal proposal_;
   const Misfits& misfits_;
   Posterior& out_;
@@ -190,8 +226,10 @@ class Sampler {
 
 }  // namespace
 
-void draw_by_importance(const ModelFit& fit, const MatrixXd& covariance, const Misfits& misfits, Posterior& out) {
-  Sampler(fit, {to_cube(fit.model, fit.x), root_of(covariance)}, misfits, out).run();
+void draw_by_importance(const ModelFit& fit, const VectorXd& step, const MatrixXd& covariance, const Misfits& misfits,
+                        Posterior& out) {
+  const VectorXd middle = (to_cube(fit.model, fit.x) + step).cwiseMax(0).cwiseMin(1);
+  Sampler(fit, {middle, root_of(covariance)}, misfits, out).run();
 }
 
 }  // namespace freestand::measurement

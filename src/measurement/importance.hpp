@@ -12,7 +12,8 @@ namespace freestand::measurement {
 using Misfits = std::function<std::vector<double>(const std::vector<Values>&)>;
 
 // Fills of_mean, counted and better of a posterior whose dispersion and freedom are known. covariance: of the first points about the
-// fit, in the cube in which fits move.
-void draw_by_importance(const ModelFit&, const Eigen::MatrixXd& covariance, const Misfits&, Posterior&);
+// fit and the step from there, in the cube in which fits move.
+void draw_by_importance(const ModelFit&, const Eigen::VectorXd& step, const Eigen::MatrixXd& covariance, const Misfits&,
+                        Posterior&);
 
 }  // namespace freestand::measurement

@@ -179,7 +179,7 @@ class Reading {
     std::vector<Values> found(numbers);
     Values drawn;
     for (std::size_t b = 0; b < resamples; ++b) {
-      const TableFit fit = search_.best(resampled(std::vector<double>(n, 1.0), 1, b));
+      const TableFit fit = search_.best(resampled(std::vector<double>(n, 1.0), 1, b), random::uniform(1, b, n));
       for (std::size_t i = 0; i < numbers; ++i) found[i].push_back(fit.x[i]);
       drawn.insert(drawn.end(), fit.x.begin(), fit.x.end());
     }

@@ -118,20 +118,25 @@ std::vector<double> TableSearch::probabilities(std::size_t point, const Values& 
   return all;
 }
 
-TableFit TableSearch::best(const std::vector<double>& weight) const {
+TableFit TableSearch::best(const std::vector<double>& weight, double among) const {
   const std::size_t n = overturned_.size();
   std::vector<float> share(n, 1.0F / static_cast<float>(n)), y(overturned_.begin(), overturned_.end());
   double total = 0;
   for (const double w : weight) total += w;
   for (std::size_t t = 0; t < weight.size(); ++t) share[t] = static_cast<float>(weight[t] / total);
-  std::size_t row = 0;
+  constexpr float same = 1e-6F;
+  std::vector<std::size_t> equal;
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     float sum = 0;
     const float* p = probability_.data() + r * n;
     for (std::size_t t = 0; t < n; ++t) sum += share[t] * (p[t] - y[t]) * (p[t] - y[t]);
-    if (sum < least) least = sum, row = r;
+    if (sum < least - same) equal.clear();
+    if (sum <= least + same) equal.push_back(r);
+    least = std::min(least, sum);
   }
+  const std::size_t row =
+      equal[std::min(equal.size() - 1, static_cast<std::size_t>(among * static_cast<double>(equal.size())))];
   TableFit fit{.point = rows_[row].point, .x = placed(rows_[row])};
   // Middle and scatter between the rows.
   std::vector<Free> free;

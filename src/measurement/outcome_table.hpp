@@ -36,8 +36,9 @@ class TableSearch {
   // Of all points, or of the plain ones alone. Keeps a reference to the table.
   TableSearch(const Bench&, const OutcomeTable&, bool plain_only = false);
 
-  // Least mean score with these weights of the tests; all alike where empty.
-  TableFit best(const std::vector<double>& weight = {}) const;
+  // Least mean score with these weights of the tests; all alike where empty. Of rows with the same score, which may be many where few tests
+  // say little, the one at that share of them.
+  TableFit best(const std::vector<double>& weight = {}, double among = 0) const;
   // Least score of each point of the table over middle and scatter, all tests alike; infinite where it was left out.
   std::vector<double> scores() const;
   // Of each number, from all points whose scores are worse than those of the fit by no more than chance: by their paired

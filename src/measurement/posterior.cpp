@@ -64,20 +64,26 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
         if (is_friction(fit.model.free[k])) moved = std::log(points[s][k] / x[k]);
       double G = 0;
       for (std::size_t i = 0; i < own.count(); ++i) {
-        // With the test's own friction held, and from there the shift that is likeliest, along its direction.
-        const double shift = tau2 > 0 ? shifts[i] - moved : 0;
-        const Prediction at = own.at(i, points[s], shift);
-        if (at.failed()) return Values{no_fit};
-        MatrixXd r = judge.residual(i, at);
-        if (tau2 > 0) {
-          r.conservativeResize(Eigen::NoChange, 2);
-          r.col(1) = friction[i];
+        // With the test's own friction held, and from there the shift that is likeliest, along its direction. What else the numbers do
+        // the test's friction makes up for, by more than its direction holds for: so from there once more.
+        double shift = tau2 > 0 ? shifts[i] - moved : 0, of_test = 0;
+        for (int turn = 0; turn < (tau2 > 0 ? 2 : 1); ++turn) {
+          const Prediction at = own.at(i, points[s], shift);
+          if (at.failed()) return Values{no_fit};
+          MatrixXd r = judge.residual(i, at);
+          if (tau2 > 0) {
+            r.conservativeResize(Eigen::NoChange, 2);
+            r.col(1) = friction[i];
+          }
+          const VectorXd against = judge.against(i, r, r.col(0));
+          of_test = against[0];
+          if (tau2 == 0) break;
+          const double ff = pulls[i].gram.bottomRightCorner<1, 1>()(0),
+                       fr = against[1] - shift * ff;  // at a shift of 0
+          of_test += shift * shift * ff - 2 * shift * against[1] - tau2 * fr * fr / (1 + tau2 * ff);
+          shift = -tau2 * fr / (1 + tau2 * ff);
         }
-        const VectorXd against = judge.against(i, r, r.col(0));
-        G += against[0];
-        if (tau2 == 0) continue;
-        const double ff = pulls[i].gram.bottomRightCorner<1, 1>()(0), fr = against[1] - shift * ff;  // at a shift of 0
-        G += shift * shift * ff - 2 * shift * against[1] - tau2 * fr * fr / (1 + tau2 * ff);
+        G += of_test;
       }
       return Values{G};
     });
@@ -89,9 +95,10 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(sum.gram);
   // No number is proposed wider than its range.
   const VectorXd rates = solved.eigenvalues().cwiseMax(out.dispersion * out.dispersion);
-  const MatrixXd covariance = out.dispersion * out.dispersion * solved.eigenvectors() *
-                              rates.cwiseInverse().asDiagonal() * solved.eigenvectors().transpose();
-  draw_by_importance(fit, covariance, misfits, out);
+  const MatrixXd inverse =
+      solved.eigenvectors() * rates.cwiseInverse().asDiagonal() * solved.eigenvectors().transpose();
+  // The fit knows one friction of all tests: where each has its own, other numbers are likelier.
+  draw_by_importance(fit, -inverse * sum.against, out.dispersion * out.dispersion * inverse, misfits, out);
   return out;
 }
 
@@ -138,7 +145,7 @@ Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
     const double width = known ? to_unit(free, fit.intervals[k].upper) - to_unit(free, fit.intervals[k].lower) : 1.0;
     covariance(static_cast<Index>(k), static_cast<Index>(k)) = std::pow(width / 4, 2);
   }
-  draw_by_importance(fit, covariance, misfits, out);
+  draw_by_importance(fit, VectorXd::Zero(static_cast<Index>(p)), covariance, misfits, out);
   return out;
 }
 

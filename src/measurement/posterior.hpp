@@ -37,7 +37,8 @@ struct Posterior {
   // Peaks: ln(measured/model) of another test's peak slip beside the draws: its mean and standard deviation; 0: not known.
   double slip_bias_ln = 0, slip_scatter_ln = 0;
   Values better = {};  // numbers that fit the tests better than the fit does, beyond chance; empty: none were met
-  double counted = 1;  // share of the points that count: (sum w)^2/(n sum w^2)
+  // Share of the points that count: (sum w)^2/(n sum w^2). 0: G is so rough that too few do, and the draws are those of derivatives at the fit.
+  double counted = 1;
   // Of one number: the values that a share of (1 - level)/2 of the draws lies beyond on either side. Where `held` lies beyond one
   // of them the interval begins there, and leaves the whole 1 - level on the other side: a fit at the bound of its range, say,
   // has all draws on one side of it.

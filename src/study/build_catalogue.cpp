@@ -80,8 +80,26 @@ struct Plan {
   std::vector<std::string> fingerprints;
 };
 
+// A database has one confidence of its bands: that of its entries, and of those that are kept.
+void refuse_other_confidence(const Catalogue& catalogue, const Database& before) {
+  const CatalogueEntry& first = catalogue.entries.front();
+  for (const CatalogueEntry& entry : catalogue.entries)
+    if (entry.study.fragility.confidence != first.study.fragility.confidence)
+      throw Error(fmt::format(
+          "entry {} has confidence {} and entry {} has {} (the bands of a database have one): give all the same",
+          first.words.id, first.study.fragility.confidence, entry.words.id, entry.study.fragility.confidence));
+  if (before.confidence == first.study.fragility.confidence) return;
+  for (const database::Entry& kept : before.entries)
+    if (std::none_of(catalogue.entries.begin(), catalogue.entries.end(),
+                     [&](const CatalogueEntry& entry) { return entry.words.id == kept.id; }))
+      throw Error(fmt::format(
+          "confidence is {}, and that of entry {}, which the database keeps, {}: give the same, or name another folder",
+          first.study.fragility.confidence, kept.id, before.confidence));
+}
+
 // What there is to do. Throws Error that lists every changed entry, unless redo is given.
 Plan plan_of(const Catalogue& catalogue, const Database& before, const fs::path& folder, bool redo) {
+  refuse_other_confidence(catalogue, before);
   Plan plan;
   Fingerprints fingerprint_of;
   std::vector<Refusal> refused;

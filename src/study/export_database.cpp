@@ -2,11 +2,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <freestand/error.hpp>
 
 #include "base/shown_text.hpp"
 #include "io/database_file.hpp"
+#include "io/fragility_file.hpp"
 #include "study/build_catalogue.hpp"
+#include "study/catalogue_rows.hpp"
 #include "study/export_parts.hpp"
 
 namespace freestand::study {
@@ -42,6 +45,19 @@ fs::path fit_folder(const fs::path& folder, const Database& db, std::size_t entr
   return first != db.curves.end() && first->im == im ? own : intensity_folder(own, im);
 }
 
+// To the bit; what is not known is the same as itself.
+bool same_curve(const database::Curve& a, const database::Curve& b) {
+  const auto same = [](double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); };
+  using Point = database::Point;
+  return a.demand == b.demand && same(a.capacity, b.capacity) && same(a.median, b.median) &&
+         same(a.dispersion, b.dispersion) &&
+         std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(),
+                    [&](const Point& p, const Point& q) {
+                      return same(p.im, q.im) && same(p.probability, q.probability) && same(p.lower, q.lower) &&
+                             same(p.upper, q.upper);
+                    });
+}
+
 ExportRequest request_of(const ExportRequest& request, const Database& db, std::size_t entry, const std::string& im) {
   ExportRequest one = request;
   one.im.clear();
@@ -50,6 +66,15 @@ ExportRequest request_of(const ExportRequest& request, const Database& db, std::
   if (!fs::exists(one.folder / "fragility.h5"))
     throw Error(
         fmt::format("it has no curves over {} (the catalogue did not ask for them): run the catalogue with it", im));
+  const std::vector<database::Curve> found =
+      curves_of(io::read_fragility(one.folder / "fragility.h5").result, entry, im);
+  for (const database::Curve& curve : db.curves)
+    if (curve.entry == entry && curve.im == im &&
+        std::none_of(found.begin(), found.end(), [&](const auto& other) { return same_curve(curve, other); }))
+      throw Error(fmt::format(
+          "{0} holds another fit than the database ({1} over {2} differs): freestand fit {0} gives it back; "
+          "and give fits of your own another folder (-o)",
+          one.folder.string(), curve.demand, im));
   return one;
 }
 

@@ -111,6 +111,7 @@ class Importer {
   void take(const LabTest& lab, const File& floor, const File& response, double clock_s) {
     TestOfLab t = on_one_clock(lab, floor, response, clock_s);
     tell(lab, floor, response, t);
+    see_floor_noise(lab, floor);
     see_noise(noise_.slip_m, response, lab.slip, lab_.noise.slip_m);
     see_noise(noise_.rotation_rad, response, lab.rotation, lab_.noise.rotation_rad);
     see_noise(noise_.block_acceleration_mps2, response, lab.block_acceleration, lab_.noise.block_acceleration_mps2);
@@ -320,6 +321,17 @@ class Importer {
     noise = std::max(noise, noise_of(file, column, given));
   }
 
+  // Samples that are read between those of a slower floor hide its noise. White noise of sigma at a step of h shakes a block as that of
+  // sigma sqrt(h/k) at a step of k does: both have the spectrum sigma^2 h.
+  void see_floor_noise(const LabTest& lab, const File& floor) {
+    const double own_s = (floor.time.back() - floor.time.front()) / static_cast<double>(floor.time.size() - 1);
+    if (own_s < 1.01 * step_s_) return;
+    slow_floor_s_ = own_s;
+    slow_floor_noise_ =
+        std::max(slow_floor_noise_,
+                 std::sqrt(own_s / step_s_) * noise_of(floor, lab.acceleration, lab_.noise.floor_acceleration_mps2));
+  }
+
   void tell_noise() {
     const auto tell_one = [&](double noise, double given, const char* key) {
       if (given == 0 && noise > 0)
@@ -330,6 +342,14 @@ class Importer {
     tell_one(noise_.rotation_rad, lab_.noise.rotation_rad, "rotation_rad");
     tell_one(noise_.block_acceleration_mps2, lab_.noise.block_acceleration_mps2, "block_acceleration_mps2");
     noise_.floor_acceleration_mps2 = lab_.noise.floor_acceleration_mps2;
+    if (slow_floor_noise_ > 0) {
+      noise_.floor_acceleration_mps2 = slow_floor_noise_;
+      say(
+          fmt::format("the floor is sampled every {:.4g} s, and read between its samples every {:.4g} s: its noise is "
+                      "told as {:.3g} m/s2, white noise "
+                      "at that step that moves a block as far",
+                      slow_floor_s_, step_s_, slow_floor_noise_));
+    }
   }
 
   std::string dataset_text() const {
@@ -378,6 +398,7 @@ class Importer {
 
   const Laboratory& lab_;
   double step_s_ = 0;
+  double slow_floor_s_ = 0, slow_floor_noise_ = 0;  // where the floor is sampled more slowly than that
   measurement::Noise noise_;
   std::vector<TestOfLab> tests_;
   Imported out_;

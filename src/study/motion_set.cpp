@@ -250,15 +250,19 @@ bool MotionSet::has_floors() const {
   return std::any_of(entries->begin(), entries->end(), [](const Entry& entry) { return entry.ground.has_value(); });
 }
 
-// Floors of one record are no more independent than the record is of itself.
+// Floors of one record are no more independent than the record is of itself, nor is the same record by another name.
 std::vector<int> MotionSet::groups() const {
   std::map<std::string, std::string> group_of;  // of each record that stands in one, for wherever it stands again
   for (const Entry& entry : *entries)
     if (!entry.group.empty()) group_of.try_emplace(entry.motion.name, "group " + entry.group);
   std::map<std::string, int> first;
+  std::map<std::uint64_t, std::string> name_of;  // by what the record holds
   std::vector<int> groups;
   for (const Entry& entry : *entries) {
-    const std::string& record = entry.ground ? (*entries)[*entry.ground].motion.name : entry.motion.name;
+    const FloorMotion& motion = entry.ground ? (*entries)[*entry.ground].motion : entry.motion;
+    std::uint64_t held = 0;
+    hash_values(motion.horizontal_mps2, held);
+    const std::string& record = name_of.try_emplace(held, motion.name).first->second;
     const auto known = group_of.find(record);
     const std::string group = known == group_of.end() ? "record " + record : known->second;
     groups.push_back(entry.pulse ? -1 : first.try_emplace(group, static_cast<int>(groups.size())).first->second);

@@ -1,5 +1,5 @@
 // Limit states, forms, and what is refused, on results made by hand.
-#include "exports/rising.hpp"
+#include "fragility/rising.hpp"
 #include "made_results.hpp"
 
 namespace freestand::exports::test {
@@ -11,10 +11,10 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(Risen, PoolsNeighboursThatFallToTheirWeightedMean) {
-  EXPECT_THAT(risen({0.1, 0.4, 0.2, 0.6}, {1, 1, 3, 1}), ElementsAre(0.1, 0.25, 0.25, 0.6));
+  EXPECT_THAT(fragility::risen({0.1, 0.4, 0.2, 0.6}, {1, 1, 3, 1}), ElementsAre(0.1, 0.25, 0.25, 0.6));
   // What a pool does to the one before it: 0.5 stands above (0.6 + 0.2)/2.
-  EXPECT_THAT(risen({0.5, 0.6, 0.2}, {2, 1, 1}), ElementsAre(0.45, 0.45, 0.45));
-  EXPECT_THAT(risen({0.1, 0.1, 0.2}, {1, 1, 1}), ElementsAre(0.1, 0.1, 0.2));
+  EXPECT_THAT(fragility::risen({0.5, 0.6, 0.2}, {2, 1, 1}), ElementsAre(0.45, 0.45, 0.45));
+  EXPECT_THAT(fragility::risen({0.1, 0.1, 0.2}, {1, 1, 1}), ElementsAre(0.1, 0.1, 0.2));
 }
 
 TEST(LimitStates, UsuallyAreTheFirstDemandAndOverturned) {

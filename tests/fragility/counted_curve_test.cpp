@@ -28,7 +28,7 @@ std::vector<CountedBin> bins_of_the_law(double times) {
 
 TEST(CountedCurve, OfATrueCurveIsThatCurve) {
   const std::vector<CountedBin> bins = bins_of_the_law(1);
-  const CountedCurve curve(bins, median, dispersion);
+  const CountedCurve curve(bins, {median, dispersion});
   for (double im = 0.01; im < 100; im *= 1.05) EXPECT_NEAR(curve(im), law(im), 0.01 * law(im) + 1e-5) << im;
 }
 
@@ -53,7 +53,7 @@ TEST(CountedCurve, OfATrueCurveIsThatCurveHoweverTheIntensitiesOfABinAreSpread) 
         }
         bins.push_back(bin);
       }
-      const CountedCurve curve(bins, median, dispersion);
+      const CountedCurve curve(bins, {median, dispersion});
       for (double im = 0.2; im < 3; im *= 1.05)
         EXPECT_NEAR(curve(im), law(im), 0.01 * law(im) + 1e-4) << power << " " << least << " " << im;
     }
@@ -76,7 +76,7 @@ TEST(CountedCurve, IsNeitherLateNorEarlyWhereTheTruthIsNoLognormal) {
     bins.push_back(bin);
   }
   for (const double of : {0.55, 0.7, double(NAN)}) {
-    const CountedCurve curve(bins, of, of);
+    const CountedCurve curve(bins, {of, of});
     double lag = 0;
     for (double im = bins[0].im; im < bins[9].im; im += 0.001) {
       EXPECT_NEAR(curve(im), truth(im), 0.03) << of << " " << im;
@@ -88,7 +88,7 @@ TEST(CountedCurve, IsNeitherLateNorEarlyWhereTheTruthIsNoLognormal) {
 }
 
 TEST(CountedCurve, HasTheCountsWhereTheFittedCurveHasMore) {
-  const CountedCurve curve(bins_of_the_law(0.1), median, dispersion);
+  const CountedCurve curve(bins_of_the_law(0.1), {median, dispersion});
   for (double im = 0.05; im < 1.5; im *= 1.1) EXPECT_NEAR(curve(im), 0.1 * law(im), 0.001 * law(im) + 1e-6) << im;
 }
 
@@ -96,7 +96,7 @@ TEST(CountedCurve, HasTheCountsWhereTheFittedCurveHasMore) {
 TEST(CountedCurve, KeepsWhatTheCountsHaveBesideTheFittedCurve) {
   std::vector<CountedBin> bins = bins_of_the_law(0.7);
   for (CountedBin& bin : bins) bin.probability += 0.3;
-  const CountedCurve curve(bins, median, dispersion);
+  const CountedCurve curve(bins, {median, dispersion});
   for (double im = bins.front().to; im < bins.back().im; im *= 1.1) {
     EXPECT_NEAR(curve(im), 0.3 + 0.7 * law(im), 0.03) << im;
     EXPECT_LE(curve(im), 1);
@@ -108,7 +108,7 @@ TEST(CountedCurve, OfAnyFittedCurveIsBetweenTheSharesBesideIt) {
   const std::vector<CountedBin> bins = bins_of_the_law(0.6);
   for (const double own_median : {1e-3, 0.3, 0.8, 5.0, 1e3})
     for (const double own_dispersion : {0.01, 0.4, 3.0}) {
-      const CountedCurve curve(bins, own_median, own_dispersion);
+      const CountedCurve curve(bins, {own_median, own_dispersion});
       double before = 0;
       for (double im = bins.front().im; im < bins.back().im; im *= 1.001) {
         const double p = curve(im);
@@ -125,12 +125,12 @@ TEST(CountedCurve, OfAnyFittedCurveIsBetweenTheSharesBesideIt) {
 }
 
 TEST(CountedCurve, WhatWasNeverCountedIsNotHandedOn) {
-  const CountedCurve curve(bins_of_the_law(0), median, dispersion);
+  const CountedCurve curve(bins_of_the_law(0), {median, dispersion});
   for (const double im : {0.1, 1.0, 2.0, 5.0}) EXPECT_EQ(curve(im), 0) << im;
 }
 
 TEST(CountedCurve, WithoutAFittedOneIsStraight) {
-  const CountedCurve curve({{1, 0.1, 0.5, 1.5, false}, {2, 0.3, 1.5, 2.5, false}}, NAN, NAN);
+  const CountedCurve curve({{1, 0.1, 0.5, 1.5, false}, {2, 0.3, 1.5, 2.5, false}}, {NAN, NAN});
   EXPECT_DOUBLE_EQ(curve(1.5), 0.2);
   EXPECT_DOUBLE_EQ(curve(0.1), 0.1);
   EXPECT_DOUBLE_EQ(curve(3), 0.3);
@@ -138,7 +138,7 @@ TEST(CountedCurve, WithoutAFittedOneIsStraight) {
 
 TEST(CountedCurve, StraightLinesBetweenItsPlacesFollowIt) {
   const std::vector<CountedBin> bins = bins_of_the_law(1);
-  const CountedCurve curve(bins, median, dispersion);
+  const CountedCurve curve(bins, {median, dispersion});
   const std::vector<double> places = places_to_follow(curve, bins, 0.05, 3);
   EXPECT_EQ(places.front(), 0.05);
   EXPECT_EQ(places.back(), 3);

@@ -1,8 +1,8 @@
-#include "exports/rising.hpp"
+#include "fragility/rising.hpp"
 
 #include <cstddef>
 
-namespace freestand::exports {
+namespace freestand::fragility {
 
 std::vector<double> risen(const std::vector<double>& values, const std::vector<double>& weights) {
   struct Pool {
@@ -25,4 +25,4 @@ std::vector<double> risen(const std::vector<double>& values, const std::vector<d
   return result;
 }
 
-}  // namespace freestand::exports
+}  // namespace freestand::fragility

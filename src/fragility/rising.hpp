@@ -3,10 +3,10 @@
 
 #include <vector>
 
-namespace freestand::exports {
+namespace freestand::fragility {
 
 // The non-falling values with the smallest weighted squares of changes (neighbours that fall are pooled to their weighted
 // mean, until none does).
 std::vector<double> risen(const std::vector<double>& values, const std::vector<double>& weights);
 
-}  // namespace freestand::exports
+}  // namespace freestand::fragility
