@@ -170,16 +170,22 @@ class Resampled {
     }
   }
 
-  // Eight cells a bin: what a bin alone does not tell, and a refuted curve tells wrongly, how its probability grows within it.
+  // Up to eight cells a bin: what a bin alone does not tell, and a refuted curve tells wrongly, how its probability grows within it. Cells
+  // are joined until the standard error of a share, 0.5/sqrt(n) at most, is no more than a curve may be off.
   void shares_of_cells(FragilityFunction& curve) const {
     if (curve.adequate || not_refuted(curve)) return;
+    const double enough = std::pow(0.5 / tally_.options().adequate, 2);
     std::vector<double> share, weight;
+    double im = 0, above = 0, n = 0;
     for (Eigen::Index i = 0; i < cells_.n.cols(); ++i) {
-      const double im = cells_.im[static_cast<std::size_t>(i)], n = cells_.n.col(i).sum();
-      if (!(im > 0)) continue;
-      curve.cell_im.push_back(im);
-      share.push_back(cells_.above.col(i).sum() / n);
+      const double here = cells_.n.col(i).sum(), at = cells_.im[static_cast<std::size_t>(i)];
+      if (!(at > 0)) continue;
+      im += here * at, above += cells_.above.col(i).sum(), n += here;
+      if (n < enough) continue;
+      curve.cell_im.push_back(im / n);
+      share.push_back(above / n);
       weight.push_back(n);
+      im = above = n = 0;
     }
     curve.rising = risen(share, weight);
   }

@@ -131,14 +131,18 @@ class Findings {
     if (role == Role::calibration && tests <= model_.free.size())
       return fmt::format(": as {} numbers fitted to {} tests may bring about with any model", model_.free.size(),
                          tests);
-    const std::string left = structure(pool);
-    return (left.empty() ? ": nothing is left to explain" : ": little is left to explain") + left;
+    // Of these tests, and no praise beside others whose errors go on.
+    const std::string left = structure(pool.tests);
+    std::vector<const TestComparison*> all;
+    for (const TestComparison& t : c_.tests) all.push_back(&t);
+    return (left.empty() && structure(all).empty() ? ": nothing is left to explain" : ": little is left to explain") +
+           left;
   }
 
   // Residuals that go on from sample to sample, where they are more than one in twenty by chance.
-  std::string structure(const Pool& pool) const {
+  std::string structure(const std::vector<const TestComparison*>& tests) const {
     unsigned going = 0, n = 0;
-    for (const TestComparison* t : pool.tests)
+    for (const TestComparison* t : tests)
       for (const ChannelError& e : t->channels) {
         if (!(bench_.noise(e.channel) > 0) || t->expected > drowned) continue;
         const auto& variance = t->spread[static_cast<std::size_t>(e.channel)];

@@ -11,6 +11,7 @@
 #include "base/shown_text.hpp"
 #include "measurement/bench.hpp"
 #include "measurement/timing.hpp"
+#include "study/between_samples.hpp"
 
 namespace freestand::study {
 namespace {
@@ -61,19 +62,6 @@ File read_file(const LabFile& lab) {
   std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2), steps.end());
   file.step_s = steps[steps.size() / 2];
   return file;
-}
-
-// Linear between the samples.
-Series at_times(const Series& time, const Series& values, double start, double step, std::size_t count) {
-  Series out;
-  std::size_t k = 1;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double t = start + step * static_cast<double>(i);
-    while (k + 1 < time.size() && time[k] < t) ++k;
-    const double share = std::clamp((t - time[k - 1]) / (time[k] - time[k - 1]), 0.0, 1.0);
-    out.push_back(values[k - 1] + share * (values[k] - values[k - 1]));
-  }
-  return out;
 }
 
 struct TestOfLab {

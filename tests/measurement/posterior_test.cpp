@@ -74,6 +74,25 @@ TEST(Posterior, FrictionOfAnotherTestScattersAsThatOfTheTestsDoes) {
   EXPECT_NEAR(found, scatter, 0.015);
 }
 
+// The fit knows one friction of all tests, and so lies many of its standard errors from the numbers that are likely where each has its own: draws
+// begin where these are. (From the fit they never met them, and had the width of the ranges.)
+TEST(Posterior, NumbersBesideFrictionThatScattersAreKnown) {
+  constexpr int sets = 2;
+  int holds = 0;
+  for (std::uint64_t key = 0; key < sets; ++key) {
+    test::KeyedRandom random(37, key);
+    std::vector<double> factors;
+    for (int i = 0; i < 5; ++i) factors.push_back(std::exp(0.05 * random.normal()));
+    const Dataset data = test::with_noise(test::made_dataset(weakening_cabinet(), 0, factors), key);
+    const Bench bench(data, 0);
+    const Posterior p = posterior(bench, test::fitted(bench, weakening(bench), {0.2, 0.3, 0.1}), run_here);
+    const Interval drop = p.interval(1, 0.95);
+    EXPECT_LT(drop.upper - drop.lower, 0.15) << key;
+    holds += drop.lower <= 0.3 && 0.3 <= drop.upper;
+  }
+  EXPECT_GE(holds, 1);  // a chance of 0.998
+}
+
 // A model that lacks an effect is not sure of its friction: tests pull it to and fro.
 TEST(Posterior, AModelThatMissesIsLessSure) {
   const Dataset data = test::made_dataset(weakening_cabinet());
