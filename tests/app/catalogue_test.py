@@ -322,6 +322,38 @@ class Catalogue(InFolder):
         self.fail_with(2, ["query", self.folder / "nowhere"], "nowhere", "holds no database")
         self.fail_with(3, ["query", self.folder / "db" / "entries" / "fridge" / "fragility.h5"], "is no database", "freestand-fragility")
 
+    def test_entries_that_differ_beside_the_coordinates_each_have_an_answer(self):
+        high = TALL.replace("tall", "high").replace("height_m: 2}", "height_m: 2, centre_height_m: 1.3}")
+        leant = TALL.replace("tall", "leant").replace("friction:", "start: {rotation_rad: 0.1}, friction:")
+        held = TALL.replace("tall", "held").replace("{mu: 0.5}", "{mu_k: 0.5, static_ratio: 1.5}")
+        self.build(TALL + high + leant + held)
+        answers = self.ask("--class", "box", "--mu", "0.5", "--im", "pga_g=0.5", "--demand", "overturned")["answers"]
+        self.assertEqual([answer["entries"][0]["id"] for answer in answers], ["tall", "high", "leant", "held"])
+        again = self.ask("--class", "box", "--height", "2", "--im", "pga_g=0.5", "--demand", "overturned")["answers"]
+        self.assertEqual([answer["probability"] for answer in again], [answer["probability"] for answer in answers])
+
+    def test_a_target_is_what_its_curves_are_of(self):
+        aimed = ("  - {id: aimed, class: box, block: {width_m: 0.7, height_m: 1.8}, friction: {mu_k: {uniform: [0.1, 0.3]}}, samples: 2000,\n"
+                 "     fragility: {target: {friction.mu_k: {uniform: [0.1, 0.15]}}}}\n")
+        self.build(aimed)
+        self.assertAlmostEqual(float(self.rows("entries.csv")[0]["mu_k"]), 0.125)
+
+    def test_bands_of_one_database_have_one_confidence(self):
+        other = RACK.replace("friction:", "fragility: {confidence: 0.5}, friction:")
+        self.fail_with(2, ["catalogue", self.write("mixed.yaml", HEAD + FRIDGE + other), "-o", self.folder / "db"],
+                       "entry fridge has confidence 0.95 and entry rack has 0.5")
+        self.build(FRIDGE)
+        self.fail_with(2, ["catalogue", self.write("mixed.yaml", HEAD + other), "-o", self.folder / "db"],
+                       "that of entry fridge, which the database keeps, 0.95")
+
+    def test_an_export_is_of_the_curves_that_the_database_holds(self):
+        self.build(FRIDGE)
+        self.succeed(["fit", self.folder / "db" / "entries" / "fridge", "--im", "pgv_mps", "--quiet"])
+        export = ["export", self.folder / "db", "--format", "csv", "-o", self.folder / "db.csv"]
+        self.fail_with(3, export, "holds another fit than the database", "gives it back")
+        self.succeed(["fit", self.folder / "db" / "entries" / "fridge", "--quiet"])
+        self.succeed(export)
+
     def test_a_folder_of_somebody_else_is_left_alone(self):
         (self.folder / "db").mkdir()
         (self.folder / "db" / "letter.txt").write_text("mine")

@@ -2,6 +2,8 @@
 by one command, and used."""
 
 import csv
+import math
+import random
 import re
 import unittest
 
@@ -51,6 +53,21 @@ class Import(InFolder):
         """Millimetres, 100 Hz, semicolons and decimal commas, turned round, on a clock of its own."""
         rows = [f"{comma(1000 * (0.005 * i + LATE), 3)};{comma(-1000 * row['slip_m'])};" for i, row in enumerate(self.truth[name]) if i % 2 == 0]
         self.write(f"block_{name}.csv", "t_ms;LVDT 1;\n" + "\n".join(rows) + "\n")
+
+    def test_a_floor_that_is_sampled_more_slowly_keeps_its_noise(self):
+        """What is read between its samples hides it; white noise of sigma at a step h is one of sigma sqrt(h/k) at k."""
+        random.seed(1)
+        sigma, response = 0.03, [f"{0.005 * i:.4f},0" for i in range(2400)]
+        floor = [f"{0.01 * i:.4f},{(1.5 if 200 < i < 900 else 0) * math.sin(0.12 * i) + random.gauss(0, sigma):.6f}" for i in range(1200)]
+        self.write("slow.csv", "t,a\n" + "\n".join(floor) + "\n")
+        self.write("fast.csv", "t,u\n" + "\n".join(response) + "\n")
+        lab = self.write("slow.yaml", "name: slow floor\nnoise: {slip_m: 0.0003}\ntests:\n  - id: one\n    clock_s: 0\n"
+                         "    floor: {file: slow.csv, time: {column: t, unit: s}, acceleration: {column: a, unit: m/s2}}\n"
+                         "    response: {file: fast.csv, time: {column: t, unit: s}, slip: {column: u, unit: m}}\n")
+        said = self.succeed(["import", lab, "-o", self.folder / "slow"]).stdout
+        self.assertIn("the floor is sampled every 0.01 s, and read between its samples every 0.005 s", said)
+        told = float(re.search(r"floor_acceleration_mps2: ([\d.]+)", (self.folder / "slow" / "dataset.yaml").read_text())[1])
+        self.assertAlmostEqual(told / (sigma * math.sqrt(2)), 1, delta=0.1)
 
     def imported(self, folder="set", *more):
         return self.succeed(["import", self.lab, "-o", self.folder / folder, *more])

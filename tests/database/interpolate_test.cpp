@@ -47,6 +47,12 @@ TEST(Interpolate, NoneStaysNone) {
   EXPECT_DOUBLE_EQ(p.upper, 0.0025);
   const std::array wide{Probability{0, 0, 0.1, 0.005}, Probability{0, 0, 0.1, 0.005}};
   EXPECT_EQ(blend(wide, std::array{0.25, 0.75}).value, 0);
+  // Where one of them may be 0, or 1, so may what lies between.
+  const std::array open{Probability{0.3, 0.25, 0.35, 0.01}, Probability{0, 0, 0.05, 0.01}};
+  EXPECT_EQ(blend(open, std::array{0.5, 0.5}).lower, 0);
+  EXPECT_GT(blend(open, std::array{1.0, 0.0}).lower, 0.2);
+  const std::array full{Probability{0.7, 0.65, 0.75, 0.01}, Probability{1, 0.95, 1, 0.01}};
+  EXPECT_EQ(blend(full, std::array{0.5, 0.5}).upper, 1);
   EXPECT_NEAR(blend(wide, std::array{0.25, 0.75}).upper, 0.1, 1e-12);
 }
 

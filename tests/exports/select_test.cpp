@@ -187,7 +187,8 @@ TEST(Forms, DiscreteBendsAsTheFittedCurveDoes) {
     EXPECT_LT(bent.states[s].off_lines, 0.01);
   }
   EXPECT_LT(bent.states[0].curve.points.size(), 60u);
-  EXPECT_THAT(bent.notes, testing::Contains(HasSubstr("points of the curve through 5 bins, off that of the counts by at most")));
+  EXPECT_THAT(bent.notes,
+              testing::Contains(HasSubstr("points of the curve through 5 bins, off that of the counts by at most")));
   EXPECT_THAT(bent.notes, Not(testing::Contains(HasSubstr("annual rates by these straight lines"))));
   // A database is read by straight lines, and so are its exports; how far off these are is said.
   Request as_a_database = request();

@@ -159,9 +159,8 @@ TEST(Findings, NoPraiseBesideAnErrorThatGoesOn) {
       made.slip_m[k] += 0.7 * test::slip_noise_m * std::sin(0.02 * static_cast<double>(k));
   const auto sentences = said(data, fixed(0.2));
   EXPECT_THAT(sentences, Not(Contains(HasSubstr("nothing is left to explain"))));
-  EXPECT_THAT(sentences,
-              Contains(HasSubstr("little is left to explain, but in 4 of 8 residuals the error goes on from "
-                                 "sample to sample as noise does not: diagnose asks")));
+  EXPECT_THAT(sentences, Contains(HasSubstr("little is left to explain, but in 4 of 8 residuals the error goes on from "
+                                            "sample to sample as noise does not: diagnose asks")));
 }
 
 TEST(Findings, ErrorsAreToldInUnitsOfTheirChannels) {
