@@ -65,9 +65,12 @@ class Description {
     words += model.impact.law == ImpactLaw::housner ? " impact=housner" : " impact=coulomb";
     for (const Quantity& q : quantities(model)) {
       const bool usual = q.name == model.impact.factor.name && median(q) == 1;
-      if (!columns.contains(q.name) && !q.name.starts_with("effects.") && !usual &&
-          (heavy || q.name != "block.mass_kg"))
-        words += fmt::format(" {}={}", q.name, number(q));
+      if (columns.contains(q.name) || q.name.starts_with("effects.") || usual || (!heavy && q.name == "block.mass_kg"))
+        continue;
+      // Blocks of several sizes that are alike are points of one grid.
+      const bool grows = q.name == "block.centre_height_m" || q.name == "block.gyration_radius_m";
+      words += grows ? fmt::format(" {}/height={:.6g}", q.name, median(q) / median(*model.block.height))
+                     : fmt::format(" {}={}", q.name, number(q));
     }
     if (model.chain) words += model.chain->side > 0 ? " chain.side=right" : " chain.side=left";
     if (model.neighbour) words += model.neighbour->side > 0 ? " neighbour.side=right" : " neighbour.side=left";
