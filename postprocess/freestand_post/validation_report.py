@@ -53,13 +53,19 @@ def _compared(comparison):
     ratio = comparison.peak_ratio.get("ratio", math.nan)
     if comparison.unit == "noise units" and math.isfinite(expected):
         role = "calibration" if comparison.calibration else "holdout"
-        told = [test for test in comparison.tests if test["role"] == role and test["error_expected"] <= FANNED_OUT]
-        if not told:
+        tests = [test for test in comparison.tests if test["role"] == role]
+        told = [test for test in tests if test["error_expected"] <= FANNED_OUT]
+        whose = "its tests"
+        if 0 < len(told) < len(tests):
+            whose = "those tests that the floor's noise does not drown"
+            value, expected = (math.sqrt(sum(test[key] ** 2 for test in told) / len(told)) for key in ("error_noise_units", "error_expected"))
+        if value < 1.2 * expected and expected > FANNED_OUT:
             return "the floor's noise alone drowns its tests, which cannot judge the model"
-        value, expected = (math.sqrt(sum(test[key] ** 2 for test in told) / len(told)) for key in ("error_noise_units", "error_expected"))
+        if value < 0.8 * expected:
+            return f"the model is nearer to {whose} than the noise alone would be"
         if value < 1.2 * expected:
             return "the model is as good as the noise can tell"
-        return f"the model misses its tests by {validation.error(value)} times the sensor noise"
+        return f"the model misses {whose} by {validation.error(value)} times the sensor noise"
     if comparison.unit == "ln ratio" and math.isfinite(ratio):
         return f"the model predicts {words.number(ratio)} times the measured peaks"
     right, known = outcomes.score(comparison)

@@ -135,6 +135,13 @@ TEST(OutcomeFit, TestsThatAllFellBoundASlendernessFromOneSide) {
   const ModelFit fit = fit_outcomes(Bench(data, 0), model, {}, {}, run_here);
   EXPECT_NEAR(fit.intervals[0].lower, model.free[0].lower, 1e-9);
   EXPECT_EQ(fit.intervals[1].lower, model.free[1].lower);
+  // And a sweep draws from all of it that was looked at.
+  double least = 1, most = 0;
+  for (const Values& x : fit.resampled) {
+    least = std::min(least, x[0]);
+    most = std::max(most, x[0]);
+  }
+  EXPECT_GT(std::log(most / least), 0.3 * std::log(fit.intervals[0].upper / fit.intervals[0].lower));
 }
 
 // Eight tests with a chance of 0.02 each: Brier's score is one of few values, far from normal.

@@ -52,7 +52,7 @@ class ThePage(Temporary):
     def test_praise_only_where_the_tests_can_judge(self):
         for error, expected, needle in ((1.02, 1.03, "bench: the model is as good as the noise can tell"),
                                         (2900.0, 2484.0, "bench: the floor's noise alone drowns its tests"),
-                                        (0.05, 1.0, "bench: the model misses its tests by 0.0500 times the sensor noise")):
+                                        (0.05, 1.0, "bench: the model is nearer to its tests than the noise alone would be")):
             with self.subTest(error):
                 mine = {"error_noise_units": error, "error_relative": 0.2, "error": error, "error_expected": expected, "tests": 3}
                 page, _ = self.page(make.comparison(self.folder / str(error), calibration=mine))
