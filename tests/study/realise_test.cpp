@@ -222,6 +222,15 @@ TEST_F(Records, ATableSaysWhatBelongsTogetherAndBringsItsNumbers) {
   EXPECT_THAT(numbers(4), testing::Pointwise(testing::NanSensitiveDoubleEq(), {nan, nan, nan}));
 }
 
+// Two names of one record, or a copy of it, are no more motions than one.
+TEST_F(Records, ACopyIsNoMotionOfItsOwn) {
+  std::filesystem::copy_file(folder_ / "records" / "a.csv", folder_ / "copy.csv");
+  const MotionSet motions =
+      load_motions(study("{records: records/a.csv}, {records: records/b.csv}, {records: copy.csv}, {records: \"" +
+                         (folder_ / "records" / ".." / "records" / "b.csv").string() + "\"}"));
+  EXPECT_THAT(motions.groups(), testing::ElementsAre(0, 1, 0, 1));
+}
+
 // What one rank has read and another takes over: the same motions and samples, to the bit, with all that stands beside them.
 TEST_F(Records, TravelAsBytes) {
   std::ofstream(folder_ / "records" / "INDEX.csv")
