@@ -60,14 +60,19 @@ Probability blend(std::span<const Probability> known, std::span<const double> we
     double sum = 0;
     for (std::size_t i = 0; i < known.size(); ++i) {
       const double p = known[i].*member;
-      // Phi^-1 has no end there: where one of them may be 0, so may what lies between.
-      if (weights[i] > 0 && member == &Probability::lower && p <= 0) return 0.0;
-      if (weights[i] > 0 && member == &Probability::upper && p >= 1) return 1.0;
       sum += weights[i] * (plain ? p : gsl_cdf_ugaussian_Pinv(drawn_in(p, resolution)));
     }
     return std::clamp(plain ? sum : gsl_cdf_ugaussian_P(sum), 0.0, 1.0);
   };
-  return {mean(&Probability::value), mean(&Probability::lower), mean(&Probability::upper), resolution};
+  // Phi^-1 has no end at 0 and 1: where one of them may be there, so may what lies between.
+  const auto any = [&](auto&& is) {
+    for (std::size_t i = 0; i < known.size(); ++i)
+      if (weights[i] > 0 && is(known[i])) return true;
+    return false;
+  };
+  return {mean(&Probability::value),
+          any([](const Probability& p) { return p.lower <= 0; }) ? 0 : mean(&Probability::lower),
+          any([](const Probability& p) { return p.upper >= 1; }) ? 1 : mean(&Probability::upper), resolution};
 }
 
 Probability at(const Curve& curve, double im) {

@@ -13,6 +13,8 @@ namespace {
 // by im^6.
 constexpr double panel = 0.025;
 
+using Shape = fragility::CountedCurve::Shape;
+
 }  // namespace
 
 ByCounts::ByCounts(const HazardCurve& hazard, const fragility::Result& result, const fragility::EdpResult& edp,
@@ -61,9 +63,7 @@ double ByCounts::integral(const fragility::CountedCurve& curve, const Range& ran
   return sum;
 }
 
-double ByCounts::rate(const Range& range) const {
-  return integral({bins_, {f_.median, f_.dispersion, f_.cell_im, f_.rising}}, range);
-}
+double ByCounts::rate(const Range& range) const { return integral({bins_, Shape(f_)}, range); }
 
 Rate ByCounts::banded(const CurveReach& curve) {
   struct Row {
@@ -163,9 +163,9 @@ std::vector<double> ByCounts::rates(const std::vector<double>& again, const std:
   std::vector<fragility::CountedBin> bins = bins_;
   for (std::size_t r = 0; r < found.size(); ++r) {
     for (std::size_t i = 0; i < bins.size(); ++i) bins[i].probability = again[r * size + at(i)];
-    const bool curved = r < median.size() && std::isfinite(median[r]);
-    found[r] = integral(
-        {bins, {curved ? median[r] : f_.median, curved ? dispersion[r] : f_.dispersion, f_.cell_im, f_.rising}});
+    Shape shape(f_);
+    if (r < median.size() && std::isfinite(median[r])) shape.median = median[r], shape.dispersion = dispersion[r];
+    found[r] = integral({bins, shape});
   }
   return found;
 }

@@ -81,9 +81,9 @@ struct PlaneStep {
   // The slip covers more until its end than what PlaneSample::ends_within() computes in one, by a hundredth, as their sums round otherwise.
   [[gnu::always_inline]] Mask lasts() const {
     const Real allowed = Real(1.01 * (elliptic ? cut_off : 1.0)) * tolerance * at.size;
-    const Real F = at.grip.mu * floor.g, ahead = floor.a.x * at.w.x + floor.a.y * at.w.y;
+    const Real F = at.grip.mu * floor.g;
     if constexpr (!elliptic) {
-      const Real rubs = F * v;
+      const Real rubs = F * v, ahead = dot(floor.a, at.w);
       return (F <= drive) | (rubs + ahead <= Real(0.0)) | (v * (rubs - ahead) > allowed * (F - drive) * (F + drive));
     }
     const Real m = at.grip.ratio * at.grip.ratio, v2 = v * v, y2 = m * at.w.y * at.w.y;

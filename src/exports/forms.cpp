@@ -141,11 +141,7 @@ Refusal make_discrete(LimitState& state, const Wanted& wanted, const fragility::
   }
   state.curve.form = Form::discrete;
   using Shape = fragility::CountedCurve::Shape;
-  Shape shape{state.fitted.median, state.fitted.dispersion};
-  if (!edp.functions.empty()) {
-    shape.cell_im = edp.functions[wanted.capacity].cell_im;
-    shape.rising = edp.functions[wanted.capacity].rising;
-  }
+  const Shape shape = wanted.capacity < edp.functions.size() ? Shape(edp.functions[wanted.capacity]) : Shape();
   state.counted.emplace(shares, shape);
   state.drawn.emplace(bins, straight ? Shape{} : shape);
   double least = bins.front().im, most = bins.back().im;

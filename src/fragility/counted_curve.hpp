@@ -16,7 +16,7 @@
 // last digit), and where there is no curve, the lines are over the intensity, and level beyond such bins.
 //
 // A fitted curve that is refuted tells wrongly how P grows within a bin, and rates follow it: of 12 bins of even width up to 2 g, a wall that is hit
-// from 0.1 g on came out 1.55 times too often at a hazard slope of 2. There F is what the fine cells of IM show, up to eight a bin
+// from 0.1 g on came out 1.55 times too often under configs/hazard.csv. There F is what the fine cells of IM show, up to eight a bin
 // (FragilityFunction::rising): the shares of the cells, pooled where they fall, joined by straight lines; beyond the first and the last cell it goes
 // on in proportion to the fitted curve.
 #pragma once
@@ -44,6 +44,11 @@ class CountedCurve {
   struct Shape {
     double median = unknown, dispersion = unknown;
     std::vector<double> cell_im = {}, rising = {};
+
+    Shape() = default;
+    Shape(double of_median, double of_dispersion) : median(of_median), dispersion(of_dispersion) {}
+    explicit Shape(const FragilityFunction& f)
+        : median(f.median), dispersion(f.dispersion), cell_im(f.cell_im), rising(f.rising) {}
   };
 
   // One bin at least.

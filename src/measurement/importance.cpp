@@ -101,13 +101,17 @@ class Sampler {
  private:
   static double square(double x) { return x * x; }
 
-  void propose(std::uint64_t round) {
+  void draw(std::uint64_t round) {
     z_.clear();
     points_.clear();
     for (std::uint64_t s = 0; s < draw_count; ++s) {
       z_.push_back(proposal_.draw(round, s));
       points_.push_back(from_cube(fit_.model, z_.back()));
     }
+  }
+
+  void propose(std::uint64_t round) {
+    draw(round);
     G_ = misfits_(points_);
     const auto least = std::min_element(G_.begin(), G_.end());
     if (*least < least_) least_ = *least, best_ = points_[static_cast<std::size_t>(least - G_.begin())];
@@ -115,18 +119,20 @@ class Sampler {
 
   // widened: by so much is s^2 taken larger than it is.
   void weigh_points(double widened) {
-    const double s2 = widened * square(out_.dispersion), nu = out_.freedom, p = static_cast<double>(fit_.x.size());
-    std::vector<double> ln;
-    for (std::size_t s = 0; s < draw_count; ++s) {
-      const double rise = (G_[s] - least_) / s2;
-      ln.push_back((nu > 0 ? -0.5 * (nu + p) * std::log1p(rise / nu) : -0.5 * rise) - proposal_.density(z_[s]));
-    }
-    weigh(ln);
+    const double s2 = widened * square(out_.dispersion);
+    weigh([&](std::size_t s) { return (G_[s] - least_) / s2; });
   }
 
-  void weigh(std::vector<double>& ln) {
-    for (std::size_t s = 0; s < draw_count; ++s)
-      if (points_[s].empty()) ln[s] = -std::numeric_limits<double>::infinity();
+  // By Student's density of the rise of G over s^2 at each point, over the density from which the point was drawn.
+  template <class Rise>
+  void weigh(const Rise& rise_at) {
+    const double nu = out_.freedom, p = static_cast<double>(fit_.x.size());
+    std::vector<double> ln;
+    for (std::size_t s = 0; s < draw_count; ++s) {
+      const double rise = rise_at(s);
+      ln.push_back((nu > 0 ? -0.5 * (nu + p) * std::log1p(rise / nu) : -0.5 * rise) - proposal_.density(z_[s]));
+      if (points_[s].empty()) ln.back() = -std::numeric_limits<double>::infinity();
+    }
     const double top = *std::max_element(ln.begin(), ln.end());
     weight_.clear();
     for (const double l : ln) weight_.push_back(std::isfinite(top) ? std::exp(l - top) : 1.0);
@@ -188,17 +194,8 @@ class Sampler {
   // As if G had at each point what derivatives at the fit foretell.
   void take_linear() {
     proposal_ = first_;
-    z_.clear();
-    points_.clear();
-    const double nu = out_.freedom, p = static_cast<double>(fit_.x.size());
-    std::vector<double> ln;
-    for (std::uint64_t s = 0; s < draw_count; ++s) {
-      z_.push_back(proposal_.draw(most_proposals, s));
-      points_.push_back(from_cube(fit_.model, z_.back()));
-      const double d2 = proposal_.distance2(z_.back());
-      ln.push_back((nu > 0 ? -0.5 * (nu + p) * std::log1p(d2 / nu) : -0.5 * d2) - proposal_.density(z_.back()));
-    }
-    weigh(ln);
+    draw(most_proposals);
+    weigh([&](std::size_t s) { return proposal_.distance2(z_[s]); });
     out_.counted = 0;
   }
 

@@ -124,7 +124,7 @@ TableFit TableSearch::best(const std::vector<double>& weight, double among) cons
   double total = 0;
   for (const double w : weight) total += w;
   for (std::size_t t = 0; t < weight.size(); ++t) share[t] = static_cast<float>(weight[t] / total);
-  constexpr float same = 1e-6F;
+  constexpr float same = 1e-6F;  // some roundings of a sum that is at most 1: 8 of 2^-23
   std::vector<std::size_t> equal;
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -198,14 +198,10 @@ std::vector<Interval> TableSearch::seen_within_chance(const TableFit& fit) const
 
 std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std::vector<Interval>& known) const {
   std::vector<Interval> range = seen_within_chance(fit);
-  const auto known_end = [&](std::size_t i) {
-    const Free& free = table_.model.free[i];
-    return known.empty() ? Interval{free.lower, free.upper} : known[i];
-  };
-  // out: the ends if the table goes on beyond.
+  // first, last: is it open where the table ends? out: the ends if not.
   const auto widen = [&](std::size_t i, bool first, bool last, const Interval& out) {
     const Free& free = table_.model.free[i];
-    const Interval end = known_end(i), open = range[i];
+    const Interval end = known.empty() ? Interval{free.lower, free.upper} : known[i], open = range[i];
     range[i] = {std::clamp(first ? end.lower : out.lower, free.lower, std::max(free.lower, open.lower)),
                 std::clamp(last ? end.upper : out.upper, std::min(free.upper, open.upper), free.upper)};
     range[i] = {std::min(fit.x[i], range[i].lower), std::max(fit.x[i], range[i].upper)};
@@ -226,9 +222,10 @@ std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std:
               middle_step);
   to_next_row(scatter_number(table_.model), least_scatter->scatter, most_scatter->scatter, scatter_step);
   const std::vector<std::size_t> others = other_numbers(table_.model);
+  if (others.empty()) return range;
   const double points = static_cast<double>(table_.points.size()), numbers = static_cast<double>(others.size());
+  const auto further = static_cast<std::size_t>(std::ceil(std::pow(points, 1 - 1 / numbers)));
   for (const std::size_t i : others) {
-    const auto further = static_cast<std::size_t>(std::ceil(std::pow(points, 1 - 1 / numbers)));
     std::vector<double> below, above;
     for (const TablePoint& point : table_.points) {
       if (point.x[i] < range[i].lower) below.push_back(point.x[i]);

@@ -67,7 +67,7 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
         // With the test's own friction held, and from there the shift that is likeliest, along its direction. What else the numbers do
         // the test's friction makes up for, by more than its direction holds for: so from there once more.
         double shift = tau2 > 0 ? shifts[i] - moved : 0, of_test = 0;
-        for (int turn = 0; turn < (tau2 > 0 ? 2 : 1); ++turn) {
+        for (int turn = 0; turn < 2; ++turn) {
           const Prediction at = own.at(i, points[s], shift);
           if (at.failed()) return Values{no_fit};
           MatrixXd r = judge.residual(i, at);

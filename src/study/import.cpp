@@ -313,7 +313,7 @@ class Importer {
   // sigma sqrt(h/k) at a step of k does: both have the spectrum sigma^2 h.
   void see_floor_noise(const LabTest& lab, const File& floor) {
     const double own_s = (floor.time.back() - floor.time.front()) / static_cast<double>(floor.time.size() - 1);
-    if (own_s < 1.01 * step_s_) return;
+    if (own_s < 1.01 * step_s_) return;  // a clock's rounding, and half a percent of noise
     slow_floor_s_ = own_s;
     slow_floor_noise_ =
         std::max(slow_floor_noise_,

@@ -259,13 +259,16 @@ std::vector<int> MotionSet::groups() const {
   std::map<std::uint64_t, std::string> name_of;  // by what the record holds
   std::vector<int> groups;
   for (const Entry& entry : *entries) {
-    const FloorMotion& motion = entry.ground ? (*entries)[*entry.ground].motion : entry.motion;
+    if (entry.pulse || entry.ground) {
+      groups.push_back(entry.pulse ? -1 : groups[*entry.ground]);
+      continue;
+    }
     std::uint64_t held = 0;
-    hash_values(motion.horizontal_mps2, held);
-    const std::string& record = name_of.try_emplace(held, motion.name).first->second;
+    hash_values(entry.motion.horizontal_mps2, held);
+    const std::string& record = name_of.try_emplace(held, entry.motion.name).first->second;
     const auto known = group_of.find(record);
     const std::string group = known == group_of.end() ? "record " + record : known->second;
-    groups.push_back(entry.pulse ? -1 : first.try_emplace(group, static_cast<int>(groups.size())).first->second);
+    groups.push_back(first.try_emplace(group, static_cast<int>(groups.size())).first->second);
   }
   return groups;
 }
