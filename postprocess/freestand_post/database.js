@@ -75,7 +75,7 @@ function fillTable(chosen, shown) {
     const c = curveOf(e.at), median = medianOf(c);
     return `<tr data-at="${e.at}" class="${chosen && e.at === chosen.at ? "chosen" : ""}"><td class="text">${escape(e.id)}</td><td>${text(e.width_m)}</td><td>${text(e.height_m)}</td><td>${text(e.mass_kg)}</td><td>${text(e.mu_k)}</td>` +
       `<td>${escape(sayMedian(median, c))}</td><td>${median && median.by === "lognormal" ? `${text(c.dispersion)} ± ${text(c.dispersion_se, 2)}` : "–"}</td>` +
-      `<td class="text">${c ? (c.family === "lognormal" ? `lognormal, off by at most ${text(c.off_by, 2)}` : c.family === "not_refuted" ? `by its points; a lognormal is not refuted, may be off by ${text(c.off_by, 2)}` : "by its points") : ""}${remark(median) && "; " + remark(median)}</td><td>${e.samples}</td><td>${e.version}</td><td class="text">${escape(e.description)}</td><td class="text">${escape(e.source)}</td></tr>`;
+      `<td class="text">${c ? (c.family === "lognormal" ? `lognormal, off by at most ${text(c.off_by, 2)}` : c.family === "not_refuted" ? `by its points; ${Number.isFinite(c.off_by) ? `a lognormal is not refuted, may be off by ${text(c.off_by, 2)}` : "a lognormal meets any two bins"}` : "by its points") : ""}${remark(median) && "; " + remark(median)}</td><td>${e.samples}</td><td>${e.version}</td><td class="text">${escape(e.description)}</td><td class="text">${escape(e.source)}</td></tr>`;
   }).join("");
   hideEmpty(body);
   for (const row of body.rows) row.addEventListener("click", () => { picked = Number(row.dataset.at); form.elements.mu.value = data.entries[picked].mu_k; draw(); });

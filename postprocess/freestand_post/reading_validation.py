@@ -201,7 +201,8 @@ def _test(node):
     row = node.row("error_noise_units error_relative error_floor_noise_allowed error_expected score overturned_probability floor_peak_g",
                    "id role kind outcome source")
     row["overturned_measured"] = node.value.get("overturned_measured")
-    row["peaks"] = {peak.text("name"): (peak.number("measured"), peak.number("model")) for peak in node.nodes("peaks")}
+    row["peaks"] = {peak.text("name"): (peak.number("measured"), peak.number("model")) for peak in node.nodes("peaks")
+                    if peak.value.get("compared", True)}
     return row
 
 
@@ -218,7 +219,7 @@ def read_comparison(folder):
     tests = [_test(node) for node in root.nodes("tests", needed=True)]
     parameters = []
     for node in root.nodes("parameters"):
-        parameters.append(node.row("value lower upper", "name unit", "calibrated") | {"interval": node.interval("interval")})
+        parameters.append(node.row("value lower upper", "name unit open", "calibrated") | {"interval": node.interval("interval")})
     ratio, tables = root.node("peak_ratio"), root.node("error_tables")
     columns = "error_noise_units growth_noise_units growth_slip_m growth_rotation_rad bias_noise_units"
     return Comparison(
@@ -259,7 +260,7 @@ def _candidate(node):
     for name in parameters.value if parameters else ():
         found = parameters.node(name)
         if found:
-            row["parameters"].append(found.row("value", "unit") | {"name": name, "interval": found.interval("interval"),
+            row["parameters"].append(found.row("value", "unit open") | {"name": name, "interval": found.interval("interval"),
                                                                      "no_interval": found.text("no_interval")})
     return row
 

@@ -54,6 +54,8 @@ def _far(test):
         return value > FAR * np.nan_to_num(test["error_expected"], nan=1.0)
     if test["kind"] == "outcome":
         return isinstance(test["overturned_measured"], bool) and (test["overturned_probability"] > 0.5) != test["overturned_measured"]
+    if isinstance(test["overturned_measured"], bool) and test["overturned_measured"] != (test["outcome"] == "overturned"):
+        return True
     measured, model = test["peaks"].get("peak_slip_m", (math.nan, math.nan))
     if measured == 0:
         return abs(model) > 0
@@ -79,13 +81,19 @@ def parameters(results):
 
 
 def _parameter(row):
-    low, high = row["interval"]
     unit = "" if row["unit"] in ("", "1") else words.UNITS.get(row["unit"], row["unit"])
     bounds = [row.get("lower", math.nan), row.get("upper", math.nan)]
     return {"name": validation.parameter(row["name"]), "value": words.number(row["value"], 4), "unit": unit,
-            "interval": f"{words.number(low, 4)} to {words.number(high, 4)}" if math.isfinite(low) and math.isfinite(high) else
-                        f"none: {row['no_interval']}" if row.get("no_interval") else "–",
+            "interval": _interval(*row["interval"], row.get("open", "")) or (f"none: {row['no_interval']}" if row.get("no_interval") else "–"),
             "bounds": f"{words.plain(bounds[0])} to {words.plain(bounds[1])}" if np.isfinite(bounds).all() else "–"}
+
+
+def _interval(low, high, open_end):
+    """open_end: where the tests leave the number open, and its range alone ends the interval."""
+    if not (math.isfinite(low) and math.isfinite(high)):
+        return ""
+    low, high = words.number(low, 4), words.number(high, 4)
+    return {"both": "not determined", "above": f"{low} or more", "below": f"{high} or less"}.get(open_end, f"{low} to {high}")
 
 
 def candidates(results):

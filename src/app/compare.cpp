@@ -23,9 +23,10 @@ constexpr double ln_ratio_limit = 3, error_limit = 1e4;  // as measurement/score
 std::string ln_ratio(const Json& test) {
   if (test["score"].is_null()) return three_digits(test["score"]);
   const double size = std::sqrt(test["score"].get<double>());
-  double sum = 0;
+  const bool stands = test["outcome"] != "overturned", fell = test.value("overturned_measured", false);
+  double sum = fell && stands ? -1 : 0;
   for (const auto& peak : test["peaks"]) {
-    if (peak["measured"].is_null() || peak["model"].is_null()) continue;
+    if (!peak["compared"].get<bool>() || peak["measured"].is_null() || peak["model"].is_null()) continue;
     const double measured = std::abs(peak["measured"].get<double>()), model = std::abs(peak["model"].get<double>());
     if (measured != model) sum += std::clamp(std::log(model / measured), -ln_ratio_limit, ln_ratio_limit);
   }

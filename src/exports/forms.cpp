@@ -99,11 +99,16 @@ Refusal make_lognormal(LimitState& state, const Wanted& wanted) {
   const Fitted& fitted = state.fitted;
   if (!std::isfinite(fitted.median) || !(fitted.dispersion > 0))
     return fmt::format("{} has no fitted lognormal (nothing to fit one to): use --form discrete", label(wanted));
+  if (fitted.not_refuted && std::isnan(fitted.off_by))
+    return fmt::format(
+        "the lognormal of {} is not known to be adequate (two bins or less have shares, and a lognormal meets any "
+        "two): "
+        "use --form discrete",
+        label(wanted));
   if (fitted.not_refuted)
     return fmt::format(
         "the lognormal of {} is not known to be adequate (it is not refuted, but may be off by {:.2g}: more motions "
-        "would "
-        "tell): use --form discrete",
+        "would tell): use --form discrete",
         label(wanted), fitted.off_by);
   if (fitted.rates_differ)
     return fmt::format(

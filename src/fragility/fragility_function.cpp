@@ -210,11 +210,11 @@ class Resampled {
     std::sort(scatter.begin(), scatter.end());
     const auto larger = scatter.end() - std::lower_bound(scatter.begin(), scatter.end(), size);
     curve.misfit_p = (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(scatter.size()));
-    curve.off_by = size + sorted_quantile(scatter, tally_.options().confidence);
-    curve.rate_p = chance_of_small_shares(small_shares(found));
     // Through the shares of two bins there is a lognormal always, which tells nothing of others.
     const auto known = std::count_if(found.begin(), found.end(), [](double one) { return std::isfinite(one); });
-    curve.adequate = known > 2 && curve.off_by <= tally_.options().adequate && !rates_differ(curve);
+    if (known > 2) curve.off_by = size + sorted_quantile(scatter, tally_.options().confidence);
+    curve.rate_p = chance_of_small_shares(small_shares(found));
+    curve.adequate = curve.off_by <= tally_.options().adequate && !rates_differ(curve);
   }
 
  private:

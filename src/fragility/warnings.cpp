@@ -132,7 +132,12 @@ void about_functions(const EdpResult& edp, const Options& options, std::int64_t 
            [](const FragilityFunction& f) { return fmt::format("p = {:.2g}", f.rate_p); }),
        "where shares are small the fitted curve is not that of the counts, and gives other annual rates than these by "
        "more than chance explains: exports and risks take the counts, for {}.");
-  told(capacities(edp, not_refuted, off_by),
+  told(capacities(
+           edp, [](const FragilityFunction& f) { return not_refuted(f) && std::isnan(f.off_by); }, median),
+       "shares are known in two bins or less, which a lognormal always meets: exports and risks take the counts, for "
+       "{}; more bins, or other edges, would tell.");
+  told(capacities(
+           edp, [](const FragilityFunction& f) { return not_refuted(f) && !std::isnan(f.off_by); }, off_by),
        fmt::format(
            "the fitted curve is not refuted, but may be off the true shares by more than {:g}, for {{}}: exports and "
            "risks take the counts; more motions would tell.",
@@ -151,7 +156,11 @@ void about_overturning(const Tally& tally, const Result& result, std::vector<std
         fmt::format("The median of the overturning curve ({:.3g}) lies outside the intensities {}, {:.3g} to {:.3g}: "
                     "it is an extrapolation.",
                     curve.median, result.outside_im > 0 ? "taken" : "swept", curve.im_least, curve.im_most));
-  if (not_refuted(curve))
+  if (not_refuted(curve) && std::isnan(curve.off_by))
+    out.push_back(
+        "Shares of overturning are known in two bins or less, which a lognormal always meets: exports and risks take "
+        "the counts; more bins, or other edges, would tell.");
+  else if (not_refuted(curve))
     out.push_back(
         fmt::format("The overturning curve is not refuted, but may be off the true shares by {:.2f}: exports and risks "
                     "take the counts; more motions would tell.",

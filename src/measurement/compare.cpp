@@ -265,7 +265,7 @@ PeakRatio peak_ratio(const Bench& bench, const std::vector<TestComparison>& test
   const double noise = bench.noise(Channel::slip) * bench.sensor(Channel::slip).size();
   for (const TestComparison& c : tests) {
     const Test& test = bench.test(c.test);
-    if (role && test.role != *role) continue;
+    if ((role && test.role != *role) || !peaks_compare(test, c.model.response)) continue;
     double measured = test.peaks.peak_slip_m.value_or(0);
     for (const double slip : test.slip_m) measured = std::max(measured, std::abs(slip));
     const double model = c.model.response.peak_slip_m;

@@ -182,6 +182,14 @@ class Findings {
   }
 
   void peaks() {
+    std::vector<std::string> fallen;
+    for (const TestComparison& t : c_.tests)
+      if (kind(bench_.test(t.test)) == Kind::peaks && !peaks_compare(bench_.test(t.test), t.model.response))
+        fallen.push_back(bench_.test(t.test).id);
+    if (!fallen.empty())
+      say("{} of {} tests overturned, as measured or in the model ({}): what counts there is whether both fall, since "
+          "peaks may hold the fall",
+          fallen.size(), c_.tests.size(), listed(fallen));
     const PeakRatio ratio = peak_ratio(bench_, c_.tests);
     if (ratio.count < 3) return;
     const auto n = static_cast<double>(ratio.count);
@@ -225,7 +233,7 @@ class Findings {
     std::vector<std::string> sure;
     const auto n = static_cast<double>(all.size());
     for (const TestComparison* t : all) {
-      const bool fell = bench_.test(t->test).peaks.overturned.value_or(false);
+      const bool fell = measurement::fell(bench_.test(t->test));
       const double p = t->error.probability;
       const bool says = p > 0.5;
       overturned += fell;
@@ -318,19 +326,27 @@ std::vector<std::string> findings(const Bench& bench, const ModelSpec& model, st
   return Findings(bench, model, x, comparison).all(quality);
 }
 
+OpenEnds open_ends(const ModelFit& fit, std::size_t number) {
+  if (number >= fit.intervals.size()) return {};
+  constexpr double within = 0.95, beyond = 0.5 * (1 - within), half = 0.5;
+  const Free& free = fit.model.free[number];
+  const double lower = to_unit(free, fit.intervals[number].lower), upper = to_unit(free, fit.intervals[number].upper);
+  const double widest = beyond / (half * within) * (upper - lower);
+  return {lower - to_unit(free, free.lower) <= widest, to_unit(free, free.upper) - upper <= widest};
+}
+
 std::vector<std::string> undetermined(const ModelFit& fit) {
-  constexpr double nearly_all = 0.9;
   std::vector<std::string> found;
   for (std::size_t i = 0; i < fit.intervals.size(); ++i) {
     const Free& free = fit.model.free[i];
     const auto [lower, upper] = fit.intervals[i];
-    const double share = to_unit(free, upper) - to_unit(free, lower);
-    if (share > nearly_all)
+    const OpenEnds open = open_ends(fit, i);
+    if (open.below && open.above)
       found.push_back(fmt::format("the tests do not determine {}: it may be anything from {:.4g} to {:.4g}", free.name,
-                                  lower, upper));
-    else if (upper >= free.upper || lower <= free.lower)
+                                  free.lower, free.upper));
+    else if (open.below || open.above)
       found.push_back(fmt::format("the tests bound {} from {} only, at {:.4g}", free.name,
-                                  upper >= free.upper ? "below" : "above", upper >= free.upper ? lower : upper));
+                                  open.above ? "below" : "above", open.above ? lower : upper));
   }
   return found;
 }

@@ -57,10 +57,8 @@ Motions motions(const Bench& bench, const TestComparison& c, double half_base_m)
             reached(turn, model_turn, least_motion(bench, Channel::rotation))};
   if (kind(test) != Kind::outcome) m.specimen_overturns = p.overturned;
   m.model_overturns = c.model.response.outcome == Outcome::overturned;
-  // Of what fell, nobody says whether its peaks hold the fall, which the model's do not.
-  const bool fell = p.overturned.value_or(false) || m.model_overturns;
-  if (fell && test.slip_m.empty()) m.slip.known = false;
-  if (!p.overturned.value_or(false)) return m;
+  if (test.slip_m.empty() && !peaks_compare(test, c.model.response)) m.slip.known = false;
+  if (!fell(test)) return m;
   if (!m.rotation.known) m.rotation = {.known = true, .measured = infinity, .model = m.rotation.model};
   if (c.error.probability > 1e-3) m.rotation.model = infinity;
   return m;

@@ -91,20 +91,23 @@ std::string missing_dimension(const ModelSpec& model, const Test& test) {
 }
 
 Free free_parameter(const dynamics::Effect& effect, const dynamics::Parameter& p, const Reach& reach) {
-  Free free{.name = "effects." + effect.name + "." + p.name,
-            .unit = p.unit,
-            .lower = p.lower,
-            .upper = p.upper,
-            .low = p.low,
-            .high = p.high};
+  Free free{.name = "effects." + effect.name + "." + p.name, .unit = p.unit, .low = p.low, .high = p.high};
   if (p.unit == "m" && p.lower < 0 && reach.greatest_m > reach.least_m) {
     free.low = 1.1 * reach.least_m;
     free.high = 1.1 * reach.greatest_m;
     free.landmarks = {reach.least_m, reach.greatest_m};
   }
   free.logarithmic = free.low > 0 && free.high / free.low >= 4;
-  if (p.lower_open) free.lower = std::max(free.lower, 1e-3 * free.low);
+  const auto [lower, upper] = fitted_within(p, free.low, free.high);
+  free.lower = lower;
+  free.upper = upper;
   return free;
+}
+
+Bounds fitted_within(const dynamics::Parameter& p, double low, double high) {
+  constexpr double beyond = 10;
+  const double largest = beyond * std::max(std::abs(low), std::abs(high));
+  return {std::max(p.lower, low > 0 ? low / beyond : -largest), std::min(p.upper, largest)};
 }
 
 ModelSpec with_effect(const ModelSpec& base, const dynamics::Effect& effect, const Reach& reach) {

@@ -82,6 +82,12 @@ Free free_parameter(const dynamics::Effect&, const dynamics::Parameter&, const R
 
 // The model with one more effect, whose parameters are free but for those that are known.
 ModelSpec with_effect(const ModelSpec&, const dynamics::Effect&, const Reach&);
+// All that a parameter of an effect may be in a fit: ten times beyond the range that is met in practice to both sides, as far as the
+// effect allows. Draws of a number that the tests leave open end there.
+struct Bounds {
+  double lower, upper;
+};
+Bounds fitted_within(const dynamics::Parameter&, double low, double high);
 // How many free numbers that adds.
 std::size_t fitted_numbers(const dynamics::Effect&);
 

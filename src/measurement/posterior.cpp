@@ -110,7 +110,8 @@ void measure_discrepancy(const Bench& bench, const ModelFit& fit, const std::vec
     const double measured = std::abs(bench.test(i).peaks.peak_slip_m.value_or(0));
     const Prediction model = predict(fit.model, bench.test(i), fit.x);
     const double least = least_motion(bench, Channel::slip);
-    if (measured > least && !model.failed() && model.response.peak_slip_m > least)
+    if (measured > least && !model.failed() && model.response.peak_slip_m > least &&
+        peaks_compare(bench.test(i), model.response))
       ln.push_back(std::log(measured / model.response.peak_slip_m));
   }
   const double n = static_cast<double>(ln.size()),

@@ -90,13 +90,23 @@ double limited_ln(const PeakPair& pair, const Prediction& prediction) {
   return prediction.failed() ? -ln_ratio_limit : std::clamp(pair.ln(), -ln_ratio_limit, ln_ratio_limit);
 }
 
+bool falls(const Prediction& prediction) { return prediction.response.outcome == Outcome::overturned; }
+
+// One fell and the other is known to have stood.
+bool parted_by_a_fall(const Test& test, const Prediction& prediction) {
+  return test.peaks.overturned && (*test.peaks.overturned != falls(prediction));
+}
+
 TestError peak_error(const Bench& bench, std::size_t i, const Prediction& prediction) {
-  const auto pairs = peak_pairs(bench, bench.test(i), prediction.response);
-  const auto n = static_cast<double>(std::max<std::size_t>(pairs.size(), 1));
+  const Test& test = bench.test(i);
   TestError error;
+  for (const double ratio : ln_ratios(bench, i, prediction)) error.score += ratio * ratio;
+  if (parted_by_a_fall(test, prediction)) return {.score = error.score, .noise_units = failed_error, .relative = 1};
+  if (fell(test)) return error;
+  const auto pairs = peak_pairs(bench, test, prediction.response);
+  const auto n = static_cast<double>(std::max<std::size_t>(pairs.size(), 1));
   double square = 0;
   for (const PeakPair& pair : pairs) {
-    error.score += std::pow(limited_ln(pair, prediction), 2) / n;
     const double missed =
         pair.measured > pair.least ? std::abs(pair.model / pair.measured - 1) : (pair.model > pair.least ? 1.0 : 0.0);
     error.relative = std::max(error.relative, missed);
@@ -109,11 +119,20 @@ TestError peak_error(const Bench& bench, std::size_t i, const Prediction& predic
 }  // namespace
 
 std::vector<double> ln_ratios(const Bench& bench, std::size_t i, const Prediction& prediction) {
-  const auto pairs = peak_pairs(bench, bench.test(i), prediction.response);
+  const Test& test = bench.test(i);
+  if (fell(test)) return {prediction.failed() || !falls(prediction) ? -ln_ratio_limit : 0};
+  const auto pairs = peak_pairs(bench, test, prediction.response);
   std::vector<double> ratios;
   for (const PeakPair& pair : pairs)
-    ratios.push_back(limited_ln(pair, prediction) / std::sqrt(static_cast<double>(pairs.size())));
+    ratios.push_back((parted_by_a_fall(test, prediction) ? ln_ratio_limit : limited_ln(pair, prediction)) /
+                     std::sqrt(static_cast<double>(pairs.size())));
   return ratios;
+}
+
+bool fell(const Test& test) { return test.peaks.overturned.value_or(false); }
+
+bool peaks_compare(const Test& test, const Response& model) {
+  return test.has_history() || !(fell(test) || model.outcome == Outcome::overturned);
 }
 
 Kind kind(const Test& test) {

@@ -5,7 +5,9 @@
 //              likelihood does
 //   peaks      score = mean of ln(model/measured)^2 over the peaks that are known, each not above 3^2; peaks below
 //              least_motion(), measured or computed, count as that. So a specimen that stood still (0) is a hit where the
-//              model stands still too, and a miss like any other where it moves
+//              model stands still too, and a miss like any other where it moves. Of a test that fell nobody says whether
+//              its peaks hold the fall, which the model's do not: 0 where the model falls too, 3^2 where it stands, and 3^2
+//              where the model falls and the test is known to have stood
 //   outcomes   score = (p - y)^2, y = 1 overturned; p = share of the placements (ModelSpec::placement_scatter) in which
 //              the model overturns: Brier's
 #pragma once
@@ -31,7 +33,13 @@ struct TestError {
 // where that is not stated, a thousandth of the greatest such peak of the calibration tests, and at least 1e-6.
 double least_motion(const Bench&, Channel);
 
-// ln(model/measured) of each peak that a test knows, limited, over the root of their count: the sum of their squares is its score.
+bool fell(const Test&);
+// May peaks of the test be held against the model's? Not where either fell: the fall may be in one and not in the other. Histories
+// are held against histories, which both have it.
+bool peaks_compare(const Test&, const Response& model);
+
+// ln(model/measured) of each peak that a test knows, limited, over the root of their count: the sum of their squares is its
+// score. Of a test that fell one value.
 std::vector<double> ln_ratios(const Bench&, std::size_t test, const Prediction&);
 
 // Does a channel of the test's histories, or any of slip and rotation, exceed eight times its noise?

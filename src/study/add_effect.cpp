@@ -20,13 +20,6 @@ namespace {
 
 using namespace measurement;
 
-// All that a parameter may be without leaving what is plausible: ten times beyond the catalogue's range to both sides;
-// of numbers with a sign, all that is allowed.
-YAML::Node catalogue_range(const dynamics::Parameter& p) {
-  if (p.low > 0) return calibrate_node(std::max(p.lower, p.low / 10), std::min(p.upper, 10 * p.high));
-  return calibrate_node(std::max(p.lower, -1e3), std::min(p.upper, 1e3));
-}
-
 // The entry of `effects`: from a name of the catalogue, YAML text, or a file.
 YAML::Node effect_node(const std::string& effect) {
   std::string text = effect;
@@ -35,7 +28,10 @@ YAML::Node effect_node(const std::string& effect) {
       YAML::Node node(YAML::NodeType::Map);
       node["name"] = text;
       for (const auto& p : known->parameters)
-        if (p.fitted) node[p.name] = catalogue_range(p);
+        if (p.fitted) {
+          const auto [lower, upper] = fitted_within(p, p.low, p.high);
+          node[p.name] = calibrate_node(lower, upper);
+        }
       return node;
     }
     std::ifstream stream(text);

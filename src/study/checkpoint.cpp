@@ -60,29 +60,49 @@ std::string size_text(const std::string& fingerprint, std::int64_t size) {
   return fmt::format("{}\n{}\nend\n", fingerprint, size);
 }
 
-// On the root.
-std::int64_t decided_size(const Study& study, const Evaluator& evaluator, const std::filesystem::path& folder,
-                          double block_s) {
-  const std::filesystem::path blocks = blocks_path(folder), file = parallel::run_file(blocks, 0, 0, "size");
-  const std::string fingerprint = samples_fingerprint(study) + evaluator.motions().fingerprint();
-  const bool finished = parallel::count_finished_blocks(blocks) > 0;
-  if (std::filesystem::exists(file)) {
+struct KeptSize {
+  std::int64_t size = 0;  // 0: none is told, or it is of another study
+  bool damaged = false;   // every copy that is there
+};
+
+// The size that earlier runs took. Kept twice, since finished blocks are worth nothing without it.
+KeptSize kept_size(const std::vector<std::filesystem::path>& copies, const std::string& fingerprint) {
+  std::size_t damaged = 0, there = 0;
+  for (const std::filesystem::path& file : copies) {
+    if (!std::filesystem::exists(file)) continue;
     const std::string text = read_whole(file);
     std::istringstream words(text);
     std::string whose;
     std::int64_t size = 0;
     words >> whose >> size;
     const bool sound = size > 0 && size_text(whose, size) == text;
-    if (sound && whose == fingerprint) return size;
-    if (!sound && finished)
+    if (sound && whose == fingerprint) return {.size = size};
+    damaged += !sound;
+    ++there;
+  }
+  return {.damaged = there > 0 && damaged == there};
+}
+
+// On the root.
+std::int64_t decided_size(const Study& study, const Evaluator& evaluator, const std::filesystem::path& folder,
+                          double block_s) {
+  const std::filesystem::path blocks = blocks_path(folder);
+  const std::vector<std::filesystem::path> copies = {parallel::run_file(blocks, 0, 0, "size"),
+                                                     parallel::run_file(blocks, 0, 1, "size")};
+  const std::string fingerprint = samples_fingerprint(study) + evaluator.motions().fingerprint();
+  auto [size, damaged] = kept_size(copies, fingerprint);
+  if (size == 0 && parallel::count_finished_blocks(blocks) > 0) {
+    if (damaged)
       throw Error(
           fmt::format("{} cannot be gone on with (how many samples its blocks hold is not known any more): give "
                       "--overwrite to begin anew",
                       blocks.string()));
+    return static_cast<std::int64_t>(study.block_size);  // of another study, which is refused
   }
-  if (finished) return static_cast<std::int64_t>(study.block_size);  // of another study, which is refused
-  const std::int64_t size = size_by_time(study, evaluator, block_s);
-  write_durably(file, size_text(fingerprint, size));
+  if (size == 0) size = size_by_time(study, evaluator, block_s);
+  const std::string text = size_text(fingerprint, size);
+  for (const std::filesystem::path& file : copies)
+    if (!std::filesystem::exists(file) || read_whole(file) != text) write_durably(file, text);
   return size;
 }
 

@@ -21,26 +21,32 @@ constexpr std::size_t most_points = 2000;
 const char* const roles[] = {"calibration", "holdout"};
 const char* const kinds[] = {"history", "peaks", "outcome"};
 
-// Measured and predicted peaks, of what was measured.
-Json peaks_json(const Test& test, const Response& r) {
+double greatest(const std::vector<double>& values) {
+  double most = 0;
+  for (const double v : values) most = std::max(most, std::abs(v));
+  return most;
+}
+
+// Measured and predicted peaks, of what was measured. Those of a history are read from the model's history: where a block
+// overturned both hold the fall. compared: not where a peak alone may hold it.
+Json peaks_json(const Test& test, const Prediction& model) {
   Json list = Json::array();
-  const auto add = [&](const char* key, double measured, double model) {
-    list.push_back({{"name", key}, {"measured", number_or_null(measured)}, {"model", number_or_null(model)}});
+  const Response& r = model.response;
+  const auto add = [&](const char* key, const std::optional<double>& measured, double predicted) {
+    if (measured)
+      list.push_back({{"name", key},
+                      {"measured", number_or_null(*measured)},
+                      {"model", number_or_null(predicted)},
+                      {"compared", peaks_compare(test, r)}});
   };
-  const auto greatest = [](const std::vector<double>& values) {
-    double most = 0;
-    for (const double v : values) most = std::max(most, std::abs(v));
-    return most;
-  };
-  if (test.peaks.peak_slip_m || !test.slip_m.empty())
-    add("peak_slip_m", test.peaks.peak_slip_m.value_or(greatest(test.slip_m)), r.peak_slip_m);
-  if (test.peaks.residual_slip_m || !test.slip_m.empty())
-    add("residual_slip_m", test.peaks.residual_slip_m ? *test.peaks.residual_slip_m : test.slip_m.back(),
-        r.residual_slip_m);
-  if (test.peaks.peak_rotation_rad || !test.rotation_rad.empty())
-    add("peak_rotation_rad", test.peaks.peak_rotation_rad.value_or(greatest(test.rotation_rad)), r.peak_rotation_rad);
-  if (test.peaks.peak_acceleration_g)
-    add("peak_acceleration_g", *test.peaks.peak_acceleration_g, r.peak_acceleration_mps2 / standard_gravity_mps2);
+  const bool slip = !test.slip_m.empty() && !model.failed(), turn = !test.rotation_rad.empty() && !model.failed();
+  add("peak_slip_m", test.slip_m.empty() ? test.peaks.peak_slip_m : greatest(test.slip_m),
+      slip ? greatest(model.slip_m) : r.peak_slip_m);
+  add("residual_slip_m", test.slip_m.empty() ? test.peaks.residual_slip_m : test.slip_m.back(),
+      slip ? model.slip_m.back() : r.residual_slip_m);
+  add("peak_rotation_rad", test.rotation_rad.empty() ? test.peaks.peak_rotation_rad : greatest(test.rotation_rad),
+      turn ? greatest(model.rotation_rad) : r.peak_rotation_rad);
+  add("peak_acceleration_g", test.peaks.peak_acceleration_g, r.peak_acceleration_mps2 / standard_gravity_mps2);
   return list;
 }
 
@@ -68,7 +74,7 @@ Json test_json(const Bench& bench, const TestComparison& t) {
                {"error_expected", number_or_null(t.expected)},
                {"score", number_or_null(t.error.score)},
                {"outcome", name(t.model.response.outcome)},
-               {"peaks", peaks_json(test, t.model.response)}};
+               {"peaks", peaks_json(test, t.model)}};
   json["channels"] = Json::array();
   for (const ChannelError& c : t.channels)
     json["channels"].push_back({{"name", name(c.channel)},

@@ -7,6 +7,7 @@
 #include "effects/effects.hpp"
 #include "measurement/decide.hpp"
 #include "measurement/diagnose_outcomes.hpp"
+#include "measurement/findings.hpp"
 #include "measurement/law_search.hpp"
 #include "measurement/least_squares.hpp"
 #include "measurement/posterior.hpp"
@@ -251,6 +252,9 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
   for (const LawForm& form : law_forms()) forms.push_back(&form.effect);
   propose_law(bench, p->model, forms, options, jobs, d);
   state_intervals(bench, d, jobs);
+  std::vector<std::string> findings = d.quality.findings;
+  if (d.best && !d.effects.empty())
+    for (std::string& open : undetermined(d.candidates[*d.best].fit)) findings.push_back(std::move(open));
   Json json = {{"format", "freestand-diagnosis/2"},
                {"study", run.study},
                {"measurements", p->measurements},
@@ -263,7 +267,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
                {"effects", d.effects},
                {"best", d.best ? Json(label(d.candidates[*d.best])) : Json(nullptr)},
                {"sentences", d.sentences},
-               {"findings", d.quality.findings},
+               {"findings", findings},
                {"noise_floor", number_or_null(noise_floor(bench, d))},
                {"base", candidate_json(bench, d.base)}};
   json["tests_of_chance"] = Json::array();

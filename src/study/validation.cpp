@@ -9,6 +9,7 @@
 
 #include "io/provenance.hpp"
 #include "measurement/diagnose_outcomes.hpp"
+#include "measurement/findings.hpp"
 #include "measurement/grown_fit.hpp"
 #include "measurement/outcome_fit.hpp"
 #include "study/problems.hpp"
@@ -124,6 +125,8 @@ void add_interval(nlohmann::ordered_json& parameter, const ModelFit& fit, std::s
   const auto known = interval_of(fit, i);
   parameter["interval"] = nullptr;
   if (known) parameter["interval"] = {known->lower, known->upper};
+  const OpenEnds open = known ? open_ends(fit, i) : OpenEnds{};
+  if (open.below || open.above) parameter["open"] = !open.above ? "below" : !open.below ? "above" : "both";
   if (!known) parameter["no_interval"] = no_interval(fit, i);
 }
 

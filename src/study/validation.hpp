@@ -6,7 +6,7 @@
 //   tests: [{id, role, kind (history|peaks|outcome), floor_peak_g, error_noise_units, error_relative,
 //     error_floor_noise_allowed (error_noise_units with the floor's noise allowed for, sample by sample), error_expected
 //     (what noise alone would make), channels: [{name, error_noise_units, error_relative, bias, autocorrelation}],
-//     peaks: [{name, measured, model}], overturned_measured, overturned_probability, outcome, within_band (share of the
+//     peaks: [{name, measured, model, compared}], overturned_measured, overturned_probability, outcome, within_band (share of the
 //     readings that lie where 90 of 100 are predicted)}]
 //   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_floor_noise_allowed, tests}; error in
 //     error_unit; error_expected of outcomes: the score that chance alone would make, were the model's probabilities

@@ -144,6 +144,25 @@ FragilityFunction small_curve(double share, double onset, double median, std::ui
   return overturning_function(tally, Resampling(tally.groups(), tally.groups_with_samples(), options.resamples, 1));
 }
 
+// A lognormal meets the shares of any two bins, whatever lies between: no bound comes of that.
+TEST(FragilityFunction, OfTwoBinsNoBoundIsKnown) {
+  Options options;
+  options.im_name = "pga";
+  options.im_edge = {0.05, 1, 2};
+  options.edps = {{"overturned", "1", "", true, 0, {}}};
+  options.resamples = 60;
+  Tally tally(options);
+  for (std::uint64_t i = 0; i < 6000; ++i) {
+    const double im = 0.05 + 1.95 * test::uniform(i, 900), value = im > 0.9 && test::uniform(i, 901) < 0.5;
+    tally.add({i, im, 0, value > 0 ? Outcome::overturned : Outcome::moved, {&value, 1}, {}});
+  }
+  const FragilityFunction curve =
+      overturning_function(tally, Resampling(tally.groups(), tally.groups_with_samples(), options.resamples, 1));
+  ASSERT_TRUE(std::isfinite(curve.median));
+  EXPECT_TRUE(std::isnan(curve.off_by)) << curve.off_by;
+  EXPECT_FALSE(curve.adequate);
+}
+
 TEST(FragilityFunction, SmallSharesThatAreNotTheCurvesRefuteIt) {
   const FragilityFunction curve = small_curve(0.03, 0.5, NAN, 0);
   ASSERT_LT(curve.off_by, Options{}.adequate);

@@ -1,6 +1,9 @@
 // What compare says in plain sentences, of sets whose answer is known.
+#include "measurement/findings.hpp"
+
 #include <gmock/gmock.h>
 
+#include "effects/effects.hpp"
 #include "measurement/compare.hpp"
 #include "measurement/made_tests.hpp"
 
@@ -282,6 +285,36 @@ TEST(Findings, ABiasOfPeaksIsAsSureAsItsInterval) {
       Contains(HasSubstr(
           "underpredicts the peak slip: predicted ones are 0.42 times the measured ones (geometric mean "
           "of 7 tests; 95 % between 0.28 and 0.62) and scatter by a factor of 1.54; its resistance is too high")));
+}
+
+// Intervals of 95 % of a range of [0, 1]: flat draws die out nowhere; those of a normal density, cut where it is down to a twentieth, do.
+TEST(Findings, ANumberIsOpenWhereItsDrawsDoNotDieOut) {
+  ModelFit fit{.x = {0.5}};
+  fit.model.free = {{.name = "n", .lower = 0, .upper = 1, .low = 0, .high = 1}};
+  const auto ends = [&](double lower, double upper) {
+    fit.intervals = {{lower, upper}};
+    const OpenEnds open = open_ends(fit, 0);
+    return std::pair(open.below, open.above);
+  };
+  EXPECT_EQ(ends(0.025, 0.975), std::pair(true, true));                  // flat
+  EXPECT_EQ(ends(0.6 + 0.01, 1 - 0.01), std::pair(false, true));         // flat from 0.6 on
+  EXPECT_EQ(ends(0.01, 0.39), std::pair(true, false));                   // flat up to 0.4
+  EXPECT_EQ(ends(0, 0.3), std::pair(true, false));                       // held at the bound
+  EXPECT_EQ(ends(0.9 - 0.0787, 0.9 + 0.0683), std::pair(false, false));  // mean 0.9, standard deviation 0.04, cut at 1
+  fit.intervals = {{0.61, 0.99}};
+  EXPECT_THAT(undetermined(fit), testing::ElementsAre(HasSubstr("the tests bound n from below only, at 0.61")));
+}
+
+// Draws of a number that the tests leave open end at its bounds, and are swept.
+TEST(Findings, FittedNumbersOfEffectsHaveBounds) {
+  for (const dynamics::Effect& effect : effects::all()) {
+    const ModelSpec model = with_effect(fixed(0.2), effect, {});
+    for (const Free& free : model.free) {
+      EXPECT_TRUE(std::isfinite(free.lower) && std::isfinite(free.upper)) << free.name;
+      EXPECT_LT(free.lower, free.low + 1e-12) << free.name;
+      EXPECT_GT(free.upper, free.high - 1e-12) << free.name;
+    }
+  }
 }
 
 }  // namespace

@@ -70,6 +70,39 @@ TEST(Peaks, BelowTheNoiseTheSizeOfAPeakSaysNothing) {
   EXPECT_EQ(error_at(bench, 4, mu).noise_units, 0.5);
 }
 
+// A block that falls: its peak slip may hold the fall, or not, and only that it falls is compared.
+TEST(Peaks, OfATestThatFellOnlyThatCounts) {
+  Dataset data;
+  ModelSpec model = test::free_friction();
+  model.model = Model::slide_rock;
+  for (const bool fell : {true, false}) {
+    measurement::Test test;
+    test.id = fell ? "fell" : "stood";
+    test.motion = test::swings(9, 0.9);
+    test.specimen = {0.3, 1.8, 100.0};
+    test.peaks.peak_slip_m = 0.004;
+    test.peaks.peak_rotation_rad = fell ? 1.57 : 0.02;
+    test.peaks.overturned = fell;
+    data.tests.push_back(std::move(test));
+  }
+  data.tests.push_back(data.tests[1]);
+  data.tests.back().peaks.overturned = {};
+  const Bench bench(data, 0);
+  const auto error = [&](std::size_t i, double mu) { return test_error(bench, i, model, Values{mu}); };
+  ASSERT_EQ(predict(model, bench.test(0), Values{0.9}).response.outcome, Outcome::overturned);
+  ASSERT_NE(predict(model, bench.test(0), Values{0.1}).response.outcome, Outcome::overturned);
+  EXPECT_EQ(error(0, 0.9).score, 0) << "both fall, whatever the peaks";
+  EXPECT_EQ(error(0, 0.1).score, 9) << "the model stands";
+  EXPECT_DOUBLE_EQ(error(1, 0.9).score, 9) << "only the model falls";
+  EXPECT_LT(error(2, 0.9).score, 9) << "nobody says whether it fell: its peaks are all there is";
+  EXPECT_GT(error(2, 0.9).score, 0);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(ln_ratios(bench, i, predict(model, bench.test(i), Values{0.9})).size(),
+              ln_ratios(bench, i, predict(model, bench.test(i), Values{0.1})).size());
+    EXPECT_FALSE(peaks_compare(bench.test(i), predict(model, bench.test(i), Values{0.9}).response));
+  }
+}
+
 // Tests in which nothing moved bound the friction that the others leave open.
 TEST(Peaks, AFitHeedsTheTestsThatStoodStill) {
   Dataset data = made_peaks();

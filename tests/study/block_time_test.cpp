@@ -74,10 +74,15 @@ TEST(BlockTime, AStoppedSweepGoesOnWithItsBlocks) {
     EXPECT_THAT(error_text(Exit::resumable, [&] { sweep_in(parts); }), testing::HasSubstr("go on with --resume"));
   }
   parallel::clear_stop();
-  const std::string size = (blocks / "run-0000.node-000000.size").string(), decided = read_whole(size);
-  write_durably(size, decided.substr(0, decided.size() / 2));
+  const std::string size = (blocks / "run-0000.node-000000.size").string(), decided = read_whole(size),
+                    second = (blocks / "run-0000.node-000001.size").string();
+  ASSERT_EQ(read_whole(second), decided);
+  for (const std::string& copy : {size, second}) write_durably(copy, decided.substr(0, decided.size() / 2));
   EXPECT_THAT(error_text(Exit::usage, [&] { sweep_in(parts); }), testing::HasSubstr("--overwrite"));
-  write_durably(size, decided);
+  write_durably(second, decided);  // one copy stays damaged
+  EXPECT_EQ(size_in(parts, study, no_time), 8);
+  EXPECT_EQ(read_whole(size), decided);
+  write_durably(size, "");
   sweep_in(parts);
   EXPECT_FALSE(fs::exists(blocks));
   const io::SampleReader one(samples_path(scratch / "whole")), other(samples_path(parts));
