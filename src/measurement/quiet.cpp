@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "measurement/ground.hpp"
+#include "measurement/slips.hpp"
 #include "measurement/smooth.hpp"
 
 namespace freestand::measurement {
@@ -14,7 +15,7 @@ constexpr double half_window_s = 0.04, shortest_s = 0.3;
 constexpr double still = 5;  // in what noise makes
 // Times that: noise that is stated at less than a third is refused elsewhere (plausible.hpp).
 constexpr double surely = 3;
-constexpr double below = 0.7;  // of the floor that moved the block
+constexpr double below = 0.7;  // of what holds the block
 
 // Marks where this displacement moves, with half a window to either side. Noise that is stated too small would be motion:
 // what the third differences show of it counts where it is more.
@@ -55,11 +56,34 @@ double floor_that_moves(const Dataset& data) {
   return least;
 }
 
+// What carries the block while it slips, its own acceleration [m/s2]: the median over the middles of its slips. The contact lets go at no
+// less than that. Infinite where no slip is long enough.
+double acceleration_in_slips(const Dataset& data) {
+  std::vector<double> carried;
+  for (const Test& test : data.tests) {
+    if (test.role == Role::holdout || test.slip_m.empty() || data.noise.slip_m <= 0) continue;
+    const Smooth motion = smooth(test.slip_m, test.dt_s, half_window_s);
+    std::vector<double> own = floor_displacement(test);
+    for (std::size_t i = 0; i < own.size(); ++i) own[i] += test.slip_m[i];
+    const std::vector<double> acceleration = smooth(own, test.dt_s, half_window_s).second;
+    const double noise = surely * std::clamp(sensor_noise(test.slip_m), data.noise.slip_m, surely * data.noise.slip_m);
+    for (const Slip& slip :
+         slips(test, motion, still * noise * rate_noise(test.dt_s, half_window_s), data.noise.rotation_rad))
+      for (std::size_t i = slip.from + motion.half; i + motion.half < slip.to; ++i)
+        carried.push_back(-slip.sigma * acceleration[i]);
+  }
+  if (carried.empty()) return std::numeric_limits<double>::infinity();
+  const auto middle = carried.begin() + static_cast<long>(carried.size() / 2);
+  std::nth_element(carried.begin(), middle, carried.end());
+  return std::max(0.0, *middle);
+}
+
 }  // namespace
 
 std::vector<QuietStretch> quiet_stretches(const Dataset& data, Channel channel) {
   std::vector<QuietStretch> found;
-  const double noise = measurement::noise(data.noise, channel), loud = below * floor_that_moves(data);
+  const double noise = measurement::noise(data.noise, channel),
+               loud = below * std::min(floor_that_moves(data), acceleration_in_slips(data));
   if (noise <= 0 || channel == Channel::block_acceleration) return found;
   for (std::size_t t = 0; t < data.tests.size(); ++t) {
     const Test& test = data.tests[t];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/units.hpp"
 #include "measurement/made_tests.hpp"
 #include "measurement/quiet.hpp"
 #include "support/keyed_random.hpp"
@@ -108,6 +109,26 @@ TEST(Sensor, IsReadOffWhereTheBlockStands) {
   EXPECT_NEAR(sensor_of(stretches).size(), 1, 0.06);
   data.noise.slip_m *= 2;
   EXPECT_NEAR(sensor_of(quiet_stretches(data, Channel::slip)).size(), 0.5, 0.03);
+}
+
+// A floor of 5 m/s2 in its first swing, so that 0.7 of what moved the block beyond doubt (mu g = 1.96) is above what it takes; then a push
+// of 2.6 m/s2 to one side each second, which moves it by some tenths of a millimetre, too slowly to be seen.
+TEST(Sensor, TakesNoSmallSlipsForNoise) {
+  FloorMotion floor = test::swings(5, 0.3);
+  std::vector<double> a;
+  for (int i = 0; i <= std::lround(4 / dt_s); ++i) {
+    const double t = dt_s * i - 0.5, push = std::fmod(t, 0.6);
+    a.push_back(t > 0 && t < 0.6       ? 5 * std::sin(2 * pi * t / 0.3)
+                : t > 1 && push < 0.06 ? 2.6 * std::sin(pi * push / 0.06)
+                                       : 0);
+  }
+  floor = piecewise_linear("pushes", dt_s, a, {});
+  Dataset data = test::made_dataset(test::cabinet());
+  for (std::size_t t = 0; t < data.tests.size(); ++t)
+    data.tests[t] = test::made_test(data.tests[t].id, test::cabinet(), floor, 40 + t);
+  const Sensor found = sensor_of(quiet_stretches(data, Channel::slip));
+  EXPECT_GT(found.quiet_s, 4);
+  EXPECT_NEAR(found.size(), 1, 0.1);
 }
 
 // A floor that begins with a jump has moved the block before a smoothed window shows it: what came before the jump says
