@@ -113,7 +113,7 @@ std::size_t points_of_round(std::size_t per_number, const std::vector<std::size_
 Places fine_places(const OutcomeTable& table, const Values& x, const std::vector<Interval>& open) {
   const ModelSpec& model = table.model;
   const double middle = placement_middle(model, x), scatter = placement_scatter(model, x);
-  if (scatter <= 0 && placement_number(model) < 0) return places_about(middle, scatter);
+  if (scatter <= 0 && placement_number(model) < 0) return {.first = middle};
   const double step = place_step(scatter > 0 ? scatter : room / 10) * (is_slow(table) ? 2 : 1);
   const double reach = room + 2 * scatter;
   double first = middle - reach, last = middle + reach;
@@ -317,7 +317,7 @@ ModelFit fit_outcomes(const Bench& bench, const ModelSpec& model, const Values& 
   if (placed < 0) {
     const double middle = placement_middle(model, x);
     coarse.places = scatter > 0 ? places_between(middle - wide_room, middle + wide_room, place_step(scatter))
-                                : places_about(middle, 0);
+                                : Places{.first = middle};
   } else {
     const Free& free = model.free[static_cast<std::size_t>(placed)];
     coarse.places =

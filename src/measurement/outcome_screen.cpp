@@ -31,7 +31,7 @@ std::vector<std::size_t> unsure_tests(const Bench& bench, const ModelFit& fit, s
 
 Places coarse_places(const ModelFit& fit) {
   const double middle = placement_middle(fit.model, fit.x), scatter = placement_scatter(fit.model, fit.x);
-  if (scatter <= 0 && placement_number(fit.model) < 0) return places_about(middle, scatter);
+  if (scatter <= 0 && placement_number(fit.model) < 0) return {.first = middle};
   const double reach = screen_room + 2 * scatter;
   return places_between(middle - reach, middle + reach, 2 * place_step(scatter > 0 ? scatter : screen_room / 5));
 }

@@ -77,7 +77,7 @@ void compute(const Bench& bench, const std::vector<OutcomeTable*>& tables, const
     const TablePoint& point = table->points[k];
     Values words;
     for (const std::uint64_t word :
-         outcomes(bench, tests, point.plain ? table->without : table->model, point.x, table->places))
+         outcomes(bench, tests, point.plain ? table->without : table->model, point.x, table->places.all()))
       append_word(words, word);
     return words;
   });

@@ -4,6 +4,7 @@
 #include <gsl/gsl_randist.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace freestand::measurement {
@@ -15,7 +16,6 @@ double placed_at(const ModelSpec& model, double place) {
 
 namespace {
 
-constexpr double reach = 2.5;  // of the scatter
 constexpr int most_places = 64;
 
 const std::optional<Number>& placed(const ModelSpec& model) {
@@ -64,9 +64,10 @@ Places places_between(double low, double high, double step) {
   return {first * step, step, static_cast<int>(last - first) + 1};
 }
 
-Places places_about(double middle, double scatter) {
-  if (scatter <= 0) return {.first = middle};
-  return places_between(middle - reach * scatter, middle + reach * scatter, place_step(scatter));
+std::vector<double> Places::all() const {
+  std::vector<double> places;
+  for (int k = 0; k < count; ++k) places.push_back(at(k));
+  return places;
 }
 
 std::vector<double> place_shares(const Places& places, double middle, double scatter) {
@@ -85,27 +86,28 @@ std::vector<double> place_shares(const Places& places, double middle, double sca
 }
 
 std::vector<std::uint64_t> outcomes(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
-                                    std::span<const double> x, const Places& places) {
+                                    std::span<const double> x, std::span<const double> places) {
   std::vector<ModelSpec> at;
-  for (int k = 0; k < places.count && placed(model); ++k) at.push_back(at_place(model, places.at(k)));
+  if (placed(model))
+    for (const double place : places) at.push_back(at_place(model, place));
   std::vector<Specimen> specimens;
   std::vector<Shaking> shakings;
   for (const std::size_t i : tests)
-    for (int k = 0; k < places.count; ++k) {
+    for (std::size_t k = 0; k < places.size(); ++k) {
       shakings.push_back(bench.test(i).shaking());
       if (!at.empty()) {
-        specimens.push_back(specimen(at[static_cast<std::size_t>(k)], bench.test(i), x));
+        specimens.push_back(specimen(at[k], bench.test(i), x));
         continue;
       }
       Dimensions own = bench.test(i).specimen;
-      own.width_m = *own.width_m * std::exp(places.at(k));
+      own.width_m = *own.width_m * std::exp(places[k]);
       specimens.push_back(specimen(model, own, x));
       specimens.back().start = bench.test(i).start;
     }
   std::vector<Response> responses(specimens.size());
   respond_batch(specimens, shakings, {.tolerance = 1e-8}, responses);
   std::vector<std::uint64_t> words(tests.size(), 0);
-  const auto count = static_cast<std::size_t>(places.count);
+  const std::size_t count = places.size();
   for (std::size_t i = 0; i < responses.size(); ++i)
     if (responses[i].outcome == Outcome::overturned) words[i / count] |= std::uint64_t{1} << (i % count);
   return words;
@@ -121,11 +123,11 @@ double overturning_share(std::uint64_t outcomes, const std::vector<double>& shar
 std::vector<double> overturning_probabilities(const Bench& bench, const std::vector<std::size_t>& tests,
                                               const ModelSpec& model, std::span<const double> x) {
   const double middle = placement_middle(model, x), scatter = placement_scatter(model, x);
-  const Places places = places_about(middle, scatter);
-  const std::vector<double> shares = place_shares(places, middle, scatter);
-  std::vector<double> probabilities;
+  const int count = scatter > 0 ? most_places : 1;
+  std::vector<double> places, probabilities;
+  for (int k = 0; k < count; ++k) places.push_back(middle + scatter * gsl_cdf_ugaussian_Pinv((k + 0.5) / count));
   for (const std::uint64_t word : outcomes(bench, tests, model, x, places))
-    probabilities.push_back(std::clamp(overturning_share(word, shares), 0.0, 1.0));
+    probabilities.push_back(static_cast<double>(std::popcount(word)) / count);
   return probabilities;
 }
 

@@ -163,7 +163,7 @@ TEST(OutcomeFit, ProbabilitiesThatAreRightAreRarelyCalledTooSure) {
 // the outcome changes evenly, which adds the variance step^2/12 to the scatter, and no more than that.
 TEST(Placements, SharesAddUpToTheProbabilityOfLyingBelowAThreshold) {
   const double middle = -1.03, scatter = 0.2;
-  const Places places = places_about(middle, scatter);
+  const Places places = places_between(middle - 2.5 * scatter, middle + 2.5 * scatter, place_step(scatter));
   const auto shares = place_shares(places, middle, scatter);
   double sum = 0;
   for (const double share : shares) sum += share;
@@ -176,14 +176,49 @@ TEST(Placements, SharesAddUpToTheProbabilityOfLyingBelowAThreshold) {
   }
 }
 
+// Against 500 placements at the quantiles of their distribution.
+TEST(Placements, ProbabilitiesAreThoseOfManyPlacements) {
+  const Dataset data = made_outcomes(40, {});
+  const Bench bench(data, 0);
+  const ModelSpec model = rocking_model(true_size_m);
+  const auto tests = tests_of(data, Role::calibration);
+  constexpr int many = 500;
+  double most = 0, square = 0;
+  for (const double scatter : {0.07, 0.1, 0.15}) {
+    const auto found = overturning_probabilities(bench, tests, model, Values{true_slenderness, scatter});
+    for (std::size_t i = 0; i < tests.size(); ++i) {
+      std::vector<Specimen> specimens;
+      for (int k = 0; k < many; ++k)
+        specimens.push_back(
+            specimen(model, bench.test(tests[i]),
+                     Values{true_slenderness * std::exp(scatter * gsl_cdf_ugaussian_Pinv((k + 0.5) / many)), scatter}));
+      const std::vector<Shaking> shaking(many, bench.test(tests[i]).shaking());
+      std::vector<Response> responses(many);
+      respond_batch(specimens, shaking, {}, responses);
+      const double share =
+          static_cast<double>(std::count_if(responses.begin(), responses.end(),
+                                            [](const Response& r) { return r.outcome == Outcome::overturned; })) /
+          many;
+      most = std::max(most, std::abs(found[i] - share));
+      square += std::pow(found[i] - share, 2) / (3.0 * static_cast<double>(tests.size()));
+    }
+  }
+  RecordProperty("most", std::to_string(most));
+  RecordProperty("rms", std::to_string(std::sqrt(square)));
+  EXPECT_LT(most,
+            0.035);  // a border lies within a sixth of the scatter, where the density is 0.4, and half of that is right
+  EXPECT_LT(std::sqrt(square), 0.012);
+}
+
 TEST(Placements, OutcomesAreThoseOfTheSpecimensThere) {
   const Dataset data = made_outcomes(12, {});
   const Bench bench(data, 0);
   const ModelSpec model = rocking_model(true_size_m);
-  const Places places = places_about(std::log(true_slenderness), 0.2);
+  const double middle = std::log(true_slenderness);
+  const Places places = places_between(middle - 0.5, middle + 0.5, 0.0625);
   std::vector<std::size_t> tests;
   for (std::size_t i = 0; i < data.tests.size(); ++i) tests.push_back(i);
-  const auto words = outcomes(bench, tests, model, Values{0.3, 0.1}, places);
+  const auto words = outcomes(bench, tests, model, Values{0.3, 0.1}, places.all());
   int overturned = 0;
   for (std::size_t i = 0; i < tests.size(); ++i)
     for (int k = 0; k < places.count; ++k) {
