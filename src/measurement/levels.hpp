@@ -17,6 +17,7 @@
 //   longest_lag_s     how far a clock is sought                    a strong motion swings to and fro in 0.3 s and more; half
 //                                                                  of that away a response turned round looks like one
 //                                                                  that is late
+//   longest_lag_of_known_sign_s                                    as far as recorders are started apart by hand
 #pragma once
 
 namespace freestand::measurement {
@@ -26,5 +27,6 @@ inline constexpr double adequate = 1.4142135623730951;
 inline constexpr double beyond_practice = 3.1622776601683795;
 inline constexpr double fault_deviations = 3;
 inline constexpr double longest_lag_s = 0.15;
+inline constexpr double longest_lag_of_known_sign_s = 1;
 
 }  // namespace freestand::measurement

@@ -136,6 +136,11 @@ class Doubter {
           break;
         }
     }
+    for (std::size_t other = 0; other < bench_.size(); ++other)
+      if (other != i && same_floor(bench_, i, other)) {
+        same_floors_.add(test, 0);
+        break;
+      }
     if (test.start.upright_at_rest() && turns_against_floor(bench_, i)) turned_.add(test, 0);
     const double share = share_of_floor(bench_, i);
     if (share != 0 && !is_nearest_to_one(share)) shares_.add(test, share);
@@ -159,7 +164,7 @@ class Doubter {
     about(strong_, "the floor of {} reaches {:.3g} g", ": is floor_acceleration_mps2 in m/s2?");
     about(weak_, "{} move more than a floor that reaches {:.2g} g can make them",
           ": is floor_acceleration_mps2 in m/s2, and its sensor alive?");
-    about(early_, "{} moves before its floor does", ": check the clocks of the channels");
+    about(early_, "{} moves before its floor does, or farther", ": check the clocks of the channels");
     constexpr const char* subtract =
         ": subtract its mean before the shaking, or begin the record before the block moves";
     about(late_slips_, "the slip of {} does not start at zero ({:.2g} m)", subtract, false);
@@ -174,6 +179,11 @@ class Doubter {
       about(copied_[c], (channel + " of {} is one and the same, sample by sample").c_str(),
             ": one file was taken for another");
     }
+    about(same_floors_,
+          "the floor of {} is one and the same, sample by sample, which no sensor's noise lets come twice",
+          ": one file was taken for another, or the noise stated for floor_acceleration_mps2 is not that of a motion "
+          "that was "
+          "commanded");
     about(turned_, "the rotation of {} looks mirrored: the floor turns the block the wrong way",
           ": rotation_rad is positive clockwise");
     about(shares_, "block_acceleration_mps2 of {} is {:.3g} times the floor's before anything moves",
@@ -225,7 +235,8 @@ class Doubter {
 
   const Bench& bench_;
   Doubts out_;
-  Seen slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_, turned_, shares_;
+  Seen slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_, same_floors_, turned_,
+      shares_;
   Seen frozen_[channel_count], copied_[channel_count];
   std::vector<std::string> fast_;
 };

@@ -68,6 +68,15 @@ bool same_history(const Bench& bench, std::size_t i, std::size_t other, Channel 
          std::any_of(a.begin(), a.begin() + static_cast<long>(n), [&](double s) { return s != a[0]; });
 }
 
+bool same_floor(const Bench& bench, std::size_t i, std::size_t other) {
+  const Test &a = bench.test(i), &b = bench.test(other);
+  if (!a.has_history() || !b.has_history() || bench.floor_noise_mps2(i) <= 0 || bench.floor_noise_mps2(other) <= 0)
+    return false;
+  const auto &one = a.motion.horizontal_mps2, &two = b.motion.horizontal_mps2;
+  const std::size_t n = std::min(one.size(), two.size());
+  return n > 1 && a.scale == b.scale && std::equal(one.begin(), one.begin() + static_cast<long>(n), two.begin());
+}
+
 bool turns_against_floor(const Bench& bench, std::size_t i) {
   const Test& test = bench.test(i);
   const Dimensions& body = test.specimen;

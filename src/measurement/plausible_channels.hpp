@@ -14,6 +14,10 @@ double frozen_s(const Bench&, std::size_t test, Channel);
 // Are the histories of a channel in two tests one and the same, sample by sample, where something moves?
 bool same_history(const Bench&, std::size_t test, std::size_t other, Channel);
 
+// Are the floors of two tests one and the same, sample by sample, though the data set states a noise of the floor's channel? What was
+// measured never comes twice. (Without such noise it may be the motion that was commanded.)
+bool same_floor(const Bench&, std::size_t test, std::size_t other);
+
 // Does the floor turn the block the wrong way? A rectangle that rocks about a corner obeys
 //   theta'' + p^2 sgn(theta) sin(alpha - |theta|) = b p^2 (-a/g) cos(alpha - |theta|),   p^2 = 3 g/(4 R),
 // with b = 1, and b = -1 if theta is mirrored. Slips of the corner, and loads beside the floor, bring b nearer to 0. True:

@@ -25,6 +25,25 @@ Part part_of(std::span<const double> samples) {
   return p;
 }
 
+// What a slip cannot be farther than, and a rotation than that over half the height: contact takes the block's velocity towards the
+// floor's, so that they differ at most as the floor's velocities so far do among themselves. Twice that, since springs and slopes join
+// in; and of the first half second of the motion alone, since later a wrong unit does the same.
+bool outruns_floor(const Test& test, const std::vector<double>& samples, double offset, double noise, Channel channel) {
+  constexpr double times = 2, surely = 8, looked_at_s = 0.5;
+  const double arm = channel == Channel::slip ? 1 : 0.5 * test.specimen.height_m.value_or(2);
+  double speed = 0, least = 0, most = 0, reach = 0, moving_s = 0;
+  for (std::size_t k = 0; k < samples.size() && moving_s < looked_at_s; ++k) {
+    speed += test.dt_s * floor_acceleration_mps2(test, k);
+    least = std::min(least, speed);
+    most = std::max(most, speed);
+    reach += test.dt_s * (most - least);
+    const double moved = arm * (std::abs(samples[k] - offset) - surely * noise);
+    if (moved > times * reach) return true;
+    if (moved > 0 || moving_s > 0) moving_s += test.dt_s;
+  }
+  return false;
+}
+
 }  // namespace
 
 double start_offset(const Bench& bench, std::size_t i, Channel channel) {
@@ -59,10 +78,11 @@ bool moves_before_floor(const Bench& bench, std::size_t i, Channel channel) {
   };
   std::size_t begins = 0;
   while (begins < samples.size() && !shakes(begins)) ++begins;
-  // A window that sees a motion may end where it begins. A floor that never shakes is dead, and told of elsewhere.
-  for (std::size_t k = 0; begins < samples.size() && k + 2 * motion.half < begins; ++k)
+  if (begins == samples.size()) return false;  // a dead floor, which is told of elsewhere
+  // A window that sees a motion may end where it begins.
+  for (std::size_t k = 0; k + 2 * motion.half < begins; ++k)
     if (std::abs(motion.firm_rate(k)) > least) return true;
-  return false;
+  return outruns_floor(test, samples, start_offset(bench, i, channel), noise, channel);
 }
 
 double floor_offset_mps2(const std::vector<double>& floor) {

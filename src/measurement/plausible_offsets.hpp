@@ -11,7 +11,8 @@ namespace freestand::measurement {
 // one sample (as stated, or as it scatters), and five times that of a mean; and where the floor's channel is dead.
 double start_offset(const Bench&, std::size_t test, Channel);
 
-// Does a channel (slip or rotation) move, beyond doubt, while the floor's shows nothing but its noise, and shakes later?
+// Does a channel (slip or rotation) move, beyond doubt, while the floor's shows nothing but its noise, and shakes later? Or, in its first
+// half second, farther than the floor has by then, where a block follows?
 bool moves_before_floor(const Bench&, std::size_t test, Channel);
 
 // Mean of the floor's acceleration [m/s2], where it is one and the same before the shaking and after it: over the first and

@@ -144,6 +144,9 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const double dt = bench.test(i).dt_s;
     timings.push_back(dt > 0 ? slip_timing(bench, i, static_cast<int>(longest_lag_s / dt)) : Timing{});
+    if (dt <= 0 || timings.back().wrong()) continue;
+    const Timing far = slip_timing(bench, i, static_cast<int>(longest_lag_of_known_sign_s / dt), true);
+    if (far.wrong()) timings.back() = far;
   }
   const auto say = [&](std::size_t i) {
     const Test& test = bench.test(i);
@@ -178,6 +181,16 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     if (each.size() > 2 && 3 * each.size() >= 2 * judged && each.front() * each.back() > 0)
       quality.findings.push_back(fmt::format("in {} of {} tests whose slips tell, friction is steadiest if {}",
                                              each.size(), judged, check_clock("the response", each[each.size() / 2])));
+  }
+  const auto others = floors_of_others(bench);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const Test& test = bench.test(i);
+    if (!others[i].likelier() || timings[i].wrong()) continue;
+    quality.doubtful += test.role == Role::calibration;
+    quality.findings.push_back(fmt::format(
+        "the slip of test {} fits the floor of {} better than its own (u'' + a scatters by {:.2g} times "
+        "less): were files exchanged?{}",
+        test.id, bench.test(others[i].test).id, std::sqrt(others[i].gain), held_out_note(bench.data(), {test.id})));
   }
   for (const std::size_t i : tests_of(bench.data(), Role::holdout)) {
     const bool said = timings[i].mirrored ? quality.mirrored_slip : quality.late_s * timings[i].late_steps > 0;

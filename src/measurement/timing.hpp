@@ -21,4 +21,13 @@ struct Timing {
 // direction, over the slips of one test; both smoothed alike. sign_is_known: as measured, no other is looked at.
 Timing slip_timing(const Bench&, std::size_t test, int most_steps, bool sign_is_known = false);
 
+// Of the floors of the other tests, the one under which u'' + a varies least over the slips of this test, as measured.
+struct OtherFloor {
+  std::size_t test = 0;
+  double gain = 1;        // variance of u'' + a under its own floor over that under the other
+  bool judged = false;    // there was slip enough, and another floor that covers it at the same rate
+  bool likelier() const;  // more than chance: as Timing::wrong()
+};
+std::vector<OtherFloor> floors_of_others(const Bench&);  // of each test
+
 }  // namespace freestand::measurement
