@@ -49,9 +49,19 @@ std::vector<CountedBin> counted_bins(const Result& result, const EdpResult& edp,
 
 CountedCurve::CountedCurve(const std::vector<CountedBin>& bins, Shape shape) : shape_(std::move(shape)) {
   for (const CountedBin& bin : bins) {
-    const double shown = bin.by_law ? fitted(bin.im) : over_bin(bin);
-    knots_.push_back({bin.im, knots_.empty() ? shown : std::max(shown, knots_.back().fitted), bin.probability});
+    double shown = bin.by_law ? fitted(bin.im) : over_bin(bin);
+    if (!knots_.empty()) shown = std::max(shown, knots_.back().fitted);
+    knots_.push_back({where(bin, shown), shown, bin.probability});
   }
+}
+
+// Where the curve within a bin shows what the whole bin does; its mean, where there is no such place or the curve is level.
+double CountedCurve::where(const CountedBin& bin, double shown) const {
+  if (!(bin.from >= 0) || !std::isfinite(bin.to) || fitted(bin.im) == shown) return bin.im;
+  double low = bin.from, high = bin.to;
+  if (!(fitted(low) < shown && shown < fitted(high))) return bin.im;
+  for (int i = 0; i < 60 && low < high; ++i) (fitted(0.5 * (low + high)) < shown ? low : high) = 0.5 * (low + high);
+  return high;
 }
 
 double CountedCurve::lognormal(double im) const {
@@ -72,38 +82,38 @@ double CountedCurve::fitted(double im) const {
   return left > 0 ? 1 - (1 - share.back()) * (1 - lognormal(im)) / left : share.back();
 }
 
-// The mean over the intensities of a bin. By midpoints: of a bin that is w dispersions wide they are off by no more than (w/32)^2/24 of the
+// The mean over the intensities of a bin, about the curve at the bin's mean: where that is level the mean is the very number, by which the
+// curve is looked up. By midpoints: of a bin that is w dispersions wide they are off by no more than (w/32)^2/24 of the
 // curve's largest bend, 0.24, so by 1e-4 of one of three.
 double CountedCurve::over_bin(const CountedBin& bin) const {
   if (!(bin.from >= 0) || !std::isfinite(bin.to) || !(bin.from < bin.im && bin.im < bin.to)) return fitted(bin.im);
   constexpr int points = 32;
   const double from = bin.from / bin.to, power = power_with_mean(from, bin.im / bin.to), low = std::pow(from, power);
-  double sum = 0;
+  const double middle = fitted(bin.im);
+  double beside = 0;
   for (int i = 0; i < points; ++i) {
     const double u = (i + 0.5) / points;
-    sum += fitted(bin.to *
-                  (std::fabs(power) < small_power ? std::pow(from, 1 - u) : std::pow(low + u * (1 - low), 1 / power))) /
-           points;
+    beside += fitted(bin.to * (std::fabs(power) < small_power ? std::pow(from, 1 - u)
+                                                              : std::pow(low + u * (1 - low), 1 / power))) -
+              middle;
   }
-  return sum;
+  return middle + beside / points;
 }
 
 double CountedCurve::operator()(double im) const {
   const double f = fitted(im);
-  const auto same = std::ranges::equal_range(knots_, f, {}, &Knot::fitted);
-  if (same.empty()) {
-    const Knot& highest = knots_.back();
-    const Knot low = same.begin() == knots_.begin() ? Knot{0, 0, 0} : *(same.begin() - 1),
-               high = same.begin() == knots_.end()
-                          ? Knot{0, 1, highest.fitted > 0 ? std::min(1.0, highest.probability / highest.fitted) : 1}
-                          : *same.begin();
-    return std::lerp(low.probability, high.probability, (f - low.fitted) / (high.fitted - low.fitted));
+  const auto next = std::ranges::upper_bound(knots_, im, {}, &Knot::im);
+  const Knot &first = knots_.front(), &last = knots_.back();
+  if (next == knots_.begin()) return first.fitted > 0 ? first.probability * f / first.fitted : first.probability;
+  if (next == knots_.end()) {
+    if (!(last.fitted < 1)) return last.probability;
+    const double in_the_end = last.fitted > 0 ? std::min(1.0, last.probability / last.fitted) : 1;
+    return std::lerp(last.probability, in_the_end, (f - last.fitted) / (1 - last.fitted));
   }
-  const auto next = std::ranges::upper_bound(same, im, {}, &Knot::im);
-  if (next == same.begin()) return next->probability;
-  const Knot& low = *(next - 1);
-  return next == same.end() ? low.probability
-                            : std::lerp(low.probability, next->probability, (im - low.im) / (next->im - low.im));
+  const Knot &low = *(next - 1), &high = *next;
+  const bool rise = high.fitted > low.fitted && high.probability > low.probability;
+  return std::lerp(low.probability, high.probability,
+                   rise ? (f - low.fitted) / (high.fitted - low.fitted) : (im - low.im) / (high.im - low.im));
 }
 
 std::vector<double> places_to_follow(const CountedCurve& curve, const std::vector<CountedBin>& bins, double least,

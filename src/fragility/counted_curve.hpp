@@ -13,7 +13,8 @@
 // curve, P = p_1 F/F_1 (what it has beside the curve, left to stay, would make it p_1 at least whenever chance gave p_1 more, and with hundreds
 // of times the events there rates of such bins came out 1.6 times); above the last it grows in proportion where the curve has
 // more, so that what was never counted stays so, and else 1 - P falls in proportion. Where F does not change from bin to bin (0 or 1 to the
-// last digit), and where there is no curve, the lines are over the intensity, and level beyond such bins.
+// last digit), where the shares fall, which F never does, and where there is no curve, the lines are over the intensity, between the places
+// at which F is F_i, and level beyond such bins.
 //
 // A fitted curve that is refuted tells wrongly how P grows within a bin, and rates follow it: of 12 bins of even width up to 2 g, a wall that is hit
 // from 0.1 g on came out 1.55 times too often under configs/hazard.csv. There F is what the fine cells of IM show, up to eight a bin
@@ -60,10 +61,11 @@ class CountedCurve {
   double fitted(double im) const;
   double lognormal(double im) const;
   double over_bin(const CountedBin&) const;
+  double where(const CountedBin&, double shown) const;
 
   Shape shape_;
   struct Knot {
-    double im, fitted, probability;
+    double im, fitted, probability;  // im: where the curve shows `fitted`
   };
   std::vector<Knot> knots_;
 };

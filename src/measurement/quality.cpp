@@ -148,6 +148,17 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     const Timing far = slip_timing(bench, i, static_cast<int>(longest_lag_of_known_sign_s / dt), true);
     if (far.wrong()) timings.back() = far;
   }
+  const auto others = floors_of_others(bench);
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    const Test& test = bench.test(i);
+    if (!others[i].likelier() || others[i].gain < timings[i].gain) continue;
+    timings[i] = {};  // no clock brings it to a floor that is another's
+    quality.doubtful += test.role == Role::calibration;
+    quality.findings.push_back(fmt::format(
+        "the slip of test {} fits the floor of {} better than its own (u'' + a scatters {:.2g} times "
+        "less): were files exchanged?{}",
+        test.id, bench.test(others[i].test).id, std::sqrt(others[i].gain), held_out_note(bench.data(), {test.id})));
+  }
   const auto say = [&](std::size_t i) {
     const Test& test = bench.test(i);
     const std::string whose = "the slip of test " + test.id;
@@ -165,7 +176,7 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     if (timings[i].mirrored) mirrored.push_back(i);
     late.push_back(timings[i].late_steps * dt);
   }
-  quality.doubtful = wrong.size();
+  quality.doubtful += wrong.size();
   const auto most = [&](std::size_t count) { return count > 1 && 10 * count >= 7 * judged; };
   if (most(mirrored.size())) {
     quality.mirrored_slip = true;
@@ -181,16 +192,6 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     if (each.size() > 2 && 3 * each.size() >= 2 * judged && each.front() * each.back() > 0)
       quality.findings.push_back(fmt::format("in {} of {} tests whose slips tell, friction is steadiest if {}",
                                              each.size(), judged, check_clock("the response", each[each.size() / 2])));
-  }
-  const auto others = floors_of_others(bench);
-  for (std::size_t i = 0; i < others.size(); ++i) {
-    const Test& test = bench.test(i);
-    if (!others[i].likelier() || timings[i].wrong()) continue;
-    quality.doubtful += test.role == Role::calibration;
-    quality.findings.push_back(fmt::format(
-        "the slip of test {} fits the floor of {} better than its own (u'' + a scatters by {:.2g} times "
-        "less): were files exchanged?{}",
-        test.id, bench.test(others[i].test).id, std::sqrt(others[i].gain), held_out_note(bench.data(), {test.id})));
   }
   for (const std::size_t i : tests_of(bench.data(), Role::holdout)) {
     const bool said = timings[i].mirrored ? quality.mirrored_slip : quality.late_s * timings[i].late_steps > 0;

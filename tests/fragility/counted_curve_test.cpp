@@ -153,5 +153,38 @@ TEST(CountedCurve, StraightLinesBetweenItsPlacesFollowIt) {
   }
 }
 
+// Shares that fall: the cells are pooled to one level, where the lines go along the intensity, whatever the digits of that level are.
+TEST(CountedCurve, FollowsCountsThatFall) {
+  for (int k = 1; k <= 40; ++k) {
+    const double level = 0.0459 * std::pow(1.07, k);
+    CountedCurve::Shape shape{median, dispersion};
+    const std::vector<CountedBin> bins = {
+        {0.35, 0.9 * level, 0.2, 0.5}, {0.7, 1.6 * level, 0.5, 1}, {1.4, 1.1 * level, 1, 2}, {2.9, 0.8 * level, 2, 4}};
+    for (const double im : {0.25, 0.45, 0.5, 0.9, 1.2, 1.7, 2.3, 4.1}) {
+      shape.cell_im.push_back(im);
+      shape.rising.push_back(im < 0.5 ? 0.9 * level : level);
+    }
+    const CountedCurve curve(bins, shape);
+    for (std::size_t b = 1; b < bins.size(); ++b)
+      EXPECT_DOUBLE_EQ(curve(bins[b].im), bins[b].probability) << level << ", bin " << b;
+    EXPECT_NEAR(curve(2), level * std::lerp(1.1, 0.8, 0.6 / 1.5), 1e-12) << level;
+  }
+}
+
+// And where the level begins within a bin and ends within another: each bin shows its own share about its mean.
+TEST(CountedCurve, FollowsCountsThatFallBesideAnUnevenLevel) {
+  CountedCurve::Shape shape{median, dispersion};
+  for (const double im : {0.25, 0.45, 0.55, 0.9, 1.2, 1.7, 2.3, 3.6, 3.9}) {
+    shape.cell_im.push_back(im);
+    shape.rising.push_back(im < 0.5 ? 0.05 : im < 3.8 ? 0.09 : 0.095);
+  }
+  const std::vector<CountedBin> bins = {
+      {0.35, 0.05, 0.2, 0.5}, {0.7, 0.12, 0.5, 1}, {1.4, 0.09, 1, 2}, {2.9, 0.06, 2, 4}};
+  const CountedCurve curve(bins, shape);
+  EXPECT_NEAR(curve(0.7), 0.12, 0.012);
+  EXPECT_NEAR(curve(1.4), 0.09, 1e-12);
+  EXPECT_NEAR(curve(2.9), 0.06, 0.012);
+}
+
 }  // namespace
 }  // namespace freestand::fragility::counted_curve_test
