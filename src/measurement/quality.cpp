@@ -144,9 +144,9 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const double dt = bench.test(i).dt_s;
     timings.push_back(dt > 0 ? slip_timing(bench, i, static_cast<int>(longest_lag_s / dt)) : Timing{});
-    if (dt <= 0 || timings.back().wrong()) continue;
+    if (dt <= 0) continue;
     const Timing far = slip_timing(bench, i, static_cast<int>(longest_lag_of_known_sign_s / dt), true);
-    if (far.wrong()) timings.back() = far;
+    if (far.wrong() && far.gain > timings.back().gain) timings.back() = far;
   }
   const auto others = floors_of_others(bench);
   for (std::size_t i = 0; i < others.size(); ++i) {

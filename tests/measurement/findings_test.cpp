@@ -289,7 +289,8 @@ TEST(Findings, ABiasOfPeaksIsAsSureAsItsInterval) {
 
 // Intervals of 95 % of a range of [0, 1]: flat draws die out nowhere; those of a normal density, cut where it is down to a twentieth, do.
 TEST(Findings, ANumberIsOpenWhereItsDrawsDoNotDieOut) {
-  ModelFit fit{.x = {0.5}};
+  ModelFit fit;
+  fit.x = {0.5};
   fit.model.free = {{.name = "n", .lower = 0, .upper = 1, .low = 0, .high = 1}};
   const auto ends = [&](double lower, double upper) {
     fit.intervals = {{lower, upper}};

@@ -308,8 +308,48 @@ TEST(Quality, AResponseThatBeginsBeforeItsFloor) {
     for (auto* samples : {&data.tests[1].slip_m, &data.tests[1].rotation_rad})
       for (std::size_t i = 0; i + 60 < samples->size(); ++i) (*samples)[i] = (*samples)[i + 60];
     const Doubts found = doubts(Bench(data, 0));
-    EXPECT_THAT(found.sentences, Contains("t2 moves before its floor does, or farther: check the clocks of the channels"));
+    EXPECT_THAT(found.sentences,
+                Contains("t2 moves before its floor does, or farther: check the clocks of the channels"));
     EXPECT_GT(found.spoilt_tests, 0U);
+  }
+}
+
+// Responses exchanged between two tests, and the floor of one written over that of another.
+TEST(Quality, ExchangedResponsesAndCopiedFloors) {
+  const Dataset sound = test::made_dataset(cabinet(0.2));
+  EXPECT_THAT(examined(sound).findings, Not(Contains(HasSubstr("exchanged"))));
+  Dataset exchanged = sound;
+  std::swap(exchanged.tests[0].slip_m, exchanged.tests[2].slip_m);
+  std::swap(exchanged.tests[0].rotation_rad, exchanged.tests[2].rotation_rad);
+  const Quality found = examined(exchanged);
+  EXPECT_THAT(found.findings, Contains(HasSubstr("the slip of test t1 fits the floor of t3 better than its own")));
+  EXPECT_THAT(found.findings, Contains(HasSubstr("the slip of test t3 fits the floor of t1 better than its own")));
+  EXPECT_EQ(found.doubtful, 2U);
+  Dataset copied = sound;
+  copied.tests[1].motion = copied.tests[3].motion;
+  copied.noise.floor_acceleration_mps2 = 0.01;
+  EXPECT_THAT(doubts(Bench(copied, 0)).sentences,
+              Contains(HasSubstr("the floor of t2, t4 is one and the same, sample by sample")));
+  EXPECT_THAT(doubts(Bench(sound, 0)).sentences, Not(Contains(HasSubstr("one and the same"))));
+}
+
+// Recorders started apart by hand.
+TEST(Quality, AClockThatIsOffByMoreThanASwing) {
+  for (const int late : {-60, 60, 110}) {
+    Dataset data = test::made_dataset(cabinet(0.2));
+    measurement::Test& test = data.tests[1];
+    for (auto* samples : {&test.slip_m, &test.rotation_rad}) {
+      const std::vector<double> before = *samples;
+      const auto n = static_cast<int>(before.size());
+      for (int i = 0; i < n; ++i)
+        (*samples)[static_cast<std::size_t>(i)] = before[static_cast<std::size_t>(std::clamp(i - late, 0, n - 1))];
+    }
+    const std::string begins = "the slip of test t2 runs ";
+    double told_s = 0;
+    for (const std::string& said : examined(data).findings)
+      if (said.starts_with(begins))
+        told_s = std::stod(said.substr(begins.size())) * (said.find("behind") != std::string::npos ? 1 : -1);
+    EXPECT_NEAR(told_s, 0.005 * late, 0.01);
   }
 }
 
