@@ -225,7 +225,11 @@ class Sampler {
 
 void draw_by_importance(const ModelFit& fit, const VectorXd& step, const MatrixXd& covariance, const Misfits& misfits,
                         Posterior& out) {
-  const VectorXd middle = (to_cube(fit.model, fit.x) + step).cwiseMax(0).cwiseMin(1);
+  VectorXd middle = to_cube(fit.model, fit.x) + step;
+  for (Index k = 0; k < middle.size(); ++k) {
+    const Free& free = fit.model.free[static_cast<std::size_t>(k)];
+    middle[k] = std::clamp(middle[k], to_unit(free, free.lower), to_unit(free, free.upper));
+  }
   Sampler(fit, {middle, root_of(covariance)}, misfits, out).run();
 }
 

@@ -139,6 +139,26 @@ TEST(Posterior, AFittedNumberLiesWithinItsIntervalAtTheBoundOfItsRangeToo) {
   }
 }
 
+// A drag a quarter of the least that is met in practice: draws lie where the tests say, not where the catalogue's range begins.
+TEST(Posterior, ANumberBeyondWhatIsMetInPractice) {
+  constexpr double rate = 0.05;
+  const dynamics::Effect& drag = *effects::find("viscous_drag");
+  ASSERT_GT(drag.parameters[0].low, 2 * rate);
+  const Dataset truth = test::made_dataset(test::cabinet("viscous_drag", {rate}), 0);
+  int holds = 0;
+  constexpr int sets = 8;
+  for (std::uint64_t key = 0; key < sets; ++key) {
+    const Dataset data = test::with_noise(truth, 300 + key);
+    const Bench bench(data, 0);
+    const ModelFit fit = test::fitted(bench, with_effect(test::free_friction(), drag, bench.reach()), {0.2, rate});
+    const Interval interval = posterior(bench, fit, run_here).interval(1, 0.9);
+    holds += interval.lower <= rate && rate <= interval.upper;
+    EXPECT_LT(interval.upper, 0.15);
+    EXPECT_LT(interval.lower, fit.x[1]);
+  }
+  EXPECT_GE(holds, test::likely_counts(sets, 0.9).least);
+}
+
 TEST(Posterior, OfAModelWithoutFreeNumbersNothingIsOpen) {
   const Dataset data = test::made_dataset(test::cabinet());
   const Bench bench(data, 0);
