@@ -98,9 +98,7 @@ def _headline(results):
         found.append((diagnosis.base.get("error_left_out", math.nan), "base model, on tests left out of the fit"))
         best = diagnosis.proposal or best
         name = validation.effect(best.get("effect", ""))
-        chance = diagnosis.verdict == "none" or diagnosis.reason == "none_helps"
-        found.append((best.get("error_left_out", math.nan), f"best candidate, {name}: better by no more than chance"
-                      if chance else f"with {name}, on tests left out of the fit"))
+        found.append((best.get("error_left_out", math.nan), verdict.best_in_words(diagnosis, name)))
     else:
         for k in sorted({0, len(results.comparisons) - 1}):
             comparison = results.comparisons[k]

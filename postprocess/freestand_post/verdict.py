@@ -3,6 +3,7 @@ import math
 
 from . import validation, words
 
+LEVEL = 0.05  # of every test of chance
 WITHDRAWN = "data"  # reason of a verdict that was withdrawn: the measurements look wrong
 
 
@@ -34,6 +35,26 @@ def title(diagnosis, was=False):
                 diagnosis.reason, "the model lacks something that no effect of the catalogue explains")
 
 
+def friction_scatters(diagnosis):
+    return diagnosis.raw.get("decided_by") == "friction_scatter"
+
+
+def gains_beyond_chance(diagnosis):
+    """Does the best effect gain more than it would where nothing is missing?"""
+    return any(row["question"] == "does an effect help" and row["p"] <= LEVEL for row in diagnosis.chances)
+
+
+def best_in_words(diagnosis, name):
+    """The candidate with the least left-out error, as far as the verdict names it."""
+    if diagnosis.verdict != "none" and diagnosis.reason != "none_helps":
+        return f"with {name}, on tests left out of the fit"
+    if diagnosis.verdict == "none" and friction_scatters(diagnosis):
+        return f"closest effect, {name}: friction that differs from test to test explains it"
+    if gains_beyond_chance(diagnosis):
+        return f"best candidate, {name}: " + ("not needed" if diagnosis.verdict == "none" else "no better on tests left out")
+    return f"best candidate, {name}: better by no more than chance"
+
+
 def _rivals(diagnosis):
     """"static friction or a tilt of the floor"; of pairs "floor tilt with viscous drag or floor tilt with a spring"."""
     rivals = [row["effect"].split("+") for row in diagnosis.candidates if row["as_good_as_best"]]
@@ -50,6 +71,14 @@ def finding(diagnosis):
         return "What each effect would leave, were the measurements right: none is named"
     if not best:
         return f"No candidate was fitted to the end; the base leaves {base} {diagnosis.unit}"
+    if diagnosis.verdict == "none" and friction_scatters(diagnosis):
+        return (f"A friction of its own in each test explains what the base misses: the base leaves {base} {diagnosis.unit} on tests left out, the "
+                f"effect that comes closest, {name}, {_error(best)}")
+    if diagnosis.verdict == "none" and gains_beyond_chance(diagnosis):
+        return (f"No effect is needed: the base leaves {base} {diagnosis.unit}, no more than noise explains; the best, {name}, {_error(best)}, more "
+                "than chance and less than matters")
+    if diagnosis.reason == "none_helps" and gains_beyond_chance(diagnosis):
+        return f"No candidate predicts the tests left out any better: the base leaves {base} {diagnosis.unit}, the best, {name}, {_error(best)}"
     if diagnosis.verdict == "none" or diagnosis.reason == "none_helps":
         return (f"No candidate predicts the tests left out better than the base by more than chance: the base leaves {base} "
                 f"{diagnosis.unit}, the best, {name}, {_error(best)}")

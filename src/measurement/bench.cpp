@@ -5,6 +5,7 @@
 
 #include "base/random.hpp"
 #include "measurement/quiet.hpp"
+#include "measurement/resolution.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -91,11 +92,12 @@ double sensor_noise(const std::vector<double>& signal) {
     }
     levels.push_back(std::sqrt(sum / (20.0 * window)));
   }
-  if (levels.empty()) return 0;
+  const double rounded = rounding(signal);
+  if (levels.empty()) return rounded;
   // The quiet fifth of the windows; a window of that length comes out 14 % low there on white noise.
   const auto quiet = levels.begin() + static_cast<long>(levels.size() / 5);
   std::nth_element(levels.begin(), quiet, levels.end());
-  return *quiet / 0.86;
+  return std::max(*quiet / 0.86, rounded);
 }
 
 const std::vector<double>& Prediction::channel(Channel which) const {
@@ -169,7 +171,13 @@ Reach Bench::reach(const std::vector<std::size_t>& tests) const {
 double Bench::noise(Channel channel) const { return measurement::noise(data_.noise, channel); }
 
 void Bench::estimate_sensors() {
-  for (int c = 0; c < channel_count; ++c) sensors_[c] = sensor_of(quiet_stretches(data_, static_cast<Channel>(c)));
+  for (int c = 0; c < channel_count; ++c) {
+    const auto channel = static_cast<Channel>(c);
+    double rounded = 0;
+    for (const Test& test : data_.tests)
+      if (test.role == Role::calibration) rounded = std::max(rounded, rounding(history(test, channel)));
+    sensors_[c] = sensor_of(quiet_stretches(data_, channel), noise(channel) > 0 ? rounded / noise(channel) : 0);
+  }
 }
 
 Spread Bench::spread(const ModelSpec& model, std::size_t i, std::span<const double> x,

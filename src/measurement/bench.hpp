@@ -18,7 +18,7 @@ const std::vector<double>& history(const Test&, Channel);
 double noise(const Noise&, Channel);
 
 // Standard deviation of the white noise on a measured acceleration, from its third differences in the quiet parts
-// [the unit of the signal]. Not above what the signal itself does there.
+// [the unit of the signal]. Not above what the signal itself does there, and not below what its resolution makes (resolution.hpp).
 double sensor_noise(const std::vector<double>& signal);
 
 // What the model gives for a test, on the time steps of its histories.

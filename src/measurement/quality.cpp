@@ -9,6 +9,7 @@
 #include "measurement/laboratory.hpp"
 #include "measurement/levels.hpp"
 #include "measurement/plausible.hpp"
+#include "measurement/resolution.hpp"
 #include "measurement/timing.hpp"
 
 namespace freestand::measurement {
@@ -61,7 +62,7 @@ void look_at_channel(const Bench& bench, Channel channel, Quality& quality) {
       if (channel != Channel::block_acceleration && !moves(bench, i)) unknown.push_back(test.id);
     } else if (std::all_of(samples.begin(), samples.end(), [&](double s) { return s == samples[0]; })) {
       dead.push_back(test.id);
-    } else if (clipped(samples, bench.noise(channel))) {
+    } else if (cut_off(samples, bench.noise(channel))) {
       cut.push_back(test.id);
     }
   }
@@ -113,7 +114,16 @@ void look_at_sensors(const Bench& bench, Quality& quality) {
     const double noise = bench.noise(channel);
     const char* unit = channel == Channel::slip ? "m" : "rad";
     constexpr double worth_a_word = 0.1;  // a size that is nearer to what is stated changes no error in its first digit
-    if (std::abs(std::log(sensor.size())) > worth_a_word || sensor.coloured > worth_a_word * sensor.size())
+    double step = 0;
+    for (const std::size_t i : tests_of(bench.data(), Role::calibration))
+      step = std::max(step, resolution(history(bench.test(i), channel)));
+    const bool different = std::abs(std::log(sensor.size())) > worth_a_word;
+    if (different && step > 0 && sensor.coloured == 0)
+      quality.findings.push_back(
+          fmt::format("{} is read in steps of {:.2g} {}, and so scatters by {:.2g}, {:.2g} times what is stated: "
+                      "models are judged by that",
+                      name(channel), step, unit, noise * sensor.size(), sensor.size()));
+    else if (different || sensor.coloured > worth_a_word * sensor.size())
       quality.findings.push_back(fmt::format(
           "{} scatters by {:.2g} {} where nothing moves, {:.2g} times what is stated{}: models are judged by that",
           name(channel), noise * sensor.size(), unit, sensor.size(),

@@ -115,7 +115,7 @@ void Sensor::whiten(double* samples, std::size_t count, double dt_s) const {
   }
 }
 
-Sensor sensor_of(const std::vector<QuietStretch>& stretches) {
+Sensor sensor_of(const std::vector<QuietStretch>& stretches, double rounding) {
   Sensor best;
   std::size_t samples = 0;
   double quiet_s = 0;
@@ -123,20 +123,21 @@ Sensor sensor_of(const std::vector<QuietStretch>& stretches) {
     samples += s.samples.size() - 1;
     quiet_s += s.dt_s * static_cast<double>(s.samples.size());
   }
+  if (samples >= least_samples) {
+    double known = deviance(best, stretches);
+    const auto take = [&](const Sensor& other, double numbers) {
+      const double found = deviance(other, stretches);
+      if (known - found < gsl_cdf_chisq_Pinv(level, numbers)) return;
+      best = other;
+      known = found;
+    };
+    take(sized(stretches), 1);
+    take(coloured(stretches), 2);
+    best.size_error = 1 / std::sqrt(2 * static_cast<double>(samples));
+    best.drift_per_s = drift_of(best, stretches);
+  }
   best.quiet_s = quiet_s;
-  if (samples < least_samples) return best;
-  double known = deviance(best, stretches);
-  const auto take = [&](const Sensor& other, double numbers) {
-    const double found = deviance(other, stretches);
-    if (known - found < gsl_cdf_chisq_Pinv(level, numbers)) return;
-    best = other;
-    known = found;
-  };
-  take(sized(stretches), 1);
-  take(coloured(stretches), 2);
-  best.quiet_s = quiet_s;
-  best.size_error = 1 / std::sqrt(2 * static_cast<double>(samples));
-  best.drift_per_s = drift_of(best, stretches);
+  if (best.size() < rounding) best.white = rounding, best.coloured = best.correlation_s = 0;
   return best;
 }
 

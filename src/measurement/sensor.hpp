@@ -32,7 +32,8 @@ struct QuietStretch {
 
 // By the likelihood of the stretches, each with a mean of its own (and so of its differences alone). As stated (white, 1),
 // unless another size is likelier by more than chance (5 %), or a correlated part beside it; likewise the drift. An
-// estimate where none is needed costs little: its standard error.
-Sensor sensor_of(const std::vector<QuietStretch>&);
+// estimate where none is needed costs little: its standard error. Not below `rounding`, which the steps of the sensor make wherever
+// something moves (resolution.hpp) [noise units]: where nothing does it reads one and the same.
+Sensor sensor_of(const std::vector<QuietStretch>&, double rounding = 0);
 
 }  // namespace freestand::measurement

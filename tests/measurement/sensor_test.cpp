@@ -8,7 +8,9 @@
 
 #include "base/units.hpp"
 #include "measurement/made_tests.hpp"
+#include "measurement/plausible.hpp"
 #include "measurement/quiet.hpp"
+#include "measurement/resolution.hpp"
 #include "support/keyed_random.hpp"
 #include "support/repeats.hpp"
 
@@ -145,6 +147,41 @@ TEST(Sensor, IsReadOffBesideAFloorThatJumps) {
   for (const QuietStretch& s : quiet_stretches(data, Channel::slip))
     if (s.test != 0) seconds += s.dt_s * static_cast<double>(s.samples.size());
   EXPECT_GT(seconds, 3);  // of the three other tests
+}
+
+// A sensor that is read in steps says one and the same where nothing moves, and strays by step/sqrt(12) where something does.
+TEST(Resolution, IsNoNoiseNearZero) {
+  constexpr double step = 1e-3;
+  Dataset data = test::made_dataset(test::cabinet(), 0.05);
+  for (measurement::Test& t : data.tests)
+    for (double& s : t.slip_m) s = step * std::round(s / step);
+  EXPECT_NEAR(resolution(data.tests[0].slip_m), step, 1e-9 * step);
+  data.noise.slip_m = step / std::sqrt(12.0);
+  EXPECT_LT(sensor_of(quiet_stretches(data, Channel::slip)).size(), 0.7) << "what quiet stretches alone say";
+  Bench bench(data, 0);
+  bench.estimate_sensors();
+  EXPECT_NEAR(bench.sensor(Channel::slip).size(), 1, 0.1);
+  for (const std::string& said : doubts(bench).sentences) ADD_FAILURE() << said;
+  for (const measurement::Test& t : data.tests) EXPECT_FALSE(cut_off(t.slip_m, data.noise.slip_m)) << t.id;
+  data.noise.slip_m /= 5;
+  Bench stated_small(data, 0);
+  stated_small.estimate_sensors();
+  EXPECT_NEAR(stated_small.sensor(Channel::slip).size(), 5, 0.5);
+}
+
+TEST(Resolution, IsNoneOfRampsPulsesAndNoise) {
+  const Dataset data = test::made_dataset(test::cabinet());
+  EXPECT_EQ(resolution(data.tests[0].slip_m), 0);
+  std::vector<double> ramp, pulses, printed;
+  for (int i = 0; i < 2000; ++i) {
+    ramp.push_back(0.25 * std::clamp(i % 200 - 50, 0, 100));
+    pulses.push_back(i / 20 % 2 ? 5 : 0);
+    printed.push_back(std::round(1e6 * data.tests[0].slip_m[static_cast<std::size_t>(i) % 800]) / 1e6);
+  }
+  EXPECT_EQ(resolution(ramp), 0);
+  EXPECT_EQ(resolution(pulses), 0);
+  EXPECT_LT(rounding(printed), 1e-6);
+  EXPECT_EQ(resolution({}), 0);
 }
 
 }  // namespace

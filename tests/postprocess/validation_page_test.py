@@ -85,6 +85,20 @@ class ThePage(Temporary):
                 self.assertEqual("with rate weakening, on tests left out" in page.text, reason == "none_suffices")
                 self.assertEqual(text.index("<figure") > text.index("What was found"), reason == "data")
 
+    def test_a_gain_beyond_chance_that_is_not_needed(self):
+        """What stands over the candidates says no more of chance than the table of chances does."""
+        helps = {"question": "does an effect help", "about": "12 effects", "p": 0.0005, "level": 0.05, "observed": 40, "chance_reaches": 5,
+                 "simulations": 2000, "told_apart": None}
+        for decided_by, needles in (("friction_scatter", ("A friction of its own in each test explains what the base misses",
+                                                          "friction that differs from test to test explains it")),
+                                    ("tests_of_chance", ("No effect is needed: the base leaves", "rate weakening: not needed"))):
+            with self.subTest(decided_by):
+                page, _ = self.page(make.diagnosis(self.folder / decided_by, "none", decided_by=decided_by, tests_of_chance=[helps]))
+                for needle in needles:
+                    self.assertIn(needle, page.text)
+                self.assertNotIn("no more than chance", page.text)
+                self.assertNotIn("by more than chance", page.text)
+
     def test_a_fault_of_the_laboratory_is_no_effect(self):
         width = make.candidate("width_as_stated", 1.02, True)
         width["parameters"] = {"laboratory.width_as_stated": {"value": 0.981, "unit": "1", "interval": [0.98, 0.982]}}
