@@ -2,6 +2,7 @@
 
 #include <gsl/gsl_cdf.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "measurement/least_squares.hpp"
@@ -33,10 +34,15 @@ OwnNumbers fitted_to_each(const Bench& bench, const Judge& judge, const ModelFit
   OwnNumbers own;
   const auto size = [&](double value) { return free.logarithmic ? std::log(value) : value; };
   double mean = 0;
-  for (const Values& answer : answers) {
-    own.of_tests.push_back(answer[0]);
-    own.misfit += answer[1];
-    mean += size(answer[0]) / static_cast<double>(tests);
+  constexpr double near = 1e-3;
+  for (std::size_t i = 0; i < tests; ++i) {
+    const double value = answers[i][0], left = answers[i][1];
+    own.of_tests.push_back(value);
+    own.misfit += left;
+    if (judge.samples()[i] > 0) own.worst = std::max(own.worst, left / judge.samples()[i]);
+    own.at_end |= to_unit(free, value) - to_unit(free, free.lower) < near ||
+                  to_unit(free, free.upper) - to_unit(free, value) < near;
+    mean += size(value) / static_cast<double>(tests);
   }
   for (const double value : own.of_tests)
     own.scatter += std::pow(size(value) - mean, 2) / std::max(static_cast<double>(tests) - 1, 1.0);
@@ -61,7 +67,7 @@ OwnNumbers own_clocks(const Bench& bench, const Judge& judge, const ModelFit& fi
 
 bool explain_tests(const OwnNumbers& own, double samples, double least_misfit) {
   const auto numbers = static_cast<double>(own.of_tests.size());
-  return own.misfit <= adequate * adequate * samples &&
+  return !own.at_end && own.worst <= adequate * adequate && own.misfit <= adequate * adequate * samples &&
          least_misfit - own.misfit > gsl_cdf_chisq_Pinv(1 - chance_level, numbers);
 }
 

@@ -158,9 +158,19 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     const Timing far = slip_timing(bench, i, static_cast<int>(longest_lag_of_known_sign_s / dt), true);
     if (far.wrong() && far.gain > timings.back().gain) timings.back() = far;
   }
+  std::vector<std::string> in_units;
+  double largest = 1;  // factor
   const auto others = floors_of_others(bench);
   for (std::size_t i = 0; i < others.size(); ++i) {
     const Test& test = bench.test(i);
+    const SlipScale scale = slip_scale(bench, i);
+    if (scale.is_a_unit() && scale.gain > std::max(timings[i].gain, others[i].gain)) {
+      timings[i] = {};
+      in_units.push_back(test.id);
+      if (std::abs(std::log(scale.factor)) > std::abs(std::log(largest))) largest = scale.factor;
+      quality.wrong_numbers += test.role == Role::calibration;
+      continue;
+    }
     if (!others[i].likelier() || others[i].gain < timings[i].gain) continue;
     timings[i] = {};  // no clock brings it to a floor that is another's
     quality.doubtful += test.role == Role::calibration;
@@ -169,6 +179,11 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
         "less): were files exchanged?{}",
         test.id, bench.test(others[i].test).id, std::sqrt(others[i].gain), held_out_note(bench.data(), {test.id})));
   }
+  if (2 * in_units.size() > bench.size()) timings.assign(bench.size(), {});  // the others' clocks and signs are no surer
+  if (!in_units.empty())
+    quality.findings.push_back(
+        fmt::format("slip_m of {} goes with the floor if it is {:.3g} times what is measured: is it in metres?{}",
+                    listed(in_units), largest, held_out_note(bench.data(), in_units)));
   const auto say = [&](std::size_t i) {
     const Test& test = bench.test(i);
     const std::string whose = "the slip of test " + test.id;
@@ -207,7 +222,36 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     const bool said = timings[i].mirrored ? quality.mirrored_slip : quality.late_s * timings[i].late_steps > 0;
     if (timings[i].wrong() && !said) say(i);
   }
-  return judged > 1 && 2 * judged >= tests.size();
+  return !in_units.empty() || (judged > 1 && 2 * judged >= tests.size());
+}
+
+// A channel of one test that is the model's, but for a factor between two units: as measured far from it, and near to noise where it is
+// read in the other. The other tests give the model.
+void look_at_units(const Bench& bench, const ModelFit& fit, Quality& quality) {
+  constexpr double far = 8, closer = 4;
+  for (std::size_t i = 0; i < bench.size(); ++i) {
+    const Test& test = bench.test(i);
+    if (!test.has_history()) continue;
+    const Prediction model = predict(fit.model, test, fit.x);
+    for (const Channel channel : {Channel::slip, Channel::rotation}) {
+      const auto &seen = history(test, channel), &given = model.channel(channel);
+      const double noise = bench.noise(channel);
+      if (seen.empty() || model.failed() || noise <= 0) continue;
+      if (channel == Channel::slip && slip_scale(bench, i).is_a_unit()) continue;  // told of already
+      double sg = 0, gg = 0, off = 0, left = 0;
+      for (std::size_t k = 0; k < seen.size(); ++k)
+        sg += seen[k] * given[k], gg += given[k] * given[k], off += std::pow(seen[k] - given[k], 2);
+      const double factor = gg > 0 ? sg / gg : 1;
+      for (std::size_t k = 0; k < seen.size(); ++k) left += std::pow(seen[k] - factor * given[k], 2);
+      const double n = static_cast<double>(seen.size()), units = noise * std::max(factor, 1.0) * std::sqrt(n);
+      if (!is_ratio_of_units(factor) || std::sqrt(off) < far * noise * std::sqrt(n) || std::sqrt(left) > closer * units)
+        continue;
+      quality.wrong_numbers += test.role == Role::calibration;
+      quality.findings.push_back(fmt::format(
+          "{} of test {} is {:.3g} times what the model gives, all along: is it in {}?{}", name(channel), test.id,
+          factor, channel == Channel::slip ? "metres" : "radians", held_out_note(bench.data(), {test.id})));
+    }
+  }
 }
 
 // Mean score of the base with its numbers fitted again to changed data.
@@ -231,6 +275,7 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   const bool settled = look_at_slips(bench, quality);
   const auto tests = tests_of(bench.data(), Role::calibration);
   if (tests.empty() || !bench.test(tests.front()).has_history() || fit.score < 2 * std::log(2.0)) return quality;
+  look_at_units(bench, fit, quality);
   const double dt = bench.test(tests.front()).dt_s;
   const int most = std::max(1, static_cast<int>(longest_lag_s / dt));
   std::vector<double> lags;  // [s]

@@ -54,6 +54,21 @@ class Slipping {
     return sum;
   }
 
+  // Least squares of the floor's acceleration on that of the slip, each about its mean of each direction. noise: of u'' [m/s2].
+  SlipScale scale(const std::vector<double>& floor, double noise) const {
+    double uu = 0, ua = 0, n = 0;
+    for (const auto* way : {&there_, &back_}) {
+      Variance u, a, sum;
+      for (const std::size_t k : *way) u.add(block_.second[k]), a.add(floor[k]), sum.add(block_.second[k] + floor[k]);
+      uu += u.total();
+      ua += 0.5 * (sum.total() - u.total() - a.total());
+      n += u.n;
+    }
+    const double free_of_noise = uu - n * noise * noise, factor = free_of_noise > 0 ? -ua / free_of_noise : 1;
+    const double own = variance(floor), scaled = own + 2 * (factor - 1) * ua + (factor * factor - 1) * uu;
+    return {factor, scaled > 0 ? own / scaled : 1, samples() >= enough_samples};
+  }
+
  private:
   std::size_t half_;
   Smooth block_;
@@ -68,6 +83,22 @@ bool Timing::judged() const { return samples >= enough_samples; }
 bool Timing::wrong() const { return (mirrored || std::abs(late_steps) > 1) && judged() && gain > beyond_chance; }
 
 bool OtherFloor::likelier() const { return judged && gain > beyond_chance; }
+
+bool is_ratio_of_units(double factor) {
+  constexpr double ratios[] = {10, 100, 1000, 2.54, 25.4, 39.37, 12, 3.281, 57.296}, told_to = 0.05;
+  return factor > 0 && std::any_of(std::begin(ratios), std::end(ratios), [&](double ratio) {
+           return std::abs(std::abs(std::log(factor)) - std::log(ratio)) < told_to;
+         });
+}
+
+bool SlipScale::is_a_unit() const { return judged && gain > beyond_chance && is_ratio_of_units(factor); }
+
+SlipScale slip_scale(const Bench& bench, std::size_t i) {
+  const Test& test = bench.test(i);
+  if (test.slip_m.empty() || test.dt_s <= 0) return {};
+  const double noise = bench.noise(Channel::slip) * bench.sensor(Channel::slip).size();
+  return Slipping(bench, test, 0).scale(floor_of(test), noise * second_noise(test.dt_s, timing_half_window_s));
+}
 
 Timing slip_timing(const Bench& bench, std::size_t i, int most_steps, bool sign_is_known) {
   const Test& test = bench.test(i);

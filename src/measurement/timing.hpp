@@ -30,4 +30,18 @@ struct OtherFloor {
 };
 std::vector<OtherFloor> floors_of_others(const Bench&);  // of each test
 
+// By what the slip has to be multiplied for c u'' + a to vary least: by least squares of a on u'' over the slips, freed of what noise of the
+// slip adds to the squares of u''. 1 is right.
+struct SlipScale {
+  double factor = 1;
+  double gain = 1;  // variance of u'' + a over that of c u'' + a
+  bool judged = false;
+  bool is_a_unit()
+      const;  // a ratio of two units of length is nearer than a fit tells, and the gain is more than chance
+};
+SlipScale slip_scale(const Bench&, std::size_t test);
+
+// Units that stand for one another by mistake, over each other: of lengths (m, cm, mm, in, ft), and of angles.
+bool is_ratio_of_units(double factor);
+
 }  // namespace freestand::measurement

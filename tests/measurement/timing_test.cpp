@@ -333,6 +333,29 @@ TEST(Quality, ExchangedResponsesAndCopiedFloors) {
   EXPECT_THAT(doubts(Bench(sound, 0)).sentences, Not(Contains(HasSubstr("one and the same"))));
 }
 
+// All of them: no clock, sign or file is at fault.
+TEST(Quality, AllTestsInAnotherUnit) {
+  Dataset data = test::made_dataset(cabinet(0.2), 0.1);
+  for (measurement::Test& t : data.tests)
+    for (double& s : t.slip_m) s *= 0.1;
+  data.noise.slip_m *= 0.1;
+  const Quality found = examined(data);
+  EXPECT_THAT(found.findings, Contains(HasSubstr("goes with the floor if it is 10")));
+  EXPECT_THAT(found.findings, Not(Contains(testing::ContainsRegex("clock|sign|exchanged"))));
+}
+
+// One test in centimetres taken for metres, or in tenths: its own, not a friction that differs.
+TEST(Quality, ATestInAnotherUnit) {
+  for (const double factor : {0.1, 100.0, 0.0254}) {
+    Dataset data = test::made_dataset(cabinet(0.2));
+    for (double& s : data.tests[2].slip_m) s *= factor;
+    const Quality found = examined(data);
+    EXPECT_THAT(found.findings, Contains(testing::ContainsRegex("slip_m of (test )?t3 (is|goes with)"))) << factor;
+    EXPECT_GT(found.wrong_numbers, 0U);
+    for (const char* id : {"t1", "t2", "t4"}) EXPECT_THAT(found.findings, Not(Contains(HasSubstr(id)))) << factor;
+  }
+}
+
 // Recorders started apart by hand.
 TEST(Quality, AClockThatIsOffByMoreThanASwing) {
   for (const int late : {-60, 60, 110}) {
