@@ -28,7 +28,7 @@ if(FREESTAND_WERROR)
   add_compile_options(-Werror)
 endif()
 if(FREESTAND_SANITIZE)
-  add_compile_options(-fsanitize=${FREESTAND_SANITIZE} -fno-omit-frame-pointer)
+  add_compile_options(-fsanitize=${FREESTAND_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FREESTAND_SANITIZE})
 endif()
 # -fanalyzer (preset audit) goes through every path; where it does not end it is left out, and every other warning stays.

@@ -33,6 +33,9 @@ bool continuous(const FloorMotion& motion, const MotionValues& c) {
   return true;
 }
 
+// So many to one that the largest comes to `top`; 0 where it is so small that no number is.
+double to_one(double top, double largest) { return largest > 0 && std::isfinite(top / largest) ? top / largest : 0; }
+
 // Values of a channel at the knots, the first of `row`.
 void fill(Row& row, const FloorMotion& motion, const MotionValues& c, double h) {
   const std::size_t n = motion.segments();
@@ -58,7 +61,7 @@ void tabulate_heights(MotionTable& t) {
     exact[all + j] = dip(-b, -by, t.step_s) - V;
     most = std::max({most, std::abs(exact[j]), std::abs(exact[all + j])});
   }
-  t.heights_to_one = most > 0 ? (height_zero - 10) / most : 0;
+  t.heights_to_one = to_one(height_zero - 10, most);
   t.backwards = static_cast<int>(all);
   t.heights.assign(2 * all, largest_short);
   for (std::size_t j = 0; j < knots; ++j)
@@ -69,7 +72,7 @@ void tabulate_heights(MotionTable& t) {
 void tabulate_levels(MotionTable& t) {
   const std::size_t all = t.acceleration.size();
   const double peak = *std::max_element(t.run_peak.begin(), t.run_peak.end());
-  t.levels_to_one = peak > 0 ? 65000 / peak : 0;
+  t.levels_to_one = to_one(65000, peak);
   t.levels.assign(all, largest_short);
   t.run_levels.assign(all, 0);
   for (std::size_t j = 0; j < all; ++j) {

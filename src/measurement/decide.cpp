@@ -356,18 +356,14 @@ class Decision {
   void nothing_helps(const Candidate* best) {
     if (enough(d_.base)) {
       d_.verdict = Verdict::none;
-      const std::string changes =
-          best ? fmt::format("{}{}, changes the left-out error from {} to {}{}", joined(best->effects),
-                             best->practical ? "" : fmt::format(", {}", odd_numbers), three_digits(left_out(d_.base)),
-                             three_digits(left_out(*best)), scatter_allowed_for())
-               : "";
       const bool gains = histories_ && help() && !help()->chance();
-      say((!best   ? nothing_gained()
-           : gains ? fmt::format(
-                         "no effect is needed: the base leaves no more than noise explains (the best, {}: more than "
-                         "chance, and less than matters)",
-                         changes)
-                   : fmt::format("no effect beats the base by more than chance (the best, {})", changes)) +
+      say((best ? fmt::format("{}, {}{}, changes the left-out error from {} to {}{})",
+                              gains ? "no effect is needed, since the base leaves no more than noise explains (the one "
+                                      "that gains most, and more than chance"
+                                    : "no effect beats the base by more than chance (the best",
+                              joined(best->effects), best->practical ? "" : fmt::format(", {}", odd_numbers),
+                              three_digits(left_out(d_.base)), three_digits(left_out(*best)), scatter_allowed_for())
+                : nothing_gained()) +
           what_remains(d_.base));
     } else {
       d_.verdict = Verdict::unknown;

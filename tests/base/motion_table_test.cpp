@@ -143,5 +143,13 @@ TEST(MotionTable, PulsesAndOddStepsHaveNone) {
   EXPECT_EQ(tabulate(motion), nullptr);
 }
 
+// So small that nothing over it is a number (found by a fuzzer: a record whose numbers end in e-310).
+TEST(MotionTable, OfNextToNothing) {
+  const auto table = tabulate(piecewise_linear("nothing", 0.01, {0, 1e-310, -1e-310, 0}, {}));
+  ASSERT_TRUE(table);
+  EXPECT_TRUE(std::isfinite(table->heights_to_one));
+  EXPECT_TRUE(std::isfinite(table->levels_to_one));
+}
+
 }  // namespace
 }  // namespace freestand
