@@ -231,7 +231,6 @@ class Decision {
   bool is_missed_like_base(const Candidate& c) const {
     return three_digits(left_out(c)) == three_digits(left_out(d_.base));
   }
-
   const Chance* help() const { return help_of(d_); }
   // Where no effect was there to be tried: that of one number.
   double gain_of_chance() const { return help() ? help()->usual : gsl_cdf_chisq_Pinv(1 - chance_level, 1); }
@@ -358,8 +357,7 @@ class Decision {
       d_.verdict = Verdict::none;
       const bool gains = histories_ && help() && !help()->chance();
       say((best ? fmt::format("{}, {}{}, changes the left-out error from {} to {}{})",
-                              gains ? "no effect is needed, since the base leaves no more than noise explains (the one "
-                                      "that gains most, and more than chance"
+                              gains ? "no effect is needed (the one that gains most, and more than chance"
                                     : "no effect beats the base by more than chance (the best",
                               joined(best->effects), best->practical ? "" : fmt::format(", {}", odd_numbers),
                               three_digits(left_out(d_.base)), three_digits(left_out(*best)), scatter_allowed_for())
