@@ -7,10 +7,11 @@
 
 namespace freestand::study {
 
-// Increasing edges. Given edges are returned as they are. Otherwise, with the finite values (log: the positive ones):
+// Increasing edges, those that are given, or, with the finite values (log: the positive ones):
 // width: multiples of the width that enclose all values; count: that many bins from the least to the greatest value, of
 // equal width, of equal ratio, or with as many values each (fewer bins where values repeat). Values that are all alike
-// give one bin around them. Throws Error when no value can be used (Exit::data), or a width makes more bins than can be
+// give one bin around them. No edge parts values that are one to 1e-9 of them (records scaled to one intensity differ by their last digits):
+// an edge on such values is moved below them by that. Throws Error when no value can be used (Exit::data), or a width makes more bins than can be
 // held or filled (Exit::usage).
 std::vector<double> bin_edges(const BinsPart&, std::vector<double> values);
 

@@ -79,5 +79,24 @@ TEST(Bins, NothingToBinIsAnError) {
   EXPECT_THROW(bin_edges({{}, 0, 5, Spacing::log}, {-1, 0}), Error);
 }
 
+// 44 records scaled to each of four intensities, which come back with other last digits.
+TEST(Bins, PartNoStripes) {
+  std::vector<double> values;
+  for (const double stripe : {0.2, 0.4, 0.8, 1.6})
+    for (int record = 0; record < 44; ++record) values.push_back(stripe * (1 + (record % 7 - 3) * 1.1e-16));
+  const auto bin_of = [](const std::vector<double>& edges, double value) {
+    return std::upper_bound(edges.begin() + 1, edges.end() - 1, value) - edges.begin();
+  };
+  for (const BinsPart& part : {BinsPart{{}, 0, 8, Spacing::equal_count}, BinsPart{{}, 0.2, 0, Spacing::equal_count},
+                               BinsPart{{}, 0, 7, Spacing::equal_width}, BinsPart{{}, 0, 3, Spacing::log},
+                               BinsPart{{0.1, 0.4, 0.8, 2}, 0, 0, Spacing::equal_count}}) {
+    const std::vector<double> edges = bin_edges(part, values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_EQ(bin_of(edges, values[i]), bin_of(edges, values[44 * (i / 44)])) << part.count << ' ' << i;
+    EXPECT_TRUE(std::is_sorted(edges.begin(), edges.end()));
+  }
+  EXPECT_EQ(bin_edges({{}, 0, 8, Spacing::equal_count}, values).size(), 5U);
+}
+
 }  // namespace
 }  // namespace freestand::study
