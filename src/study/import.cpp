@@ -12,12 +12,14 @@
 #include "measurement/bench.hpp"
 #include "measurement/timing.hpp"
 #include "study/between_samples.hpp"
+#include "study/import_text.hpp"
 
 namespace freestand::study {
 namespace {
 
 using Series = std::vector<double>;
 constexpr double longest_offset_s = 0.5;
+constexpr double surely_mirrored = 4;  // times steadier, as more than chance is (timing.hpp)
 
 // A channel of a file, in SI, at the file's own times.
 Series channel(const LabTable& table, const LabColumn& column) {
@@ -64,12 +66,6 @@ File read_file(const LabFile& lab) {
   return file;
 }
 
-struct TestOfLab {
-  measurement::Test test;
-  double start_s = 0;  // of the floor's file
-  Series floor, vertical;
-};
-
 class Importer {
  public:
   explicit Importer(const Laboratory& lab) : lab_(lab) {}
@@ -88,7 +84,7 @@ class Importer {
     const std::vector<double> clock_s = clocks(floors, responses);
     for (std::size_t i = 0; i < floors.size(); ++i) take(lab_.tests[i], floors[i], responses[i], clock_s[i]);
     tell_noise();
-    out_.files.emplace_back("dataset.yaml", dataset_text());
+    out_.files.emplace_back("dataset.yaml", dataset_text(lab_, noise_, step_s_, tests_));
     for (const TestOfLab& t : tests_) out_.files.emplace_back(t.test.id + ".csv", csv_text(t));
     return std::move(out_);
   }
@@ -110,12 +106,17 @@ class Importer {
   // offset is the middle one, and holds for those, too, whose motion tells nothing.
   std::vector<double> clocks(const std::vector<File>& floors, const std::vector<File>& responses) {
     std::vector<double> found, each;
-    std::vector<std::string> together;
+    std::vector<std::string> together, mirrored;
     for (std::size_t i = 0; i < lab_.tests.size(); ++i) {
       const LabTest& lab = lab_.tests[i];
       each.push_back(lab.clock_s.value_or(0));
       if (lab.clock_s || !lab.slip) continue;
-      const measurement::Timing timing = timing_of(lab, responses[i], on_one_clock(lab, floors[i], responses[i], 0));
+      const TestOfLab test = on_one_clock(lab, floors[i], responses[i], 0);
+      const measurement::Timing timing = timing_of(lab, responses[i], test, true);
+      if (timing_of(lab, responses[i], test, false).gain > surely_mirrored * timing.gain) {
+        mirrored.push_back(lab.id);
+        continue;
+      }
       if (!timing.wrong()) {
         if (lab.floor.path != lab.response.path) together.push_back(lab.id);
         continue;
@@ -129,16 +130,20 @@ class Importer {
             "{}: the clocks of floor and response are taken as one: slips show their offset, and none was measured "
             "(clock_s of a test says what it is)",
             lab.id));
-    // Where others show one clock's offset, it is told of all tests below.
-    if (!together.empty() && found.size() < 2)
+    if (!mirrored.empty())
+      say(fmt::format(
+          "{}: the slip looks mirrored, and no clock was set by it: turned round (sign: -1 of the column) it goes with "
+          "the floor far better at some time than as it is at any, up to {} s either way",
+          fmt::join(mirrored, ", "), longest_offset_s));
+    std::sort(found.begin(), found.end());
+    const bool one_clock = found.size() > 1 && found.back() - found.front() <= 2 * step_s_;
+    if (!together.empty() && !one_clock)  // else it is told of all tests below
       say(fmt::format(
           "{}: no offset between the clocks of floor and response is seen by the slips, which are looked through up "
           "to {} s either way: they are taken as one (clock_s of a test says otherwise)",
           fmt::join(together, ", "), longest_offset_s));
     if (found.empty()) return each;
-    std::sort(found.begin(), found.end());
     const double middle = 0.5 * (found[(found.size() - 1) / 2] + found[found.size() / 2]);
-    const bool one_clock = found.size() > 1 && found.back() - found.front() <= 2 * step_s_;
     for (std::size_t i = 0; i < each.size(); ++i) {
       if (lab_.tests[i].clock_s || !lab_.tests[i].slip) continue;
       if (one_clock) each[i] = middle;
@@ -191,12 +196,13 @@ class Importer {
     return given > 0 || !column ? given : measurement::sensor_noise(channel(file.table, *column));
   }
 
-  measurement::Timing timing_of(const LabTest& lab, const File& response, const TestOfLab& t) const {
+  measurement::Timing timing_of(const LabTest& lab, const File& response, const TestOfLab& t,
+                                bool sign_is_known) const {
     measurement::Dataset set;
     set.noise.slip_m = noise_of(response, lab.slip, lab_.noise.slip_m);
     set.noise.rotation_rad = noise_of(response, lab.rotation, lab_.noise.rotation_rad);
     set.tests = {t.test};
-    return slip_timing(measurement::Bench(set, 0), 0, static_cast<int>(longest_offset_s / step_s_), true);
+    return slip_timing(measurement::Bench(set, 0), 0, static_cast<int>(longest_offset_s / step_s_), sign_is_known);
   }
 
   static std::string changed(const LabColumn& column, const std::string& to) {
@@ -338,50 +344,6 @@ class Importer {
                       "at that step that moves a block as far",
                       slow_floor_s_, step_s_, slow_floor_noise_));
     }
-  }
-
-  std::string dataset_text() const {
-    std::string text = fmt::format("format: freestand-measurements/1\nname: {}\n", lab_.name);
-    if (lab_.specimen != measurement::Dimensions{}) text += "specimen:\n";
-    const auto put = [&](const char* key, const std::optional<double>& value) {
-      if (value) text += fmt::format("  {}: {}\n", key, *value);
-    };
-    put("width_m", lab_.specimen.width_m), put("height_m", lab_.specimen.height_m),
-        put("mass_kg", lab_.specimen.mass_kg), put("centre_height_m", lab_.specimen.centre_height_m),
-        put("gyration_radius_m", lab_.specimen.gyration_radius_m);
-    text += fmt::format("sampling_dt_s: {}\nnoise:\n", step_s_);
-    const auto noise = [&](const char* key, double value) {
-      if (value > 0) text += fmt::format("  {}: {:.4g}\n", key, value);
-    };
-    noise("slip_m", noise_.slip_m), noise("rotation_rad", noise_.rotation_rad);
-    noise("block_acceleration_mps2", noise_.block_acceleration_mps2);
-    noise("floor_acceleration_mps2", noise_.floor_acceleration_mps2);
-    text += fmt::format("tolerance: {{width: {}, centre_height: {}, floor_gain: {}, clock_s: {}}}\ntests:\n",
-                        lab_.tolerance.width, lab_.tolerance.centre_height, lab_.tolerance.floor_gain,
-                        lab_.tolerance.clock_s);
-    for (const TestOfLab& t : tests_)
-      text += fmt::format("  - {{id: {0}, file: {0}.csv, role: {1}}}\n", t.test.id,
-                          t.test.role == measurement::Role::holdout ? "holdout" : "calibration");
-    return text;
-  }
-
-  static std::string csv_text(const TestOfLab& t) {
-    struct Channel {
-      const char* name;
-      const Series* samples;
-    };
-    std::vector<Channel> channels = {{"floor_acceleration_mps2", &t.floor}};
-    for (const Channel& c : {Channel{"floor_vertical_acceleration_mps2", &t.vertical},
-                             Channel{"slip_m", &t.test.slip_m}, Channel{"rotation_rad", &t.test.rotation_rad},
-                             Channel{"block_acceleration_mps2", &t.test.block_acceleration_mps2}})
-      if (!c.samples->empty()) channels.push_back(c);
-    std::string text = "time_s";
-    for (const Channel& c : channels) text += fmt::format(",{}", c.name);
-    for (std::size_t i = 0; i < t.floor.size(); ++i) {
-      text += fmt::format("\n{:.10g}", t.test.dt_s * static_cast<double>(i));
-      for (const Channel& c : channels) text += fmt::format(",{}", (*c.samples)[i]);
-    }
-    return text + "\n";
   }
 
   const Laboratory& lab_;

@@ -127,6 +127,13 @@ class Import(InFolder):
         for name in self.truth:
             self.assertEqual(self.rows(name), self.rows(name, "short"))
 
+    def test_a_sign_that_was_forgotten_sets_no_clock(self):
+        text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
+        self.write("lab.yaml", text.replace(", sign: -1", ""))
+        told = self.imported().stdout
+        self.assertIn("t01, t02, t03: the slip looks mirrored, and no clock was set by it", told)
+        self.assertNotIn("was set by that", told)
+
     def test_a_clock_that_is_given_is_not_estimated(self):
         text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
         self.write("lab.yaml", text.replace("    role:", "    clock_s: 0.1\n    role:"))
