@@ -107,13 +107,27 @@ class Importer {
   std::vector<double> clocks(const std::vector<File>& floors, const std::vector<File>& responses) {
     std::vector<double> found, each;
     std::vector<std::string> together, mirrored;
+    std::vector<measurement::Timing> as_given(lab_.tests.size()),
+        turned(lab_.tests.size());  // turned: or as it is given, the better
+    for (std::size_t i = 0; i < lab_.tests.size(); ++i) {
+      if (lab_.tests[i].clock_s || !lab_.tests[i].slip) continue;
+      const TestOfLab test = on_one_clock(lab_.tests[i], floors[i], responses[i], 0);
+      as_given[i] = timing_of(lab_.tests[i], responses[i], test, true);
+      turned[i] = timing_of(lab_.tests[i], responses[i], test, false);
+    }
+    // One that is mirrored beyond doubt tells of the others, too, unless one goes better as it is.
+    const auto sure = [&](std::size_t i) { return turned[i].gain > surely_mirrored * as_given[i].gain; };
+    bool one_sure = false, none_as_given = true;
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+      one_sure |= sure(i);
+      none_as_given &= turned[i].mirrored || !turned[i].judged();
+    }
     for (std::size_t i = 0; i < lab_.tests.size(); ++i) {
       const LabTest& lab = lab_.tests[i];
       each.push_back(lab.clock_s.value_or(0));
       if (lab.clock_s || !lab.slip) continue;
-      const TestOfLab test = on_one_clock(lab, floors[i], responses[i], 0);
-      const measurement::Timing timing = timing_of(lab, responses[i], test, true);
-      if (timing_of(lab, responses[i], test, false).gain > surely_mirrored * timing.gain) {
+      const measurement::Timing& timing = as_given[i];
+      if (sure(i) || (one_sure && none_as_given && turned[i].mirrored)) {
         mirrored.push_back(lab.id);
         continue;
       }
