@@ -67,8 +67,17 @@ double stride_score(const Bench& bench, const Test& test, const Prediction& pred
 
 struct PeakPair {
   double measured, model, noise, least;
-  double ln() const { return std::log(std::max(model, least) / std::max(measured, least)); }
+  bool other_way = false;  // both moved, and not to the same side
+  double ln() const {
+    return other_way ? -ln_ratio_limit : std::log(std::max(model, least) / std::max(measured, least));
+  }
 };
+
+// Sizes alone say nothing of sides: signs count where any of the set's slips that remain has one.
+bool sides_are_known(const Dataset& data) {
+  return std::any_of(data.tests.begin(), data.tests.end(),
+                     [](const Test& test) { return test.peaks.residual_slip_m.value_or(0) < 0; });
+}
 
 std::vector<PeakPair> peak_pairs(const Bench& bench, const Test& test, const Response& r) {
   std::vector<PeakPair> pairs;
@@ -81,6 +90,11 @@ std::vector<PeakPair> peak_pairs(const Bench& bench, const Test& test, const Res
   const Peaks& p = test.peaks;
   add(p.peak_slip_m, r.peak_slip_m, Channel::slip);
   add(p.residual_slip_m, r.residual_slip_m, Channel::slip);
+  if (p.residual_slip_m && sides_are_known(bench.data())) {
+    PeakPair& remains = pairs.back();
+    remains.other_way =
+        *p.residual_slip_m * r.residual_slip_m < 0 && std::min(remains.measured, remains.model) > remains.least;
+  }
   add(p.peak_rotation_rad, r.peak_rotation_rad, Channel::rotation);
   add(p.peak_acceleration_g, r.peak_acceleration_mps2 / standard_gravity_mps2, Channel::block_acceleration);
   return pairs;
@@ -107,10 +121,11 @@ TestError peak_error(const Bench& bench, std::size_t i, const Prediction& predic
   const auto n = static_cast<double>(std::max<std::size_t>(pairs.size(), 1));
   double square = 0;
   for (const PeakPair& pair : pairs) {
-    const double missed =
-        pair.measured > pair.least ? std::abs(pair.model / pair.measured - 1) : (pair.model > pair.least ? 1.0 : 0.0);
+    const double side = pair.other_way ? -1 : 1;
+    const double missed = pair.measured > pair.least ? std::abs(side * pair.model / pair.measured - 1)
+                                                     : (pair.model > pair.least ? 1.0 : 0.0);
     error.relative = std::max(error.relative, missed);
-    square += std::pow((pair.model - pair.measured) / pair.noise, 2) / n;
+    square += std::pow((side * pair.model - pair.measured) / pair.noise, 2) / n;
   }
   error.noise_units = std::isfinite(square) ? std::sqrt(square) : no_score;
   return error;

@@ -5,7 +5,8 @@
 //              likelihood does
 //   peaks      score = mean of ln(model/measured)^2 over the peaks that are known, each not above 3^2; peaks below
 //              least_motion(), measured or computed, count as that. So a specimen that stood still (0) is a hit where the
-//              model stands still too, and a miss like any other where it moves. Of a test that fell nobody says whether
+//              model stands still too, and a miss like any other where it moves. A slip that remains to the other side is missed
+//              by the limit, where any of the set has a sign (sizes alone say nothing of sides). Of a test that fell nobody says whether
 //              its peaks hold the fall, which the model's do not: 0 where the model falls too, 3^2 where it stands, and 3^2
 //              where the model falls and the test is known to have stood
 //   outcomes   score = (p - y)^2, y = 1 overturned; p = share of the placements (ModelSpec::placement_scatter) in which

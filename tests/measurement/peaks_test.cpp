@@ -103,6 +103,27 @@ TEST(Peaks, OfATestThatFellOnlyThatCounts) {
   }
 }
 
+// Slips that remain to the wrong side are no hits, where the set says sides.
+TEST(Peaks, ASlipThatRemainsHasASide) {
+  Dataset data = made_peaks();
+  for (std::size_t i = 0; i < 3; ++i) {
+    data.tests[i].peaks.peak_slip_m.reset();
+    data.tests[i].peaks.residual_slip_m = respond(sliding(), data.tests[i].shaking()).residual_slip_m;
+  }
+  const double remains = *data.tests[0].peaks.residual_slip_m;
+  ASSERT_GT(std::abs(remains), 0.01);
+  const auto score = [&](double first, double second) {
+    data.tests[0].peaks.residual_slip_m = first;
+    data.tests[1].peaks.residual_slip_m = second;
+    return error_at(Bench(data, 0), 0, mu).score;
+  };
+  const double other = -std::abs(*data.tests[1].peaks.residual_slip_m);
+  EXPECT_NEAR(score(remains, other), 0, 1e-12);
+  EXPECT_EQ(score(-remains, other), 9);
+  data.tests[2].peaks.residual_slip_m = std::abs(*data.tests[2].peaks.residual_slip_m);
+  EXPECT_NEAR(score(std::abs(remains), -other), 0, 1e-12) << "sizes alone";
+}
+
 // Tests in which nothing moved bound the friction that the others leave open.
 TEST(Peaks, AFitHeedsTheTestsThatStoodStill) {
   Dataset data = made_peaks();
