@@ -112,8 +112,7 @@ Efficiency efficiency(const RankingTally& tally, std::size_t e, std::size_t k) {
   Sums with_im, all;
   for (const Sums& fold : folds) with_im.add(fold, 1);
   for (const Sums& fold : folds_of_all) all.add(fold, 1);
-  Efficiency result{
-      fitted(with_im, all), static_cast<std::int64_t>(all.n), static_cast<std::int64_t>(with_im.n), {}};
+  Efficiency result{fitted(with_im, all), static_cast<std::int64_t>(all.n), static_cast<std::int64_t>(with_im.n), {}};
   result.scatter.all = result.fit.scatter;
   for (std::size_t f = 0; f < folds.size(); ++f) {
     Sums left = with_im, left_of_all = all;
