@@ -105,7 +105,7 @@ class Sensitivity(InFolder):
         self.write("draws.csv", "mu,factor\n" + draws)
         study = """
 seed: 3
-samples: 4000
+samples: 16000
 block: {width_m: 0.6, height_m: 1.8, mass_kg: 100}
 friction: {mu: {posterior: draws.csv, column: mu}}
 impact: {factor: {posterior: draws.csv, column: factor}}
@@ -127,7 +127,7 @@ fragility: {im: pga_g, edp: [peak_slip_m], capacities: {peak_slip_m: [0.8]}}
             truth, one = own / (of_mu + of_period), ln_slip["shares"][name]
             for kind in ("share", "total"):
                 self.assertAlmostEqual(one[kind]["value"], truth, delta=3 * one[kind]["se"], msg=f"{name} {kind}")
-        self.assertAlmostEqual(ln_slip["together"]["value"], 1, delta=0.02)
+        self.assertAlmostEqual(ln_slip["together"]["value"], 1, delta=0.03)
 
     def test_pairs_that_are_too_few_give_no_total_shares(self):
         done = self.succeed(["sensitivity", self.out, "--total", 64, "-o", self.folder / "few"])
