@@ -89,7 +89,7 @@ Sampled of_table(const Study& study, const std::string& stream, const std::vecto
     rows.resize(values.size());
     for (std::size_t row = 0; row < rows.size(); ++row) rows[row].push_back(values[row]);
   }
-  one.parameter.name += ", drawn together";
+  one.parameter.name += " (drawn together)";
   std::map<std::vector<double>, int> class_of;
   std::vector<int> of_row;
   for (const std::vector<double>& row : rows)

@@ -19,7 +19,7 @@ struct Sampled {
   std::function<int(std::uint64_t sample, std::size_t motion)> class_of;
 };
 
-// Numbers that are columns of one table of joint draws as one, the table ("friction.mu with impact.factor, drawn together"); other numbers of
+// Numbers that are columns of one table of joint draws as one, the table ("friction.mu with impact.factor (drawn together)"); other numbers of
 // the model by their names in the study; motion.* by the entry that a sample takes; `motion`, where there are several
 // (`motions`: how many; `ground`: of each the one that it is the floor of, which counts for it, since motion.storey is a number of
 // its own; empty: itself).

@@ -115,10 +115,11 @@ fragility: {im: pga_g, edp: [peak_slip_m], capacities: {peak_slip_m: [0.8]}}
 """
         self.succeed(["run", self.write("joint.yaml", study), "-o", self.folder / "joint", "--quiet"])
         done = self.succeed(["sensitivity", self.folder / "joint", "--total", 500])
-        table = "friction.mu with impact.factor, drawn together"
+        table = "friction.mu with impact.factor (drawn together)"
         self.assertIn(table, done.stdout)
         found = json.loads((self.folder / "joint/sensitivity.json").read_text())
         self.assertEqual([one["name"] for one in found["parameters"]], [table, "motion.period_s"])
+        self.assertEqual({row["parameter"] for row in rows(self.folder / "joint/sensitivity.csv")}, {table, "motion.period_s"})
         ln_slip = found["answers"][0]
         # Slip goes as (0.6/mu - 1) T^2: the variances of the two logarithms add up.
         mu = [0.05 + 0.25 * i / 500 for i in range(500)]

@@ -62,7 +62,7 @@ TEST_F(PosteriorTables, ATableIsOneInput) {
                                           "0.2,0.03,0.7\n0.3,0.01,0.7\n0.2,0.03,0.6\n0.4,0.01,0.6\n";
   const Study study = read(drawn());
   const std::vector<Sampled> all = sampled(study, 1);
-  ASSERT_EQ(all[0].parameter.name, "friction.mu with effects.floor_tilt.angle_rad, drawn together");
+  ASSERT_EQ(all[0].parameter.name, "friction.mu with effects.floor_tilt.angle_rad (drawn together)");
   EXPECT_EQ(all[0].streams, std::vector<std::string>{"posterior.draws.csv"});
   EXPECT_EQ(all[0].parameter.classes, 3);
   EXPECT_FALSE(all[0].parameter.ordered);
@@ -90,7 +90,7 @@ TEST_F(PosteriorTables, ATableOfTheModelAndOfTheMotionsIsOneInput) {
                            fragility);
   std::vector<std::string> names;
   for (const Sampled& one : sampled(study, 1)) names.push_back(one.parameter.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"friction.mu with motion.period_s, drawn together",
+  EXPECT_EQ(names, (std::vector<std::string>{"friction.mu with motion.period_s (drawn together)",
                                              "motion.peak_acceleration_g"}));
 }
 
