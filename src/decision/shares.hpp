@@ -3,7 +3,7 @@
 //   share of X in Y = Var(E[Y | X]) / Var(Y)           I. M. Sobol, Mathematical Modelling and Computational Experiments 1, 1993
 //
 // the part of the variance that would go if X were known. The samples are parted by X into K classes of equal probability (32, or so
-// few that each holds 50 samples; the values of a choice and the motions are classes by themselves), and
+// few that each holds 50 samples; the values of a choice, the motions and the rows of a table of joint draws are classes by themselves), and
 //
 //   share = (r - q)/(1 - q),   r = 1 - sum_k SS_k / SS,   q = c (K - 1)/(N - 1)
 //

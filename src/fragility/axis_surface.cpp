@@ -47,7 +47,10 @@ AxisSurface axis_surface(const Tally& tally, std::size_t edp, std::size_t axis) 
   result.name = ax.name;
   result.unit = ax.unit;
   result.edge = ax.edge;
-  for (std::size_t x = 0; x < cells; ++x) result.centre.push_back((ax.edge[x] + ax.edge[x + 1]) / 2);
+  for (std::size_t x = 0; x < cells; ++x) {
+    const double mean = tally.mean_on_axis(axis, x);
+    result.centre.push_back(std::isnan(mean) ? (ax.edge[x] + ax.edge[x + 1]) / 2 : mean);
+  }
   result.probability.assign(bins * cells * capacity, unknown);
   result.lower = result.upper = result.probability;
   result.n.assign(bins * cells, 0);

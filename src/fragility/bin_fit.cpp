@@ -133,7 +133,7 @@ std::vector<BinFit> fit_bins(const Tally& tally, std::size_t edp, EstimatedNull&
     p.push_back(bins.back().ks_p_estimated);
   }
   const std::vector<bool> rejected = benjamini_hochberg(p, tally.options().false_discovery);
-  const double adequate = tally.options().adequate;
+  const double adequate = std::min(tally.options().adequate, tally.options().half_width / 2);
   for (std::size_t b = 0; b < bins.size(); ++b) {
     BinFit& bin = bins[b];
     bin.fdr_rejected = rejected[b];

@@ -12,7 +12,7 @@ namespace freestand::fragility {
 // Counts, intervals, lognormal fit and goodness of fit of every bin of an EDP, with the false discovery control over
 // the bins and the status that follows. lambda_se and omega_se are left to the surface, which resamples.
 //
-// The bound on its misfit decides whether a lognormal is used, off_by <= Options::adequate; its test says how the others are told, rejected or
+// The bound on its misfit decides whether a lognormal is used, off_by <= Options::adequate and half of Options::half_width; its test says how the others are told, rejected or
 // not refuted. Of n independent samples a counted share has the standard error sqrt(P (1 - P)/n), a true lognormal phi(z) sqrt((1 + z^2/2)/n),
 // which is 0.80 of it at P = 0.5, 0.81 at 0.16, 0.63 at 0.02: counts cost a quarter more where errors are largest, and less where records
 // differ, which is an error of both. A lognormal that misses the truth by d at P = 0.5 is the worse one from d = 0.3/sqrt(n) on, its test

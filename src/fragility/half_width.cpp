@@ -17,6 +17,24 @@ double drawn(const Result& result, const Wanted& wanted) {
   return wanted.drawn > 0 ? wanted.drawn : static_cast<double>(result.samples);
 }
 
+double quantile(double confidence) { return gsl_cdf_ugaussian_Pinv((1 + confidence) / 2); }
+
+double half_wanted(const Wanted& wanted, double z, double probability) {
+  if (std::isinf(wanted.relative_error)) return wanted.half_width;
+  const double least = std::max(std::isnan(probability) ? 0 : probability, wanted.down_to);
+  return std::min(wanted.half_width, z * wanted.relative_error * least);
+}
+
+bool is_empty(const Result& result, std::size_t bin) {
+  return std::any_of(result.edps.begin(), result.edps.end(),
+                     [&](const EdpResult& edp) { return edp.bins[bin].n == 0; });
+}
+
+// May a bin that has no sample get as many as are wanted of one?
+bool may_fill(const Result& result, const Wanted& wanted) {
+  return std::exp(-drawn(result, wanted) * wanted.minimum_samples / wanted.at_most) > 1 - result.confidence;
+}
+
 // One point of any surface.
 struct Place {
   const EdpResult* edp;
@@ -31,20 +49,13 @@ struct Place {
 void for_each_place(const Result& result, const Wanted& wanted, const std::function<void(const Place&)>& each,
                     const std::function<void()>& rare) {
   const auto half = [](double lower, double upper) { return (upper - lower) / 2; };
-  const double z = gsl_cdf_ugaussian_Pinv((1 + result.confidence) / 2);
-  const auto half_wanted = [&](double probability) {
-    const double relative =
-        std::isinf(wanted.relative_error)
-            ? infinite
-            : z * wanted.relative_error * std::max(std::isnan(probability) ? 0 : probability, wanted.down_to);
-    return std::min(wanted.half_width, relative);
-  };
+  const double z = quantile(result.confidence);
   for (const EdpResult& edp : result.edps) {
     const std::size_t capacities = edp.capacity.size();
     for (std::size_t i = 0; i < edp.surface.probability.size(); ++i)
       if (const std::size_t bin = i / capacities; edp.bins[bin].n > 0)
         each({&edp, nullptr, bin, 0, i % capacities, edp.bins[bin].n, edp.surface.probability[i],
-              half(edp.surface.lower[i], edp.surface.upper[i]), half_wanted(edp.surface.probability[i])});
+              half(edp.surface.lower[i], edp.surface.upper[i]), half_wanted(wanted, z, edp.surface.probability[i])});
     for (const AxisSurface& axis : edp.axes)
       for (std::size_t cell = 0; cell < axis.n.size(); ++cell) {
         const auto n = static_cast<double>(axis.n[cell]);
@@ -56,7 +67,7 @@ void for_each_place(const Result& result, const Wanted& wanted, const std::funct
         for (std::size_t c = 0; c < capacities; ++c) {
           const std::size_t i = cell * capacities + c;
           each({&edp, &axis, cell / axis.centre.size(), cell % axis.centre.size(), c, axis.n[cell], axis.probability[i],
-                half(axis.lower[i], axis.upper[i]), half_wanted(axis.probability[i])});
+                half(axis.lower[i], axis.upper[i]), half_wanted(wanted, z, axis.probability[i])});
         }
       }
   }
@@ -106,9 +117,13 @@ HalfWidth half_width(const Result& result, const Wanted& wanted) {
         width.on_axis = place.axis ? place.axis->centre[place.cell] : unknown;
       },
       [&] { ++width.rare_cells; });
+  for (std::size_t bin = 0; bin < result.im.size(); ++bin)
+    if (is_empty(result, bin) && !may_fill(result, wanted)) width.empty_bins.push_back(result.im[bin]);
   if (width.points > 0) width.largest = largest, width.times_wanted = most;
   return width;
 }
+
+double least_wanted(const Wanted& wanted, double confidence) { return half_wanted(wanted, quantile(confidence), 0); }
 
 Outlook outlook(const Result& result, const Wanted& wanted) {
   Outlook found;
@@ -133,9 +148,7 @@ Outlook outlook(const Result& result, const Wanted& wanted) {
 
 std::vector<bool> bins_that_want(const Result& result, const Wanted& wanted) {
   std::vector<bool> want(result.im.size(), false);
-  for (const EdpResult& edp : result.edps)
-    for (std::size_t bin = 0; bin < want.size(); ++bin)
-      if (edp.bins[bin].n == 0) want[bin] = true;
+  for (std::size_t bin = 0; bin < want.size(); ++bin) want[bin] = is_empty(result, bin) && may_fill(result, wanted);
   for_each_place(
       result, wanted,
       [&](const Place& place) {

@@ -21,11 +21,12 @@ struct HalfWidth {
   double farthest = 0.5;                                          // of the point where that is,
   std::string edp;                                                // and where
   double im = unknown, capacity = unknown;
-  std::string axis = {};  // of a surface over a second axis: its name, and the middle of the cell
+  std::string axis = {};  // of a surface over a second axis: its name, and where the cell stands
   double on_axis = unknown;
-  int points = 0;        // that have a band
-  int empty_points = 0;  // that have none
-  int rare_cells = 0;    // of second axes, not wanted
+  int points = 0;                       // that have a band
+  int empty_points = 0;                 // that have none
+  int rare_cells = 0;                   // of second axes, not wanted
+  std::vector<double> empty_bins = {};  // middles of the bins without a sample, not waited for any more
 };
 
 // Of a point of probability P, with z the quantile of the confidence: a half width of at most
@@ -40,6 +41,9 @@ struct Wanted {
 };
 
 HalfWidth half_width(const Result& result, const Wanted& wanted = {});
+
+// Of the points of which least is wanted, those of a probability of at most down_to.
+double least_wanted(const Wanted& wanted, double confidence);
 
 // What stays of the half width however many samples are made of these motions, and how many samples make all wanted points known well
 // enough: infinite where what stays is already too much, so that only more motions help. With h the half width at n samples of a bin, t the
@@ -56,7 +60,9 @@ struct Outlook {
 Outlook outlook(const Result& result, const Wanted& wanted);
 
 // The bins of intensity that want more samples: those with a point that is not known well enough, unless more samples hardly help there,
-// and those without a sample. More samples hardly help where stays is above what is wanted and t^2 v/n is less than a tenth of
+// and those without a sample that may yet get some. A bin that would hold minimum_samples of at_most drawn ones stays empty in n of them
+// with a chance of (1 - minimum_samples/at_most)^n < exp(-n minimum_samples/at_most): where that is below 1 - confidence, an empty bin is
+// taken for one that would never fill. More samples hardly help where stays is above what is wanted and t^2 v/n is less than a tenth of
 // h^2: all that more can take off the band then is a twentieth.
 std::vector<bool> bins_that_want(const Result& result, const Wanted& wanted);
 

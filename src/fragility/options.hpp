@@ -56,10 +56,13 @@ struct Options {
 
   int minimum_samples =
       30;  // a bin (or cell of a surface) with fewer is left empty; as many must have moved and stood for a fit
-  int resamples = 500;             // of the motions, for the bands
-  double confidence = 0.95;        // of all intervals and bands
-  double false_discovery = 0.05;   // Benjamini-Hochberg level of the goodness-of-fit tests over the bins
-  double adequate = 0.05;          // a fit is used where it is off by no more (BinFit::off_by), whatever its test says
+  int resamples = 500;            // of the motions, for the bands
+  double confidence = 0.95;       // of all intervals and bands
+  double false_discovery = 0.05;  // Benjamini-Hochberg level of the goodness-of-fit tests over the bins
+  double adequate = 0.05;         // a fit is used where it is off by no more (BinFit::off_by), whatever its test says
+  // What is wanted of the surface's points (least_wanted of half_width.hpp). The band of a fit knows of no misfit, so that a fit stands for a
+  // bin only where its misfit takes no more than half of that.
+  double half_width = 0.5;
   bool empirical_fallback = true;  // a bin whose fit may be off by more takes its surface row from the counts
   std::uint64_t seed = 1;          // of resampling and of the bootstrap of the test statistics
 };

@@ -81,22 +81,44 @@ std::vector<Sums> sums_by_fold(const RankingTally& tally, std::size_t e, std::si
   return folds;
 }
 
-struct Efficiency {
+// ln EDP = intercept + slope ln IM where IM > 0, and its mean where there is no logarithm.
+struct Fitted {
   Line line;
-  std::int64_t samples = 0;
+  double mean = 0, scatter = unknown;
+};
+
+Fitted fitted(const Sums& with_im, const Sums& all) {
+  Fitted found{line_of(with_im)};
+  double squares = found.line.scatter * found.line.scatter * (with_im.n - 2), freedom = all.n - 2;
+  Sums rest = all;
+  rest.add(with_im, -1);
+  if (rest.n > 0) {
+    found.mean = rest.y / rest.n;
+    squares += std::max(0.0, rest.yy - rest.y * found.mean);
+    --freedom;
+  }
+  found.scatter = std::sqrt(squares / freedom);
+  return found;
+}
+
+struct Efficiency {
+  Fitted fit;
+  std::int64_t samples = 0, with_im = 0;
   Jackknifed scatter;
 };
 
 Efficiency efficiency(const RankingTally& tally, std::size_t e, std::size_t k) {
-  const std::vector<Sums> folds = sums_by_fold(tally, e, k);
-  Sums all;
-  for (const Sums& fold : folds) all.add(fold, 1);
-  Efficiency result{line_of(all), static_cast<std::int64_t>(all.n), {}};
-  result.scatter.all = result.line.scatter;
-  for (const Sums& fold : folds) {
-    Sums rest = all;
-    rest.add(fold, -1);
-    result.scatter.without.push_back(fold.n > 0 ? line_of(rest).scatter : unknown);
+  const std::vector<Sums> folds = sums_by_fold(tally, e, k), folds_of_all = sums_by_fold(tally, e, tally.any_im());
+  Sums with_im, all;
+  for (const Sums& fold : folds) with_im.add(fold, 1);
+  for (const Sums& fold : folds_of_all) all.add(fold, 1);
+  Efficiency result{fitted(with_im, all), static_cast<std::int64_t>(all.n), static_cast<std::int64_t>(with_im.n), {}};
+  result.scatter.all = result.fit.scatter;
+  for (std::size_t f = 0; f < folds.size(); ++f) {
+    Sums left = with_im, left_of_all = all;
+    left.add(folds[f], -1);
+    left_of_all.add(folds_of_all[f], -1);
+    result.scatter.without.push_back(folds_of_all[f].n > 0 ? fitted(left, left_of_all).scatter : unknown);
   }
   return result;
 }
@@ -121,7 +143,7 @@ Sufficiency slope_test(const std::string& property, const std::vector<double>& z
 
 // Of records: the mean remainder of each group over the group's mean property.
 Sufficiency of_records(const RankingTally& tally, const MotionProperty& property, std::size_t e, std::size_t k,
-                       const Line& line) {
+                       const Fitted& fit) {
   std::vector<double> sum(tally.record_units(), 0), known(tally.record_units(), 0);
   for (std::size_t motion = 0; motion < property.value.size(); ++motion) {
     const double value = property.logarithm ? std::log(property.value[motion]) : property.value[motion];
@@ -131,28 +153,33 @@ Sufficiency of_records(const RankingTally& tally, const MotionProperty& property
   }
   std::vector<double> z, remainder;
   for (std::size_t unit = 0; unit < tally.record_units(); ++unit) {
-    const RankingTally::First& first = tally.first(e, k, unit);
-    if (known[unit] == 0 || first.n == 0) continue;
+    const RankingTally::First &first = tally.first(e, k, unit), &all = tally.first(e, tally.any_im(), unit);
+    if (known[unit] == 0 || all.n == 0) continue;
     z.push_back(sum[unit] / known[unit]);
-    remainder.push_back((first.y.value() - line.slope * first.x.value()) / static_cast<double>(first.n) -
-                        line.intercept);
+    const double left = all.y.value() - fit.line.slope * first.x.value() -
+                        fit.line.intercept * static_cast<double>(first.n) -
+                        fit.mean * static_cast<double>(all.n - first.n);
+    remainder.push_back(left / static_cast<double>(all.n));
   }
   return slope_test(property.name, z, remainder);
 }
 
 // Of pulses, where each sample is a motion: from the sums alone.
 Sufficiency of_pulses(const RankingTally& tally, const MotionProperty& property, std::size_t e, std::size_t k,
-                      const Line& line) {
-  const RankingTally::WithPeriod& w = tally.with_period(e, k);
-  const auto n = static_cast<double>(w.n);
-  Sufficiency result{property.name, static_cast<int>(std::min<std::int64_t>(w.n, 2'000'000'000))};
-  if (w.n < least_motions) return result;
-  const double a = line.intercept, b = line.slope, x = w.x.value(), y = w.y.value(), z = w.z.value();
-  const double r = y - a * n - b * x;  // sums of the remainder r, and of its products
-  const double rz = w.yz.value() - a * z - b * w.xz.value();
-  const double rr = w.yy.value() - 2 * a * y - 2 * b * w.xy.value() + a * a * n + 2 * a * b * x + b * b * w.xx.value();
-  const double spread = w.zz.value() - z * z / n;
-  const Line left = line_of({n, z, r, w.zz.value(), rz, rr});
+                      const Fitted& fit) {
+  const RankingTally::WithPeriod &w = tally.with_period(e, k), &all = tally.with_period(e, tally.any_im());
+  const auto n = static_cast<double>(all.n), n_line = static_cast<double>(w.n), n_rest = n - n_line;
+  Sufficiency result{property.name, static_cast<int>(std::min<std::int64_t>(all.n, 2'000'000'000))};
+  if (all.n < least_motions) return result;
+  const double a = fit.line.intercept, b = fit.line.slope, c = fit.mean;
+  const double x = w.x.value(), y = w.y.value(), y_rest = all.y.value() - y, z = all.z.value();
+  // Sums of the remainder r, and of its products.
+  const double r = y + y_rest - a * n_line - b * x - c * n_rest;
+  const double rz = all.yz.value() - a * w.z.value() - b * w.xz.value() - c * (z - w.z.value());
+  const double rr = all.yy.value() - 2 * a * y - 2 * b * w.xy.value() + a * a * n_line + 2 * a * b * x +
+                    b * b * w.xx.value() - 2 * c * y_rest + c * c * n_rest;
+  const double spread = all.zz.value() - z * z / n;
+  const Line left = line_of({n, z, r, all.zz.value(), rz, rr});
   if (!(spread > 1e-9 * n) || !(left.scatter > 0)) return result;
   result.slope = left.slope;
   result.slope_se = left.scatter / std::sqrt(spread);
@@ -160,24 +187,30 @@ Sufficiency of_pulses(const RankingTally& tally, const MotionProperty& property,
   return result;
 }
 
-// Share of the deviance that a lognormal curve over IM explains; NaN where there is no curve.
+double log_likelihood(double n, double hits, double share) {
+  const double yes = hits > 0 ? hits * std::log(std::max(share, 1e-300)) : 0;
+  return yes + (hits < n ? (n - hits) * std::log(std::max(1 - share, 1e-300)) : 0);
+}
+
+// Share of the deviance that a lognormal curve over IM explains, and a share of its own where IM has no logarithm; NaN where there is
+// no curve.
 double deviance_explained(const std::vector<ProbitPoint>& points, ProbitFit& start) {
-  double n = 0, hits = 0;
+  double n = 0, hits = 0, left = 0;
+  std::vector<ProbitPoint> with_im;
   for (const ProbitPoint& point : points) {
     n += point.n;
     hits += point.hits;
+    if (point.im > 0)
+      with_im.push_back(point);
+    else
+      left += log_likelihood(point.n, point.hits, point.hits / point.n);
   }
-  const ProbitFit fit = fit_probit(points, start);
+  const ProbitFit fit = fit_probit(with_im, start);
   if (!std::isfinite(fit.a)) return unknown;
   start = fit;
-  double curve = 0;
-  for (const ProbitPoint& point : points) {
-    const double eta = fit.a + fit.b * std::log(point.im);
-    if (point.hits > 0) curve += point.hits * std::log(std::max(normal_cdf(eta), 1e-300));
-    if (point.hits < point.n) curve += (point.n - point.hits) * std::log(std::max(normal_cdf(-eta), 1e-300));
-  }
-  const double none = hits * std::log(hits / n) + (n - hits) * std::log(1 - hits / n);
-  return 1 - curve / none;
+  for (const ProbitPoint& point : with_im)
+    left += log_likelihood(point.n, point.hits, normal_cdf(fit.a + fit.b * std::log(point.im)));
+  return 1 - left / log_likelihood(n, hits, hits / n);
 }
 
 // P that of a sample to which it happened and one to which not the first has the higher IM; half of those in one cell.
@@ -192,7 +225,7 @@ double parts(const std::vector<ProbitPoint>& points) {
 }
 
 struct Parting {
-  std::int64_t samples = 0, hits = 0;
+  std::int64_t samples = 0, with_im = 0, hits = 0;
   double parts = unknown;
   Jackknifed explained;
 };
@@ -215,6 +248,7 @@ Parting parting(const RankingTally& tally, std::size_t e, std::size_t k) {
   const std::vector<ProbitPoint> all = points_without({});
   for (const ProbitPoint& point : all) {
     result.samples += static_cast<std::int64_t>(point.n);
+    if (point.im > 0) result.with_im += static_cast<std::int64_t>(point.n);
     result.hits += static_cast<std::int64_t>(point.hits);
   }
   if (std::min(result.hits, result.samples - result.hits) < least_hits) return result;
@@ -266,16 +300,18 @@ std::vector<RankedDemand> rank(const RankingTally& tally) {
       if (demand.binary) {
         Parting found = parting(tally, e, k);
         im.samples = found.samples;
+        im.with_im = found.with_im;
         im.parts = found.parts;
         figures.push_back(std::move(found.explained));
       } else {
         Efficiency found = efficiency(tally, e, k);
         im.samples = found.samples;
-        im.slope = found.line.slope;
+        im.with_im = found.with_im;
+        im.slope = found.fit.line.slope;
         if (std::isfinite(im.slope))
           for (const MotionProperty& property : options.properties)
-            im.sufficiency.push_back(property.of_pulses ? of_pulses(tally, property, e, k, found.line)
-                                                        : of_records(tally, property, e, k, found.line));
+            im.sufficiency.push_back(property.of_pulses ? of_pulses(tally, property, e, k, found.fit)
+                                                        : of_records(tally, property, e, k, found.fit));
         figures.push_back(std::move(found.scatter));
       }
       demand.ims.push_back(std::move(im));

@@ -1,9 +1,11 @@
 // Which intensity foretells a demand best. Of several intensities, over the same samples:
 //   efficiency: how far ln(demand) of those that moved and stood scatters about a line over ln(IM) (standard deviation;
-//     Luco & Cornell, Earthquake Spectra 23, 2007);
+//     Luco & Cornell, Earthquake Spectra 23, 2007). Where IM is not above 0 it has no logarithm, and the demand scatters about
+//     its mean over those samples: whatever an intensity is 0 for is held against it, and all are judged on the same samples;
 //   sufficiency: does what is left still depend on the period of the pulse, on magnitude, on distance? A line of the mean
 //     remainder of each motion over the property, with Student's p value of its slope: motions are the unit, not samples;
-//   for what happens or not: the share of the deviance that a lognormal curve over IM explains, and the probability that of
+//   for what happens or not: the share of the deviance that a lognormal curve over IM explains (a share of its own where IM is not above
+//     0), and the probability that of
 //     two samples the one to which it happened had the higher IM.
 // Standard errors by leaving out one of 20 folds of motions in turn (jackknife).
 #pragma once
@@ -68,7 +70,8 @@ class RankingTally {
   std::size_t record_units() const { return records_; }
   std::size_t unit_of_motion(std::size_t motion) const;  // of a record
 
-  // Sums over the samples of a unit or a fold that moved and stood and have IM > 0: x = ln IM, y = ln EDP.
+  // Sums over the samples of a unit or a fold that moved and stood and have IM > 0: x = ln IM, y = ln EDP. Of `any_im` over all that moved
+  // and stood, with x = 0.
   struct First {
     std::int64_t n = 0;
     ExactSum x, y;
@@ -84,13 +87,15 @@ class RankingTally {
   struct Cell {
     std::int64_t n = 0, hits = 0;
   };
+  std::size_t any_im() const { return options_.ims.size(); }
   const First& first(std::size_t edp, std::size_t im, std::size_t unit) const;
   const Second& second(std::size_t edp, std::size_t im, std::size_t fold) const;
   const WithPeriod& with_period(std::size_t edp, std::size_t im) const;
   const Cell& cell(std::size_t edp, std::size_t im, std::size_t fold, std::size_t i) const;
-  static double im_of_cell(std::size_t i);
+  static double im_of_cell(std::size_t i);  // 0 of the first, which holds those that are not above it
 
  private:
+  std::size_t pair_of(std::size_t edp, std::size_t im) const { return edp * (options_.ims.size() + 1) + im; }
   void add_edp(std::size_t edp, std::size_t unit, bool of_pulse, const RankedSample& sample);
 
   RankingOptions options_;
@@ -111,7 +116,8 @@ struct Sufficiency {
 
 struct RankedIm {
   std::string im;
-  std::int64_t samples = 0;  // that moved and stood and have IM > 0; for what happens or not all sound ones
+  std::int64_t samples = 0;  // that moved and stood; for what happens or not all sound ones
+  std::int64_t with_im = 0;  // of them, those with IM > 0
   // Scatter of ln(EDP), or the share of deviance explained. Its standard error; how far it is behind the best one, and that
   // difference's own standard error. NaN with fewer than 5 folds that hold
   // samples.

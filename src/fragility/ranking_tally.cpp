@@ -13,8 +13,8 @@ constexpr double ln_first = -9.3, ln_step = 0.04;  // 1e-4 to 8e2, in any unit
 
 std::size_t cell_of(double im) {
   if (!(im > 0)) return 0;
-  const double place = (std::log(im) - ln_first) / ln_step;
-  return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(RankingTally::cells - 1)));
+  const double place = 1 + (std::log(im) - ln_first) / ln_step;
+  return static_cast<std::size_t>(std::clamp(place, 1.0, static_cast<double>(RankingTally::cells - 1)));
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ RankingTally::RankingTally(RankingOptions options) : options_(std::move(options)
   }
   records_ = number.size();
   units_ = records_ + folds;
-  const std::size_t pairs = options_.edps.size() * options_.ims.size();
+  const std::size_t pairs = options_.edps.size() * (options_.ims.size() + 1);
   first_.resize(pairs * units_);
   second_.resize(pairs * folds);
   with_period_.resize(pairs);
@@ -69,11 +69,11 @@ void RankingTally::add_edp(std::size_t e, std::size_t unit, bool of_pulse, const
   }
   if ((sample.overturned && edp.censored) || !std::isfinite(value) || !(value > edp.still_threshold)) return;
   const double y = std::log(value), z = of_pulse ? std::log(sample.pulse_period_s) : 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double im = sample.im[k];
+  for (std::size_t k = 0; k <= count; ++k) {
+    const double im = k < count ? sample.im[k] : 1;
     if (!(im > 0) || !std::isfinite(im)) continue;
     const double x = std::log(im);
-    const std::size_t pair = e * count + k;
+    const std::size_t pair = pair_of(e, k);
     First& first = first_[pair * units_ + unit];
     ++first.n;
     first.x.add(x);
@@ -92,18 +92,20 @@ void RankingTally::add_edp(std::size_t e, std::size_t unit, bool of_pulse, const
 }
 
 const RankingTally::First& RankingTally::first(std::size_t edp, std::size_t im, std::size_t unit) const {
-  return first_[(edp * options_.ims.size() + im) * units_ + unit];
+  return first_[pair_of(edp, im) * units_ + unit];
 }
 const RankingTally::Second& RankingTally::second(std::size_t edp, std::size_t im, std::size_t fold) const {
-  return second_[(edp * options_.ims.size() + im) * folds + fold];
+  return second_[pair_of(edp, im) * folds + fold];
 }
 const RankingTally::WithPeriod& RankingTally::with_period(std::size_t edp, std::size_t im) const {
-  return with_period_[edp * options_.ims.size() + im];
+  return with_period_[pair_of(edp, im)];
 }
 const RankingTally::Cell& RankingTally::cell(std::size_t edp, std::size_t im, std::size_t fold, std::size_t i) const {
   return cell_[((binary_[edp] * options_.ims.size() + im) * folds + fold) * cells + i];
 }
-double RankingTally::im_of_cell(std::size_t i) { return std::exp(ln_first + ln_step * (static_cast<double>(i) + 0.5)); }
+double RankingTally::im_of_cell(std::size_t i) {
+  return i == 0 ? 0 : std::exp(ln_first + ln_step * (static_cast<double>(i) - 0.5));
+}
 
 namespace {
 

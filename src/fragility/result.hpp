@@ -15,7 +15,7 @@ namespace freestand::fragility {
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 enum class BinStatus : int {
-  fitted = 0,   // lognormal fit that is off by at most Options::adequate
+  fitted = 0,   // lognormal fit that is off by at most Options::adequate, and half of Options::half_width
   too_few = 1,  // fewer samples than the minimum: the row of the surface is empty
   // The row of the surface is the empirical one where the fit may be off by more and fails goodness of fit,
   rejected = 2,
@@ -78,7 +78,7 @@ struct Surface {
 };
 
 // P(EDP > C) over IM x a second axis, from counts, with band from resampled motions. All [im, axis, capacity] but n
-// [im, axis].
+// [im, axis]. A cell stands at `centre`, the mean of its samples of all bins (its middle where it has none).
 struct AxisSurface {
   std::string name, unit;
   std::vector<double> edge, centre;

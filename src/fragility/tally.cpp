@@ -60,6 +60,12 @@ void Tally::add(const Sample& sample) {
   ++count_[layout_.at_im_cell(cell, group)];
   if (sample.outcome == Outcome::overturned) ++count_[layout_.at_im_cell(cell, group) + 1];
   sum_[layout_.im_sums + cell].add(sample.im);
+  for (std::size_t a = 0; a < options_.axes.size(); ++a) {
+    const int on_axis = bin_index(options_.axes[a].edge, sample.axis[a]);
+    if (on_axis < 0) continue;
+    ++count_[layout_.axis_counts[a] + static_cast<std::size_t>(on_axis)];
+    sum_[layout_.axis_sums[a] + static_cast<std::size_t>(on_axis)].add(sample.axis[a]);
+  }
   const Place place{bin, cell, group, std::log(sample.im)};
   for (std::size_t e = 0; e < layout_.edps; ++e) add_edp(e, place, sample);
   add_pairs(place, sample);

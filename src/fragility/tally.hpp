@@ -95,6 +95,7 @@ class Tally {
   std::int64_t axis_n(std::size_t edp, std::size_t axis, std::size_t bin, std::size_t cell, std::size_t group) const;
   std::int64_t axis_exceeding(std::size_t edp, std::size_t axis, std::size_t bin, std::size_t cell, std::size_t group,
                               std::size_t capacity) const;
+  double mean_on_axis(std::size_t axis, std::size_t cell) const;  // of all sound samples in it and in a bin; else NaN
   ImCell im_cell(std::size_t cell) const;
   double mean_im(std::size_t bin) const;  // of all sound samples in it; NaN where there is none
   std::int64_t im_cell_n(std::size_t cell, std::size_t group) const;

@@ -25,7 +25,10 @@ TallyLayout::TallyLayout(const Options& options, std::size_t group_count)
     next += size;
     return begin;
   };
-  for (const auto& ax : options.axes) axis_cells.push_back(ax.edge.size() - 1);
+  for (const auto& ax : options.axes) {
+    axis_cells.push_back(ax.edge.size() - 1);
+    axis_counts.push_back(take(axis_cells.back()));
+  }
   outside = take(1);
   failed = take(bins);
   missing = take(edps);
@@ -47,6 +50,7 @@ TallyLayout::TallyLayout(const Options& options, std::size_t group_count)
   next = 0;
   bin_sums = take(sums_per_bin * edps * bins * groups);
   im_sums = take(im_cell_count());
+  for (const std::size_t cells : axis_cells) axis_sums.push_back(take(cells));
   regression_sums = take(sums_per_regression * edps * groups);
   pair_sums = take(sums_per_pair * bins * pairs());
   sum_size = next;

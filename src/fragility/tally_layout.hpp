@@ -31,6 +31,7 @@ struct TallyLayout {
   std::size_t outside, failed, missing, bin_counts, im_cells;  // offsets of counts
   std::vector<std::size_t> exceeding, histogram, im_cells_of;  // [edp]
   std::vector<std::vector<std::size_t>> axis;                  // [edp][axis]
+  std::vector<std::size_t> axis_counts, axis_sums;             // [axis] of counts, of sums; one a cell
   std::size_t bin_sums, im_sums, regression_sums;              // offsets of sums
   std::size_t count_size, sum_size;
 

@@ -72,6 +72,12 @@ std::int64_t Tally::axis_exceeding(std::size_t edp, std::size_t axis, std::size_
   return count_[layout_.at_axis(edp, axis, bin, cell, group) + 1 + capacity];
 }
 
+double Tally::mean_on_axis(std::size_t axis, std::size_t cell) const {
+  const std::int64_t n = count_[layout_.axis_counts[axis] + cell];
+  return n > 0 ? sum_[layout_.axis_sums[axis] + cell].value() / static_cast<double>(n)
+               : std::numeric_limits<double>::quiet_NaN();
+}
+
 ImCell Tally::im_cell(std::size_t cell) const {
   ImCell total;
   for (std::size_t g = 0; g < layout_.groups; ++g) total.n += im_cell_n(cell, g);

@@ -13,6 +13,7 @@
 #include "study/bins.hpp"
 #include "study/intensities.hpp"
 #include "study/realise.hpp"
+#include "study/until.hpp"
 
 namespace freestand::study {
 namespace {
@@ -95,6 +96,7 @@ fragility::Options laid_out(const Study& study, const Target& target, const Tabl
   options.false_discovery = part.false_discovery;
   options.empirical_fallback = part.empirical_fallback;
   options.adequate = part.adequate;
+  if (study.until) options.half_width = fragility::least_wanted(wanted(study, {}), part.confidence);
   options.open_ends = part.bins.edges.empty();
   options.scrambles = study.scrambles;
   options.seed = study.seed;

@@ -54,12 +54,23 @@ class Description {
                                          : entry.mu_k;
   }
 
-  // All of the model but what the columns of an entry hold, and its effects. Mass moves nothing in a free block.
+  // Of a number that grows with the block, which blocks of several sizes that are alike have in common over their height: as points of one
+  // grid. Of an inertia the radius of gyration, by which alone it moves the block.
+  std::string over_height(const BlockPart& block, const Quantity& q) const {
+    const bool inertia = q.name == "block.inertia_kgm2";
+    const double length = inertia ? std::sqrt(median(q) / median(block.mass)) : median(q);
+    return fmt::format(" {}/height={:.6g}", inertia ? "block.gyration_radius_m" : q.name,
+                       length / median(*block.height));
+  }
+
+  // All of the model but what the columns of an entry hold, and its effects. Mass moves nothing in a free block of a given radius of
+  // gyration.
   std::string model_words(const ModelPart& model) const {
     constexpr const char* models[] = {"slide", "rock", "slide_rock", "bouc_wen"};
     const std::set<std::string> columns{"block.width_m", "block.height_m",       "block.slenderness_rad",
                                         "block.size_m",  "friction.mu",          "friction.mu_k",
                                         "friction.mu_s", "friction.static_ratio"};
+    const std::set<std::string> lengths{"block.centre_height_m", "block.gyration_radius_m", "block.inertia_kgm2"};
     const bool heavy = model.chain || model.neighbour;
     std::string words = models[static_cast<int>(model.model)];
     words += model.impact.law == ImpactLaw::housner ? " impact=housner" : " impact=coulomb";
@@ -67,10 +78,7 @@ class Description {
       const bool usual = q.name == model.impact.factor.name && median(q) == 1;
       if (columns.contains(q.name) || q.name.starts_with("effects.") || usual || (!heavy && q.name == "block.mass_kg"))
         continue;
-      // Blocks of several sizes that are alike are points of one grid.
-      const bool grows = q.name == "block.centre_height_m" || q.name == "block.gyration_radius_m";
-      words += grows ? fmt::format(" {}/height={:.6g}", q.name, median(q) / median(*model.block.height))
-                     : fmt::format(" {}={}", q.name, number(q));
+      words += lengths.contains(q.name) ? over_height(model.block, q) : fmt::format(" {}={}", q.name, number(q));
     }
     if (model.chain) words += model.chain->side > 0 ? " chain.side=right" : " chain.side=left";
     if (model.neighbour) words += model.neighbour->side > 0 ? " neighbour.side=right" : " neighbour.side=left";

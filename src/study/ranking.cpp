@@ -206,7 +206,8 @@ ordered_json ranking_json(const Ranking& ranking) {
     ordered_json ims = ordered_json::array();
     for (const RankedIm& im : demand.ims) {
       const char* figure = demand.binary ? "deviance_explained" : "scatter";
-      ordered_json entry = {{"im", im.im}, {"samples", im.samples}, {figure, number_json(im.value)}};
+      ordered_json entry = {
+          {"im", im.im}, {"samples", im.samples}, {"samples_with_im", im.with_im}, {figure, number_json(im.value)}};
       entry[std::string(figure) + "_se"] = number_json(im.value_se);
       entry["behind_best"] = number_json(im.behind);
       entry["behind_best_se"] = number_json(im.behind_se);
@@ -231,14 +232,15 @@ ordered_json ranking_json(const Ranking& ranking) {
 
 std::string ranking_csv(const Ranking& ranking) {
   std::string text =
-      "edp,rank,im,samples,scatter,deviance_explained,se,behind_best,behind_best_se,slope,parts_pairs,left_on,left_"
+      "edp,rank,im,samples,samples_with_im,scatter,deviance_explained,se,behind_best,behind_best_se,slope,parts_pairs,"
+      "left_on,left_"
       "motions,"
       "left_slope,left_slope_se,left_p\n";
   for (const RankedDemand& demand : ranking.demands)
     for (std::size_t i = 0; i < demand.ims.size(); ++i) {
       const RankedIm& im = demand.ims[i];
       const std::string head =
-          fmt::format("{},{},{},{},{},{},{},{},{},{},{}", demand.edp, i + 1, im.im, im.samples,
+          fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", demand.edp, i + 1, im.im, im.samples, im.with_im,
                       demand.binary ? "" : cell(im.value), demand.binary ? cell(im.value) : "", cell(im.value_se),
                       cell(im.behind), cell(im.behind_se), cell(im.slope), cell(im.parts));
       if (im.sufficiency.empty()) text += head + ",,,,,\n";

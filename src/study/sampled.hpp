@@ -19,13 +19,15 @@ struct Sampled {
   std::function<int(std::uint64_t sample, std::size_t motion)> class_of;
 };
 
-// Numbers of the model by their names in the study; motion.* by the entry that a sample takes; `motion`, where there are several
+// Numbers that are columns of one table of joint draws as one, the table ("friction.mu with impact.factor (drawn together)"); other numbers of
+// the model by their names in the study; motion.* by the entry that a sample takes; `motion`, where there are several
 // (`motions`: how many; `ground`: of each the one that it is the floor of, which counts for it, since motion.storey is a number of
 // its own; empty: itself).
 std::vector<Sampled> sampled(const Study&, std::size_t motions, const std::vector<std::size_t>& ground = {});
 
 // Parameters that nothing depends on, of the designs that those of the study are even in (decision::Parameter::design: 0 independent draws and
-// latin hypercubes, 1 dimensions of a Sobol design, 2 its first dimension in orders of their own): what their classes scatter by is chance.
+// latin hypercubes, 1 dimensions of a Sobol design, 2 its first dimension in orders of their own, from 3 on the same with as many
+// classes as a table of joint draws has): what their classes scatter by is chance.
 std::vector<Sampled> idle_parameters(const Study&, const std::vector<Sampled>&);
 
 }  // namespace freestand::study

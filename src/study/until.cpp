@@ -1,6 +1,7 @@
 #include "study/until.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -39,6 +40,15 @@ std::string helps(const Study& study, const fragility::Outlook& outlook) {
   return needed + fmt::format(": raise at_most from {}, or take wider bins", study.until->at_most);
 }
 
+// Where no sample fell.
+std::string empty_told(const fragility::HalfWidth& width, const Drawn& drawn) {
+  if (width.empty_bins.empty()) return "";
+  return fmt::format(
+      "none of the {} samples drawn lies in the bins of intensity about {:.3g}: they are left empty, and not waited "
+      "for",
+      drawn.samples, fmt::join(width.empty_bins, ", "));
+}
+
 std::string samples_told(const fragility::Result& result, const Drawn& drawn) {
   if (drawn.samples == drawn.alike) return fmt::format("{} samples", result.samples);
   return fmt::format("{} samples, {} of them integrated", drawn.samples, result.samples);
@@ -58,9 +68,9 @@ fragility::Wanted wanted(const Study& study, const Drawn& drawn) {
 
 std::string round_told(const Study& study, const fragility::Result& result, const Drawn& drawn) {
   const fragility::HalfWidth reached = fragility::half_width(result, wanted(study, drawn));
-  const std::string text =
-      fmt::format("{}: the surface is known to +-{:.3g}{} (wanted {})", samples_told(result, drawn), reached.largest,
-                  farthest_told(study, reached), wanted_text(*study.until, "+-{:.3f}"));
+  std::string text = fmt::format("{}: the surface is known to +-{:.3g}{} (wanted {})", samples_told(result, drawn),
+                                 reached.largest, farthest_told(study, reached), wanted_text(*study.until, "+-{:.3f}"));
+  if (const std::string empty = empty_told(reached, drawn); !empty.empty()) text += "; " + empty;
   if (reached.times_wanted <= 1) return text;
   return text + "; " + helps(study, fragility::outlook(result, wanted(study, drawn)));
 }
@@ -116,6 +126,8 @@ void tell_until(const Study& study, const fragility::Result& result, const Drawn
   until["stays_above"] = outlook.stays;
   until["samples_needed"] = nullptr;
   until["rare_cells"] = reached.rare_cells;
+  until["empty_bins"] = reached.empty_bins;
+  if (const std::string empty = empty_told(reached, drawn); !empty.empty()) summary["warnings"].push_back(empty);
   if (std::isfinite(outlook.samples)) until["samples_needed"] = std::round(outlook.samples);
   if (warning.empty()) return;
   summary["warnings"].push_back(warning);

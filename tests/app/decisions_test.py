@@ -3,6 +3,8 @@
 import csv
 import json
 import unittest
+from math import log
+from statistics import pvariance as variance
 
 from support import InFolder, h5py, study_text
 
@@ -96,6 +98,37 @@ class Sensitivity(InFolder):
         self.assertLess(shares["block.width_m"], 0.05)
         for one in ln_delta["shares"].values():
             self.assertGreater(one["total"]["value"], one["share"]["value"] - 4 * (one["total"]["se"] + one["share"]["se"]))
+
+    def test_numbers_that_are_drawn_together_have_one_share(self):
+        """Friction alone moves a sliding block. The impact factor is drawn with it, hardly depends on it, and had its total share."""
+        draws = "".join(f"{0.05 + 0.25 * i / 500},{0.5 + 0.3 * (i * 0.618034 % 1)}\n" for i in range(500))
+        self.write("draws.csv", "mu,factor\n" + draws)
+        study = """
+seed: 3
+samples: 16000
+block: {width_m: 0.6, height_m: 1.8, mass_kg: 100}
+friction: {mu: {posterior: draws.csv, column: mu}}
+impact: {factor: {posterior: draws.csv, column: factor}}
+model: slide
+motions: [{pulse: rectangular, period_s: {uniform: [0.4, 0.6]}, peak_acceleration_g: 0.6}]
+fragility: {im: pga_g, edp: [peak_slip_m], capacities: {peak_slip_m: [0.8]}}
+"""
+        self.succeed(["run", self.write("joint.yaml", study), "-o", self.folder / "joint", "--quiet"])
+        done = self.succeed(["sensitivity", self.folder / "joint", "--total", 500])
+        table = "friction.mu with impact.factor (drawn together)"
+        self.assertIn(table, done.stdout)
+        found = json.loads((self.folder / "joint/sensitivity.json").read_text())
+        self.assertEqual([one["name"] for one in found["parameters"]], [table, "motion.period_s"])
+        self.assertEqual({row["parameter"] for row in rows(self.folder / "joint/sensitivity.csv")}, {table, "motion.period_s"})
+        ln_slip = found["answers"][0]
+        # Slip goes as (0.6/mu - 1) T^2: the variances of the two logarithms add up.
+        mu = [0.05 + 0.25 * i / 500 for i in range(500)]
+        of_mu, of_period = variance([log(0.6 / one - 1) for one in mu]), variance([2 * log(0.4 + 0.2 * (i + 0.5) / 1000) for i in range(1000)])
+        for name, own in ((table, of_mu), ("motion.period_s", of_period)):
+            truth, one = own / (of_mu + of_period), ln_slip["shares"][name]
+            for kind in ("share", "total"):
+                self.assertAlmostEqual(one[kind]["value"], truth, delta=3 * one[kind]["se"], msg=f"{name} {kind}")
+        self.assertAlmostEqual(ln_slip["together"]["value"], 1, delta=0.03)
 
     def test_pairs_that_are_too_few_give_no_total_shares(self):
         done = self.succeed(["sensitivity", self.out, "--total", 64, "-o", self.folder / "few"])

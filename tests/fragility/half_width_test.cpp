@@ -197,6 +197,17 @@ TEST(BinsThatWant, AreThoseThatAreNotKnownWellEnough) {
   EXPECT_EQ(want(0.1), (std::vector<bool>{true, false, false, true}));
 }
 
+// A bin that would hold 30 of 60,000 samples stays empty in 6000 with a chance of exp(-3) = 0.0498.
+TEST(BinsThatWant, AreNotThoseThatStayEmptyThoughTheyMightHaveFilled) {
+  Result result = hits({2000, 2000, 2000, 200}, 0.3);
+  result.edps[0].bins[2].n = 0;
+  const auto want = [&](double at_most) {
+    return bins_that_want(result, {.half_width = 0.03, .at_most = at_most, .drawn = 6000});
+  };
+  EXPECT_EQ(want(59000), (std::vector<bool>{false, false, false, true}));
+  EXPECT_EQ(want(61000), (std::vector<bool>{false, false, true, true}));
+}
+
 // What is drawn counts for rare cells and for what is still needed, not what was integrated.
 TEST(HalfWidth, GoesByWhatIsDrawn) {
   const Result result = with_axis();

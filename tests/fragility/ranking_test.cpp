@@ -163,6 +163,67 @@ TEST(Ranking, AnIntensityThatPartsAllHasAllTheDevianceAndAllPairs) {
   EXPECT_NEAR(ranked[0].ims[1].value, 0, 0.01);
 }
 
+// "over" is 0 below a threshold, and above it follows the demand as badly as "whole" does there: demands scatter more where it is 0. Judged
+// on its own samples alone it would come out first.
+RankingTally over_a_threshold(bool one_more, std::vector<double>* left = nullptr) {
+  RankingOptions opts = options({"whole", "over"}, false, 7);
+  if (one_more) opts.ims.push_back("nothing");
+  RankingTally tally(opts);
+  double sums[2][6] = {};  // below, above: n, x, y, xx, xy, yy
+  for (std::uint64_t i = 0; i < motions * samples_each; ++i) {
+    const double x = 0.8 * normal(7, i, 10), excess = std::exp(x) - 1;
+    const double y = x + (excess > 0 ? 0.3 : 1.2) * normal(7, i, 30);
+    const double im[] = {std::exp(x), std::max(0.0, excess), 0.0}, edp[] = {std::exp(y), 0.0};
+    tally.add({i, static_cast<int>(i % motions), false, unknown, std::span(im, one_more ? 3 : 2), edp});
+    const double ln = excess > 0 ? std::log(excess) : 0, terms[] = {1, ln, y, ln * ln, ln * y, y * y};
+    for (int k = 0; k < 6; ++k) sums[excess > 0][k] += terms[k];
+  }
+  if (left) {
+    const auto& [n0, x0, y0, xx0, xy0, yy0] = sums[0];
+    const auto& [n, x, y, xx, xy, yy] = sums[1];
+    const double sxx = xx - x * x / n, sxy = xy - x * y / n, syy = yy - y * y / n;
+    *left = {n0 + n, std::sqrt((syy - sxy * sxy / sxx + yy0 - y0 * y0 / n0) / (n0 + n - 3))};
+  }
+  return tally;
+}
+
+TEST(Ranking, IntensitiesAreJudgedOnTheSameSamplesWhereOneIsZero) {
+  std::vector<double> left;
+  const RankedDemand slip = rank(over_a_threshold(false, &left))[0];
+  EXPECT_EQ(slip.ims[0].im, "whole");
+  EXPECT_EQ(slip.ims[0].samples, motions * samples_each);
+  EXPECT_EQ(slip.ims[1].samples, motions * samples_each);
+  // A line where it is above 0, a mean where it is not.
+  EXPECT_EQ(slip.ims[1].samples, left[0]);
+  EXPECT_NEAR(slip.ims[1].value, left[1], 1e-8);
+}
+
+TEST(Ranking, AnIntensityThatIsAlwaysZeroComesLastAndChangesNoOther) {
+  const RankedDemand without = rank(over_a_threshold(false))[0], with = rank(over_a_threshold(true))[0];
+  ASSERT_EQ(with.ims.size(), 3u);
+  EXPECT_EQ(with.ims[2].im, "nothing");
+  EXPECT_TRUE(std::isnan(with.ims[2].value));
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(with.ims[k].im, without.ims[k].im);
+    EXPECT_EQ(with.ims[k].value, without.ims[k].value);
+    EXPECT_EQ(with.ims[k].behind_se, without.ims[k].behind_se);
+  }
+}
+
+// What happens where an intensity is 0 has a share of its own: a curve over its logarithm cannot hold it, and what it knows above is kept.
+TEST(Ranking, WhatHappensWhereAnIntensityIsZeroSpoilsNoCurve) {
+  RankingTally tally(options({"excess"}, true, 1));
+  for (std::uint64_t i = 0; i < 4000; ++i) {
+    const double x = random::uniform(1, i, 1);  // below 0.5 one in two, whatever x is; above, from 0.8 on
+    const double happens = x < 0.5 ? random::uniform(1, i, 2) < 0.5 : x > 0.8;
+    const double im[] = {std::max(0.0, x - 0.5)}, edp[] = {unknown, happens};
+    tally.add({i, 0, happens > 0, 1, im, edp});
+  }
+  // 0.25 + 0.2 happen; of the deviance of all, what is left is that of the half at one in two.
+  const double p = 0.45, all = -p * std::log(p) - (1 - p) * std::log(1 - p), left = 0.5 * std::log(2.0);
+  EXPECT_NEAR(rank(tally)[0].ims[0].value, 1 - left / all, 0.02);
+}
+
 TEST(Ranking, WithoutWhatItNeedsThereIsNone) {
   RankingTally tally(options({"first"}, true, 1));
   EXPECT_TRUE(rank(tally).empty());

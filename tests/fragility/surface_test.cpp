@@ -72,6 +72,26 @@ TEST(Surface, SecondAxisIsEmptyWhereItHasNoSamples) {
   EXPECT_LT(axis.lower[4 * 3 + 1], axis.probability[4 * 3 + 1]);
 }
 
+// As a bin stands at its mean intensity: an axis that is drawn unevenly is not at the middles of its cells. Samples outside of all bins
+// are in no cell.
+TEST(Surface, ACellOfASecondAxisStandsAtTheMeanOfItsSamples) {
+  Options o = options(0, false);
+  o.im_edge = {0, 1, 2};
+  o.axes = {{"mu", "1", {0, 0.5, 1, 2}}};
+  Tally tally(o), rest(o);
+  double sum = 0, n = 0;
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    const double im = 2.2 * test::uniform(i, 92), mu = std::pow(test::uniform(i, 93), 3), value = 1;
+    (i % 3 ? tally : rest).add({i, im, 0, Outcome::moved, {&value, 1}, {&mu, 1}});
+    if (im <= 2 && mu < 0.5) sum += mu, n += 1;
+  }
+  tally.merge(rest);
+  const AxisSurface axis = fitted(Tally::from_words(o, tally.words())).edps[0].axes[0];
+  EXPECT_NEAR(axis.centre[0], sum / n, 1e-10);
+  EXPECT_LT(axis.centre[0], 0.15);
+  EXPECT_EQ(axis.centre[2], 1.5);  // without a sample: the middle
+}
+
 // 200 samples of a true lognormal: its test passes, and would pass many that are off by 0.1.
 TEST(Surface, ABinThatIsMerelyNotRefutedFallsBackOnTheCountsAndSaysSo) {
   Options o = options(0, false);

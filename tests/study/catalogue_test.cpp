@@ -156,6 +156,21 @@ TEST_F(CatalogueTest, ACommonBlockIsWhatEachEntryDoesNotSay) {
               HasSubstr("t.csv:3: block.height_m is missing"));
 }
 
+// sqrt(40/100) m and sqrt(40/400) m: blocks that differ. What the mass does in no other way, and what a radius says as well, is alike.
+TEST_F(CatalogueTest, BlocksOfOneInertiaAreAlikeByTheirRadius) {
+  const auto entry = [](const std::string& id, const std::string& more) {
+    return "  - {id: " + id + ", class: x, block: {width_m: 0.6, height_m: 1.8, " + more + "}, friction: {mu: 0.5}}\n";
+  };
+  const Catalogue catalogue =
+      read(common + "entries:\n" + entry("light", "mass_kg: 100, inertia_kgm2: 40") +
+           entry("heavy", "mass_kg: 400, inertia_kgm2: 40") + entry("alike", "mass_kg: 400, inertia_kgm2: 160") +
+           entry("radius", "mass_kg: 50, gyration_radius_m: 0.632455532"));
+  const auto model = [&](std::size_t i) { return catalogue.entries.at(i).words.model; };
+  EXPECT_NE(model(0), model(1));
+  EXPECT_EQ(model(0), model(2));
+  EXPECT_EQ(model(0), model(3));
+}
+
 TEST_F(CatalogueTest, AMassThatNobodyGaveIsNotKnown) {
   EXPECT_TRUE(std::isnan(read(common + two).entries[0].words.mass_kg));
 }

@@ -56,6 +56,44 @@ TEST_F(PosteriorTables, ARowStaysTogetherAndAllAreAlikeLikely) {
   for (const auto& [mu, n] : count) EXPECT_NEAR(n, 1000, 5) << mu;  // a Sobol sequence
 }
 
+// Numbers of one row are dependent: no one of them is an input, the table is, and its rows that differ are its classes.
+TEST_F(PosteriorTables, ATableIsOneInput) {
+  std::ofstream(folder_ / "draws.csv") << "friction.mu,effects.floor_tilt.angle_rad,factor\n"
+                                          "0.2,0.03,0.7\n0.3,0.01,0.7\n0.2,0.03,0.6\n0.4,0.01,0.6\n";
+  const Study study = read(drawn());
+  const std::vector<Sampled> all = sampled(study, 1);
+  ASSERT_EQ(all[0].parameter.name, "friction.mu with effects.floor_tilt.angle_rad (drawn together)");
+  EXPECT_EQ(all[0].streams, std::vector<std::string>{"posterior.draws.csv"});
+  EXPECT_EQ(all[0].parameter.classes, 3);
+  EXPECT_FALSE(all[0].parameter.ordered);
+  for (const Sampled& one : all) EXPECT_EQ(one.parameter.name.find("angle_rad") == std::string::npos, &one != &all[0]);
+  const Realiser realise(study, load_motions(study));
+  std::map<int, double> mu_of;
+  for (std::uint64_t s = 0; s < 200; ++s) {
+    const double mu = realise(s).specimen.friction.mu_k;
+    EXPECT_EQ(mu_of.try_emplace(all[0].class_of(s, 0), mu).first->second, mu);
+  }
+  EXPECT_EQ(mu_of.size(), 3U);
+
+  // Of one column the values are classes, in their order.
+  const std::vector<Sampled> one = sampled(read(text("{posterior: draws.csv, column: friction.mu}", "0.01")), 1);
+  EXPECT_EQ(one[0].parameter.name, "friction.mu");
+  EXPECT_TRUE(one[0].parameter.ordered);
+}
+
+// A pulse may take its amplitude from the table that friction is of.
+TEST_F(PosteriorTables, ATableOfTheModelAndOfTheMotionsIsOneInput) {
+  const Study study = read(block +
+                           "friction: {mu: {posterior: draws.csv, column: friction.mu}}\nmotions: [{pulse: B, "
+                           "period_s: {posterior: draws.csv, column: effects.floor_tilt.angle_rad}, "
+                           "peak_acceleration_g: {uniform: [0.1, 2]}}]\nsamples: 300\n" +
+                           fragility);
+  std::vector<std::string> names;
+  for (const Sampled& one : sampled(study, 1)) names.push_back(one.parameter.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"friction.mu with motion.period_s (drawn together)",
+                                             "motion.peak_acceleration_g"}));
+}
+
 TEST_F(PosteriorTables, TheExpandedStudyCarriesTheDraws) {
   const Study study = read(drawn());
   const std::string all = expanded(study);
@@ -100,9 +138,9 @@ TEST_F(PosteriorTables, PlacementsScatterInASweepAsInTheFit) {
   expect_spread(width(drawn, fitted, FittedAs::best), 0.5);
 }
 
-// Shares of variance go by classes of a number's own values, whatever the order of the rows.
+// Shares of variance of the one number that is drawn from a table go by classes of its values, whatever the order of the rows.
 TEST_F(PosteriorTables, ClassesGoByValue) {
-  const Study study = read(drawn());
+  const Study study = read(text("0.3", "{posterior: draws.csv, column: effects.floor_tilt.angle_rad}"));
   for (const Sampled& one : sampled(study, 1)) {
     if (one.parameter.name != "effects.floor_tilt.angle_rad") continue;
     const Realiser realise(study, load_motions(study));
