@@ -105,6 +105,9 @@ void tabulate_vertical(MotionTable& t, const FloorMotion& motion) {
 std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion) {
   if (motion.degree != 1 || motion.segments() < 1 || !constant_step(motion)) return nullptr;
   if (!continuous(motion, motion.horizontal_mps2)) return nullptr;
+  constexpr double largest_mps2 = 1e150;  // squares are numbers
+  for (const double a : motion.horizontal_mps2)
+    if (!(std::abs(a) < largest_mps2)) return nullptr;
   auto table = std::make_shared<MotionTable>();
   MotionTable& t = *table;
   const std::size_t n = motion.segments(), all = (n + 1 + table_tail + 31) / 32 * 32;

@@ -61,7 +61,7 @@ struct MotionTable {
   }
 };
 
-// Null where the motion is not piecewise linear with a constant step.
+// Null where the motion is not piecewise linear with a constant step, or beyond all floors (1e150 m/s2, whose squares overflow).
 std::shared_ptr<const MotionTable> tabulate(const FloorMotion& motion);
 
 }  // namespace freestand

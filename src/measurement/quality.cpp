@@ -179,7 +179,8 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
         "less): were files exchanged?{}",
         test.id, bench.test(others[i].test).id, std::sqrt(others[i].gain), held_out_note(bench.data(), {test.id})));
   }
-  if (2 * in_units.size() > bench.size()) timings.assign(bench.size(), {});  // the others' clocks and signs are no surer
+  if (2 * in_units.size() > bench.size())
+    timings.assign(bench.size(), {});  // the others' clocks and signs are no surer
   if (!in_units.empty())
     quality.findings.push_back(
         fmt::format("slip_m of {} goes with the floor if it is {:.3g} times what is measured: is it in metres?{}",
@@ -226,9 +227,14 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
 }
 
 // A channel of one test that is the model's, but for a factor between two units: as measured far from it, and near to noise where it is
-// read in the other. The other tests give the model.
+// read in the other. Only where the model is right for most of the tests: what it lacks may make ten times the slip as well.
 void look_at_units(const Bench& bench, const ModelFit& fit, Quality& quality) {
-  constexpr double far = 8, closer = 4;
+  constexpr double far = 8, closer = 4, right = 3;  // noise units
+  std::vector<double> errors;
+  for (const TestError& error : test_errors(bench, tests_of(bench.data(), Role::calibration), fit.model, fit.x))
+    errors.push_back(error.noise_units);
+  std::nth_element(errors.begin(), errors.begin() + static_cast<long>(errors.size() / 2), errors.end());
+  if (!(errors[errors.size() / 2] < right)) return;
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const Test& test = bench.test(i);
     if (!test.has_history()) continue;

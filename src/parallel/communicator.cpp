@@ -174,7 +174,8 @@ int end_run(const Communicator& world, const Error& error) {
 
 int end_run(const Communicator& world, const std::string& text, int exit_code, bool shared) {
   const std::string shown = printable(text, Lines::keep) + "\n";
-  if (world.size() == 1 || shared) {
+  // Where a disk is full HDF5 cannot close a file that the ranks share, and breaks when MPI ends: so MPI is not ended.
+  if (world.size() == 1 || (shared && exit_code != static_cast<int>(Exit::cure))) {
     if (world.is_root()) tell(shown);
     return exit_code;
   }

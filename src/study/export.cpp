@@ -88,7 +88,7 @@ std::string usual_id(const std::string& study_name) {
 namespace {
 
 std::string usual_description(const io::Provenance& from, const fragility::Result& result) {
-  return fmt::format("{}: {} samples, {} motions, over {}; freestand {}", from.study_name, result.samples,
+  return fmt::format("{}: {} samples, {} groups of motions, over {}; freestand {}", from.study_name, result.samples,
                      result.motions, result.im_name, from.version);
 }
 

@@ -143,6 +143,11 @@ TEST(MotionTable, PulsesAndOddStepsHaveNone) {
   EXPECT_EQ(tabulate(motion), nullptr);
 }
 
+// Found by a fuzzer: squares that are no numbers any more.
+TEST(MotionTable, IsNoneOfAFloorBeyondAllNumbers) {
+  EXPECT_EQ(tabulate(piecewise_linear("beyond", 0.01, {0, -1e233, 0.2, 0}, {})), nullptr);
+}
+
 // So small that nothing over it is a number (found by a fuzzer: a record whose numbers end in e-310).
 TEST(MotionTable, OfNextToNothing) {
   const auto table = tabulate(piecewise_linear("nothing", 0.01, {0, 1e-310, -1e-310, 0}, {}));
