@@ -3,8 +3,9 @@
 //   histories  e^2 = mean over channels and time of ((model - measured)/noise)^2;  e = 1: as good as the sensor can tell
 //              score = ln(e^2): a test of large slips does not drown the others, and at the truth it weighs as the
 //              likelihood does
-//   peaks      score = mean of ln(model/measured)^2 over the peaks that are known, each not above 3^2; peaks below
-//              least_motion(), measured or computed, count as that. So a specimen that stood still (0) is a hit where the
+//   peaks      score = mean of ln(model/measured)^2 over the peaks that are known, each not above 3^2, with
+//              ln((x + sqrt(x^2 + (10 noise)^2))/2) for ln x where a noise is stated, so that peaks below ten times that weigh by
+//              it (a tenth is what peaks scatter by at least); peaks below least_motion(), measured or computed, count as that. So a specimen that stood still (0) is a hit where the
 //              model stands still too, and a miss like any other where it moves. A slip that remains to the other side is missed
 //              by the limit, where any of the set has a sign (sizes alone say nothing of sides). Of a test that fell nobody says whether
 //              its peaks hold the fall, which the model's do not: 0 where the model falls too, 3^2 where it stands, and 3^2

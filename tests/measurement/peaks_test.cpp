@@ -70,6 +70,27 @@ TEST(Peaks, BelowTheNoiseTheSizeOfAPeakSaysNothing) {
   EXPECT_EQ(error_at(bench, 4, mu).noise_units, 0.5);
 }
 
+// A peak of little more than the noise that is off by one noise counts as one of any size that is off by the tenth that peaks scatter by.
+TEST(Peaks, BesideTheNoiseSmallOnesWeighByIt) {
+  for (const double stated : {0.0, 1.0}) {
+    Dataset data = made_peaks();
+    const double small = *data.tests[2].peaks.peak_slip_m, large = *data.tests[0].peaks.peak_slip_m, noise = small / 2;
+    data.noise.slip_m = stated * noise;
+    data.tests[2].peaks.peak_slip_m = small + noise;
+    data.tests[0].peaks.peak_slip_m = large * 1.1;
+    const Bench bench(data, 0);
+    const double off = std::sqrt(error_at(bench, 2, mu).score), share = std::sqrt(error_at(bench, 0, mu).score);
+    if (stated == 0) {
+      EXPECT_NEAR(off, std::log(1.5), 1e-9);
+      EXPECT_NEAR(share, std::log(1.1), 1e-9);
+    } else {
+      EXPECT_NEAR(off, 0.1, 0.005);
+      EXPECT_LT(share, std::log(1.1));
+      EXPECT_GT(share, 0.1 * std::log(1.1));
+    }
+  }
+}
+
 // A block that falls: its peak slip may hold the fall, or not, and only that it falls is compared.
 TEST(Peaks, OfATestThatFellOnlyThatCounts) {
   Dataset data;
