@@ -25,7 +25,7 @@ def title(diagnosis, was=False):
     if diagnosis.verdict == "bad_data" and faults(diagnosis):
         return f"no effect is needed: {words.listing(faults(diagnosis), 'or')} is off"
     if diagnosis.verdict == "none":
-        return "these tests show no missing effect"
+        return "friction differs from test to test; " * friction_scatters(diagnosis) + "these tests show no missing effect"
     if diagnosis.proposal:
         return (f"no effect of the catalogue explains it; {validation.effect(diagnosis.proposal['effect'])}, a law of no catalogue, "
                 f"leaves {_error(diagnosis.proposal)} of {_error(diagnosis.base)}")

@@ -118,7 +118,7 @@ void look_at_sensors(const Bench& bench, Quality& quality) {
     for (const std::size_t i : tests_of(bench.data(), Role::calibration))
       step = std::max(step, resolution(history(bench.test(i), channel)));
     const bool different = std::abs(std::log(sensor.size())) > worth_a_word;
-    if (different && step > 0 && sensor.coloured == 0)
+    if (different && noise * sensor.size() < 1.001 * step / std::sqrt(12.0))
       quality.findings.push_back(
           fmt::format("{} is read in steps of {:.2g} {}, and so scatters by {:.2g}, {:.2g} times what is stated: "
                       "models are judged by that",
