@@ -187,7 +187,7 @@ class Resampled {
       weight.push_back(n);
       im = above = n = 0;
     }
-    curve.rising = risen(share, weight);
+    curve.rising = std::isnan(curve.median) ? share : risen(share, weight);
   }
 
   // The resampled misfits scatter about those of the samples as those do about the true ones.
@@ -270,9 +270,12 @@ FragilityFunction function_of(const Tally& tally, const Cells& cells, const Resa
     curve.im_least = cells.im.front();
     curve.im_most = cells.im.back();
   }
-  if (std::isnan(curve.median)) return curve;
-  curve.extrapolated = curve.median < curve.im_least || curve.median > curve.im_most;
   const Resampled resampled(tally, cells, shape, resampling);
+  if (std::isnan(curve.median)) {  // what falls with the intensity has none, and cells that say how
+    resampled.shares_of_cells(curve);
+    return curve;
+  }
+  curve.extrapolated = curve.median < curve.im_least || curve.median > curve.im_most;
   resampled.errors(curve);
   resampled.band(curve);
   resampled.misfit(curve);

@@ -128,8 +128,8 @@ struct FragilityFunction {
   double rate_p = unknown;
   // It may stand for the counts: off_by is at most Options::adequate, and rates do not refute it (rate_p).
   bool adequate = false;
-  // Where the curve is refuted: the shares of fine cells of IM at the mean IM of each, pooled where they fall. Else none, as where no cell
-  // has enough samples.
+  // Where the curve is refuted: the shares of fine cells of IM at the mean IM of each, pooled where they fall; where there is no median,
+  // since it does not grow with IM, as they are. Else none, as where no cell has enough samples.
   std::vector<double> cell_im, rising;
   std::vector<double> grid;                       // IM, from the first positive edge to the last
   std::vector<double> probability, lower, upper;  // [grid], band from resampled motions

@@ -144,6 +144,29 @@ FragilityFunction small_curve(double share, double onset, double median, std::ui
   return overturning_function(tally, Resampling(tally.groups(), tally.groups_with_samples(), options.resamples, 1));
 }
 
+// What happens at middle intensities has no curve that grows; how its shares rise within the first bin is known all the same.
+TEST(FragilityFunction, OfWhatFallsTheCellsAreKept) {
+  Options options;
+  options.im_name = "pga";
+  options.im_edge = {0.02, 0.5, 1, 1.5, 2};
+  options.edps = {{"moved_a_little", "1", "", true, 0, {}}};
+  options.resamples = 20;
+  Tally tally(options);
+  const auto share = [](double im) {
+    return im < 0.2 ? 0 : im < 0.4 ? 4 * (im - 0.2) : 0.8 * std::exp(-3 * (im - 0.4));
+  };
+  for (std::uint64_t i = 0; i < 40000; ++i) {
+    const double im = 0.02 + 1.98 * test::uniform(i, 910), value = test::uniform(i, 911) < share(im);
+    tally.add({i, im, 0, Outcome::moved, {&value, 1}, {}});
+  }
+  const FragilityFunction curve =
+      fragility_function(tally, 0, 0, Resampling(tally.groups(), tally.groups_with_samples(), options.resamples, 1));
+  ASSERT_TRUE(std::isnan(curve.median));
+  ASSERT_GT(curve.cell_im.size(), 16U);
+  for (std::size_t k = 0; k < curve.cell_im.size(); ++k)
+    EXPECT_NEAR(curve.rising[k], share(curve.cell_im[k]), 0.08) << curve.cell_im[k];
+}
+
 // A lognormal meets the shares of any two bins, whatever lies between: no bound comes of that.
 TEST(FragilityFunction, OfTwoBinsNoBoundIsKnown) {
   Options options;
