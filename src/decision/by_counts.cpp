@@ -84,8 +84,9 @@ Rate ByCounts::banded(const CurveReach& curve) {
     return std::sqrt(squares);
   };
   const double value = rate(), tail = (1 - result_.confidence) / 2;
-  const RateLimits limits(value, rates_left_out(),
-                          rates(edp_.surface.resampled, f_.resampled_median, f_.resampled_dispersion), result_, curve);
+  const RateLimits limits(
+      value, rates_left_out(),
+      rates(edp_.surface.resampled, f_.resampled_median, f_.resampled_dispersion, f_.resampled_rising), result_, curve);
   if (std::isnan(limits.lower(tail))) return {value};
   const auto counted_lower = [&](double of) { return limits.lower(of); };
   const auto counted_upper = [&](double of) { return limits.upper(of); };
@@ -107,7 +108,7 @@ Rate ByCounts::banded(const CurveReach& curve) {
 }
 
 std::vector<double> ByCounts::rates_left_out() const {
-  return rates(edp_.surface.left_out, f_.left_out_median, f_.left_out_dispersion);
+  return rates(edp_.surface.left_out, f_.left_out_median, f_.left_out_dispersion, f_.left_out_rising);
 }
 
 double ByCounts::rate_below(const HazardCurve& hazard, const Range& range) const {
@@ -157,7 +158,8 @@ double ByCounts::falling_limit(std::size_t i) const {
 
 // Of each resample, or of each group left out: `again` is [of them, im, capacity], with the curves of the same.
 std::vector<double> ByCounts::rates(const std::vector<double>& again, const std::vector<double>& median,
-                                    const std::vector<double>& dispersion) const {
+                                    const std::vector<double>& dispersion, const std::vector<double>& rising) const {
+  const std::size_t cells = f_.rising.size();
   const std::size_t size = edp_.surface.empirical.size();
   std::vector<double> found(size == 0 ? 0 : again.size() / size, 0);
   std::vector<fragility::CountedBin> bins = bins_;
@@ -165,6 +167,9 @@ std::vector<double> ByCounts::rates(const std::vector<double>& again, const std:
     for (std::size_t i = 0; i < bins.size(); ++i) bins[i].probability = again[r * size + at(i)];
     Shape shape(f_);
     if (r < median.size() && std::isfinite(median[r])) shape.median = median[r], shape.dispersion = dispersion[r];
+    if (cells > 0 && (r + 1) * cells <= rising.size())
+      shape.rising.assign(rising.begin() + static_cast<long>(r * cells),
+                          rising.begin() + static_cast<long>((r + 1) * cells));
     found[r] = integral({bins, shape});
   }
   return found;

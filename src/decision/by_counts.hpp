@@ -54,7 +54,7 @@ class ByCounts {
   fragility::Interval rising_limits(std::size_t i);
   double falling_limit(std::size_t i) const;
   std::vector<double> rates(const std::vector<double>& again, const std::vector<double>& median,
-                            const std::vector<double>& dispersion) const;
+                            const std::vector<double>& dispersion, const std::vector<double>& rising) const;
   bool same(std::size_t i) const;
   std::size_t at(std::size_t i) const { return bins_[i].index * edp_.capacity.size() + capacity_; }  // of the surface
 

@@ -170,24 +170,46 @@ class Resampled {
     }
   }
 
-  // Up to eight cells a bin: what a bin alone does not tell, and a refuted curve tells wrongly, how its probability grows within it. Cells
-  // are joined until the standard error of a share, 0.5/sqrt(n) at most, is no more than a curve may be off.
+  // Up to eight cells a bin: what a bin alone does not tell, and a refuted curve tells wrongly, how its probability grows within it. Cells are joined until the standard error of a share, 0.5/sqrt(n) at most, is no more than a curve may be off.
   void shares_of_cells(FragilityFunction& curve) const {
     if (curve.adequate || not_refuted(curve)) return;
     const double enough = std::pow(0.5 / tally_.options().adequate, 2);
-    std::vector<double> share, weight;
-    double im = 0, above = 0, n = 0;
+    std::vector<std::vector<Eigen::Index>> joined(1);
+    double n = 0, im = 0;
     for (Eigen::Index i = 0; i < cells_.n.cols(); ++i) {
       const double here = cells_.n.col(i).sum(), at = cells_.im[static_cast<std::size_t>(i)];
       if (!(at > 0)) continue;
-      im += here * at, above += cells_.above.col(i).sum(), n += here;
+      joined.back().push_back(i);
+      n += here, im += here * at;
       if (n < enough) continue;
       curve.cell_im.push_back(im / n);
-      share.push_back(above / n);
-      weight.push_back(n);
-      im = above = n = 0;
+      joined.emplace_back();
+      n = im = 0;
     }
-    curve.rising = std::isnan(curve.median) ? share : risen(share, weight);
+    joined.pop_back();  // too few
+    curve.rising = shares(curve, joined, cells_.n.colwise().sum(), cells_.above.colwise().sum(), {});
+    const auto again = [&](const Eigen::MatrixXd& of_n, const Eigen::MatrixXd& of_above, std::vector<double>& all) {
+      for (Eigen::Index r = 0; r < of_n.rows(); ++r) {
+        const std::vector<double> one = shares(curve, joined, of_n.row(r), of_above.row(r), curve.rising);
+        all.insert(all.end(), one.begin(), one.end());
+      }
+    };
+    again(n_, above_, curve.resampled_rising);
+    again(n_left_, above_left_, curve.left_out_rising);
+  }
+
+  // Of joined cells; `otherwise` where none has a sample.
+  static std::vector<double> shares(const FragilityFunction& curve,
+                                    const std::vector<std::vector<Eigen::Index>>& joined, const Eigen::RowVectorXd& n,
+                                    const Eigen::RowVectorXd& above, const std::vector<double>& otherwise) {
+    std::vector<double> share, weight;
+    for (const std::vector<Eigen::Index>& cells : joined) {
+      double of = 0, all = 0;
+      for (const Eigen::Index i : cells) of += above[i], all += n[i];
+      share.push_back(all > 0 ? of / all : otherwise[share.size()]);
+      weight.push_back(std::max(all, 1.0));
+    }
+    return std::isnan(curve.median) ? share : risen(share, weight);
   }
 
   // The resampled misfits scatter about those of the samples as those do about the true ones.

@@ -136,6 +136,7 @@ struct FragilityFunction {
   std::vector<double> resampled_median,
       resampled_dispersion;                                  // [resample], of the same resampled motions for each curve
   std::vector<double> left_out_median, left_out_dispersion;  // [left out], without a group of motions
+  std::vector<double> resampled_rising, left_out_rising;  // [resample or left out, cell], the same of `rising`
 };
 
 struct EdpResult {

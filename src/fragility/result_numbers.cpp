@@ -70,10 +70,10 @@ template <class Way>
 void walk(Way& way, FragilityFunction& f) {
   auto& [median, dispersion, median_se, dispersion_se, penalised, im_least, im_most, extrapolated, misfit, misfit_im,
          misfit_p, off_by, rate_p, adequate, cell_im, rising, grid, probability, lower, upper, resampled_median,
-         resampled_dispersion, left_out_median, left_out_dispersion] = f;
+         resampled_dispersion, left_out_median, left_out_dispersion, resampled_rising, left_out_rising] = f;
   each(way, median, dispersion, median_se, dispersion_se, penalised, im_least, im_most, extrapolated, misfit, misfit_im,
        misfit_p, off_by, rate_p, adequate, cell_im, rising, grid, probability, lower, upper, resampled_median,
-       resampled_dispersion, left_out_median, left_out_dispersion);
+       resampled_dispersion, left_out_median, left_out_dispersion, resampled_rising, left_out_rising);
 }
 
 template <class Way>

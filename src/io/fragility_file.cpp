@@ -174,10 +174,27 @@ void write_functions(Group& parent, const Result& result, const EdpResult& edp) 
       std::find_if(edp.functions.begin(), edp.functions.end(), [](Curve c) { return !c.rising.empty(); });
   if (refuted != edp.functions.end()) {
     const Dataset cell = coordinate(group, "cell", refuted->cell_im, result.im_unit, "mean IM of the fine cells");
-    put("rising", cell, "1", "of curves that are refuted: the shares of fine cells, pooled where they fall",
-        [&](Curve c) {
-          return c.rising.empty() ? std::vector<double>(refuted->rising.size(), fragility::unknown) : c.rising;
-        });
+    const auto or_unknown = [](const std::vector<double>& values, const std::vector<double>& alike) {
+      return values.empty() ? std::vector<double>(alike.size(), fragility::unknown) : values;
+    };
+    put("rising", cell, "1",
+        "of curves that are refuted: the shares of fine cells, pooled where they fall",
+        [&](Curve c) { return or_unknown(c.rising, refuted->rising); });
+    const auto put_again = [&](const char* name, std::vector<double> FragilityFunction::*of, const char* description) {
+      std::vector<double> all;
+      for (Curve c : edp.functions) {
+        const std::vector<double> row = or_unknown(c.*of, (*refuted).*of);
+        all.insert(all.end(), row.begin(), row.end());
+      }
+      const std::size_t cells = refuted->rising.size(), times = ((*refuted).*of).size() / cells;
+      if (times > 0)
+        group.put(name, all, {edp.functions.size(), times, cells})
+            .attach(0, capacity)
+            .attach(2, cell)
+            .describe("1", description);
+    };
+    put_again("resampled_rising", &FragilityFunction::resampled_rising, "the same of each resampled set of motions");
+    put_again("left_out_rising", &FragilityFunction::left_out_rising, "the same without each group of motions");
   }
   std::size_t left_out = 0;
   for (Curve curve : edp.functions) left_out = std::max(left_out, curve.left_out_median.size());

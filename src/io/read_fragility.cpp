@@ -72,6 +72,15 @@ void read_cells(const Group& group, std::vector<FragilityFunction>& curves) {
   if (!group.has("rising")) return;
   const std::vector<double> cell = values(group, "cell");
   read_curve(group, &FragilityFunction::rising, "rising", cell.size(), curves);
+  const auto read_again = [&](const char* name, std::vector<double> FragilityFunction::*of) {
+    if (!group.has(name)) return;
+    const std::size_t width = group.open_dataset(name).dimensions().at(1) * cell.size();
+    read_curve(group, of, name, width, curves);
+    for (FragilityFunction& curve : curves)
+      if (!(curve.*of).empty() && std::isnan((curve.*of).front())) (curve.*of).clear();
+  };
+  read_again("resampled_rising", &FragilityFunction::resampled_rising);
+  read_again("left_out_rising", &FragilityFunction::left_out_rising);
   for (FragilityFunction& curve : curves)
     if (!curve.rising.empty() && std::isnan(curve.rising.front()))
       curve.rising.clear();
