@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 
 #include "io/bin_fields.hpp"
 #include "io/csv_cell.hpp"
@@ -170,43 +171,47 @@ void write_functions(Group& parent, const Result& result, const EdpResult& edp) 
       [&](Curve c) { return per_resample(c.resampled_median, result); });
   put("resampled_dispersion", resample, "1", "dispersion of each resampled set of motions",
       [&](Curve c) { return per_resample(c.resampled_dispersion, result); });
+  std::size_t left_out = 0;
+  for (Curve curve : edp.functions) left_out = std::max(left_out, curve.left_out_median.size());
+  std::optional<Dataset> out;
+  if (left_out > 0) out = left_out_numbers(group, left_out);
   const auto refuted =
       std::find_if(edp.functions.begin(), edp.functions.end(), [](Curve c) { return !c.rising.empty(); });
   if (refuted != edp.functions.end()) {
     const Dataset cell = coordinate(group, "cell", refuted->cell_im, result.im_unit, "mean IM of the fine cells");
-    const auto or_unknown = [](const std::vector<double>& values, const std::vector<double>& alike) {
-      return values.empty() ? std::vector<double>(alike.size(), fragility::unknown) : values;
+    const auto or_unknown = [](const std::vector<double>& values, std::size_t size) {
+      return values.size() == size ? values : std::vector<double>(size, fragility::unknown);
     };
-    put("rising", cell, "1",
-        "of curves that are refuted: the shares of fine cells, pooled where they fall",
-        [&](Curve c) { return or_unknown(c.rising, refuted->rising); });
-    const auto put_again = [&](const char* name, std::vector<double> FragilityFunction::*of, const char* description) {
+    const std::size_t cells = refuted->rising.size();
+    put("rising", cell, "1", "of curves that are refuted: the shares of fine cells, pooled where they fall",
+        [&](Curve c) { return or_unknown(c.rising, cells); });
+    const auto put_again = [&](const char* name, std::vector<double> FragilityFunction::*of, const Dataset& repeat,
+                               const char* description) {
+      const std::size_t times = repeat.dimensions().at(0);
       std::vector<double> all;
       for (Curve c : edp.functions) {
-        const std::vector<double> row = or_unknown(c.*of, (*refuted).*of);
+        const std::vector<double> row = or_unknown(c.*of, times * cells);
         all.insert(all.end(), row.begin(), row.end());
       }
-      const std::size_t cells = refuted->rising.size(), times = ((*refuted).*of).size() / cells;
-      if (times > 0)
-        group.put(name, all, {edp.functions.size(), times, cells})
-            .attach(0, capacity)
-            .attach(2, cell)
-            .describe("1", description);
+      group.put(name, all, {edp.functions.size(), times, cells})
+          .attach(0, capacity)
+          .attach(1, repeat)
+          .attach(2, cell)
+          .describe("1", description);
     };
-    put_again("resampled_rising", &FragilityFunction::resampled_rising, "the same of each resampled set of motions");
-    put_again("left_out_rising", &FragilityFunction::left_out_rising, "the same without each group of motions");
+    put_again("resampled_rising", &FragilityFunction::resampled_rising, resample,
+              "the same of each resampled set of motions");
+    if (out)
+      put_again("left_out_rising", &FragilityFunction::left_out_rising, *out, "the same without each group of motions");
   }
-  std::size_t left_out = 0;
-  for (Curve curve : edp.functions) left_out = std::max(left_out, curve.left_out_median.size());
-  if (left_out == 0) return;
-  const Dataset out = left_out_numbers(group, left_out);
+  if (!out) return;
   const auto full = [left_out](std::vector<double> values) {
     values.resize(left_out, fragility::unknown);
     return values;
   };
-  put("left_out_median", out, result.im_unit, "median without each group of motions",
+  put("left_out_median", *out, result.im_unit, "median without each group of motions",
       [&](Curve c) { return full(c.left_out_median); });
-  put("left_out_dispersion", out, "1", "dispersion without each group of motions",
+  put("left_out_dispersion", *out, "1", "dispersion without each group of motions",
       [&](Curve c) { return full(c.left_out_dispersion); });
 }
 
