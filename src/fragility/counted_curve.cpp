@@ -104,16 +104,18 @@ double CountedCurve::operator()(double im) const {
   const double f = fitted(im);
   const auto next = std::ranges::upper_bound(knots_, im, {}, &Knot::im);
   const Knot &first = knots_.front(), &last = knots_.back();
-  if (next == knots_.begin()) return first.fitted > 0 ? first.probability * f / first.fitted : first.probability;
+  // F may fall where it has no median: P stays between the shares all the same.
+  if (next == knots_.begin())
+    return first.fitted > 0 ? first.probability * std::min(1.0, f / first.fitted) : first.probability;
   if (next == knots_.end()) {
     if (!(last.fitted < 1)) return last.probability;
     const double in_the_end = last.fitted > 0 ? std::min(1.0, last.probability / last.fitted) : 1;
-    return std::lerp(last.probability, in_the_end, (f - last.fitted) / (1 - last.fitted));
+    return std::lerp(last.probability, in_the_end, std::max(0.0, (f - last.fitted) / (1 - last.fitted)));
   }
   const Knot &low = *(next - 1), &high = *next;
   const bool rise = high.fitted > low.fitted && high.probability > low.probability;
-  return std::lerp(low.probability, high.probability,
-                   rise ? (f - low.fitted) / (high.fitted - low.fitted) : (im - low.im) / (high.im - low.im));
+  const double along = rise ? (f - low.fitted) / (high.fitted - low.fitted) : (im - low.im) / (high.im - low.im);
+  return std::lerp(low.probability, high.probability, std::clamp(along, 0.0, 1.0));
 }
 
 std::vector<double> places_to_follow(const CountedCurve& curve, const std::vector<CountedBin>& bins, double least,
