@@ -112,19 +112,23 @@ std::vector<double> ByCounts::rates_left_out() const {
 }
 
 double ByCounts::rate_below(const HazardCurve& hazard, const Range& range) const {
-  const fragility::CountedBin& first = bins_.front();
-  const double p = first.probability;
-  if (!(p > 0) || !(range.from < range.to)) return 0;
-  const double level = p * (hazard.rate(std::max(range.from, hazard.first())) - hazard.rate(range.to));
-  const auto larger =
-      std::find_if(bins_.begin(), bins_.end(), [p](const auto& other) { return other.probability > p; });
-  if (larger == bins_.end()) return level;
-  // A share of 1 is that of all samples of the bin: half a sample less.
-  const double n = static_cast<double>(std::max<std::int64_t>(edp_.bins[larger->index].n, 1));
-  const double low = gsl_cdf_ugaussian_Pinv(p),
-               high = gsl_cdf_ugaussian_Pinv(std::min(larger->probability, 1 - 0.5 / n));
-  if (!(high > low)) return level;
-  const double dispersion = std::log(larger->im / first.im) / (high - low);
+  struct Point {
+    double im, share;
+  };
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < f_.rising.size(); ++i) points.push_back({f_.cell_im[i], f_.rising[i]});
+  if (points.empty())
+    for (const fragility::CountedBin& bin : bins_) points.push_back({bin.im, bin.probability});
+  const Point& first = points.front();
+  if (!(first.share > 0) || !(range.from < range.to)) return 0;
+  const auto larger = std::ranges::find_if(points, [&](const Point& other) { return other.share > first.share; });
+  if (larger == points.end())
+    return first.share * (hazard.rate(std::max(range.from, hazard.first())) - hazard.rate(range.to));
+  // A share of 1 is that of all samples there: half a sample less.
+  const double n = static_cast<double>(std::max<std::int64_t>(edp_.bins[bins_.front().index].n, 1));
+  const double low = gsl_cdf_ugaussian_Pinv(first.share),
+               high = gsl_cdf_ugaussian_Pinv(std::min(larger->share, 1 - 0.5 / n)),
+               dispersion = std::log(larger->im / first.im) / (high - low);
   return annual_rate(hazard, {first.im * std::exp(-low * dispersion), dispersion}, range);
 }
 

@@ -35,8 +35,8 @@ class ByCounts {
   // Rates without each group of motions.
   std::vector<double> rates_left_out() const;
 
-  // P below the lowest bin: the counted share is followed down along the lognormal through it and the next bin with a larger one; it
-  // stays where there is no such bin, and is 0 where nothing was counted.
+  // P below the lowest bin (or fine cell, where the curve has them): the counted share is followed down along the lognormal through it and
+  // the next one with a larger share; it stays where there is none, and is 0 where nothing was counted.
   double rate_below(const HazardCurve&, const Range&) const;
   double at_end() const { return bins_.back().probability; }
 

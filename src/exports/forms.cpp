@@ -146,11 +146,13 @@ Refusal make_discrete(LimitState& state, const Wanted& wanted, const fragility::
   }
   state.curve.form = Form::discrete;
   using Shape = fragility::CountedCurve::Shape;
-  const Shape shape = wanted.capacity < edp.functions.size() ? Shape(edp.functions[wanted.capacity]) : Shape();
+  // What grows with no intensity is handed on as one that never falls: by its pooled bins, not by cells that rise and fall.
+  const bool grows = wanted.capacity < edp.functions.size() && std::isfinite(edp.functions[wanted.capacity].median);
+  const Shape shape = grows ? Shape(edp.functions[wanted.capacity]) : Shape();
   state.counted.emplace(shares, shape);
   state.drawn.emplace(bins, straight ? Shape{} : shape);
   double least = bins.front().im, most = bins.back().im;
-  if (!straight && std::isfinite(state.fitted.median)) {
+  if (!straight && grows) {
     const fragility::FragilityFunction& f = edp.functions[wanted.capacity];
     least = f.im_least, most = f.im_most;
   }

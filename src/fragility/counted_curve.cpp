@@ -48,6 +48,11 @@ std::vector<CountedBin> counted_bins(const Result& result, const EdpResult& edp,
 }
 
 CountedCurve::CountedCurve(const std::vector<CountedBin>& bins, Shape shape) : shape_(std::move(shape)) {
+  if (std::isnan(shape_.median) && shape_.rising.size() >= 2 * bins.size()) {  // finer bins
+    for (std::size_t i = 0; i < shape_.rising.size(); ++i)
+      knots_.push_back({shape_.cell_im[i], shape_.rising[i], shape_.rising[i]});
+    return;
+  }
   for (const CountedBin& bin : bins) {
     double shown = bin.by_law ? fitted(bin.im) : over_bin(bin);
     if (!knots_.empty()) shown = std::max(shown, knots_.back().fitted);

@@ -170,10 +170,15 @@ class Resampled {
     }
   }
 
-  // Up to eight cells a bin: what a bin alone does not tell, and a refuted curve tells wrongly, how its probability grows within it. Cells are joined until the standard error of a share, 0.5/sqrt(n) at most, is no more than a curve may be off.
+  // Up to eight cells a bin: what a bin alone does not tell, and a curve that may be off tells wrongly, how its probability grows within it.
+  // Cells are joined until the standard error of a share, 0.5/sqrt(n) at most, is no more than a curve may be off, and a bin of as many
+  // samples would be told. A curve that is merely not refuted keeps its own growth where that leaves fewer than two cells a bin: wider ones
+  // see nothing of a bin's inside.
   void shares_of_cells(FragilityFunction& curve) const {
-    if (curve.adequate || not_refuted(curve)) return;
-    const double enough = std::pow(0.5 / tally_.options().adequate, 2);
+    if (curve.adequate) return;
+    const double enough =
+        std::max(std::pow(0.5 / tally_.options().adequate, 2), static_cast<double>(tally_.options().minimum_samples));
+    std::vector<double> joined_im;
     std::vector<std::vector<Eigen::Index>> joined(1);
     double n = 0, im = 0;
     for (Eigen::Index i = 0; i < cells_.n.cols(); ++i) {
@@ -182,11 +187,13 @@ class Resampled {
       joined.back().push_back(i);
       n += here, im += here * at;
       if (n < enough) continue;
-      curve.cell_im.push_back(im / n);
+      joined_im.push_back(im / n);
       joined.emplace_back();
       n = im = 0;
     }
     joined.pop_back();  // too few
+    if (not_refuted(curve) && joined.size() < 2 * tally_.layout().bins) return;
+    curve.cell_im = std::move(joined_im);
     curve.rising = shares(curve, joined, cells_.n.colwise().sum(), cells_.above.colwise().sum(), {});
     const auto again = [&](const Eigen::MatrixXd& of_n, const Eigen::MatrixXd& of_above, std::vector<double>& all) {
       for (Eigen::Index r = 0; r < of_n.rows(); ++r) {

@@ -172,18 +172,20 @@ void write_functions(Group& parent, const Result& result, const EdpResult& edp) 
   put("resampled_dispersion", resample, "1", "dispersion of each resampled set of motions",
       [&](Curve c) { return per_resample(c.resampled_dispersion, result); });
   std::size_t left_out = 0;
-  for (Curve curve : edp.functions) left_out = std::max(left_out, curve.left_out_median.size());
+  for (Curve curve : edp.functions)
+    left_out = std::max({left_out, curve.left_out_median.size(),
+                         curve.rising.empty() ? 0 : curve.left_out_rising.size() / curve.rising.size()});
   std::optional<Dataset> out;
   if (left_out > 0) out = left_out_numbers(group, left_out);
-  const auto refuted =
+  const auto with_cells =
       std::find_if(edp.functions.begin(), edp.functions.end(), [](Curve c) { return !c.rising.empty(); });
-  if (refuted != edp.functions.end()) {
-    const Dataset cell = coordinate(group, "cell", refuted->cell_im, result.im_unit, "mean IM of the fine cells");
+  if (with_cells != edp.functions.end()) {
+    const Dataset cell = coordinate(group, "cell", with_cells->cell_im, result.im_unit, "mean IM of the fine cells");
     const auto or_unknown = [](const std::vector<double>& values, std::size_t size) {
       return values.size() == size ? values : std::vector<double>(size, fragility::unknown);
     };
-    const std::size_t cells = refuted->rising.size();
-    put("rising", cell, "1", "of curves that are refuted: the shares of fine cells, pooled where they fall",
+    const std::size_t cells = with_cells->rising.size();
+    put("rising", cell, "1", "of curves that are not adequate: the shares of fine cells, pooled where they fall",
         [&](Curve c) { return or_unknown(c.rising, cells); });
     const auto put_again = [&](const char* name, std::vector<double> FragilityFunction::*of, const Dataset& repeat,
                                const char* description) {

@@ -32,11 +32,17 @@ inline HazardCurve power_law(double k0, double k, double first, double last) {
 
 // Records of which each overturns at its own intensity: ln of it is normal with `between` among records, and `within` among the
 // samples of one. A share `floor` overturns at whatever intensity, and only a share `ceiling` can overturn at all, so that the curve is no
-// lognormal where they are not 0 and 1. A share `weak` of the records overturns at 0.3 of the others' intensity.
+// lognormal where they are not 0 and 1. A share `weak` of the records overturns at 0.3 of the others' intensity. What happens is over again
+// from `ends` times the own intensity on: a window that is entered and left.
 struct Sweep {
   int records = 40, per_record = 25;
-  double median = 0.6, between = 0.35, within = 0.25, floor = 0, ceiling = 1, weak = 0, least = 0.05, most = 3;
+  double median = 0.6, between = 0.35, within = 0.25, floor = 0, ceiling = 1, weak = 0, ends = HUGE_VAL, least = 0.05,
+         most = 3;
   double dispersion() const { return std::hypot(between, within); }
+  double own(std::uint64_t seed, std::uint64_t record) const {
+    return median * std::exp(between * normal(seed, record, "record")) *
+           (uniform(seed, record, "weak") < weak ? 0.3 : 1);
+  }
 
   fragility::Result fit(std::uint64_t seed, int resamples) const {
     fragility::Options options;
@@ -54,14 +60,13 @@ struct Sweep {
     fragility::Tally tally(options);
     for (int r = 0, i = 0; r < records; ++r) {
       const auto record = static_cast<std::uint64_t>(r);
-      const double own = median * std::exp(between * normal(seed, record, "record")) *
-                         (uniform(seed, record, "weak") < weak ? 0.3 : 1);
+      const double own = this->own(seed, record);
       for (int k = 0; k < per_record; ++k, ++i) {
         const auto at = static_cast<std::uint64_t>(i);
         const double im = least * std::pow(most / least, uniform(seed, at, "im"));
-        const bool over =
-            (im > own * std::exp(within * normal(seed, at, "sample")) && uniform(seed, at, "ceiling") < ceiling) ||
-            uniform(seed, at, "floor") < floor;
+        const double at_im = own * std::exp(within * normal(seed, at, "sample"));
+        const bool over = (im > at_im && im < ends * at_im && uniform(seed, at, "ceiling") < ceiling) ||
+                          uniform(seed, at, "floor") < floor;
         const double value = over;
         tally.add({at, im, r, over ? Outcome::overturned : Outcome::moved, {&value, 1}, {}});
       }

@@ -29,5 +29,37 @@ TEST(RefutedCurve, RatesFollowTheFineCellsWithinBins) {
   EXPECT_GT(rate.upper, truth);
 }
 
+// Of 20 records a fitted curve is often not refuted, and off all the same: by it such rates were 1.1 times those of the records on the average.
+TEST(RefutedCurve, RatesFollowTheFineCellsWhereChanceMayBeWhatRefutes) {
+  Sweep sweep;
+  sweep.records = 20, sweep.per_record = 800;
+  sweep.between = 0.2, sweep.within = 0.02;
+  sweep.median = 0.7, sweep.weak = 0.5;
+  constexpr double k0 = 1e-3, k = 2.5;
+  double ratio = 0;
+  constexpr int repeats = 20;
+  for (std::uint64_t seed = 1; seed <= repeats; ++seed) {
+    double of_records = 0;
+    for (std::uint64_t r = 0; r < 20; ++r) of_records += k0 * std::pow(sweep.own(seed, r), -k) / 20;
+    ratio += risk(sweep.fit(seed, 50), power_law(k0, k, 1e-3, 50)).rows[0].by_counts.value / of_records / repeats;
+  }
+  EXPECT_NEAR(ratio, 1, 0.02);
+}
+
+// What is entered at 0.06 g and left at 0.07 g falls from the first bin on, and grows within it. Taken to stay at the first bin's share below
+// it, nearly all of the rate would come from there, and none was told.
+TEST(RefutedCurve, WhatFallsFromTheFirstBinOnIsFollowedDownByItsCells) {
+  Sweep sweep;
+  sweep.records = 200, sweep.per_record = 200;
+  sweep.between = sweep.within = 0.03;
+  sweep.median = 0.06, sweep.ends = 1.2;
+  constexpr double k0 = 1e-3, k = 2.5;
+  const double spread = std::exp(k * k * sweep.dispersion() * sweep.dispersion() / 2);
+  const double truth = k0 * spread * (std::pow(sweep.median, -k) - std::pow(sweep.ends * sweep.median, -k));
+  const Risk found = risk(sweep.fit(1, 50), power_law(k0, k, 1e-3, 50));
+  EXPECT_EQ(found.rows[0].refused, "");
+  EXPECT_NEAR(found.rows[0].rate().value / truth, 1, 0.05);
+}
+
 }  // namespace
 }  // namespace freestand::decision::refuted_curve_test

@@ -42,6 +42,7 @@ struct BandCase {
   int records;
   double median;
   int repeats;
+  int per_record = 25;
 };
 
 class RiskBands : public testing::TestWithParam<BandCase> {};
@@ -52,6 +53,7 @@ TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
   Sweep sweep;
   sweep.records = at.records;
   sweep.median = at.median;
+  sweep.per_record = at.per_record;
   const int repeats = test::repeats_asked(at.repeats);
   const double k0 = 1e-3, slopes[] = {1.5, 2.5};
   Misses by_function[2], by_counts[2];
@@ -83,7 +85,8 @@ TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
 
 INSTANTIATE_TEST_SUITE_P(Of, RiskBands,
                          testing::Values(BandCase{40, 0.6, 500}, BandCase{40, 1.5, 500}, BandCase{14, 0.6, 500},
-                                         BandCase{14, 1.5, 500}),
+                                         BandCase{14, 1.5, 500}, BandCase{14, 0.6, 500, 250},
+                                         BandCase{14, 1.5, 500, 250}),
                          [](const auto& info) { return fmt::format("{}Records{}", info.param.records, info.index); });
 
 // Of ten bins as wide as the curve's dispersion a polygon through their shares gives 1.08 and 1.27 times the rate.
