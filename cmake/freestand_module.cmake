@@ -1,9 +1,11 @@
-# freestand_module(NAME LINKS a b ... [REGISTRY] [ALONE])
-# One library per folder of src. LINKS names modules or packages. REGISTRY makes it an OBJECT library, so that the
+# freestand_module(NAME LINKS a b ... [ROOMS a b ...] [REGISTRY] [ALONE])
+# One library per folder of src. LINKS names modules or packages. ROOMS are folders in it, in the
+# order of use: each sees those before it (tests/architecture). REGISTRY makes it an OBJECT library, so that the
 # linker keeps every self-registering file. ALONE: its files are compiled one by one, not in batches.
 function(freestand_module NAME)
-  cmake_parse_arguments(ARG "REGISTRY;ALONE" "" "LINKS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${NAME}/*.cpp)
+  cmake_parse_arguments(ARG "REGISTRY;ALONE" "" "LINKS;ROOMS" ${ARGN})
+  list(TRANSFORM ARG_ROOMS REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/src/${NAME}/\\1/*.cpp" OUTPUT_VARIABLE rooms)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${NAME}/*.cpp ${rooms})
   freestand_resolve(links ${ARG_LINKS})
   if(FREESTAND_FUZZ AND NAME IN_LIST freestand_as_released)
     file(GLOB_RECURSE built ${FREESTAND_FUZZ}/libfreestand_${NAME}.a ${FREESTAND_FUZZ}/CMakeFiles/freestand_${NAME}_objects.dir/*.o)

@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double ln_ratio_limit = 3, error_limit = 1e4;  // as measurement/score.hpp cuts them off
+constexpr double ln_ratio_limit = 3, error_limit = 1e4;  // as measurement/predict/score.hpp cuts them off
 
 // Root mean square of ln(predicted/measured) of what a test measured, with the sign of their sum.
 std::string ln_ratio(const Json& test) {

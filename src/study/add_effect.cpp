@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "effects/effects.hpp"
-#include "measurement/grown_fit.hpp"
-#include "measurement/outcome_fit.hpp"
-#include "measurement/posterior.hpp"
+#include "measurement/fit/grown_fit.hpp"
+#include "measurement/fit/outcome_fit.hpp"
+#include "measurement/fit/posterior.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/fitted_study.hpp"
 #include "study/section.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/units.hpp"
-#include "measurement/bands.hpp"
-#include "measurement/findings.hpp"
+#include "measurement/fit/bands.hpp"
+#include "measurement/tell/findings.hpp"
 #include "study/fitted_study.hpp"
 #include "study/posterior_tables.hpp"
 #include "study/spread_jobs.hpp"

@@ -9,8 +9,9 @@
 
 #include "base/lab_table.hpp"
 #include "base/shown_text.hpp"
-#include "measurement/bench.hpp"
-#include "measurement/timing.hpp"
+#include "measurement/laboratory/timing.hpp"
+#include "measurement/noise/third_differences.hpp"
+#include "measurement/predict/bench.hpp"
 #include "study/between_samples.hpp"
 #include "study/import_text.hpp"
 

@@ -17,7 +17,7 @@ struct Imported {
 
 // Floor and response are interpolated linearly to the same times, from the later start to the earlier end, in steps of
 // sampling_dt_s. Where the clock of the response is not given, its offset is that in which floor and slip go together
-// (measurement/timing.hpp), looked for within half a second, and known to about a step. Noise that is not given is taken from the quiet parts.
+// (measurement/laboratory/timing.hpp), looked for within half a second, and known to about a step. Noise that is not given is taken from the quiet parts.
 // Throws Error (Exit::data): a file that cannot be read, a column that is not there, times that do not rise, no common time.
 Imported import_laboratory(const Laboratory&);
 

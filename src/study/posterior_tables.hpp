@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "measurement/posterior.hpp"
+#include "measurement/fit/posterior.hpp"
 #include "study/problems.hpp"
 
 namespace freestand::study {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "measurement/dataset.hpp"
+#include "measurement/data/dataset.hpp"
 
 namespace freestand::study {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "base/units.hpp"
-#include "measurement/test_file.hpp"
+#include "measurement/data/test_file.hpp"
 #include "motion/component.hpp"
 #include "motion/pulse.hpp"
 #include "motion/record.hpp"

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "measurement/dataset.hpp"
+#include "measurement/data/dataset.hpp"
 #include "study/section.hpp"
 
 namespace freestand::study {

@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
-#include "measurement/dataset.hpp"
-#include "measurement/model.hpp"
+#include "measurement/data/dataset.hpp"
+#include "measurement/predict/model.hpp"
 #include "study/study.hpp"
 
 namespace freestand::study {

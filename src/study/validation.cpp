@@ -8,10 +8,10 @@
 #include <span>
 
 #include "io/provenance.hpp"
-#include "measurement/diagnose_outcomes.hpp"
-#include "measurement/findings.hpp"
-#include "measurement/grown_fit.hpp"
-#include "measurement/outcome_fit.hpp"
+#include "measurement/fit/grown_fit.hpp"
+#include "measurement/fit/outcome_fit.hpp"
+#include "measurement/tell/findings.hpp"
+#include "measurement/verdict/diagnose_outcomes.hpp"
 #include "study/problems.hpp"
 #include "study/read_measurements.hpp"
 #include "study/read_parts.hpp"

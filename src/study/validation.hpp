@@ -62,8 +62,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "measurement/compare.hpp"
-#include "measurement/diagnose.hpp"
+#include "measurement/tell/compare.hpp"
+#include "measurement/verdict/diagnose.hpp"
 #include "parallel/communicator.hpp"
 #include "study/read_validation.hpp"
 #include "study/run_folder.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "measurement/posterior.hpp"
+#include "measurement/fit/posterior.hpp"
 #include "study/validation.hpp"
 
 namespace freestand::study {

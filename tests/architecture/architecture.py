@@ -36,6 +36,7 @@ class Module:
     name: str
     links: frozenset   # names of modules and packages, as declared
     registry: bool = False
+    rooms: tuple = ()  # folders within it, in the order of use: each sees those before it and what lies beside them, which sees none
 
 
 def modules(root):
@@ -43,8 +44,9 @@ def modules(root):
     text = re.sub(r"#.*", "", (root / "CMakeLists.txt").read_text(encoding="utf-8"))
     found = {}
     for body in re.findall(r"freestand_module\(([^)]*)\)", text):
-        words = body.split()
-        found[words[0]] = Module(words[0], frozenset(words[1:]) - {"LINKS", "REGISTRY", "ALONE"}, "REGISTRY" in words)
+        links, _, rooms = body.partition(" ROOMS ")
+        words = links.split()
+        found[words[0]] = Module(words[0], frozenset(words[1:]) - {"LINKS", "REGISTRY", "ALONE"}, "REGISTRY" in words, tuple(rooms.split()))
     for body in re.findall(r"freestand_program\(([^)]*)\)", text):
         words = body.split()
         folder = pathlib.PurePosixPath(words[1]).name
@@ -92,7 +94,8 @@ def include_problems(root):
         text = file.read_text(encoding="utf-8")
         for match in INCLUDE.finditer(text):
             line = text.count("\n", 0, match.start(2)) + 1
-            problem = _include_problem(root, graph, module, match.group(1), match.group(2))
+            problem = (_include_problem(root, graph, module, match.group(1), match.group(2))
+                       or _room_problem(graph.get(module), file.relative_to(root).parts[2:-1], match.group(2).split("/")))
             if problem:
                 found.append(f"{file.relative_to(root)}:{line}: {problem}")
     return found
@@ -121,6 +124,20 @@ def _include_problem(root, graph, module, bracket, header):
         return f'{module} includes "{header}" but CMakeLists.txt does not let it see {other}'
     if other == "effects" and module in PHYSICS:
         return f'{module} includes "{header}": no physics module may see effects'
+    return None
+
+
+def _room_problem(module, within, header):
+    """What is wrong with what a room of a module includes of another room, or None."""
+    if not module or not module.rooms or header[0] != module.name:
+        return None
+    rooms = ("", *module.rooms)
+    room, other = "/".join(within), "/".join(header[1:-1])
+    for name in (room, other):
+        if name not in rooms:
+            return f"{module.name}/{name} is none of its ROOMS in CMakeLists.txt"
+    if rooms.index(other) > rooms.index(room):
+        return f'{room or module.name} includes "{"/".join(header)}": {other} comes after it'
     return None
 
 

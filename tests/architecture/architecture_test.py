@@ -54,6 +54,15 @@ class Planted(unittest.TestCase):
         for needle in needles:
             self.assertIn(needle, found[0])
 
+    def test_rooms_see_those_before_them(self):
+        module = {"CMakeLists.txt": CMAKE + "freestand_module(measurement LINKS base ROOMS data fit)\n", "src/measurement/search.hpp": "#include <span>\n",
+                  "src/measurement/data/dataset.hpp": '#include "measurement/search.hpp"\n',
+                  "src/measurement/fit/judge.hpp": '#include "measurement/data/dataset.hpp"\n'}
+        self.assertEqual(self.problems(planted=module), [])
+        self.expect({**module, "src/measurement/data/early.hpp": '#include "measurement/fit/judge.hpp"\n'}, "early.hpp", "fit comes after it")
+        self.expect({**module, "src/measurement/levels.hpp": '#include "measurement/data/dataset.hpp"\n'}, "levels.hpp", "data comes after it")
+        self.expect({**module, "src/measurement/attic/old.hpp": '#include "measurement/search.hpp"\n'}, "old.hpp", "attic", "none of its ROOMS")
+
     def test_the_judge_shares_nothing_with_the_kernel(self):
         self.expect({"tests/support/floor.hpp": '#include "dynamics/step.hpp"\n'}, "tests/support/floor.hpp", "dynamics/step.hpp", "shares nothing")
         self.expect({"tests/hidden_effect/generator.cpp": '#include "effects/x.hpp"\n'}, "tests/hidden_effect/generator.cpp", "effects/x.hpp")

@@ -7,7 +7,7 @@
 #include "base/jobs.hpp"
 #include "effects/effects.hpp"
 #include "hidden_effect/make_set.hpp"
-#include "measurement/diagnose.hpp"
+#include "measurement/verdict/diagnose.hpp"
 #include "study/read_measurements.hpp"
 #include "support/free_friction.hpp"
 #include "support/scratch.hpp"

@@ -1,13 +1,13 @@
 // Chance where only peaks are known, against sets that are made many times.
-#include "measurement/chance_of_peaks.hpp"
+#include "measurement/verdict/chance_of_peaks.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "effects/effects.hpp"
+#include "measurement/fit/posterior.hpp"
 #include "measurement/made_tests.hpp"
-#include "measurement/posterior.hpp"
 #include "support/keyed_random.hpp"
 #include "support/repeats.hpp"
 

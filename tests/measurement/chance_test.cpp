@@ -1,12 +1,12 @@
 // What chance does, against data that are made many times: the size of the tests, and that they see what is there.
-#include "measurement/chance.hpp"
+#include "measurement/verdict/chance.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "effects/effects.hpp"
-#include "measurement/least_squares.hpp"
+#include "measurement/fit/least_squares.hpp"
 #include "measurement/made_tests.hpp"
 #include "support/repeats.hpp"
 

@@ -1,5 +1,5 @@
 // From fitted candidates to a verdict, on candidates whose errors are given.
-#include "measurement/decide.hpp"
+#include "measurement/verdict/decide.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "effects/effects.hpp"
-#include "measurement/laboratory.hpp"
+#include "measurement/laboratory/laboratory.hpp"
 #include "measurement/made_candidates.hpp"
 
 namespace freestand::measurement {

@@ -1,11 +1,11 @@
 // What compare says in plain sentences, of sets whose answer is known.
-#include "measurement/findings.hpp"
+#include "measurement/tell/findings.hpp"
 
 #include <gmock/gmock.h>
 
 #include "effects/effects.hpp"
-#include "measurement/compare.hpp"
 #include "measurement/made_tests.hpp"
+#include "measurement/tell/compare.hpp"
 
 namespace freestand::measurement {
 namespace {

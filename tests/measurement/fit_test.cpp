@@ -1,12 +1,12 @@
 // Fits: minimisers on known functions, folds, scores in closed form, numbers that are found again.
-#include "measurement/fit.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "measurement/fit/model_fit.hpp"
 #include "measurement/made_tests.hpp"
-#include "measurement/model_fit.hpp"
+#include "measurement/noise/third_differences.hpp"
+#include "measurement/search.hpp"
 
 namespace freestand::measurement {
 namespace {

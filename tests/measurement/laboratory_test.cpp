@@ -1,5 +1,5 @@
 // Faults of the laboratory instead of effects.
-#include "measurement/laboratory.hpp"
+#include "measurement/laboratory/laboratory.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "base/units.hpp"
-#include "measurement/least_squares.hpp"
+#include "measurement/fit/least_squares.hpp"
+#include "measurement/fit/own_numbers.hpp"
 #include "measurement/made_tests.hpp"
-#include "measurement/own_numbers.hpp"
 
 namespace freestand::measurement {
 namespace {

@@ -1,12 +1,12 @@
 // A law of no catalogue, found by tests left out, and not proposed where it does not earn its numbers.
-#include "measurement/law_search.hpp"
+#include "measurement/verdict/law_search.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-#include "measurement/least_squares.hpp"
-#include "measurement/left_out.hpp"
+#include "measurement/fit/least_squares.hpp"
+#include "measurement/fit/left_out.hpp"
 #include "measurement/made_tests.hpp"
 
 namespace freestand::measurement {

@@ -1,5 +1,5 @@
 // The end of a fit: out of bent valleys, and by the covariance of the floor's noise.
-#include "measurement/least_squares.hpp"
+#include "measurement/fit/least_squares.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 
 #include "base/random.hpp"
 #include "effects/effects.hpp"
-#include "measurement/findings.hpp"
 #include "measurement/made_tests.hpp"
+#include "measurement/tell/findings.hpp"
 
 namespace freestand::measurement::least_squares_test {
 namespace {

@@ -1,11 +1,11 @@
 // What is left out, or held out, reaches nothing of a fit.
-#include "measurement/left_out.hpp"
+#include "measurement/fit/left_out.hpp"
 
 #include <gtest/gtest.h>
 
 #include "effects/effects.hpp"
-#include "measurement/diagnose.hpp"
 #include "measurement/made_tests.hpp"
+#include "measurement/verdict/diagnose.hpp"
 
 namespace freestand::measurement {
 namespace {

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measurement/decide.hpp"
 #include "measurement/made_tests.hpp"
+#include "measurement/verdict/decide.hpp"
 
 namespace freestand::measurement {
 

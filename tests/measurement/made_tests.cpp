@@ -5,7 +5,7 @@
 
 #include "base/random.hpp"
 #include "effects/effects.hpp"
-#include "measurement/least_squares.hpp"
+#include "measurement/fit/least_squares.hpp"
 #include "support/keyed_random.hpp"
 
 namespace freestand::test {

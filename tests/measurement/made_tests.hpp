@@ -5,8 +5,8 @@
 
 #include <freestand/simulate.hpp>
 
-#include "measurement/bench.hpp"
-#include "measurement/model_fit.hpp"
+#include "measurement/fit/model_fit.hpp"
+#include "measurement/predict/bench.hpp"
 #include "support/free_friction.hpp"
 
 namespace freestand::test {

@@ -10,9 +10,9 @@
 
 #include "base/random.hpp"
 #include "effects/effects.hpp"
-#include "measurement/diagnose_outcomes.hpp"
-#include "measurement/outcome_screen.hpp"
-#include "measurement/suggest_outcomes.hpp"
+#include "measurement/tell/suggest_outcomes.hpp"
+#include "measurement/verdict/diagnose_outcomes.hpp"
+#include "measurement/verdict/outcome_screen.hpp"
 
 namespace freestand::measurement {
 namespace {

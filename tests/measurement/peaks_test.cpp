@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "measurement/fit/model_fit.hpp"
 #include "measurement/made_tests.hpp"
-#include "measurement/model_fit.hpp"
 
 namespace freestand::measurement {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include "measurement/compare.hpp"
 #include "measurement/made_tests.hpp"
+#include "measurement/tell/compare.hpp"
 
 namespace freestand::measurement {
 namespace {

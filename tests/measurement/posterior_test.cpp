@@ -1,5 +1,5 @@
 // What the tests leave open of the numbers: intervals against the truth, over sets that are made many times.
-#include "measurement/posterior.hpp"
+#include "measurement/fit/posterior.hpp"
 
 #include <gtest/gtest.h>
 

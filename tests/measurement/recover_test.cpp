@@ -1,5 +1,5 @@
 // Friction recovered from the motion alone.
-#include "measurement/recover.hpp"
+#include "measurement/tell/recover.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The noise of sensors, from series made with noise that is known.
-#include "measurement/sensor.hpp"
+#include "measurement/noise/sensor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <numeric>
 
 #include "base/units.hpp"
+#include "measurement/data/resolution.hpp"
+#include "measurement/laboratory/plausible.hpp"
 #include "measurement/made_tests.hpp"
-#include "measurement/plausible.hpp"
-#include "measurement/quiet.hpp"
-#include "measurement/resolution.hpp"
+#include "measurement/noise/quiet.hpp"
 #include "support/keyed_random.hpp"
 #include "support/repeats.hpp"
 

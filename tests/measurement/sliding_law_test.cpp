@@ -1,5 +1,5 @@
 // The friction that the laws of a model amount to, against what is recovered from histories of a block that has them.
-#include "measurement/sliding_law.hpp"
+#include "measurement/predict/sliding_law.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "effects/effects.hpp"
 #include "measurement/made_tests.hpp"
-#include "measurement/recover.hpp"
+#include "measurement/tell/recover.hpp"
 
 namespace freestand::measurement {
 namespace {

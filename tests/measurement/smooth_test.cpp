@@ -1,5 +1,5 @@
 // Quadratics fitted to samples: exact on quadratics, and as noisy as the weights say.
-#include "measurement/smooth.hpp"
+#include "measurement/data/smooth.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Which effects tests can see, and from where.
-#include "measurement/starts.hpp"
+#include "measurement/fit/starts.hpp"
 
 #include <gtest/gtest.h>
 

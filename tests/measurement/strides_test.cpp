@@ -1,13 +1,13 @@
 // Errors second by second, and fits that find in by them.
-#include "measurement/strides.hpp"
+#include "measurement/fit/strides.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "effects/effects.hpp"
+#include "measurement/fit/starts.hpp"
 #include "measurement/made_tests.hpp"
-#include "measurement/starts.hpp"
 
 namespace freestand::measurement {
 namespace {

@@ -1,5 +1,5 @@
 // The csv of one measured test: what is read, what is refused, what is left unread.
-#include "measurement/test_file.hpp"
+#include "measurement/data/test_file.hpp"
 
 #include <gmock/gmock.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <freestand/error.hpp>
 #include <fstream>
 
-#include "measurement/bench.hpp"
-#include "measurement/plausible.hpp"
+#include "measurement/laboratory/plausible.hpp"
+#include "measurement/predict/bench.hpp"
 
 namespace freestand::measurement {
 namespace {

@@ -1,11 +1,11 @@
 // Sign and clock of a slip channel, found without a model, and what examine() says of them.
-#include "measurement/timing.hpp"
+#include "measurement/laboratory/timing.hpp"
 
 #include <gmock/gmock.h>
 
+#include "measurement/laboratory/plausible.hpp"
+#include "measurement/laboratory/quality.hpp"
 #include "measurement/made_tests.hpp"
-#include "measurement/plausible.hpp"
-#include "measurement/quality.hpp"
 
 namespace freestand::measurement::timing_test {
 namespace {

@@ -10,7 +10,7 @@
 #include "io/fragility_file.hpp"
 #include "io/samples_file.hpp"
 #include "io/tally_file.hpp"
-#include "measurement/test_file.hpp"
+#include "measurement/data/test_file.hpp"
 #include "motion/record.hpp"
 #include "motion/record_table.hpp"
 #include "parallel/block_log.hpp"

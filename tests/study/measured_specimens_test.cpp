@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "measurement/model.hpp"
+#include "measurement/predict/model.hpp"
 #include "study/read_measurements.hpp"
 #include "study/read_validation.hpp"
 #include "support/error_text.hpp"

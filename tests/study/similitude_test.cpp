@@ -10,7 +10,7 @@
 #include <numbers>
 
 #include "intensity/intensity.hpp"
-#include "measurement/dataset.hpp"
+#include "measurement/data/dataset.hpp"
 #include "motion/peaks.hpp"
 #include "motion/spectrum.hpp"
 #include "study/intensities.hpp"

@@ -1,7 +1,7 @@
 // The model that tests of fits and verdicts begin with.
 #pragma once
 
-#include "measurement/model.hpp"
+#include "measurement/predict/model.hpp"
 
 namespace freestand::test {
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measurement/compare.hpp"
-#include "measurement/diagnose_outcomes.hpp"
-#include "measurement/outcome_fit.hpp"
+#include "measurement/fit/outcome_fit.hpp"
+#include "measurement/tell/compare.hpp"
+#include "measurement/verdict/diagnose_outcomes.hpp"
 #include "study/read_measurements.hpp"
 #include "study/read_validation.hpp"
 #include "support/data.hpp"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <sstream>
 
-#include "measurement/compare.hpp"
+#include "measurement/tell/compare.hpp"
 #include "study/read_measurements.hpp"
 #include "study/read_validation.hpp"
 

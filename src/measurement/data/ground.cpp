@@ -1,0 +1,22 @@
+#include "measurement/data/ground.hpp"
+
+namespace freestand::measurement {
+
+double floor_acceleration_mps2(const Test& test, std::size_t sample) {
+  return horizontal_acceleration(test.shaking(), static_cast<double>(sample) * test.dt_s);
+}
+
+std::vector<double> floor_displacement(const Test& test) {
+  std::vector<double> d(test.slip_m.size());
+  double velocity = 0;
+  for (std::size_t i = 1; i < d.size(); ++i) {
+    const double t = static_cast<double>(i - 1) * test.dt_s;
+    const double a0 = horizontal_acceleration(test.shaking(), t);
+    const double a1 = horizontal_acceleration(test.shaking(), t + test.dt_s);
+    d[i] = d[i - 1] + test.dt_s * velocity + test.dt_s * test.dt_s * (2 * a0 + a1) / 6;
+    velocity += test.dt_s * (a0 + a1) / 2;
+  }
+  return d;
+}
+
+}  // namespace freestand::measurement

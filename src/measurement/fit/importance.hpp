@@ -1,0 +1,19 @@
+// Points drawn by importance: see posterior.hpp.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "measurement/fit/posterior.hpp"
+
+namespace freestand::measurement {
+
+// G of points, all at once; an empty point has none.
+using Misfits = std::function<std::vector<double>(const std::vector<Values>&)>;
+
+// Fills of_mean, counted and better of a posterior whose dispersion and freedom are known. covariance: of the first points about the
+// fit and the step from there, in the cube in which fits move.
+void draw_by_importance(const ModelFit&, const Eigen::VectorXd& step, const Eigen::MatrixXd& covariance, const Misfits&,
+                        Posterior&);
+
+}  // namespace freestand::measurement

@@ -1,0 +1,47 @@
+// Fits to tests that say only whether the specimen overturned. The score (Brier's) of such tests is a flight of steps in
+// most numbers, and each step costs thousands of samples. So outcomes are tabulated (outcome_table.hpp) at points that
+// close in on the best: first over the whole range on coarse places, then twice over the box of the best points so far.
+// Everything else is read off the last table: the fit to all tests; predictions for tests left out, the mean over fits to
+// the other folds, resampled (bagging), as one fit alone jumps where one sample falls that stood before; and 95 % intervals,
+// that hold the fits to tests drawn with replacement (bootstrap) and all points that are worse by no more than chance: the
+// curvature of a flight of steps would say nothing.
+#pragma once
+
+#include "measurement/fit/outcome_table.hpp"
+
+namespace freestand::measurement {
+
+struct OutcomeEffort {
+  std::size_t wide = 16, near = 12, nearest = 8;  // points of the three rounds, times the count of other numbers
+  std::size_t most = 40;                          // points of a round
+  std::size_t resamples = 200;
+  std::size_t seen_tests = 24, screened_tests = 60;  // with which effects are looked at before they are fitted
+};
+
+// Adds points of the fit without the effect, to all tests and with folds left out, with the effect at nothing: with it no
+// fit is worse than without.
+void add_plain_points(OutcomeTable&, const ModelFit& without);
+
+// Adds Sobol points of those numbers in the box, the rest as in x. No numbers: x alone, once.
+void add_points(OutcomeTable&, const std::vector<Free>& box, const std::vector<std::size_t>& numbers, const Values& x,
+                std::size_t count);
+
+// Does an effect go sample by sample, some tens of times slower than in packs? Then points are fewer, and places twice as
+// far apart.
+bool is_slow(const OutcomeTable&);
+
+// Do all calibration tests say no more than whether the specimen overturned?
+bool outcomes_only(const Dataset&);
+
+// The model fitted to the calibration tests, complete: errors, folds, intervals. start: a point to begin with; may be
+// empty.
+ModelFit fit_outcomes(const Bench&, const ModelSpec&, const Values& start, const OutcomeEffort&, const Jobs&);
+
+// Models with one more effect each, from their coarse tables on (outcome_screen.hpp). `without`: fitted.
+std::vector<ModelFit> fit_outcomes(const Bench&, const ModelFit& without, const std::vector<OutcomeTable*>& coarse,
+                                   const OutcomeEffort&, const Jobs&);
+
+// At the best point of each table, on all calibration tests, without folds and intervals; left-out errors are nan.
+std::vector<ModelFit> read_outcomes(const Bench&, const std::vector<OutcomeTable*>& coarse, const Jobs&);
+
+}  // namespace freestand::measurement

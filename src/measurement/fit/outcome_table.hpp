@@ -1,0 +1,67 @@
+// Outcomes of a model at many points of its numbers, for all places of the specimen (placements.hpp). From such a table a
+// fit to any choice of tests is read off without computing an outcome again: the least Brier score over the points, and
+// over middle and scatter of the placements, in which it is smooth. So folds and resampled tests cost nothing.
+#pragma once
+
+#include "measurement/fit/model_fit.hpp"
+#include "measurement/predict/placements.hpp"
+
+namespace freestand::measurement {
+
+struct TablePoint {
+  Values x;                                  // of the free numbers; those of the placements are of no account
+  bool plain = false;                        // of the model without its last effect
+  std::vector<std::uint64_t> outcomes = {};  // of the tests of the table; empty: not yet computed
+};
+
+struct OutcomeTable {
+  ModelSpec model, without;  // without: the last effect; the same numbers in front
+  std::vector<std::size_t> tests;
+  Places places = {};
+  std::vector<TablePoint> points = {};
+};
+
+// Fills what is not yet computed, in jobs of one point and a part of the tests.
+void compute(const Bench&, const std::vector<OutcomeTable*>&, const std::string& what, const Jobs&);
+
+struct TableFit {
+  std::size_t point = 0;
+  Values x;  // with middle and scatter of the placements
+  double score = 0;
+  std::vector<double> probability = {};  // of each test of the table
+};
+
+class TableSearch {
+ public:
+  // Of all points, or of the plain ones alone. Keeps a reference to the table.
+  TableSearch(const Bench&, const OutcomeTable&, bool plain_only = false);
+
+  // Least mean score with these weights of the tests; all alike where empty. Of rows with the same score, which may be many where few tests
+  // say little, the one at that share of them.
+  TableFit best(const std::vector<double>& weight = {}, double among = 0) const;
+  // Least score of each point of the table over middle and scatter, all tests alike; infinite where it was left out.
+  std::vector<double> scores() const;
+  // Of each number, from all points whose scores are worse than those of the fit by no more than chance: by their paired
+  // difference over the tests and its standard error, at 95 %.
+  std::vector<Interval> seen_within_chance(const TableFit&) const;
+  // Out to what is certainly worse. Middle and scatter: to the next row.
+  // The n points of the table spread over d other numbers, so that a slab that they are sure to have seen from all sides holds
+  // n^(1-1/d) of them: as many points further. What is open where the table ends is open as far as is known (of each number;
+  // empty: to the end of its range).
+  std::vector<Interval> within_chance(const TableFit&, const std::vector<Interval>& known = {}) const;
+  // Of each test, at a point with the middle and scatter of x.
+  std::vector<double> probabilities(std::size_t point, const Values& x) const;
+
+ private:
+  struct Row {
+    std::size_t point;
+    double middle, scatter;
+  };
+  Values placed(const Row&) const;
+  const OutcomeTable& table_;
+  std::vector<double> overturned_;  // 0 or 1, of each test
+  std::vector<Row> rows_;
+  std::vector<float> probability_;  // [row][test]
+};
+
+}  // namespace freestand::measurement

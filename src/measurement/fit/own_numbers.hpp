@@ -1,0 +1,24 @@
+// Does friction differ from test to test, or the clock of the responses? The model with a number of its own in each
+// calibration test: a factor on its friction, or the time by which its responses run behind the floor's channel [s].
+#pragma once
+
+#include "measurement/fit/judge.hpp"
+
+namespace freestand::measurement {
+
+struct OwnNumbers {
+  std::vector<double> of_tests;  // of each calibration test
+  double scatter = 0;            // standard deviation: of the factors' logarithms, of the times
+  double misfit = 0;             // G with them, summed over the tests
+  double worst = 0;              // the largest G of a test over its samples
+  bool at_end = false;           // one ends where it was sought no further
+};
+
+OwnNumbers own_friction(const Bench&, const Judge&, const ModelFit&, const Jobs&);
+OwnNumbers own_clocks(const Bench&, const Judge&, const ModelFit&, const Jobs&);
+
+// Do they explain the tests, each of them, where the best of all other models leaves least_misfit over so many samples? By more than
+// the largest gain that so many numbers make by chance. (One test in another unit is no friction that differs.)
+bool explain_tests(const OwnNumbers&, double samples, double least_misfit);
+
+}  // namespace freestand::measurement

@@ -1,0 +1,226 @@
+#include "measurement/fit/posterior.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/random.hpp"
+#include "measurement/fit/importance.hpp"
+#include "measurement/fit/least_squares.hpp"
+#include "measurement/fit/test_pulls.hpp"
+#include "measurement/predict/placements.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The rows as another test would have them: its own friction, and its own placement of the specimen.
+void leave_the_mean(const ModelFit& fit, Posterior& out) {
+  std::sort(out.of_mean.begin(), out.of_mean.end());
+  out.draws = out.of_mean;
+  const int placed = placement_number(fit.model);
+  for (std::size_t s = 0; s < out.draws.size(); ++s) {
+    Values& x = out.draws[s];
+    const double friction = std::exp(out.friction_scatter * random::standard_normal(39, s, 0));
+    const double aside = placement_scatter(fit.model, x) * random::standard_normal(39, s, 1);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (is_friction(fit.model.free[k])) x[k] *= friction;
+      if (static_cast<int>(k) == placed) x[k] = placed_at(fit.model, std::log(x[k]) + aside);
+    }
+  }
+}
+
+Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
+  Posterior out;
+  const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
+  const OwnShifts own(bench, judge, fit);
+  std::vector<double> shifts;
+  for (const Values& best :
+       jobs("friction of each test", own.count(), [&](std::size_t i) { return Values{own.best(i)}; }))
+    shifts.push_back(best[0]);
+  std::vector<Pull> pulls = pulls_of(own, shifts, jobs);
+  out.friction_scatter = friction_scatter(pulls);
+  const double tau2 = out.friction_scatter * out.friction_scatter;
+  if (tau2 == 0) {
+    shifts.assign(own.count(), 0);
+    pulls = pulls_of(own, shifts, jobs);
+  }
+  const Dispersion found = dispersion_of(pulls, tau2);
+  out.dispersion = found.s;
+  out.freedom = found.freedom;
+  // The directions of friction, which the numbers hardly change.
+  std::vector<MatrixXd> friction;
+  for (std::size_t i = 0; i < own.count() && tau2 > 0; ++i) friction.push_back(own.slopes(i, shifts[i]).rightCols(1));
+  const Values& x = fit.x;
+  const Misfits misfits = [&](const std::vector<Values>& points) {
+    const auto answers = jobs("draws of the numbers", points.size(), [&](std::size_t s) {
+      if (points[s].empty()) return Values{no_fit};
+      double moved = 0;  // of ln mu
+      for (std::size_t k = 0; k < x.size(); ++k)
+        if (is_friction(fit.model.free[k])) moved = std::log(points[s][k] / x[k]);
+      double G = 0;
+      for (std::size_t i = 0; i < own.count(); ++i) {
+        // With the test's own friction held, and from there the shift that is likeliest, along its direction. What else the numbers do
+        // the test's friction makes up for, by more than its direction holds for: so from there once more.
+        double shift = tau2 > 0 ? shifts[i] - moved : 0, of_test = 0;
+        for (int turn = 0; turn < 2; ++turn) {
+          const Prediction at = own.at(i, points[s], shift);
+          if (at.failed()) return Values{no_fit};
+          MatrixXd r = judge.residual(i, at);
+          if (tau2 > 0) {
+            r.conservativeResize(Eigen::NoChange, 2);
+            r.col(1) = friction[i];
+          }
+          const VectorXd against = judge.against(i, r, r.col(0));
+          of_test = against[0];
+          if (tau2 == 0) break;
+          const double ff = pulls[i].gram.bottomRightCorner<1, 1>()(0),
+                       fr = against[1] - shift * ff;  // at a shift of 0
+          of_test += shift * shift * ff - 2 * shift * against[1] - tau2 * fr * fr / (1 + tau2 * ff);
+          shift = -tau2 * fr / (1 + tau2 * ff);
+        }
+        G += of_test;
+      }
+      return Values{G};
+    });
+    std::vector<double> G;
+    for (const Values& answer : answers) G.push_back(answer[0]);
+    return G;
+  };
+  const Pull sum = sum_of(pulls, tau2);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(sum.gram);
+  // No number is proposed wider than its range.
+  const VectorXd rates = solved.eigenvalues().cwiseMax(out.dispersion * out.dispersion);
+  const MatrixXd inverse =
+      solved.eigenvectors() * rates.cwiseInverse().asDiagonal() * solved.eigenvectors().transpose();
+  // The fit knows one friction of all tests: where each has its own, other numbers are likelier.
+  draw_by_importance(fit, -inverse * sum.against, out.dispersion * out.dispersion * inverse, misfits, out);
+  return out;
+}
+
+// Of the tests that slipped, measured and computed. The mean is known to s/sqrt(n): another test lies about it by s sqrt(1 + 1/n).
+void measure_discrepancy(const Bench& bench, const ModelFit& fit, const std::vector<std::size_t>& tests,
+                         Posterior& out) {
+  std::vector<double> ln;
+  for (const std::size_t i : tests) {
+    const double measured = std::abs(bench.test(i).peaks.peak_slip_m.value_or(0));
+    const Prediction model = predict(fit.model, bench.test(i), fit.x);
+    const double least = least_motion(bench, Channel::slip);
+    if (measured > least && !model.failed() && model.response.peak_slip_m > least &&
+        peaks_compare(bench.test(i), model.response))
+      ln.push_back(std::log(measured / model.response.peak_slip_m));
+  }
+  const double n = static_cast<double>(ln.size()),
+               freedom = n - static_cast<double>(std::max<std::size_t>(fit.x.size(), 1));
+  if (freedom < 1) return;
+  out.slip_bias_ln = std::accumulate(ln.begin(), ln.end(), 0.0) / n;
+  double square = 0;
+  for (const double l : ln) square += std::pow(l - out.slip_bias_ln, 2);
+  out.slip_scatter_ln = std::sqrt(square / freedom * (1 + 1 / n));
+}
+
+Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
+  Posterior out;
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const double n = static_cast<double>(tests.size()), p = static_cast<double>(fit.x.size());
+  const Misfits misfits = [&](const std::vector<Values>& points) {
+    const auto answers = jobs("draws of the numbers", points.size(), [&](std::size_t s) {
+      return Values{points[s].empty() ? no_fit : n * mean_score(bench, tests, fit.model, points[s])};
+    });
+    std::vector<double> G;
+    for (const Values& answer : answers) G.push_back(answer[0]);
+    return G;
+  };
+  out.freedom = n - p;
+  measure_discrepancy(bench, fit, tests, out);
+  if (out.freedom < 1 || fit.x.empty()) return out;
+  out.dispersion = std::sqrt(misfits({fit.x}).front() / out.freedom);
+  MatrixXd covariance = MatrixXd::Identity(static_cast<Index>(p), static_cast<Index>(p));
+  for (std::size_t k = 0; k < fit.x.size(); ++k) {
+    const Free& free = fit.model.free[k];
+    const bool known = k < fit.intervals.size() && fit.intervals[k].lower < fit.intervals[k].upper;
+    const double width = known ? to_unit(free, fit.intervals[k].upper) - to_unit(free, fit.intervals[k].lower) : 1.0;
+    covariance(static_cast<Index>(k), static_cast<Index>(k)) = std::pow(width / 4, 2);
+  }
+  draw_by_importance(fit, VectorXd::Zero(static_cast<Index>(p)), covariance, misfits, out);
+  return out;
+}
+
+}  // namespace
+
+Interval Posterior::interval(std::size_t number, double level, std::optional<double> held) const {
+  std::vector<double> values;
+  for (const Values& row : of_mean) values.push_back(row[number]);
+  std::sort(values.begin(), values.end());
+  const auto count = static_cast<double>(values.size());
+  double below = (1 - level) / 2, above = below;  // shares left out
+  if (held) {
+    const auto [from, to] = std::equal_range(values.begin(), values.end(), *held);
+    const double least = static_cast<double>(from - values.begin()) / count,
+                 most = static_cast<double>(values.end() - to) / count;
+    if (least < below)
+      below = least, above = 1 - level - least;
+    else if (most < above)
+      above = most, below = 1 - level - most;
+  }
+  const auto at = [&](double share) {
+    const double place = std::clamp(share * count - 0.5, 0.0, count - 1);
+    const auto below = static_cast<std::size_t>(place);
+    const double above = values[std::min(below + 1, values.size() - 1)];
+    return values[below] + (place - static_cast<double>(below)) * (above - values[below]);
+  };
+  const Interval interval{at(below), at(1 - above)};
+  return held ? Interval{std::min(interval.lower, *held), std::max(interval.upper, *held)} : interval;
+}
+
+Interval interval_of(const Posterior& open, const ModelFit& fit, std::size_t number, double level) {
+  const bool allowed = fit.evaluations > 0 || open.better.empty();
+  return open.interval(number, level, allowed ? std::optional(fit.x[number]) : std::nullopt);
+}
+
+bool take_intervals(const Posterior& open, ModelFit& fit) {
+  if (open.of_mean.empty()) return false;
+  for (fit.intervals.clear(); fit.intervals.size() < fit.x.size();)
+    fit.intervals.push_back(interval_of(open, fit, fit.intervals.size(), 0.95));
+  return true;
+}
+
+Posterior posterior(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
+  Posterior out;
+  const Kind kind = kind_of_set(bench);
+  if (tests_of(bench.data(), Role::calibration).empty() || (fit.x.empty() && kind != Kind::peaks)) return out;
+  switch (kind) {
+    case Kind::history:
+      out = of_histories(bench, fit, jobs);
+      break;
+    case Kind::peaks:
+      out = of_peaks(bench, fit, jobs);
+      break;
+    case Kind::outcome:
+      out.of_mean = fit.resampled;
+      break;
+  }
+  leave_the_mean(fit, out);
+  return out;
+}
+
+Posterior open_numbers(const Bench& bench, ModelFit& fit, const Jobs& jobs) {
+  constexpr int most_restarts = 3;
+  Posterior open = posterior(bench, fit, jobs);
+  for (int restart = 0; restart < most_restarts && !open.better.empty() && fit.evaluations > 0; ++restart) {
+    ModelFit from_there = fit;
+    from_there.x = open.better;
+    settle(bench, from_there, Effort{}, jobs);
+    if (!(from_there.score < fit.score)) break;
+    fit = std::move(from_there);
+    open = posterior(bench, fit, jobs);
+  }
+  if (kind_of_set(bench) != Kind::outcome) take_intervals(open, fit);
+  return open;
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,65 @@
+// What the calibration tests leave open of a fit: joint draws of its numbers.
+//
+// Histories. G(x) is the misfit by the noise of sensors and floor (judge.hpp). How far the tests disagree beyond that noise is
+// seen in their pulls g_i = J_i^T C_i^-1 r_i on the numbers at the fit, J_i being derivatives, H_i = J_i^T C_i^-1 J_i, H = sum H_i:
+//
+//   s^2 = sum g_i^T H^-1 g_i / trace V,   nu = (trace V)^2 / trace V^2,   V_ij = d_ij K_i - K_i K_j,  K_i = H^-1/2 H_i H^-1/2
+//
+// (V is their covariance where s = 1; nu, after Satterthwaite, is p (n - 1) of n tests that say equally much of p numbers). Then
+// the numbers have Student's density, flat before in the unit cube in which fits move (to_unit: logarithms where they span much):
+//
+//   p(x) ~ (1 + (G(x) - G(fit)) / (nu s^2))^-(nu + p)/2
+//
+// Friction may differ from test to test: the standard deviation tau of its logarithm is estimated by restricted likelihood (each test
+// has a direction f_i = d history/d ln mu beside the floor's replays in C_i), and kept where its absence has a p value below 5 %.
+// A draw is then the friction of another test: the mean's, times exp(tau z).
+//
+// Peaks: G is the sum of the tests' scores, s^2 = G(fit)/(n - p), nu = n - p. Outcomes: the fits to resampled tests.
+//
+// Drawn by importance: points from a Student's density with five degrees of freedom, and one in ten from anywhere; the density is
+// fitted to their weights and drawn from again, until three in ten count and none of its tails is needed. Samples that the floor's
+// noise fans out say nothing (judge.hpp).
+#pragma once
+
+#include <optional>
+
+#include "measurement/fit/judge.hpp"
+
+namespace freestand::measurement {
+
+struct Posterior {
+  std::vector<Values>
+      draws;  // as ModelFit::x, by the first number; friction and placement of another test. Empty: none
+  std::vector<Values> of_mean;  // the same rows with the mean friction, or the middle of the placements
+  double dispersion = 1;        // s
+  double freedom = 0;           // nu; 0: one test alone, where s = 1 is taken
+  double friction_scatter = 0;  // tau
+  // Peaks: ln(measured/model) of another test's peak slip beside the draws: its mean and standard deviation; 0: not known.
+  double slip_bias_ln = 0, slip_scatter_ln = 0;
+  Values better = {};  // numbers that fit the tests better than the fit does, beyond chance; empty: none were met
+  // Share of the points that count: (sum w)^2/(n sum w^2). 0: G is so rough that too few do, and the draws are those of derivatives at the fit.
+  double counted = 1;
+  // Of one number: the values that a share of (1 - level)/2 of the draws lies beyond on either side. Where `held` lies beyond one
+  // of them the interval begins there, and leaves the whole 1 - level on the other side: a fit at the bound of its range, say,
+  // has all draws on one side of it.
+  Interval interval(std::size_t number, double level, std::optional<double> held = {}) const;
+};
+
+// Of a number of the fit, which it holds where a fit was made, or no draw does better than the numbers that were given.
+Interval interval_of(const Posterior&, const ModelFit&, std::size_t number, double level);
+
+// Makes them the fit's 95 % intervals; false where there are no draws.
+bool take_intervals(const Posterior&, ModelFit&);
+
+// The k-th of `count` rows that lie evenly over all.
+inline const Values& spread_row(const std::vector<Values>& rows, std::size_t k, std::size_t count) {
+  return rows[(2 * k + 1) * rows.size() / (2 * count)];
+}
+
+Posterior posterior(const Bench&, const ModelFit&, const Jobs&);
+
+// The same, and the intervals of the fit are those of the draws, where there are any. A fit that was made here goes on from where a draw
+// does better.
+Posterior open_numbers(const Bench&, ModelFit&, const Jobs&);
+
+}  // namespace freestand::measurement

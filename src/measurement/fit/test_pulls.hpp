@@ -1,0 +1,56 @@
+// What each calibration test says of a fit's numbers, by derivatives at the fit: see posterior.hpp.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "measurement/fit/judge.hpp"
+
+namespace freestand::measurement {
+
+inline constexpr double no_fit = 1e12;  // misfit of numbers that give no history
+
+inline bool is_friction(const Free& free) { return free.name.rfind("friction.mu", 0) == 0; }
+
+// Of one test, in the columns of the numbers and, last, of ln mu.
+struct Pull {
+  Eigen::MatrixXd gram;     // M^T C^-1 M
+  Eigen::VectorXd against;  // M^T C^-1 r
+};
+
+// The calibration tests, each with a friction of its own, exp(shift) times that of the numbers.
+class OwnShifts {
+ public:
+  OwnShifts(const Bench&, const Judge&, const ModelFit&);
+  std::size_t count() const { return tests_.size(); }
+  Prediction at(std::size_t i, const Values& numbers, double shift) const;
+  // Derivatives in the numbers and, last, in the shift. Where the numbers hold friction it is theirs, to the bit: the two are
+  // told apart by what the tests have in common alone.
+  Eigen::MatrixXd slopes(std::size_t i, double shift) const;
+  // What the i-th test says where its friction is about that far off: linear there, told of a shift of zero.
+  Pull pull(std::size_t i, double shift) const;
+  // The shift of least misfit, by Gauss and Newton's steps.
+  double best(std::size_t i) const;
+
+ private:
+  const Bench& bench_;
+  const Judge& judge_;
+  const ModelFit& fit_;
+  ModelSpec model_;
+  std::vector<std::size_t> tests_;
+};
+
+std::vector<Pull> pulls_of(const OwnShifts&, const std::vector<double>& shifts, const Jobs&);
+
+// Of all tests, in the numbers alone, where the friction of each is off by a number of variance tau2.
+Pull sum_of(const std::vector<Pull>&, double tau2);
+
+// Standard deviation tau of ln mu from test to test, where the tests show one; else 0.
+double friction_scatter(const std::vector<Pull>&);
+
+// s, and nu.
+struct Dispersion {
+  double s = 1, freedom = 0;
+};
+Dispersion dispersion_of(const std::vector<Pull>&, double tau2);
+
+}  // namespace freestand::measurement

@@ -1,0 +1,99 @@
+#include "measurement/laboratory/plausible_offsets.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "measurement/data/ground.hpp"
+#include "measurement/data/smooth.hpp"
+#include "measurement/laboratory/plausible.hpp"
+#include "measurement/noise/third_differences.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+constexpr std::size_t most = 200;  // samples before the shaking
+
+struct Part {
+  double mean = 0, scatter = 0;
+};
+
+Part part_of(std::span<const double> samples) {
+  const auto n = static_cast<double>(samples.size());
+  Part p;
+  for (const double s : samples) p.mean += s / n;
+  for (const double s : samples) p.scatter += (s - p.mean) * (s - p.mean) / n;
+  p.scatter = std::sqrt(p.scatter);
+  return p;
+}
+
+// What a slip cannot be farther than, and a rotation than that over half the height: contact takes the block's velocity towards the
+// floor's, so that they differ at most as the floor's velocities so far do among themselves. Twice that, since springs and slopes join
+// in; and of the first half second of the motion alone, since later a wrong unit does the same.
+bool outruns_floor(const Test& test, const std::vector<double>& samples, double offset, double noise, Channel channel) {
+  constexpr double times = 2, surely = 8, looked_at_s = 0.5;
+  const double arm = channel == Channel::slip ? 1 : 0.5 * test.specimen.height_m.value_or(2);
+  double speed = 0, least = 0, most = 0, reach = 0, moving_s = 0;
+  for (std::size_t k = 0; k < samples.size() && moving_s < looked_at_s; ++k) {
+    speed += test.dt_s * floor_acceleration_mps2(test, k);
+    least = std::min(least, speed);
+    most = std::max(most, speed);
+    reach += test.dt_s * (most - least);
+    const double moved = arm * (std::abs(samples[k] - offset) - surely * noise);
+    if (moved > times * reach) return true;
+    if (moved > 0 || moving_s > 0) moving_s += test.dt_s;
+  }
+  return false;
+}
+
+}  // namespace
+
+double start_offset(const Bench& bench, std::size_t i, Channel channel) {
+  const Test& test = bench.test(i);
+  const auto& samples = history(test, channel);
+  if (samples.empty() || bench.noise(channel) <= 0) return 0;
+  const double noise = std::max(bench.noise(channel), sensor_noise(samples));
+  const double arm = channel == Channel::slip ? 1 : 0.5 * test.specimen.height_m.value_or(2);
+  double speed = 0, moved = 0, sum = 0;
+  std::size_t n = 0;
+  for (; n < std::min(most, samples.size()) && moved < 0.5 * bench.noise(channel) * arm; ++n) {
+    sum += samples[n];
+    speed += test.dt_s * std::abs(floor_acceleration_mps2(test, n));
+    moved += test.dt_s * speed;
+  }
+  if (moved == 0) return 0;
+  const auto count = static_cast<double>(std::max<std::size_t>(n, 1));
+  const double mean = sum / count;
+  return std::abs(mean) > noise * std::max(1.0, 5 / std::sqrt(count)) + 0.5 * noise ? mean : 0;
+}
+
+bool moves_before_floor(const Bench& bench, std::size_t i, Channel channel) {
+  constexpr double half_window_s = 0.03, surely = 8, floor_noises = 5;  // deviations: once in 1e15 and 1e6 samples
+  const Test& test = bench.test(i);
+  const auto& samples = history(test, channel);
+  if (samples.empty() || bench.noise(channel) <= 0 || test.motion.degree != 1) return false;
+  const double noise = std::max(bench.noise(channel), sensor_noise(samples));
+  const double least = surely * noise * rate_noise(test.dt_s, half_window_s);
+  const Smooth motion = smooth(samples, test.dt_s, half_window_s);
+  const auto shakes = [&](std::size_t k) {
+    return std::abs(floor_acceleration_mps2(test, k)) > floor_noises * bench.floor_noise_mps2(i);
+  };
+  std::size_t begins = 0;
+  while (begins < samples.size() && !shakes(begins)) ++begins;
+  if (begins == samples.size()) return false;  // a dead floor, which is told of elsewhere
+  // A window that sees a motion may end where it begins.
+  for (std::size_t k = 0; k + 2 * motion.half < begins; ++k)
+    if (std::abs(motion.firm_rate(k)) > least) return true;
+  return outruns_floor(test, samples, start_offset(bench, i, channel), noise, channel);
+}
+
+double floor_offset_mps2(const std::vector<double>& floor) {
+  const std::size_t n = std::max<std::size_t>(floor.size() / 20, 10);
+  if (floor.size() < 4 * n) return 0;
+  const Part before = part_of({floor.data(), n}), after = part_of({floor.data() + floor.size() - n, n});
+  const double least = std::min(std::abs(before.mean), std::abs(after.mean));
+  const bool steady = least > 3 * std::max(before.scatter, after.scatter) && before.mean * after.mean > 0 &&
+                      least > 0.5 * std::max(std::abs(before.mean), std::abs(after.mean));
+  return steady && least > 0.01 * greatest(floor) ? 0.5 * (before.mean + after.mean) : 0;
+}
+
+}  // namespace freestand::measurement

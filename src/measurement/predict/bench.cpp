@@ -1,0 +1,168 @@
+#include "measurement/predict/bench.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.hpp"
+#include "measurement/data/resolution.hpp"
+#include "measurement/noise/quiet.hpp"
+#include "measurement/noise/third_differences.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+std::vector<double> samples(const FloorMotion& motion, const MotionValues& coefficients) {
+  std::vector<double> values;
+  if (coefficients.empty()) return values;
+  const std::size_t n = motion.segments(), stride = static_cast<std::size_t>(motion.degree) + 1;
+  for (std::size_t i = 0; i < n; ++i) values.push_back(coefficients[i * stride]);
+  const double last = motion.knot_s[n] - motion.knot_s[n - 1];
+  values.push_back(coefficients[(n - 1) * stride] + coefficients[(n - 1) * stride + 1] * last);
+  return values;
+}
+
+FloorMotion with_noise(const FloorMotion& motion, double horizontal, double vertical, std::uint64_t replay,
+                       std::uint64_t stream) {
+  std::vector<double> a = samples(motion, motion.horizontal_mps2), v = samples(motion, motion.vertical_mps2);
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] += horizontal * random::standard_normal(1 + replay, i, stream);
+  for (std::size_t i = 0; i < v.size(); ++i) v[i] += vertical * random::standard_normal(1 + replay, i, ~stream);
+  return piecewise_linear(motion.name, motion.knot_s[1] - motion.knot_s[0], a, v);
+}
+
+// The motion at so many steps from its beginning: between two points by the cubic through the values and rates of both,
+// accelerations by the line. Before it and after it as it begins and ends.
+HistoryPoint at_step(const std::vector<HistoryPoint>& points, double step, double dt_s) {
+  if (points.empty()) return {};
+  const double within = std::clamp(step, 0.0, static_cast<double>(points.size() - 1));
+  const auto i = static_cast<std::size_t>(within);
+  const double part = within - static_cast<double>(i);
+  HistoryPoint point = points[i];
+  if (part == 0) return point;
+  const HistoryPoint& next = points[i + 1];
+  const auto line = [&](double& from, double to) { from += part * (to - from); };
+  const auto cubic = [&](double& from, double rate, double to, double next_rate) {
+    const double rest = 1 - part;
+    from = rest * rest * (from * (1 + 2 * part) + rate * part * dt_s) +
+           part * part * (to * (3 - 2 * part) - next_rate * rest * dt_s);
+  };
+  cubic(point.slip_m, point.slip_velocity_mps, next.slip_m, next.slip_velocity_mps);
+  cubic(point.rotation_rad, point.rotation_rate_radps, next.rotation_rad, next.rotation_rate_radps);
+  line(point.slip_velocity_mps, next.slip_velocity_mps);
+  line(point.acceleration_mps2, next.acceleration_mps2);
+  return point;
+}
+
+Reach reach_of(const Test& test) {
+  Reach reach;
+  for (const double slip : test.slip_m) {
+    reach.least_m = std::min(reach.least_m, slip);
+    reach.greatest_m = std::max(reach.greatest_m, slip);
+  }
+  if (const auto peak = test.peaks.peak_slip_m) {
+    reach.least_m = std::min(reach.least_m, -*peak);
+    reach.greatest_m = std::max(reach.greatest_m, *peak);
+  }
+  return reach;
+}
+
+}  // namespace
+
+const std::vector<double>& Prediction::channel(Channel which) const {
+  if (which == Channel::slip) return slip_m;
+  return which == Channel::rotation ? rotation_rad : block_acceleration_mps2;
+}
+
+Prediction predict(const ModelSpec& model, const Test& test, std::span<const double> x, const FloorMotion* other) {
+  Prediction out;
+  Shaking shaking = test.shaking();
+  if (other) shaking.motion = other;
+  shaking.scale *= model.floor_gain.of(x);
+  const Specimen body = specimen(model, test, x);
+  Settings settings;
+  settings.tolerance = 1e-8;
+  if (!test.has_history()) {
+    out.response = respond(body, shaking, settings);
+    return out;
+  }
+  settings.free_vibration_s = 0;
+  thread_local History history;
+  history.step_s = test.dt_s;
+  history.forces = !test.block_acceleration_mps2.empty();
+  out.response = respond(body, shaking, settings, &history);
+  const std::size_t n = std::max({test.slip_m.size(), test.rotation_rad.size(), test.block_acceleration_mps2.size()});
+  const double steps_behind = model.clock_behind.of(x) / test.dt_s;
+  for (std::size_t i = 0; i < n; ++i) {
+    const HistoryPoint point = at_step(history.points, static_cast<double>(i) - steps_behind, test.dt_s);
+    out.slip_m.push_back(point.slip_m);
+    out.rotation_rad.push_back(point.rotation_rad);
+    out.slip_velocity_mps.push_back(point.slip_velocity_mps);
+    out.mode.push_back(point.mode);
+    if (history.forces) out.block_acceleration_mps2.push_back(point.acceleration_mps2);
+  }
+  return out;
+}
+
+Bench::Bench(const Dataset& data, int replays) : data_(data), replays_(data.tests.size()) {
+  for (std::size_t i = 0; i < data.tests.size(); ++i) {
+    const Test& test = data.tests[i];
+    reach_.push_back(reach_of(test));
+    const bool recorded = test.has_history() && test.motion.degree == 1;
+    const double given = data.noise.floor_acceleration_mps2;
+    const double horizontal = !recorded   ? 0
+                              : given > 0 ? given
+                                          : sensor_noise(samples(test.motion, test.motion.horizontal_mps2));
+    const double vertical = recorded ? sensor_noise(samples(test.motion, test.motion.vertical_mps2)) : 0;
+    floor_noise_mps2_.push_back(horizontal);
+    const std::uint64_t stream = random::stable_hash(test.id);
+    for (int k = 0; recorded && k < replays; ++k)
+      replays_[i].push_back(with_noise(test.motion, horizontal, vertical, static_cast<std::uint64_t>(k), stream));
+  }
+}
+
+Reach Bench::reach() const {
+  std::vector<std::size_t> tests;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (test(i).role == Role::calibration) tests.push_back(i);
+  return reach(tests);
+}
+
+Reach Bench::reach(const std::vector<std::size_t>& tests) const {
+  Reach all;
+  for (const std::size_t i : tests) {
+    all.least_m = std::min(all.least_m, reach_[i].least_m);
+    all.greatest_m = std::max(all.greatest_m, reach_[i].greatest_m);
+  }
+  return all;
+}
+
+double Bench::noise(Channel channel) const { return measurement::noise(data_.noise, channel); }
+
+void Bench::estimate_sensors() {
+  for (int c = 0; c < channel_count; ++c) {
+    const auto channel = static_cast<Channel>(c);
+    double rounded = 0;
+    for (const Test& test : data_.tests)
+      if (test.role == Role::calibration) rounded = std::max(rounded, rounding(history(test, channel)));
+    sensors_[c] = sensor_of(quiet_stretches(data_, channel), noise(channel) > 0 ? rounded / noise(channel) : 0);
+  }
+}
+
+Spread Bench::spread(const ModelSpec& model, std::size_t i, std::span<const double> x,
+                     const Prediction& nominal) const {
+  Spread spread(channel_count);
+  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(replays_[i].size(), 1));
+  for (int c = 0; c < channel_count; ++c)
+    spread[static_cast<std::size_t>(c)].assign(history(test(i), static_cast<Channel>(c)).size(), 0.0);
+  for (const FloorMotion& motion : replays_[i]) {
+    const Prediction replay = predict(model, test(i), x, &motion);
+    for (int c = 0; c < channel_count; ++c) {
+      auto& variance = spread[static_cast<std::size_t>(c)];
+      const auto& a = replay.channel(static_cast<Channel>(c));
+      const auto& b = nominal.channel(static_cast<Channel>(c));
+      for (std::size_t k = 0; k < variance.size(); ++k) variance[k] += share * (a[k] - b[k]) * (a[k] - b[k]);
+    }
+  }
+  return spread;
+}
+
+}  // namespace freestand::measurement

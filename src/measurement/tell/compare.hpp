@@ -1,0 +1,69 @@
+// The model, as it stands, against every test: how far off, where, and in plain sentences.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measurement/laboratory/quality.hpp"
+#include "measurement/predict/score.hpp"
+
+namespace freestand::measurement {
+
+// What the block was doing, read off the measured histories.
+enum class Phase { stuck, onset, slipping, reversal, rocking, after_impact, at_rest };
+inline constexpr int phase_count = 7;
+const char* name(Phase);
+std::vector<Phase> phases(const Bench&, const Test&);
+
+struct ChannelError {
+  Channel channel = Channel::slip;
+  double noise_units = 0, relative = 0, bias = 0;  // bias: mean of model minus measured, in the channel's unit
+  double autocorrelation = 0;                      // of the residual, one step apart; 0 for white noise
+};
+
+// Noise units that the noise of the floor makes alone (`expected`), beyond which a test tells little.
+inline constexpr double drowned = 5;
+
+struct TestComparison {
+  std::size_t test = 0;
+  TestError error = {};
+  double explained = 0, expected = 0;  // explained_error(), expected_error(); histories only, else nan
+  std::vector<ChannelError> channels = {};
+  Prediction model = {};
+  Spread spread = {};
+};
+
+// Error where the measured motion had a certain speed, path ...: of all tests of one role together.
+struct ErrorTable {
+  std::string variable, unit;
+  std::vector<std::string> label = {};               // of the bins of `phase`, else empty
+  std::vector<double> edge = {}, centre = {};        // edge empty for `phase`
+  std::vector<double> count = {}, noise_units = {};  // root mean square
+  std::vector<double> growth = {};  // root mean square of the residual's change within 0.1 s, in noise units
+  std::vector<double> slip_growth_m = {}, rotation_growth_rad = {};  // the same of one channel; 0: not measured
+  std::vector<double> bias = {};                                     // mean residual, in noise units
+};
+
+struct Comparison {
+  std::vector<TestComparison> tests;  // of all tests, in the order of the data set
+  std::vector<std::size_t> worst;     // positions in `tests`, at most five histories
+  std::vector<ErrorTable> calibration, holdout;
+  std::vector<std::string> findings;
+};
+
+// x: the free numbers. spread: of the replays, from Bench::spread (histories only).
+TestComparison compare_test(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x, Spread spread);
+Comparison compare(const Bench&, const ModelSpec&, std::span<const double> x, std::vector<TestComparison> tests,
+                   const Quality&);
+
+// Mean ln(model/measured) of the peak slips of the tests of one role, and its standard deviation; nan below two. The largest of
+// many readings is larger than the slip by some of their noise: the model's peak is the one that its history would show to the
+// sensor. noise_ln: root mean square of the standard deviations that the noise of sensor and floor makes of one.
+struct PeakRatio {
+  std::size_t count = 0;
+  double bias_ln = 0, scatter_ln = 0, noise_ln = 0;
+};
+PeakRatio peak_ratio(const Bench&, const std::vector<TestComparison>&, std::optional<Role> = {});
+
+}  // namespace freestand::measurement

@@ -1,0 +1,31 @@
+// Fitted candidates beside one another: their errors on tests left out, their misfits, their order.
+#pragma once
+
+#include "measurement/verdict/diagnose.hpp"
+
+namespace freestand::measurement {
+
+double total(const std::vector<double>&);
+
+// Paired difference of the left-out scores, a - b, in the mean, and its standard error.
+Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b);
+// Do the numbers that come after the `known` ones lie where they are met in practice?
+bool practical(const ModelFit&, std::size_t known);
+
+// Fills misfits, explained and delta_bic of base and candidates.
+void judge_histories(const Bench&, const Judge&, Diagnosis&, const Jobs&);
+
+// Does a miss the tests left out by more than b, beyond chance? Of paired differences of their scores, Student's t at
+// 97.5 %: one that is as good in truth is held to be worse in one set of forty.
+bool worse_left_out(const Candidate& a, const Candidate& b);
+
+// Remarks of candidates that do as well as the best one and are not named.
+inline constexpr const char *odd_numbers = "with numbers that are not met in practice",
+                            *needless_effects = "with more effects, whose gain may be chance",
+                            *no_closer =
+                                "with numbers that bring the fit to all tests no closer, the floor's noise allowed for";
+
+// Orders the candidates, with the best of them first, and marks their differences to it. none: as they are, of the base.
+void put_in_order(const Bench&, const Candidate* best, Diagnosis&);
+
+}  // namespace freestand::measurement

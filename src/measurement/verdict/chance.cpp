@@ -1,0 +1,226 @@
+#include "measurement/verdict/chance.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "base/random.hpp"
+#include "measurement/fit/slopes.hpp"
+#include "measurement/fit/starts.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// A p value of 0.05 is known to 0.005 (one standard deviation) by so many.
+constexpr std::uint64_t simulations = 2000;
+constexpr double least_length = 1e-2;  // of a direction: histories that change by less in all show nothing
+
+double standard_normal(std::uint64_t sample, std::uint64_t i) { return random::standard_normal(20, sample, i); }
+
+// Products of all tests' columns, which processes share test by test.
+struct Summed {
+  MatrixXd gram, covariance;
+  std::vector<MatrixXd> replays;  // of each test
+  VectorXd against;               // the residual
+};
+
+// columns(i) makes the columns of the i-th test, and the residual that is held against them.
+template <class Columns>
+Summed sum_of(const char* what, std::size_t tests, Index q, const Judge& judge, const Jobs& jobs, Columns&& columns) {
+  const auto answers = jobs(what, tests, [&](std::size_t i) {
+    const auto [M, r] = columns(i);
+    const Judge::Products p = judge.products(i, M);
+    const VectorXd against = judge.against(i, M, r);
+    Values all;
+    const auto add = [&](const auto& part) { all.insert(all.end(), part.data(), part.data() + part.size()); };
+    add(p.gram), add(p.covariance), add(against), add(p.replays);
+    return all;
+  });
+  Summed sum{MatrixXd::Zero(q, q), MatrixXd::Zero(q, q), {}, VectorXd::Zero(q)};
+  for (const Values& all : answers) {
+    const double* at = all.data();
+    const auto take = [&](Index rows, Index cols) {
+      const Eigen::Map<const MatrixXd> part(at, rows, cols);
+      at += rows * cols;
+      return part;
+    };
+    sum.gram += take(q, q);
+    sum.covariance += take(q, q);
+    sum.against += take(q, 1);
+    sum.replays.emplace_back(take(q, (static_cast<Index>(all.size()) - (at - all.data())) / q));
+  }
+  return sum;
+}
+
+// What noise alone makes of the columns' products, one draw after the other.
+class NoiseDraws {
+ public:
+  NoiseDraws(const Summed& sum, double size_error) : sum_(sum), size_error_(size_error) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(sum.covariance);
+    root_ = solved.eigenvectors() * solved.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+  }
+  VectorXd draw(std::uint64_t s) const {
+    VectorXd z(root_.cols());
+    for (Index k = 0; k < z.size(); ++k) z[k] = standard_normal(s, static_cast<std::uint64_t>(k));
+    z = root_ * z;
+    for (std::size_t i = 0; i < sum_.replays.size(); ++i) {
+      if (sum_.replays[i].cols() == 0) continue;
+      const auto [a, b] = random::bits(21, s, i);
+      z += sum_.replays[i].col(static_cast<Index>(a % static_cast<std::uint64_t>(sum_.replays[i].cols())));
+    }
+    return std::exp(size_error_ * standard_normal(s, 1ULL << 40)) * z;
+  }
+
+ private:
+  const Summed& sum_;
+  double size_error_;
+  MatrixXd root_;
+};
+
+double size_error(const Bench& bench) {
+  double largest = 0;
+  for (int c = 0; c < channel_count; ++c) largest = std::max(largest, bench.sensor(static_cast<Channel>(c)).size_error);
+  return largest;
+}
+
+// Of the model's own numbers: a refit in them lowers G by z^T gram^-1 z.
+class Own {
+ public:
+  explicit Own(const MatrixXd& gram) {
+    if (gram.size() > 0) solver_.compute(gram);
+  }
+  MatrixXd solve(const MatrixXd& b) const { return solver_.solve(b); }
+  double gain(const VectorXd& z) const { return z.size() ? z.dot(solver_.solve(z)) : 0; }
+
+ private:
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver_;
+};
+
+}  // namespace
+
+std::vector<Tried> at_strengths(const ModelFit& base, const std::vector<const ModelFit*>& tried) {
+  constexpr std::size_t strengths = 12;
+  std::vector<Tried> all;
+  for (const ModelFit* fit : tried) {
+    all.push_back({&fit->model, fit->x});
+    const std::size_t own = fit->model.free.size() - base.x.size();
+    for (Values& x : starts_from({base.x}, fit->model, strengths * own)) all.push_back({&fit->model, std::move(x)});
+  }
+  return all;
+}
+
+Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& base,
+                      const std::vector<const ModelFit*>& tried, const Jobs& jobs) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const std::vector<Tried> all = at_strengths(base, tried);
+  const auto p = static_cast<Index>(base.x.size()), q = p + static_cast<Index>(all.size());
+  const Summed sum = sum_of("what effects change", tests.size(), q, judge, jobs, [&](std::size_t i) {
+    const Test& test = bench.test(tests[i]);
+    const Prediction at = predict(base.model, test, base.x);
+    const VectorXd r = -judge.residual(i, at);  // what a change would have to make
+    MatrixXd M = MatrixXd::Zero(r.size(), q);
+    if (p > 0) M.leftCols(p) = slopes_of(judge, test, i, base.model, base.x, at);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const Prediction with = predict(*all[k].model, test, all[k].x);
+      if (!with.failed() && !at.failed()) M.col(p + static_cast<Index>(k)) = judge.change(i, at, with);
+    }
+    return std::pair(std::move(M), r);
+  });
+  const Own own(sum.gram.topLeftCorner(p, p));
+  const Index effects = q - p;
+  const MatrixXd L = p ? MatrixXd(own.solve(sum.gram.topRightCorner(p, effects))) : MatrixXd(0, effects);
+  VectorXd length(effects);
+  for (Index k = 0; k < effects; ++k)
+    length[k] = sum.gram(p + k, p + k) - (p ? sum.gram.col(p + k).head(p).dot(L.col(k)) : 0);
+  const auto largest_gain = [&](const VectorXd& z) {
+    const VectorXd left = z.tail(effects) - L.transpose() * z.head(p);
+    double gain = 0;
+    for (Index k = 0; k < effects; ++k)
+      if (length[k] > std::max(least_length, 1e-9 * sum.gram(p + k, p + k)) && left[k] > 0)
+        gain = std::max(gain, left[k] * left[k] / length[k]);
+    return gain;
+  };
+  Chance chance{.question = help_question, .about = {}, .observed = largest_gain(sum.against)};
+  const NoiseDraws noise(sum, size_error(bench));
+  weigh(chance, [&](std::uint64_t s) { return largest_gain(noise.draw(s)); });
+  return chance;
+}
+
+void weigh(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
+  std::vector<double> made;
+  for (std::uint64_t s = 0; s < simulations; ++s) made.push_back(draw(s));
+  const auto more = std::count_if(made.begin(), made.end(), [&](double m) { return m >= chance.observed; });
+  chance.simulations = static_cast<int>(simulations);
+  chance.p = (1 + static_cast<double>(more)) / (1 + static_cast<double>(made.size()));
+  const auto place = made.begin() + static_cast<long>((1 - chance_level) * static_cast<double>(made.size()));
+  std::nth_element(made.begin(), place, made.end());
+  chance.usual = *place;
+}
+
+void weigh_power(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
+  std::uint64_t more = 0;
+  for (std::uint64_t s = 0; s < simulations; ++s) more += draw(s) > chance.usual;
+  chance.told_apart = static_cast<double>(more) / static_cast<double>(simulations);
+}
+
+// Of n independent numbers the sum of squares has the mean n and the variance 2 n (n is some thousand); p of them go into the
+// fit, others into what C allows for; instead, a replay adds what it shows to the others.
+Chance chance_of_misfit(const Bench& bench, const Judge& judge, const ModelFit& fit, double misfit_of_fit) {
+  Chance chance{.question = misfit_question, .about = {}, .observed = misfit_of_fit};
+  const double size = size_error(bench);
+  weigh(chance, [&](std::uint64_t s) {
+    double sum = -static_cast<double>(fit.x.size());
+    for (std::size_t i = 0; i < judge.samples().size(); ++i) {
+      const double n = judge.samples()[i] - judge.allowed()[i];
+      const auto& replays = judge.replay_misfits()[i];
+      sum += n + std::sqrt(2 * n) * standard_normal(s, 1000 + i);
+      if (!replays.empty()) sum += replays[random::bits(22, s, i).first % replays.size()];
+    }
+    return std::exp(2 * size * standard_normal(s, 1ULL << 40)) * sum;
+  });
+  return chance;
+}
+
+// Data from the rival are m_rival + e = m_best + d + e, of which the refitted best leaves what its numbers cannot make.
+Chance chance_of_lead(const Bench& bench, const Judge& judge, const ModelFit& best, const ModelFit& rival,
+                      const Jobs& jobs) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const auto b = static_cast<Index>(best.x.size()), r = static_cast<Index>(rival.x.size()), q = b + r + 1;
+  const Summed sum = sum_of("best and rival", tests.size(), q, judge, jobs, [&](std::size_t i) {
+    const Test& test = bench.test(tests[i]);
+    const Prediction of_best = predict(best.model, test, best.x), of_rival = predict(rival.model, test, rival.x);
+    const VectorXd left = judge.residual(i, of_best);
+    MatrixXd M = MatrixXd::Zero(left.size(), q);
+    if (b > 0) M.leftCols(b) = slopes_of(judge, test, i, best.model, best.x, of_best);
+    if (r > 0) M.middleCols(b, r) = slopes_of(judge, test, i, rival.model, rival.x, of_rival);
+    M.col(q - 1) = judge.change(i, of_best, of_rival);
+    return std::pair(std::move(M), VectorXd(-left));
+  });
+  const Own own_best(sum.gram.topLeftCorner(b, b)), own_rival(sum.gram.block(b, b, r, r));
+  const VectorXd of_difference = sum.gram.col(q - 1).head(b), to_rival = sum.gram.col(q - 1).segment(b, r);
+  const double difference = sum.gram(q - 1, q - 1);
+  // G of the rival less G of the best, each fitted again to data that lie by d + e from the best: what z says of e.
+  const auto lead = [&](const VectorXd& z) {
+    return own_best.gain(z.head(b) + of_difference) - own_rival.gain(z.segment(b, r)) - 2 * z[q - 1] - difference;
+  };
+  Chance chance{.question = lead_question, .about = {}};
+  // Measured data lie by r from the best: e = r - d there.
+  const VectorXd measured = sum.against - sum.gram.col(q - 1);
+  // Both were fitted to them already; a rival at the end of its range would gain beyond it.
+  chance.observed = -2 * measured[q - 1] - difference;
+  const NoiseDraws noise(sum, size_error(bench));
+  weigh(chance, [&](std::uint64_t s) { return lead(noise.draw(s)); });
+  // Data from the best lie by e from it.
+  weigh_power(chance, [&](std::uint64_t s) {
+    const VectorXd z = noise.draw(s);
+    return own_best.gain(z.head(b)) - own_rival.gain(z.segment(b, r) - to_rival) - 2 * z[q - 1] + difference;
+  });
+  if (chance.observed <= 0) chance.p = 1;  // no lead
+  return chance;
+}
+
+}  // namespace freestand::measurement

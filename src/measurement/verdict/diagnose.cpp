@@ -1,0 +1,220 @@
+#include "measurement/verdict/diagnose.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <freestand/error.hpp>
+#include <map>
+
+#include "measurement/fit/outcome_fit.hpp"
+#include "measurement/fit/starts.hpp"
+#include "measurement/laboratory/laboratory.hpp"
+#include "measurement/verdict/chance_of_peaks.hpp"
+#include "measurement/verdict/decide.hpp"
+#include "measurement/verdict/diagnose_outcomes.hpp"
+#include "measurement/verdict/pair_search.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+// A verdict is only as good as the data.
+void withdraw(Diagnosis& d) {
+  d.verdict = Verdict::bad_data;
+  d.reason = Reason::data;
+  d.effects.clear();
+  d.best.reset();
+  for (Candidate& c : d.candidates) c.rival = false;
+  d.sentences = {
+      "the measurements look wrong in a sign, a clock or a unit (see the findings): no effect can be named before "
+      "that is settled"};
+}
+
+class Diagnoser : PairSearch {
+ public:
+  using PairSearch::PairSearch;
+
+  Diagnosis run() {
+    fit_base();
+    out_.quality = examine(bench_, out_.base.fit, options_.effort, jobs_);
+    if (out_.quality.spoilt()) {
+      judge();
+      withdraw(out_);
+      return std::move(out_);
+    }
+    Singles singles = single_effects();
+    add_laboratory_faults(singles);
+    fit(singles);
+    judge();
+    look_for_chance();
+    if (clocks_differ()) {
+      out_.quality.findings.push_back(clocks_sentence());
+      withdraw(out_);
+      return std::move(out_);
+    }
+    search_more();
+    decide_all();
+    name_untried();
+    return std::move(out_);
+  }
+
+ private:
+  Effort wide() const {
+    Effort effort = options_.effort;
+    effort.screened_per_number *= 2;
+    return effort;
+  }
+
+  void fit_base() {
+    FitTask task{.model = base_};
+    if (!options_.start.empty()) task.starts = {options_.start};
+    auto fits = fit_models(bench_, {task}, wide(), jobs_);
+    polish(bench_, {&fits[0]}, options_.effort, 0.05, jobs_);
+    leave_out({&fits[0]});
+    out_.base.fit = std::move(fits[0]);
+  }
+
+  void add_laboratory_faults(Singles& singles) {
+    if (kind_of_set(bench_) != Kind::history || base_.free.size() + 1 >= tests_) return;
+    constexpr std::size_t points = 8;
+    for (LaboratoryFault& fault : laboratory_faults(bench_, base_, out_.base.fit.x)) {
+      Candidate candidate{.effects = {fault.name}, .fit = out_.base.fit, .laboratory = true};
+      candidate.fit.model = fault.model;
+      singles.places.push_back(out_.candidates.size());
+      out_.candidates.push_back(std::move(candidate));
+      FitTask task{.model = std::move(fault.model), .screened = false, .known = known_of(out_.base.fit)};
+      task.starts = starts_from({out_.base.fit.x}, task.model, points);
+      singles.tasks.push_back(std::move(task));
+    }
+  }
+
+  void name_untried() {
+    std::vector<std::string> names;
+    for (const auto* effect : catalogue_)
+      if (goes_with(base_, *effect) && !fewer_numbers_than(tests_, base_, *effect)) names.push_back(effect->name);
+    if (const auto& refused = pairs().refused(); !refused.empty())
+      names.push_back(fmt::format("{} pair{}, as {} with {}", refused.size(), refused.size() == 1 ? "" : "s",
+                                  refused.begin()->first, refused.begin()->second));
+    if (!names.empty())
+      out_.sentences.push_back(
+          fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
+  }
+
+  void decide_all() {
+    std::map<std::string, Judge> judges;  // the same for all rivals
+    const auto lead = [&](const Candidate& best, const Candidate& rival) {
+      if (kind_of_set(bench_) == Kind::peaks) return chance_of_lead_of_peaks(bench_, best.fit, rival.fit, jobs_);
+      const std::string name = fmt::format("{}", fmt::join(best.effects, "+"));
+      if (!judges.count(name)) judges.emplace(name, judge_of(best.fit));
+      return chance_of_lead(bench_, judges.at(name), best.fit, rival.fit, jobs_);
+    };
+    decide(bench_, out_,
+           {lead, [&](const Candidate& c) { return chance_of_misfit_of(c.fit); },
+            [&](const Candidate& c) { return chance_of_another(c); }});
+  }
+
+  // Does any effect help? And, of histories, would a friction of its own in each test do as well?
+  void look_for_chance() {
+    std::vector<const ModelFit*> tried;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible && !c.laboratory && c.effects.size() == 1) tried.push_back(&c.fit);
+    const auto keep = [&](Chance chance) {
+      chance.about = fmt::format("{} effects", tried.size());
+      out_.chances.push_back(std::move(chance));
+    };
+    if (kind_of_set(bench_) == Kind::peaks) {
+      if (!tried.empty()) keep(chance_of_gain_of_peaks(bench_, out_.base.fit, tried, jobs_));
+      return;
+    }
+    const auto ask = [&] {
+      const Judge judge = judge_of(out_.base.fit);
+      out_.chances.clear();
+      out_.strays = judge.strays();
+      if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
+      if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance()) {
+        out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
+        own_clocks_ = own_clocks(bench_, judge, out_.base.fit, jobs_);
+      }
+    };
+    ask();
+    if (clocks_differ() || only_friction_scatters(out_) || !friction_scatters_beside_the_best()) return;
+    judge();
+    ask();
+  }
+
+  // What every other model leaves at the least.
+  double least_of_all_else() const { return std::min(least_misfit(out_), out_.own_friction->misfit); }
+  // The tests whose clocks differ by more than half a sampling step.
+  std::vector<std::string> late_tests() const {
+    std::vector<std::string> late;
+    const auto tests = tests_of(bench_.data(), Role::calibration);
+    for (std::size_t k = 0; own_clocks_ && k < tests.size(); ++k) {
+      const Test& test = bench_.test(tests[k]);
+      const double behind_s = own_clocks_->of_tests[k];
+      if (std::abs(behind_s) > 0.5 * test.dt_s)
+        late.push_back(clock_sentence("the response of test " + test.id + " runs", behind_s));
+    }
+    return late;
+  }
+  // Does a clock of its own in each test take the base to the noise, as no effect does and no friction of its own?
+  bool clocks_differ() const {
+    return !late_tests().empty() && explain_tests(*own_clocks_, total(out_.samples), least_of_all_else());
+  }
+  std::string clocks_sentence() const {
+    const auto error = [&](double misfit) { return std::sqrt(misfit / total(out_.samples)); };
+    return fmt::format(
+        "{}: with that the model leaves {:.2f} where noise explains 1, and {:.2f} with the best of all else; check the "
+        "clocks of the channels",
+        fmt::join(late_tests(), ", "), error(own_clocks_->misfit), error(least_of_all_else()));
+  }
+
+  std::optional<OwnNumbers> own_clocks_;  // with the base, where it leaves more than chance
+
+  // Where even the best effect leaves more than chance: does it less with a friction of its own in each test, and by more
+  // than one more effect would? Then misfits allow for such a scatter.
+  bool friction_scatters_beside_the_best() {
+    const Candidate& known = best();
+    if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return false;
+    const Judge judge = judge_of(known.fit);
+    OwnNumbers own = own_friction(bench_, judge, known.fit, jobs_);
+    const double least = total(judge.misfit_of_fit(known.fit)) - chance_of_another(known).observed;
+    if (!explain_tests(own, total(judge.samples()), least)) return false;
+    out_.friction_scatter = own.scatter;
+    out_.own_friction = std::move(own);
+    out_.friction_of_base = false;
+    return true;
+  }
+};
+
+}  // namespace
+
+const char* name(Verdict verdict) {
+  constexpr const char* names[] = {"none", "missing", "ambiguous", "unknown", "bad_data"};
+  return names[static_cast<int>(verdict)];
+}
+
+const char* name(Reason reason) {
+  constexpr const char* names[] = {"", "data", "none_helps", "none_suffices"};
+  return names[static_cast<int>(reason)];
+}
+
+Diagnosis diagnose(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue,
+                   const DiagnosisOptions& options, const Jobs& jobs) {
+  const std::size_t tests = tests_of(bench.data(), Role::calibration).size();
+  if (tests < 3 || tests <= base.free.size())
+    throw Error(
+        fmt::format("{} has {} calibration test{} for {} number{} to be calibrated (a diagnosis leaves tests out, "
+                    "and needs three and more than there are numbers): add tests, or fix numbers",
+                    bench.data().name, tests, tests == 1 ? "" : "s", base.free.size(),
+                    base.free.size() == 1 ? "" : "s"),
+        Exit::data);
+  if (outcomes_only(bench.data())) {
+    Diagnosis d = diagnose_outcomes(bench, base, catalogue, options.start, {}, jobs);
+    d.quality = examine(bench, d.base.fit, options.effort, jobs);
+    if (d.quality.spoilt()) withdraw(d);
+    return d;
+  }
+  return Diagnoser(bench, base, catalogue, options, jobs).run();
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,266 @@
+#include "measurement/verdict/diagnose_outcomes.hpp"
+
+#include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "base/random.hpp"
+#include "measurement/levels.hpp"
+#include "measurement/verdict/outcome_screen.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+using Catalogue = std::vector<const dynamics::Effect*>;
+
+// -2 ln(likelihood) + k ln n; what happened is held to have at least a chance of a hundredth.
+double bic(const ModelFit& fit) {
+  double deviance = 0;
+  for (const TestError& e : fit.calibration) deviance -= 2 * std::log(std::max(0.01, 1 - std::sqrt(e.score)));
+  return deviance + static_cast<double>(fit.x.size()) * std::log(static_cast<double>(fit.calibration.size()));
+}
+
+std::string joined(const std::vector<std::string>& words, const char* by) {
+  return fmt::format("{}", fmt::join(words, by));
+}
+
+class OutcomeDiagnoser {
+ public:
+  OutcomeDiagnoser(const Bench& bench, const OutcomeEffort& effort, const Jobs& jobs)
+      : bench_(bench), effort_(effort), jobs_(jobs), tests_(tests_of(bench.data(), Role::calibration).size()) {}
+
+  Diagnosis run(const ModelSpec& base, const Catalogue& catalogue, const Values& start) {
+    out_.base.effects = {};
+    out_.base.fit = fit_outcomes(bench_, base, start, effort_, jobs_);
+    for (const TestError& e : out_.base.fit.calibration)
+      out_.noise_floor.push_back(e.probability * (1 - e.probability));
+    describe_base();
+    tried_ = join({}, out_.base.fit, catalogue);
+    if (const Candidate* best = accepted(out_.base, 1, tried_)) {
+      const Candidate first = *best;
+      const std::size_t pairs = join(first.effects, first.fit, catalogue);
+      const Candidate* second = accepted(first, 2, pairs);
+      settle(second ? *second : first, second ? first : out_.base, second ? pairs : tried_);
+    } else {
+      nothing_found();
+    }
+    describe_candidates();
+    return std::move(out_);
+  }
+
+ private:
+  void say(std::string sentence) { out_.sentences.push_back(std::move(sentence)); }
+  static double left_out(const Candidate& c) { return c.fit.mean_left_out(); }
+  static std::string label(const Candidate& c) { return joined(c.effects, " and "); }
+
+  // Candidates of one effect more than `known`. Returns how many of them the tests can see.
+  std::size_t join(const std::vector<std::string>& known, const ModelFit& without, const Catalogue& catalogue) {
+    Catalogue effects;
+    for (const auto* effect : catalogue)
+      if (goes_with(without.model, *effect) && without.x.size() + fitted_numbers(*effect) < tests_)
+        effects.push_back(effect);
+      else if (goes_with(without.model, *effect))
+        untried_.push_back(effect->name);
+    auto screened = screen_outcomes(bench_, without, effects, effort_, jobs_);
+    std::vector<OutcomeTable*> promising, others;
+    for (Screened& s : screened)
+      if (s.visible()) (s.promising() ? promising : others).push_back(&s.table);
+    auto fitted = fit_outcomes(bench_, without, promising, effort_, jobs_);
+    auto read = read_outcomes(bench_, others, jobs_);
+    std::size_t seen = 0, next_fitted = 0, next_read = 0;
+    for (std::size_t i = 0; i < effects.size(); ++i) {
+      const Screened& s = screened[i];
+      Candidate c{.effects = known, .fit = without, .visible = s.visible()};
+      c.effects.push_back(effects[i]->name);
+      c.fit.left_out_refitted = false;
+      if (c.visible) {
+        ++seen;
+        c.fit = std::move(s.promising() ? fitted[next_fitted++] : read[next_read++]);
+        c.practical = practical(c.fit, without.x.size());
+        c.delta_bic = bic(c.fit) - bic(out_.base.fit);
+        if (!s.promising())
+          c.remark =
+              fmt::format("on the {} tests that are least sure it gains {:.4f} +- {:.4f} even where it is fitted",
+                          s.table.tests.size(), s.gain, s.gain_se);
+      } else {
+        c.fit.model = s.table.model;
+        c.remark = "it changes no outcome";
+      }
+      if (known.empty() || c.visible) out_.candidates.push_back(std::move(c));
+    }
+    return seen;
+  }
+
+  // The best candidate of so many effects, if it beats `without` by more than chance.
+  const Candidate* accepted(const Candidate& without, std::size_t effects, std::size_t tried) const {
+    const Candidate* best = nullptr;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible && c.fit.left_out_refitted && c.effects.size() == effects && c.practical &&
+          (!best || left_out(c) < left_out(*best)))
+        best = &c;
+    if (!best) return nullptr;
+    return beyond_chance(paired_difference(without.fit.left_out, best->fit.left_out), tests_, tried) ? best : nullptr;
+  }
+
+  // `without`: what the best was accepted against.
+  void settle(const Candidate chosen, const Candidate without, std::size_t tried) {
+    std::vector<const Candidate*> rivals;
+    for (Candidate& c : out_.candidates) {
+      if (!c.visible || !c.fit.left_out_refitted || !c.practical || c.effects.size() != chosen.effects.size()) continue;
+      const Pooled behind = paired_difference(c.fit.left_out, chosen.fit.left_out);
+      const Pooled gain = paired_difference(without.fit.left_out, c.fit.left_out);
+      c.rival = c.effects == chosen.effects || (!beyond_chance(behind, tests_, 1) && gain.error > gain.standard_error);
+    }
+    put_in_order(bench_, &chosen, out_);
+    for (const Candidate& c : out_.candidates)
+      if (c.rival) {
+        rivals.push_back(&c);
+        for (const auto& effect : c.effects)
+          if (std::find(out_.effects.begin(), out_.effects.end(), effect) == out_.effects.end())
+            out_.effects.push_back(effect);
+      }
+    out_.verdict = rivals.size() > 1 ? Verdict::ambiguous : Verdict::missing;
+    const Pooled gain = paired_difference(without.fit.left_out, chosen.fit.left_out);
+    say(fmt::format(
+        "{} lowers the left-out Brier score from {:.4f} to {:.4f}, by {:.4f} +- {:.4f}: {:.1f} standard errors, "
+        "more than chance makes when {} effects are tried",
+        label(chosen), left_out(without), left_out(chosen), gain.error, gain.standard_error,
+        gain.error / gain.standard_error, tried));
+    for (const Candidate* rival : rivals) {
+      if (rival->effects == chosen.effects) continue;
+      say(fmt::format("{} cannot be told from it on these tests: its left-out score is {:.4f}, {:.4f} +- {:.4f} higher",
+                      label(*rival), left_out(*rival), rival->difference, rival->difference_se));
+    }
+    name_those_ahead(chosen);
+    doubt(chosen);
+  }
+
+  // The table shows them with less.
+  void name_those_ahead(const Candidate& chosen) {
+    for (Candidate& c : out_.candidates) {
+      if (!c.visible || !c.fit.left_out_refitted || c.rival || left_out(c) >= left_out(chosen)) continue;
+      c.remark = c.practical ? needless_effects : odd_numbers;
+      say(fmt::format("{} leaves a left-out score of {:.4f}, {}", label(c), left_out(c), c.remark));
+    }
+  }
+
+  // What has been found stands by its own gain. But compare would say that something is missing, and so does this.
+  void doubt(const Candidate& chosen) {
+    if (!surer_than_it_may_be(chosen.fit.calibration)) return;
+    const Pooled chance = expected_brier(chosen.fit.calibration);
+    say(
+        fmt::format("even with {} the model is surer than it may be: its Brier score is {:.4f} where chance alone "
+                    "would make {:.4f} +- "
+                    "{:.4f}; something more is missing, and it is no effect of the catalogue",
+                    label(chosen), chosen.fit.score, chance.error, chance.standard_error));
+  }
+
+  void nothing_found() {
+    const Candidate* best = nullptr;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible && c.fit.left_out_refitted && (!best || left_out(c) < left_out(*best))) best = &c;
+    put_in_order(bench_, best, out_);
+    best = best ? &out_.candidates.front() : nullptr;
+    if (surer_than_it_may_be(out_.base.fit.calibration)) {
+      out_.verdict = Verdict::unknown;
+      out_.reason = Reason::none_helps;
+      say("the model is surer than it may be: something is missing, and it is no effect of the catalogue");
+    }
+    if (!best) return say("no effect promises to lower the Brier score of the base");
+    const Pooled gain = paired_difference(out_.base.fit.left_out, best->fit.left_out);
+    say(fmt::format(
+        "no effect lowers the left-out Brier score by more than chance: the best of {}, {}, changes it from "
+        "{:.4f} to {:.4f}, a gain of {:.4f} +- {:.4f}",
+        tried_, label(*best), left_out(out_.base), left_out(*best), gain.error, gain.standard_error));
+  }
+
+  void describe_base() {
+    const ModelFit& fit = out_.base.fit;
+    std::size_t missed = 0;
+    for (const TestError& e : fit.calibration) missed += e.score > 0.25;
+    const Pooled right = expected_brier(fit.calibration);
+    say(
+        fmt::format("as it is, the model misses {} of {} tests; Brier score {:.4f}, {:.4f} left out; were its "
+                    "probabilities right, chance alone would make {:.4f} +- {:.4f}",
+                    missed, tests_, fit.score, fit.mean_left_out(), right.error, right.standard_error));
+  }
+
+  void describe_candidates() {
+    std::vector<std::string> unseen, unpromising;
+    for (const Candidate& c : out_.candidates) {
+      if (!c.visible) {
+        unseen.push_back(label(c));
+        continue;
+      }
+      if (c.rival || c.effects.size() > 1) continue;
+      if (!c.fit.left_out_refitted) {
+        unpromising.push_back(label(c));
+        continue;
+      }
+      const Pooled gain = paired_difference(out_.base.fit.left_out, c.fit.left_out);
+      const bool real = beyond_chance(gain, tests_, 1);
+      say(fmt::format("{} {} the left-out Brier score of the base by {:.4f} +- {:.4f}: {}", label(c),
+                      gain.error > 0 ? "lowers" : "raises", std::abs(gain.error), gain.standard_error,
+                      real ? "more than chance, if it were the only effect tried" : "no more than chance"));
+    }
+    if (!unpromising.empty())
+      say(fmt::format("not fitted to the end, since even where they were fitted they gained no more than chance: {}",
+                      joined(unpromising, ", ")));
+    if (!unseen.empty()) say(fmt::format("no outcome depends on {}", joined(unseen, ", ")));
+    if (!untried_.empty())
+      say(fmt::format("not tried, since they have more numbers than so few tests can fix: {}", joined(untried_, ", ")));
+  }
+
+  const Bench& bench_;
+  const OutcomeEffort& effort_;
+  const Jobs& jobs_;
+  std::size_t tests_, tried_ = 0;
+  std::vector<std::string> untried_;
+  Diagnosis out_;
+};
+
+}  // namespace
+
+Pooled expected_brier(const std::vector<TestError>& errors) {
+  Pooled expected;
+  const auto n = static_cast<double>(std::max<std::size_t>(errors.size(), 1));
+  for (const TestError& e : errors) {
+    const double chance = e.probability * (1 - e.probability);
+    expected.error += chance / n;
+    expected.standard_error += chance * std::pow(1 - 2 * e.probability, 2);
+  }
+  expected.standard_error = std::sqrt(expected.standard_error) / n;
+  return expected;
+}
+
+bool surer_than_it_may_be(const std::vector<TestError>& errors) {
+  constexpr std::uint64_t simulations = 2000, stream = 61;
+  double observed = 0;
+  for (const TestError& e : errors) observed += e.score;
+  std::uint64_t as_large = 0;
+  for (std::uint64_t s = 0; s < simulations; ++s) {
+    double sum = 0;
+    for (std::size_t t = 0; t < errors.size(); ++t) {
+      const double p = errors[t].probability;
+      sum += std::pow(random::uniform(stream, s, t) < p ? 1 - p : p, 2);
+    }
+    as_large += sum >= observed - 1e-12;
+  }
+  return static_cast<double>(1 + as_large) <= chance_level * static_cast<double>(1 + simulations);
+}
+
+bool beyond_chance(const Pooled& difference, std::size_t tests, std::size_t tried) {
+  const double freedom = std::max<double>(static_cast<double>(tests) - 1, 1);
+  const double t = gsl_cdf_tdist_Qinv(0.025 / static_cast<double>(std::max<std::size_t>(tried, 1)), freedom);
+  return difference.error > 1e-9 && difference.error > t * difference.standard_error;
+}
+
+Diagnosis diagnose_outcomes(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue, const Values& start,
+                            const OutcomeEffort& effort, const Jobs& jobs) {
+  return OutcomeDiagnoser(bench, effort, jobs).run(base, catalogue, start);
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,65 @@
+// What every search for effects does with its candidates: who can be seen, fits to the end, judgement.
+#pragma once
+
+#include "measurement/verdict/diagnose.hpp"
+
+namespace freestand::measurement {
+
+using Catalogue = std::vector<const dynamics::Effect*>;
+
+inline constexpr double no_gain = 0.02;  // of the mean score: less is not worth a fit with tests left out
+
+class EffectSearch {
+ public:
+  EffectSearch(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue, const DiagnosisOptions& options,
+               const Jobs& jobs)
+      : bench_(bench),
+        base_(base),
+        catalogue_(catalogue),
+        options_(options),
+        jobs_(jobs),
+        tests_(tests_of(bench.data(), Role::calibration).size()) {}
+
+ protected:
+  Effort quick() const;
+  void leave_out(std::vector<ModelFit*> fits);
+  ModelSpec narrowed(const ModelFit& fit) const;
+  // What a model that is joined to this one knows of it without each fold.
+  static std::vector<std::vector<Values>> known_of(const ModelFit& fit);
+  std::vector<bool> visible(const ModelFit& fit, const std::vector<const dynamics::Effect*>& effects) const;
+  // Every effect of the catalogue that may join the base becomes a candidate; those that the tests can see are to be fitted.
+  struct Singles {
+    std::vector<FitTask> tasks;
+    std::vector<std::size_t> places;  // of their candidates
+  };
+  Singles single_effects();
+  // Fits them, and the best of them to the end.
+  void fit(const Singles&);
+  // Polishes and leaves out, for the best candidates from `first` on that gain anything on the base.
+  void finish(std::size_t first);
+  // Where fits may have stuck: all once more by strides (strides.hpp), so many of them by derivatives, and the best that are better than
+  // they were to the end. False: none is.
+  bool fit_again_by_strides(const std::vector<FitTask>&, std::size_t by_derivatives, std::size_t finals, const Effort&);
+  // Place of the candidate that the fit is better than, or of a new one.
+  std::optional<std::size_t> improved(ModelFit& fit);
+  const Candidate& best() const;
+  // By the noise of floor and sensors, and friction as it scatters where that was found.
+  Judge judge_of(const ModelFit&) const;
+  void judge();
+  // Is it enough? Its misfit against data from itself.
+  Chance chance_of_misfit_of(const ModelFit&) const;
+  // Does one more effect help beside those of a candidate? Of all that may join it.
+  Chance chance_of_another(const Candidate&) const;
+  std::vector<Values> starts_of(const dynamics::Effect&, const ModelSpec&) const;
+  const dynamics::Effect& of_catalogue(const std::string& name) const;
+
+  const Bench& bench_;
+  const ModelSpec& base_;
+  const Catalogue& catalogue_;
+  const DiagnosisOptions& options_;
+  const Jobs& jobs_;
+  std::size_t tests_;
+  Diagnosis out_;
+};
+
+}  // namespace freestand::measurement

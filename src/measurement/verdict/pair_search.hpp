@@ -1,0 +1,48 @@
+// Where one effect is not enough: pairs of effects, grown from the best single ones, and where these fail from anywhere.
+#pragma once
+
+#include "measurement/verdict/effect_search.hpp"
+#include "measurement/verdict/pairs.hpp"
+
+namespace freestand::measurement {
+
+class PairSearch : public EffectSearch {
+ public:
+  PairSearch(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue, const DiagnosisOptions& options,
+             const Jobs& jobs)
+      : EffectSearch(bench, base, catalogue, options, jobs), pairs_(tests_) {}
+
+ protected:
+  // Adds candidates of two effects to those of one, where they are wanted, then of three and more, and judges them.
+  void search_more();
+  const Pairs& pairs() const { return pairs_; }
+  bool one_more_wanted(const Candidate&) const;
+  // Each other effect beside those of a candidate. False: none may join, or changes any prediction.
+  bool join_others_to(const Candidate& whole);
+
+ private:
+  bool second_effect_wanted() const;
+  // To the best one of several effects.
+  bool add_one_more();
+  void fit_pairs();
+  // Fits them, and the best few of them to the end, which become candidates.
+  void finish_pairs(std::vector<Candidate> pairs, const std::vector<FitTask>& tasks);
+  // The base with one effect of the pair, as they stand in it.
+  ModelFit part_of(const Candidate& pair, std::size_t which) const;
+  // The seeds of the pairs were the best by themselves, which they need not be beside a second effect: one of the best
+  // pair makes way for others that were not yet joined to the one that stays.
+  bool exchange_in_best_pair();
+  void join(const std::vector<std::string>& names, const ModelFit& fit, const dynamics::Effect& other,
+            std::vector<Candidate>& larger, std::vector<FitTask>& tasks);
+  // Would one of the two do, from where the pair stands? Its own fit may have stuck elsewhere.
+  bool fit_parts_of_best_pair();
+  // Single effects that the tests can see, and all pairs of them, to be fitted from anywhere.
+  std::vector<FitTask> singles_and_pairs();
+  // Nothing explains the tests: the effect is of no catalogue, or fits have stuck, or the best single effects, which pairs
+  // are joined to, are not those of the pair: two that only do together look useless alone. All once more by strides.
+  bool look_again();
+
+  Pairs pairs_;
+};
+
+}  // namespace freestand::measurement
