@@ -63,7 +63,12 @@ double ByCounts::integral(const fragility::CountedCurve& curve, const Range& ran
   return sum;
 }
 
-double ByCounts::rate(const Range& range) const { return integral({bins_, Shape(f_)}, range); }
+fragility::CountedCurve ByCounts::curve(const std::vector<fragility::CountedBin>& bins, const Shape& shape) const {
+  if (shape.cell_share.size() >= 2 * bins.size()) return fragility::CountedCurve::through_cells(shape);
+  return {bins, shape};
+}
+
+double ByCounts::rate(const Range& range) const { return integral(curve(bins_, Shape(f_)), range); }
 
 Rate ByCounts::banded(const CurveReach& curve) {
   struct Row {
@@ -86,7 +91,8 @@ Rate ByCounts::banded(const CurveReach& curve) {
   const double value = rate(), tail = (1 - result_.confidence) / 2;
   const RateLimits limits(
       value, rates_left_out(),
-      rates(edp_.surface.resampled, f_.resampled_median, f_.resampled_dispersion, f_.resampled_rising), result_, curve);
+      rates(edp_.surface.resampled, f_.resampled_median, f_.resampled_dispersion, f_.resampled_cell_share), result_,
+      curve);
   if (std::isnan(limits.lower(tail))) return {value};
   const auto counted_lower = [&](double of) { return limits.lower(of); };
   const auto counted_upper = [&](double of) { return limits.upper(of); };
@@ -108,7 +114,7 @@ Rate ByCounts::banded(const CurveReach& curve) {
 }
 
 std::vector<double> ByCounts::rates_left_out() const {
-  return rates(edp_.surface.left_out, f_.left_out_median, f_.left_out_dispersion, f_.left_out_rising);
+  return rates(edp_.surface.left_out, f_.left_out_median, f_.left_out_dispersion, f_.left_out_cell_share);
 }
 
 double ByCounts::rate_below(const HazardCurve& hazard, const Range& range) const {
@@ -116,7 +122,8 @@ double ByCounts::rate_below(const HazardCurve& hazard, const Range& range) const
     double im, share;
   };
   std::vector<Point> points;
-  for (std::size_t i = 0; i < f_.rising.size(); ++i) points.push_back({f_.cell_im[i], f_.rising[i]});
+  if (std::isnan(f_.median))
+    for (std::size_t i = 0; i < f_.cell_share.size(); ++i) points.push_back({f_.cell_im[i], f_.cell_share[i]});
   if (points.empty())
     for (const fragility::CountedBin& bin : bins_) points.push_back({bin.im, bin.probability});
   const Point& first = points.front();
@@ -130,6 +137,14 @@ double ByCounts::rate_below(const HazardCurve& hazard, const Range& range) const
                high = gsl_cdf_ugaussian_Pinv(std::min(larger->share, 1 - 0.5 / n)),
                dispersion = std::log(larger->im / first.im) / (high - low);
   return annual_rate(hazard, {first.im * std::exp(-low * dispersion), dispersion}, range);
+}
+
+double ByCounts::unknown_above() const {
+  const std::size_t last = bins_.size() - 1;
+  const double p = bins_[last].probability;
+  for (std::size_t i = 0; i < last; ++i)
+    if (edp_.surface.empirical_lower[at(i)] > edp_.surface.empirical_upper[at(last)]) return p;
+  return 1 - p;
 }
 
 // Of a row in which nothing was counted: its upper limit, or that of a row at a higher intensity where it is less. Of one in which all
@@ -162,19 +177,19 @@ double ByCounts::falling_limit(std::size_t i) const {
 
 // Of each resample, or of each group left out: `again` is [of them, im, capacity], with the curves of the same.
 std::vector<double> ByCounts::rates(const std::vector<double>& again, const std::vector<double>& median,
-                                    const std::vector<double>& dispersion, const std::vector<double>& rising) const {
-  const std::size_t cells = f_.rising.size();
-  const std::size_t size = edp_.surface.empirical.size();
+                                    const std::vector<double>& dispersion,
+                                    const std::vector<double>& cell_share) const {
+  const std::size_t size = edp_.surface.empirical.size(), cells = f_.cell_share.size();
   std::vector<double> found(size == 0 ? 0 : again.size() / size, 0);
   std::vector<fragility::CountedBin> bins = bins_;
+  Shape shape(f_);
   for (std::size_t r = 0; r < found.size(); ++r) {
     for (std::size_t i = 0; i < bins.size(); ++i) bins[i].probability = again[r * size + at(i)];
-    Shape shape(f_);
+    shape.median = f_.median, shape.dispersion = f_.dispersion;
     if (r < median.size() && std::isfinite(median[r])) shape.median = median[r], shape.dispersion = dispersion[r];
-    if (cells > 0 && (r + 1) * cells <= rising.size())
-      shape.rising.assign(rising.begin() + static_cast<long>(r * cells),
-                          rising.begin() + static_cast<long>((r + 1) * cells));
-    found[r] = integral({bins, shape});
+    if ((r + 1) * cells <= cell_share.size())
+      std::copy_n(cell_share.begin() + static_cast<long>(r * cells), cells, shape.cell_share.begin());
+    found[r] = integral(curve(bins, shape));
   }
   return found;
 }

@@ -35,10 +35,12 @@ class ByCounts {
   // Rates without each group of motions.
   std::vector<double> rates_left_out() const;
 
-  // P below the lowest bin (or fine cell, where the curve has them): the counted share is followed down along the lognormal through it and
+  // P below the lowest bin (or fine cell, of what has no curve that grows): the counted share is followed down along the lognormal through it and
   // the next one with a larger share; it stays where there is none, and is 0 where nothing was counted.
   double rate_below(const HazardCurve&, const Range&) const;
-  double at_end() const { return bins_.back().probability; }
+  // By how much P above the last bin may differ from its share, at which it is kept: it may rise to 1, or, where it has fallen from a lower
+  // intensity on by more than the limits of both, fall to 0.
+  double unknown_above() const;
 
   // An upper limit of a higher intensity (or a lower one of a lower) was taken for one in which nothing (or all) was counted.
   bool bounded_by_others() const { return bounded_by_others_; }
@@ -54,7 +56,10 @@ class ByCounts {
   fragility::Interval rising_limits(std::size_t i);
   double falling_limit(std::size_t i) const;
   std::vector<double> rates(const std::vector<double>& again, const std::vector<double>& median,
-                            const std::vector<double>& dispersion, const std::vector<double>& rising) const;
+                            const std::vector<double>& dispersion, const std::vector<double>& cell_share) const;
+  // Through the bins, or through the fine cells of the shape where there are two a bin at least.
+  fragility::CountedCurve curve(const std::vector<fragility::CountedBin>& bins,
+                                const fragility::CountedCurve::Shape&) const;
   bool same(std::size_t i) const;
   std::size_t at(std::size_t i) const { return bins_[i].index * edp_.capacity.size() + capacity_; }  // of the surface
 

@@ -136,15 +136,15 @@ class Row {
       missing = annual_rate(longer, fragility(), before) + end * (1 - fragility()(hazard_.last()));
     } else {
       beyond = counts_.rate_below(hazard_, {0, risk_.im_least});
-      if (hazard_.last() > risk_.im_most) beyond += hazard_.rate(risk_.im_most) * (1 - counts_.at_end());
-      missing = counts_.rate_below(longer, before) + end * (1 - counts_.at_end());
+      if (hazard_.last() > risk_.im_most) beyond += hazard_.rate(risk_.im_most) * counts_.unknown_above();
+      missing = counts_.rate_below(longer, before) + end * counts_.unknown_above();
     }
     row_.outside_sweep = function ? beyond / rate : rate + beyond > 0 ? beyond / (rate + beyond) : 0;
     row_.outside_hazard = rate + missing > 0 ? missing / (rate + missing) : 0;
     for (const auto& [share, what] : {std::pair(row_.outside_sweep, "outside of the sweep"),
                                       std::pair(row_.outside_hazard, "outside of the hazard curve")})
       if (share > outside_to_refuse && row_.refused.empty())
-        row_.refused = fmt::format("{:.0f} % of the rate would come from intensities {}", 100 * share, what);
+        row_.refused = fmt::format("{:.0f} % of the rate may come from intensities {}", 100 * share, what);
   }
 
   void split() {

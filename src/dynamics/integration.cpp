@@ -286,7 +286,7 @@ void Integration::chose(const State& from, bool impact) {
   if (state.mode != Mode::rest) moved_ = true;
   if (news) rest_since_ = cursor.time();
   if (from.mode != Mode::flight) took_off_from_ = state.x;
-  if (from.mode == Mode::flight && state.mode != Mode::flight) flown_ += std::abs(from.x - took_off_from_);
+  if (from.mode == Mode::flight && state.mode != Mode::flight) unslid_ += std::abs(from.x - took_off_from_);
   peaks.response().events += news;
   if (news && rig.laws && rig.laws->walls.any()) {
     peaks.came_to(cursor.time(), rig.brief_s);
@@ -359,7 +359,7 @@ Response Integration::result() {
   response.connection_failed = rig.laws && rig.laws->broken(state.sides);
   if (response.connection_failed) peaks.broke_at(rig.laws->strength);
   if (outcome_ == Outcome::overturned)
-    leave_out_fall(response, rig.half_base(), rig.offset(state.theta < 0 ? -1 : 1), rig.h, flown_);
+    leave_out_fall(response, rig.half_base(), rig.offset(state.theta < 0 ? -1 : 1), rig.h, unslid_);
   if (outcome_ == Outcome::at_rest || outcome_ == Outcome::moved || outcome_ == Outcome::overturned)
     recorder.hold(state, slip(), shaking.duration_s(), shaking);
   return response;

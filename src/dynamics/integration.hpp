@@ -153,8 +153,9 @@ class Integration {
 
   bool finished_ = false;
   bool moved_ = false;
-  double rest_since_ = 0;                 // [s]
-  double took_off_from_ = 0, flown_ = 0;  // of the centre of mass, in the last flight and in all [m]
+  double rest_since_ = 0;     // [s]
+  double took_off_from_ = 0;  // the centre of mass, in the last flight [m]
+  double unslid_ = 0;         // it flew so far in all, and began so far from 0 [m]
   double p_;
   StepWatch watch_;
   int resolved_ = 0;  // events, those that changed nothing included

@@ -30,6 +30,7 @@ void Integration::start_from(const Start& start) {
   if (beyond_a_wall()) return stop(Outcome::not_finite);
   if (rig.laws) state.sides = law_values(rig, state, 0, state.w < 0 ? -1 : 1).sides;
   moved_ = true;
+  unslid_ = std::abs(start.slip_m);
   peaks.response().peak_slip_m = std::abs(slip());
   peaks.response().peak_rotation_rad = std::abs(start.rotation_rad);
   if (settings.slip_by_side) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fragility/normal.hpp"
+#include "fragility/rising.hpp"
 
 namespace freestand::fragility {
 namespace {
@@ -47,12 +48,15 @@ std::vector<CountedBin> counted_bins(const Result& result, const EdpResult& edp,
   return bins;
 }
 
+CountedCurve CountedCurve::through_cells(Shape shape) {
+  CountedCurve curve(std::move(shape));
+  for (std::size_t i = 0; i < curve.shape_.cell_im.size(); ++i)
+    curve.knots_.push_back({curve.shape_.cell_im[i], curve.shape_.cell_share[i], curve.shape_.cell_share[i]});
+  return curve;
+}
+
 CountedCurve::CountedCurve(const std::vector<CountedBin>& bins, Shape shape) : shape_(std::move(shape)) {
-  if (std::isnan(shape_.median) && shape_.rising.size() >= 2 * bins.size()) {  // finer bins
-    for (std::size_t i = 0; i < shape_.rising.size(); ++i)
-      knots_.push_back({shape_.cell_im[i], shape_.rising[i], shape_.rising[i]});
-    return;
-  }
+  shape_.cell_share = risen(shape_.cell_share, shape_.cell_n);
   for (const CountedBin& bin : bins) {
     double shown = bin.by_law ? fitted(bin.im) : over_bin(bin);
     if (!knots_.empty()) shown = std::max(shown, knots_.back().fitted);
@@ -74,7 +78,7 @@ double CountedCurve::lognormal(double im) const {
 }
 
 double CountedCurve::fitted(double im) const {
-  const std::vector<double>&at = shape_.cell_im, &share = shape_.rising;
+  const std::vector<double>&at = shape_.cell_im, &share = shape_.cell_share;
   if (share.empty()) return lognormal(im);
   const auto next = std::upper_bound(at.begin(), at.end(), im);
   if (next == at.begin()) {
@@ -82,9 +86,7 @@ double CountedCurve::fitted(double im) const {
     return first > 0 ? share.front() * lognormal(im) / first : share.front();
   }
   const std::size_t i = static_cast<std::size_t>(next - at.begin()) - 1;
-  if (next != at.end()) return std::lerp(share[i], share[i + 1], (im - at[i]) / (at[i + 1] - at[i]));
-  const double left = 1 - lognormal(at.back());
-  return left > 0 ? 1 - (1 - share.back()) * (1 - lognormal(im)) / left : share.back();
+  return next == at.end() ? share.back() : std::lerp(share[i], share[i + 1], (im - at[i]) / (at[i + 1] - at[i]));
 }
 
 // The mean over the intensities of a bin, about the curve at the bin's mean: where that is level the mean is the very number, by which the

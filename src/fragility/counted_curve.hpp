@@ -18,9 +18,10 @@
 //
 // A fitted curve that is off tells wrongly how P grows within a bin, and rates follow it: of 12 bins of even width up to 2 g, a wall that is hit
 // from 0.1 g on came out 1.55 times too often under configs/hazard.csv. Nor need it be refuted: of 8 bins and 20 records, slips of blocks with
-// friction of 0.1 or 0.45 came out 1.33 times too often on the average of ten sweeps. So, unless the curve is adequate, F is what the fine
-// cells of IM show, up to eight a bin (FragilityFunction::rising): the shares of the cells, pooled where they fall, joined by straight lines;
-// beyond the first and the last cell it goes on in proportion to the fitted curve. Of what has no curve that grows they are P itself.
+// friction of 0.1 or 0.45 came out 1.33 times too often on the average of ten sweeps. So, unless the curve is adequate, the fine cells of IM
+// tell, up to eight a bin (FragilityFunction::cell_share). Where there are two a bin at least, rates go by lines through their shares, whether
+// these rise or fall (through_cells): below the first in proportion to the fitted curve, and level beyond the last. Exports, which may not
+// fall, and rates by fewer cells take F as the cells show it, pooled where they fall.
 #pragma once
 
 #include <vector>
@@ -45,20 +46,25 @@ class CountedCurve {
   // What F is: the lognormal, or the shares of cells where there are any; NaN and none: straight lines.
   struct Shape {
     double median = unknown, dispersion = unknown;
-    std::vector<double> cell_im = {}, rising = {};
+    std::vector<double> cell_im = {}, cell_n = {}, cell_share = {};
 
     Shape() = default;
     Shape(double of_median, double of_dispersion) : median(of_median), dispersion(of_dispersion) {}
     explicit Shape(const FragilityFunction& f)
-        : median(f.median), dispersion(f.dispersion), cell_im(f.cell_im), rising(f.rising) {}
+        : median(f.median), dispersion(f.dispersion), cell_im(f.cell_im), cell_n(f.cell_n), cell_share(f.cell_share) {}
   };
 
   // One bin at least.
   CountedCurve(const std::vector<CountedBin>&, Shape);
 
+  // By lines through the cells of the shape: one at least.
+  static CountedCurve through_cells(Shape);
+
   double operator()(double im) const;
 
  private:
+  explicit CountedCurve(Shape shape) : shape_(std::move(shape)) {}
+
   double fitted(double im) const;
   double lognormal(double im) const;
   double over_bin(const CountedBin&) const;

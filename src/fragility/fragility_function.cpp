@@ -6,7 +6,6 @@
 #include "fragility/goodness.hpp"
 #include "fragility/intervals.hpp"
 #include "fragility/probit.hpp"
-#include "fragility/rising.hpp"
 #include "fragility/small_shares.hpp"
 
 namespace freestand::fragility {
@@ -178,7 +177,7 @@ class Resampled {
     if (curve.adequate) return;
     const double enough =
         std::max(std::pow(0.5 / tally_.options().adequate, 2), static_cast<double>(tally_.options().minimum_samples));
-    std::vector<double> joined_im;
+    std::vector<double> joined_im, joined_n;
     std::vector<std::vector<Eigen::Index>> joined(1);
     double n = 0, im = 0;
     for (Eigen::Index i = 0; i < cells_.n.cols(); ++i) {
@@ -188,35 +187,35 @@ class Resampled {
       n += here, im += here * at;
       if (n < enough) continue;
       joined_im.push_back(im / n);
+      joined_n.push_back(n);
       joined.emplace_back();
       n = im = 0;
     }
     joined.pop_back();  // too few
     if (not_refuted(curve) && joined.size() < 2 * tally_.layout().bins) return;
     curve.cell_im = std::move(joined_im);
-    curve.rising = shares(curve, joined, cells_.n.colwise().sum(), cells_.above.colwise().sum(), {});
+    curve.cell_n = std::move(joined_n);
+    curve.cell_share = shares(joined, cells_.n.colwise().sum(), cells_.above.colwise().sum(), {});
     const auto again = [&](const Eigen::MatrixXd& of_n, const Eigen::MatrixXd& of_above, std::vector<double>& all) {
       for (Eigen::Index r = 0; r < of_n.rows(); ++r) {
-        const std::vector<double> one = shares(curve, joined, of_n.row(r), of_above.row(r), curve.rising);
+        const std::vector<double> one = shares(joined, of_n.row(r), of_above.row(r), curve.cell_share);
         all.insert(all.end(), one.begin(), one.end());
       }
     };
-    again(n_, above_, curve.resampled_rising);
-    again(n_left_, above_left_, curve.left_out_rising);
+    again(n_, above_, curve.resampled_cell_share);
+    again(n_left_, above_left_, curve.left_out_cell_share);
   }
 
   // Of joined cells; `otherwise` where none has a sample.
-  static std::vector<double> shares(const FragilityFunction& curve,
-                                    const std::vector<std::vector<Eigen::Index>>& joined, const Eigen::RowVectorXd& n,
+  static std::vector<double> shares(const std::vector<std::vector<Eigen::Index>>& joined, const Eigen::RowVectorXd& n,
                                     const Eigen::RowVectorXd& above, const std::vector<double>& otherwise) {
-    std::vector<double> share, weight;
+    std::vector<double> share;
     for (const std::vector<Eigen::Index>& cells : joined) {
       double of = 0, all = 0;
       for (const Eigen::Index i : cells) of += above[i], all += n[i];
       share.push_back(all > 0 ? of / all : otherwise[share.size()]);
-      weight.push_back(std::max(all, 1.0));
     }
-    return std::isnan(curve.median) ? share : risen(share, weight);
+    return share;
   }
 
   // The resampled misfits scatter about those of the samples as those do about the true ones.

@@ -128,15 +128,16 @@ struct FragilityFunction {
   double rate_p = unknown;
   // It may stand for the counts: off_by is at most Options::adequate, and rates do not refute it (rate_p).
   bool adequate = false;
-  // Where the curve is not adequate: the shares of fine cells of IM at the mean IM of each, pooled where they fall; where there is no median,
-  // since it does not grow with IM, as they are. Else none, as where no cell has enough samples.
-  std::vector<double> cell_im, rising;
+  // Where the curve is not adequate: the shares of fine cells of IM, their samples, and the mean IM of each. Else none, as where no cell has
+  // enough samples.
+  std::vector<double> cell_im, cell_n, cell_share;
   std::vector<double> grid;                       // IM, from the first positive edge to the last
   std::vector<double> probability, lower, upper;  // [grid], band from resampled motions
   std::vector<double> resampled_median,
       resampled_dispersion;                                  // [resample], of the same resampled motions for each curve
   std::vector<double> left_out_median, left_out_dispersion;  // [left out], without a group of motions
-  std::vector<double> resampled_rising, left_out_rising;     // [resample or left out, cell], the same of `rising`
+  std::vector<double> resampled_cell_share,
+      left_out_cell_share;  // [resample or left out, cell], the same of cell_share
 };
 
 struct EdpResult {

@@ -69,11 +69,13 @@ void walk(Way& way, Distribution& d) {
 template <class Way>
 void walk(Way& way, FragilityFunction& f) {
   auto& [median, dispersion, median_se, dispersion_se, penalised, im_least, im_most, extrapolated, misfit, misfit_im,
-         misfit_p, off_by, rate_p, adequate, cell_im, rising, grid, probability, lower, upper, resampled_median,
-         resampled_dispersion, left_out_median, left_out_dispersion, resampled_rising, left_out_rising] = f;
+         misfit_p, off_by, rate_p, adequate, cell_im, cell_n, cell_share, grid, probability, lower, upper,
+         resampled_median, resampled_dispersion, left_out_median, left_out_dispersion, resampled_cell_share,
+         left_out_cell_share] = f;
   each(way, median, dispersion, median_se, dispersion_se, penalised, im_least, im_most, extrapolated, misfit, misfit_im,
-       misfit_p, off_by, rate_p, adequate, cell_im, rising, grid, probability, lower, upper, resampled_median,
-       resampled_dispersion, left_out_median, left_out_dispersion, resampled_rising, left_out_rising);
+       misfit_p, off_by, rate_p, adequate, cell_im, cell_n, cell_share, grid, probability, lower, upper,
+       resampled_median, resampled_dispersion, left_out_median, left_out_dispersion, resampled_cell_share,
+       left_out_cell_share);
 }
 
 template <class Way>

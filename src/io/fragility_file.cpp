@@ -174,19 +174,20 @@ void write_functions(Group& parent, const Result& result, const EdpResult& edp) 
   std::size_t left_out = 0;
   for (Curve curve : edp.functions)
     left_out = std::max({left_out, curve.left_out_median.size(),
-                         curve.rising.empty() ? 0 : curve.left_out_rising.size() / curve.rising.size()});
+                         curve.cell_share.empty() ? 0 : curve.left_out_cell_share.size() / curve.cell_share.size()});
   std::optional<Dataset> out;
   if (left_out > 0) out = left_out_numbers(group, left_out);
   const auto with_cells =
-      std::find_if(edp.functions.begin(), edp.functions.end(), [](Curve c) { return !c.rising.empty(); });
+      std::find_if(edp.functions.begin(), edp.functions.end(), [](Curve c) { return !c.cell_share.empty(); });
   if (with_cells != edp.functions.end()) {
     const Dataset cell = coordinate(group, "cell", with_cells->cell_im, result.im_unit, "mean IM of the fine cells");
     const auto or_unknown = [](const std::vector<double>& values, std::size_t size) {
       return values.size() == size ? values : std::vector<double>(size, fragility::unknown);
     };
-    const std::size_t cells = with_cells->rising.size();
-    put("rising", cell, "1", "of curves that are not adequate: the shares of fine cells, pooled where they fall",
-        [&](Curve c) { return or_unknown(c.rising, cells); });
+    const std::size_t cells = with_cells->cell_share.size();
+    put("cell_share", cell, "1", "of curves that are not adequate: the shares of fine cells",
+        [&](Curve c) { return or_unknown(c.cell_share, cells); });
+    put("cell_n", cell, "1", "their samples", [&](Curve c) { return or_unknown(c.cell_n, cells); });
     const auto put_again = [&](const char* name, std::vector<double> FragilityFunction::*of, const Dataset& repeat,
                                const char* description) {
       const std::size_t times = repeat.dimensions().at(0);
@@ -201,10 +202,11 @@ void write_functions(Group& parent, const Result& result, const EdpResult& edp) 
           .attach(2, cell)
           .describe("1", description);
     };
-    put_again("resampled_rising", &FragilityFunction::resampled_rising, resample,
+    put_again("resampled_cell_share", &FragilityFunction::resampled_cell_share, resample,
               "the same of each resampled set of motions");
     if (out)
-      put_again("left_out_rising", &FragilityFunction::left_out_rising, *out, "the same without each group of motions");
+      put_again("left_out_cell_share", &FragilityFunction::left_out_cell_share, *out,
+                "the same without each group of motions");
   }
   if (!out) return;
   const auto full = [left_out](std::vector<double> values) {

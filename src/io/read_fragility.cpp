@@ -69,9 +69,10 @@ void read_curves(const Group& group, std::vector<FragilityFunction>& curves) {
 }
 
 void read_cells(const Group& group, std::vector<FragilityFunction>& curves) {
-  if (!group.has("rising")) return;
+  if (!group.has("cell_share")) return;
   const std::vector<double> cell = values(group, "cell");
-  read_curve(group, &FragilityFunction::rising, "rising", cell.size(), curves);
+  read_curve(group, &FragilityFunction::cell_share, "cell_share", cell.size(), curves);
+  read_curve(group, &FragilityFunction::cell_n, "cell_n", cell.size(), curves);
   const auto read_again = [&](const char* name, std::vector<double> FragilityFunction::*of) {
     if (!group.has(name)) return;
     const std::size_t width = group.open_dataset(name).dimensions().at(1) * cell.size();
@@ -79,11 +80,11 @@ void read_cells(const Group& group, std::vector<FragilityFunction>& curves) {
     for (FragilityFunction& curve : curves)
       if (!(curve.*of).empty() && std::isnan((curve.*of).front())) (curve.*of).clear();
   };
-  read_again("resampled_rising", &FragilityFunction::resampled_rising);
-  read_again("left_out_rising", &FragilityFunction::left_out_rising);
+  read_again("resampled_cell_share", &FragilityFunction::resampled_cell_share);
+  read_again("left_out_cell_share", &FragilityFunction::left_out_cell_share);
   for (FragilityFunction& curve : curves)
-    if (!curve.rising.empty() && std::isnan(curve.rising.front()))
-      curve.rising.clear();
+    if (!curve.cell_share.empty() && std::isnan(curve.cell_share.front()))
+      curve.cell_share.clear(), curve.cell_n.clear();
     else
       curve.cell_im = cell;
 }

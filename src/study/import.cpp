@@ -103,11 +103,11 @@ class Importer {
     tests_.push_back(std::move(t));
   }
 
-  // Of each test, by how much the response's clock is behind. Tests that agree to two steps were read by one clock: its
+  // Of each test, by how much the response is stamped late. Tests that agree to two steps were read by one clock: its
   // offset is the middle one, and holds for those, too, whose motion tells nothing.
   std::vector<double> clocks(const std::vector<File>& floors, const std::vector<File>& responses) {
     std::vector<double> found, each;
-    std::vector<std::string> together, mirrored;
+    std::vector<std::string> together, mirrored, unsure;
     std::vector<measurement::Timing> as_given(lab_.tests.size()),
         turned(lab_.tests.size());  // turned: or as it is given, the better
     for (std::size_t i = 0; i < lab_.tests.size(); ++i) {
@@ -136,6 +136,10 @@ class Importer {
         if (lab.floor.path != lab.response.path) together.push_back(lab.id);
         continue;
       }
+      if (!timing.known()) {
+        unsure.push_back(lab.id);
+        continue;
+      }
       each.back() = std::round(1e4 * timing.late * step_s_) / 1e4;
       found.push_back(each.back());
     }
@@ -157,6 +161,13 @@ class Importer {
           "{}: no offset between the clocks of floor and response is seen by the slips, which are looked through up "
           "to {} s either way: they are taken as one (clock_s of a test says otherwise)",
           fmt::join(together, ", "), longest_offset_s));
+    if (!unsure.empty() && !one_clock)
+      say(fmt::format(
+          "{}: the slips say that the clocks of floor and response differ, and not by how much: several offsets suit "
+          "them, or more than the {} s that are looked through. They are taken as one: give clock_s of the test, by "
+          "how "
+          "much the response is stamped late",
+          fmt::join(unsure, ", "), longest_offset_s));
     if (found.empty()) return each;
     const double middle = 0.5 * (found[(found.size() - 1) / 2] + found[found.size() / 2]);
     for (std::size_t i = 0; i < each.size(); ++i) {
@@ -170,9 +181,10 @@ class Importer {
 
   static std::string clock_sentence(const std::string& whose, double clock_s) {
     return fmt::format(
-        "{}: the response's clock runs {:.4g} s {} the floor's by what slips show, and was set by that (clock_s of "
-        "a test says what it is, 0 too)",
-        whose, std::abs(clock_s), clock_s > 0 ? "behind" : "ahead of");
+        "{}: the response is stamped {:.4g} s {} against the floor by what slips show, and was shifted by that "
+        "(clock_s "
+        "of a test says what it is, 0 too)",
+        whose, std::abs(clock_s), clock_s > 0 ? "late" : "early");
   }
 
   TestOfLab on_one_clock(const LabTest& lab, const File& floor, const File& response, double clock_s) const {
@@ -184,7 +196,7 @@ class Importer {
       throw Error(
           fmt::format(
               "{}: floor and response have no time in common ({} runs from {:.4g} to {:.4g} s, {} from {:.4g} to "
-              "{:.4g} s): give clock_s, by how much the response's clock is behind",
+              "{:.4g} s): give clock_s, by how much the response is stamped late",
               lab.id, lab.floor.path.string(), floor.time.front(), floor.time.back(), lab.response.path.string(),
               response.time.front(), response.time.back()),
           Exit::data);

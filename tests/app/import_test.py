@@ -11,7 +11,7 @@ from support import CONFIGS, InFolder, run
 
 WALK = CONFIGS / "walkthrough"
 G = 9.80665
-LATE = 0.12  # s, by which the block's clock is behind the table's
+LATE = 0.12  # s, by which the block's clock stamps late against the table's
 
 LAB = """name: cabinet in our words
 specimen: {width_m: 0.7916, height_m: 0.5495, mass_kg: 201}
@@ -79,10 +79,10 @@ class Import(InFolder):
     def test_what_was_written_comes_back(self):
         told = self.imported().stdout
         for word in ("ACC1 in g is floor_acceleration_mps2", "LVDT 1 in mm, turned round, is slip_m", "not used: Temp of table t01.txt",
-                     "response's clock runs 0.1", "t01: block_t01.csv is read between its samples"):
+                     "the response is stamped 0.1", "t01: block_t01.csv is read between its samples"):
             self.assertIn(word, told)
         # To a step: friction that follows the speed shifts it a little.
-        offset = float(re.search(r"clock runs ([\d.]+) s behind", told).group(1))
+        offset = float(re.search(r"is stamped ([\d.]+) s late", told).group(1))
         self.assertAlmostEqual(offset, LATE, delta=0.005)
         text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
         self.write("lab.yaml", text.replace("    role:", f"    clock_s: {LATE}\n    role:"))

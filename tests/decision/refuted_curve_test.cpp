@@ -21,12 +21,18 @@ TEST(RefutedCurve, RatesFollowTheFineCellsWithinBins) {
   constexpr double k0 = 1e-3, k = 2.5;
   const double spread = std::exp(k * k * sweep.dispersion() * sweep.dispersion() / 2);
   const double truth = k0 * spread * (0.5 * std::pow(0.3 * sweep.median, -k) + 0.5 * std::pow(sweep.median, -k));
-  const Risk found = risk(sweep.fit(1, 100), power_law(k0, k, 1e-3, 50));
-  ASSERT_EQ(found.rows[0].recommended, By::counts);
-  const Rate& rate = found.rows[0].rate();
-  EXPECT_NEAR(rate.value / truth, 1, 0.03);
-  EXPECT_LT(rate.lower, truth);
-  EXPECT_GT(rate.upper, truth);
+  double mean = 0;
+  int held = 0;
+  constexpr int repeats = 40;
+  for (std::uint64_t seed = 1; seed <= repeats; ++seed) {
+    const Risk found = risk(sweep.fit(seed, 100), power_law(k0, k, 1e-3, 50));
+    ASSERT_EQ(found.rows[0].recommended, By::counts);
+    const Rate& rate = found.rows[0].rate();
+    mean += rate.value / truth / repeats;
+    held += rate.lower < truth && truth < rate.upper;
+  }
+  EXPECT_NEAR(mean, 1, 0.005);
+  EXPECT_GE(held, 31);  // of 90 %: fewer in one case of a hundred
 }
 
 // Of 20 records a fitted curve is often not refuted, and off all the same: by it such rates were 1.1 times those of the records on the average.
@@ -47,7 +53,7 @@ TEST(RefutedCurve, RatesFollowTheFineCellsWhereChanceMayBeWhatRefutes) {
 }
 
 // What is entered at 0.06 g and left at 0.07 g falls from the first bin on, and grows within it. Taken to stay at the first bin's share below
-// it, nearly all of the rate would come from there, and none was told.
+// it, nearly all of the rate may come from there, and none was told.
 TEST(RefutedCurve, WhatFallsFromTheFirstBinOnIsFollowedDownByItsCells) {
   Sweep sweep;
   sweep.records = 200, sweep.per_record = 200;

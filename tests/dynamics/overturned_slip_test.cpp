@@ -30,6 +30,17 @@ TEST_P(OverturnedSlip, LeavesOutTheFall) {
   }
 }
 
+// Where it began is no part of the fall.
+TEST_P(OverturnedSlip, CountsFromWhereItBegan) {
+  const FloorMotion push = rectangular_pulse(-8, 0.5);
+  Specimen block{Block::rectangular(0.5, 1.5, 100), {2, 1.2}, {}, Model::slide_rock};
+  block.start.slip_m = 0.1;
+  const Response r = GetParam()(block, {&push});
+  ASSERT_EQ(r.outcome, Outcome::overturned);
+  const double rocked = 0.25 * (1 - std::cos(std::atan(0.5 / 1.5)));
+  EXPECT_NEAR(r.peak_slip_m, 0.1 + r.slid_path_m + rocked, 1e-12);
+}
+
 // Slender blocks, of which many fall; one by one, and the fast ones in packs.
 TEST_P(OverturnedSlip, IsNoLargerInTheEndThanItWas) {
   constexpr std::size_t count = 120;

@@ -162,7 +162,8 @@ TEST(CountedCurve, FollowsCountsThatFall) {
         {0.35, 0.9 * level, 0.2, 0.5}, {0.7, 1.6 * level, 0.5, 1}, {1.4, 1.1 * level, 1, 2}, {2.9, 0.8 * level, 2, 4}};
     for (const double im : {0.25, 0.45, 0.5, 0.9, 1.2, 1.7, 2.3, 4.1}) {
       shape.cell_im.push_back(im);
-      shape.rising.push_back(im < 0.5 ? 0.9 * level : level);
+      shape.cell_n.push_back(1);
+      shape.cell_share.push_back(im < 0.5 ? 0.9 * level : level);
     }
     const CountedCurve curve(bins, shape);
     for (std::size_t b = 1; b < bins.size(); ++b)
@@ -176,7 +177,8 @@ TEST(CountedCurve, FollowsCountsThatFallBesideAnUnevenLevel) {
   CountedCurve::Shape shape{median, dispersion};
   for (const double im : {0.25, 0.45, 0.55, 0.9, 1.2, 1.7, 2.3, 3.6, 3.9}) {
     shape.cell_im.push_back(im);
-    shape.rising.push_back(im < 0.5 ? 0.05 : im < 3.8 ? 0.09 : 0.095);
+    shape.cell_n.push_back(1);
+    shape.cell_share.push_back(im < 0.5 ? 0.05 : im < 3.8 ? 0.09 : 0.095);
   }
   const std::vector<CountedBin> bins = {
       {0.35, 0.05, 0.2, 0.5}, {0.7, 0.12, 0.5, 1}, {1.4, 0.09, 1, 2}, {2.9, 0.06, 2, 4}};

@@ -163,18 +163,18 @@ TEST(FragilityFunction, OfWhatFallsTheCellsAreKept) {
       fragility_function(tally, 0, 0, Resampling(tally.groups(), tally.groups_with_samples(), options.resamples, 1));
   ASSERT_TRUE(std::isnan(curve.median));
   ASSERT_GT(curve.cell_im.size(), 16U);
-  const std::size_t cells = curve.rising.size();
-  ASSERT_EQ(curve.resampled_rising.size(), 20 * cells);
+  const std::size_t cells = curve.cell_share.size();
+  ASSERT_EQ(curve.resampled_cell_share.size(), 20 * cells);
   double square = 0,
          expected = 0;  // of what resamples change about the shares, and what chance of as many samples does
   for (std::size_t r = 0; r < 20; ++r)
     for (std::size_t k = 0; k < cells; ++k) {
-      square += std::pow(curve.resampled_rising[r * cells + k] - curve.rising[k], 2);
-      expected += curve.rising[k] * (1 - curve.rising[k]) * static_cast<double>(cells) / 40000;
+      square += std::pow(curve.resampled_cell_share[r * cells + k] - curve.cell_share[k], 2);
+      expected += curve.cell_share[k] * (1 - curve.cell_share[k]) * static_cast<double>(cells) / 40000;
     }
   EXPECT_NEAR(square / expected, 1, 0.4);
   for (std::size_t k = 0; k < curve.cell_im.size(); ++k)
-    EXPECT_NEAR(curve.rising[k], share(curve.cell_im[k]), 0.08) << curve.cell_im[k];
+    EXPECT_NEAR(curve.cell_share[k], share(curve.cell_im[k]), 0.08) << curve.cell_im[k];
 }
 
 // A lognormal meets the shares of any two bins, whatever lies between: no bound comes of that.

@@ -88,8 +88,8 @@ TEST(Laboratory, AClockThatAllTestsShareIsFound) {
   for (std::size_t i = 0; i < data.tests.size(); ++i) delay(data, i, 3);
   const double behind = factor_found(data, 0.2, clock_fault, 0);
   EXPECT_NEAR(behind, 0.015, 2e-4);
-  EXPECT_EQ(fault_sentence(clock_fault, behind), "the clock of the responses runs 0.015 s behind the floor's channel");
-  EXPECT_EQ(fault_sentence(clock_fault, -0.02), "the clock of the responses runs 0.020 s ahead of the floor's channel");
+  EXPECT_EQ(fault_sentence(clock_fault, behind), "the responses are stamped 0.015 s late against the floor's channel");
+  EXPECT_EQ(fault_sentence(clock_fault, -0.02), "the responses are stamped 0.020 s early against the floor's channel");
 }
 
 TEST(OwnClocks, FindTheTestThatRunsBehind) {

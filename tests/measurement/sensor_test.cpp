@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/random.hpp"
 #include "base/units.hpp"
+#include "measurement/data/ground.hpp"
 #include "measurement/data/resolution.hpp"
 #include "measurement/laboratory/plausible.hpp"
 #include "measurement/made_tests.hpp"
@@ -111,6 +113,31 @@ TEST(Sensor, IsReadOffWhereTheBlockStands) {
   EXPECT_NEAR(sensor_of(stretches).size(), 1, 0.06);
   data.noise.slip_m *= 2;
   EXPECT_NEAR(sensor_of(quiet_stretches(data, Channel::slip)).size(), 0.5, 0.03);
+}
+
+// While the floor rests within its noise a block's accelerometer shows the noise of both.
+TEST(Sensor, OfTheBlocksAccelerationIsReadOffOverThatOfTheFloor) {
+  constexpr double stated = 0.05, of_floor = 0.03;
+  for (const double times : {1.0, 4.0, 0.5}) {
+    Dataset data = test::made_dataset(test::cabinet());
+    data.noise.block_acceleration_mps2 = stated, data.noise.floor_acceleration_mps2 = of_floor;
+    for (std::size_t t = 0; t < data.tests.size(); ++t) {
+      measurement::Test& test = data.tests[t];
+      std::vector<double> floor(801);
+      for (std::size_t i = 0; i < floor.size(); ++i) {
+        const double a = floor_acceleration_mps2(test, i);
+        test.block_acceleration_mps2.push_back(std::clamp(a, -1.96, 1.96) +
+                                               times * stated * random::standard_normal(8, i, t));
+        floor[i] = a + of_floor * random::standard_normal(9, i, t);
+      }
+      test.motion = piecewise_linear("noisy", dt_s, floor, {});
+    }
+    Bench bench(data, 0);
+    bench.estimate_sensors();
+    // Below what is stated the floor's noise and its own are scaled alike.
+    const double both = std::hypot(times * stated, of_floor) / std::hypot(stated, of_floor);
+    EXPECT_NEAR(bench.sensor(Channel::block_acceleration).size() / (times < 1 ? both : times), 1, 0.06) << times;
+  }
 }
 
 // A floor of 5 m/s2 in its first swing, so that 0.7 of what moved the block beyond doubt (mu g = 1.96) is above what it takes; then a push

@@ -276,7 +276,7 @@ class Pages(InFolder):
     def test_a_sweep_shows_its_risk_and_its_shares(self):
         sweep = make_decisions.make_sensitivity(support.sweep_copy(self.folder / "a"))
         text = self.text(sweep, make_decisions.make_risk(self.folder / "risk"))
-        for words in ("Annual risk", "3.1×10⁻⁴", "71 % of the rate would come from", "What the scatter is owed to", "0.45", "fewer than 30",
+        for words in ("Annual risk", "3.1×10⁻⁴", "71 % of the rate may come from", "What the scatter is owed to", "0.45", "fewer than 30",
                       "Peak acceleration explains 45 % of the scatter of the largest slip"):
             self.assertIn(words, text)
 

@@ -19,4 +19,14 @@ std::vector<double> floor_displacement(const Test& test) {
   return d;
 }
 
+std::vector<double> motion_samples(const FloorMotion& motion, const MotionValues& coefficients) {
+  std::vector<double> values;
+  if (coefficients.empty()) return values;
+  const std::size_t n = motion.segments(), stride = static_cast<std::size_t>(motion.degree) + 1;
+  for (std::size_t i = 0; i < n; ++i) values.push_back(coefficients[i * stride]);
+  const double last = motion.knot_s[n] - motion.knot_s[n - 1];
+  values.push_back(coefficients[(n - 1) * stride] + coefficients[(n - 1) * stride + 1] * last);
+  return values;
+}
+
 }  // namespace freestand::measurement

@@ -1,5 +1,5 @@
 // Does friction differ from test to test, or the clock of the responses? The model with a number of its own in each
-// calibration test: a factor on its friction, or the time by which its responses run behind the floor's channel [s].
+// calibration test: a factor on its friction, or the time by which its responses are stamped late against the floor's channel [s].
 #pragma once
 
 #include "measurement/fit/judge.hpp"

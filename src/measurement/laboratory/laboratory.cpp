@@ -28,13 +28,13 @@ bool is_laboratory_fault(const std::string& name) {
   return name == width_fault || name == centre_fault || name == gain_fault || name == clock_fault;
 }
 
-std::string clock_sentence(const std::string& whose, double behind_s) {
-  return fmt::format("{} {:.3f} s {} the floor's channel", whose, std::abs(behind_s),
-                     behind_s > 0 ? "behind" : "ahead of");
+std::string clock_sentence(const std::string& whose, double late_s) {
+  return fmt::format("{} {:.3f} s {} against the floor's channel", whose, std::abs(late_s),
+                     late_s > 0 ? "late" : "early");
 }
 
 std::string fault_sentence(const std::string& name, double number) {
-  if (name == clock_fault) return clock_sentence("the clock of the responses runs", number);
+  if (name == clock_fault) return clock_sentence("the responses are stamped", number);
   const double percent = 100 * std::abs(number - 1);
   if (name == gain_fault)
     return fmt::format("the floor's accelerometer reads {:.1f} % too {}", percent, number < 1 ? "much" : "little");

@@ -1,5 +1,5 @@
 // What may be wrong in the laboratory instead of in the model: the base with one more number, the factor by which a dimension
-// or a gain differs from what is stated or the time by which the clock of the responses runs behind the floor's, within three
+// or a gain differs from what is stated or the time by which the responses are stamped late against the floor's, within three
 // of its standard deviations (Dataset::tolerance). Such a model is judged beside those with an effect, so that no effect is
 // named for a fault of the laboratory.
 #pragma once
@@ -18,8 +18,8 @@ inline constexpr const char *width_fault = "width_as_stated", *centre_fault = "c
 bool is_laboratory_fault(const std::string& name);
 // "the width is 1.9 % smaller than stated". number: the factor, or the time [s].
 std::string fault_sentence(const std::string& name, double number);
-// "the clock of the responses runs 0.012 s behind the floor's channel".
-std::string clock_sentence(const std::string& whose, double behind_s);
+// "the responses are stamped 0.012 s late against the floor's channel".
+std::string clock_sentence(const std::string& whose, double late_s);
 
 // Those that change what the base with x predicts of the calibration tests.
 std::vector<LaboratoryFault> laboratory_faults(const Bench&, const ModelSpec& base, const Values& x);

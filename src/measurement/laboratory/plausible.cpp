@@ -12,6 +12,8 @@
 #include "measurement/data/smooth.hpp"
 #include "measurement/laboratory/plausible_channels.hpp"
 #include "measurement/laboratory/plausible_offsets.hpp"
+#include "measurement/levels.hpp"
+#include "measurement/noise/quiet.hpp"
 #include "measurement/noise/third_differences.hpp"
 #include "measurement/predict/score.hpp"
 
@@ -32,7 +34,7 @@ std::vector<double> floor_samples(const Test& test) {
 
 class Doubter {
  public:
-  explicit Doubter(const Bench& bench) : bench_(bench) {}
+  explicit Doubter(const Bench& bench) : bench_(bench), without_slip_(floor_without_slip_mps2(bench.data())) {}
 
   Doubts all() {
     for (std::size_t i = 0; i < bench_.size(); ++i) {
@@ -142,7 +144,7 @@ class Doubter {
         break;
       }
     if (test.start.upright_at_rest() && turns_against_floor(bench_, i)) turned_.add(test, 0);
-    const double share = share_of_floor(bench_, i);
+    const double share = share_of_floor(bench_, {i}, without_slip_).value;
     if (share != 0 && !is_nearest_to_one(share)) shares_.add(test, share);
   }
 
@@ -188,6 +190,13 @@ class Doubter {
           ": rotation_rad is positive clockwise");
     about(shares_, "block_acceleration_mps2 of {} is {:.3g} times the floor's before anything moves",
           ": check its sign, and that it is in m/s2");
+    const FloorShare share = share_of_floor(bench_, tests_of(bench_.data(), Role::calibration), without_slip_);
+    if (share.value != 0 && is_nearest_to_one(share.value) &&
+        std::abs(share.value - 1) > std::max(5 * share.error, fault_deviations * bench_.data().tolerance.floor_gain))
+      say("block_acceleration_mps2 is {:.3g} times the floor's before anything moves: check its gain; or does the "
+          "specimen sway on its "
+          "feet?",
+          share.value);
     if (!fast_.empty())
       say("the slip of {} is faster than the floor's velocities differ, which friction alone does not bring about: is "
           "floor_acceleration_mps2 in m/s2?",
@@ -234,6 +243,7 @@ class Doubter {
   };
 
   const Bench& bench_;
+  const double without_slip_;
   Doubts out_;
   Seen slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_, same_floors_, turned_,
       shares_;

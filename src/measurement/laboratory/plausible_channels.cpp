@@ -99,15 +99,23 @@ bool turns_against_floor(const Bench& bench, std::size_t i) {
   return independent >= 4 && slope.value() < -4 * slope.error(independent);
 }
 
-double share_of_floor(const Bench& bench, std::size_t i) {
-  const Test& test = bench.test(i);
-  const std::size_t before = samples_before_motion(bench, test);
+FloorShare share_of_floor(const Bench& bench, const std::vector<std::size_t>& tests, double floor_without_slip_mps2) {
   Slope slope;
-  for (std::size_t k = 0; k < before; ++k) slope.add(test.block_acceleration_mps2[k], floor_acceleration_mps2(test, k));
-  const double floor_noise = bench.floor_noise_mps2(i);
-  // The floor's own noise takes part of the slope: at most a fifth.
-  const bool shaken = slope.count > 10 && slope.zz > 5 * slope.count * floor_noise * floor_noise;
-  return shaken && std::abs(slope.value()) > 5 * slope.error(slope.count) ? slope.value() : 0;
+  double of_noise = 0;
+  for (const std::size_t i : tests) {
+    const Test& test = bench.test(i);
+    const std::size_t before = samples_before_motion(bench, test);
+    for (std::size_t k = 0; k < before; ++k) {
+      const double floor = floor_acceleration_mps2(test, k);
+      if (std::abs(floor) > floor_without_slip_mps2) break;
+      slope.add(test.block_acceleration_mps2[k], floor);
+      of_noise += std::pow(bench.floor_noise_mps2(i), 2);
+    }
+  }
+  if (slope.count <= 10 || slope.zz <= 5 * of_noise) return {};
+  const double freed = slope.zz / (slope.zz - of_noise), error = freed * slope.error(slope.count);
+  if (std::abs(slope.value()) <= 5 * error) return {};
+  return {freed * slope.value(), error};
 }
 
 }  // namespace freestand::measurement

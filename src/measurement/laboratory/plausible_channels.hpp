@@ -24,8 +24,12 @@ bool same_floor(const Bench&, std::size_t test, std::size_t other);
 // b, by least squares over the stretches within which theta keeps its sign, is below 0 by four of its standard errors.
 bool turns_against_floor(const Bench&, std::size_t test);
 
-// What a block that has not moved yet shows of its floor's acceleration: the factor of block_acceleration_mps2 on the
-// floor's, by least squares. 1 is right; 0: not told (too little shaking before the first motion, or no such channel).
-double share_of_floor(const Bench&, std::size_t test);
+// What a block that has not moved yet shows of its floor's acceleration, in these tests together: the factor of block_acceleration_mps2 on the
+// floor's, by least squares freed of the floor's noise, and its standard error. 1 is right; 0: not told (too little shaking before the first
+// motion, or no such channel).
+struct FloorShare {
+  double value = 0, error = 0;
+};
+FloorShare share_of_floor(const Bench&, const std::vector<std::size_t>& tests, double floor_without_slip_mps2);
 
 }  // namespace freestand::measurement

@@ -108,10 +108,15 @@ void look_at_channels(const Bench& bench, Quality& quality) {
 
 // A sensor that is not as stated, with its numbers.
 void look_at_sensors(const Bench& bench, Quality& quality) {
-  for (const Channel channel : {Channel::slip, Channel::rotation}) {
+  for (const Channel channel : {Channel::slip, Channel::rotation, Channel::block_acceleration}) {
     const Sensor& sensor = bench.sensor(channel);
     const double noise = bench.noise(channel);
-    const char* unit = channel == Channel::slip ? "m" : "rad";
+    if (noise <= 0 && has(bench, channel) && (bench.noise(Channel::slip) > 0 || bench.noise(Channel::rotation) > 0))
+      quality.findings.push_back(
+          fmt::format("{0} is measured, and counts for nothing, since its noise is not stated (noise: {{{0}: ...}} of "
+                      "the data set)",
+                      name(channel)));
+    const char* unit = channel == Channel::slip ? "m" : channel == Channel::rotation ? "rad" : "m/s2";
     constexpr double worth_a_word = 0.1;  // a size that is nearer to what is stated changes no error in its first digit
     double step = 0;
     for (const std::size_t i : tests_of(bench.data(), Role::calibration))
@@ -138,7 +143,7 @@ void look_at_sensors(const Bench& bench, Quality& quality) {
 }
 
 std::string check_clock(const std::string& whose, double late_s) {
-  return clock_sentence(whose + " runs", late_s) + ": check the clocks of the channels";
+  return clock_sentence(whose + " is stamped", late_s) + ": check the clocks of the channels";
 }
 
 constexpr const char* check_sign = "looks mirrored: check the sign of slip_m against that of the floor";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "measurement/data/ground.hpp"
 #include "measurement/data/slips.hpp"
@@ -54,19 +55,22 @@ class Slipping {
     return sum;
   }
 
-  // Least squares of the floor's acceleration on that of the slip, each about its mean of each direction. noise: of u'' [m/s2].
-  SlipScale scale(const std::vector<double>& floor, double noise) const {
-    double uu = 0, ua = 0, n = 0;
+  // Least squares of the floor's acceleration on that of the slip, each about its mean of each direction. noise: of u'', and of the
+  // floor [m/s2].
+  SlipScale scale(const std::vector<double>& floor, double noise, double floor_noise) const {
+    double uu = 0, ua = 0, aa = 0, n = 0;
     for (const auto* way : {&there_, &back_}) {
       Variance u, a, sum;
       for (const std::size_t k : *way) u.add(block_.second[k]), a.add(floor[k]), sum.add(block_.second[k] + floor[k]);
       uu += u.total();
+      aa += a.total();
       ua += 0.5 * (sum.total() - u.total() - a.total());
       n += u.n;
     }
     const double free_of_noise = uu - n * noise * noise, factor = free_of_noise > 0 ? -ua / free_of_noise : 1;
     const double own = variance(floor), scaled = own + 2 * (factor - 1) * ua + (factor * factor - 1) * uu;
-    return {factor, scaled > 0 ? own / scaled : 1, samples() >= enough_samples};
+    const bool shaken = aa > beyond_chance * n * floor_noise * floor_noise;
+    return {factor, scaled > 0 ? std::min(own, aa) / scaled : 1, shaken && samples() >= enough_samples};
   }
 
  private:
@@ -81,6 +85,8 @@ bool Timing::judged() const { return samples >= enough_samples; }
 
 // On measurements in order the gain stays under 3, with two independent samples; wrong signs and clocks make 9 to 400.
 bool Timing::wrong() const { return (mirrored || std::abs(late_steps) > 1) && judged() && gain > beyond_chance; }
+
+bool Timing::known() const { return next > beyond_chance; }
 
 bool OtherFloor::likelier() const { return judged && gain > beyond_chance; }
 
@@ -97,7 +103,8 @@ SlipScale slip_scale(const Bench& bench, std::size_t i) {
   const Test& test = bench.test(i);
   if (test.slip_m.empty() || test.dt_s <= 0) return {};
   const double noise = bench.noise(Channel::slip) * bench.sensor(Channel::slip).size();
-  return Slipping(bench, test, 0).scale(floor_of(test), noise * second_noise(test.dt_s, timing_half_window_s));
+  return Slipping(bench, test, 0)
+      .scale(floor_of(test), noise * second_noise(test.dt_s, timing_half_window_s), bench.floor_noise_mps2(i));
 }
 
 Timing slip_timing(const Bench& bench, std::size_t i, int most_steps, bool sign_is_known) {
@@ -114,15 +121,21 @@ Timing slip_timing(const Bench& bench, std::size_t i, int most_steps, bool sign_
       variances[mirrored].push_back(slipping.variance(floor, late, mirrored ? -1 : 1));
       if (best.samples == 0 || variances[mirrored].back() < least_variance) {
         least_variance = variances[mirrored].back();
-        best = {mirrored, late, static_cast<double>(late), 1, slipping.samples()};
+        best = {mirrored, late, static_cast<double>(late), 1, 1, slipping.samples()};
       }
     }
   const auto& curve = variances[best.mirrored];
   const auto place = static_cast<std::size_t>(best.late_steps + most_steps);
-  if (place > 0 && place + 1 < curve.size()) {
+  const bool inside = place > 0 && place + 1 < curve.size();
+  if (inside) {
     const double before = curve[place - 1], after = curve[place + 1], bend = before - 2 * curve[place] + after;
     if (bend > 0) best.late += 0.5 * (before - after) / bend;
   }
+  const std::size_t apart = 2 * (2 * half_window_samples(timing_half_window_s, test.dt_s) + 1);
+  double next = inside ? std::numeric_limits<double>::infinity() : 0;
+  for (std::size_t k = 0; k < curve.size(); ++k)
+    if (std::max(k, place) - std::min(k, place) > apart) next = std::min(next, curve[k]);
+  best.next = least_variance > 0 ? next / least_variance : 1;
   best.gain = least_variance > 0 ? variances[0][static_cast<std::size_t>(most_steps)] / least_variance : 1;
   return best;
 }

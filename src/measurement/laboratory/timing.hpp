@@ -9,12 +9,16 @@ namespace freestand::measurement {
 
 struct Timing {
   bool mirrored = false;
-  int late_steps = 0;   // by which the slip lags behind the floor's channel
-  double late = 0;      // the same between the steps, by the parabola through the least variance and its neighbours
-  double gain = 1;      // variance of u'' + a as measured, over that with the slip turned round and shifted by these
+  int late_steps = 0;  // by which the slip lags behind the floor's channel
+  double late = 0;     // the same between the steps, by the parabola through the least variance and its neighbours
+  double gain = 1;     // variance of u'' + a as measured, over that with the slip turned round and shifted by these
+  double next =
+      1;  // least variance at a lag, as mirrored, beyond two windows of smoothing from this one, over that here
   double samples = 0;   // independent ones
   bool judged() const;  // there was slip enough
   bool wrong() const;   // more than chance
+  bool known()
+      const;  // no other lag brings the variance nearly as low, and the least is not at the end of those looked at
 };
 
 // Among lags of up to most_steps either way and both signs, the one in which u'' + a varies least about its mean of each
@@ -34,8 +38,9 @@ std::vector<OtherFloor> floors_of_others(const Bench&);  // of each test
 // slip adds to the squares of u''. 1 is right.
 struct SlipScale {
   double factor = 1;
-  double gain = 1;  // variance of u'' + a over that of c u'' + a
-  bool judged = false;
+  double gain =
+      1;  // the lesser of the variances of u'' + a and of a over that of c u'' + a: a slip in any unit tells of the floor
+  bool judged = false;  // there was slip enough, under a floor that moved beyond its noise
   bool is_a_unit()
       const;  // a ratio of two units of length is nearer than a fit tells, and the gain is more than chance
 };

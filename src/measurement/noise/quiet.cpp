@@ -81,16 +81,23 @@ double acceleration_in_slips(const Dataset& data) {
 
 }  // namespace
 
+double floor_without_slip_mps2(const Dataset& data) {
+  return below * std::min(floor_that_moves(data), acceleration_in_slips(data));
+}
+
 std::vector<QuietStretch> quiet_stretches(const Dataset& data, Channel channel) {
   std::vector<QuietStretch> found;
-  const double noise = measurement::noise(data.noise, channel),
-               loud = below * std::min(floor_that_moves(data), acceleration_in_slips(data));
-  if (noise <= 0 || channel == Channel::block_acceleration) return found;
+  const double stated = measurement::noise(data.noise, channel), holds = floor_without_slip_mps2(data);
+  if (stated <= 0) return found;
+  const bool carried = channel == Channel::block_acceleration;
   for (std::size_t t = 0; t < data.tests.size(); ++t) {
     const Test& test = data.tests[t];
     const std::vector<double>& samples = history(test, channel);
     if (samples.empty() || test.role == Role::holdout || test.dt_s <= 0) continue;
     std::vector<bool> moves = motion_of(data, test);
+    moves.resize(samples.size(), false);
+    const double of_floor = floor_noise_mps2(data, test), loud = carried ? std::min(holds, still * of_floor) : holds,
+                 noise = carried ? std::hypot(stated, of_floor) : stated;
     if (!test.start.upright_at_rest())  // on its way from the first sample on, also where it turns round
       std::fill(moves.begin(), std::find(moves.rbegin(), moves.rend(), true).base(), true);
     const std::size_t half = half_window_samples(half_window_s, test.dt_s);
@@ -103,7 +110,8 @@ std::vector<QuietStretch> quiet_stretches(const Dataset& data, Channel channel) 
       while (to < samples.size() && !moves[to]) ++to;
       if (static_cast<double>(to - from) * test.dt_s >= shortest_s) {
         found.push_back({t, test.dt_s, {}});
-        for (std::size_t i = from; i < to; ++i) found.back().samples.push_back(samples[i] / noise);
+        for (std::size_t i = from; i < to; ++i)
+          found.back().samples.push_back((samples[i] - (carried ? floor_acceleration_mps2(test, i) : 0)) / noise);
       }
       from = to + 1;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/data/ground.hpp"
 #include "measurement/data/resolution.hpp"
 
 namespace freestand::measurement {
@@ -24,6 +25,12 @@ double sensor_noise(const std::vector<double>& signal) {
   const auto quiet = levels.begin() + static_cast<long>(levels.size() / 5);
   std::nth_element(levels.begin(), quiet, levels.end());
   return std::max(*quiet / 0.86, rounded);
+}
+
+double floor_noise_mps2(const Dataset& data, const Test& test) {
+  if (!test.has_history() || test.motion.degree != 1) return 0;
+  const double given = data.noise.floor_acceleration_mps2;
+  return given > 0 ? given : sensor_noise(motion_samples(test.motion, test.motion.horizontal_mps2));
 }
 
 }  // namespace freestand::measurement

@@ -11,19 +11,10 @@
 namespace freestand::measurement {
 namespace {
 
-std::vector<double> samples(const FloorMotion& motion, const MotionValues& coefficients) {
-  std::vector<double> values;
-  if (coefficients.empty()) return values;
-  const std::size_t n = motion.segments(), stride = static_cast<std::size_t>(motion.degree) + 1;
-  for (std::size_t i = 0; i < n; ++i) values.push_back(coefficients[i * stride]);
-  const double last = motion.knot_s[n] - motion.knot_s[n - 1];
-  values.push_back(coefficients[(n - 1) * stride] + coefficients[(n - 1) * stride + 1] * last);
-  return values;
-}
-
 FloorMotion with_noise(const FloorMotion& motion, double horizontal, double vertical, std::uint64_t replay,
                        std::uint64_t stream) {
-  std::vector<double> a = samples(motion, motion.horizontal_mps2), v = samples(motion, motion.vertical_mps2);
+  std::vector<double> a = motion_samples(motion, motion.horizontal_mps2),
+                      v = motion_samples(motion, motion.vertical_mps2);
   for (std::size_t i = 0; i < a.size(); ++i) a[i] += horizontal * random::standard_normal(1 + replay, i, stream);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += vertical * random::standard_normal(1 + replay, i, ~stream);
   return piecewise_linear(motion.name, motion.knot_s[1] - motion.knot_s[0], a, v);
@@ -107,11 +98,8 @@ Bench::Bench(const Dataset& data, int replays) : data_(data), replays_(data.test
     const Test& test = data.tests[i];
     reach_.push_back(reach_of(test));
     const bool recorded = test.has_history() && test.motion.degree == 1;
-    const double given = data.noise.floor_acceleration_mps2;
-    const double horizontal = !recorded   ? 0
-                              : given > 0 ? given
-                                          : sensor_noise(samples(test.motion, test.motion.horizontal_mps2));
-    const double vertical = recorded ? sensor_noise(samples(test.motion, test.motion.vertical_mps2)) : 0;
+    const double horizontal = measurement::floor_noise_mps2(data, test);
+    const double vertical = recorded ? sensor_noise(motion_samples(test.motion, test.motion.vertical_mps2)) : 0;
     floor_noise_mps2_.push_back(horizontal);
     const std::uint64_t stream = random::stable_hash(test.id);
     for (int k = 0; recorded && k < replays; ++k)
@@ -144,7 +132,21 @@ void Bench::estimate_sensors() {
     for (const Test& test : data_.tests)
       if (test.role == Role::calibration) rounded = std::max(rounded, rounding(history(test, channel)));
     sensors_[c] = sensor_of(quiet_stretches(data_, channel), noise(channel) > 0 ? rounded / noise(channel) : 0);
+    if (channel == Channel::block_acceleration) leave_out_floor(sensors_[c]);
   }
+}
+
+// A block that stands still shows the floor: what is left over the floor's channel is the noise of both.
+void Bench::leave_out_floor(Sensor& both) const {
+  double square = 0, tests = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (test(i).role == Role::calibration && !test(i).block_acceleration_mps2.empty())
+      square += std::pow(floor_noise_mps2_[i] / noise(Channel::block_acceleration), 2), tests += 1;
+  if (tests == 0) return;
+  const double of_floor = square / tests, scale = std::sqrt(1 + of_floor);
+  constexpr double least = 0.01;  // sensor_of() looks no lower
+  if (both.size() > 1) both.white = std::sqrt(std::max(std::pow(scale * both.white, 2) - of_floor, least * least));
+  both.coloured *= scale;
 }
 
 Spread Bench::spread(const ModelSpec& model, std::size_t i, std::span<const double> x,

@@ -50,6 +50,8 @@ class Bench {
   Spread spread(const ModelSpec&, std::size_t test, std::span<const double> x, const Prediction& nominal) const;
 
  private:
+  void leave_out_floor(Sensor& both) const;
+
   const Dataset& data_;
   std::vector<double> floor_noise_mps2_;
   std::vector<std::vector<FloorMotion>> replays_;

@@ -39,7 +39,7 @@ struct ModelSpec {
   std::optional<Number> width, height, slenderness, size, mass;
   std::optional<Number> centre_height, gyration_radius, inertia;  // absent, and not measured: of a uniform rectangle
   // What the laboratory may have read wrongly, over what it states: width, height of the centre of mass, friction of one test, the
-  // floor's acceleration; and by how much the clock of the responses runs behind the floor's [s].
+  // floor's acceleration; and by how much the responses are stamped late against the floor's [s].
   Number width_factor{.value = 1}, centre_height_factor{.value = 1}, friction_factor{.value = 1},
       floor_gain{.value = 1}, clock_behind;
   Number mu_k;

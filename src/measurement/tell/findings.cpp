@@ -168,7 +168,7 @@ class Findings {
     const ChannelError* most = nullptr;
     for (const ChannelError& e : worst.channels)
       if ((moves(bench_, worst.test, e.channel) || e.channel == Channel::block_acceleration) &&
-          !(most && most->noise_units >= e.noise_units))
+          std::isfinite(e.noise_units) && !(most && most->noise_units >= e.noise_units))
         most = &e;
     say("the worst test is {} with {} noise units{}", bench_.test(worst.test).id, one(worst).error_text(),
         most ? fmt::format(": its {} is missed by {}, {:.0f} % of the measured peak", word(most->channel),

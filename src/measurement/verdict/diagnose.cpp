@@ -152,7 +152,7 @@ class Diagnoser : PairSearch {
       const Test& test = bench_.test(tests[k]);
       const double behind_s = own_clocks_->of_tests[k];
       if (std::abs(behind_s) > 0.5 * test.dt_s)
-        late.push_back(clock_sentence("the response of test " + test.id + " runs", behind_s));
+        late.push_back(clock_sentence("the response of test " + test.id + " is stamped", behind_s));
     }
     return late;
   }
