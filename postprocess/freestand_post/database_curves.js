@@ -1,12 +1,12 @@
 // What a curve says, by the rule of `freestand query` and exports.
 const [IM, P, LOW, HIGH, N] = [0, 1, 2, 3, 4];  // of a point
 // Probability and band at an intensity, as `freestand query` and exports read the curve: its lognormal where that is adequate, else
-// straight lines over the intensity between the points, from 0 at 0; nothing outside of what was swept.
+// straight lines over the intensity between the points, from 0 at 0 (level to a first one from which it falls); nothing outside of what was swept.
 function at(curve, im) {
   const points = curve ? curve.points : [];
   if (!points.length || im < curve.im_least * (1 - 1e-6) || im > curve.im_most * (1 + 1e-6)) return null;
   const next = points.findIndex((p) => p[IM] >= im), last = points[points.length - 1];
-  const b = next < 0 ? last : points[next], a = next > 0 ? points[next - 1] : next < 0 || byLognormal(curve) ? b : [0, 0, 0, b[HIGH]];
+  const b = next < 0 ? last : points[next], a = next > 0 ? points[next - 1] : next < 0 || byLognormal(curve) ? b : points.some((p) => p[HIGH] < b[LOW]) ? [0, b[P], b[LOW], 1] : [0, 0, 0, b[HIGH]];
   const t = b === a ? 1 : (im - a[IM]) / (b[IM] - a[IM]), between = (value) => (1 - t) * value(a) + t * value(b);
   if (!byLognormal(curve)) return [P, LOW, HIGH].map((i) => between((p) => p[i]));
   const fitted = (x) => phi(Math.log(x / curve.median) / curve.dispersion), here = fitted(im);  // its band goes along

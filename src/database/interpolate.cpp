@@ -34,6 +34,11 @@ std::vector<const Point*> usable(const Curve& curve) {
   return points;
 }
 
+// Does the curve fall from its first point on, by more than the limits of both?
+bool falls(const std::vector<const Point*>& points) {
+  return std::any_of(points.begin(), points.end(), [&](const Point* p) { return p->upper < points.front()->lower; });
+}
+
 // Lines over the intensity, level beyond the points.
 Probability lines(const std::vector<Node>& nodes, double im) {
   const auto next = std::find_if(nodes.begin(), nodes.end(), [&](const Node& n) { return n.im >= im; });
@@ -81,7 +86,12 @@ Probability at(const Curve& curve, double im) {
   const auto fitted = [&](double x) { return gsl_cdf_ugaussian_P(std::log(x / curve.median) / curve.dispersion); };
   std::vector<Node> nodes;
   if (!by_lognormal(curve)) {
-    nodes.push_back({0, {0, 0, points.front()->upper, of(*points.front()).resolution}});
+    Probability start = of(*points.front());
+    if (falls(points))
+      start.upper = 1;
+    else
+      start.value = start.lower = 0;
+    nodes.push_back({0, start});
     for (const Point* point : points) nodes.push_back({point->im, of(*point)});
     return lines(nodes, im);
   }

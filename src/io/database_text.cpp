@@ -86,8 +86,7 @@ std::string words_json(const Database& db) {
        "the points of the curve are to be used, as below: the lognormal is not refuted, but may be off by off_by"},
       {database::points_family,
        "straight lines in probability over the intensity between the points of the curve, from 0 at 0 to the first "
-       "one, "
-       "level above the last"}};
+       "one (level below one from which the curve falls), level above the last"}};
   json["intensities"] = words(db.intensities);
   json["demands"] = words(db.demands);
   nlohmann::ordered_json columns;

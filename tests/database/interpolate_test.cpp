@@ -103,6 +103,17 @@ TEST(Interpolate, WithoutAnAdequateLognormalLinesBetweenThePointsAreStraight) {
   }
 }
 
+// What stands still at weak shaking is no less likely at weaker shaking.
+TEST(Interpolate, ACurveThatFallsFromItsFirstPointOnIsLevelBelowIt) {
+  Curve curve = test::curve(0, 0.05, 0.4, 0.5);
+  curve.family = points_family;
+  curve.points = {{0.2, 0.98, 0.95, 1, 100}, {0.6, 0.4, 0.3, 0.5, 100}};
+  const Probability p = at(curve, 0.1);
+  EXPECT_NEAR(p.value, 0.98, 1e-12);
+  EXPECT_NEAR(p.lower, 0.95, 1e-12);
+  EXPECT_NEAR(p.upper, 1, 1e-12);
+}
+
 TEST(Interpolate, APointThatIsNotKnownIsPassedOver) {
   Curve curve = test::curve(0, 0.05, 0.4, 0.5);
   curve.family = points_family;
