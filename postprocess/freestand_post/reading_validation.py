@@ -72,7 +72,7 @@ class Diagnosis:
     raw: dict
     name: str
     verdict: str
-    reason: str              # of the verdict unknown: data, none_helps, none_suffices; else empty
+    reason: str              # of the verdict unknown: data, none_helps, none_suffices, one_law; else empty
     effects: list
     unit: str
     sentences: list
@@ -291,7 +291,7 @@ def read_diagnosis(folder):
         [_candidate(node) for node in root.nodes("candidates", needed=True)], root.number("noise_floor"),
         recovered.number("base_mu") if recovered else np.nan,
         [_table(node, columns) for node in recovered.nodes("tables")] if recovered else [], suggested,
-        [node.row("p simulations told_apart", "question about") for node in root.nodes("tests_of_chance")], _proposal(root.node("proposed_law")))
+        [node.row("p level simulations told_apart", "question about") for node in root.nodes("tests_of_chance")], _proposal(root.node("proposed_law")))
 
 
 def _name(root, folder):

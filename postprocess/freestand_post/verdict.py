@@ -3,7 +3,6 @@ import math
 
 from . import validation, words
 
-LEVEL = 0.05  # of every test of chance
 WITHDRAWN = "data"  # reason of a verdict that was withdrawn: the measurements look wrong
 
 
@@ -26,6 +25,9 @@ def title(diagnosis, was=False):
         return f"no effect is needed: {words.listing(faults(diagnosis), 'or')} is off"
     if diagnosis.verdict == "none":
         return "friction differs from test to test; " * friction_scatters(diagnosis) + "these tests show no missing effect"
+    if diagnosis.proposal and diagnosis.reason == "one_law":
+        return (f"one law of no catalogue, {validation.effect(diagnosis.proposal['effect'])}, does for {validation.effects(diagnosis.best['effect'].split('+'))}: "
+                f"it leaves {_error(diagnosis.proposal)} of {_error(diagnosis.base)}")
     if diagnosis.proposal:
         return (f"no effect of the catalogue explains it; {validation.effect(diagnosis.proposal['effect'])}, a law of no catalogue, "
                 f"leaves {_error(diagnosis.proposal)} of {_error(diagnosis.base)}")
@@ -41,7 +43,7 @@ def friction_scatters(diagnosis):
 
 def gains_beyond_chance(diagnosis):
     """Does the best effect gain more than it would where nothing is missing?"""
-    return any(row["question"] == "does an effect help" and row["p"] <= LEVEL for row in diagnosis.chances)
+    return any(row["question"] == "does an effect help" and row["p"] <= row["level"] for row in diagnosis.chances)
 
 
 def best_in_words(diagnosis, name):
@@ -82,6 +84,10 @@ def finding(diagnosis):
     if diagnosis.verdict == "none" or diagnosis.reason == "none_helps":
         return (f"No candidate predicts the tests left out better than the base by more than chance: the base leaves {base} "
                 f"{diagnosis.unit}, the best, {name}, {_error(best)}")
+    if diagnosis.reason == "one_law":
+        together = validation.effects(best["effect"].split("+"))
+        return (f"{together.capitalize()} together would be enough, with more numbers than one law takes: they leave {_error(best)} {diagnosis.unit}, the base "
+                f"{base}{_others(diagnosis, [best])}")
     if diagnosis.verdict == "unknown":
         return (f"The best candidate, {name}, still misses the tests left out by {_error(best)} {diagnosis.unit}; the base leaves "
                 f"{base}{_others(diagnosis, [best])}")

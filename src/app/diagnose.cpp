@@ -38,6 +38,8 @@ std::string why(const Json& json) {
   if (reason == "data") return " (no effect can be named: the measurements look wrong)";
   if (reason == "none_helps") return " (no effect of the catalogue predicts the tests left out better, beyond chance)";
   if (reason == "none_suffices") return " (effects help, and the best of them leaves more than noise makes)";
+  if (reason == "one_law")
+    return " (several effects would do together, and one law of no catalogue does with fewer numbers)";
   return "";
 }
 

@@ -34,7 +34,8 @@
 //     computed chi_square_left_out (histories) or score_left_out_above_best (peaks, outcomes) of the candidates
 //   reason: of bad_data: "data" (they look wrong in a sign, a clock or a unit, or a dimension or a gain is not as stated);
 //     of the verdict unknown: "none_helps" (no effect lowers
-//     the error by more than chance), "none_suffices" (one does, and more is left than noise makes); else null
+//     the error by more than chance), "none_suffices" (one does, and more is left than noise makes), "one_law" (several
+//     together would be enough, and one law of no catalogue does with fewer numbers); else null
 //   best: the candidate that the verdict and `law` speak of, as its `effect`; null where there is none
 //   base, candidates: [{effect (two joined by "+"), effects: [], visible, parameters: {NAME: {value, interval, no_interval,
 //     unit}},

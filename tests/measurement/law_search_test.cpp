@@ -130,6 +130,41 @@ TEST(LawSearch, AnEffectThatNeedsScatterIsHeldAgainstLawsThatNeedNone) {
   EXPECT_EQ(scattered.verdict, Verdict::missing);
 }
 
+// Two effects of the catalogue bend into a third law's shape with a number more, and are named where they are what is there.
+TEST(LawSearch, OneLawStandsForTwoEffectsThatImitateIt) {
+  const auto effect = [](const char* name, auto law) { return friction_law(name, {number("a", -3, 3, 0)}, law); };
+  const dynamics::Effect steep =
+      effect("steep", [](const At& at, const Parameters& p) { return 1.0 + p[0] * at.u * at.u; });
+  const dynamics::Effect steady =
+      effect("steady", [](const At& at, const Parameters& p) { return 1.0 + p[0] * at.path; });
+  const ModelSpec base = test::free_friction();
+  const auto pair_named = [&](const dynamics::Effect& a, const dynamics::Effect& b, const Dataset& data) {
+    const Bench bench(data, 4);
+    Diagnosis d = unknown(bench);
+    Candidate pair;
+    pair.effects = {a.name, b.name};
+    auto fits = fit_models(bench, {{.model = with_effect(with_effect(base, a, bench.reach()), b, bench.reach())}},
+                           small_effort, run_here);
+    descend_by_derivatives(bench, {&fits[0]}, run_here);
+    search_left_out(bench, base, {&fits[0]}, small_effort, run_here);
+    pair.fit = std::move(fits[0]);
+    d.verdict = Verdict::missing, d.reason = Reason::none, d.effects = pair.effects;
+    d.chances.push_back({.question = misfit_question, .about = a.name + " and " + b.name, .p = 0.5});
+    d.candidates = {pair}, d.best = 0;
+    propose_law(bench, base, {&line, &waves}, {.effort = small_effort, .start = {}}, run_here, d);
+    return d;
+  };
+  const Diagnosis one = pair_named(line, steady, measured({{.effect = &line, .parameters = {1.2}}}));
+  EXPECT_EQ(one.verdict, Verdict::unknown);
+  EXPECT_EQ(one.reason, Reason::one_law);
+  ASSERT_TRUE(one.proposal);
+  EXPECT_EQ(one.proposal->effects, std::vector<std::string>{"line"});
+  const Diagnosis two = pair_named(
+      steep, steady, measured({{.effect = &steep, .parameters = {3}}, {.effect = &steady, .parameters = {0.6}}}));
+  EXPECT_EQ(two.verdict, Verdict::missing);
+  EXPECT_FALSE(two.proposal);
+}
+
 TEST(LawSearch, AVerdictThatNamesNothingStays) {
   const Dataset data = measured({{.effect = &waves, .parameters = {0.4, 0.13}}});
   const Bench bench(data, 4);

@@ -194,7 +194,7 @@ const char* name(Verdict verdict) {
 }
 
 const char* name(Reason reason) {
-  constexpr const char* names[] = {"", "data", "none_helps", "none_suffices"};
+  constexpr const char* names[] = {"", "data", "none_helps", "none_suffices", "one_law"};
   return names[static_cast<int>(reason)];
 }
 

@@ -37,8 +37,9 @@ namespace freestand::measurement {
 enum class Verdict { none, missing, ambiguous, unknown, bad_data };
 const char* name(Verdict);
 
-// Why the verdict names no effect: the data are wrong; no effect helps; effects help, and the best leaves more than noise makes.
-enum class Reason { none, data, none_helps, none_suffices };
+// Why the verdict names no effect: the data are wrong; no effect helps; effects help, and the best leaves more than noise makes; several
+// together would be enough, and one law of no catalogue does with fewer numbers.
+enum class Reason { none, data, none_helps, none_suffices, one_law };
 const char* name(Reason);
 
 inline constexpr double unjudged = std::numeric_limits<double>::quiet_NaN();

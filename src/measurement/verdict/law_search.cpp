@@ -14,6 +14,18 @@
 namespace freestand::measurement {
 namespace {
 
+// By what was asked of the best for the verdict.
+bool is_enough_by_chance(const Diagnosis& d) {
+  if (!d.best) return false;
+  const std::string about = fmt::format("{}", fmt::join(d.candidates[*d.best].effects, " and "));
+  return std::any_of(d.chances.begin(), d.chances.end(),
+                     [&](const Chance& c) { return c.question == misfit_question && c.about == about && c.chance(); });
+}
+
+bool several_are_enough(const Diagnosis& d) {
+  return d.verdict == Verdict::missing && is_enough_by_chance(d) && d.candidates[*d.best].effects.size() > 1;
+}
+
 class LawSearch : PairSearch {
  public:
   LawSearch(const Bench& bench, const ModelSpec& base, const Catalogue& forms, const DiagnosisOptions& options,
@@ -36,27 +48,35 @@ class LawSearch : PairSearch {
     const Candidate one = best();
     if (!one.effects.empty() && one_more_wanted(one) && join_others_to(one)) judge();
     const Candidate* form = simplest_that_leads();
-    if (!form || !better_than_the_catalogue(*form)) return;
+    if (!form) return;
+    const bool better = better_than_the_catalogue(*form);
+    if (!better && !does_for_several(*form)) return;
     const auto tests = tests_of(bench_.data(), Role::calibration);
     diagnosis_.proposal = *form;
-    if (diagnosis_.verdict != Verdict::unknown) withdraw();
-    diagnosis_.sentences.push_back(fmt::format(
-        "a law of no catalogue does better: {}; it brings the left-out error from {} to {} (proposed_law.yaml, "
-        "which `freestand add` takes)",
-        law_of(*form), three_digits(pooled(bench_, tests, diagnosis_.base.fit.left_out).error),
-        three_digits(pooled(bench_, tests, form->fit.left_out).error)));
+    if (diagnosis_.verdict != Verdict::unknown) withdraw(*form);
+    diagnosis_.sentences.push_back(
+        fmt::format("a law of no catalogue does {}: {}; it brings the left-out error from {} to {} (proposed_law.yaml, "
+                    "which `freestand add` takes)",
+                    better ? "better" : "as well", law_of(*form),
+                    three_digits(pooled(bench_, tests, diagnosis_.base.fit.left_out).error),
+                    three_digits(pooled(bench_, tests, form->fit.left_out).error)));
   }
 
  private:
   bool beside_scatter() const { return diagnosis_.friction_scatter > 0 && diagnosis_.verdict != Verdict::unknown; }
 
-  void withdraw() {
+  void withdraw(const Candidate& form) {
+    const bool several = several_are_enough(diagnosis_);
     diagnosis_.sentences.insert(
         diagnosis_.sentences.begin(),
-        fmt::format("{} is not enough: in data made from it{} hardly any misfit is as large",
-                    fmt::join(diagnosis_.effects, " or "), beside_scatter() ? ", with friction that scatters," : ""));
+        several ? fmt::format("{} together would be enough, with {} numbers; one law does with {}",
+                              fmt::join(diagnosis_.effects, " and "),
+                              diagnosis_.candidates[*diagnosis_.best].fit.x.size(), form.fit.x.size())
+                : fmt::format("{} is not enough: in data made from it{} hardly any misfit is as large",
+                              fmt::join(diagnosis_.effects, " or "),
+                              beside_scatter() ? ", with friction that scatters," : ""));
     diagnosis_.verdict = Verdict::unknown;
-    diagnosis_.reason = Reason::none_suffices;
+    diagnosis_.reason = several ? Reason::one_law : Reason::none_suffices;
     diagnosis_.effects.clear();
     for (Candidate& c : diagnosis_.candidates) c.rival = false;
   }
@@ -111,16 +131,14 @@ class LawSearch : PairSearch {
     return !known || leads(form, *known);
   }
 
+  bool does_for_several(const Candidate& form) {
+    if (!several_are_enough(diagnosis_)) return false;
+    const Candidate& several = diagnosis_.candidates[*diagnosis_.best];
+    return form.fit.x.size() < several.fit.x.size() && !leads(several, form);
+  }
+
   Diagnosis& diagnosis_;
 };
-
-// By what was asked of the best for the verdict.
-bool is_enough_by_chance(const Diagnosis& d) {
-  if (!d.best) return false;
-  const std::string about = fmt::format("{}", fmt::join(d.candidates[*d.best].effects, " and "));
-  return std::any_of(d.chances.begin(), d.chances.end(),
-                     [&](const Chance& c) { return c.question == misfit_question && c.about == about && c.chance(); });
-}
 
 }  // namespace
 
@@ -128,7 +146,7 @@ void propose_law(const Bench& bench, const ModelSpec& base, const std::vector<co
                  const DiagnosisOptions& options, const Jobs& jobs, Diagnosis& diagnosis) {
   if (kind_of_set(bench) != Kind::history || diagnosis.reason == Reason::data) return;
   if (diagnosis.verdict == Verdict::none) return;
-  if (diagnosis.verdict != Verdict::unknown && is_enough_by_chance(diagnosis)) return;
+  if (diagnosis.verdict != Verdict::unknown && is_enough_by_chance(diagnosis) && !several_are_enough(diagnosis)) return;
   LawSearch(bench, base, forms, options, jobs, diagnosis).run();
 }
 

@@ -2,7 +2,8 @@
 // speed) with free numbers are fitted as effects are, each by tests left out. A form is proposed when
 //
 //   its gain over the base is more than chance among all forms tried (chance.hpp),
-//   its lead over the best effect of the catalogue is more than data from that effect would give it,
+//   its lead over the best effect of the catalogue is more than data from that effect would give it; several effects together, which are
+//   enough, give way to a form of fewer numbers over which their own lead may be chance: two laws imitate a third easily,
 //   and over each form of fewer numbers, too: a term that does not earn its numbers is not proposed.
 #pragma once
 
