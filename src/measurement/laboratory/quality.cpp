@@ -9,6 +9,7 @@
 #include "measurement/laboratory/laboratory.hpp"
 #include "measurement/laboratory/plausible.hpp"
 #include "measurement/laboratory/timing.hpp"
+#include "measurement/laboratory/units.hpp"
 #include "measurement/levels.hpp"
 
 namespace freestand::measurement {
@@ -148,8 +149,13 @@ std::string check_clock(const std::string& whose, double late_s) {
 
 constexpr const char* check_sign = "looks mirrored: check the sign of slip_m against that of the floor";
 
-// Signs and clocks of the slips by themselves. True: enough tests could be judged, so that no model is needed.
-bool look_at_slips(const Bench& bench, Quality& quality) {
+struct SlipsSeen {
+  bool settled = false;               // enough tests could be judged, so that no model is needed
+  std::vector<bool> in_another_unit;  // of each test
+};
+
+// Signs, clocks, units and files of the slips by themselves.
+SlipsSeen look_at_slips(const Bench& bench, Quality& quality) {
   std::vector<std::size_t> wrong, mirrored;
   std::vector<double> late, each;  // [s]; of tests that are wrong, of all that are off by more than a sample
   std::size_t judged = 0;
@@ -163,6 +169,7 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     if (far.wrong() && far.gain > timings.back().gain) timings.back() = far;
   }
   std::vector<std::string> in_units;
+  SlipsSeen seen{false, std::vector<bool>(bench.size(), false)};
   double largest = 1;  // factor
   const auto others = floors_of_others(bench);
   for (std::size_t i = 0; i < others.size(); ++i) {
@@ -171,6 +178,7 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     if (scale.is_a_unit() && scale.gain > std::max(timings[i].gain, others[i].gain)) {
       timings[i] = {};
       in_units.push_back(test.id);
+      seen.in_another_unit[i] = true;
       if (std::abs(std::log(scale.factor)) > std::abs(std::log(largest))) largest = scale.factor;
       quality.wrong_numbers += test.role == Role::calibration;
       continue;
@@ -227,41 +235,8 @@ bool look_at_slips(const Bench& bench, Quality& quality) {
     const bool said = timings[i].mirrored ? quality.mirrored_slip : quality.late_s * timings[i].late_steps > 0;
     if (timings[i].wrong() && !said) say(i);
   }
-  return !in_units.empty() || (judged > 1 && 2 * judged >= tests.size());
-}
-
-// A channel of one test that is the model's, but for a factor between two units: as measured far from it, and near to noise where it is
-// read in the other. Only where the model is right for most of the tests: what it lacks may make ten times the slip as well.
-void look_at_units(const Bench& bench, const ModelFit& fit, Quality& quality) {
-  constexpr double far = 8, closer = 4, right = 3;  // noise units
-  std::vector<double> errors;
-  for (const TestError& error : test_errors(bench, tests_of(bench.data(), Role::calibration), fit.model, fit.x))
-    errors.push_back(error.noise_units);
-  std::nth_element(errors.begin(), errors.begin() + static_cast<long>(errors.size() / 2), errors.end());
-  if (!(errors[errors.size() / 2] < right)) return;
-  for (std::size_t i = 0; i < bench.size(); ++i) {
-    const Test& test = bench.test(i);
-    if (!test.has_history()) continue;
-    const Prediction model = predict(fit.model, test, fit.x);
-    for (const Channel channel : {Channel::slip, Channel::rotation}) {
-      const auto &seen = history(test, channel), &given = model.channel(channel);
-      const double noise = bench.noise(channel);
-      if (seen.empty() || model.failed() || noise <= 0) continue;
-      if (channel == Channel::slip && slip_scale(bench, i).is_a_unit()) continue;  // told of already
-      double sg = 0, gg = 0, off = 0, left = 0;
-      for (std::size_t k = 0; k < seen.size(); ++k)
-        sg += seen[k] * given[k], gg += given[k] * given[k], off += std::pow(seen[k] - given[k], 2);
-      const double factor = gg > 0 ? sg / gg : 1;
-      for (std::size_t k = 0; k < seen.size(); ++k) left += std::pow(seen[k] - factor * given[k], 2);
-      const double n = static_cast<double>(seen.size()), units = noise * std::max(factor, 1.0) * std::sqrt(n);
-      if (!is_ratio_of_units(factor) || std::sqrt(off) < far * noise * std::sqrt(n) || std::sqrt(left) > closer * units)
-        continue;
-      quality.wrong_numbers += test.role == Role::calibration;
-      quality.findings.push_back(fmt::format(
-          "{} of test {} is {:.3g} times what the model gives, all along: is it in {}?{}", name(channel), test.id,
-          factor, channel == Channel::slip ? "metres" : "radians", held_out_note(bench.data(), {test.id})));
-    }
-  }
+  seen.settled = !in_units.empty() || (judged > 1 && 2 * judged >= tests.size());
+  return seen;
 }
 
 // Mean score of the base with its numbers fitted again to changed data.
@@ -282,10 +257,13 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   quality.wrong_numbers = doubtful.spoilt_tests;
   look_at_channels(bench, quality);
   look_at_sensors(bench, quality);
-  const bool settled = look_at_slips(bench, quality);
+  const auto [settled, told] = look_at_slips(bench, quality);
   const auto tests = tests_of(bench.data(), Role::calibration);
   if (tests.empty() || !bench.test(tests.front()).has_history() || fit.score < 2 * std::log(2.0)) return quality;
-  look_at_units(bench, fit, quality);
+  for (OtherUnit& other : other_units(bench, fit, told)) {
+    quality.wrong_numbers += bench.test(other.test).role == Role::calibration;
+    quality.findings.push_back(std::move(other.sentence));
+  }
   const double dt = bench.test(tests.front()).dt_s;
   const int most = std::max(1, static_cast<int>(longest_lag_s / dt));
   std::vector<double> lags;  // [s]

@@ -6,6 +6,7 @@
 
 #include "measurement/data/ground.hpp"
 #include "measurement/data/slips.hpp"
+#include "measurement/laboratory/units.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -89,13 +90,6 @@ bool Timing::wrong() const { return (mirrored || std::abs(late_steps) > 1) && ju
 bool Timing::known() const { return next > beyond_chance; }
 
 bool OtherFloor::likelier() const { return judged && gain > beyond_chance; }
-
-bool is_ratio_of_units(double factor) {
-  constexpr double ratios[] = {10, 100, 1000, 2.54, 25.4, 39.37, 12, 3.281, 57.296}, told_to = 0.05;
-  return factor > 0 && std::any_of(std::begin(ratios), std::end(ratios), [&](double ratio) {
-           return std::abs(std::abs(std::log(factor)) - std::log(ratio)) < told_to;
-         });
-}
 
 bool SlipScale::is_a_unit() const { return judged && gain > beyond_chance && is_ratio_of_units(factor); }
 

@@ -46,7 +46,4 @@ struct SlipScale {
 };
 SlipScale slip_scale(const Bench&, std::size_t test);
 
-// Units that stand for one another by mistake, over each other: of lengths (m, cm, mm, in, ft), and of angles.
-bool is_ratio_of_units(double factor);
-
 }  // namespace freestand::measurement

@@ -1,0 +1,52 @@
+#include "measurement/laboratory/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "measurement/laboratory/plausible.hpp"
+
+namespace freestand::measurement {
+
+bool is_ratio_of_units(double factor) {
+  constexpr double ratios[] = {10, 100, 1000, 2.54, 25.4, 39.37, 12, 3.281, 57.296}, told_to = 0.05;
+  return factor > 0 && std::any_of(std::begin(ratios), std::end(ratios), [&](double ratio) {
+           return std::abs(std::abs(std::log(factor)) - std::log(ratio)) < told_to;
+         });
+}
+
+std::vector<OtherUnit> other_units(const Bench& bench, const ModelFit& fit, const std::vector<bool>& told) {
+  constexpr double far = 8, closer = 4, right = 3;  // noise units
+  std::vector<double> errors;
+  for (const TestError& error : test_errors(bench, tests_of(bench.data(), Role::calibration), fit.model, fit.x))
+    errors.push_back(error.noise_units);
+  std::nth_element(errors.begin(), errors.begin() + static_cast<long>(errors.size() / 2), errors.end());
+  if (!(errors[errors.size() / 2] < right)) return {};
+  std::vector<OtherUnit> found;
+  for (std::size_t i = 0; i < bench.size(); ++i) {
+    const Test& test = bench.test(i);
+    if (!test.has_history()) continue;
+    const Prediction model = predict(fit.model, test, fit.x);
+    for (const Channel channel : {Channel::slip, Channel::rotation}) {
+      const auto &seen = history(test, channel), &given = model.channel(channel);
+      const double noise = bench.noise(channel);
+      if (seen.empty() || model.failed() || noise <= 0) continue;
+      if (channel == Channel::slip && told[i]) continue;
+      double sg = 0, gg = 0, off = 0, left = 0;
+      for (std::size_t k = 0; k < seen.size(); ++k)
+        sg += seen[k] * given[k], gg += given[k] * given[k], off += std::pow(seen[k] - given[k], 2);
+      const double factor = gg > 0 ? sg / gg : 1;
+      for (std::size_t k = 0; k < seen.size(); ++k) left += std::pow(seen[k] - factor * given[k], 2);
+      const double n = static_cast<double>(seen.size()), units = noise * std::max(factor, 1.0) * std::sqrt(n);
+      if (!is_ratio_of_units(factor) || std::sqrt(off) < far * noise * std::sqrt(n) || std::sqrt(left) > closer * units)
+        continue;
+      found.push_back({i, fmt::format("{} of test {} is {:.3g} times what the model gives, all along: is it in {}?{}",
+                                      name(channel), test.id, factor, channel == Channel::slip ? "metres" : "radians",
+                                      held_out_note(bench.data(), {test.id}))});
+    }
+  }
+  return found;
+}
+
+}  // namespace freestand::measurement

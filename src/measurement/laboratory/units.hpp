@@ -1,0 +1,24 @@
+// Channels in another unit than their name says.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measurement/fit/model_fit.hpp"
+
+namespace freestand::measurement {
+
+// Units that stand for one another by mistake, over each other: of lengths (m, cm, mm, in, ft), and of angles.
+bool is_ratio_of_units(double factor);
+
+struct OtherUnit {
+  std::size_t test = 0;
+  std::string sentence;
+};
+
+// Channels of single tests that are the model's, but for a factor between two units: as measured far from it, and near to noise where they are
+// read in the other. Only where the model is right for most of the tests: what it lacks may make ten times the slip as well. told: of each
+// test, is its slip known to be in another unit already?
+std::vector<OtherUnit> other_units(const Bench&, const ModelFit&, const std::vector<bool>& told);
+
+}  // namespace freestand::measurement
