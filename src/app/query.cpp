@@ -68,8 +68,8 @@ void tell(const QueryOptions& options) {
       throw Error(
           "--im and --demand are missing (a probability is that of a demand at an intensity): add for example " +
           example(db, options.database));
-    fmt::print("{}", options.json ? contents_json(db, picked(db, question))
-                                  : contents(db, picked(db, question), options.database));
+    const database::Database part = part_of(db, picked(db, question));
+    fmt::print("{}", options.json ? contents_json(part) : contents(part, options.database));
     return;
   }
   if (options.curve) question.im_value = database::unknown;

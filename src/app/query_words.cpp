@@ -20,7 +20,7 @@ using database::Database;
 using database::Entry;
 using database::Question;
 using database::Word;
-using Positions = std::vector<std::size_t>;
+using Entries = std::vector<Entry>;
 
 std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.6g}{}{}", value, unit == "1" ? "" : " ", unit == "1" ? "" : unit);
@@ -31,28 +31,27 @@ const Word& word_of(const std::vector<Word>& words, const std::string& name) {
 }
 
 // "0.2 to 0.4", or "0.25" where all are the same.
-std::string span(const Database& db, const Positions& entries, double Entry::*member) {
+std::string span(const Entries& entries, double Entry::*member) {
   double least = std::numeric_limits<double>::infinity(), most = -least;
-  for (const std::size_t i : entries) {
-    least = std::min(least, db.entries[i].*member);
-    most = std::max(most, db.entries[i].*member);
+  for (const Entry& entry : entries) {
+    least = std::min(least, entry.*member);
+    most = std::max(most, entry.*member);
   }
   return least == most ? fmt::format("{:.4g}", least) : fmt::format("{:.4g} to {:.4g}", least, most);
 }
 
-std::vector<std::string> names_in(const Database& db, const Positions& entries, std::string Entry::*member) {
+std::vector<std::string> names_in(const Entries& entries, std::string Entry::*member) {
   std::vector<std::string> names;
-  for (const std::size_t i : entries) {
-    const std::string& name = db.entries[i].*member;
+  for (const Entry& entry : entries) {
+    const std::string& name = entry.*member;
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return names;
 }
 
-Positions of_class(const Database& db, const Positions& entries, const std::string& name) {
-  Positions found;
-  std::copy_if(entries.begin(), entries.end(), std::back_inserter(found),
-               [&](std::size_t i) { return db.entries[i].equipment == name; });
+Entries of_class(const Entries& entries, const std::string& name) {
+  Entries found;
+  std::ranges::copy_if(entries, std::back_inserter(found), [&](const Entry& e) { return e.equipment == name; });
   return found;
 }
 
@@ -79,23 +78,21 @@ std::string row(const std::string& name, const std::string& count, const std::st
   return fmt::format("{:<34}{:<9}{:<16}{:<16}{}\n", name, count, mu, width, height);
 }
 
-std::string list_of_classes(const Database& db, const Positions& entries) {
+std::string list_of_classes(const Entries& entries) {
   std::string text = row("class", "entries", "mu", "width_m", "height_m");
-  for (const std::string& name : names_in(db, entries, &Entry::equipment)) {
-    const Positions mine = of_class(db, entries, name);
-    text += row(name, fmt::format("{}", mine.size()), span(db, mine, &Entry::mu_k), span(db, mine, &Entry::width_m),
-                span(db, mine, &Entry::height_m));
+  for (const std::string& name : names_in(entries, &Entry::equipment)) {
+    const Entries mine = of_class(entries, name);
+    text += row(name, fmt::format("{}", mine.size()), span(mine, &Entry::mu_k), span(mine, &Entry::width_m),
+                span(mine, &Entry::height_m));
   }
   return text;
 }
 
-std::string list_of_entries(const Database& db, const Positions& entries) {
+std::string list_of_entries(const Entries& entries) {
   std::string text = row("id", "version", "mu", "width_m", "height_m");
-  for (const std::size_t i : entries) {
-    const Entry& entry = db.entries[i];
+  for (const Entry& entry : entries)
     text += row(entry.id, fmt::format("{}", entry.version), fmt::format("{:.4g}", entry.mu_k),
                 fmt::format("{:.4g}", entry.width_m), fmt::format("{:.4g}", entry.height_m));
-  }
   return text;
 }
 
@@ -132,12 +129,12 @@ std::string example(const Database& db, const std::string& folder) {
                      capacity);
 }
 
-std::string contents(const Database& db, const Positions& entries, const std::string& folder) {
-  std::string text = fmt::format("{}, revision {}: {} entries\n", db.name, db.revision, entries.size());
-  const std::vector<std::string> classes = names_in(db, entries, &Entry::equipment);
-  text += classes.size() == 1 ? list_of_entries(db, entries) : list_of_classes(db, entries);
+std::string contents(const Database& db, const std::string& folder) {
+  std::string text = fmt::format("{}, revision {}: {} entries\n", db.name, db.revision, db.entries.size());
+  const std::vector<std::string> classes = names_in(db.entries, &Entry::equipment);
+  text += classes.size() == 1 ? list_of_entries(db.entries) : list_of_classes(db.entries);
   for (const auto& [what, member] : {std::pair("floors", &Entry::floor), std::pair("frictions", &Entry::friction)})
-    if (const auto names = names_in(db, entries, member); !names.empty())
+    if (const auto names = names_in(db.entries, member); !names.empty())
       text += fmt::format("{:<12} {}\n", what, fmt::join(names, ", "));
   std::vector<std::string> texts;
   for (const Word& word : db.intensities) texts.push_back(swept(db, word));
@@ -151,7 +148,7 @@ std::string contents(const Database& db, const Positions& entries, const std::st
   return text + fmt::format("{:<12} {}\n", "ask", example(db, folder));
 }
 
-std::string contents_json(const Database& db, const Positions& entries) {
+std::string contents_json(const Database& db) {
   nlohmann::ordered_json json{
       {"format", "freestand-query/1"}, {"name", db.name}, {"revision", db.revision}, {"confidence", db.confidence}};
   const auto words = [](const std::vector<Word>& all) {
@@ -166,8 +163,7 @@ std::string contents_json(const Database& db, const Positions& entries) {
     json["demands"][i]["capacities"] =
         db.demands[i].binary ? std::vector<double>{} : capacities(db, db.demands[i].name);
   json["entries"] = nlohmann::ordered_json::array();
-  for (const std::size_t i : entries) {
-    const Entry& e = db.entries[i];
+  for (const Entry& e : db.entries)
     json["entries"].push_back({{"id", e.id},
                                {"class", e.equipment},
                                {"floor", e.floor},
@@ -177,7 +173,6 @@ std::string contents_json(const Database& db, const Positions& entries) {
                                {"height_m", number(e.height_m)},
                                {"version", e.version},
                                {"samples", e.samples}});
-  }
   return io::json_text(json);
 }
 

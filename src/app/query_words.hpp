@@ -8,10 +8,10 @@
 
 namespace freestand::app {
 
-// What is in a database, or of it in these entries: classes with their ranges, or the entries one by one where they are of one
-// class; words; and what can be asked. folder: as the user named it.
-std::string contents(const database::Database&, const std::vector<std::size_t>& entries, const std::string& folder);
-std::string contents_json(const database::Database&, const std::vector<std::size_t>& entries);
+// What is in a database: classes with their ranges, or the entries one by one where they are of one class; words; and what can be asked.
+// folder: as the user named it.
+std::string contents(const database::Database&, const std::string& folder);
+std::string contents_json(const database::Database&);
 
 // A question that this database answers, as a command line.
 std::string example(const database::Database&, const std::string& folder);

@@ -199,6 +199,27 @@ std::vector<std::size_t> picked(const Database& db, const Question& question) {
   return positions;
 }
 
+Database part_of(const Database& db, const std::vector<std::size_t>& entries) {
+  Database part = db;
+  part.entries.clear(), part.curves.clear();
+  for (const std::size_t i : entries) {
+    for (Curve curve : db.curves) {
+      if (curve.entry != i) continue;
+      curve.entry = part.entries.size();
+      part.curves.push_back(std::move(curve));
+    }
+    part.entries.push_back(db.entries[i]);
+  }
+  const auto absent = [&](std::string Curve::*member) {
+    return [&part, member](const Word& word) {
+      return std::ranges::none_of(part.curves, [&](const Curve& curve) { return curve.*member == word.name; });
+    };
+  };
+  std::erase_if(part.intensities, absent(&Curve::im));
+  std::erase_if(part.demands, absent(&Curve::demand));
+  return part;
+}
+
 std::vector<Answer> ask(const Database& db, const Question& question) {
   find_word(db.intensities, "intensity", question.im);
   const Word& demand = find_word(db.demands, "demand", question.demand);

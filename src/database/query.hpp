@@ -50,6 +50,9 @@ inline constexpr double intensity_reach = 1.5, coordinate_reach = 0.5;
 // where a word is not in the database or nothing is left.
 std::vector<std::size_t> picked(const Database&, const Question&);
 
+// These entries with their curves, and of intensities and demands those that these curves have.
+Database part_of(const Database&, const std::vector<std::size_t>& entries);
+
 // Throws Error (Exit::usage): an unknown word, a demand or intensity that is not there, a capacity outside of those that
 // are, a coordinate that the entries form no grid in, or a question that is too far outside.
 std::vector<Answer> ask(const Database&, const Question&);

@@ -132,6 +132,20 @@ TEST(Query, AGridWithAHoleGivesNoAnswerThere) {
   EXPECT_THAT(error_text(Exit::usage, [&] { ask(db, asked); }), HasSubstr("lies in no grid"));
 }
 
+TEST(Query, APartHoldsTheWordsOfItsCurvesAlone) {
+  Database db = test::made_database();
+  Curve fell = test::curve(db.entries.size() - 1, 0.5, 0.4, 0.5);
+  fell.demand = "overturned";
+  db.curves.push_back(fell);
+  const Database first = part_of(db, {0}), last = part_of(db, {db.entries.size() - 1});
+  ASSERT_EQ(first.demands.size(), 1u);
+  EXPECT_EQ(first.demands[0].name, "peak_slip_m");
+  EXPECT_EQ(last.demands.size(), 2u);
+  ASSERT_EQ(last.entries.size(), 1u);
+  EXPECT_EQ(last.entries[0].id, db.entries.back().id);
+  for (const Curve& curve : last.curves) EXPECT_EQ(curve.entry, 0u);
+}
+
 TEST(Query, MistakesAreToldWithTheChoices) {
   Question asked = question(0.4);
   asked.equipment = "rak";
