@@ -208,8 +208,11 @@ class Loader {
 
   // Tables with the same column mean the same number.
   void add_numbers(const MotionSource& source, std::vector<double> values, Entry& entry) {
-    if (source.building && source.building->drawn_period)
-      values.push_back(*drawn(*source.building, study_.seed, entry.motion.name).period_s);
+    if (source.building) {
+      const motion::Building own = drawn(*source.building, study_.seed, entry.motion.name);
+      if (source.building->drawn_period) values.push_back(*own.period_s);
+      if (source.building->drawn_damping) values.push_back(own.damping);
+    }
     for (std::size_t column = 0; column < source.numbers.size(); ++column) {
       const auto known = std::find_if(numbers_.begin(), numbers_.end(), [&](const motion::RecordNumber& number) {
         return number.name == source.numbers[column].name;

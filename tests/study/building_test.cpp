@@ -188,6 +188,11 @@ TEST_F(Upstairs, APeriodThatIsADistributionIsDrawnForEachRecord) {
   EXPECT_EQ((*more.entries)[0].numbers[0], drawn[0]);
   EXPECT_EQ((*more.entries)[2].numbers[0], drawn[3]);
   EXPECT_NE(more.motion(1).horizontal_mps2, motions.motion(2).horizontal_mps2);  // of another damping
+  ASSERT_EQ(more.numbers.back().name, "building_damping");
+  motion::Building damped = *swept.motions.front().building;
+  damped.period_s = drawn[0], damped.damping = (*more.entries)[1].numbers.back();
+  EXPECT_EQ(more.motion(1).horizontal_mps2,
+            motion::BuildingResponse(more.motion(0), motion::modes(damped)).floor(3, "").horizontal_mps2);
   EXPECT_EQ(load_motions(parse_study(expanded(swept), folder_ / "s.yaml", known(), Files::look)).fingerprint(),
             motions.fingerprint());
 }
