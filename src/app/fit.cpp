@@ -61,7 +61,7 @@ Exit run(const Context& context, const FitOptions& options) {
   context.world.on_root([&] { check(options); });
   const bool here = options.into.empty();
   study::RunFolder into(context.world, here ? options.folder : options.into, io::existing(options.overwrite, here),
-                        "start again",
+                        here ? "start again" : "start again with --overwrite",
                         {.writes = here ? std::vector<std::string>{} : std::vector{study::study_path("").string()},
                          .reads = {study::samples_path(options.folder), study::study_path(options.folder)}});
   const study::FitSummary summary = study::fit(context.world, into,

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <exception>
 
 #include "app/command.hpp"
 #include "base/shown_text.hpp"
 #include "io/provenance.hpp"
+#include "parallel/stop.hpp"
 
 namespace {
 
@@ -34,7 +36,16 @@ int tell(const CLI::App& parser, const std::string& verb, const CLI::ParseError&
 
 namespace {
 
+// What keeps nothing on its way ends at once when it is asked to stop; what does has a watch of its own.
+constexpr double patience_s = 0.2;
+
 int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
+  const freestand::parallel::StopOnSignal stop({patience_s, [root = world.is_root()] {
+                                                  if (root)
+                                                    fmt::print(stderr,
+                                                               "stopped on request (nothing is kept): start again\n");
+                                                  std::_Exit(static_cast<int>(freestand::Exit::resumable));
+                                                }});
   CLI::App parser("Seismic fragility databases for freestanding equipment", "freestand");
   parser.require_subcommand(1);
   parser.set_version_flag("--version", freestand::io::provenance_here("", 1).version);

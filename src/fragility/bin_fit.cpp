@@ -110,7 +110,8 @@ class Bin {
       fit_.ad_p_estimated = null.ad_p(goodness.ad, n);
     }
     // The law is no further from the truth than the fit is from the samples, and as S scatters under the null.
-    fit_.off_by = goodness.ks + goodness.resolution + fit_.ks_critical_estimated;
+    // Two probabilities differ by 1 at most.
+    fit_.off_by = std::min(1.0, goodness.ks + goodness.resolution + fit_.ks_critical_estimated);
   }
 
   const Options& options_;

@@ -13,6 +13,15 @@ namespace {
 
 constexpr int few_motions = 10;
 
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.3g}{}", value, unit == "1" ? "" : " " + unit);
+}
+
+// "0.0623 to 2.88 g": the mean intensities of the outermost fine cells.
+std::string range(const FragilityFunction& curve, const std::string& unit) {
+  return fmt::format("{:.3g} to {}", curve.im_least, with_unit(curve.im_most, unit));
+}
+
 void about_outcomes(const Tally& tally, const Result& result, std::vector<std::string>& out) {
   for (const Outcome outcome : {Outcome::painleve, Outcome::step_limit, Outcome::not_finite}) {
     const std::int64_t count = tally.count_of(outcome);
@@ -106,21 +115,22 @@ std::string capacities(const EdpResult& edp, const Meant& meant, const Number& n
 }
 
 // The fitted curves of one demand over all bins, by capacity.
-void about_functions(const EdpResult& edp, const Options& options, std::int64_t outside_im,
+void about_functions(const EdpResult& edp, const Options& options, const Result& result,
                      std::vector<std::string>& out) {
-  const auto median = [](const FragilityFunction& f) { return fmt::format("{:.3g}", f.median); };
+  const auto median = [&](const FragilityFunction& f) { return with_unit(f.median, result.im_unit); };
   const auto off_by = [](const FragilityFunction& f) { return fmt::format("by {:.2f}", f.off_by); };
   const auto told = [&](const std::string& concerned, const std::string& sentence) {
     if (!concerned.empty())
       out.push_back(fmt::format("{}: {}", edp.name, fmt::format(fmt::runtime(sentence), concerned)));
   };
   if (edp.functions.empty()) return;
-  told(capacities(
-           edp, [](const FragilityFunction& f) { return f.extrapolated; }, median),
-       fmt::format(
-           "the median of the fitted curve lies outside the intensities {}, {:.3g} to {:.3g}, for {{}}: it is an "
-           "extrapolation.",
-           outside_im > 0 ? "taken" : "swept", edp.functions[0].im_least, edp.functions[0].im_most));
+  told(
+      capacities(
+          edp, [](const FragilityFunction& f) { return f.extrapolated; }, median),
+      fmt::format(
+          "the median of the fitted curve lies outside the intensities {}, {} (but for a few samples), for {{}}: it is "
+          "an extrapolation.",
+          result.outside_im > 0 ? "taken" : "swept", range(edp.functions[0], result.im_unit)));
   told(capacities(
            edp, [](const FragilityFunction& f) { return !f.adequate && f.misfit_p <= test_level; }, off_by),
        "one lognormal curve is too simple, and may be off the true shares, for {}.");
@@ -153,9 +163,10 @@ void about_overturning(const Tally& tally, const Result& result, std::vector<std
   const FragilityFunction& curve = result.overturning;
   if (curve.extrapolated)
     out.push_back(
-        fmt::format("The median of the overturning curve ({:.3g}) lies outside the intensities {}, {:.3g} to {:.3g}: "
-                    "it is an extrapolation.",
-                    curve.median, result.outside_im > 0 ? "taken" : "swept", curve.im_least, curve.im_most));
+        fmt::format("The median of the overturning curve ({}) lies outside the intensities {}, {} (but for a few "
+                    "samples): it is an extrapolation.",
+                    with_unit(curve.median, result.im_unit), result.outside_im > 0 ? "taken" : "swept",
+                    range(curve, result.im_unit)));
   if (not_refuted(curve) && std::isnan(curve.off_by))
     out.push_back(
         "Shares of overturning are known in two bins or less, which a lognormal always meets: exports and risks take "
@@ -195,8 +206,7 @@ std::vector<std::string> warnings(const Tally& tally, const Result& result) {
   const auto overturned = [](const EdpResult& edp) { return edp.name == "overturned"; };
   for (const EdpResult& edp : result.edps) {
     about_bins(edp, tally.options(), out);
-    overturned(edp) ? about_overturning(tally, result, out)
-                    : about_functions(edp, tally.options(), result.outside_im, out);
+    overturned(edp) ? about_overturning(tally, result, out) : about_functions(edp, tally.options(), result, out);
   }
   if (std::none_of(result.edps.begin(), result.edps.end(), overturned)) about_overturning(tally, result, out);
   return out;

@@ -51,11 +51,15 @@ std::string used_text(const fs::path& folder) {
         "{} is not empty (results of another run would mix with this one's): name another folder, or "
         "add --overwrite{}",
         folder.string(), swept ? "; --resume adds what the same study has more" : "");
+  if (finished == 0 && !swept)
+    return fmt::format(
+        "{} is that of a run that has finished nothing (it was stopped, or is at work): --overwrite starts again",
+        folder.string());
   const std::string thrown = finished == 0   ? "starts again"
                              : finished == 1 ? "throws 1 finished block away"
                                              : fmt::format("throws {} finished blocks away", finished);
-  return fmt::format("{} holds an interrupted run (it is not empty): --resume goes on, --overwrite {}",
-                     folder.string(), thrown);
+  return fmt::format("{} holds an interrupted run (it is not empty): --resume goes on, --overwrite {}", folder.string(),
+                     thrown);
 }
 
 // Exported files, as their certificate has them.

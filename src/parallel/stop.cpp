@@ -7,6 +7,7 @@ namespace freestand::parallel {
 namespace {
 
 volatile std::sig_atomic_t stop_flag = 0;
+std::atomic<StopOnSignal*> innermost = nullptr;
 constexpr std::array stop_signals = {SIGTERM, SIGINT, SIGUSR1, SIGUSR2};
 
 void on_signal(int signal_number) {
@@ -24,7 +25,7 @@ struct sigaction action_of(void (*handler)(int)) {
 
 }  // namespace
 
-StopOnSignal::StopOnSignal() {
+StopOnSignal::StopOnSignal() : around_(innermost.exchange(this)) {
   const struct sigaction action = action_of(on_signal);
   for (std::size_t i = 0; i < stop_signals.size(); ++i) sigaction(stop_signals[i], &action, &before_[i]);
 }
@@ -34,7 +35,7 @@ StopOnSignal::StopOnSignal(Overdue overdue) : StopOnSignal() {
     using Clock = std::chrono::steady_clock;
     const std::chrono::duration<double> patience(overdue.patience_s);
     for (auto since = Clock::now(); !over_; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
-      if (!stop_requested()) since = Clock::now();
+      if (!stop_requested() || innermost != this) since = Clock::now();
       if (Clock::now() - since <= patience) continue;
       overdue.act();
       return;
@@ -45,6 +46,7 @@ StopOnSignal::StopOnSignal(Overdue overdue) : StopOnSignal() {
 StopOnSignal::~StopOnSignal() {
   over_ = true;
   if (watch_.joinable()) watch_.join();
+  innermost = around_;
   for (std::size_t i = 0; i < stop_signals.size(); ++i) {
     const bool leaving = stop_flag && stop_signals[i] != SIGINT && before_[i].sa_handler == SIG_DFL;
     const struct sigaction ignored = action_of(SIG_IGN);

@@ -16,7 +16,7 @@ namespace freestand::parallel {
 class StopOnSignal {
  public:
   // What to do, from another thread, when the run still goes on `patience_s` after it was asked to stop: it is in the
-  // middle of something long. It should end the process.
+  // middle of something long. It should end the process. While another one lives within this one, nothing.
   struct Overdue {
     double patience_s;
     std::function<void()> act;
@@ -30,6 +30,7 @@ class StopOnSignal {
 
  private:
   std::array<struct sigaction, 4> before_;
+  StopOnSignal* around_;  // the one within which this one lives
   std::atomic<bool> over_ = false;
   std::thread watch_;
 };

@@ -144,7 +144,8 @@ void sweep_model(YAML::Node root, Problems& problems, FittedAs fitted) {
   if (fitted == FittedAs::draws) leave_to_draws(model);
   for (const Calibrated& c : take_calibrated(model, problems))
     if (!c.value && c.name != "placement_scatter")
-      problems.add(0, fmt::format("{} is not fitted yet (a sweep needs its value): let `freestand add` fit it, or give "
+      problems.add(0, fmt::format("{} is not fitted yet (a sweep needs its value): run DIR/fitted.yaml of `freestand "
+                                  "compare STUDY -o DIR`, or give "
                                   "a number",
                                   c.name));
   if (scatter && scatter.IsScalar()) scatter_placements(model["block"], scatter.as<double>(0));

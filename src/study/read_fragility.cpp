@@ -67,7 +67,8 @@ IntensityPart read_intensity(Section& section, const Known& known) {
   const bool building = std::any_of(names.begin(), names.end(), [](const auto& n) { return n.starts_with("ground."); });
   if (found == known.intensities.end() && im.name.starts_with("ground.") && !building) {
     section.problem("im", fmt::format("{} is {} (no records of this study have the keys building and storey: what is "
-                                      "under the equipment is the record itself): take {}, or give building and storey",
+                                      "under the equipment is the record itself): take {}, or give building and storey "
+                                      "(0: the ground, beside sweeps on floors)",
                                       section.name("im"), im.name, im.name.substr(7)));
     return im;
   }

@@ -98,7 +98,9 @@ Error RunFolder::stopped() const {
                              "short): give it more time, or a smaller block_size, and {}",
                              folder_.string(), go_on_),
                  Exit::cure);
-  return Error(fmt::format("stopped early (on request): what is finished is kept in {}; {}", folder_.string(), go_on_),
+  const bool kept = finished_in(folder_) > 0;
+  return Error(fmt::format("stopped early (on request): {} in {}; {}",
+                           kept ? "what is finished is kept" : "nothing was finished", folder_.string(), go_on_),
                Exit::resumable);
 }
 

@@ -5,7 +5,7 @@ import subprocess
 import time
 import unittest
 
-from support import InFolder, command, datasets, finished_blocks, result, slow_fit, study_text
+from support import CONFIGS, InFolder, command, datasets, finished_blocks, result, slow_fit, study_text
 
 
 def contents(folder):
@@ -88,6 +88,16 @@ class Signals(Stopping):
 
 
 class Logs(Stopping):
+    def test_what_keeps_nothing_ends_at_once(self):
+        """Fits of a set, which are begun anew: no result, no word but that."""
+        process = self.start(["compare", CONFIGS / "walkthrough" / "cabinet.yaml", "-o", self.folder / "compared", "--quiet"])
+        time.sleep(0.5)
+        code, seconds = self.stop(process, signal.SIGTERM)
+        self.assertEqual(code, 75, self.error)
+        self.assertLess(seconds, 5)
+        self.assertIn("stopped on request (nothing is kept): start again", self.error)
+        self.assertEqual(list(self.folder.glob("compared/*.json")), [])
+
     def test_a_log_that_cannot_be_written_ends_no_run(self):
         """A full disk, and a pipe whose reader has left."""
         study = self.write("study.yaml", study_text(samples=600))
