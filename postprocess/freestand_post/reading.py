@@ -294,7 +294,9 @@ def _read_sweep(folder):
     folder = existing_folder(folder)
     path = folder / "fragility.h5"
     if not path.exists():
-        hint = "run `freestand fit` on it first" if (folder / "samples.h5").exists() else "give the folder of `freestand run`, `compare` or `diagnose`"
+        hint = ("run `freestand fit` on it first" if (folder / "samples.h5").exists() else
+                "the run there was stopped, or is at work: let it end first" if (folder / "freestand.begun").exists() else
+                "give the folder of `freestand run`, `compare` or `diagnose`")
         raise Problem(f"{folder} has no fragility.h5: {hint}")
     summary = _json(folder / "summary.json")
     with _open(path, "freestand-fragility/1") as root:

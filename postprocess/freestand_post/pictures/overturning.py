@@ -58,6 +58,9 @@ def _finding(sweep, bins, curve, drawn, im):
     if not np.nansum(bins["n_over"]):
         return "No specimen overturned in the range swept"
     median = curve.get("median", np.nan) if drawn else np.nan
+    half = crossing(sweep.centre, bins["p_over"], 0.5)
+    if drawn and not curve["adequate"] and np.isfinite(half):
+        return f"By the counted shares, half of the specimens overturn at {words.is_(im, half, sweep.im_unit)}"
     if np.isfinite(median) and sweep.edge[0] <= median <= sweep.edge[-1]:
         return f"By the fitted curve, half of the specimens overturn at {words.is_(im, median, sweep.im_unit)}"
     top = int(np.nanargmax(bins["p_over"]))

@@ -1,13 +1,25 @@
 #include "measurement/fit/bands.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace freestand::measurement {
 namespace {
 
-constexpr std::size_t predictions = 40;  // their standard deviation is known to a ninth
-constexpr double reach = 1.645;          // of a normal deviate in 90 of 100
+constexpr std::size_t predictions = 40;
+constexpr double reach = 1.645;  // of a normal deviate in 90 of 100
+
+// Of so many equally likely values as many lie below it, at `share` of their number and one more: sorted as far as is needed.
+double at_share(std::vector<double>& values, double share) {
+  const double place = share * (static_cast<double>(values.size()) + 1) - 1;
+  const auto k = static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), values.begin() + static_cast<long>(k), values.end());
+  const double low = values[k];
+  if (k + 1 == values.size()) return low;
+  const double high = *std::min_element(values.begin() + static_cast<long>(k) + 1, values.end());
+  return std::lerp(low, high, std::clamp(place - static_cast<double>(k), 0.0, 1.0));
+}
 
 }  // namespace
 
@@ -19,36 +31,22 @@ std::vector<Bands> predicted_bands(const Bench& bench, const ModelSpec& model, c
     const Test& test = bench.test(i);
     Values ends;
     if (!test.has_history()) return ends;
-    Prediction first;
-    std::vector<Values> mean(channel_count), square(channel_count);  // of the differences from the first
-    double count = 0;
+    std::vector<Prediction> all_of_them;
     for (std::size_t k = 0; k < predictions; ++k) {
       const auto& replays = bench.replays(i);
       const FloorMotion* motion = replays.empty() ? nullptr : &replays[k % replays.size()];
       Prediction one = predict(model, test, spread_row(posterior.draws, k, predictions), motion);
-      if (one.failed()) continue;
-      if (count++ == 0) first = one;
-      for (int c = 0; c < channel_count; ++c) {
-        const auto channel = static_cast<Channel>(c);
-        const std::size_t n = history(test, channel).size();
-        auto &m = mean[static_cast<std::size_t>(c)], &s = square[static_cast<std::size_t>(c)];
-        m.resize(n), s.resize(n);
-        for (std::size_t t = 0; t < n; ++t) {
-          const double d = one.channel(channel)[t] - first.channel(channel)[t];
-          m[t] += d, s[t] += d * d;
-        }
-      }
+      if (!one.failed()) all_of_them.push_back(std::move(one));
     }
-    for (int c = 0; c < channel_count && count > 1; ++c) {
+    for (int c = 0; c < channel_count && all_of_them.size() > 1; ++c) {
       const auto channel = static_cast<Channel>(c);
-      const double noise = bench.noise(channel);
+      const double sensor = reach * bench.noise(channel) * bench.sensor(channel).size();
+      std::vector<double> here(all_of_them.size());
       for (std::size_t t = 0; t < history(test, channel).size(); ++t) {
-        const double m = mean[static_cast<std::size_t>(c)][t] / count;
-        const double variance = (square[static_cast<std::size_t>(c)][t] - count * m * m) / (count - 1);
-        const double middle = first.channel(channel)[t] + m,
-                     half = reach * std::sqrt(std::max(variance, 0.0) + noise * noise);
-        ends.push_back(middle - half);
-        ends.push_back(middle + half);
+        for (std::size_t k = 0; k < here.size(); ++k) here[k] = all_of_them[k].channel(channel)[t];
+        const double middle = at_share(here, 0.5), lower = at_share(here, 0.05), upper = at_share(here, 0.95);
+        ends.push_back(middle - std::hypot(middle - lower, sensor));
+        ends.push_back(middle + std::hypot(upper - middle, sensor));
       }
     }
     return ends;

@@ -6,7 +6,8 @@
 
 namespace freestand::measurement {
 
-// 90 of 100 readings lie between, at each time of a history: the predictions' mean -+ 1.645 standard deviations. Empty: not measured.
+// 90 of 100 readings lie between, at each time of a history: from the predictions' median as far as 45 of 100 of them, and the sensor's noise,
+// reach to either side, as independent errors do. Empty: not measured.
 struct Band {
   std::vector<double> lower, upper;
   bool holds(std::size_t k, double value) const { return lower[k] <= value && value <= upper[k]; }
