@@ -55,7 +55,8 @@ FloorMotion swing(double peak_mps2, double period_s) {
 constexpr double true_slenderness = 0.2, true_size_m = 0.6, true_scatter = 0.1;
 
 // Tests of a block whose slenderness scatters, with the effects of `truth`; motions that make about half overturn.
-Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& truth, std::uint64_t seed = 7) {
+Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& truth, std::uint64_t seed = 7,
+                      double scatters = true_scatter) {
   Dataset data;
   data.name = "made";
   for (std::size_t i = 0; i < count; ++i) {
@@ -63,7 +64,7 @@ Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& truth, st
     Test test;
     test.id = "t" + std::to_string(i);
     test.motion = swing((draw(1) < 0.5 ? -1 : 1) * (2 + 3 * draw(2)), 0.5 + 0.7 * draw(3));
-    const double scatter = true_scatter * gsl_cdf_ugaussian_Pinv(draw(4));
+    const double scatter = scatters * gsl_cdf_ugaussian_Pinv(draw(4));
     const double slenderness = true_slenderness * std::exp(scatter);
     Specimen s;
     s.model = Model::rock;
@@ -250,6 +251,19 @@ TEST(Outcomes, FitFindsSlendernessAndScatterAgain) {
   // It is as good as its own probabilities say.
   const Pooled right = expected_brier(fit.calibration);
   EXPECT_NEAR(fit.score, right.error, 3 * right.standard_error);
+}
+
+// A specimen that is placed alike in each test, its size known and its rocking as Housner has it, at the end of what is allowed: its outcomes
+// are met, nearly all. (Scatters below a fortieth of a room of 0.2 were never looked at, nor the end: 2 to 5 of 40 were missed.)
+TEST(Outcomes, AnExactSpecimenIsMetAtTheEndOfARange) {
+  const Dataset data = made_outcomes(40, {}, 7, 0);
+  ModelSpec model = rocking_model(true_size_m);
+  model.slenderness = Number{.value = true_slenderness};
+  model.impact_factor = Number{.free = 0};
+  model.free[0] = {.name = "impact.factor", .unit = "1", .lower = 0.7, .upper = 1, .low = 0.7, .high = 1};
+  const ModelFit fit = fit_outcomes(Bench(data, 0), model, {}, {}, run_here);
+  EXPECT_LT(fit.score, 0.01);
+  EXPECT_LT(fit.x[1], 0.01);
 }
 
 // Outcomes are steps, so which point is best hangs on which points are looked at. What is predicted for tests left out

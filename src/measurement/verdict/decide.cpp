@@ -319,12 +319,11 @@ class Decision {
                       ahead.empty() ? "" : "; every other effect misses these tests by more" + ahead));
     else {
       const std::string allowed = d_.friction_scatter > 0 ? scatter_allowed_for() : floor_noise_allowed_for(best);
-      say(
-          fmt::format("{} {} the left-out error from {} to {}{}; every other effect of those fitted to the end "
-                      "misses the tests left out by more{}, beyond chance{}",
-                      joined(best.effects), best.effects.size() > 1 ? "bring" : "brings",
-                      three_digits(left_out(d_.base)), three_digits(left_out(best)), told_by_few(best) + allowed,
-                      allowed.empty() ? "" : " with that allowed for", ahead + what_remains(best)));
+      say(fmt::format(
+          "with {} the left-out error falls from {} to {}{}; every other effect of those fitted to the end "
+          "misses the tests left out by more{}, beyond chance{}",
+          joined(best.effects), three_digits(left_out(d_.base)), three_digits(left_out(best)),
+          told_by_few(best) + allowed, allowed.empty() ? "" : " with that allowed for", ahead + what_remains(best)));
     }
   }
 
