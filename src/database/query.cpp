@@ -200,13 +200,17 @@ std::vector<std::size_t> picked(const Database& db, const Question& question) {
 }
 
 Database part_of(const Database& db, const std::vector<std::size_t>& entries) {
-  Database part = db;
-  part.entries.clear(), part.curves.clear();
+  Database part{.name = db.name,
+                .revision = db.revision,
+                .confidence = db.confidence,
+                .intensities = db.intensities,
+                .demands = db.demands,
+                .classes = db.classes};
   for (const std::size_t i : entries) {
-    for (Curve curve : db.curves) {
+    for (const Curve& curve : db.curves) {
       if (curve.entry != i) continue;
-      curve.entry = part.entries.size();
-      part.curves.push_back(std::move(curve));
+      part.curves.push_back(curve);
+      part.curves.back().entry = part.entries.size();
     }
     part.entries.push_back(db.entries[i]);
   }

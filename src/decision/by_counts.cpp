@@ -119,23 +119,25 @@ std::vector<double> ByCounts::rates_left_out() const {
 
 double ByCounts::rate_below(const HazardCurve& hazard, const Range& range) const {
   struct Point {
-    double im, share;
+    double im, share, n;
   };
   std::vector<Point> points;
   if (std::isnan(f_.median))
-    for (std::size_t i = 0; i < f_.cell_share.size(); ++i) points.push_back({f_.cell_im[i], f_.cell_share[i]});
+    for (std::size_t i = 0; i < f_.cell_share.size(); ++i)
+      points.push_back({f_.cell_im[i], f_.cell_share[i], f_.cell_n[i]});
   if (points.empty())
-    for (const fragility::CountedBin& bin : bins_) points.push_back({bin.im, bin.probability});
+    for (const fragility::CountedBin& bin : bins_)
+      points.push_back({bin.im, bin.probability, static_cast<double>(edp_.bins[bin.index].n)});
   const Point& first = points.front();
   if (!(first.share > 0) || !(range.from < range.to)) return 0;
+  const double level = first.share * (hazard.rate(std::max(range.from, hazard.first())) - hazard.rate(range.to));
   const auto larger = std::ranges::find_if(points, [&](const Point& other) { return other.share > first.share; });
-  if (larger == points.end())
-    return first.share * (hazard.rate(std::max(range.from, hazard.first())) - hazard.rate(range.to));
+  if (larger == points.end()) return level;
   // A share of 1 is that of all samples there: half a sample less.
-  const double n = static_cast<double>(std::max<std::int64_t>(edp_.bins[bins_.front().index].n, 1));
   const double low = gsl_cdf_ugaussian_Pinv(first.share),
-               high = gsl_cdf_ugaussian_Pinv(std::min(larger->share, 1 - 0.5 / n)),
-               dispersion = std::log(larger->im / first.im) / (high - low);
+               high = gsl_cdf_ugaussian_Pinv(std::min(larger->share, 1 - 0.5 / std::max(larger->n, 1.0)));
+  if (!(high > low)) return level;
+  const double dispersion = std::log(larger->im / first.im) / (high - low);
   return annual_rate(hazard, {first.im * std::exp(-low * dispersion), dispersion}, range);
 }
 

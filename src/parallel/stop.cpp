@@ -7,7 +7,7 @@ namespace freestand::parallel {
 namespace {
 
 volatile std::sig_atomic_t stop_flag = 0;
-std::atomic<StopOnSignal*> innermost = nullptr;
+StopOnSignal* innermost = nullptr;  // of the main thread
 constexpr std::array stop_signals = {SIGTERM, SIGINT, SIGUSR1, SIGUSR2};
 
 void on_signal(int signal_number) {
@@ -25,7 +25,8 @@ struct sigaction action_of(void (*handler)(int)) {
 
 }  // namespace
 
-StopOnSignal::StopOnSignal() : around_(innermost.exchange(this)) {
+StopOnSignal::StopOnSignal() : around_(std::exchange(innermost, this)) {
+  if (around_) around_->handed_over_ = true;
   const struct sigaction action = action_of(on_signal);
   for (std::size_t i = 0; i < stop_signals.size(); ++i) sigaction(stop_signals[i], &action, &before_[i]);
 }
@@ -35,7 +36,8 @@ StopOnSignal::StopOnSignal(Overdue overdue) : StopOnSignal() {
     using Clock = std::chrono::steady_clock;
     const std::chrono::duration<double> patience(overdue.patience_s);
     for (auto since = Clock::now(); !over_; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
-      if (!stop_requested() || innermost != this) since = Clock::now();
+      if (handed_over_) return;
+      if (!stop_requested()) since = Clock::now();
       if (Clock::now() - since <= patience) continue;
       overdue.act();
       return;

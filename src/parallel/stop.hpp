@@ -16,7 +16,8 @@ namespace freestand::parallel {
 class StopOnSignal {
  public:
   // What to do, from another thread, when the run still goes on `patience_s` after it was asked to stop: it is in the
-  // middle of something long. It should end the process. While another one lives within this one, nothing.
+  // middle of something long. It should end the process. Nothing, once another one has lived within this one: what
+  // that one was for tells how it ends.
   struct Overdue {
     double patience_s;
     std::function<void()> act;
@@ -31,6 +32,7 @@ class StopOnSignal {
  private:
   std::array<struct sigaction, 4> before_;
   StopOnSignal* around_;  // the one within which this one lives
+  std::atomic<bool> handed_over_ = false;
   std::atomic<bool> over_ = false;
   std::thread watch_;
 };

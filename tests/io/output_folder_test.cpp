@@ -53,7 +53,7 @@ TEST(OutputFolder, AnInterruptedSweepIsToldAsThat) {
     return error_text(Exit::usage, [&] { prepare_output_folder(scratch.folder(), Existing::refuse); });
   };
   put(scratch / begun_name);
-  EXPECT_THAT(refused(), AllOf(HasSubstr("interrupted run"), HasSubstr("--overwrite starts again")));
+  EXPECT_THAT(refused(), AllOf(HasSubstr("has finished nothing"), HasSubstr("--overwrite starts again")));
   parallel::BlockLog log(scratch / "blocks", "study");
   log.begin({});
   log.write(1, {1, {0.5}});
