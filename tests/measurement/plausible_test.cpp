@@ -3,8 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "measurement/laboratory/quality.hpp"
-#include "measurement/made_tests.hpp"
+#include "measurement/examined.hpp"
 
 namespace freestand::measurement::plausible_test {
 namespace {
@@ -14,27 +13,15 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-Specimen cabinet(double mu) {
-  Specimen s;
-  s.block = Block::rectangular(0.8, 0.6, 100);
-  s.friction = {mu, mu};
-  s.model = Model::slide;
-  return s;
-}
-
-Quality examined(const Dataset& data) {
-  const Bench bench(data, 0);
-  ModelFit fit{.model = test::free_friction(), .x = {0.2}};
-  fit.score = mean_score(bench, tests_of(data, Role::calibration), fit.model, fit.x);
-  return examine(bench, fit, Effort{}, run_here);
-}
+using test::examined;
+using test::sliding_cabinet;
 
 // What a channel of one test cannot be, whatever the friction.
 TEST(Quality, AChannelOfOneTest) {
-  Specimen rocks = cabinet(0.9);
+  Specimen rocks = sliding_cabinet(0.9);
   rocks.block = Block::rectangular(0.3, 1.2, 100);
   rocks.model = Model::slide_rock;
-  Dataset slid = test::made_dataset(cabinet(0.2));
+  Dataset slid = test::made_dataset(sliding_cabinet(0.2));
   const Dataset rocked = test::made_dataset(rocks);
   const auto said = [](Dataset data, auto change, const char* what) {
     EXPECT_THAT(doubts(Bench(data, 0)).sentences, Not(Contains(HasSubstr(what))));
@@ -74,16 +61,16 @@ TEST(Quality, AChannelOfOneTest) {
 
 // A reading in steps larger than its noise stays at one value of its own accord.
 TEST(Quality, ARoundedChannelIsNotFrozen) {
-  Dataset data = test::made_dataset(cabinet(0.2));
+  Dataset data = test::made_dataset(sliding_cabinet(0.2));
   for (measurement::Test& test : data.tests)
     for (double& s : test.slip_m) s = std::round(s / 0.002) * 0.002;
   EXPECT_THAT(doubts(Bench(data, 0)).sentences, Not(Contains(HasSubstr("stays at one value"))));
 }
 
 TEST(Quality, ClippedSensorsAndStillTests) {
-  Dataset data = test::made_dataset(cabinet(0.2));
+  Dataset data = test::made_dataset(sliding_cabinet(0.2));
   for (double& s : data.tests[0].slip_m) s = std::clamp(s, -0.01, 0.01);
-  data.tests[1] = test::made_test("t2", cabinet(0.9), test::swings(4, 0.8), 9);
+  data.tests[1] = test::made_test("t2", sliding_cabinet(0.9), test::swings(4, 0.8), 9);
   const Quality q = examined(data);
   EXPECT_THAT(q.findings, Contains(HasSubstr("slip_m of test t1 stays at its extreme value")));
   EXPECT_THAT(q.findings, Contains(HasSubstr("test t2 shows no motion above the noise")));
@@ -91,7 +78,7 @@ TEST(Quality, ClippedSensorsAndStillTests) {
 
 // A test without a channel that others have, or with a dead one, bounds nothing: it may have moved.
 TEST(Quality, ChannelsThatLackOrAreDead) {
-  Dataset data = test::made_dataset(cabinet(0.9));
+  Dataset data = test::made_dataset(sliding_cabinet(0.9));
   data.tests[0].rotation_rad.clear();
   data.tests[1].slip_m.assign(data.tests[1].slip_m.size(), 0);
   auto findings = examined(data).findings;
@@ -107,7 +94,7 @@ TEST(Quality, ChannelsThatLackOrAreDead) {
 }
 
 TEST(Quality, UnitsAndDeadChannels) {
-  const Dataset good = test::made_dataset(cabinet(0.2));
+  const Dataset good = test::made_dataset(sliding_cabinet(0.2));
   const auto said = [&](auto change) {
     Dataset data = good;
     change(data);
@@ -132,7 +119,7 @@ TEST(Quality, UnitsAndDeadChannels) {
 }
 
 TEST(Quality, SizesClippedFloorAndStatedNoise) {
-  const Dataset good = test::made_dataset(cabinet(0.2));
+  const Dataset good = test::made_dataset(sliding_cabinet(0.2));
   Dataset data = good;
   for (auto& t : data.tests) t.specimen.width_m = 800;
   for (double& c : data.tests[0].motion.horizontal_mps2) c = std::clamp(c, -1.0, 1.0);
@@ -148,7 +135,7 @@ TEST(Quality, SizesClippedFloorAndStatedNoise) {
 }
 
 TEST(Quality, OffsetsOfSensors) {
-  const Dataset good = test::made_dataset(cabinet(0.2));
+  const Dataset good = test::made_dataset(sliding_cabinet(0.2));
   const auto shifted = [](std::vector<double>& samples, double by) {
     for (double& s : samples) s += by;
   };
@@ -178,7 +165,7 @@ TEST(Quality, OffsetsOfSensors) {
 
 // A dead floor and a noise that is understated make no offset.
 TEST(Quality, WhatIsNoOffset) {
-  Dataset data = test::made_dataset(cabinet(0.2));
+  Dataset data = test::made_dataset(sliding_cabinet(0.2));
   data.noise.slip_m /= 100;
   data.noise.rotation_rad /= 100;
   for (double& c : data.tests[0].motion.horizontal_mps2) c = 0;
@@ -188,7 +175,7 @@ TEST(Quality, WhatIsNoOffset) {
 
 // Cut out of the middle of a slip, a test begins off zero.
 TEST(Quality, RecordsThatBeginLate) {
-  Dataset data = test::made_dataset(cabinet(0.2));
+  Dataset data = test::made_dataset(sliding_cabinet(0.2));
   auto& cut = data.tests[0];
   const std::size_t from = 150;
   std::vector<double> floor;
@@ -202,10 +189,10 @@ TEST(Quality, RecordsThatBeginLate) {
 
 // The floor shakes from 0.5 s on; a response that is 0.3 s ahead of it cannot be its answer, slip or rotation.
 TEST(Quality, AResponseThatBeginsBeforeItsFloor) {
-  Specimen rocks = cabinet(0.9);
+  Specimen rocks = sliding_cabinet(0.9);
   rocks.block = Block::rectangular(0.3, 1.2, 100);
   rocks.model = Model::slide_rock;
-  for (const Specimen& s : {cabinet(0.2), rocks}) {
+  for (const Specimen& s : {sliding_cabinet(0.2), rocks}) {
     Dataset data = test::made_dataset(s);
     EXPECT_THAT(doubts(Bench(data, 0)).sentences, Not(Contains(HasSubstr("before its floor"))));
     if (s.model == Model::slide_rock) data.tests[1].slip_m.clear();
@@ -233,7 +220,7 @@ TEST(Quality, ACutOffPeakIsNoRoundedOne) {
 // The block's accelerometer, in all tests together: while nothing moves it shows the floor.
 TEST(Quality, TheGainOfTheBlocksAccelerometer) {
   for (const double factor : {1.0, 1.1, 0.9}) {
-    Dataset data = test::made_dataset(cabinet(0.2));
+    Dataset data = test::made_dataset(sliding_cabinet(0.2));
     for (measurement::Test& test : data.tests) {
       test.block_acceleration_mps2.assign(test.slip_m.size(), 0);  // asked for
       test.block_acceleration_mps2 =

@@ -4,9 +4,8 @@
 #include <gmock/gmock.h>
 
 #include "base/random.hpp"
+#include "measurement/examined.hpp"
 #include "measurement/laboratory/plausible.hpp"
-#include "measurement/laboratory/quality.hpp"
-#include "measurement/made_tests.hpp"
 
 namespace freestand::measurement::timing_test {
 namespace {
@@ -16,13 +15,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-Specimen cabinet(double mu) {
-  Specimen s;
-  s.block = Block::rectangular(0.8, 0.6, 100);
-  s.friction = {mu, mu};
-  s.model = Model::slide;
-  return s;
-}
+using test::examined;
+using test::sliding_cabinet;
 
 void mirror(Test& test) {
   for (double& s : test.slip_m) s = -s;
@@ -35,15 +29,8 @@ void delay(Test& test, int steps) {
     test.slip_m[static_cast<std::size_t>(i)] = before[static_cast<std::size_t>(std::clamp(i - steps, 0, n - 1))];
 }
 
-Quality examined(const Dataset& data) {
-  const Bench bench(data, 0);
-  ModelFit fit{.model = test::free_friction(), .x = {0.2}};
-  fit.score = mean_score(bench, tests_of(data, Role::calibration), fit.model, fit.x);
-  return examine(bench, fit, Effort{}, run_here);
-}
-
 TEST(Timing, OfAChannelInOrder) {
-  const Dataset data = test::made_dataset(cabinet(0.2));
+  const Dataset data = test::made_dataset(sliding_cabinet(0.2));
   const Bench bench(data, 0);
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const Timing t = slip_timing(bench, i, 30);
@@ -55,7 +42,7 @@ TEST(Timing, OfAChannelInOrder) {
 
 TEST(Timing, FindsMirrorAndDelayWhateverTheFriction) {
   for (const double mu : {0.1, 0.25}) {
-    Dataset data = test::made_dataset(cabinet(mu));
+    Dataset data = test::made_dataset(sliding_cabinet(mu));
     mirror(data.tests[0]);
     delay(data.tests[1], 11);
     delay(data.tests[2], -12);
@@ -69,7 +56,7 @@ TEST(Timing, FindsMirrorAndDelayWhateverTheFriction) {
 }
 
 TEST(Quality, NamesTheTestThatIsWrong) {
-  Dataset data = test::made_dataset(cabinet(0.2));
+  Dataset data = test::made_dataset(sliding_cabinet(0.2));
   mirror(data.tests[3]);
   const Quality q = examined(data);
   EXPECT_THAT(q.findings, Contains(HasSubstr("slip of test t4 looks mirrored")));
@@ -79,7 +66,7 @@ TEST(Quality, NamesTheTestThatIsWrong) {
 
 // What is held out is told of, and decides nothing.
 TEST(Quality, ATestThatIsHeldOutSpoilsNoVerdict) {
-  const Dataset good = test::made_dataset(cabinet(0.2));
+  const Dataset good = test::made_dataset(sliding_cabinet(0.2));
   ASSERT_EQ(good.tests[4].role, Role::holdout);
   const auto said = [&](auto change, const char* what) {
     Dataset data = good;
@@ -109,7 +96,7 @@ TEST(Quality, ATestThatIsHeldOutSpoilsNoVerdict) {
 }
 
 TEST(Quality, SaysOnceWhatIsWrongWithAll) {
-  Dataset data = test::made_dataset(cabinet(0.2));
+  Dataset data = test::made_dataset(sliding_cabinet(0.2));
   for (auto& t : data.tests) delay(t, 12);
   const Quality q = examined(data);
   EXPECT_NEAR(q.late_s, 0.06, 0.005);
@@ -119,7 +106,7 @@ TEST(Quality, SaysOnceWhatIsWrongWithAll) {
 
 // Too little for a verdict from the slips alone, but the same way in every test.
 TEST(Quality, TellsOfALittleDelayThatAllHave) {
-  Dataset data = test::made_dataset(cabinet(0.2));
+  Dataset data = test::made_dataset(sliding_cabinet(0.2));
   for (auto& t : data.tests) delay(t, 2);
   EXPECT_THAT(examined(data).findings,
               Contains(testing::ContainsRegex("in [34] of [34] tests whose slips tell, friction is steadiest if the "
@@ -128,7 +115,7 @@ TEST(Quality, TellsOfALittleDelayThatAllHave) {
 
 // Responses exchanged between two tests, and the floor of one written over that of another.
 TEST(Quality, ExchangedResponsesAndCopiedFloors) {
-  const Dataset sound = test::made_dataset(cabinet(0.2));
+  const Dataset sound = test::made_dataset(sliding_cabinet(0.2));
   EXPECT_THAT(examined(sound).findings, Not(Contains(HasSubstr("exchanged"))));
   Dataset exchanged = sound;
   std::swap(exchanged.tests[0].slip_m, exchanged.tests[2].slip_m);
@@ -147,7 +134,7 @@ TEST(Quality, ExchangedResponsesAndCopiedFloors) {
 
 // All of them: no clock, sign or file is at fault.
 TEST(Quality, AllTestsInAnotherUnit) {
-  Dataset data = test::made_dataset(cabinet(0.2), 0.1);
+  Dataset data = test::made_dataset(sliding_cabinet(0.2), 0.1);
   for (measurement::Test& t : data.tests)
     for (double& s : t.slip_m) s *= 0.1;
   data.noise.slip_m *= 0.1;
@@ -159,10 +146,10 @@ TEST(Quality, AllTestsInAnotherUnit) {
 // Blocks that were pushed, on a floor that stands: its channel holds noise alone, and any factor that makes nothing of the slip suits it.
 TEST(Quality, AFloorThatStandsTellsOfNoUnit) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    Dataset data = test::made_dataset(cabinet(0.2));
+    Dataset data = test::made_dataset(sliding_cabinet(0.2));
     data.noise.floor_acceleration_mps2 = 0.03;
     for (std::size_t i = 0; i < data.tests.size(); ++i) {
-      Specimen pushed = cabinet(0.2);
+      Specimen pushed = sliding_cabinet(0.2);
       pushed.start.slip_velocity_mps = 0.6 + 0.3 * static_cast<double>(i);
       std::vector<double> still(801);
       for (std::size_t k = 0; k < still.size(); ++k) still[k] = 0.03 * random::standard_normal(1000 + seed, k, i);
@@ -178,7 +165,7 @@ TEST(Quality, AFloorThatStandsTellsOfNoUnit) {
 // One test in centimetres taken for metres, or in tenths: its own, not a friction that differs.
 TEST(Quality, ATestInAnotherUnit) {
   for (const double factor : {0.1, 100.0, 0.0254}) {
-    Dataset data = test::made_dataset(cabinet(0.2));
+    Dataset data = test::made_dataset(sliding_cabinet(0.2));
     for (double& s : data.tests[2].slip_m) s *= factor;
     const Quality found = examined(data);
     EXPECT_THAT(found.findings, Contains(testing::ContainsRegex("slip_m of (test )?t3 (is|goes with)"))) << factor;
@@ -191,8 +178,8 @@ TEST(Quality, ATestInAnotherUnit) {
 TEST(Timing, KnowsWhereAnotherLagWouldDoAsWell) {
   std::vector<double> a;
   for (int i = 0; i <= 800; ++i) a.push_back(i > 100 && i < 700 ? 4 * std::sin(0.09 * i) : 0);
-  Dataset data = test::made_dataset(cabinet(0.2));
-  data.tests[0] = test::made_test("t1", cabinet(0.2), piecewise_linear("hum", 0.005, a, {}), 5);
+  Dataset data = test::made_dataset(sliding_cabinet(0.2));
+  data.tests[0] = test::made_test("t1", sliding_cabinet(0.2), piecewise_linear("hum", 0.005, a, {}), 5);
   delay(data.tests[0], 20);
   delay(data.tests[1], 40);
   const Bench bench(data, 0);
@@ -206,7 +193,7 @@ TEST(Timing, KnowsWhereAnotherLagWouldDoAsWell) {
 // Recorders started apart by hand.
 TEST(Quality, AClockThatIsOffByMoreThanASwing) {
   for (const int late : {-60, 60, 110}) {
-    Dataset data = test::made_dataset(cabinet(0.2));
+    Dataset data = test::made_dataset(sliding_cabinet(0.2));
     measurement::Test& test = data.tests[1];
     for (auto* samples : {&test.slip_m, &test.rotation_rad}) {
       const std::vector<double> before = *samples;
