@@ -117,7 +117,9 @@ def proposal(results):
     found = results.diagnosis.proposal if results.diagnosis else {}
     if not found:
         return {}
-    return {"law": found["law"], "rows": [_parameter(row) for row in found["parameters"]],
+    return {"beside": ("Several effects of the catalogue would be enough together, with more numbers." if results.diagnosis.reason == "one_law" else
+                        "No effect of the catalogue is enough."),
+            "law": found["law"], "rows": [_parameter(row) for row in found["parameters"]],
             "error": validation.error(found["error_left_out"]), "base": validation.error(results.diagnosis.base.get("error_left_out", math.nan)),
             "command": f"freestand add {pathlib.Path(results.diagnosis.raw.get('study') or 'STUDY.yaml').name} "
                        f"{results.diagnosis.folder.name}/proposed_law.yaml -o WITH_LAW.yaml"}

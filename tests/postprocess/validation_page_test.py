@@ -86,11 +86,12 @@ class ThePage(Temporary):
                 self.assertEqual(text.index("<figure") > text.index("What was found"), reason == "data")
 
     def test_one_law_for_two_effects(self):
-        law = {"effect": "friction_over_speed_squared", "error_left_out": 1.02}
+        law = {"effect": "friction_over_speed_squared", "error_left_out": 1.02, "friction": "mu*(1 + a*v*v)"}
         page, _ = self.page(make.diagnosis(self.folder / "one_law", "unknown", reason="one_law", best="rate_weakening+viscous_drag", proposed_law=law,
                                           candidates=[make.candidate("rate_weakening+viscous_drag", 1.03)]))
         self.assertIn("one law of no catalogue, friction over speed squared, does for rate weakening and viscous drag", page.text)
         self.assertIn("Rate weakening and viscous drag together would be enough, with more numbers than one law takes", page.text)
+        self.assertNotIn("No effect of the catalogue is enough", page.text)
 
     def test_a_gain_beyond_chance_that_is_not_needed(self):
         """What stands over the candidates says no more of chance than the table of chances does."""
