@@ -264,7 +264,6 @@ void look_at_ends(const Bench& bench, std::vector<OutcomeTable>& tables, const J
   for (const OutcomeTable& table : tables) {
     const TableFit best = TableSearch(bench, table).best();
     ends.push_back({table.model, table.without, table.tests, table.places});
-    ends.back().points.push_back({best.x});
     for (const std::size_t i : other_numbers(table.model))
       for (const double end : {table.model.free[i].low, table.model.free[i].high}) {
         ends.back().points.push_back({best.x});
@@ -273,6 +272,7 @@ void look_at_ends(const Bench& bench, std::vector<OutcomeTable>& tables, const J
   }
   compute(bench, pointers(ends), "outcomes at the ends of ranges", jobs);
   for (std::size_t i = 0; i < tables.size(); ++i) {
+    if (ends[i].points.empty()) continue;
     const TableFit best = TableSearch(bench, ends[i]).best();
     if (best.score < (1 - worth_a_round) * TableSearch(bench, tables[i]).best().score)
       tables[i].points.push_back(ends[i].points[best.point]);

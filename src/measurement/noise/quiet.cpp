@@ -87,8 +87,9 @@ double floor_without_slip_mps2(const Dataset& data) {
 
 std::vector<QuietStretch> quiet_stretches(const Dataset& data, Channel channel) {
   std::vector<QuietStretch> found;
-  const double stated = measurement::noise(data.noise, channel), holds = floor_without_slip_mps2(data);
+  const double stated = measurement::noise(data.noise, channel);
   if (stated <= 0) return found;
+  const double holds = floor_without_slip_mps2(data);
   const bool carried = channel == Channel::block_acceleration;
   for (std::size_t t = 0; t < data.tests.size(); ++t) {
     const Test& test = data.tests[t];
