@@ -135,11 +135,11 @@ Refusal make_discrete(LimitState& state, const Wanted& wanted, const fragility::
   double off_by = 0;  // most of these
   for (std::size_t i = 0; i < values.size(); ++i) {
     const Bin& bin = state.bins[i];
-    const double from = result.im_edge[bin.index], to = result.im_edge[bin.index + 1];
     const bool by_law = !counted && !edp.binary && edp.bins[bin.index].status == BinStatus::fitted;
     state.pooled = std::max(state.pooled, std::fabs(values[i] - bin.probability));
-    bins.push_back({bin.im, values[i], from, to, by_law});
-    shares.push_back({bin.im, bin.counted, from, to});
+    bins.push_back(fragility::counted_bin(result, bin.index, values[i]));
+    bins.back().by_law = by_law;
+    shares.push_back(fragility::counted_bin(result, bin.index, bin.counted));
     if (!by_law) continue;
     ++lognormals;
     off_by = std::max(off_by, edp.bins[bin.index].off_by);

@@ -4,7 +4,7 @@
 // Straight lines from bin to bin lie above a curve that bends up, and shares of whole bins lie above the share at their mean: of ten bins as
 // wide as the curve's dispersion annual rates come out 8 % too large at a hazard slope of 1.5, and 27 % at 2.5. So the shares are joined
 // by straight lines over the fitted curve F instead of over the intensity: with F_i what bin i would show if the curve were true
-// (its mean over the bin, whose intensities are taken to be spread by the power law that has their mean),
+// (its mean over the bin's intensities, as its fine cells tell these),
 //
 //   P(im) = p_i + (p_{i+1} - p_i) (F(im) - F_i)/(F_{i+1} - F_i)
 //
@@ -30,13 +30,20 @@
 
 namespace freestand::fragility {
 
-// A bin with enough samples. `from`, `to`: its edges; by_law: its probability is that of a law at its mean, not a share of the whole bin;
-// index: which of the result.
+// A bin with enough samples. places: how its intensities are spread, in their order; by_law: its probability is that of a law at its mean, not
+// a share of the whole bin; index: which of the result.
 struct CountedBin {
-  double im, probability, from, to;
+  struct Place {
+    double im, n;
+  };
+  double im, probability;
+  std::vector<Place> places = {};
   bool by_law = false;
   std::size_t index = 0;
 };
+
+// Bin number `index` with a probability of P(EDP > C).
+CountedBin counted_bin(const Result&, std::size_t index, double probability);
 
 // The counted shares of the bins of one capacity that are known and lie above 0, in the order of their intensities.
 std::vector<CountedBin> counted_bins(const Result&, const EdpResult&, std::size_t capacity);

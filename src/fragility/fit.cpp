@@ -129,6 +129,14 @@ Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs) {
     const double mean = tally.mean_im(b);
     result.im.push_back(std::isnan(mean) ? (options.im_edge[b] + options.im_edge[b + 1]) / 2 : mean);
   }
+  constexpr std::size_t cells = TallyLayout::cells_per_bin;
+  for (std::size_t cell = 0; cell < tally.layout().im_cell_count(); ++cell) {
+    const ImCell in = tally.im_cell(cell);
+    const double middle = std::lerp(options.im_edge[cell / cells], options.im_edge[cell / cells + 1],
+                                    (static_cast<double>(cell % cells) + 0.5) / cells);
+    result.cell_n.push_back(in.n);
+    result.cell_im.push_back(in.n > 0 ? in.im_sum / static_cast<double>(in.n) : middle);
+  }
   for (int i = 0; i < outcome_count; ++i)
     result.outcome_counts[static_cast<std::size_t>(i)] = tally.count_of(static_cast<Outcome>(i));
   result.samples = tally.samples();

@@ -164,6 +164,10 @@ struct Result {
   std::optional<double> im_period_s = {}, im_damping = {};  // of the oscillator of a spectral intensity
   std::vector<double> im_edge;                              // n + 1
   std::vector<double> im;  // n: where a bin stands, the mean IM of its samples (its middle where it has none)
+  // How the intensities of a bin are spread: as many fine cells a bin, bin by bin, each with the mean IM of its samples (its middle where it has
+  // none).
+  std::vector<double> cell_im;
+  std::vector<std::int64_t> cell_n;
   double confidence = 0.95;
   int resamples = 0;                                         // of the motions
   std::array<std::int64_t, outcome_count> outcome_counts{};  // in the order of Outcome

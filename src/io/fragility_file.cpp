@@ -326,6 +326,9 @@ void write_fragility(const std::filesystem::path& path, const Provenance& proven
   Group im = root.make_group("im");
   coordinate(im, "edge", result.im_edge, result.im_unit, "edges of the bins, " + im_text(result));
   coordinate(im, "centre", result.im, result.im_unit, at_mean + im_text(result));
+  const Dataset cell =
+      coordinate(im, "cell", result.cell_im, result.im_unit, "mean IM of the fine cells, as many of each bin");
+  im.put("cell_n", result.cell_n).attach(0, cell).describe("1", "their samples");
   Group edps = root.make_group("edp");
   for (const EdpResult& edp : result.edps) write_edp(edps, result, edp);
   write_overturning(root, result);

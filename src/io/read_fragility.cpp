@@ -203,6 +203,8 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
   const Group im = root.open_group("im");
   result.im = values(im, "centre");
   result.im_edge = values(im, "edge", result.im.size() + 1);
+  result.cell_im = values(im, "cell");
+  result.cell_n = whole(im, "cell_n", result.cell_im.size());
   const Group edps = root.open_group("edp");
   for (const std::string& name : edps.names())
     result.edps.push_back(read_edp(edps.open_group(name), name, result.im.size()));

@@ -149,14 +149,20 @@ TEST(Forms, DiscreteBendsAsTheFittedCurveDoes) {
   const double medians[] = {0.9, 1.3, 1.6};
   const auto with_shares = [&](fragility::Result result) {
     for (std::size_t b = 0; b < std::size(bins); ++b) {
-      constexpr int places = 200;
-      double mean = 0, share[3] = {};
+      constexpr int places = 200, cells = 8;
+      double mean = 0, share[3] = {}, sum[cells] = {}, n[cells] = {};
       for (int i = 0; i < places; ++i) {
         const double im = edge[b] * std::pow(edge[b + 1] / edge[b], (i + 0.5) / places);
         mean += im / places;
+        const auto cell = static_cast<int>(cells * (im - edge[b]) / (edge[b + 1] - edge[b]));
+        sum[cell] += im, n[cell] += 1;
         for (int s = 0; s < 3; ++s) share[s] += law(medians[s], im) / places;
       }
       result.im[b] = mean;
+      for (int cell = 0; cell < cells; ++cell) {
+        result.cell_im.push_back(sum[cell] / n[cell]);
+        result.cell_n.push_back(static_cast<std::int64_t>(n[cell]));
+      }
       for (fragility::EdpResult& edp : result.edps) edp.bins[b].status = fragility::BinStatus::counts_only;
       for (std::size_t k = 0; k < 2; ++k) set_surface(result.edps[0], 2 * b + k, share[k]);
       set_surface(result.edps[1], b, share[2]);
