@@ -10,18 +10,12 @@
 #include "study/read_parts.hpp"
 #include "study/read_synthetic.hpp"
 #include "study/study.hpp"
+#include "study/yaml_text.hpp"
 
 namespace freestand::study {
 namespace {
 
 using sampling::number_text;
-
-// Quoted where YAML would read something else.
-std::string text_value(const std::string& text) {
-  YAML::Emitter out;
-  out << text;
-  return out.c_str();
-}
 
 std::string list(const std::vector<double>& values) {
   std::vector<std::string> texts;
@@ -70,12 +64,12 @@ std::string effects_text(const std::vector<EffectPart>& effects) {
   std::string text = "\n";
   for (const auto& effect : effects) {
     Mapping m;
-    m.add("name", text_value(effect.name));
+    m.add("name", yaml_text(effect.name));
     if (effect.friction.empty() && effect.force.empty()) {
       for (const auto& quantity : effect.parameters) m.add(quantity);
     } else {
-      if (!effect.friction.empty()) m.add("friction", text_value(effect.friction));
-      if (!effect.force.empty()) m.add("force", text_value(effect.force));
+      if (!effect.friction.empty()) m.add("friction", yaml_text(effect.friction));
+      if (!effect.force.empty()) m.add("force", yaml_text(effect.force));
       Mapping parameters;
       for (const auto& quantity : effect.parameters) parameters.add(quantity);
       m.add("parameters", parameters.flow());
@@ -193,15 +187,15 @@ Mapping source_mapping(const MotionSource& source, const FileKeys& keys) {
     if (source.building) m.add("building", building_text(*source.building));
     m.add(source.storey);
   } else {
-    m.add(keys.file, text_value(source.records));
-    if (!source.vertical_records.empty()) m.add(keys.vertical, text_value(source.vertical_records));
-    if (!source.cross_records.empty()) m.add(keys.cross, text_value(source.cross_records));
+    m.add(keys.file, yaml_text(source.records));
+    if (!source.vertical_records.empty()) m.add(keys.vertical, yaml_text(source.vertical_records));
+    if (!source.cross_records.empty()) m.add(keys.cross, yaml_text(source.cross_records));
     add_amplitude(source, m);
     if (source.dt_s) m.add("dt_s", number_text(*source.dt_s));
-    if (!source.unit.empty()) m.add("unit", text_value(source.unit));
-    if (!source.format.empty()) m.add("format", text_value(source.format));
-    if (!source.channel.empty()) m.add("channel", text_value(source.channel));
-    if (!source.group.empty()) m.add("group", text_value(source.group));
+    if (!source.unit.empty()) m.add("unit", yaml_text(source.unit));
+    if (!source.format.empty()) m.add("format", yaml_text(source.format));
+    if (!source.channel.empty()) m.add("channel", yaml_text(source.channel));
+    if (!source.group.empty()) m.add("group", yaml_text(source.group));
     if (source.building) m.add("building", building_text(*source.building));
     m.add(source.storey);
     if (!source.pulse.type.empty()) m.add("pulse_type", source.pulse.type);
@@ -231,7 +225,7 @@ bool has_relative_paths(const Study& study) {
 
 std::string paths_from(const Study& study, const std::filesystem::path& folder) {
   const std::string way = way_between(folder, study.folder);
-  return way.empty() || !has_relative_paths(study) ? "" : fmt::format("paths_from: {}\n", text_value(way));
+  return way.empty() || !has_relative_paths(study) ? "" : fmt::format("paths_from: {}\n", yaml_text(way));
 }
 
 std::string bins_text(const BinsPart& bins) {
@@ -242,8 +236,8 @@ std::string bins_text(const BinsPart& bins) {
 }
 
 std::string intensity_text(const IntensityPart& im) {
-  if (!im.period_s) return text_value(im.name);
-  return fmt::format("{{name: {}, {}: {}}}", text_value(im.name), im.parameter, number_text(*im.period_s));
+  if (!im.period_s) return yaml_text(im.name);
+  return fmt::format("{{name: {}, {}: {}}}", yaml_text(im.name), im.parameter, number_text(*im.period_s));
 }
 
 std::string fragility_text(const FragilityPart& f) {
@@ -256,7 +250,7 @@ std::string fragility_text(const FragilityPart& f) {
   for (const auto& [edp, threshold] : f.still) text += fmt::format("\n    {}: {}", edp, number_text(threshold));
   if (!f.damage.empty()) text += "\n  damage:";
   for (const auto& state : f.damage) {
-    text += fmt::format("\n    {}:\n      when: {}", state.name, text_value(state.when));
+    text += fmt::format("\n    {}:\n      when: {}", state.name, yaml_text(state.when));
     Mapping parameters;
     for (const auto& parameter : state.parameters) parameters.add(parameter);
     if (!state.parameters.empty()) text += fmt::format("\n      parameters: {}", parameters.flow());
@@ -316,7 +310,7 @@ std::string motions_text(const std::vector<MotionSource>& motions) {
   return text;
 }
 
-std::string expanded(const Study& study) { return "name: " + text_value(study.name) + "\n" + all_but_name(study); }
+std::string expanded(const Study& study) { return "name: " + yaml_text(study.name) + "\n" + all_but_name(study); }
 
 std::string expanded(const Study& study, const std::filesystem::path& folder) {
   return paths_from(study, folder) + expanded(study);
@@ -325,7 +319,7 @@ std::string expanded(const Study& study, const std::filesystem::path& folder) {
 std::string expanded(const Case& one, const std::filesystem::path& folder) {
   const Study& study = one.study;
   return paths_from(study, folder) +
-         fmt::format("name: {}\ntolerance: {}\nfree_vibration_s: {}\n", text_value(study.name),
+         fmt::format("name: {}\ntolerance: {}\nfree_vibration_s: {}\n", yaml_text(study.name),
                      number_text(study.tolerance), number_text(study.free_vibration_s)) +
          height_text(study) + forces_text(study) + specimen_text(study.model) + "motion:\n" +
          source_mapping(study.motions.front(), {"file", "vertical_file", "cross_file"}).block() +

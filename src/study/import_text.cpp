@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "study/yaml_text.hpp"
+
 namespace freestand::study {
 
 std::string dataset_text(const Laboratory& lab, const measurement::Noise& noise_of_set, double step_s,
                          const std::vector<TestOfLab>& tests) {
-  std::string text = fmt::format("format: freestand-measurements/1\nname: {}\n", lab.name);
+  std::string text = fmt::format("format: freestand-measurements/1\nname: {}\n", yaml_text(lab.name));
   if (lab.specimen != measurement::Dimensions{}) text += "specimen:\n";
   const auto put = [&](const char* key, const std::optional<double>& value) {
     if (value) text += fmt::format("  {}: {}\n", key, *value);
@@ -24,7 +26,7 @@ std::string dataset_text(const Laboratory& lab, const measurement::Noise& noise_
       fmt::format("tolerance: {{width: {}, centre_height: {}, floor_gain: {}, clock_s: {}}}\ntests:\n",
                   lab.tolerance.width, lab.tolerance.centre_height, lab.tolerance.floor_gain, lab.tolerance.clock_s);
   for (const TestOfLab& t : tests)
-    text += fmt::format("  - {{id: {0}, file: {0}.csv, role: {1}}}\n", t.test.id,
+    text += fmt::format("  - {{id: {}, file: {}, role: {}}}\n", yaml_text(t.test.id), yaml_text(t.test.id + ".csv"),
                         t.test.role == measurement::Role::holdout ? "holdout" : "calibration");
   return text;
 }

@@ -8,6 +8,7 @@
 
 #include "study/named_file.hpp"
 #include "study/read_parts.hpp"
+#include "study/yaml_text.hpp"
 
 namespace freestand::study {
 namespace {
@@ -186,9 +187,7 @@ std::string building_text(const BuildingPart& building) {
     alike = alike && entries.empty();
     storeys.push_back(fmt::format("{{{}}}", fmt::join(entries, ", ")));
   }
-  YAML::Emitter name;
-  name << building.name;
-  std::string text = fmt::format("{{name: {}, storeys: ", name.c_str());
+  std::string text = fmt::format("{{name: {}, storeys: ", yaml_text(building.name));
   text += alike ? fmt::format("{}", storeys.size()) : fmt::format("[{}]", fmt::join(storeys, ", "));
   if (building.period_s)
     text += fmt::format(", period_s: {}, stiffness: {}", written(building.drawn_period, *building.period_s),

@@ -13,6 +13,7 @@
 #include "study/read_measurements.hpp"
 #include "study/read_parts.hpp"
 #include "study/section.hpp"
+#include "study/yaml_text.hpp"
 
 namespace freestand::study {
 namespace {
@@ -123,6 +124,11 @@ LabFile read_file(Section& section, const std::filesystem::path& folder) {
 LabTest read_test(Section& section, std::size_t i, const std::filesystem::path& folder) {
   LabTest test;
   test.id = section.text("id", fmt::format("t{:02d}", i + 1));
+  if (test.id.empty() || test.id.front() == '.' || test.id.find_first_of("/\\\n") != std::string::npos)
+    section.problem("id",
+                    fmt::format("{} is {} (the test's file is named so): take one without / and \\ and without a point "
+                                "in front",
+                                section.name("id"), yaml_text(test.id)));
   test.role = static_cast<measurement::Role>(section.choice("role", {"calibration", "holdout"}, 0));
   test.clock_s = section.optional_number("clock_s");
   for (const bool is_floor : {true, false}) {

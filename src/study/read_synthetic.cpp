@@ -9,6 +9,7 @@
 #include "study/named_file.hpp"
 #include "study/read_parts.hpp"
 #include "study/synthetic_set.hpp"
+#include "study/yaml_text.hpp"
 
 namespace freestand::study {
 namespace {
@@ -115,10 +116,8 @@ SyntheticPart read_synthetic_file(const std::filesystem::path& file) {
 }
 
 std::string synthetic_text(const SyntheticPart& part) {
-  YAML::Emitter name;
-  name << part.name;
   std::string text = fmt::format(
-      "{{name: {}, count: {}, {}", name.c_str(), part.count,
+      "{{name: {}, count: {}, {}", yaml_text(part.name), part.count,
       fmt::join({pair("arias_mps", part.arias), pair("duration_s", part.duration), pair("middle_s", part.middle),
                  pair("frequency_hz", part.frequency), pair("frequency_slope_hzps", part.slope),
                  pair("bandwidth", part.bandwidth), pair("corner_hz", part.corner)},

@@ -218,6 +218,20 @@ class Import(InFolder):
         self.write("block_t01.csv", "\n".join(block[:40] + ["1,5"] + block[41:]))
         self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "1 cells where the table has 2 columns")
 
+    def test_names_in_any_words(self):
+        """They are read back as they were written, and no test leaves the folder by its name."""
+        text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
+        self.write("lab.yaml", text.replace("cabinet in our words", "'bench: 3'").replace("- id: t01", "- id: 'run 1, A}'"))
+        self.imported()
+        compared = run(["compare", self.write("odd.yaml", "measurements: set/dataset.yaml\nmodel: {friction: {mu: 0.2}, block: {width_m: 0.8, height_m: 0.6}}\n"),
+                        "-o", self.folder / "odd"])
+        self.assertEqual(compared.returncode, 0, compared.stderr)
+        self.assertIn("run 1, A}", compared.stdout)
+        for name in ("../x", "day1/run1", "''"):
+            self.write("lab.yaml", text.replace("- id: t01", f"- id: '{name}'" if name != "''" else "- id: ''"))
+            self.fail_with(2, ["import", self.lab, "-o", self.folder / "outside"], "lab.yaml:5", "tests[0].id is")
+        self.assertFalse((self.folder / "x.csv").exists())
+
     def test_two_columns_of_one_name(self):
         self.write("block_t01.csv", "t_ms;LVDT 1;LVDT 1\n" + "".join(f"{10 * i},0;0,0;1,0\n" for i in range(20)))
         self.fail_with(3, ["import", self.lab, "-o", self.folder / "wrong"], "block_t01.csv has two columns LVDT 1")

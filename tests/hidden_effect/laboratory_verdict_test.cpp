@@ -2,6 +2,7 @@
 // the fault looks like.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <freestand/error.hpp>
 
 #include "base/jobs.hpp"
@@ -62,6 +63,17 @@ TEST(LaboratoryVerdict, AnEffectIsFoundThoughFrictionScatters) {
   EXPECT_EQ(d.verdict, Verdict::missing) << testing::PrintToString(d.sentences);
   EXPECT_EQ(d.effects, std::vector<std::string>{"static_friction"});
   EXPECT_GT(d.friction_scatter, 0.01);
+}
+
+// A block that rocks tells its width to a ten thousandth: what one that is a percent off leaves is no second effect, and the first is named.
+TEST(LaboratoryVerdict, AnEffectIsFoundThoughTheWidthIsOff) {
+  const SetRequest rocking{{"impact_loss"}, 970, 6, 6};
+  const Diagnosis d = diagnosed(rocking, {"impact_loss", "offset_mass"}, [](MadeSet& set) { set.stated_width = 1.01; });
+  EXPECT_EQ(d.verdict, Verdict::missing) << testing::PrintToString(d.sentences);
+  EXPECT_EQ(d.effects, std::vector<std::string>{"impact_loss"});
+  EXPECT_TRUE(std::ranges::any_of(d.sentences, [](const std::string& s) {
+    return s.find("above all as if the width is 1.") != std::string::npos;
+  })) << testing::PrintToString(d.sentences);
 }
 
 // What the block did comes a third of a second before its floor: said at once, without a search.

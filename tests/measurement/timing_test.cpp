@@ -113,6 +113,21 @@ TEST(Quality, TellsOfALittleDelayThatAllHave) {
                                               "response is stamped 0.01[0-9]* s late against the floor's channel")));
 }
 
+// A friction that falls with the speed is steadiest some milliseconds late, in all tests: no clock is told off by less than it is known to.
+TEST(Quality, FrictionThatFollowsTheSpeedIsNoDelay) {
+  constexpr double dt_s = 0.001;
+  Dataset data = test::made_dataset(sliding_cabinet(0.2));
+  data.sampling_dt_s = dt_s;
+  data.tests.clear();
+  for (const auto& [peak_mps2, period_s] :
+       {std::pair(6.0, 0.5), std::pair(4.0, 0.8), std::pair(8.0, 0.35), std::pair(5.0, 1.1)})
+    data.tests.push_back(test::made_test("t", test::cabinet("rate_weakening", {0.35, 0.1}),
+                                         test::swings(peak_mps2, period_s, dt_s), data.tests.size(), dt_s));
+  EXPECT_THAT(examined(data).findings, Not(Contains(HasSubstr("friction is steadiest"))));
+  data.tolerance.clock_s = 1e-3;
+  EXPECT_THAT(examined(data).findings, Contains(HasSubstr("friction is steadiest")));
+}
+
 // Responses exchanged between two tests, and the floor of one written over that of another.
 TEST(Quality, ExchangedResponsesAndCopiedFloors) {
   const Dataset sound = test::made_dataset(sliding_cabinet(0.2));

@@ -43,28 +43,37 @@ std::string fault_sentence(const std::string& name, double number) {
                      number < 1 ? (width ? "smaller" : "lower") : (width ? "larger" : "higher"));
 }
 
+std::vector<StatedNumber> stated_numbers(const Tolerance& tolerance, const ModelSpec& model) {
+  std::vector<StatedNumber> all;
+  const auto is_fitted = [](const std::optional<Number>& number) { return number && number->free >= 0; };
+  if (!is_fitted(model.width) && !model.slenderness)
+    all.push_back({width_fault, &ModelSpec::width_factor, tolerance.width});
+  if (!is_fitted(model.centre_height))
+    all.push_back({centre_fault, &ModelSpec::centre_height_factor, tolerance.centre_height});
+  all.push_back({gain_fault, &ModelSpec::floor_gain, tolerance.floor_gain});
+  all.push_back({clock_fault, &ModelSpec::clock_behind, tolerance.clock_s, "s"});
+  std::erase_if(all, [&](const StatedNumber& s) { return s.deviation <= 0 || (model.*s.number).free >= 0; });
+  return all;
+}
+
+void let_free(ModelSpec& model, const StatedNumber& stated) {
+  const double value = (model.*stated.number).value, reach = fault_deviations * stated.deviation;
+  model.*stated.number = {.free = static_cast<int>(model.free.size())};
+  model.free.push_back({.name = std::string("laboratory.") + stated.name,
+                        .unit = stated.unit,
+                        .lower = value - reach,
+                        .upper = value + reach,
+                        .low = value - reach,
+                        .high = value + reach});
+}
+
 std::vector<LaboratoryFault> laboratory_faults(const Bench& bench, const ModelSpec& base, const Values& x) {
   std::vector<LaboratoryFault> found;
-  const Tolerance& tolerance = bench.data().tolerance;
-  const auto add = [&](const char* name, Number ModelSpec::*number, double deviation, const char* unit = "1") {
-    LaboratoryFault fault{name, base};
-    const double stated = (base.*number).value;
-    fault.model.*number = {.free = static_cast<int>(base.free.size())};
-    const double low = stated - fault_deviations * deviation, high = stated + fault_deviations * deviation;
-    fault.model.free.push_back({.name = std::string("laboratory.") + name,
-                                .unit = unit,
-                                .lower = low,
-                                .upper = high,
-                                .low = low,
-                                .high = high});
-    if (deviation > 0 && shows(bench, base, x, fault.model)) found.push_back(std::move(fault));
-  };
-  const bool fitted = base.width && base.width->free >= 0;
-  if (!fitted && !base.slenderness) add(width_fault, &ModelSpec::width_factor, tolerance.width);
-  if (!(base.centre_height && base.centre_height->free >= 0))
-    add(centre_fault, &ModelSpec::centre_height_factor, tolerance.centre_height);
-  add(gain_fault, &ModelSpec::floor_gain, tolerance.floor_gain);
-  add(clock_fault, &ModelSpec::clock_behind, tolerance.clock_s, "s");
+  for (const StatedNumber& stated : stated_numbers(bench.data().tolerance, base)) {
+    LaboratoryFault fault{stated.name, base};
+    let_free(fault.model, stated);
+    if (shows(bench, base, x, fault.model)) found.push_back(std::move(fault));
+  }
   return found;
 }
 

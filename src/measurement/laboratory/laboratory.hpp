@@ -24,4 +24,14 @@ std::string clock_sentence(const std::string& whose, double late_s);
 // Those that change what the base with x predicts of the calibration tests.
 std::vector<LaboratoryFault> laboratory_faults(const Bench&, const ModelSpec& base, const Values& x);
 
+// What a laboratory states with a tolerance, and a model takes as stated; as a free number, within three standard deviations.
+struct StatedNumber {
+  const char* name;  // of the fault
+  Number ModelSpec::*number;
+  double deviation;
+  const char* unit = "1";
+};
+std::vector<StatedNumber> stated_numbers(const Tolerance&, const ModelSpec&);
+void let_free(ModelSpec&, const StatedNumber&);
+
 }  // namespace freestand::measurement

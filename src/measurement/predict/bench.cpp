@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
+#include "measurement/data/ground.hpp"
 #include "measurement/data/resolution.hpp"
 #include "measurement/noise/quiet.hpp"
 #include "measurement/noise/third_differences.hpp"

@@ -269,7 +269,11 @@ PeakRatio peak_ratio(const Bench& bench, const std::vector<TestComparison>& test
     double measured = test.peaks.peak_slip_m.value_or(0);
     for (const double slip : test.slip_m) measured = std::max(measured, std::abs(slip));
     const double model = c.model.response.peak_slip_m;
-    if (!(measured > 8 * noise) || !(model > 0) || c.model.failed()) continue;
+    if (!(measured > 8 * noise) || c.model.failed()) continue;
+    if (!(model > 0)) {
+      ++ratio.still;
+      continue;
+    }
     ShownPeak shown{std::log(model), noise / measured};
     if (!test.slip_m.empty() && noise > 0) {
       shown = shown_peak(c.model.slip_m, noise, random::stable_hash(test.id));

@@ -59,9 +59,10 @@ Comparison compare(const Bench&, const ModelSpec&, std::span<const double> x, st
 
 // Mean ln(model/measured) of the peak slips of the tests of one role, and its standard deviation; nan below two. The largest of
 // many readings is larger than the slip by some of their noise: the model's peak is the one that its history would show to the
-// sensor. noise_ln: root mean square of the standard deviations that the noise of sensor and floor makes of one.
+// sensor. noise_ln: root mean square of the standard deviations that the noise of sensor and floor makes of one. still: tests without a ratio,
+// since the model stands still.
 struct PeakRatio {
-  std::size_t count = 0;
+  std::size_t count = 0, still = 0;
   double bias_ln = 0, scatter_ln = 0, noise_ln = 0;
 };
 PeakRatio peak_ratio(const Bench&, const std::vector<TestComparison>&, std::optional<Role> = {});

@@ -199,8 +199,9 @@ class Findings {
       return ln < std::log(0.1) ? three_digits(std::exp(ln)) : fmt::format("{:.2f}", std::exp(ln));
     };
     const std::string middle = fmt::format(
-        "{} times the measured ones (geometric mean of {} tests; 95 % between {} and {})", ratio_text(ratio.bias_ln),
-        ratio.count, ratio_text(ratio.bias_ln - within), ratio_text(ratio.bias_ln + within));
+        "{} times the measured ones (geometric mean of {} tests{}; 95 % between {} and {})", ratio_text(ratio.bias_ln),
+        ratio.count, ratio.still ? fmt::format(" without {} in which the model stands still", ratio.still) : "",
+        ratio_text(ratio.bias_ln - within), ratio_text(ratio.bias_ln + within));
     const bool under = ratio.bias_ln < 0;
     const double factor = std::exp(ratio.scatter_ln);
     // Beyond what noise makes of them, and by more than anybody would change a model for.

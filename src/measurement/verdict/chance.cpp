@@ -114,23 +114,25 @@ std::vector<Tried> at_strengths(const ModelFit& base, const std::vector<const Mo
 }
 
 Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& base,
-                      const std::vector<const ModelFit*>& tried, const Jobs& jobs) {
+                      const std::vector<const ModelFit*>& tried, const Jobs& jobs, const AsStated* stated) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   const std::vector<Tried> all = at_strengths(base, tried);
-  const auto p = static_cast<Index>(base.x.size()), q = p + static_cast<Index>(all.size());
+  const AsStated known = stated ? *stated : AsStated{.model = base.model, .x = base.x, .names = {}, .is_off = {}};
+  const auto deviate = static_cast<Index>(known.names.size());
+  const auto p = static_cast<Index>(known.x.size()), q = p + static_cast<Index>(all.size());
   const Summed sum = sum_of("what effects change", tests.size(), q, judge, jobs, [&](std::size_t i) {
     const Test& test = bench.test(tests[i]);
-    const Prediction at = predict(base.model, test, base.x);
-    const VectorXd r = -judge.residual(i, at);  // what a change would have to make
+    const Prediction at = predict(base.model, test, base.x), there = predict(known.model, test, known.x);
+    const VectorXd r = -judge.residual(i, there);  // what a change would have to make
     MatrixXd M = MatrixXd::Zero(r.size(), q);
-    if (p > 0) M.leftCols(p) = slopes_of(judge, test, i, base.model, base.x, at);
+    if (p > 0) M.leftCols(p) = slopes_as_stated(known, judge, test, i, there);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const Prediction with = predict(*all[k].model, test, all[k].x);
       if (!with.failed() && !at.failed()) M.col(p + static_cast<Index>(k)) = judge.change(i, at, with);
     }
     return std::pair(std::move(M), r);
   });
-  const Own own(sum.gram.topLeftCorner(p, p));
+  const Own own(with_tolerance(sum.gram.topLeftCorner(p, p), known));
   const Index effects = q - p;
   const MatrixXd L = p ? MatrixXd(own.solve(sum.gram.topRightCorner(p, effects))) : MatrixXd(0, effects);
   VectorXd length(effects);
@@ -144,9 +146,16 @@ Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& ba
         gain = std::max(gain, left[k] * left[k] / length[k]);
     return gain;
   };
-  Chance chance{.question = help_question, .about = {}, .observed = largest_gain(sum.against)};
+  VectorXd measured = sum.against;
+  measured.segment(p - deviate, deviate) -= deviations(known);
+  Chance chance{.question = help_question, .about = {}, .observed = largest_gain(measured)};
   const NoiseDraws noise(sum, size_error(bench));
-  weigh(chance, [&](std::uint64_t s) { return largest_gain(noise.draw(s)); });
+  weigh(chance, [&](std::uint64_t s) {
+    VectorXd z = noise.draw(s);
+    for (Index d = 0; d < deviate; ++d)
+      z += sum.gram.col(p - deviate + d) * standard_normal(s, (1ULL << 41) + static_cast<std::uint64_t>(d));
+    return largest_gain(z);
+  });
   return chance;
 }
 

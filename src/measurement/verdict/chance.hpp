@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "measurement/fit/judge.hpp"
+#include "measurement/laboratory/as_stated.hpp"
 #include "measurement/levels.hpp"
 
 namespace freestand::measurement {
@@ -43,8 +44,9 @@ std::vector<Tried> at_strengths(const ModelFit& base, const std::vector<const Mo
 // base. A gain is that of a direction: the change of all histories that an effect makes at one of many strengths, or as it
 // was fitted, as far as the base's own numbers cannot make it. judge: of the base. tried: models that hold the base's
 // numbers first.
+// stated: of the base; then the gain is that beyond what deviations from what is stated make, in the data and in those from the base.
 Chance chance_of_gain(const Bench&, const Judge&, const ModelFit& base, const std::vector<const ModelFit*>& tried,
-                      const Jobs&);
+                      const Jobs&, const AsStated* stated = nullptr);
 
 // Can the best be told from a rival? The lead of the best, G of the rival less G of the best, against the lead that it has
 // in data from the rival. judge: of the best.

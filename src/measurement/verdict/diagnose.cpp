@@ -14,6 +14,7 @@
 #include "measurement/verdict/decide.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"
 #include "measurement/verdict/pair_search.hpp"
+#include "measurement/verdict/specimens.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -54,6 +55,10 @@ class Diagnoser : PairSearch {
     }
     search_more();
     decide_all();
+    tell_deviations();
+    if (kind_of_set(bench_) == Kind::history && only_friction_scatters(out_))
+      if (std::string specimens = friction_of_specimens(bench_, *out_.own_friction); !specimens.empty())
+        out_.sentences.push_back(std::move(specimens));
     name_untried();
     return std::move(out_);
   }
@@ -98,6 +103,26 @@ class Diagnoser : PairSearch {
     if (!names.empty())
       out_.sentences.push_back(
           fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
+  }
+
+  // Where the best effect is enough by what the laboratory may have stated wrongly, and not by chance alone.
+  void tell_deviations() {
+    if (kind_of_set(bench_) != Kind::history || !out_.best || out_.effects.empty()) return;
+    const Candidate& c = out_.candidates[*out_.best];
+    const Judge judge = judge_of(c.fit);
+    const double misfit = total(judge.misfit_of_fit(c.fit));
+    if (c.laboratory || chance_of_misfit(bench_, judge, c.fit, misfit).chance()) return;
+    const AsStated stated = as_stated(bench_, judge, c.fit, jobs_);
+    std::optional<Eigen::Index> most;
+    const Eigen::VectorXd off = deviations(stated).cwiseAbs();
+    for (Eigen::Index k = 0; k < off.size(); ++k)
+      if (stated.is_off[static_cast<std::size_t>(k)] && (!most || off[k] > off[*most])) most = k;
+    if (!most) return;
+    const auto k = static_cast<std::size_t>(*most);
+    out_.sentences.push_back(
+        fmt::format("beside {} the tests are judged by what suits them best within the tolerances of what is stated, "
+                    "above all as if {}: measure that again",
+                    fmt::join(c.effects, " and "), fault_sentence(stated.names[k], stated.x[c.fit.x.size() + k])));
   }
 
   void decide_all() {

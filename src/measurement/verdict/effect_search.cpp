@@ -86,7 +86,9 @@ Judge EffectSearch::judge_of(const ModelFit& fit) const {
 
 Chance EffectSearch::chance_of_misfit_of(const ModelFit& fit) const {
   const Judge judge = judge_of(fit);
-  return chance_of_misfit(bench_, judge, fit, total(judge.misfit_of_fit(fit)));
+  const double misfit = total(judge.misfit_of_fit(fit));
+  const bool effects = fit.model.effects.size() > base_.effects.size();
+  return chance_of_misfit(bench_, judge, fit, effects ? misfit - as_stated(bench_, judge, fit, jobs_).gain : misfit);
 }
 
 // Each as it would be at nothing, and as it was fitted beside them where it was.
@@ -105,7 +107,9 @@ Chance EffectSearch::chance_of_another(const Candidate& candidate) const {
   std::vector<const ModelFit*> tried;
   for (const ModelFit& fit : fits) tried.push_back(&fit);
   if (tried.empty()) return {.question = another_question, .about = {}};
-  Chance chance = chance_of_gain(bench_, judge_of(without), without, tried, jobs_);
+  const Judge judge = judge_of(without);
+  const AsStated stated = as_stated(bench_, judge, without, jobs_);
+  Chance chance = chance_of_gain(bench_, judge, without, tried, jobs_, &stated);
   chance.question = another_question;
   return chance;
 }

@@ -46,9 +46,10 @@ class EffectSearch {
   // By the noise of floor and sensors, and friction as it scatters where that was found.
   Judge judge_of(const ModelFit&) const;
   void judge();
-  // Is it enough? Its misfit against data from itself.
+  // Is it enough? Its misfit against data from itself; of the base with effects but for what goes with deviations from what the laboratory
+  // states, which beside the bare base are candidates of their own.
   Chance chance_of_misfit_of(const ModelFit&) const;
-  // Does one more effect help beside those of a candidate? Of all that may join it.
+  // Does one more effect help beside those of a candidate? Of all that may join it, beyond such deviations.
   Chance chance_of_another(const Candidate&) const;
   std::vector<Values> starts_of(const dynamics::Effect&, const ModelSpec&) const;
   const dynamics::Effect& of_catalogue(const std::string& name) const;

@@ -1,0 +1,124 @@
+#include "measurement/laboratory/as_stated.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <Eigen/Dense>
+
+#include "measurement/fit/least_squares.hpp"
+#include "measurement/fit/slopes.hpp"
+#include "measurement/laboratory/laboratory.hpp"
+#include "measurement/levels.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Such numbers move within three standard deviations to both sides of what is stated, which is half of the cube in which fits move.
+constexpr double deviation = 1 / (2 * fault_deviations), stated = 0.5;
+
+Index count(const AsStated& s) { return static_cast<Index>(s.names.size()); }
+
+double misfit(const Judge& judge, const AsStated& s) {
+  double sum = deviations(s).squaredNorm();
+  for (std::size_t i = 0; i < judge.samples().size(); ++i) sum += misfit(judge, i, s.model, s.x);
+  return sum;
+}
+
+struct Equations {
+  MatrixXd gram;
+  VectorXd against;
+};
+
+Equations equations(const Bench& bench, const Judge& judge, const AsStated& s, const Jobs& jobs) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const auto q = static_cast<Index>(s.x.size());
+  const auto answers = jobs("what is stated", tests.size(), [&](std::size_t i) {
+    const Test& test = bench.test(tests[i]);
+    const Prediction at = predict(s.model, test, s.x);
+    const MatrixXd columns = slopes_as_stated(s, judge, test, i, at);
+    const MatrixXd gram = judge.products(i, columns).gram;
+    const VectorXd against = judge.against(i, columns, -judge.residual(i, at));
+    Values all(gram.data(), gram.data() + gram.size());
+    all.insert(all.end(), against.data(), against.data() + against.size());
+    return all;
+  });
+  Equations sum{with_tolerance(MatrixXd::Zero(q, q), s), VectorXd::Zero(q)};
+  sum.against.tail(count(s)) = -deviations(s);
+  for (const Values& all : answers) {
+    sum.gram += Eigen::Map<const MatrixXd>(all.data(), q, q);
+    sum.against += Eigen::Map<const VectorXd>(all.data() + q * q, q);
+  }
+  return sum;
+}
+
+AsStated moved(const AsStated& s, const VectorXd& change) {
+  AsStated next = s;
+  const Index own = static_cast<Index>(s.x.size()) - count(s);
+  for (Index k = 0; k < change.size(); ++k) {
+    const auto place = static_cast<std::size_t>(k);
+    const Free& free = s.model.free[place];
+    next.x[place] = from_unit(free, to_unit(free, s.x[place]) + change[k] * (k < own ? 1 : deviation));
+  }
+  return next;
+}
+
+}  // namespace
+
+MatrixXd slopes_as_stated(const AsStated& s, const Judge& judge, const Test& test, std::size_t i,
+                          const Prediction& at) {
+  MatrixXd columns = slopes_of(judge, test, i, s.model, s.x, at);
+  columns.rightCols(count(s)) *= deviation;
+  return columns;
+}
+
+VectorXd deviations(const AsStated& s) {
+  VectorXd off(count(s));
+  for (Index d = 0; d < off.size(); ++d) {
+    const std::size_t place = s.x.size() - s.names.size() + static_cast<std::size_t>(d);
+    off[d] = (to_unit(s.model.free[place], s.x[place]) - stated) / deviation;
+  }
+  return off;
+}
+
+MatrixXd with_tolerance(MatrixXd gram, const AsStated& s) {
+  gram.diagonal().tail(count(s)).array() += 1;
+  return gram;
+}
+
+// By steps of Gauss and Newton, halved where one goes too far.
+AsStated as_stated(const Bench& bench, const Judge& judge, const ModelFit& fit, const Jobs& jobs) {
+  constexpr int most_steps = 12;
+  constexpr double worth_a_step = 0.01;  // of a misfit: moves no p value
+  AsStated best{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}};
+  for (const StatedNumber& number : stated_numbers(bench.data().tolerance, fit.model)) {
+    best.x.push_back((fit.model.*number.number).value);
+    best.names.emplace_back(number.name);
+    let_free(best.model, number);
+  }
+  const double before = misfit(judge, best);
+  double least = before, length = 1;
+  VectorXd variance;
+  for (int step = 0; step < most_steps && count(best) > 0; ++step) {
+    const auto [gram, against] = equations(bench, judge, best, jobs);
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(gram);
+    variance = solver.pseudoInverse().diagonal();
+    const VectorXd change = solver.solve(against);
+    AsStated next = moved(best, length * change);
+    double there = misfit(judge, next);
+    for (; !(there < least) && length > 0.05; there = misfit(judge, next))
+      length /= 2, next = moved(best, length * change);
+    if (!(there < least - worth_a_step)) break;
+    best = std::move(next);
+    least = there, length = std::min(1.0, 2 * length);
+  }
+  best.gain = before - least;
+  const VectorXd off = deviations(best);
+  for (Index d = 0; d < off.size(); ++d)
+    best.is_off.push_back(off[d] * off[d] > gsl_cdf_chisq_Pinv(1 - chance_level, 1) * variance.tail(off.size())[d]);
+  return best;
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,60 @@
+#include "measurement/verdict/specimens.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "measurement/levels.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+struct OneSpecimen {
+  Dimensions dimensions;
+  std::vector<std::string> tests;
+  double sum = 0, squares = 0;  // of the logarithms
+  double n() const { return static_cast<double>(tests.size()); }
+  double mean() const { return sum / n(); }
+};
+
+}  // namespace
+
+std::string friction_of_specimens(const Bench& bench, const OwnNumbers& friction) {
+  std::vector<OneSpecimen> all;
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  double sum = 0;
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const Test& test = bench.test(tests[k]);
+    const double ln = std::log(friction.of_tests[k]);
+    auto at = std::find_if(all.begin(), all.end(), [&](const OneSpecimen& s) { return s.dimensions == test.specimen; });
+    if (at == all.end()) at = all.insert(at, {.dimensions = test.specimen, .tests = {}});
+    at->tests.push_back(test.id);
+    at->sum += ln;
+    at->squares += ln * ln;
+    sum += ln;
+  }
+  const auto n = static_cast<double>(tests.size()), groups = static_cast<double>(all.size());
+  if (groups < 2 || n <= groups) return {};
+  double between = 0, within = 0;
+  for (const OneSpecimen& s : all) {
+    between += s.n() * std::pow(s.mean() - sum / n, 2);
+    within += s.squares - s.n() * std::pow(s.mean(), 2);
+  }
+  between /= groups - 1;
+  within = std::max(within, 0.0) / (n - groups);
+  if (within > 0 && gsl_cdf_fdist_Q(between / within, groups - 1, n - groups) > chance_level) return {};
+  std::vector<std::string> told;
+  for (const OneSpecimen& s : all)
+    told.push_back(fmt::format("{:.3g} in {}", std::exp(s.mean() - all[0].mean()), fmt::join(s.tests, ", ")));
+  return fmt::format(
+      "it differs between the specimens, whose dimensions are not the same ({}, over that of the first), and within "
+      "them by {:.2g} %: "
+      "hold the model against one specimen at a time",
+      fmt::join(told, "; "), 100 * std::sqrt(within));
+}
+
+}  // namespace freestand::measurement

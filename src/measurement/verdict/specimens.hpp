@@ -1,0 +1,14 @@
+// Is a friction that differs from test to test one that differs from specimen to specimen? Specimens are told by their dimensions.
+#pragma once
+
+#include <string>
+
+#include "measurement/fit/own_numbers.hpp"
+
+namespace freestand::measurement {
+
+// A sentence where the logarithms of the tests' frictions differ between specimens by more than chance, beside how they scatter within them
+// (analysis of variance, F test); else empty.
+std::string friction_of_specimens(const Bench&, const OwnNumbers& friction);
+
+}  // namespace freestand::measurement

@@ -1,0 +1,53 @@
+// Friction that differs between specimens, and friction that only scatters from test to test.
+#include "measurement/verdict/specimens.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.hpp"
+#include "measurement/made_tests.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+// Eight tests, of which the last five are on a wider specimen.
+Dataset of_two_specimens() {
+  Dataset data = test::made_dataset(test::cabinet(), 0);
+  const measurement::Test one = data.tests[0];
+  data.tests.assign(8, one);
+  for (std::size_t k = 0; k < 8; ++k) {
+    data.tests[k].id = "t" + std::to_string(k + 1);
+    if (k > 2) data.tests[k].specimen.width_m = 1.2;
+  }
+  return data;
+}
+
+TEST(Specimens, OfTwoFrictionsAreTold) {
+  const Dataset data = of_two_specimens();
+  const Bench bench(data, 0);
+  EXPECT_THAT(friction_of_specimens(bench, {.of_tests = {0.62, 0.61, 0.615, 1, 1.01, 0.99, 1, 1}}),
+              testing::AllOf(testing::HasSubstr("1 in t1, t2, t3; 1.63 in t4, t5, t6, t7, t8"),
+                             testing::HasSubstr(
+                                 "within them by 0.74 %")));  // by hand: sqrt((0.000132 + 0.0002)/6) of the logarithms
+}
+
+TEST(Specimens, OfOneFrictionAreNotToldButByChance) {
+  const Dataset data = of_two_specimens();
+  const Bench bench(data, 0);
+  constexpr int sets = 400;
+  int told = 0;
+  for (std::uint64_t key = 0; key < sets; ++key) {
+    OwnNumbers own;
+    for (std::uint64_t k = 0; k < 8; ++k) own.of_tests.push_back(std::exp(0.06 * random::standard_normal(5, key, k)));
+    told += !friction_of_specimens(bench, own).empty();
+  }
+  EXPECT_NEAR(told, 0.05 * sets, 3 * std::sqrt(0.05 * 0.95 * sets));
+  Dataset alike = data;
+  for (measurement::Test& t : alike.tests) t.specimen = alike.tests[0].specimen;
+  EXPECT_EQ(friction_of_specimens(Bench(alike, 0), {.of_tests = {0.6, 0.6, 0.6, 1, 1, 1, 1, 1}}), "");
+}
+
+}  // namespace
+}  // namespace freestand::measurement
