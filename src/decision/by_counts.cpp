@@ -64,11 +64,39 @@ double ByCounts::integral(const fragility::CountedCurve& curve, const Range& ran
 }
 
 fragility::CountedCurve ByCounts::curve(const std::vector<fragility::CountedBin>& bins, const Shape& shape) const {
-  if (shape.cell_share.size() >= 2 * bins.size()) return fragility::CountedCurve::through_cells(shape);
+  if (by_cells()) return fragility::CountedCurve::through_cells(shape);
   return {bins, shape};
 }
 
-double ByCounts::rate(const Range& range) const { return integral(curve(bins_, Shape(f_)), range); }
+double ByCounts::half_a_leap(const fragility::CountedCurve& lines, const std::vector<double>& share,
+                             const Range& range) const {
+  const std::vector<double>& im = f_.cell_im;
+  const Range within{std::max(range.from, im.front()), std::min(range.to, im.back())};
+  const auto events = [&](double from, double to) {
+    from = std::max({from, hazard_.first(), within.from}), to = std::min({to, hazard_.last(), within.to});
+    return from < to ? hazard_.rate(from) - hazard_.rate(to) : 0;
+  };
+  const std::size_t last = im.size() - 1;
+  double leaping = 0, from = im.front();
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double to = i < last ? (im[i] + im[i + 1]) / 2 : im[last];
+    const double below = share[i > 0 ? i - 1 : 0], above = share[std::min(i + 1, last)];
+    const double part = (share[i] - below) / (above - below);  // of the cell, that lies behind the leap
+    if (0 < i && i < last && part >= 0 && part <= 1)
+      leaping += below * events(from, to - part * (to - from)) + above * events(to - part * (to - from), to);
+    else
+      leaping += share[i] * events(from, to);
+    from = to;
+  }
+  return within.from < within.to ? (leaping - integral(lines, within)) / 2 : 0;
+}
+
+double ByCounts::rate_of(const std::vector<fragility::CountedBin>& bins, const Shape& shape, const Range& range) const {
+  const fragility::CountedCurve lines = curve(bins, shape);
+  return integral(lines, range) + (by_cells() ? half_a_leap(lines, shape.cell_share, range) : 0);
+}
+
+double ByCounts::rate(const Range& range) const { return rate_of(bins_, Shape(f_), range); }
 
 Rate ByCounts::banded(const CurveReach& curve) {
   struct Row {
@@ -109,8 +137,12 @@ Rate ByCounts::banded(const CurveReach& curve) {
                for_most = fragility::unused_tail(tail, -1, counted_lower, least);
   if (for_least > 0) least = lower(tail + for_least);
   if (for_most > 0) most = upper_with(&Row::to_upper, tail + for_most);
-  upper_if_falling_ = std::min(most, upper_with(&Row::to_falling, tail));
-  return {value, std::max(0.0, least), std::min(hazard_.annual_rate.front(), most)};
+  const double coarse = by_cells() ? half_a_leap(this->curve(bins_, Shape(f_)), f_.cell_share, {}) : 0;
+  const auto wider = [&](double limit) {
+    return value + std::copysign(std::hypot(limit - value, coarse), limit - value);
+  };
+  upper_if_falling_ = wider(std::min(most, upper_with(&Row::to_falling, tail)));
+  return {value, std::max(0.0, wider(least)), std::min(hazard_.annual_rate.front(), wider(most))};
 }
 
 std::vector<double> ByCounts::rates_left_out() const {
@@ -191,7 +223,7 @@ std::vector<double> ByCounts::rates(const std::vector<double>& again, const std:
     if (r < median.size() && std::isfinite(median[r])) shape.median = median[r], shape.dispersion = dispersion[r];
     if ((r + 1) * cells <= cell_share.size())
       std::copy_n(cell_share.begin() + static_cast<long>(r * cells), cells, shape.cell_share.begin());
-    found[r] = integral(curve(bins, shape));
+    found[r] = rate_of(bins, shape, {});
   }
   return found;
 }

@@ -29,7 +29,8 @@ class ByCounts {
 
   // Rows that no resample changes (nothing above was counted, say) are known to their own bands, which hold the exact binomial limits.
   // What these allow adds among them as independent errors do, and to the limit of what was counted as largest_beside_nothing says. What
-  // of its tail the upper limit then does not need the lower one takes, and the other way round (unused_tail).
+  // of its tail the upper limit then does not need the lower one takes, and the other way round (unused_tail). Half a leap within
+  // the cells adds as one more of the independent errors.
   Rate banded(const CurveReach&);
 
   // Rates without each group of motions.
@@ -61,6 +62,11 @@ class ByCounts {
   fragility::CountedCurve curve(const std::vector<fragility::CountedBin>& bins,
                                 const fragility::CountedCurve::Shape&) const;
   bool same(std::size_t i) const;
+  bool by_cells() const { return f_.cell_share.size() >= 2 * bins_.size(); }
+  // How P goes within a fine cell no count tells. Lines from cell to cell are the smoothest; the sharpest curve that has the same shares leaps from
+  // that of the cell before to that of the cell behind, where the cell's own share says. The rate is the mean of both: half of their difference.
+  double half_a_leap(const fragility::CountedCurve& lines, const std::vector<double>& cell_share, const Range&) const;
+  double rate_of(const std::vector<fragility::CountedBin>&, const fragility::CountedCurve::Shape&, const Range&) const;
   std::size_t at(std::size_t i) const { return bins_[i].index * edp_.capacity.size() + capacity_; }  // of the surface
 
   const HazardCurve& hazard_;
