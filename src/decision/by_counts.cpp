@@ -138,11 +138,10 @@ Rate ByCounts::banded(const CurveReach& curve) {
   if (for_least > 0) least = lower(tail + for_least);
   if (for_most > 0) most = upper_with(&Row::to_upper, tail + for_most);
   const double coarse = by_cells() ? half_a_leap(this->curve(bins_, Shape(f_)), f_.cell_share, {}) : 0;
-  const auto wider = [&](double limit) {
-    return value + std::copysign(std::hypot(limit - value, coarse), limit - value);
-  };
-  upper_if_falling_ = wider(std::min(most, upper_with(&Row::to_falling, tail)));
-  return {value, std::max(0.0, wider(least)), std::min(hazard_.annual_rate.front(), wider(most))};
+  const auto above = [&](double limit) { return value + std::hypot(limit - value, coarse); };
+  upper_if_falling_ = above(std::min(most, upper_with(&Row::to_falling, tail)));
+  return {value, std::max(0.0, value - std::hypot(value - least, coarse)),
+          std::min(hazard_.annual_rate.front(), above(most))};
 }
 
 std::vector<double> ByCounts::rates_left_out() const {

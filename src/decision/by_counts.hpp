@@ -62,7 +62,7 @@ class ByCounts {
   fragility::CountedCurve curve(const std::vector<fragility::CountedBin>& bins,
                                 const fragility::CountedCurve::Shape&) const;
   bool same(std::size_t i) const;
-  bool by_cells() const { return f_.cell_share.size() >= 2 * bins_.size(); }
+  bool by_cells() const { return !bins_.empty() && f_.cell_share.size() >= 2 * bins_.size(); }
   // How P goes within a fine cell no count tells. Lines from cell to cell are the smoothest; the sharpest curve that has the same shares leaps from
   // that of the cell before to that of the cell behind, where the cell's own share says. The rate is the mean of both: half of their difference.
   double half_a_leap(const fragility::CountedCurve& lines, const std::vector<double>& cell_share, const Range&) const;

@@ -157,8 +157,8 @@ struct SlipsSeen {
 // Signs, clocks, units and files of the slips by themselves.
 SlipsSeen look_at_slips(const Bench& bench, Quality& quality) {
   std::vector<std::size_t> wrong, mirrored;
-  std::vector<double> late,
-      each;  // [s]; of tests that are wrong, of all that are off by more than a sample and than clocks are known
+  std::vector<double> late;  // [s]; of tests that are wrong
+  std::vector<double> each;  // of all that are off by more than a sample and than clocks are known
   std::size_t judged = 0;
   const auto tests = tests_of(bench.data(), Role::calibration);
   std::vector<Timing> timings;
