@@ -15,6 +15,19 @@ constexpr double panel = 0.025;
 
 using Shape = fragility::CountedCurve::Shape;
 
+// In which cells the sharpest curve leaps: those whose neighbours differ most first, where neither of these leaps and the share lies between
+// theirs. (Leaps in two cells side by side would make it fall between them.)
+std::vector<bool> where_it_leaps(const std::vector<double>& share) {
+  std::vector<bool> leaps(share.size(), false);
+  std::vector<std::size_t> order;
+  for (std::size_t i = 1; i + 1 < share.size(); ++i)
+    if ((share[i] - share[i - 1]) * (share[i + 1] - share[i]) >= 0 && share[i + 1] != share[i - 1]) order.push_back(i);
+  std::ranges::stable_sort(order, std::ranges::greater{},
+                           [&](std::size_t i) { return std::fabs(share[i + 1] - share[i - 1]); });
+  for (const std::size_t i : order) leaps[i] = !leaps[i - 1] && !leaps[i + 1];
+  return leaps;
+}
+
 }  // namespace
 
 ByCounts::ByCounts(const HazardCurve& hazard, const fragility::Result& result, const fragility::EdpResult& edp,
@@ -71,24 +84,27 @@ fragility::CountedCurve ByCounts::curve(const std::vector<fragility::CountedBin>
 double ByCounts::half_a_leap(const fragility::CountedCurve& lines, const std::vector<double>& share,
                              const Range& range) const {
   const std::vector<double>& im = f_.cell_im;
-  const Range within{std::max(range.from, im.front()), std::min(range.to, im.back())};
+  const Range within{std::max({range.from, im.front(), hazard_.first()}),
+                     std::min({range.to, im.back(), hazard_.last()})};
+  if (!(within.from < within.to)) return 0;
   const auto events = [&](double from, double to) {
-    from = std::max({from, hazard_.first(), within.from}), to = std::min({to, hazard_.last(), within.to});
+    from = std::max(from, within.from), to = std::min(to, within.to);
     return from < to ? hazard_.rate(from) - hazard_.rate(to) : 0;
   };
-  const std::size_t last = im.size() - 1;
+  const std::vector<bool> leaps = where_it_leaps(share);
   double leaping = 0, from = im.front();
-  for (std::size_t i = 0; i <= last; ++i) {
-    const double to = i < last ? (im[i] + im[i + 1]) / 2 : im[last];
-    const double below = share[i > 0 ? i - 1 : 0], above = share[std::min(i + 1, last)];
-    const double part = (share[i] - below) / (above - below);  // of the cell, that lies behind the leap
-    if (0 < i && i < last && part >= 0 && part <= 1)
-      leaping += below * events(from, to - part * (to - from)) + above * events(to - part * (to - from), to);
-    else
+  for (std::size_t i = 0; i < im.size(); ++i) {
+    const double to = i + 1 < im.size() ? (im[i] + im[i + 1]) / 2 : im[i];
+    if (leaps[i]) {
+      const double below = share[i - 1], above = share[i + 1];
+      const double at = to - (share[i] - below) / (above - below) * (to - from);
+      leaping += below * events(from, at) + above * events(at, to);
+    } else {
       leaping += share[i] * events(from, to);
+    }
     from = to;
   }
-  return within.from < within.to ? (leaping - integral(lines, within)) / 2 : 0;
+  return (leaping - integral(lines, within)) / 2;
 }
 
 double ByCounts::rate_of(const std::vector<fragility::CountedBin>& bins, const Shape& shape, const Range& range) const {

@@ -63,8 +63,9 @@ class ByCounts {
                                 const fragility::CountedCurve::Shape&) const;
   bool same(std::size_t i) const;
   bool by_cells() const { return !bins_.empty() && f_.cell_share.size() >= 2 * bins_.size(); }
-  // How P goes within a fine cell no count tells. Lines from cell to cell are the smoothest; the sharpest curve that has the same shares leaps from
-  // that of the cell before to that of the cell behind, where the cell's own share says. The rate is the mean of both: half of their difference.
+  // How P goes within a fine cell no count tells. Lines from cell to cell are the smoothest; the sharpest curve that has the same shares is level in
+  // every other cell, and leaps in those between from the level before to that behind, where the cell's own share says. The rate is the mean of
+  // both: lines, and half of their difference.
   double half_a_leap(const fragility::CountedCurve& lines, const std::vector<double>& cell_share, const Range&) const;
   double rate_of(const std::vector<fragility::CountedBin>&, const fragility::CountedCurve::Shape&, const Range&) const;
   std::size_t at(std::size_t i) const { return bins_[i].index * edp_.capacity.size() + capacity_; }  // of the surface

@@ -316,6 +316,7 @@ Result as_pta(Result result, double mu) {
   const auto convert = [&](double& im) { im = mu * (im + 1); };
   std::for_each(result.im_edge.begin(), result.im_edge.end(), convert);
   std::for_each(result.im.begin(), result.im.end(), convert);
+  std::for_each(result.cell_im.begin(), result.cell_im.end(), convert);
   result.im_name = std::string("pta_g");
   result.im_unit = std::string("g");
   for (EdpResult& edp : result.edps) edp.functions.clear();

@@ -203,7 +203,11 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
   const Group im = root.open_group("im");
   result.im = values(im, "centre");
   result.im_edge = values(im, "edge", result.im.size() + 1);
+  if (!im.has("cell"))
+    throw misfit(im, "it is of an earlier version, and does not tell how intensities are spread within bins");
   result.cell_im = values(im, "cell");
+  if (result.im.empty() || result.cell_im.size() % result.im.size() != 0)
+    throw misfit(im, fmt::format("it has {} fine cells in {} bins", result.cell_im.size(), result.im.size()));
   result.cell_n = whole(im, "cell_n", result.cell_im.size());
   const Group edps = root.open_group("edp");
   for (const std::string& name : edps.names())

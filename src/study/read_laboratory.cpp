@@ -126,7 +126,7 @@ LabTest read_test(Section& section, std::size_t i, const std::filesystem::path& 
   test.id = section.text("id", fmt::format("t{:02d}", i + 1));
   if (test.id.empty() || test.id.front() == '.' || test.id.find_first_of("/\\\n") != std::string::npos)
     section.problem("id",
-                    fmt::format("{} is {} (the test's file is named so): take one without / and \\ and without a point "
+                    fmt::format("{} is {} (the test's file is named so): take one line without / and \\, with no point "
                                 "in front",
                                 section.name("id"), yaml_text(test.id)));
   test.role = static_cast<measurement::Role>(section.choice("role", {"calibration", "holdout"}, 0));

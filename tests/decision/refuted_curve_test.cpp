@@ -54,6 +54,20 @@ TEST(RefutedCurve, BandsHoldWhatTheWidthOfCellsHides) {
   EXPECT_GE(held, 31);  // of 90 %: fewer in one case of a hundred
 }
 
+// Half overturn at 0.09 g and all at 0.3 g: a hazard curve that ends at 0.5 g says as much as a longer one.
+TEST(RefutedCurve, RatesCountEventsBeyondTheEndOfTheHazardCurve) {
+  Sweep sweep;
+  sweep.records = 400, sweep.per_record = 50;
+  sweep.between = sweep.within = 0.02;
+  sweep.median = 0.3, sweep.weak = 0.5;
+  constexpr double k0 = 1e-3, k = 2;
+  const fragility::Result result = sweep.fit(1, 50);
+  const auto by_counts = [&](double last) {
+    return risk(result, power_law(k0, k, 1e-2, last)).rows[0].by_counts.value;
+  };
+  EXPECT_NEAR(by_counts(0.5) / by_counts(50), 1, 1e-3);
+}
+
 // Of 20 records a fitted curve is often not refuted, and off all the same: by it such rates were 1.1 times those of the records on the average.
 TEST(RefutedCurve, RatesFollowTheFineCellsWhereChanceMayBeWhatRefutes) {
   Sweep sweep;

@@ -76,6 +76,18 @@ TEST(LaboratoryVerdict, AnEffectIsFoundThoughTheWidthIsOff) {
   })) << testing::PrintToString(d.sentences);
 }
 
+// Two dimensions that are off within their tolerances, and nothing hidden: neither alone explains it, and no effect is named for both.
+TEST(LaboratoryVerdict, NoEffectIsNamedForTwoDimensions) {
+  SetRequest rocking{{}, 970, 6, 6};
+  while (make_set(rocking).drawn.habit != Habit::rocks) ++rocking.seed;
+  const Diagnosis d = diagnosed(rocking, {"impact_loss", "reduced_base", "offset_mass"}, [](MadeSet& set) {
+    set.stated_width = 1.01;
+    set.drawn.height_m *= 1.01;
+  });
+  EXPECT_TRUE(d.effects.empty()) << testing::PrintToString(d.effects) << testing::PrintToString(d.sentences);
+  EXPECT_EQ(d.verdict, Verdict::bad_data) << testing::PrintToString(d.sentences);
+}
+
 // What the block did comes a third of a second before its floor: said at once, without a search.
 TEST(LaboratoryVerdict, AResponseThatBeginsBeforeItsFloorIsBadData) {
   const Diagnosis d = diagnosed(request({"static_friction"}, ""), {"static_friction"}, [](MadeSet& set) {

@@ -88,6 +88,33 @@ MatrixXd with_tolerance(MatrixXd gram, const AsStated& s) {
   return gram;
 }
 
+std::string most_off(const AsStated& s) {
+  const VectorXd off = deviations(s).cwiseAbs();
+  std::string most;
+  double largest = 0;
+  for (Index d = 0; d < off.size(); ++d) {
+    const auto k = static_cast<std::size_t>(d);
+    if (!s.is_off[k] || off[d] <= largest) continue;
+    largest = off[d];
+    most = fault_sentence(s.names[k], s.x[s.x.size() - s.names.size() + k]);
+  }
+  return most;
+}
+
+std::pair<ModelSpec, Values> moved_alike(const AsStated& s, const ModelFit& fit, const ModelSpec& other, Values x) {
+  ModelSpec model = other;
+  const std::size_t own = fit.x.size();
+  for (std::size_t i = 0; i < own; ++i) {
+    const Free& free = model.free[i];
+    x[i] = from_unit(free, to_unit(free, x[i]) + to_unit(free, s.x[i]) - to_unit(free, fit.x[i]));
+  }
+  for (Number ModelSpec::*number :
+       {&ModelSpec::width_factor, &ModelSpec::centre_height_factor, &ModelSpec::floor_gain, &ModelSpec::clock_behind})
+    if (const int place = (s.model.*number).free; place >= static_cast<int>(own))
+      model.*number = {.value = s.x[static_cast<std::size_t>(place)]};
+  return {std::move(model), std::move(x)};
+}
+
 // By steps of Gauss and Newton, halved where one goes too far.
 AsStated as_stated(const Bench& bench, const Judge& judge, const ModelFit& fit, const Jobs& jobs) {
   constexpr int most_steps = 12;
@@ -98,8 +125,8 @@ AsStated as_stated(const Bench& bench, const Judge& judge, const ModelFit& fit, 
     best.names.emplace_back(number.name);
     let_free(best.model, number);
   }
-  const double before = misfit(judge, best);
-  double least = before, length = 1;
+  best.misfit = misfit(judge, best);
+  double length = 1;
   VectorXd variance;
   for (int step = 0; step < most_steps && count(best) > 0; ++step) {
     const auto [gram, against] = equations(bench, judge, best, jobs);
@@ -108,13 +135,12 @@ AsStated as_stated(const Bench& bench, const Judge& judge, const ModelFit& fit, 
     const VectorXd change = solver.solve(against);
     AsStated next = moved(best, length * change);
     double there = misfit(judge, next);
-    for (; !(there < least) && length > 0.05; there = misfit(judge, next))
+    for (; !(there < best.misfit) && length > 0.05; there = misfit(judge, next))
       length /= 2, next = moved(best, length * change);
-    if (!(there < least - worth_a_step)) break;
+    if (!(there < best.misfit - worth_a_step)) break;
     best = std::move(next);
-    least = there, length = std::min(1.0, 2 * length);
+    best.misfit = there, length = std::min(1.0, 2 * length);
   }
-  best.gain = before - least;
   const VectorXd off = deviations(best);
   for (Index d = 0; d < off.size(); ++d)
     best.is_off.push_back(off[d] * off[d] > gsl_cdf_chisq_Pinv(1 - chance_level, 1) * variance.tail(off.size())[d]);

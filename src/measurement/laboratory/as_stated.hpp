@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "measurement/fit/judge.hpp"
@@ -12,15 +13,21 @@ namespace freestand::measurement {
 
 // The numbers of the fit, and behind them those that are stated, where both together are likeliest: G and the squares of the deviations (over
 // their standard deviations) are least. These squares are observations like others, one more and one more number each, so that what is
-// left compares with chance as G alone does.
+// left compares with chance as G alone does. Found downhill from the fit: a deviation by which a long rocking falls out of step is not.
 struct AsStated {
   ModelSpec model;
   Values x;
   std::vector<std::string> names;  // of what is stated: the faults of laboratory.hpp
-  double gain = 0;                 // by how much that lies below G of the fit
+  double misfit = 0;               // that sum
   std::vector<bool> is_off;        // by more than chance
 };
 AsStated as_stated(const Bench&, const Judge&, const ModelFit&, const Jobs&);
+
+// "the width is 1.2 % smaller than stated": what is off by the most standard deviations, of what is off by more than chance; empty: nothing is.
+std::string most_off(const AsStated&);
+
+// A model that holds the fit's numbers first, and its numbers, moved as far as those of the fit were, with what is stated as it is here.
+std::pair<ModelSpec, Values> moved_alike(const AsStated&, const ModelFit& fit, const ModelSpec& other, Values x);
 
 // Columns of all its numbers, as slopes_of() gives them, those of what is stated per standard deviation; by how many of these it is off.
 Eigen::MatrixXd slopes_as_stated(const AsStated&, const Judge&, const Test&, std::size_t i, const Prediction& at);

@@ -36,10 +36,11 @@ std::string clock_sentence(const std::string& whose, double late_s) {
 std::string fault_sentence(const std::string& name, double number) {
   if (name == clock_fault) return clock_sentence("the responses are stamped", number);
   const double percent = 100 * std::abs(number - 1);
+  const std::string shown = percent < 0.1 ? fmt::format("{:.1g}", percent) : fmt::format("{:.1f}", percent);
   if (name == gain_fault)
-    return fmt::format("the floor's accelerometer reads {:.1f} % too {}", percent, number < 1 ? "much" : "little");
+    return fmt::format("the floor's accelerometer reads {} % too {}", shown, number < 1 ? "much" : "little");
   const bool width = name == width_fault;
-  return fmt::format("the {} is {:.1f} % {} than stated", width ? "width" : "centre of mass", percent,
+  return fmt::format("the {} is {} % {} than stated", width ? "width" : "centre of mass", shown,
                      number < 1 ? (width ? "smaller" : "lower") : (width ? "larger" : "higher"));
 }
 

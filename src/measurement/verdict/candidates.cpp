@@ -22,6 +22,13 @@ double bic(const std::vector<double>& samples, const ModelFit& fit) {
 
 }  // namespace
 
+bool is_part(const Candidate& part, const Candidate& whole) {
+  return part.effects.size() < whole.effects.size() &&
+         std::all_of(part.effects.begin(), part.effects.end(), [&](const std::string& effect) {
+           return std::find(whole.effects.begin(), whole.effects.end(), effect) != whole.effects.end();
+         });
+}
+
 double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b) {

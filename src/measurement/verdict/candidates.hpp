@@ -11,6 +11,8 @@ double total(const std::vector<double>&);
 Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b);
 // Do the numbers that come after the `known` ones lie where they are met in practice?
 bool practical(const ModelFit&, std::size_t known);
+// Are all effects of one among those of the other, which has more?
+bool is_part(const Candidate& part, const Candidate& whole);
 
 // Fills misfits, explained and delta_bic of base and candidates.
 void judge_histories(const Bench&, const Judge&, Diagnosis&, const Jobs&);

@@ -122,12 +122,13 @@ Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& ba
   const auto p = static_cast<Index>(known.x.size()), q = p + static_cast<Index>(all.size());
   const Summed sum = sum_of("what effects change", tests.size(), q, judge, jobs, [&](std::size_t i) {
     const Test& test = bench.test(tests[i]);
-    const Prediction at = predict(base.model, test, base.x), there = predict(known.model, test, known.x);
-    const VectorXd r = -judge.residual(i, there);  // what a change would have to make
+    const Prediction at = predict(known.model, test, known.x);
+    const VectorXd r = -judge.residual(i, at);  // what a change would have to make
     MatrixXd M = MatrixXd::Zero(r.size(), q);
-    if (p > 0) M.leftCols(p) = slopes_as_stated(known, judge, test, i, there);
+    if (p > 0) M.leftCols(p) = slopes_as_stated(known, judge, test, i, at);
     for (std::size_t k = 0; k < all.size(); ++k) {
-      const Prediction with = predict(*all[k].model, test, all[k].x);
+      const auto [model, x] = moved_alike(known, base, *all[k].model, all[k].x);
+      const Prediction with = predict(model, test, x);
       if (!with.failed() && !at.failed()) M.col(p + static_cast<Index>(k)) = judge.change(i, at, with);
     }
     return std::pair(std::move(M), r);

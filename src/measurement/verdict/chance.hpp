@@ -25,6 +25,7 @@ struct Chance {
   int simulations = 0;
   // Leads: in which share of data from the best it would exceed what chance reaches, so that the two were told apart.
   double told_apart = std::numeric_limits<double>::quiet_NaN();
+  bool within_tolerances = false;  // chance only if what the laboratory states is off within its tolerances
   bool chance() const { return p > chance_level; }
 };
 

@@ -161,13 +161,6 @@ class Decision {
     return best;
   }
 
-  static bool is_part(const Candidate& part, const Candidate& whole) {
-    return part.effects.size() < whole.effects.size() &&
-           std::all_of(part.effects.begin(), part.effects.end(), [&](const std::string& effect) {
-             return std::find(whole.effects.begin(), whole.effects.end(), effect) != whole.effects.end();
-           });
-  }
-
   double samples() const { return total(d_.samples); }
 
   void mark_rivals(const Candidate& best) {
@@ -180,7 +173,13 @@ class Decision {
   // None is named alone over one that misses the tests left out by less, by what the table shows of both; nor with a lead
   // that data from the other would give it in more than one set of twenty.
   bool as_good(const Candidate& best, const Candidate& rival) {
-    return is_ahead(rival, best) || missed_by(rival) <= missed_by(best) || (enough(best) && by_chance(best, rival));
+    if (is_ahead(rival, best) || missed_by(rival) <= missed_by(best)) return true;
+    return enough(best) && (by_chance(best, rival) || (within_tolerances(best) && enough(rival)));
+  }
+  // Enough, but only if what the laboratory states is off within its tolerances: so may others be.
+  bool within_tolerances(const Candidate& c) const {
+    const Chance* chance = told_of(misfit_question, whole(c));
+    return chance && chance->within_tolerances;
   }
 
   bool by_chance(const Candidate& best, const Candidate& rival) {
@@ -191,13 +190,14 @@ class Decision {
   }
   // Which of these it was that makes the rival as good.
   std::string why_as_good(const Candidate& best, const Candidate& rival) const {
-    const std::string name = joined(rival.effects);
-    if (const Chance* lead = told_of(lead_question, lead_of(best, rival)))
+    const std::string name = joined(rival.effects), other = joined(best.effects);
+    if (const Chance* lead = told_of(lead_question, lead_of(best, rival)); lead && lead->chance())
       return fmt::format("chance may have put {} behind (p {:.2g})", name, lead->p);
-    return is_ahead(rival, best)
-               ? fmt::format("{} misses the tests left out by less than {}, which fits all tests more closely", name,
-                             joined(best.effects))
-               : fmt::format("{} fits all tests as closely as {}", name, joined(best.effects));
+    if (is_ahead(rival, best))
+      return fmt::format("{} misses the tests left out by less than {}, which fits all tests more closely", name,
+                         other);
+    if (missed_by(rival) <= missed_by(best)) return fmt::format("{} fits all tests as closely as {}", name, other);
+    return fmt::format("{} is enough as well if what is stated is off within its tolerances", name);
   }
 
   static std::string whole(const Candidate& c) { return c.effects.empty() ? "the model as it is" : joined(c.effects); }

@@ -27,7 +27,8 @@ void withdraw(Diagnosis& d) {
   d.best.reset();
   for (Candidate& c : d.candidates) c.rival = false;
   d.sentences = {
-      "the measurements look wrong in a sign, a clock or a unit (see the findings): no effect can be named before "
+      "the measurements look wrong in a sign, a clock, a unit or a dimension (see the findings): no effect can be "
+      "named before "
       "that is settled"};
 }
 
@@ -50,6 +51,10 @@ class Diagnoser : PairSearch {
     look_for_chance();
     if (clocks_differ()) {
       out_.quality.findings.push_back(clocks_sentence());
+      withdraw(out_);
+      return std::move(out_);
+    }
+    if (stated_wrongly()) {
       withdraw(out_);
       return std::move(out_);
     }
@@ -112,17 +117,30 @@ class Diagnoser : PairSearch {
     const Judge judge = judge_of(c.fit);
     const double misfit = total(judge.misfit_of_fit(c.fit));
     if (c.laboratory || chance_of_misfit(bench_, judge, c.fit, misfit).chance()) return;
-    const AsStated stated = as_stated(bench_, judge, c.fit, jobs_);
-    std::optional<Eigen::Index> most;
-    const Eigen::VectorXd off = deviations(stated).cwiseAbs();
-    for (Eigen::Index k = 0; k < off.size(); ++k)
-      if (stated.is_off[static_cast<std::size_t>(k)] && (!most || off[k] > off[*most])) most = k;
-    if (!most) return;
-    const auto k = static_cast<std::size_t>(*most);
-    out_.sentences.push_back(
-        fmt::format("beside {} the tests are judged by what suits them best within the tolerances of what is stated, "
-                    "above all as if {}: measure that again",
-                    fmt::join(c.effects, " and "), fault_sentence(stated.names[k], stated.x[c.fit.x.size() + k])));
+    if (const std::string off = most_off(as_stated(bench_, judge, c.fit, jobs_)); !off.empty())
+      out_.sentences.push_back(
+          fmt::format("beside {} the tests are judged by what suits them best within the tolerances of what is stated, "
+                      "above all as if {}: measure that again",
+                      fmt::join(c.effects, " and "), off));
+  }
+
+  // Is nothing that was tried enough as it is, and the base where all that is stated may be off? Then no effect is needed.
+  bool stated_wrongly() {
+    if (kind_of_set(bench_) != Kind::history || !leaves_too_much(out_.base.fit)) return false;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible && c.fit.left_out_refitted && !leaves_too_much(c.fit)) return false;
+    const Judge judge = judge_of(out_.base.fit);
+    const AsStated stated = as_stated(bench_, judge, out_.base.fit, jobs_);
+    const std::string off = most_off(stated);
+    if (off.empty() || !chance_of_misfit(bench_, judge, out_.base.fit, stated.misfit).chance()) return false;
+    out_.quality.findings.push_back(fmt::format(
+        "the model is enough within the tolerances of what is stated, above all if {}: measure that again", off));
+    return true;
+  }
+  // With nothing that is stated off.
+  bool leaves_too_much(const ModelFit& fit) const {
+    const Judge judge = judge_of(fit);
+    return !chance_of_misfit(bench_, judge, fit, total(judge.misfit_of_fit(fit))).chance();
   }
 
   void decide_all() {
@@ -202,7 +220,7 @@ class Diagnoser : PairSearch {
     if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return false;
     const Judge judge = judge_of(known.fit);
     OwnNumbers own = own_friction(bench_, judge, known.fit, jobs_);
-    const double least = total(judge.misfit_of_fit(known.fit)) - chance_of_another(known).observed;
+    const double least = as_stated(bench_, judge, known.fit, jobs_).misfit - chance_of_another(known).observed;
     if (!explain_tests(own, total(judge.samples()), least)) return false;
     out_.friction_scatter = own.scatter;
     out_.own_friction = std::move(own);

@@ -86,9 +86,11 @@ Judge EffectSearch::judge_of(const ModelFit& fit) const {
 
 Chance EffectSearch::chance_of_misfit_of(const ModelFit& fit) const {
   const Judge judge = judge_of(fit);
-  const double misfit = total(judge.misfit_of_fit(fit));
-  const bool effects = fit.model.effects.size() > base_.effects.size();
-  return chance_of_misfit(bench_, judge, fit, effects ? misfit - as_stated(bench_, judge, fit, jobs_).gain : misfit);
+  const Chance plain = chance_of_misfit(bench_, judge, fit, total(judge.misfit_of_fit(fit)));
+  if (plain.chance() || fit.model.effects.size() == base_.effects.size()) return plain;
+  Chance allowed = chance_of_misfit(bench_, judge, fit, as_stated(bench_, judge, fit, jobs_).misfit);
+  allowed.within_tolerances = allowed.chance();
+  return allowed;
 }
 
 // Each as it would be at nothing, and as it was fitted beside them where it was.
