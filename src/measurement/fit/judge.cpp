@@ -136,7 +136,7 @@ void Judge::take(const std::vector<Values>& columns, double limit, bool own_fric
     replay_misfits_.push_back(misfits_of_replays(A(kept, Eigen::all).transpose() * A(kept, Eigen::all)));
     const Eigen::MatrixXd drift = drifts(test);
     A.conservativeResize(rows, all + drift.cols());
-    A.rightCols(drift.cols()) = drift;
+    if (drift.cols() > 0) A.rightCols(drift.cols()) = drift;
     if (all > count) A.col(count) = changes.col(count);
     A = Eigen::MatrixXd(A(kept, Eigen::all));
     const Eigen::MatrixXd gram = A.transpose() * A;
