@@ -1,6 +1,5 @@
 // The whole study as text, every default written out.
 #include <fmt/format.h>
-#include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 

@@ -49,12 +49,8 @@ class Diagnoser : PairSearch {
     fit(singles);
     judge();
     look_for_chance();
-    if (clocks_differ()) {
-      out_.quality.findings.push_back(clocks_sentence());
-      withdraw(out_);
-      return std::move(out_);
-    }
-    if (stated_wrongly()) {
+    if (std::string fault = clocks_differ() ? clocks_sentence() : stated_wrongly(); !fault.empty()) {
+      out_.quality.findings.push_back(std::move(fault));
       withdraw(out_);
       return std::move(out_);
     }
@@ -115,8 +111,7 @@ class Diagnoser : PairSearch {
     if (kind_of_set(bench_) != Kind::history || !out_.best || out_.effects.empty()) return;
     const Candidate& c = out_.candidates[*out_.best];
     const Judge judge = judge_of(c.fit);
-    const double misfit = total(judge.misfit_of_fit(c.fit));
-    if (c.laboratory || chance_of_misfit(bench_, judge, c.fit, misfit).chance()) return;
+    if (c.laboratory || chance_as_stated(judge, c.fit).chance()) return;
     if (const std::string off = most_off(as_stated(bench_, judge, c.fit, jobs_)); !off.empty())
       out_.sentences.push_back(
           fmt::format("beside {} the tests are judged by what suits them best within the tolerances of what is stated, "
@@ -124,23 +119,18 @@ class Diagnoser : PairSearch {
                       fmt::join(c.effects, " and "), off));
   }
 
-  // Is nothing that was tried enough as it is, and the base where all that is stated may be off? Then no effect is needed.
-  bool stated_wrongly() {
-    if (kind_of_set(bench_) != Kind::history || !leaves_too_much(out_.base.fit)) return false;
+  // Is nothing that was tried enough as it is, and the base where all that is stated may be off? Then no effect is needed. Empty: no.
+  std::string stated_wrongly() const {
+    const auto enough = [&](const ModelFit& fit) { return chance_as_stated(judge_of(fit), fit).chance(); };
+    if (kind_of_set(bench_) != Kind::history || enough(out_.base.fit)) return {};
     for (const Candidate& c : out_.candidates)
-      if (c.visible && c.fit.left_out_refitted && !leaves_too_much(c.fit)) return false;
+      if (c.visible && c.fit.left_out_refitted && enough(c.fit)) return {};
     const Judge judge = judge_of(out_.base.fit);
     const AsStated stated = as_stated(bench_, judge, out_.base.fit, jobs_);
     const std::string off = most_off(stated);
-    if (off.empty() || !chance_of_misfit(bench_, judge, out_.base.fit, stated.misfit).chance()) return false;
-    out_.quality.findings.push_back(fmt::format(
-        "the model is enough within the tolerances of what is stated, above all if {}: measure that again", off));
-    return true;
-  }
-  // With nothing that is stated off.
-  bool leaves_too_much(const ModelFit& fit) const {
-    const Judge judge = judge_of(fit);
-    return !chance_of_misfit(bench_, judge, fit, total(judge.misfit_of_fit(fit))).chance();
+    if (off.empty() || !chance_of_misfit(bench_, judge, out_.base.fit, stated.misfit).chance()) return {};
+    return fmt::format(
+        "the model is enough within the tolerances of what is stated, above all if {}: measure that again", off);
   }
 
   void decide_all() {

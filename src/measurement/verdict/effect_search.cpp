@@ -84,9 +84,13 @@ Judge EffectSearch::judge_of(const ModelFit& fit) const {
   return {bench_, fit.model, fit.x, jobs_, every_sample, out_.friction_scatter};
 }
 
+Chance EffectSearch::chance_as_stated(const Judge& judge, const ModelFit& fit) const {
+  return chance_of_misfit(bench_, judge, fit, total(judge.misfit_of_fit(fit)));
+}
+
 Chance EffectSearch::chance_of_misfit_of(const ModelFit& fit) const {
   const Judge judge = judge_of(fit);
-  const Chance plain = chance_of_misfit(bench_, judge, fit, total(judge.misfit_of_fit(fit)));
+  const Chance plain = chance_as_stated(judge, fit);
   if (plain.chance() || fit.model.effects.size() == base_.effects.size()) return plain;
   Chance allowed = chance_of_misfit(bench_, judge, fit, as_stated(bench_, judge, fit, jobs_).misfit);
   allowed.within_tolerances = allowed.chance();

@@ -49,6 +49,8 @@ class EffectSearch {
   // Is it enough? Its misfit against data from itself; of the base with effects but for what goes with deviations from what the laboratory
   // states, which beside the bare base are candidates of their own.
   Chance chance_of_misfit_of(const ModelFit&) const;
+  // With nothing that is stated off.
+  Chance chance_as_stated(const Judge&, const ModelFit&) const;
   // Does one more effect help beside those of a candidate? Of all that may join it, beyond such deviations.
   Chance chance_of_another(const Candidate&) const;
   std::vector<Values> starts_of(const dynamics::Effect&, const ModelSpec&) const;
