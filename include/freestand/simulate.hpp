@@ -34,6 +34,10 @@ Response respond(const Specimen&, const Shaking&, const Settings& = {}, History*
 // tolerances below 1e-10, others below 1e-13. Pulses, and records under the other effects, have the bits of single samples.
 void respond_batch(std::span<const Specimen>, std::span<const Shaking>, const Settings&, std::span<Response>);
 
+// The same with the histories of all, each in its own steps: responses and histories of respond(), to the bit. Samples with laws go in packs.
+void respond_batch(std::span<const Specimen>, std::span<const Shaking>, const Settings&, std::span<Response>,
+                   std::span<History>);
+
 // Where the motion has a second horizontal channel, a block of model slide is followed in the plane of the floor, one by one:
 // slips and accelerations are the sizes of vectors. Other models and effects along one line are not_finite there.
 

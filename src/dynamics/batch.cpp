@@ -259,7 +259,7 @@ bool goes_alone(const Specimen& specimen, const Settings& settings) {
 }  // namespace
 
 std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<const Shaking> shakings,
-                              const Settings& settings, std::span<Response> responses) {
+                              const Settings& settings, std::span<Response> responses, std::span<History> histories) {
   const BatchKernels* kernels = batch_kernels();
   Queues queues(std::min(group, specimens.size()));
   std::vector<std::size_t> single, alone, order;
@@ -274,7 +274,7 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
         alone.push_back(i);
         continue;
       }
-      const bool packs = kernels && covered(specimens[i], shakings[i], settings, c, law);
+      const bool packs = kernels && histories.empty() && covered(specimens[i], shakings[i], settings, c, law);
       if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c, law.has_value()) : nullptr)
         queues.add(kernel, c, law, i);
       else
@@ -287,8 +287,10 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
     const bool lanes = kernels && goes_in_law_lanes(set_up(specimens[i], shakings[i]), settings);
     (lanes ? under_laws : alone).push_back(i);
   }
-  if (!under_laws.empty()) respond_in_law_lanes(*kernels, specimens, shakings, settings, under_laws, responses);
-  for (const std::size_t i : alone) responses[i] = respond_on_line(specimens[i], shakings[i], settings, nullptr);
+  if (!under_laws.empty())
+    respond_in_law_lanes(*kernels, specimens, shakings, settings, under_laws, responses, histories);
+  for (const std::size_t i : alone)
+    responses[i] = respond_on_line(specimens[i], shakings[i], settings, histories.empty() ? nullptr : &histories[i]);
   return alone.size();
 }
 

@@ -52,8 +52,8 @@ struct BatchKernels {
 // none, every sample is computed alone.
 const BatchKernels* batch_kernels();
 
-// Samples on floors that move along a line, as respond_batch; says how many were computed alone.
-std::size_t respond_and_count(std::span<const Specimen>, std::span<const Shaking>, const Settings&,
-                              std::span<Response>);
+// Samples on floors that move along a line, as respond_batch; says how many were computed alone. histories: one of each sample, or none.
+std::size_t respond_and_count(std::span<const Specimen>, std::span<const Shaking>, const Settings&, std::span<Response>,
+                              std::span<History> histories = {});
 
 }  // namespace freestand::dynamics

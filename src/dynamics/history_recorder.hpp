@@ -77,6 +77,8 @@ class HistoryRecorder {
   }
 
   bool wanted() const { return times_.wanted(); }
+  History* history() { return history_; }
+  OutputTimes& times() { return times_; }
 
  private:
   // a, g: of the floor, with what a tilt adds. The floor holds the block against them and against what laws pull; of a

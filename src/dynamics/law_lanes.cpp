@@ -1,6 +1,7 @@
 #include "dynamics/law_lanes.hpp"
 
 #include <deque>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -129,6 +130,7 @@ class Group {
     rows_->steps[i] = life.steps();
     rows_->blows[i] = rows_->told[i] = rows_->struck[i] = 0;
     rows_->room[i] = life.events_left();
+    write_history(i, integrator.life().recorder, state.mode);
   }
 
   // Back to the text for single samples.
@@ -147,6 +149,7 @@ class Group {
     for (int k = 0; k < laws_.states; ++k) state.states[static_cast<std::size_t>(k)] = state_row(k)[i];
     life.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset), rows_->steps[i]);
     life.rocked_on(rows_->blows[i] - rows_->struck[i], rows_->told[i]);
+    life.recorder.times().went_to(rows_->points[i]);
     Response& peaks = life.peaks.response();
     peaks.peak_slip_m = get(Row::peak_slip);
     peaks.peak_slip_right_m = get(Row::peak_slip_right);
@@ -165,6 +168,17 @@ class Group {
 
  private:
   double* state_row(int k) { return rows_->numbers[static_cast<int>(Row::state) + k]; }
+
+  // Blows are events of a history, which single samples tell.
+  void write_history(int i, HistoryRecorder& recorder, Mode mode) {
+    const OutputTimes& times = recorder.times();
+    rows_->history[i] = recorder.history();
+    rows_->points[i] = times.count();
+    rows_->mode[i] = mode;
+    rows_->row(Row::output_step)[i] = times.step_s();
+    rows_->row(Row::next_output)[i] = times.wanted() ? times.next() : std::numeric_limits<double>::infinity();
+    if (recorder.history()) rows_->room[i] = 0;
+  }
 
   void write_tape(int i, const Laws& laws) {
     for (int node = input_count; node < laws.tape.size(); ++node) {
@@ -190,6 +204,9 @@ class Group {
     move(rows_->told);
     move(rows_->room);
     move(rows_->struck);
+    move(rows_->history);
+    move(rows_->points);
+    move(rows_->mode);
   }
 
   const Laws laws_;
@@ -213,7 +230,8 @@ class Pool {
 
  public:
   Pool(const LawMarch (*marches)[2], int lanes, std::span<const Specimen> specimens, std::span<const Shaking> shakings,
-       const Settings& settings, const std::vector<std::size_t>& which, std::span<Response> responses)
+       const Settings& settings, const std::vector<std::size_t>& which, std::span<Response> responses,
+       std::span<History> histories)
       : marches_(marches),
         pack_lanes_(lanes),
         specimens_(specimens),
@@ -221,6 +239,7 @@ class Pool {
         settings_(settings),
         which_(which),
         responses_(responses),
+        histories_(histories),
         series_(static_cast<std::size_t>(lanes)) {}
 
   void run() {
@@ -304,7 +323,8 @@ class Pool {
     if (taken_ == which_.size()) return;
     const std::size_t sample = which_[taken_++];
     lanes_[lane].sample = sample;
-    lanes_[lane].integrator.emplace(set_up(specimens_[sample], shakings_[sample]), settings_, nullptr);
+    History* history = histories_.empty() ? nullptr : &histories_[sample];
+    lanes_[lane].integrator.emplace(set_up(specimens_[sample], shakings_[sample]), settings_, history);
     place(lane);
   }
 
@@ -315,6 +335,7 @@ class Pool {
   const Settings settings_;
   const std::vector<std::size_t>& which_;
   const std::span<Response> responses_;
+  const std::span<History> histories_;
   std::size_t taken_ = 0;
   std::vector<Arc> series_;  // of the lanes that stop
   std::deque<Group<Motion>> groups_;
@@ -322,6 +343,8 @@ class Pool {
 };
 
 }  // namespace
+
+void add_point(History& history, const HistoryPoint& point) { history.points.push_back(point); }
 
 bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
   const Shaking& shaking = setup.shaking;
@@ -334,12 +357,14 @@ bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
 
 void respond_in_law_lanes(const BatchKernels& kernels, std::span<const Specimen> specimens,
                           std::span<const Shaking> shakings, const Settings& settings,
-                          const std::vector<std::size_t>& which, std::span<Response> responses) {
+                          const std::vector<std::size_t>& which, std::span<Response> responses,
+                          std::span<History> histories) {
   std::vector<std::size_t> on_records, on_pulses;
   for (const std::size_t i : which) (shakings[i].motion->degree > 1 ? on_pulses : on_records).push_back(i);
   const auto run = [&]<class Motion>(Motion, const LawMarch(*marches)[2], const std::vector<std::size_t>& some) {
     if (!some.empty())
-      std::make_unique<Pool<Motion>>(marches, kernels.lanes, specimens, shakings, settings, some, responses)->run();
+      std::make_unique<Pool<Motion>>(marches, kernels.lanes, specimens, shakings, settings, some, responses, histories)
+          ->run();
   };
   run(OnRecords(), kernels.under_laws, on_records);
   run(OnPulses(), kernels.on_pulses, on_pulses);

@@ -15,9 +15,10 @@ namespace freestand::dynamics {
 // Whether packs take the sample: it has laws, or its motion is a pulse.
 bool goes_in_law_lanes(const Setup& setup, const Settings& settings);
 
-// Computes samples[i] = respond(specimens[i], shakings[i]) for the i of `which`.
+// Computes samples[i] = respond(specimens[i], shakings[i]) for the i of `which`. histories: one of each sample, or none.
 void respond_in_law_lanes(const BatchKernels& kernels, std::span<const Specimen> specimens,
                           std::span<const Shaking> shakings, const Settings& settings,
-                          const std::vector<std::size_t>& which, std::span<Response> responses);
+                          const std::vector<std::size_t>& which, std::span<Response> responses,
+                          std::span<History> histories);
 
 }  // namespace freestand::dynamics

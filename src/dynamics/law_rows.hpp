@@ -2,6 +2,7 @@
 // mode and have a tape in common, but for its numbers.
 #pragma once
 
+#include <freestand/response.hpp>
 #include <freestand/specimen.hpp>
 
 #include "dynamics/floor_cursor.hpp"
@@ -83,6 +84,9 @@ enum class Row : int {
   force_zero,   // as in Rig
   touching,     // an upright block that is nearer to a wall than this touches it
   beside_wall,  // as in wall.hpp [m]
+  // OutputTimes
+  output_step,  // of the history [s]
+  next_output,  // instant of its next point [s]; infinite: no history
   state         // first of the effects' own
 };
 inline constexpr int row_count = static_cast<int>(Row::state) + max_states;
@@ -108,6 +112,10 @@ struct LawRows {
   // Steps within the segment; blows that the packs have gone through, those that count as impacts, and how many more may follow.
   int steps[law_slots] = {}, blows[law_slots] = {}, told[law_slots] = {}, room[law_slots] = {};
   int struck[law_slots] = {};  // 1: just so, it is not yet told how it goes on
+  // What is written of each: null, or its history, and how many points of it lie behind.
+  History* history[law_slots] = {};
+  long points[law_slots] = {};
+  Mode mode[law_slots] = {};
 
   double* row(Row which) { return numbers[static_cast<int>(which)]; }
   // The coefficients of the segment at which lane i is.
@@ -118,6 +126,9 @@ struct LawRows {
     if (at.vertical) vertical[0][i] = at.vertical[0], vertical[1][i] = at.vertical[1];
   }
 };
+
+// Compiled for any machine, as what packs do not share with it must be.
+void add_point(History&, const HistoryPoint&);
 
 // Which lanes stopped: before a step in which something may happen, at the end of their motion, or after a blow that leaves open
 // how they go on. Bit l: lane first + l.

@@ -11,6 +11,10 @@ class OutputTimes {
   explicit OutputTimes(const History* history) : step_s_(history ? history->step_s : 0) {}
 
   bool wanted() const { return step_s_ > 0; }
+  double step_s() const { return step_s_; }
+  // How many lie behind, and others have gone by so many.
+  long count() const { return count_; }
+  void went_to(long count) { count_ = count; }
   double next() const { return static_cast<double>(count_) * step_s_; }
 
   // Each that is left before start + tau, as the time since start.

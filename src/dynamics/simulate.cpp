@@ -1,5 +1,6 @@
 #include "dynamics/simulate.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -112,6 +113,17 @@ void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking>
     if (dynamics::has_cross(shaking))
       return dynamics::respond_batch_with_cross(specimens, shakings, settings, responses);
   dynamics::respond_and_count(specimens, shakings, settings, responses);
+}
+
+void respond_batch(std::span<const Specimen> specimens, std::span<const Shaking> shakings, const Settings& settings,
+                   std::span<Response> responses, std::span<History> histories) {
+  if (std::any_of(shakings.begin(), shakings.end(), dynamics::has_cross)) {
+    for (std::size_t i = 0; i < specimens.size(); ++i)
+      responses[i] = respond(specimens[i], shakings[i], settings, &histories[i]);
+    return;
+  }
+  for (History& history : histories) history.cross = false;
+  dynamics::respond_and_count(specimens, shakings, settings, responses, histories);
 }
 
 }  // namespace freestand

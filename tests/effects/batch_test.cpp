@@ -14,6 +14,9 @@ namespace {
 const std::set<std::string> in_packs = {"impact_loss",  "offset_mass",     "rate_strengthening", "rate_weakening",
                                         "reduced_base", "static_friction", "vertical_shaking"};
 
+const std::set<std::string> no_laws = {"impact_loss", "offset_mass", "reduced_base", "static_friction",
+                                       "vertical_shaking"};
+
 struct Samples {
   std::vector<RandomCase> cases;  // which own the motions
   std::vector<Specimen> specimens;
@@ -100,6 +103,54 @@ TEST(CatalogueInBlocks, EachSampleIsAnsweredAsAlone) {
     }
 }
 
+bool same_bits(const History& a, const History& b) {
+  const auto same_point = [](const HistoryPoint& p, const HistoryPoint& q) {
+    return p.time_s == q.time_s && p.floor_acceleration_mps2 == q.floor_acceleration_mps2 && p.slip_m == q.slip_m &&
+           p.slip_velocity_mps == q.slip_velocity_mps && p.rotation_rad == q.rotation_rad &&
+           p.rotation_rate_radps == q.rotation_rate_radps && p.mode == q.mode &&
+           p.acceleration_mps2 == q.acceleration_mps2 && p.vertical_acceleration_mps2 == q.vertical_acceleration_mps2 &&
+           p.contact_x_mps2 == q.contact_x_mps2 && p.contact_y_mps2 == q.contact_y_mps2;
+  };
+  const auto same_event = [](const Event& p, const Event& q) {
+    return p.time_s == q.time_s && p.from == q.from && p.to == q.to && p.pivot == q.pivot && p.impact == q.impact;
+  };
+  return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same_point) &&
+         std::equal(a.events.begin(), a.events.end(), b.events.begin(), b.events.end(), same_event);
+}
+
+// Each history in its own steps, finer and coarser than those of the floor, with forces and without.
+TEST(CatalogueInBlocks, HistoriesHaveTheBitsOfSingleOnes) {
+  constexpr std::size_t count = 24;
+  for (const auto& effect : effects::all())
+    for (const Model model : {Model::slide_rock, Model::slide}) {
+      const auto& excludes = effect.excludes;
+      if (model == Model::slide && std::find(excludes.begin(), excludes.end(), "slide") != excludes.end()) continue;
+      const Samples samples = samples_with(effect, model, count);
+      const std::size_t one_by_one = no_laws.count(effect.name) ? count : count / 3;  // that are without an effect
+      const Settings settings{.tolerance = 1e-8, .free_vibration_s = 0};
+      std::vector<Response> block(count);
+      std::vector<History> histories(count);
+      for (std::size_t i = 0; i < count; ++i) {
+        const double steps_s[] = {0.005, 0.002, 0.01, 1.0 / 256};
+        histories[i].step_s = steps_s[i % 4];
+        histories[i].forces = i % 2;
+        histories[i].points.resize(3);  // of another sample
+      }
+      std::vector<History> alone = histories;
+      respond_batch(samples.specimens, samples.shakings, settings, block, histories);
+      std::vector<History> again = histories;
+      if (dynamics::batch_kernels())
+        EXPECT_LE(dynamics::respond_and_count(samples.specimens, samples.shakings, settings, block, again), one_by_one)
+            << effect.name;
+      for (std::size_t i = 0; i < count; ++i) {
+        const Response single = respond(samples.specimens[i], samples.shakings[i], settings, &alone[i]);
+        EXPECT_TRUE(same_bits(block[i], single)) << effect.name << ' ' << i;
+        EXPECT_GT(alone[i].points.size(), 300U);
+        EXPECT_TRUE(same_bits(histories[i], alone[i])) << effect.name << ' ' << i << ' ' << samples.cases[i].text();
+      }
+    }
+}
+
 // A pack that is not full, whose lanes empty one after the other: blows of blocks that rock, some of which slip from
 // then on.
 TEST(LawsInBlocks, OfAnySizeHaveTheBitsOfSingleSamples) {
@@ -135,8 +186,6 @@ TEST(LawsInBlocks, OfAnySizeHaveTheBitsOfSingleSamples) {
 
 // Of records, where the slip to each side is followed: only laws go in packs then.
 bool one_by_one_by_side(const std::vector<EffectUse>& uses) {
-  const std::set<std::string> no_laws = {"impact_loss", "offset_mass", "reduced_base", "static_friction",
-                                         "vertical_shaking"};
   const auto is_no_law = [&](const EffectUse& use) { return no_laws.count(use.effect->name) > 0; };
   return std::all_of(uses.begin(), uses.end(), is_no_law);
 }

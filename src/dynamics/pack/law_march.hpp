@@ -6,6 +6,7 @@
 #include "dynamics/law_step.hpp"
 #include "dynamics/pack/lane_extremes.hpp"
 #include "dynamics/pack/lane_floor.hpp"
+#include "dynamics/pack/lane_history.hpp"
 #include "dynamics/pack/lane_numbers.hpp"
 #include "dynamics/pack/law_blows.hpp"
 #include "dynamics/peaks.hpp"
@@ -38,6 +39,7 @@ class LawMarchOf {
         step_(laws_, here_, numbers_, {}, floor_),
         end_(laws_, to_, numbers_, {}, there_),
         blows_(rows, first),
+        history_(rows, first),
         stance_{turning,
                 slipping,
                 rows.can_slip,
@@ -70,6 +72,7 @@ class LawMarchOf {
       const unsigned free = see_extremes(arc, bits(sure) & lanes_here & ~stopped.undecided);
       stopped.before_step = lanes_here & ~(free | stopped.undecided);
       for (unsigned open = stopped.before_step; open; open &= open - 1) tell(arc, __builtin_ctz(open), series);
+      history_.record(free, arc, u_, floor_, here_, laws_.lift >= 0, ground_.time(), reach_);
       stopped.at_end = go_on(free);
     }
     save();
@@ -126,6 +129,7 @@ class LawMarchOf {
     keep(Row::still_since, at.still_since);
     for (int i = 0; i < laws_.states; ++i) keep(state_row(i), at.states[i]);
     ground_.save();
+    history_.save();
     keep(Row::peak_slip, slip_);
     keep(Row::peak_slip_right, slip_right_);
     keep(Row::peak_slip_left, slip_left_);
@@ -243,15 +247,15 @@ class LawMarchOf {
   // As Peaks::observe, of the lanes wanted; of which of them there are any.
   unsigned see_extremes(const Arc& arc, unsigned wanted) {
     const Standing<Pack>& at = here_;
-    const Series<Pack, N> u = turning ? midpoint(at.body, at.half_base, arc, arc.versine) : arc.xi;
-    new_slip_ = largest(u, slip_, wanted);
+    u_ = turning ? midpoint(at.body, at.half_base, arc, arc.versine) : arc.xi;
+    new_slip_ = largest(u_, slip_, wanted);
     if (rows_.slip_by_side) {
-      const Pack last = u.at(reach_);
+      const Pack last = u_.at(reach_);
       const auto side = [&](const Series<Pack, N>& y, const Pack& first, const Pack& end, const Pack& before) {
         return extreme(y, reach_, surely_within(y, reach_, before), first, end, before, wanted, detail::max_of);
       };
-      new_slip_right_ = side(u, u[0], last, slip_right_);
-      new_slip_left_ = side(scaled(Pack(-1.0), u), -u[0], -last, slip_left_);
+      new_slip_right_ = side(u_, u_[0], last, slip_right_);
+      new_slip_left_ = side(scaled(Pack(-1.0), u_), -u_[0], -last, slip_left_);
     }
     new_rotation_ = turning ? largest(arc.theta, rotation_, wanted) : rotation_;
     new_slid_ = slid_ + (to_.path - arc.path[0]);
@@ -357,6 +361,8 @@ class LawMarchOf {
   Step step_;
   End end_;
   LawBlows blows_;
+  LaneHistory history_;
+  Series<Pack, N> u_;  // of the base's midpoint
   Stance<Pack> stance_;
 };
 

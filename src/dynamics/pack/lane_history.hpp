@@ -1,0 +1,71 @@
+// Points of the histories of a pack of samples that go along their steps: HistoryRecorder's, with the same bits.
+#pragma once
+
+#include "dynamics/law_arc.hpp"
+#include "dynamics/law_rows.hpp"
+#include "dynamics/pack/lane_extremes.hpp"
+#include "dynamics/pack/outside.hpp"
+
+namespace freestand::dynamics::FREESTAND_ISA {
+namespace {
+
+class LaneHistory {
+ public:
+  LaneHistory(LawRows& rows, int first) : rows_(rows), first_(first), next_(number(Row::next_output)) {}
+
+  // Those of the lanes `free` that lie within their step of length h from `start` on. u: of the base's midpoint; at: the moment before.
+  template <int N>
+  void record(unsigned free, const LawArc<N, Pack>& arc, const Series<Pack, N>& u, const Floor<Pack, N>& floor,
+              const Standing<Pack>& at, bool lifted, const Pack& start, const Pack& h) {
+    while (const unsigned due = free & bits(next_ < start + h)) {
+      const PackMask which = lanes_of(due);
+      const Pack t = freestand::choose(which, xsimd::max(next_ - start, Pack(0.0)), Pack(0.0)),
+                 push = number(Row::push);
+      keep(0, start + t);
+      keep(1, floor.a.at(t) - push);
+      keep(2, u.at(t));
+      keep(3, arc.w.at(t));
+      keep(4, arc.theta.at(t));
+      keep(5, arc.omega.at(t));
+      keep(6, arc.ax.at(t) - push);
+      const Series<Pack, N> up = lifted ? combination(Pack(1.0), arc.fy, Pack(1.0), arc.lift) : arc.fy;
+      keep(7, up.at(t) - number(Row::gravity));
+      keep(8, arc.fx.at(t));
+      keep(9, arc.fy.at(t));
+      keep(10, at.half_base);
+      for (unsigned open = due; open; open &= open - 1) add(__builtin_ctz(open));
+      next_ = freestand::choose(which, load(after_), next_);
+    }
+  }
+
+  void save() { store(rows_.numbers[static_cast<int>(Row::next_output)] + first_, next_); }
+
+ private:
+  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)] + first_); }
+  void keep(int which, const Pack& x) { store(value_[which], x); }
+
+  void add(int lane) {
+    const int i = first_ + lane;
+    const auto value = [&](int which) { return value_[which][lane]; };
+    HistoryPoint point{value(0), value(1), value(2), value(3), value(4), value(5), rows_.mode[i]};
+    if (rows_.turns) point.slip_velocity_mps += value(10) * sin_outside(point.rotation_rad) * point.rotation_rate_radps;
+    if (rows_.history[i]->forces) {
+      point.acceleration_mps2 = value(6);
+      point.vertical_acceleration_mps2 = value(7);
+      point.contact_x_mps2 = value(8);
+      point.contact_y_mps2 = value(9);
+    }
+    clear_upper_parts();
+    add_point(*rows_.history[i], point);
+    after_[lane] = static_cast<double>(++rows_.points[i]) * rows_.numbers[static_cast<int>(Row::output_step)][i];
+  }
+
+  LawRows& rows_;
+  const int first_;
+  Pack next_;
+  alignas(64) double value_[11][pack_lanes];
+  alignas(64) double after_[pack_lanes] = {};
+};
+
+}  // namespace
+}  // namespace freestand::dynamics::FREESTAND_ISA
