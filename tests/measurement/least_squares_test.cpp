@@ -21,12 +21,6 @@ Specimen cabinet(double mu) {
   return s;
 }
 
-std::vector<std::size_t> all_of(const Judge& judge) {
-  std::vector<std::size_t> tests(judge.samples().size());
-  std::iota(tests.begin(), tests.end(), 0);
-  return tests;
-}
-
 double normal(std::uint64_t seed, std::uint64_t i) {
   const auto [a, b] = random::bits(seed, i, 7);
   return std::sqrt(-2 * std::log(random::unit_interval(a))) * std::cos(2 * M_PI * random::unit_interval(b));
@@ -54,7 +48,7 @@ TEST(Judge, WhitenedResidualsHaveTheMisfitAsTheirSquare) {
   const Judge judge(bench, fit.model, fit.x, run_here), plain(bench);
   const auto misfit = judge.misfit_of_fit(fit), sensors_only = plain.misfit_of_fit(fit);
   for (std::size_t i = 0; i < misfit.size(); ++i) {
-    const auto r = judge.whitened(i, fit.model, fit.x);
+    const auto r = judge.whitened(i, predict(fit.model, judge.test(i), fit.x));
     EXPECT_NEAR(std::inner_product(r.begin(), r.end(), r.begin(), 0.0) / misfit[i], 1, 1e-9);
     EXPECT_LT(misfit[i], 0.9 * sensors_only[i]);
   }
@@ -101,7 +95,8 @@ TEST(Judge, LeavesOutWhatTheFloorsNoiseHasFannedOut) {
     EXPECT_EQ(judge.samples()[i], 2 * 801);
     EXPECT_LT(strict.samples()[i], judge.samples()[i]);
     EXPECT_GT(strict.samples()[i], 801);  // the rotation is known as well as ever
-    EXPECT_EQ(strict.whitened(i, fit.model, fit.x).size(), static_cast<std::size_t>(strict.samples()[i]));
+    EXPECT_EQ(strict.whitened(i, predict(fit.model, strict.test(i), fit.x)).size(),
+              static_cast<std::size_t>(strict.samples()[i]));
   }
 }
 

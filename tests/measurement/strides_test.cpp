@@ -29,7 +29,7 @@ TEST(Strides, ASlipTooFarCostsTheSecondInWhichItHappens) {
     for (std::size_t i = 500; i < test.slip_m.size(); ++i) test.slip_m[i] += wrong * test::slip_noise_m;
   }
   const Bench bench(data, 0);
-  EXPECT_NEAR(mean_stride_score(bench, {0, 1, 2}, model, x), std::log(1 + wrong * wrong / 2) / 10, 1e-9);
+  EXPECT_NEAR(mean_stride_scores(bench, {0, 1, 2}, model, {x}).front(), std::log(1 + wrong * wrong / 2) / 10, 1e-9);
   EXPECT_NEAR(mean_score(bench, {0, 1, 2}, model, x), std::log(wrong * wrong * 301 / 801 / 2), 1e-9);
 }
 

@@ -31,13 +31,14 @@ std::vector<Bands> predicted_bands(const Bench& bench, const ModelSpec& model, c
     const Test& test = bench.test(i);
     Values ends;
     if (!test.has_history()) return ends;
-    std::vector<Prediction> all_of_them;
+    std::vector<Asked> asked;
     for (std::size_t k = 0; k < predictions; ++k) {
       const auto& replays = bench.replays(i);
       const FloorMotion* motion = replays.empty() ? nullptr : &replays[k % replays.size()];
-      Prediction one = predict(model, test, spread_row(posterior.draws, k, predictions), motion);
-      if (!one.failed()) all_of_them.push_back(std::move(one));
+      asked.push_back({model, test, spread_row(posterior.draws, k, predictions), motion});
     }
+    std::vector<Prediction> all_of_them = predict(asked);
+    std::erase_if(all_of_them, [](const Prediction& one) { return one.failed(); });
     for (int c = 0; c < channel_count && all_of_them.size() > 1; ++c) {
       const auto channel = static_cast<Channel>(c);
       const double sensor = reach * bench.noise(channel) * bench.sensor(channel).size();

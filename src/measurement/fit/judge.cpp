@@ -95,13 +95,12 @@ Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, co
     const Test& test = bench.test(tests_[i]);
     const Prediction nominal = predict(reference, test, x);
     Values all;
-    for (const FloorMotion& motion : bench.replays(tests_[i])) {
-      const Prediction replay = predict(reference, test, x, &motion);
-      if (replay.failed() != nominal.failed()) continue;
+    predict(bench.replays_asked(reference, tests_[i], x), [&](std::size_t, const Prediction& replay) {
+      if (replay.failed() != nominal.failed()) return;
       const Eigen::VectorXd column = stacked(
           bench, test, replay, [&](Channel c) -> const auto& { return nominal.channel(c); });
       all.insert(all.end(), column.begin(), column.end());
-    }
+    });
     if (friction_scatter > 0) {
       const Eigen::VectorXd column = change_with_friction(bench, reference, x, test, friction_scatter);
       all.insert(all.end(), column.begin(), column.end());
@@ -227,35 +226,32 @@ Judge::Products Judge::products(std::size_t i, const Eigen::MatrixXd& M) const {
   return p;
 }
 
-std::vector<double> Judge::whitened(std::size_t i, const ModelSpec& model, std::span<const double> x) const {
-  const Test& test = bench_.test(tests_[i]);
-  const Prediction prediction = predict(model, test, x);
+std::vector<double> Judge::whitened(std::size_t i, const Prediction& prediction) const {
   if (prediction.failed()) return std::vector<double>(parts_->kept[i].size(), failed_residual);
   Eigen::VectorXd r = residual(i, prediction);
   if (parts_->root[i].size()) r += parts_->A[i] * (parts_->root[i] * (parts_->A[i].transpose() * r));
   return {r.begin(), r.end()};
 }
 
-double Judge::misfit(std::size_t i, const ModelFit& fit, const Values& x) const {
-  const Test& test = bench_.test(tests_[i]);
-  const Prediction model = predict(fit.model, test, x);
-  if (model.failed()) return 1e8;
-  const Eigen::VectorXd r = residual(i, model);
-  return misfit_of(r.squaredNorm(), parts_->A[i].transpose() * r, parts_->inner[i]);
+std::vector<double> Judge::misfit(const ModelSpec& model, const std::function<Values(std::size_t i)>& x) const {
+  std::vector<Asked> asked;
+  for (std::size_t i = 0; i < tests_.size(); ++i) asked.push_back({model, test(i), x(i)});
+  std::vector<double> misfits;
+  predict(asked, [&](std::size_t i, const Prediction& prediction) {
+    if (prediction.failed()) return misfits.push_back(1e8);
+    const Eigen::VectorXd r = residual(i, prediction);
+    misfits.push_back(misfit_of(r.squaredNorm(), parts_->A[i].transpose() * r, parts_->inner[i]));
+  });
+  return misfits;
 }
 
 std::vector<double> Judge::misfit(const ModelFit& fit) const {
   const auto fold = fold_of(tests_.size());
-  std::vector<double> misfits;
-  for (std::size_t i = 0; i < tests_.size(); ++i)
-    misfits.push_back(misfit(i, fit, fit.left_out_refitted ? fit.fold_x[fold[i]] : fit.x));
-  return misfits;
+  return misfit(fit.model, [&](std::size_t i) { return fit.left_out_refitted ? fit.fold_x[fold[i]] : fit.x; });
 }
 
 std::vector<double> Judge::misfit_of_fit(const ModelFit& fit) const {
-  std::vector<double> misfits;
-  for (std::size_t i = 0; i < tests_.size(); ++i) misfits.push_back(misfit(i, fit, fit.x));
-  return misfits;
+  return misfit(fit.model, [&](std::size_t) { return fit.x; });
 }
 
 }  // namespace freestand::measurement

@@ -33,7 +33,8 @@ class Judge {
   explicit Judge(const Bench&);
 
   // C^-1/2 r of the i-th calibration test [noise units]; as many as samples(). G is the sum of its squares.
-  std::vector<double> whitened(std::size_t i, const ModelSpec&, std::span<const double> x) const;
+  std::vector<double> whitened(std::size_t i, const Prediction&) const;
+  const Test& test(std::size_t i) const { return bench_.test(tests_[i]); }
   // Changes of a prediction, as independent numbers of the sensors' noise: columns for products().
   Eigen::VectorXd change(std::size_t i, const Prediction& from, const Prediction& to) const;
   // Model minus measured, likewise.
@@ -71,7 +72,7 @@ class Judge {
   // columns: those of replays, then one of the test's own friction, if any.
   void take(const std::vector<Values>& columns, double limit, bool own_friction = false);
   Eigen::MatrixXd drifts(const Test&) const;
-  double misfit(std::size_t i, const ModelFit&, const Values& x) const;
+  std::vector<double> misfit(const ModelSpec&, const std::function<Values(std::size_t i)>& x) const;
   const Bench& bench_;
   std::vector<std::size_t> tests_;
   std::vector<double> samples_, expected_, allowed_;

@@ -21,6 +21,15 @@ constexpr double noise_score = 0.4;  // of S: 1.2 noise units
 constexpr double far_score = 4;      // of S without replays: what no floor's noise explains
 constexpr double over_steps = 0.01;  // of the box: an event more or less in one test is a wall to derivatives
 
+// Of all points and tests, these within.
+std::vector<Asked> asked(const Judge& judge, const Tests& tests, const ModelSpec& model,
+                         const std::vector<Values>& points) {
+  std::vector<Asked> all;
+  for (const Values& x : points)
+    for (const std::size_t i : tests) all.push_back({model, judge.test(i), x});
+  return all;
+}
+
 struct Problem {
   const Judge& judge;
   const Tests& tests;
@@ -29,25 +38,38 @@ struct Problem {
   std::size_t rows = 0;
   int evaluations = 0;
 
-  Values point(const gsl_vector* z) const {
+  Values point(const Values& z) const {
     Values x;
-    for (std::size_t i = 0; i < model.free.size(); ++i) x.push_back(from_unit(model.free[i], gsl_vector_get(z, i)));
+    for (std::size_t i = 0; i < model.free.size(); ++i) x.push_back(from_unit(model.free[i], z[i]));
     return x;
   }
 
-  void residuals(const gsl_vector* z, gsl_vector* f) {
-    const Values x = point(z);
-    std::size_t row = 0;
-    for (std::size_t k = 0; k < tests.size(); ++k)
-      for (const double r : judge.whitened(tests[k], model, x)) gsl_vector_set(f, row++, weights[k] * r);
-    for (std::size_t i = 0; i < x.size(); ++i)
-      gsl_vector_set(f, row++, slope_back * (gsl_vector_get(z, i) - to_unit(model.free[i], x[i])));
-    ++evaluations;
+  // Of all points at once.
+  std::vector<Values> residuals(const std::vector<Values>& z) {
+    std::vector<Values> x, all(z.size());
+    for (const Values& at : z) x.push_back(point(at));
+    predict(asked(judge, tests, model, x), [&](std::size_t k, const Prediction& prediction) {
+      const std::size_t place = k % tests.size();
+      for (const double r : judge.whitened(tests[place], prediction))
+        all[k / tests.size()].push_back(weights[place] * r);
+    });
+    for (std::size_t k = 0; k < z.size(); ++k)
+      for (std::size_t i = 0; i < x[k].size(); ++i)
+        all[k].push_back(slope_back * (z[k][i] - to_unit(model.free[i], x[k][i])));
+    evaluations += static_cast<int>(z.size());
+    return all;
   }
 };
 
+Values values_of(const gsl_vector* z) {
+  Values x;
+  for (std::size_t i = 0; i < z->size; ++i) x.push_back(gsl_vector_get(z, i));
+  return x;
+}
+
 int residuals(const gsl_vector* z, void* problem, gsl_vector* f) {
-  static_cast<Problem*>(problem)->residuals(z, f);
+  const Values rows = static_cast<Problem*>(problem)->residuals({values_of(z)}).front();
+  for (std::size_t row = 0; row < rows.size(); ++row) gsl_vector_set(f, row, rows[row]);
   return GSL_SUCCESS;
 }
 
@@ -57,19 +79,19 @@ Vector vector(std::size_t n) { return {gsl_vector_alloc(n), gsl_vector_free}; }
 // Differences inwards, where a bound is near.
 int derivatives(const gsl_vector* z, void* problem, gsl_matrix* J) {
   auto& p = *static_cast<Problem*>(problem);
-  Vector at = vector(p.model.free.size()), f = vector(p.rows), other = vector(p.rows);
-  p.residuals(z, f.get());
+  std::vector<Values> points = {values_of(z)};
+  Values steps;
   for (std::size_t i = 0; i < p.model.free.size(); ++i) {
-    gsl_vector_memcpy(at.get(), z);
-    const double beyond = gsl_vector_get(z, i) + difference;
+    const double beyond = points[0][i] + difference;
     const bool inside = std::abs(to_unit(p.model.free[i], from_unit(p.model.free[i], beyond)) - beyond) < 1e-9;
-    const double step = inside ? difference : -difference;
-    gsl_vector_set(at.get(), i, gsl_vector_get(z, i) + step);
-    p.residuals(at.get(), other.get());
-    gsl_vector_sub(other.get(), f.get());
-    gsl_vector_scale(other.get(), 1 / step);
-    gsl_matrix_set_col(J, i, other.get());
+    steps.push_back(inside ? difference : -difference);
+    points.push_back(points[0]);
+    points.back()[i] += steps.back();
   }
+  const std::vector<Values> rows = p.residuals(points);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (std::size_t row = 0; row < rows[0].size(); ++row)
+      gsl_matrix_set(J, row, i, (rows[i + 1][row] - rows[0][row]) * (1 / steps[i]));
   return GSL_SUCCESS;
 }
 
@@ -90,20 +112,31 @@ Values round_from(Problem& problem, const Values& x) {
   if (gsl_multifit_nlinear_init(z.get(), &function, work.get())) return x;
   int info = 0;
   gsl_multifit_nlinear_driver(iterations, 1e-6, 1e-9, 1e-9, nullptr, nullptr, &info, work.get());
-  return problem.point(gsl_multifit_nlinear_position(work.get()));
+  return problem.point(values_of(gsl_multifit_nlinear_position(work.get())));
 }
 
 }  // namespace
 
-double misfit(const Judge& judge, std::size_t i, const ModelSpec& model, std::span<const double> x) {
-  const auto r = judge.whitened(i, model, x);
-  return std::inner_product(r.begin(), r.end(), r.begin(), 0.0);
+std::vector<std::size_t> all_of(const Judge& judge) {
+  Tests all(judge.samples().size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+std::vector<double> misfits(const Judge& judge, const Tests& tests, const ModelSpec& model, std::span<const double> x) {
+  std::vector<double> all;
+  predict(asked(judge, tests, model, {Values(x.begin(), x.end())}), [&](std::size_t k, const Prediction& prediction) {
+    const auto r = judge.whitened(tests[k], prediction);
+    all.push_back(std::inner_product(r.begin(), r.end(), r.begin(), 0.0));
+  });
+  return all;
 }
 
 double least_squares_score(const Judge& judge, const Tests& tests, const ModelSpec& model, std::span<const double> x) {
+  const std::vector<double> of_tests = misfits(judge, tests, model, x);
   double sum = 0;
-  for (const std::size_t i : tests)
-    if (judge.samples()[i] > 0) sum += std::log(std::max(misfit(judge, i, model, x) / judge.samples()[i], 1e-6));
+  for (std::size_t k = 0; k < tests.size(); ++k)
+    if (const double n = judge.samples()[tests[k]]; n > 0) sum += std::log(std::max(of_tests[k] / n, 1e-6));
   return sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1));
 }
 
@@ -112,9 +145,10 @@ Fitted least_squares(const Judge& judge, const Tests& tests, const ModelSpec& mo
   gsl_error_handler_t* const handler = gsl_set_error_handler_off();
   for (int round = 0; round < rounds && !model.free.empty(); ++round) {
     Problem problem{judge, tests, model, {}, model.free.size()};
-    for (const std::size_t i : tests) {
-      const double n = judge.samples()[i];
-      problem.weights.push_back(std::sqrt(n / std::max(misfit(judge, i, model, best.x), 1e-6 * n)));
+    const std::vector<double> of_tests = misfits(judge, tests, model, best.x);
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+      const double n = judge.samples()[tests[k]];
+      problem.weights.push_back(std::sqrt(n / std::max(of_tests[k], 1e-6 * n)));
       problem.rows += static_cast<std::size_t>(n);
     }
     const Values found = round_from(problem, best.x);
@@ -237,12 +271,6 @@ void widen_by_score(const Bench& bench, std::vector<ModelFit*> fits, const Jobs&
 
 namespace {
 
-Tests all_of(const Judge& judge) {
-  Tests all(judge.samples().size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
-
 struct Descent {
   Fitted at;
   double mean_score;
@@ -323,9 +351,8 @@ void settle(const Bench& bench, ModelFit& fit, const Effort& effort, const Jobs&
       },
       jobs);
   const Objective total = [&](std::span<const double> x) {
-    double sum = 0;
-    for (const std::size_t t : all) sum += misfit(judge, t, fit.model, x);
-    return sum;
+    const std::vector<double> of_tests = misfits(judge, all, fit.model, x);
+    return std::accumulate(of_tests.begin(), of_tests.end(), 0.0);
   };
   widen_intervals(total, chi_square_95, fit, jobs);
 }

@@ -12,8 +12,12 @@
 
 namespace freestand::measurement {
 
-// G of the i-th of the judge's tests: the sum of squares of what is fitted.
-double misfit(const Judge&, std::size_t i, const ModelSpec&, std::span<const double> x);
+// All of its tests.
+std::vector<std::size_t> all_of(const Judge&);
+
+// G of these of the judge's tests: the sum of squares of what is fitted.
+std::vector<double> misfits(const Judge&, const std::vector<std::size_t>& of_judge, const ModelSpec&,
+                            std::span<const double> x);
 
 // S over these of the judge's tests.
 double least_squares_score(const Judge&, const std::vector<std::size_t>& of_judge, const ModelSpec&,

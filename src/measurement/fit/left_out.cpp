@@ -48,11 +48,11 @@ class FoldSearch {
 
   // From the best of these starts downhill.
   Fitted from_best_of(const std::vector<Values>& starts, bool by_strides) const {
+    const Measure measure = by_strides ? mean_stride_scores : mean_scores;
     const Objective rough = [&](std::span<const double> x) {
-      return by_strides ? mean_stride_score(bench_, tests_, model_, x) : score(x);
+      return measure(bench_, tests_, model_, {Values(x.begin(), x.end())}).front();
     };
-    std::vector<double> scores;
-    for (const Values& x : starts) scores.push_back(rough(x));
+    const std::vector<double> scores = measure(bench_, tests_, model_, starts);
     Fitted best{{}, 1e300};
     int evaluations = static_cast<int>(starts.size());
     for (const Fitted& start : best_apart(starts, scores, model_.free, descended)) {

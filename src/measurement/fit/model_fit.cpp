@@ -15,9 +15,9 @@ struct Place {
 };
 
 Objective objective(const Bench& bench, const ModelSpec& model, std::vector<std::size_t> tests,
-                    Measure measure = mean_score) {
+                    Measure measure = mean_scores) {
   return [&bench, &model, tests = std::move(tests), measure](std::span<const double> x) {
-    return measure(bench, tests, model, x);
+    return measure(bench, tests, model, {Values(x.begin(), x.end())}).front();
   };
 }
 
@@ -57,10 +57,9 @@ std::vector<Values> screened_scores(const Bench& bench, const std::vector<FitTas
     for (std::size_t from = 0; from < points[t].size(); from += chunk) places.push_back({t, from});
   const auto answers = jobs("screening", places.size(), [&](std::size_t i) {
     const auto [t, from] = places[i];
-    const Objective score = objective(bench, tasks[t].model, tests, measure);
-    Values scores;
-    for (std::size_t k = from; k < std::min(from + chunk, points[t].size()); ++k) scores.push_back(score(points[t][k]));
-    return scores;
+    const auto first = points[t].begin() + static_cast<long>(from);
+    const auto end = first + static_cast<long>(std::min(chunk, points[t].size() - from));
+    return measure(bench, tests, tasks[t].model, {first, end});
   });
   std::vector<Values> scores(tasks.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -143,7 +142,7 @@ std::vector<ModelFit> fit_models(const Bench& bench, const std::vector<FitTask>&
                     .score = best.front().score,
                     .evaluations = static_cast<int>(points[t].size()),
                     .known = tasks[t].known,
-                    .by_strides = measure == mean_stride_score});
+                    .by_strides = measure == mean_stride_scores});
     for (std::size_t k = 0; k < best.size(); ++k) {
       places.push_back({t, k});
       starts.push_back(best[k].x);

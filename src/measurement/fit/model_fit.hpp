@@ -56,13 +56,13 @@ struct FitTask {
 // Folds of n calibration tests: every test alone where there are up to 12, else 10 groups. Fold of each test.
 std::vector<std::size_t> fold_of(std::size_t n);
 
-// What a fit makes least: mean_score, or mean_stride_score for histories.
-using Measure = double (*)(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
-                           std::span<const double>);
+// What a fit makes least, of many points: mean_scores, or mean_stride_scores for histories.
+using Measure = std::vector<double> (*)(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
+                                        const std::vector<Values>& points);
 
 // Screens and descends; no folds yet. In the order of the tasks; score is that of the measure.
 std::vector<ModelFit> fit_models(const Bench&, const std::vector<FitTask>&, const Effort&, const Jobs&,
-                                 Measure = mean_score);
+                                 Measure = mean_scores);
 
 // One more descent for each, from where it stands, with a simplex of edge `step`.
 void polish(const Bench&, std::vector<ModelFit*>, const Effort&, double step, const Jobs&);

@@ -22,7 +22,7 @@ OwnNumbers fitted_to_each(const Bench& bench, const Judge& judge, const ModelFit
     const Objective left = [&](std::span<const double> own) {
       Values x = fit.x;
       x.push_back(own[0]);
-      return misfit(judge, i, model, x);
+      return misfits(judge, {i}, model, x).front();
     };
     Fitted best{{}, 1e300};
     for (const double start : starts) {

@@ -23,7 +23,7 @@ Index count(const AsStated& s) { return static_cast<Index>(s.names.size()); }
 
 double misfit(const Judge& judge, const AsStated& s) {
   double sum = deviations(s).squaredNorm();
-  for (std::size_t i = 0; i < judge.samples().size(); ++i) sum += misfit(judge, i, s.model, s.x);
+  for (const double of_test : misfits(judge, all_of(judge), s.model, s.x)) sum += of_test;
   return sum;
 }
 

@@ -44,6 +44,8 @@ HistoryPoint at_step(const std::vector<HistoryPoint>& points, double step, doubl
   return point;
 }
 
+constexpr double predicted_to = 1e-8;  // tolerance
+
 Reach reach_of(const Test& test) {
   Reach reach;
   for (const double slip : test.slip_m) {
@@ -64,25 +66,21 @@ const std::vector<double>& Prediction::channel(Channel which) const {
   return which == Channel::rotation ? rotation_rad : block_acceleration_mps2;
 }
 
-Prediction predict(const ModelSpec& model, const Test& test, std::span<const double> x, const FloorMotion* other) {
-  Prediction out;
-  Shaking shaking = test.shaking();
-  if (other) shaking.motion = other;
-  shaking.scale *= model.floor_gain.of(x);
-  const Specimen body = specimen(model, test, x);
-  Settings settings;
-  settings.tolerance = 1e-8;
-  if (!test.has_history()) {
-    out.response = respond(body, shaking, settings);
-    return out;
-  }
-  settings.free_vibration_s = 0;
-  thread_local History history;
-  history.step_s = test.dt_s;
-  history.forces = !test.block_acceleration_mps2.empty();
-  out.response = respond(body, shaking, settings, &history);
+namespace {
+
+Shaking shaking_of(const Asked& asked) {
+  Shaking shaking = asked.test.shaking();
+  if (asked.other) shaking.motion = asked.other;
+  shaking.scale *= asked.model.floor_gain.of(asked.x);
+  return shaking;
+}
+
+// The history on the time steps of the measured ones.
+Prediction at_steps_of(const Asked& asked, const Response& response, const History& history) {
+  Prediction out{.response = response};
+  const Test& test = asked.test;
   const std::size_t n = std::max({test.slip_m.size(), test.rotation_rad.size(), test.block_acceleration_mps2.size()});
-  const double steps_behind = model.clock_behind.of(x) / test.dt_s;
+  const double steps_behind = asked.model.clock_behind.of(asked.x) / test.dt_s;
   for (std::size_t i = 0; i < n; ++i) {
     const HistoryPoint point = at_step(history.points, static_cast<double>(i) - steps_behind, test.dt_s);
     out.slip_m.push_back(point.slip_m);
@@ -92,6 +90,55 @@ Prediction predict(const ModelSpec& model, const Test& test, std::span<const dou
     if (history.forces) out.block_acceleration_mps2.push_back(point.acceleration_mps2);
   }
   return out;
+}
+
+constexpr std::size_t at_once = 64;  // whose histories are held
+
+void predict_some(std::span<const Asked> asked, std::size_t first,
+                  const std::function<void(std::size_t, Prediction)>& use) {
+  thread_local std::vector<History> histories(at_once);
+  std::vector<Specimen> specimens;
+  std::vector<Shaking> shakings;
+  for (const Asked& one : asked) {
+    specimens.push_back(specimen(one.model, one.test, one.x));
+    shakings.push_back(shaking_of(one));
+    History& history = histories[specimens.size() - 1];
+    history.step_s = one.test.dt_s;
+    history.forces = !one.test.block_acceleration_mps2.empty();
+  }
+  std::vector<Response> responses(asked.size());
+  respond_batch(specimens, shakings, {.tolerance = predicted_to, .free_vibration_s = 0}, responses,
+                std::span(histories).first(asked.size()));
+  for (std::size_t i = 0; i < asked.size(); ++i) use(first + i, at_steps_of(asked[i], responses[i], histories[i]));
+}
+
+}  // namespace
+
+void predict(const std::vector<Asked>& asked, const std::function<void(std::size_t i, Prediction)>& use) {
+  const auto has_history = [](const Asked& one) { return one.test.has_history(); };
+  for (std::size_t i = 0; i < asked.size();) {
+    if (!has_history(asked[i])) {
+      const Asked& one = asked[i];
+      use(i++,
+          {.response = respond(specimen(one.model, one.test, one.x), shaking_of(one), {.tolerance = predicted_to})});
+      continue;
+    }
+    const auto from = asked.begin() + static_cast<long>(i);
+    const auto end = from + static_cast<long>(std::min(at_once, asked.size() - i));
+    const std::span some(from, std::find_if_not(from, end, has_history));
+    predict_some(some, i, use);
+    i += some.size();
+  }
+}
+
+std::vector<Prediction> predict(const std::vector<Asked>& asked) {
+  std::vector<Prediction> all(asked.size());
+  predict(asked, [&](std::size_t i, Prediction one) { all[i] = std::move(one); });
+  return all;
+}
+
+Prediction predict(const ModelSpec& model, const Test& test, std::span<const double> x, const FloorMotion* other) {
+  return std::move(predict(std::vector<Asked>{{model, test, Values(x.begin(), x.end()), other}}).front());
 }
 
 Bench::Bench(const Dataset& data, int replays) : data_(data), replays_(data.tests.size()) {
@@ -150,21 +197,26 @@ void Bench::leave_out_floor(Sensor& both) const {
   both.coloured *= scale;
 }
 
+std::vector<Asked> Bench::replays_asked(const ModelSpec& model, std::size_t i, std::span<const double> x) const {
+  std::vector<Asked> asked;
+  for (const FloorMotion& motion : replays_[i]) asked.push_back({model, test(i), Values(x.begin(), x.end()), &motion});
+  return asked;
+}
+
 Spread Bench::spread(const ModelSpec& model, std::size_t i, std::span<const double> x,
                      const Prediction& nominal) const {
   Spread spread(channel_count);
   const double share = 1.0 / static_cast<double>(std::max<std::size_t>(replays_[i].size(), 1));
   for (int c = 0; c < channel_count; ++c)
     spread[static_cast<std::size_t>(c)].assign(history(test(i), static_cast<Channel>(c)).size(), 0.0);
-  for (const FloorMotion& motion : replays_[i]) {
-    const Prediction replay = predict(model, test(i), x, &motion);
+  predict(replays_asked(model, i, x), [&](std::size_t, const Prediction& replay) {
     for (int c = 0; c < channel_count; ++c) {
       auto& variance = spread[static_cast<std::size_t>(c)];
       const auto& a = replay.channel(static_cast<Channel>(c));
       const auto& b = nominal.channel(static_cast<Channel>(c));
       for (std::size_t k = 0; k < variance.size(); ++k) variance[k] += share * (a[k] - b[k]) * (a[k] - b[k]);
     }
-  }
+  });
   return spread;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <freestand/simulate.hpp>
+#include <functional>
 #include <vector>
 
 #include "measurement/data/channel.hpp"
@@ -23,6 +24,17 @@ struct Prediction {
 
 // The test with the free numbers at x, under its own motion or another one of the same length.
 Prediction predict(const ModelSpec&, const Test&, std::span<const double> x, const FloorMotion* other = nullptr);
+
+// Many of them at once, in packs: each with the bits that it has alone.
+struct Asked {
+  const ModelSpec& model;
+  const Test& test;
+  Values x;
+  const FloorMotion* other = nullptr;
+};
+std::vector<Prediction> predict(const std::vector<Asked>&);
+// The same one after the other, for those who need not keep them.
+void predict(const std::vector<Asked>&, const std::function<void(std::size_t i, Prediction)>& use);
 
 // Variance of each channel at each time that the noise of the measured floor motion makes: mean square of the
 // differences between replays with that noise added once more, and the history without. What even the true model would
@@ -47,6 +59,8 @@ class Bench {
   Reach reach() const;
   Reach reach(const std::vector<std::size_t>& tests) const;
 
+  // The test under its motion with each replay of its noise.
+  std::vector<Asked> replays_asked(const ModelSpec&, std::size_t test, std::span<const double> x) const;
   Spread spread(const ModelSpec&, std::size_t test, std::span<const double> x, const Prediction& nominal) const;
 
  private:

@@ -213,37 +213,69 @@ TestError test_error(const Bench& bench, std::size_t i, const ModelSpec& model, 
   return test_errors(bench, {i}, model, x).front();
 }
 
+namespace {
+
+// use(point, place of the test, prediction) of all points and tests.
+template <class Use>
+void predict_all(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
+                 const std::vector<Values>& points, Use&& use) {
+  std::vector<Asked> asked;
+  for (const Values& x : points)
+    for (const std::size_t i : tests) asked.push_back({model, bench.test(i), x});
+  predict(asked, [&](std::size_t i, const Prediction& p) { use(i / tests.size(), i % tests.size(), p); });
+}
+
+}  // namespace
+
+std::vector<std::vector<TestError>> test_errors(const Bench& bench, const std::vector<std::size_t>& tests,
+                                                const ModelSpec& model, const std::vector<Values>& points) {
+  std::vector<std::vector<TestError>> errors(points.size(), std::vector<TestError>(tests.size()));
+  std::vector<std::size_t> others, places, outcomes, outcome_places;
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    const bool outcome = kind(bench.test(tests[k])) == Kind::outcome;
+    (outcome ? outcomes : others).push_back(tests[k]);
+    (outcome ? outcome_places : places).push_back(k);
+  }
+  predict_all(bench, others, model, points, [&](std::size_t point, std::size_t k, const Prediction& prediction) {
+    errors[point][places[k]] = test_error(bench, others[k], prediction);
+  });
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    const auto probabilities = overturning_probabilities(bench, outcomes, model, points[point]);
+    for (std::size_t k = 0; k < outcomes.size(); ++k)
+      errors[point][outcome_places[k]] = outcome_error(bench.test(outcomes[k]), probabilities[k]);
+  }
+  return errors;
+}
+
 std::vector<TestError> test_errors(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
                                    std::span<const double> x) {
-  std::vector<TestError> errors(tests.size());
-  std::vector<std::size_t> outcomes, places;
-  for (std::size_t k = 0; k < tests.size(); ++k) {
-    const Test& test = bench.test(tests[k]);
-    if (kind(test) != Kind::outcome) {
-      errors[k] = test_error(bench, tests[k], predict(model, test, x));
-      continue;
-    }
-    outcomes.push_back(tests[k]);
-    places.push_back(k);
+  return test_errors(bench, tests, model, std::vector<Values>{{x.begin(), x.end()}}).front();
+}
+
+std::vector<double> mean_scores(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
+                                const std::vector<Values>& points) {
+  std::vector<double> means;
+  for (const auto& errors : test_errors(bench, tests, model, points)) {
+    double sum = 0;
+    for (const TestError& error : errors) sum += error.score;
+    means.push_back(sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1)));
   }
-  const auto probabilities = overturning_probabilities(bench, outcomes, model, x);
-  for (std::size_t k = 0; k < outcomes.size(); ++k)
-    errors[places[k]] = outcome_error(bench.test(outcomes[k]), probabilities[k]);
-  return errors;
+  return means;
 }
 
 double mean_score(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
                   std::span<const double> x) {
-  double sum = 0;
-  for (const TestError& error : test_errors(bench, tests, model, x)) sum += error.score;
-  return sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1));
+  return mean_scores(bench, tests, model, {Values(x.begin(), x.end())}).front();
 }
 
-double mean_stride_score(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
-                         std::span<const double> x) {
-  double sum = 0;
-  for (const std::size_t i : tests) sum += stride_score(bench, bench.test(i), predict(model, bench.test(i), x));
-  return sum / static_cast<double>(std::max<std::size_t>(tests.size(), 1));
+std::vector<double> mean_stride_scores(const Bench& bench, const std::vector<std::size_t>& tests,
+                                       const ModelSpec& model, const std::vector<Values>& points) {
+  std::vector<double> means(points.size());
+  predict_all(bench, tests, model, points, [&](std::size_t point, std::size_t k, const Prediction& prediction) {
+    means[point] += stride_score(bench, bench.test(tests[k]), prediction);
+  });
+  for (double& mean : means) mean /= static_cast<double>(std::max<std::size_t>(tests.size(), 1));
+  return means;
 }
 
 double explained_error(const Bench& bench, std::size_t i, const Prediction& prediction, const Spread& spread) {

@@ -55,11 +55,15 @@ TestError test_error(const Bench&, std::size_t test, const ModelSpec&, std::span
 
 TestError outcome_error(const Test&, double probability);
 
-// Of these tests, in their order; outcomes as one batch.
+// Of these tests, in their order, at each of the points x.
+std::vector<std::vector<TestError>> test_errors(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
+                                                const std::vector<Values>& points);
 std::vector<TestError> test_errors(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
                                    std::span<const double> x);
 
-// Mean score over these tests: what fits minimise.
+// Mean score over these tests, of each of the points x: what fits minimise.
+std::vector<double> mean_scores(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
+                                const std::vector<Values>& points);
 double mean_score(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&, std::span<const double> x);
 
 // The same of histories by strides: r = model - measured is judged second by second, against where it stood as the second
@@ -69,8 +73,8 @@ double mean_score(const Bench&, const std::vector<std::size_t>& tests, const Mod
 //
 // A slip that comes out wrong shifts all that follows; here it costs one second, and a model that is right in all the
 // others is seen to be. Its valleys are wide, so that fits which the plain score holds up find the way.
-double mean_stride_score(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
-                         std::span<const double> x);
+std::vector<double> mean_stride_scores(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
+                                       const std::vector<Values>& points);
 
 // The same error with each sample's noise widened by the spread of the replays: 1 where sensor and floor noise explain
 // all of it, and parts where the motion is chaotic say nothing.

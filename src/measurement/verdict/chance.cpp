@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "base/random.hpp"
 #include "measurement/fit/slopes.hpp"
@@ -126,11 +127,15 @@ Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& ba
     const VectorXd r = -judge.residual(i, at);  // what a change would have to make
     MatrixXd M = MatrixXd::Zero(r.size(), q);
     if (p > 0) M.leftCols(p) = slopes_as_stated(known, judge, test, i, at);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      const auto [model, x] = moved_alike(known, base, *all[k].model, all[k].x);
-      const Prediction with = predict(model, test, x);
-      if (!with.failed() && !at.failed()) M.col(p + static_cast<Index>(k)) = judge.change(i, at, with);
+    std::vector<Asked> moved;
+    std::deque<ModelSpec> models;
+    for (const Tried& one : all) {
+      auto [model, x] = moved_alike(known, base, *one.model, one.x);
+      moved.push_back({models.emplace_back(std::move(model)), test, std::move(x)});
     }
+    predict(moved, [&](std::size_t k, const Prediction& with) {
+      if (!with.failed() && !at.failed()) M.col(p + static_cast<Index>(k)) = judge.change(i, at, with);
+    });
     return std::pair(std::move(M), r);
   });
   const Own own(with_tolerance(sum.gram.topLeftCorner(p, p), known));
