@@ -45,26 +45,27 @@ class HistoryRecorder {
     if (!wanted()) return;
     const auto beside = beside_the_centre(flight.theta[0], flight.omega);
     const double d = 0.5 * (rig_.right - rig_.left);
-    each_point(start, tau, [&](double t) {
+    each_point(start, tau, [&](HistoryPoint& point, double t) {
       const double theta = flight.theta.at(t), omega = flight.omega.at(t);
-      HistoryPoint point{start + t,
-                         floor.a.at(t) - rig_.push,
-                         midpoint_in_flight(rig_, flight.x.at(t), theta),
-                         flight.vx.at(t) - (rig_.h * std::cos(theta) + d * std::sin(theta)) * omega,
-                         theta,
-                         omega,
-                         Mode::flight};
-      if (!beside) return point;
+      point.time_s = start + t;
+      point.floor_acceleration_mps2 = floor.a.at(t) - rig_.push;
+      point.slip_m = midpoint_in_flight(rig_, flight.x.at(t), theta);
+      point.slip_velocity_mps = flight.vx.at(t) - (rig_.h * std::cos(theta) + d * std::sin(theta)) * omega;
+      point.rotation_rad = theta;
+      point.rotation_rate_radps = omega;
+      point.mode = Mode::flight;
+      if (!beside) return;
       point.acceleration_mps2 = pull.at(t) + beside->x.at(t) - rig_.push;
       point.vertical_acceleration_mps2 = lift.at(t) + beside->y.at(t) - rig_.g;
-      return point;
     });
   }
 
   // A block at rest for the time tau to come.
   template <int N>
   void rest(const State& state, const Floor<double, N>& floor, double start, double tau) {
-    each_point(start, tau, [&](double t) { return at_rest(state, state.xi, start + t, floor.a.at(t), floor.g.at(t)); });
+    each_point(start, tau, [&](HistoryPoint& point, double t) {
+      rest_at(point, state, state.xi, start + t, floor.a.at(t), floor.g.at(t));
+    });
   }
 
   // The last state, held to the end of the motion: what rests, or has fallen, stays.
@@ -72,7 +73,7 @@ class HistoryRecorder {
     if (!wanted()) return;
     times_.up_to(end, [&](double t) {
       const double a = horizontal_acceleration(shaking, t), v = vertical_acceleration(shaking, t);
-      history_->points.push_back(at_rest(state, slip, t, a + rig_.push, v + rig_.g));
+      rest_at(history_->points.emplace_back(), state, slip, t, a + rig_.push, v + rig_.g);
     });
   }
 
@@ -83,9 +84,16 @@ class HistoryRecorder {
  private:
   // a, g: of the floor, with what a tilt adds. The floor holds the block against them and against what laws pull; of a
   // block that is pressed against a wall as far as friction can.
-  HistoryPoint at_rest(const State& state, double slip, double time, double a, double g) const {
-    HistoryPoint point{time, a - rig_.push, slip, 0.0, state.theta, 0.0, state.mode, a - rig_.push, g - rig_.g, a, g};
-    if (!rig_.laws || !history_->forces || state.mode == Mode::overturned) return point;
+  void rest_at(HistoryPoint& point, const State& state, double slip, double time, double a, double g) const {
+    point.time_s = time;
+    point.floor_acceleration_mps2 = point.acceleration_mps2 = a - rig_.push;
+    point.slip_m = slip;
+    point.rotation_rad = state.theta;
+    point.mode = state.mode;
+    point.vertical_acceleration_mps2 = g - rig_.g;
+    point.contact_x_mps2 = a;
+    point.contact_y_mps2 = g;
+    if (!rig_.laws || !history_->forces || state.mode == Mode::overturned) return;
     const LawValues laws = law_values(rig_, state, time, 0);
     point.contact_x_mps2 -= laws.force;
     point.contact_y_mps2 -= laws.lift;
@@ -93,7 +101,6 @@ class HistoryRecorder {
     const double limit = rig_.mu_s * laws.factor * point.contact_y_mps2;
     if (held.right) point.contact_x_mps2 = std::fmax(point.contact_x_mps2, -limit);
     if (held.left) point.contact_x_mps2 = std::fmin(point.contact_x_mps2, limit);
-    return point;
   }
   // The acceleration of the point that is followed beside that of the centre of mass, where it is asked for.
   template <int N>
@@ -108,24 +115,27 @@ class HistoryRecorder {
     if (!wanted()) return;
     const auto u = midpoint(rig_, state, arc), up = upward(rig_, arc);
     const auto beside = beside_the_centre(arc.theta[0], arc.omega);
-    each_point(start, tau, [&](double t) {
+    each_point(start, tau, [&](HistoryPoint& point, double t) {
       const double theta = arc.theta.at(t), omega = arc.omega.at(t);
-      HistoryPoint point{start + t, floor.a.at(t) - rig_.push,
-                         u.at(t),   arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega,
-                         theta,     omega,
-                         state.mode};
-      if (!beside) return point;
+      point.time_s = start + t;
+      point.floor_acceleration_mps2 = floor.a.at(t) - rig_.push;
+      point.slip_m = u.at(t);
+      point.slip_velocity_mps = arc.w.at(t) + state.pivot * rig_.half_base() * std::sin(theta) * omega;
+      point.rotation_rad = theta;
+      point.rotation_rate_radps = omega;
+      point.mode = state.mode;
+      if (!beside) return;
       point.acceleration_mps2 = pull.at(t) + beside->x.at(t) - rig_.push;
       point.vertical_acceleration_mps2 = up.at(t) + beside->y.at(t) - rig_.g;
       point.contact_x_mps2 = floor_force_at(rig_, state, arc, t);
       point.contact_y_mps2 = arc.fy.at(t);
-      return point;
     });
   }
 
-  template <class Point>
-  void each_point(double start, double tau, Point&& point) {
-    times_.within(start, tau, [&](double t) { history_->points.push_back(point(t)); });
+  // fill(point, t): what is not zero.
+  template <class Fill>
+  void each_point(double start, double tau, Fill&& fill) {
+    times_.within(start, tau, [&](double t) { fill(history_->points.emplace_back(), t); });
   }
 
   History* history_;

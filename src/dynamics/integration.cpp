@@ -86,7 +86,7 @@ Rig::AtRest Integration::laws_at_rest() const {
 void Integration::wait() {
   if (cursor.motion_over()) return resolve(Witness::regular);  // settles() found that the still floor does not hold it
   const Rig::AtRest rest = laws_at_rest();
-  const bool passes = rest.constant && !recorder.wanted() && !peaks.follow_rest();
+  const bool passes = rest.constant && !peaks.follow_rest();
   while (!cursor.motion_over()) {
     if (passes && cursor.at_knot()) pass_over_quiet_floor(rest);
     if (cursor.motion_over()) return;
@@ -109,11 +109,20 @@ bool Integration::ends_with_the_motion() const {
 // The floor mostly shakes hardest just before rest ends: seen from there, few segments hold a new peak.
 void Integration::pass_over_quiet_floor(const Rig::AtRest& rest) {
   const std::size_t from = cursor.segment();
+  FloorCursor passed = cursor;
   if (!cursor.pass_over([&](const FloorCursor::Bound& floor) { return rig.stays_put(floor.a, floor.v, rest); })) return;
   watch_.steps = 0;
+  for (; recorder.wanted() && passed.segment() != cursor.segment(); passed.next_segment()) record_rest(passed);
   cursor.look_back(
       from, [&](const FloorCursor::Bound& floor) { return !peaks.may_exceed(floor.shaken, floor.v); },
       [&](const FloorCursor& at) { peaks.observe_rest(rig, at.local<wait_order>(), at.left()); });
+}
+
+void Integration::record_rest(const FloorCursor& at) {
+  if (shaking.motion->degree == 1)
+    recorder.rest(state, at.local<1>(), at.time(), at.left());
+  else
+    recorder.rest(state, at.local<wait_order>(), at.time(), at.left());
 }
 
 // Along the segment, to the instant at which rest ends or as far as the series follow the grip. True: it has ended.
@@ -123,7 +132,7 @@ bool Integration::look_ahead(const Rig::AtRest& rest) {
   const Floor<double, N> floor = cursor.local<N>();
   if (!peaks.follow_rest() && rig.stays_put(bound.a, bound.v, rest)) {
     peaks.observe_rest(rig, floor, cursor.left());
-    if (recorder.wanted()) recorder.rest(state, floor, cursor.time(), cursor.left());
+    record_rest(cursor);
     next_segment();
     return false;
   }

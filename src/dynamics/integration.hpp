@@ -122,6 +122,7 @@ class Integration {
   bool beyond_a_wall() const;
   double slip() const;
   void pass_over_quiet_floor(const Rig::AtRest& rest);
+  void record_rest(const FloorCursor& segment);
   template <int N>
   bool look_ahead(const Rig::AtRest& rest);
   void choose(const State& from, bool impact);

@@ -344,7 +344,7 @@ class Pool {
 
 }  // namespace
 
-void add_point(History& history, const HistoryPoint& point) { history.points.push_back(point); }
+HistoryPoint& add_point(History& history) { return history.points.emplace_back(); }
 
 bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
   const Shaking& shaking = setup.shaking;

@@ -128,7 +128,7 @@ struct LawRows {
 };
 
 // Compiled for any machine, as what packs do not share with it must be.
-void add_point(History&, const HistoryPoint&);
+HistoryPoint& add_point(History&);
 
 // Which lanes stopped: before a step in which something may happen, at the end of their motion, or after a blow that leaves open
 // how they go on. Bit l: lane first + l.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fragility/bin_sums.hpp"
+#include "fragility/goodness.hpp"
 #include "fragility/histogram.hpp"
 #include "fragility/lognormal.hpp"
 #include "fragility/share_interval.hpp"
@@ -31,7 +32,7 @@ class Bin {
     fit_.n_failed = tally.failed(bin);
   }
 
-  BinFit fitted(EstimatedNull& null) {
+  BinFit fitted() {
     count();
     if (fit_.n < options_.minimum_samples) return fit_;
     fit_.status = BinStatus::counts_only;
@@ -49,7 +50,7 @@ class Bin {
     const LognormalMoments moments = lognormal_moments(found.lambda, found.omega);
     fit_.mean = moments.mean;
     fit_.standard_deviation = moments.standard_deviation;
-    judge(tested, null);
+    judge(tested);
     return fit_;
   }
 
@@ -84,7 +85,7 @@ class Bin {
   }
 
   // S of what the histogram holds, demands less the pilot's line, against their own lognormal.
-  void judge(const ThresholdFit& found, EstimatedNull& null) {
+  void judge(const ThresholdFit& found) {
     const double n = total_.moved;
     const double ln_threshold = edp_.still_threshold > 0 ? std::log(edp_.still_threshold) : -INFINITY;
     const HistogramGoodness goodness = histogram_goodness(histogram_, found.lambda, found.omega, ln_threshold);
@@ -105,9 +106,9 @@ class Bin {
       fit_.ks_p_estimated = null_p(simulated, certain);
       fit_.ks_critical_estimated = sorted_quantile(simulated, 1 - test_level);
     } else {
-      fit_.ks_p_estimated = null.ks_p(certain, n);
-      fit_.ks_critical_estimated = null.ks_critical(test_level, n);
-      fit_.ad_p_estimated = null.ad_p(goodness.ad, n);
+      fit_.ks_p_estimated = estimated_ks_p(certain, n);
+      fit_.ks_critical_estimated = estimated_ks_critical(test_level, n);
+      fit_.ad_p_estimated = estimated_ad_p(goodness.ad, n);
     }
     // The law is no further from the truth than the fit is from the samples, and as S scatters under the null.
     // Two probabilities differ by 1 at most.
@@ -126,11 +127,11 @@ class Bin {
 
 }  // namespace
 
-std::vector<BinFit> fit_bins(const Tally& tally, std::size_t edp, EstimatedNull& null) {
+std::vector<BinFit> fit_bins(const Tally& tally, std::size_t edp) {
   std::vector<BinFit> bins;
   std::vector<double> p;
   for (std::size_t b = 0; b < tally.layout().bins; ++b) {
-    bins.push_back(Bin(tally, edp, b).fitted(null));
+    bins.push_back(Bin(tally, edp, b).fitted());
     p.push_back(bins.back().ks_p_estimated);
   }
   const std::vector<bool> rejected = benjamini_hochberg(p, tally.options().false_discovery);

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "fragility/goodness.hpp"
 #include "fragility/result.hpp"
 #include "fragility/tally.hpp"
 
@@ -31,6 +30,6 @@ namespace freestand::fragility {
 //
 // The bound itself: off_by holds the misfit in 0.99 to 1 of the cases, but in 0.80 to 0.94 where tails are so heavy that it is 0.16 (S scatters
 // there more than under its null), far from any use. A lognormal whose misfit is above `adequate` was used in none.
-std::vector<BinFit> fit_bins(const Tally& tally, std::size_t edp, EstimatedNull& null);
+std::vector<BinFit> fit_bins(const Tally& tally, std::size_t edp);
 
 }  // namespace freestand::fragility

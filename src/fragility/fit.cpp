@@ -44,12 +44,12 @@ Distribution coarsened(const Tally& tally, std::size_t edp) {
 }
 
 // All but the curves over IM.
-EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resampling, EstimatedNull& null) {
+EdpResult fit_edp(const Tally& tally, std::size_t e, const Resampling& resampling) {
   const EdpOptions& options = tally.options().edps[e];
   EdpResult result;
   result.binary = options.binary;
   result.capacity = capacities(options);
-  result.bins = fit_bins(tally, e, null);
+  result.bins = fit_bins(tally, e);
   result.surface = surface(tally, e, resampling, result.bins);
   for (std::size_t a = 0; a < tally.options().axes.size(); ++a) result.axes.push_back(axis_surface(tally, e, a));
   if (options.binary) return result;
@@ -76,15 +76,14 @@ std::vector<Piece> pieces(const Options& options) {
   return all;
 }
 
-void fit_pieces(const Tally& tally, const Resampling& resampling, EstimatedNull& null, const Jobs& jobs,
-                Result& result) {
+void fit_pieces(const Tally& tally, const Resampling& resampling, const Jobs& jobs, Result& result) {
   const Options& options = tally.options();
   const std::vector<Piece> all = pieces(options);
   const auto found = jobs("fit", all.size(), [&](std::size_t i) {
     const auto& [edp, capacity, overturning] = all[i];
     if (overturning) return numbers_of(overturning_function(tally, resampling));
     if (capacity) return numbers_of(fragility_function(tally, edp, *capacity, resampling));
-    return numbers_of(fit_edp(tally, edp, resampling, null));
+    return numbers_of(fit_edp(tally, edp, resampling));
   });
   result.edps.resize(options.edps.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -111,11 +110,6 @@ void fit_pieces(const Tally& tally, const Resampling& resampling, EstimatedNull&
 }  // namespace
 
 Result fit(const Tally& tally, const Jobs& jobs) {
-  EstimatedNull null(tally.options().seed);
-  return fit(tally, null, jobs);
-}
-
-Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs) {
   const Options& options = tally.options();
   Result result;
   result.im_name = options.im_name;
@@ -146,7 +140,7 @@ Result fit(const Tally& tally, EstimatedNull& null, const Jobs& jobs) {
 
   const Resampling resampling(tally.groups(), there, options.resamples, options.seed);
   result.left_out_records = resampling.left_out_records();
-  fit_pieces(tally, resampling, null, jobs, result);
+  fit_pieces(tally, resampling, jobs, result);
   result.covariance = covariance(tally);
   result.warnings = warnings(tally, result);
   return result;

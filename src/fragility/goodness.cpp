@@ -6,14 +6,11 @@
 #include <functional>
 #include <limits>
 
-#include "base/random.hpp"
-#include "base/units.hpp"
-#include "fragility/intervals.hpp"
+#include "fragility/estimated_null_table.hpp"
 
 namespace freestand::fragility {
 namespace {
 
-constexpr std::array grid{5, 6, 7, 8, 10, 12, 15, 20, 27, 40, 60, 100, 200};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 double kolmogorov_series(double x) {
@@ -31,44 +28,39 @@ double textbook_scale(double n) { return std::sqrt(n) + 0.12 + 0.11 / std::sqrt(
 double ks_scale(double n) { return std::sqrt(n) - 0.01 + 0.85 / std::sqrt(n); }
 double ad_scale(double n) { return 1 + 0.75 / n + 2.25 / (n * n); }
 
-// n standard normal numbers of one repeat (Box & Muller).
-void draw_normals(std::vector<double>& z, std::uint64_t seed, std::uint64_t repeat) {
-  const std::size_t pairs = (z.size() + 1) / 2;
-  const std::uint64_t stream = random::stable_hash("fragility/estimated_null") + z.size();
-  for (std::size_t i = 0; i < pairs; ++i) {
-    const auto [first, second] = random::bits(seed, repeat * pairs + i, stream);
-    const double radius = std::sqrt(-2 * std::log(random::unit_interval(first)));
-    const double angle = 2 * pi * random::unit_interval(second);
-    z[2 * i] = radius * std::cos(angle);
-    if (2 * i + 1 < z.size()) z[2 * i + 1] = radius * std::sin(angle);
-  }
+using estimated_null::chances;
+using estimated_null::sizes;
+using Row = std::array<double, chances.size()>;
+
+double logit(double p) { return std::log(p / (1 - p)); }
+
+// The probability to exceed a value and the value that is exceeded with a probability: straight lines between the tabulated ones, in the
+// logarithm of the value and the logit of the probability, in which the table hardly bends.
+double chance_above(const Row& quantiles, double value) {
+  const auto above = std::lower_bound(quantiles.begin(), quantiles.end(), value);
+  if (above == quantiles.begin()) return chances.front();
+  if (above == quantiles.end()) return chances.back();
+  const auto i = static_cast<std::size_t>(above - quantiles.begin());
+  const double share = std::log(value / quantiles[i - 1]) / std::log(quantiles[i] / quantiles[i - 1]);
+  return 1 / (1 + std::exp(-std::lerp(logit(chances[i - 1]), logit(chances[i]), share)));
 }
 
-// z -> F(z; mean and deviation estimated from z), increasing.
-void estimate_and_transform(std::vector<double>& z) {
-  std::sort(z.begin(), z.end());
-  const double n = static_cast<double>(z.size());
-  double mean = 0, squares = 0;
-  for (const double x : z) mean += x / n;
-  for (const double x : z) squares += (x - mean) * (x - mean);
-  const double scale = 1 / std::sqrt(2 * squares / n);
-  for (double& x : z) x = 0.5 * std::erfc(-(x - mean) * scale);
+double quantile_above(const Row& quantiles, double chance) {
+  const auto i = static_cast<std::size_t>(
+      std::lower_bound(chances.begin() + 1, chances.end() - 1, chance, std::greater<>{}) - chances.begin());
+  const double share = (logit(chance) - logit(chances[i - 1])) / (logit(chances[i]) - logit(chances[i - 1]));
+  return std::exp(std::lerp(std::log(quantiles[i - 1]), std::log(quantiles[i]), share));
 }
 
-double tail(const std::vector<double>& sorted, double value) {
-  const auto above = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), value);
-  return (1 + static_cast<double>(above)) / (1 + static_cast<double>(sorted.size()));
-}
-
-// value(grid n) at n: itself on the grid and beyond its end, else interpolated in 1/sqrt(n).
-double on_grid(double n, const std::function<double(int)>& value) {
-  if (!(n >= grid.front())) return nan;
-  const auto above = std::lower_bound(grid.begin(), grid.end(), n);
-  if (above == grid.end()) return value(grid.back());
-  if (*above == n) return value(*above);
-  const int high = *above, low = *(above - 1);
-  const double weight = (1 / std::sqrt(n) - 1 / std::sqrt(high)) / (1 / std::sqrt(low) - 1 / std::sqrt(high));
-  return weight * value(low) + (1 - weight) * value(high);
+// What the tables say of n: for a tabulated one and beyond the last of them their own row, else interpolated in 1/sqrt(n).
+template <class Value>
+double at_size(const estimated_null::Quantiles& table, double n, const Value& value) {
+  if (!(n >= sizes.front())) return nan;
+  const auto next = static_cast<std::size_t>(std::lower_bound(sizes.begin(), sizes.end(), n) - sizes.begin());
+  if (next == sizes.size()) return value(table.back());
+  if (sizes[next] == n) return value(table[next]);
+  const double high = 1 / std::sqrt(sizes[next]), low = 1 / std::sqrt(sizes[next - 1]);
+  return std::lerp(value(table[next]), value(table[next - 1]), (1 / std::sqrt(n) - high) / (low - high));
 }
 
 }  // namespace
@@ -105,32 +97,16 @@ double kolmogorov_critical(double level, double n) {
   return high / textbook_scale(n);
 }
 
-const EstimatedNull::Sorted& EstimatedNull::at(int n) {
-  const auto [entry, is_new] = by_n_.try_emplace(n);
-  Sorted& sorted = entry->second;
-  if (!is_new) return sorted;
-  std::vector<double> z(static_cast<std::size_t>(n));
-  for (int repeat = 0; repeat < repeats_; ++repeat) {
-    draw_normals(z, seed_, static_cast<std::uint64_t>(repeat));
-    estimate_and_transform(z);
-    sorted.ks.push_back(ks_scale(n) * ks_statistic(z));
-    sorted.ad.push_back(ad_scale(n) * ad_statistic(z));
-  }
-  std::sort(sorted.ks.begin(), sorted.ks.end());
-  std::sort(sorted.ad.begin(), sorted.ad.end());
-  return sorted;
+double estimated_ks_p(double s, double n) {
+  return at_size(estimated_null::ks, n, [&](const Row& row) { return chance_above(row, ks_scale(n) * s); });
 }
 
-double EstimatedNull::ks_p(double s, double n) {
-  return on_grid(n, [&](int m) { return tail(at(m).ks, ks_scale(n) * s); });
+double estimated_ad_p(double a2, double n) {
+  return at_size(estimated_null::ad, n, [&](const Row& row) { return chance_above(row, ad_scale(n) * a2); });
 }
 
-double EstimatedNull::ad_p(double a2, double n) {
-  return on_grid(n, [&](int m) { return tail(at(m).ad, ad_scale(n) * a2); });
-}
-
-double EstimatedNull::ks_critical(double level, double n) {
-  return on_grid(n, [&](int m) { return sorted_quantile(at(m).ks, 1 - level) / ks_scale(n); });
+double estimated_ks_critical(double level, double n) {
+  return at_size(estimated_null::ks, n, [&](const Row& row) { return quantile_above(row, level) / ks_scale(n); });
 }
 
 }  // namespace freestand::fragility

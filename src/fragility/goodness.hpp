@@ -12,10 +12,7 @@
 // well, so that S itself must be read beside its p value: it is the largest error of the fitted probability.
 #pragma once
 
-#include <cstdint>
-#include <map>
 #include <span>
-#include <vector>
 
 namespace freestand::fragility {
 
@@ -37,29 +34,14 @@ double kolmogorov_p(double s, double n);
 // [KM05 5.31]).
 double kolmogorov_critical(double level, double n);
 
-// The null distributions of S and A^2 for a lognormal whose two parameters are estimated by maximum likelihood from the
-// same samples, by simulation: `repeats` samples of normal numbers for each n of a fixed grid up to 200. Between the
+// The same for a lognormal whose two parameters are estimated by maximum likelihood from the same samples, by tables of
+// four million simulated samples for each n of a grid up to 1000 (tests/fragility/tabulate_estimated_null.py). Between the
 // grid's n, p is interpolated in 1/sqrt(n) after the scaling below, which takes away nearly all dependence on n; beyond
-// 200 the scaling alone is used.
+// 1000 the scaling alone is used (going on as from 200 to 1000, p = 0.05 would be 0.052 for n without end).
 //   S (sqrt(n) - 0.01 + 0.85/sqrt(n)),   A^2 (1 + 0.75/n + 2.25/n^2)      (Stephens, J. Am. Stat. Assoc. 69, 1974)
-// Simulated once for each n that is asked for, and kept. The same seed gives the same bits in any order of asking.
-// n >= 5, otherwise NaN. p is never 0: at least 1/(repeats + 1).
-class EstimatedNull {
- public:
-  explicit EstimatedNull(std::uint64_t seed = 1, int repeats = 10000) : seed_(seed), repeats_(repeats) {}
-  double ks_p(double s, double n);
-  double ad_p(double a2, double n);
-  double ks_critical(double level, double n);
-
- private:
-  struct Sorted {
-    std::vector<double> ks, ad;  // scaled statistics, increasing
-  };
-  const Sorted& at(int n);
-
-  std::uint64_t seed_;
-  int repeats_;
-  std::map<int, Sorted> by_n_;
-};
+// n >= 5, otherwise NaN. p is from 0.0001 to 0.9999, where the tables end.
+double estimated_ks_p(double s, double n);
+double estimated_ad_p(double a2, double n);
+double estimated_ks_critical(double level, double n);
 
 }  // namespace freestand::fragility

@@ -14,7 +14,7 @@
 namespace freestand::fragility {
 namespace {
 
-using test::counted, test::error_of_share, test::fitted, test::options, test::repeats_asked, test::Study;
+using test::counted, test::error_of_share, test::options, test::repeats_asked, test::Study;
 
 // Share of repeats whose band at capacity 2 holds the truth.
 double coverage(const Study& study, bool group_by_record, double& mean_width) {
@@ -26,7 +26,7 @@ double coverage(const Study& study, bool group_by_record, double& mean_width) {
     Options o = options(study.records, group_by_record);
     o.empirical_fallback = false;
     o.seed = r + 1;
-    const Result result = fitted(counted(o, study, r));
+    const Result result = fit(counted(o, study, r));
     const Surface& surface = result.edps[0].surface;
     if (surface.lower[2] <= truth && truth <= surface.upper[2]) covered += 1.0 / repeats;
     mean_width += (surface.upper[2] - surface.lower[2]) / repeats;
@@ -56,11 +56,11 @@ TEST(Bands, CoverWhenEverySampleIsItsOwnMotion) {
 
 TEST(Bands, StandardErrorsByMotionSeeWhatTheOthersDoNot) {
   const Study study{20, 25, 0.5, 0.4};
-  const BinFit shared = fitted(counted(options(20), study, 5)).edps[0].bins[0];
+  const BinFit shared = fit(counted(options(20), study, 5)).edps[0].bins[0];
   EXPECT_NEAR(shared.lambda_se, 0.113, 0.05);  // sqrt(0.25/20 + 0.16/500); of independent samples it were 0.029
   EXPECT_NEAR(shared.correlation, 0.25 / (0.25 + 0.16), 0.25);
   EXPECT_EQ(shared.motions, 20);
-  const BinFit independent = fitted(counted(options(400, false), {400, 1, 0, 0.6}, 6)).edps[0].bins[0];
+  const BinFit independent = fit(counted(options(400, false), {400, 1, 0, 0.6}, 6)).edps[0].bins[0];
   EXPECT_NEAR(independent.lambda_se / (0.6 / std::sqrt(400)), 1, 0.25);
   EXPECT_NEAR(independent.omega_se / (0.6 / std::sqrt(800)), 1, 0.3);
   EXPECT_EQ(independent.correlation, 0);
@@ -85,8 +85,7 @@ Rows rows(const Study& study, std::uint64_t repeat) {
   o.empirical_fallback = false;
   o.seed = repeat + 1;
   const Tally tally = counted(o, study, 70000 + repeat);
-  EstimatedNull unused(1, 1);
-  std::vector<BinFit> bins = fit_bins(tally, 0, unused);
+  std::vector<BinFit> bins = fit_bins(tally, 0);
   const Resampling resampling(tally.groups(), tally.groups_with_samples(), o.resamples, o.seed);
   Rows found;
   found.fitted = surface(tally, 0, resampling, bins);
@@ -157,7 +156,7 @@ TEST(Bands, WhatWasNotSeenLimitsOnlyDemandsThatItWouldCensor) {
   o.empirical_fallback = false;
   for (const bool censored : {true, false}) {
     o.edps[0].censored = censored;
-    const Surface found = fitted(counted(o, {40, 25, 0.5, 0.5}, 5)).edps[0].surface;
+    const Surface found = fit(counted(o, {40, 25, 0.5, 0.5}, 5)).edps[0].surface;
     if (censored)
       EXPECT_NEAR(found.upper[0], 1 - std::pow(0.025, 1.0 / 40), 1e-3);
     else
@@ -166,10 +165,10 @@ TEST(Bands, WhatWasNotSeenLimitsOnlyDemandsThatItWouldCensor) {
 }
 
 TEST(Bands, OfOneRecordSaySo) {
-  const Result result = fitted(counted(options(1), {1, 300, 0.5, 0.4}, 7));
+  const Result result = fit(counted(options(1), {1, 300, 0.5, 0.4}, 7));
   EXPECT_TRUE(std::isfinite(result.edps[0].surface.lower[1]));
   EXPECT_THAT(result.warnings, testing::Contains(testing::HasSubstr("only one record")));
-  const Result few = fitted(counted(options(4), {4, 100, 0.5, 0.4}, 7));
+  const Result few = fit(counted(options(4), {4, 100, 0.5, 0.4}, 7));
   EXPECT_THAT(few.warnings, testing::Contains(testing::HasSubstr("only 4 motions")));
 }
 

@@ -73,7 +73,7 @@ Found simulated(const Law& law, const Samples& of, int repeats) {
         const double value = std::exp(law.shape(z));
         tally.add({i, test::uniform(i, stream + 2000000), record, Outcome::moved, {&value, 1}, {}});
       }
-    const Result result = test::fitted(tally);
+    const Result result = fit(tally);
     const BinFit& bin = result.edps[0].bins[0];
     const Surface& surface = result.edps[0].surface;
     for (std::size_t c = 0; c < at_places; ++c) {

@@ -26,13 +26,12 @@ double quantile(const std::vector<double>& sorted, double p) { return sorted_qua
 
 // Without correlation the null is Lilliefors'; drawn one by one (200 samples) and by the process (2000).
 TEST(ClusteredNull, OfIndependentSamplesIsLilliefors) {
-  EstimatedNull lilliefors(3);
   for (const double n : {200.0, 2000.0}) {
     Clustering c;
     c.single = n;
     const auto null = clustered_null(c, 0, 1, 3000);
-    EXPECT_NEAR(quantile(null, 0.95) / lilliefors.ks_critical(0.05, n), 1, 0.04) << n;
-    EXPECT_NEAR(quantile(null, 0.5) / lilliefors.ks_critical(0.5, n), 1, 0.03) << n;
+    EXPECT_NEAR(quantile(null, 0.95) / estimated_ks_critical(0.05, n), 1, 0.04) << n;
+    EXPECT_NEAR(quantile(null, 0.5) / estimated_ks_critical(0.5, n), 1, 0.03) << n;
   }
 }
 
@@ -75,7 +74,6 @@ TEST(ClusteredNull, OfADistributionThatIsCutOffIsTheSameByBothWays) {
 TEST(ClusteredNull, FivePercentTestRejectsFivePercentWithSharedRecords) {
   const int repeats = test::repeats_asked(750);
   int rejected = 0, naively = 0;
-  EstimatedNull lilliefors(1, 1000);
   for (std::uint64_t r = 0; r < static_cast<std::uint64_t>(repeats); ++r) {
     std::vector<GroupMoments> groups;
     std::vector<double> z;
@@ -94,7 +92,7 @@ TEST(ClusteredNull, FivePercentTestRejectsFivePercentWithSharedRecords) {
     for (double& x : z) x = 0.5 * std::erfc(-(x - mean) / std::sqrt(2 * (square - mean * mean)));
     const double s = ks_statistic(z);
     rejected += null_p(clustered_null(clustering(groups, 40), 0, r, 200), s) <= 0.05;
-    naively += lilliefors.ks_p(s, 1000) < 0.05;
+    naively += estimated_ks_p(s, 1000) < 0.05;
   }
   const double share = rejected / static_cast<double>(repeats);
   RecordProperty("share", std::to_string(share));

@@ -13,7 +13,7 @@ namespace freestand::fragility {
 namespace half_width_tests {
 namespace {
 
-using test::counted, test::fitted, test::options;
+using test::counted, test::options;
 
 // Two bins of 20 and 2000 samples, a second axis with a common cell and one of 100 samples, and one of 3.
 Result with_axis() {
@@ -27,7 +27,7 @@ Result with_axis() {
   };
   for (std::uint64_t i = 0; i < 20; ++i) add(i, 0.5, 0.5);
   for (std::uint64_t i = 100; i < 2100; ++i) add(i, 1.5, i < 200 ? 1.5 : i < 203 ? 2.5 : 0.5);
-  return fitted(tally);
+  return fit(tally);
 }
 
 double widest(const std::vector<double>& lower, const std::vector<double>& upper) {
@@ -68,12 +68,12 @@ TEST(HalfWidth, IsTheLargestOfTheSurfacesAndTheirSecondAxes) {
 TEST(Outlook, SamplesOfTheirOwnAreNeededByTheSquare) {
   Options o = options(0, false);
   o.edps[0].capacities = {1};
-  const Result few = fitted(counted(o, {2000, 1, 0, 0.6}, 40));  // enough to know that the lognormal is adequate
+  const Result few = fit(counted(o, {2000, 1, 0, 0.6}, 40));  // enough to know that the lognormal is adequate
   for (const double half : {0.015, 0.01}) {
     const Outlook found = outlook(few, {.half_width = half});
     EXPECT_EQ(found.stays, 0);
     const int samples = static_cast<int>(found.samples);
-    EXPECT_NEAR(half_width(fitted(counted(o, {samples, 1, 0, 0.6}, 41))).largest / half, 1, 0.15) << samples;
+    EXPECT_NEAR(half_width(fit(counted(o, {samples, 1, 0, 0.6}, 41))).largest / half, 1, 0.15) << samples;
   }
 }
 
@@ -105,7 +105,7 @@ TEST(Outlook, WhatRecordsLeaveStays) {
           tally.add({i, 0.5, static_cast<int>(i / each), Outcome::moved, {&hit, 1}, {}});
         }
       }
-      const double stays = outlook(fitted(tally), {.half_width = 0.01}).stays;
+      const double stays = outlook(fit(tally), {.half_width = 0.01}).stays;
       sum += stays * stays;
       squares += std::pow(stays, 4);
     }
@@ -118,10 +118,10 @@ TEST(Outlook, WhatRecordsLeaveStays) {
 TEST(Outlook, OnlyMoreRecordsHelpWhereWhatStaysIsTooMuch) {
   Options o = options(20);
   o.edps[0].capacities = {1};
-  const Outlook found = outlook(fitted(counted(o, {20, 50, 0.8, 0.5}, 60)), {.half_width = 0.05});
+  const Outlook found = outlook(fit(counted(o, {20, 50, 0.8, 0.5}, 60)), {.half_width = 0.05});
   EXPECT_TRUE(std::isinf(found.samples));
   EXPECT_GT(found.stays, 0.05);
-  EXPECT_GT(half_width(fitted(counted(o, {20, 2000, 0.8, 0.5}, 60))).largest, 0.05);  // and so it is
+  EXPECT_GT(half_width(fit(counted(o, {20, 2000, 0.8, 0.5}, 60))).largest, 0.05);  // and so it is
 }
 
 // Samples of their own, of which a share happens to be hit, in the last bin another: as many in each bin as given.
@@ -137,7 +137,7 @@ Result hits(const std::vector<int>& samples, double share, std::optional<double>
       const double hit = k < (bin + 1 == samples.size() ? last.value_or(share) : share) * samples[bin];
       tally.add({i, static_cast<double>(bin) + 0.5, 0, Outcome::moved, {&hit, 1}, {}});
     }
-  return fitted(tally);
+  return fit(tally);
 }
 
 // Of n samples of which np are hit the standard error is sqrt(p(1 - p)/n): 0.1 p at p = 0.01 and n = 9900. Exact intervals are up to a tenth
@@ -180,7 +180,7 @@ TEST(Outlook, WhatStaysIsOfThePointForWhichItIsMostOfWhatIsWanted) {
         const double hit = rare ? record < 4 : record % 2 == 0;
         tally.add({2 * i + rare, rare ? 0.75 : 0.25, record, Outcome::moved, {&hit, 1}, {}});
       }
-  const Result result = fitted(tally);
+  const Result result = fit(tally);
   const double by_width = outlook(result, {.half_width = 0.01}).stays,
                by_share = outlook(result, {.relative_error = 0.1, .down_to = 0.001}).stays;
   EXPECT_LT(by_share, by_width);
@@ -221,11 +221,11 @@ TEST(HalfWidth, GoesByWhatIsDrawn) {
 TEST(BinsThatWant, AreNotThoseWhereOnlyMoreRecordsHelp) {
   Options o = options(20);
   o.edps[0].capacities = {1};
-  const Result few = fitted(counted(o, {20, 2, 0.8, 0.5}, 60)), many = fitted(counted(o, {20, 500, 0.8, 0.5}, 60));
+  const Result few = fit(counted(o, {20, 2, 0.8, 0.5}, 60)), many = fit(counted(o, {20, 500, 0.8, 0.5}, 60));
   EXPECT_TRUE(bins_that_want(few, {.half_width = 0.05})[0]);
   ASSERT_GT(half_width(many).largest, 0.05);
   EXPECT_FALSE(bins_that_want(many, {.half_width = 0.05})[0]);
-  const Result own = fitted(counted(options(0, false), {500, 1, 0, 0.5}, 60));
+  const Result own = fit(counted(options(0, false), {500, 1, 0, 0.5}, 60));
   EXPECT_TRUE(bins_that_want(own, {.half_width = 0.001})[0]);
 }
 

@@ -42,10 +42,4 @@ inline Tally counted(const Options& options, const Study& study, std::uint64_t s
   return tally;
 }
 
-// The null distributions are simulated once for all tests.
-inline Result fitted(const Tally& tally) {
-  static EstimatedNull null(1, 1000);
-  return fit(tally, null);
-}
-
 }  // namespace freestand::fragility::test

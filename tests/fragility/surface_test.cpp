@@ -16,7 +16,7 @@
 namespace freestand::fragility {
 namespace {
 
-using test::counted, test::fitted, test::options;
+using test::counted, test::options;
 
 // Three bins: one nearly empty, one in which nothing moves, one with all three parts.
 Tally three_bins() {
@@ -39,7 +39,7 @@ Tally three_bins() {
 }
 
 TEST(Surface, RowsByStatus) {
-  const Result result = fitted(three_bins());
+  const Result result = fit(three_bins());
   const EdpResult& delta = result.edps[0];
   ASSERT_EQ(delta.bins[0].status, BinStatus::too_few);
   ASSERT_EQ(delta.bins[1].status, BinStatus::counts_only);
@@ -63,12 +63,12 @@ TEST(Surface, RowsByStatus) {
 }
 
 TEST(Surface, SecondAxisIsEmptyWhereItHasNoSamples) {
-  const AxisSurface axis = fitted(three_bins()).edps[0].axes[0];
+  const AxisSurface axis = fit(three_bins()).edps[0].axes[0];
   ASSERT_EQ(axis.n.size(), 6u);
   EXPECT_EQ(axis.n[5], 0);
   EXPECT_EQ(axis.n[4], 4000);
   EXPECT_TRUE(std::isnan(axis.probability[5 * 3]));
-  EXPECT_NEAR(axis.probability[4 * 3 + 1], fitted(three_bins()).edps[0].surface.empirical[6 + 1], 1e-15);
+  EXPECT_NEAR(axis.probability[4 * 3 + 1], fit(three_bins()).edps[0].surface.empirical[6 + 1], 1e-15);
   EXPECT_LT(axis.lower[4 * 3 + 1], axis.probability[4 * 3 + 1]);
 }
 
@@ -86,7 +86,7 @@ TEST(Surface, ACellOfASecondAxisStandsAtTheMeanOfItsSamples) {
     if (im <= 2 && mu < 0.5) sum += mu, n += 1;
   }
   tally.merge(rest);
-  const AxisSurface axis = fitted(Tally::from_words(o, tally.words())).edps[0].axes[0];
+  const AxisSurface axis = fit(Tally::from_words(o, tally.words())).edps[0].axes[0];
   EXPECT_NEAR(axis.centre[0], sum / n, 1e-10);
   EXPECT_LT(axis.centre[0], 0.15);
   EXPECT_EQ(axis.centre[2], 1.5);  // without a sample: the middle
@@ -101,7 +101,7 @@ TEST(Surface, ABinThatIsMerelyNotRefutedFallsBackOnTheCountsAndSaysSo) {
       const double value = std::exp(0.6 * test::normal(i, 53));
       tally.add({i, 0.5, 0, Outcome::moved, {&value, 1}, {}});
     }
-    return fitted(tally);
+    return fit(tally);
   };
   const Result found = of(o);
   const BinFit& bin = found.edps[0].bins[0];
@@ -129,7 +129,7 @@ TEST(Surface, ALawThatCannotBeTestedIsNone) {
     const double value = 0.4 * std::exp((strong ? 8 : 0.01) + 0.3 * std::abs(test::normal(i, 54)));
     tally.add({i, strong ? 0.9 : 0.2, 0, Outcome::moved, {&value, 1}, {}});
   }
-  const Result found = fitted(tally);
+  const Result found = fit(tally);
   const BinFit& bin = found.edps[0].bins[0];
   EXPECT_EQ(bin.n_moved, 330);
   EXPECT_EQ(bin.status, BinStatus::counts_only);
@@ -150,7 +150,7 @@ TEST(Surface, LimitsFallAsTheCapacityRises) {
       const double value = record == 0 ? 2.5 : record == 1 ? 1.5 : 0.5, axis = 0.5;
       tally.add({i, 0.5, record, Outcome::moved, {&value, 1}, {&axis, 1}});
     }
-  const EdpResult edp = fitted(tally).edps[0];
+  const EdpResult edp = fit(tally).edps[0];
   const auto fall = [](const std::vector<double>& lower, const std::vector<double>& p,
                        const std::vector<double>& upper) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_TRUE(lower[c] <= p[c] && p[c] <= upper[c]) << c;
@@ -170,7 +170,7 @@ TEST(Surface, FailingBinFallsBackOnTheCounts) {
       const double value = std::exp((i % 2 ? 1.5 : -1.5) + 0.3 * test::normal(i, 20));
       tally.add({i, 0.5, 0, Outcome::moved, {&value, 1}, {}});
     }
-    return fitted(tally);
+    return fit(tally);
   };
   const Result fallen = mixture(o);
   o.empirical_fallback = false;
@@ -200,13 +200,13 @@ TEST(Surface, OmegaDoesNotGrowWithTheWidthOfABin) {
   };
   const Options piloted = with_pilot(tally_of(o, 500));
   EXPECT_NEAR(piloted.pilot_slope[0][0], 1.5, 0.15);
-  const BinFit bin = fitted(tally_of(piloted, 5000)).edps[0].bins[0];
+  const BinFit bin = fit(tally_of(piloted, 5000)).edps[0].bins[0];
   EXPECT_NEAR(bin.slope, 1.5, 0.05);
   EXPECT_NEAR(bin.omega, 0.4, 0.02);
   EXPECT_NEAR(bin.lambda, 1.5 * std::log(bin.im_mean), 0.03);
   EXPECT_GT(bin.ks_p_estimated, 0.01);
   EXPECT_EQ(bin.status, BinStatus::fitted);
-  EXPECT_LT(fitted(tally_of(o, 5000)).edps[0].bins[0].ks_p_estimated, 0.01);  // without the pilot's line it is skew
+  EXPECT_LT(fit(tally_of(o, 5000)).edps[0].bins[0].ks_p_estimated, 0.01);  // without the pilot's line it is skew
   Options from_zero = o;
   from_zero.im_edge = {0, 1};
   EXPECT_EQ(with_pilot(tally_of(from_zero, 500)).pilot_slope[0][0], 0);
@@ -220,7 +220,7 @@ TEST(Surface, ALognormalThatIsOffByAHundredthIsUsedAndSaysSo) {
     const double value = std::exp((i % 37 ? 0.6 : 0.06) * test::normal(i, 52));
     tally.add({i, 0.5, 0, Outcome::moved, {&value, 1}, {}});
   }
-  const Result result = fitted(tally);
+  const Result result = fit(tally);
   const BinFit& bin = result.edps[0].bins[0];
   EXPECT_NEAR(bin.ks_statistic, 0.01, 0.003);
   EXPECT_EQ(bin.fdr_rejected, 1);
@@ -238,7 +238,7 @@ TEST(Surface, FailedSamplesBoundTheShares) {
     const double value = i % 4 ? 0.7 : 1.5;
     tally.add({i, 0.5, 0, i < 20 ? Outcome::step_limit : Outcome::moved, {&value, 1}, {}});
   }
-  const Result result = fitted(tally);
+  const Result result = fit(tally);
   EXPECT_EQ(result.edps[0].bins[0].n_failed, 20);
   EXPECT_EQ(result.edps[0].bins[0].n, 80);
   const Surface& surface = result.edps[0].surface;
@@ -272,7 +272,7 @@ TEST(Surface, TrueLognormalBinsAreKept) {
     const double value = std::exp(0.6 * test::normal(i, 30));
     tally.add({i, 40 * test::uniform(i, 31), 0, Outcome::moved, {&value, 1}, {}});
   }
-  const Result result = fitted(tally);
+  const Result result = fit(tally);
   int below = 0;
   for (const BinFit& bin : result.edps[0].bins) {
     EXPECT_EQ(bin.fdr_rejected, 0);
@@ -294,7 +294,7 @@ TEST(Surface, SameBitsEveryTime) {
 }
 
 TEST(Surface, DistributionHoldsEverySampleThatMovedAndStood) {
-  const Distribution d = fitted(three_bins()).edps[0].distribution;
+  const Distribution d = fit(three_bins()).edps[0].distribution;
   const std::size_t cells = d.ln_edge.size() - 1;
   ASSERT_EQ(d.count.size(), 3 * cells);
   std::int64_t last = 0;

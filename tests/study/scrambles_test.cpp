@@ -46,8 +46,7 @@ Fitted fitted(int scrambles, std::uint64_t seed) {
     sample.edp = demand;
     tally.add(sample);
   }
-  static fragility::EstimatedNull null(1, 1000);  // simulated once; lambda does not go by it
-  const fragility::BinFit bin = fragility::fit(tally, null).edps.front().bins.front();
+  const fragility::BinFit bin = fragility::fit(tally).edps.front().bins.front();
   return {bin.lambda, bin.lambda_se};
 }
 

@@ -47,7 +47,15 @@ class LaneHistory {
   void add(int lane) {
     const int i = first_ + lane;
     const auto value = [&](int which) { return value_[which][lane]; };
-    HistoryPoint point{value(0), value(1), value(2), value(3), value(4), value(5), rows_.mode[i]};
+    clear_upper_parts();
+    HistoryPoint& point = add_point(*rows_.history[i]);
+    point.time_s = value(0);
+    point.floor_acceleration_mps2 = value(1);
+    point.slip_m = value(2);
+    point.slip_velocity_mps = value(3);
+    point.rotation_rad = value(4);
+    point.rotation_rate_radps = value(5);
+    point.mode = rows_.mode[i];
     if (rows_.turns) point.slip_velocity_mps += value(10) * sin_outside(point.rotation_rad) * point.rotation_rate_radps;
     if (rows_.history[i]->forces) {
       point.acceleration_mps2 = value(6);
@@ -55,8 +63,6 @@ class LaneHistory {
       point.contact_x_mps2 = value(8);
       point.contact_y_mps2 = value(9);
     }
-    clear_upper_parts();
-    add_point(*rows_.history[i], point);
     after_[lane] = static_cast<double>(++rows_.points[i]) * rows_.numbers[static_cast<int>(Row::output_step)][i];
   }
 

@@ -81,14 +81,21 @@ Prediction at_steps_of(const Asked& asked, const Response& response, const Histo
   const Test& test = asked.test;
   const std::size_t n = std::max({test.slip_m.size(), test.rotation_rad.size(), test.block_acceleration_mps2.size()});
   const double steps_behind = asked.model.clock_behind.of(asked.x) / test.dt_s;
-  for (std::size_t i = 0; i < n; ++i) {
-    const HistoryPoint point = at_step(history.points, static_cast<double>(i) - steps_behind, test.dt_s);
+  for (std::vector<double>* channel : {&out.slip_m, &out.rotation_rad, &out.slip_velocity_mps}) channel->reserve(n);
+  out.mode.reserve(n);
+  if (history.forces) out.block_acceleration_mps2.reserve(n);
+  const auto add = [&](const HistoryPoint& point) {
     out.slip_m.push_back(point.slip_m);
     out.rotation_rad.push_back(point.rotation_rad);
     out.slip_velocity_mps.push_back(point.slip_velocity_mps);
     out.mode.push_back(point.mode);
     if (history.forces) out.block_acceleration_mps2.push_back(point.acceleration_mps2);
-  }
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    if (steps_behind == 0 && i < history.points.size())
+      add(history.points[i]);
+    else
+      add(at_step(history.points, static_cast<double>(i) - steps_behind, test.dt_s));
   return out;
 }
 
