@@ -169,7 +169,6 @@ class Group {
  private:
   double* state_row(int k) { return rows_->numbers[static_cast<int>(Row::state) + k]; }
 
-  // Blows are events of a history, which single samples tell.
   void write_history(int i, HistoryRecorder& recorder, Mode mode) {
     const OutputTimes& times = recorder.times();
     rows_->history[i] = recorder.history();
@@ -177,7 +176,6 @@ class Group {
     rows_->mode[i] = mode;
     rows_->row(Row::output_step)[i] = times.step_s();
     rows_->row(Row::next_output)[i] = times.wanted() ? times.next() : std::numeric_limits<double>::infinity();
-    if (recorder.history()) rows_->room[i] = 0;
   }
 
   void write_tape(int i, const Laws& laws) {
@@ -345,6 +343,10 @@ class Pool {
 }  // namespace
 
 HistoryPoint& add_point(History& history) { return history.points.emplace_back(); }
+
+void add_blow(History& history, double time_s, int pivot) {
+  history.events.push_back({time_s, Mode::rock, Mode::rock, pivot, true});
+}
 
 bool goes_in_law_lanes(const Setup& setup, const Settings& settings) {
   const Shaking& shaking = setup.shaking;

@@ -129,6 +129,7 @@ struct LawRows {
 
 // Compiled for any machine, as what packs do not share with it must be.
 HistoryPoint& add_point(History&);
+void add_blow(History&, double time_s, int pivot);  // of a block that rocks on
 
 // Which lanes stopped: before a step in which something may happen, at the end of their motion, or after a blow that leaves open
 // how they go on. Bit l: lane first + l.

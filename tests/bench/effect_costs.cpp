@@ -3,6 +3,8 @@
 // with the same law written by hand (peer_laws.hpp), with one step a knot and with as many as make it as accurate.
 //
 //   build/release/benchmark_effects [samples [effect [only]]]        only: freestand alone, for a profiler
+//   build/release/benchmark_effects samples "" histories             histories, as fits to measurements compute them: one by one, and
+//                                                                    so many at once
 //
 // Processor time, medians of five runs in turns. Errors are medians over the samples of |demand - demand of a tight run|
 // (tolerance 1e-13, one by one), relative to the latter; flips: another outcome.
@@ -104,10 +106,38 @@ void tell(const Job& job, Peer peer, bool alone) {
   std::fflush(stdout);
 }
 
-void tell_all(std::size_t samples, const std::string& only, bool alone) {
+// With a history of each, in steps of 5 ms, so many at once.
+double time_of_histories(const Job& job, std::size_t at_once) {
+  const Settings settings{.tolerance = 1e-8, .free_vibration_s = 0};
+  thread_local std::vector<History> histories;  // kept, as fits keep theirs
+  histories.resize(at_once);
+  std::vector<Response> responses(at_once);
+  const std::clock_t start = std::clock();
+  for (std::size_t i = 0; i + at_once <= job.samples(); i += at_once)
+    respond_batch(std::span(job.specimens).subspan(i, at_once), std::span(job.shakings).subspan(i, at_once), settings,
+                  responses, histories);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return 1e6 * seconds / static_cast<double>(job.samples() / at_once * at_once);
+}
+
+void tell_histories(const Job& job) {
+  constexpr std::size_t sizes[] = {1, 7, 30};  // alone, the tests of a laboratory, those and several models
+  std::vector<double> times[std::size(sizes)];
+  for (int i = 0; i < runs; ++i)
+    for (std::size_t k = 0; k < std::size(sizes); ++k) times[k].push_back(time_of_histories(job, sizes[k]));
+  std::printf("%-22s", job.name.c_str());
+  const double alone = test::median(times[0]);
+  for (std::size_t k = 0; k < std::size(sizes); ++k)
+    std::printf(" | %2zu at once %8.1f us %5.2f", sizes[k], test::median(times[k]), alone / test::median(times[k]));
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+void tell_all(std::size_t samples, const std::string& only, const std::string& what) {
+  const bool alone = what == "only", histories = what == "histories";
   const auto records = benchmark_records(0.6), pulses = benchmark_pulses();
   const Job job = benchmark_jobs(records, pulses, samples)[2];
-  if (!alone)
+  if (!alone && !histories)
     std::printf("%-22s %8s %8s %7s | %-33s | %-33s\n%-22s %8s %8s %7s | %8s %8s %7s %6s | %8s %8s %7s %6s %s\n", "",
                 "freestand", "", "", "dopri5, one step a knot", "dopri5, as accurate", "effect", "us", "error",
                 "fl/fail", "us", "error", "fl/fail", "ratio", "us", "error", "fl/fail", "ratio", "steps");
@@ -116,11 +146,12 @@ void tell_all(std::size_t samples, const std::string& only, bool alone) {
     Job on = job;
     on.name = name;
     on.specimens = std::move(specimens);
-    tell(on, law_peer(name), alone);
+    histories ? tell_histories(on) : tell(on, law_peer(name), alone);
   };
   row("none", job.specimens);
   for (const dynamics::Effect& effect : effects::all()) row(effect.name, with(effect, job.specimens));
   row(drag_by_formula().name, with(drag_by_formula(), job.specimens));
+  if (histories) return;
   const auto pairs = plane_records();
   for (const bool elliptic : {false, true}) {
     const Job in_plane = plane_job(benchmark_jobs(records, pulses, samples)[0], pairs, elliptic);
@@ -132,6 +163,7 @@ void tell_all(std::size_t samples, const std::string& only, bool alone) {
 }  // namespace freestand::bench
 
 int main(int argc, char** argv) {
-  freestand::bench::tell_all(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 960, argc > 2 ? argv[2] : "", argc > 3);
+  freestand::bench::tell_all(argc > 1 ? std::strtoul(argv[1], nullptr, 10) : 960, argc > 2 ? argv[2] : "",
+                             argc > 3 ? argv[3] : "");
   return 0;
 }

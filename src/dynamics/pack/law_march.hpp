@@ -68,6 +68,7 @@ class LawMarchOf {
       sure = sure & follows_laws(arc);
       if (bits(strikes_)) sure = sure & (~strikes_ | blows_.strike(to_));
       stopped.undecided = struck_ ? struck_ & ~bits(blows_.rocks_on(arc, stance_)) : 0;
+      history_.rocked_on(struck_ & ~stopped.undecided, ground_.time(), here_.pivot);
       struck_ = stopped.undecided;
       const unsigned free = see_extremes(arc, bits(sure) & lanes_here & ~stopped.undecided);
       stopped.before_step = lanes_here & ~(free | stopped.undecided);

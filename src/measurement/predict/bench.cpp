@@ -99,7 +99,7 @@ Prediction at_steps_of(const Asked& asked, const Response& response, const Histo
   return out;
 }
 
-constexpr std::size_t at_once = 64;  // whose histories are held
+constexpr std::size_t at_once = 32;  // whose histories are held
 
 void predict_some(std::span<const Asked> asked, std::size_t first,
                   const std::function<void(std::size_t, Prediction)>& use) {
