@@ -9,10 +9,19 @@
 namespace freestand {
 namespace {
 
+// The segment that holds t, of even ones the first that is looked at.
+std::size_t segment_at(const FloorMotion& motion, double t) {
+  const auto& knots = motion.knot_s;
+  const std::size_t segments = knots.size() - 1;
+  const auto even = static_cast<std::size_t>(t / motion.duration_s() * static_cast<double>(segments));
+  for (std::size_t i = even > 0 ? even - 1 : 0; i < std::min(even + 2, segments); ++i)
+    if (knots[i] <= t && t < knots[i + 1]) return i;
+  return static_cast<std::size_t>(std::upper_bound(knots.begin(), knots.end(), t) - knots.begin()) - 1;
+}
+
 double evaluate(const FloorMotion& motion, const MotionValues& coefficients, double t) {
   if (coefficients.empty() || t < 0 || t >= motion.duration_s()) return 0;
-  const auto next = std::upper_bound(motion.knot_s.begin(), motion.knot_s.end(), t);
-  const auto segment = static_cast<std::size_t>(next - motion.knot_s.begin()) - 1;
+  const std::size_t segment = segment_at(motion, t);
   const double tau = t - motion.knot_s[segment];
   const double* c = &coefficients[segment * static_cast<std::size_t>(motion.degree + 1)];
   double value = c[motion.degree];
