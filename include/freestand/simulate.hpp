@@ -34,7 +34,8 @@ Response respond(const Specimen&, const Shaking&, const Settings& = {}, History*
 // tolerances below 1e-10, others below 1e-13. Pulses, and records under the other effects, have the bits of single samples.
 void respond_batch(std::span<const Specimen>, std::span<const Shaking>, const Settings&, std::span<Response>);
 
-// The same with the histories of all, each in its own steps: responses and histories of respond(), to the bit. Samples with laws go in packs.
+// The same with the histories of all, each in its own steps: responses and histories of respond() with a history, to the
+// bit. On records samples with laws go in packs, others one by one.
 void respond_batch(std::span<const Specimen>, std::span<const Shaking>, const Settings&, std::span<Response>,
                    std::span<History>);
 

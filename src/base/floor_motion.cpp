@@ -9,7 +9,7 @@
 namespace freestand {
 namespace {
 
-// The segment that holds t, of even ones the first that is looked at.
+// The segment that holds t; where all are equally long one of the first that are looked at.
 std::size_t segment_at(const FloorMotion& motion, double t) {
   const auto& knots = motion.knot_s;
   const std::size_t segments = knots.size() - 1;

@@ -287,8 +287,9 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
     const bool lanes = kernels && goes_in_law_lanes(set_up(specimens[i], shakings[i]), settings);
     (lanes ? under_laws : alone).push_back(i);
   }
-  // A single history goes faster alone.
-  if (!histories.empty() && under_laws.size() == 1) alone.push_back(under_laws.back()), under_laws.clear();
+  // Two histories go no faster together.
+  if (!histories.empty() && under_laws.size() <= 2)
+    alone.insert(alone.end(), under_laws.begin(), under_laws.end()), under_laws.clear();
   if (!under_laws.empty())
     respond_in_law_lanes(*kernels, specimens, shakings, settings, under_laws, responses, histories);
   for (const std::size_t i : alone)

@@ -119,6 +119,7 @@ void Integration::pass_over_quiet_floor(const Rig::AtRest& rest) {
 }
 
 void Integration::record_rest(const FloorCursor& at) {
+  if (!recorder.wanted()) return;
   if (shaking.motion->degree == 1)
     recorder.rest(state, at.local<1>(), at.time(), at.left());
   else

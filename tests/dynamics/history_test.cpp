@@ -55,6 +55,43 @@ TEST_P(Histories, RatesAreTheDerivatives) {
   EXPECT_GT(compared, 3000);
 }
 
+// A floor that is quiet for many segments, then shakes, one that is cubic between its knots, and one that shakes vertically too: while
+// the block rests it moves as its floor does, point by point.
+TEST_P(Histories, RestIsWrittenWhenAndAsTheFloorMoves) {
+  std::vector<double> a, v;
+  for (int i = 0; i < 900; ++i) {
+    a.push_back((i < 600 ? 0.5 : 4) * std::sin(0.7 * i) + 0.01 * (i % 7));
+    v.push_back(0.6 * std::sin(0.3 * i));
+  }
+  FloorMotion cubic = piecewise_linear("cubic", 0.005, a, {});
+  cubic.degree = 3;
+  cubic.horizontal_mps2.clear();
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    for (const double c : {a[i], 20 * v[i], -400 * a[i], 5000.0}) cubic.horizontal_mps2.push_back(c);
+  index_runs(cubic);
+  const FloorMotion line = piecewise_linear("line", 0.005, a, {}), both = piecewise_linear("both", 0.005, a, v);
+  Specimen specimen;
+  specimen.block = Block::rectangular(0.8, 0.6, 100);
+  specimen.friction = {0.3, 0.3};
+  for (const FloorMotion* motion : {&line, &both, static_cast<const FloorMotion*>(&cubic)}) {
+    const Shaking shaking{.motion = motion, .vertical_scale = motion == &both ? 1.0 : 0.0};
+    History history{.step_s = 0.0031337, .points = {}, .events = {}, .forces = true};
+    GetParam()(specimen, shaking, {.free_vibration_s = 0}, &history);
+    ASSERT_GT(history.points.size(), 1400U) << motion->name;
+    int rested = 0;
+    for (std::size_t i = 0; i < history.points.size(); ++i) {
+      const HistoryPoint& p = history.points[i];
+      EXPECT_DOUBLE_EQ(p.time_s, 0.0031337 * static_cast<double>(i)) << motion->name;
+      EXPECT_NEAR(p.floor_acceleration_mps2, horizontal_acceleration(shaking, p.time_s), 1e-11) << p.time_s;
+      if (p.mode != Mode::rest) continue;
+      EXPECT_NEAR(p.acceleration_mps2, p.floor_acceleration_mps2, 1e-12) << p.time_s;
+      EXPECT_NEAR(p.vertical_acceleration_mps2, vertical_acceleration(shaking, p.time_s), 1e-11) << p.time_s;
+      ++rested;
+    }
+    EXPECT_GT(rested, 900) << motion->name;
+  }
+}
+
 TEST_P(Histories, PeaksAreTheLargestValues) {
   int moved = 0;
   for (std::uint64_t number = 0; number < 30; ++number) {

@@ -6,6 +6,7 @@
 #include "effects/effect_fixture.hpp"
 #include "effects/mixture.hpp"
 #include "support/isa.hpp"
+#include "support/same_histories.hpp"
 
 namespace freestand::test {
 namespace {
@@ -103,21 +104,6 @@ TEST(CatalogueInBlocks, EachSampleIsAnsweredAsAlone) {
     }
 }
 
-bool same_bits(const History& a, const History& b) {
-  const auto same_point = [](const HistoryPoint& p, const HistoryPoint& q) {
-    return p.time_s == q.time_s && p.floor_acceleration_mps2 == q.floor_acceleration_mps2 && p.slip_m == q.slip_m &&
-           p.slip_velocity_mps == q.slip_velocity_mps && p.rotation_rad == q.rotation_rad &&
-           p.rotation_rate_radps == q.rotation_rate_radps && p.mode == q.mode &&
-           p.acceleration_mps2 == q.acceleration_mps2 && p.vertical_acceleration_mps2 == q.vertical_acceleration_mps2 &&
-           p.contact_x_mps2 == q.contact_x_mps2 && p.contact_y_mps2 == q.contact_y_mps2;
-  };
-  const auto same_event = [](const Event& p, const Event& q) {
-    return p.time_s == q.time_s && p.from == q.from && p.to == q.to && p.pivot == q.pivot && p.impact == q.impact;
-  };
-  return std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same_point) &&
-         std::equal(a.events.begin(), a.events.end(), b.events.begin(), b.events.end(), same_event);
-}
-
 // Each history in its own steps, finer and coarser than those of the floor, with forces and without.
 TEST(CatalogueInBlocks, HistoriesHaveTheBitsOfSingleOnes) {
   constexpr std::size_t count = 24;
@@ -139,14 +125,16 @@ TEST(CatalogueInBlocks, HistoriesHaveTheBitsOfSingleOnes) {
       std::vector<History> alone = histories;
       respond_batch(samples.specimens, samples.shakings, settings, block, histories);
       std::vector<History> again = histories;
-      if (dynamics::batch_kernels())
+      if (dynamics::batch_kernels()) {
         EXPECT_LE(dynamics::respond_and_count(samples.specimens, samples.shakings, settings, block, again), one_by_one)
             << effect.name;
+      }
       for (std::size_t i = 0; i < count; ++i) {
         const Response single = respond(samples.specimens[i], samples.shakings[i], settings, &alone[i]);
         EXPECT_TRUE(same_bits(block[i], single)) << effect.name << ' ' << i;
         EXPECT_GT(alone[i].points.size(), 300U);
-        EXPECT_TRUE(same_bits(histories[i], alone[i])) << effect.name << ' ' << i << ' ' << samples.cases[i].text();
+        EXPECT_TRUE(same_histories(histories[i], alone[i]))
+            << effect.name << ' ' << i << ' ' << samples.cases[i].text();
       }
     }
 }

@@ -13,6 +13,7 @@
 #include "motion/pulse.hpp"
 #include "support/contact_stepper.hpp"
 #include "support/isa.hpp"
+#include "support/same_histories.hpp"
 
 namespace freestand::test {
 namespace {
@@ -121,6 +122,30 @@ TEST(PulsesInBlocks, HaveTheBitsOfSingleSamplesWithAnyInstructionSet) {
         EXPECT_TRUE(same_bits(block[i], alone[i])) << name << ", sample " << samples.text(i);
     }
   }
+}
+
+// And on after the motion.
+TEST(PulsesInBlocks, HistoriesHaveTheBitsOfSingleOnes) {
+  constexpr std::size_t count = 300;
+  const auto pulses = every_pulse();
+  const PulseSamples samples = draw_samples(count, pulses);
+  const Settings settings{.free_vibration_s = 4, .slip_by_side = true};
+  std::vector<Response> block(count);
+  std::vector<History> histories(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double steps_s[] = {0.005, 0.013, 0};
+    histories[i] = {.step_s = steps_s[i % 3], .points = {}, .events = {}, .forces = i % 2 == 0};
+  }
+  std::vector<History> alone = histories;
+  respond_batch(samples.specimens, samples.shakings, settings, block, histories);
+  std::size_t after = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Response single = respond(samples.specimens[i], samples.shakings[i], settings, &alone[i]);
+    EXPECT_TRUE(same_bits(block[i], single)) << samples.text(i);
+    EXPECT_TRUE(same_histories(histories[i], alone[i])) << samples.text(i);
+    after += !alone[i].points.empty() && alone[i].points.back().time_s > samples.shakings[i].duration_s();
+  }
+  EXPECT_GT(after, 20U);
 }
 
 // With a history a sample goes by the integrator, segment by segment: it knows nothing of the integrals. Round-off of 1e-16 over

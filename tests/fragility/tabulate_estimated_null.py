@@ -39,13 +39,15 @@ print("""// Made by tests/fragility/tabulate_estimated_null.py: scaled quantiles
 
 #include <array>
 
+// clang-format off
+
 namespace freestand::fragility::estimated_null {
 
 inline constexpr std::array sizes{%s};
 // Probability to exceed, for the columns.
 inline constexpr std::array chances{%s};
 using Quantiles = std::array<std::array<double, chances.size()>, sizes.size()>;
-// clang-format off""" % (REPEATS, ", ".join(map(str, SIZES)), ", ".join(map(str, CHANCES))))
+""" % (REPEATS, ", ".join(map(str, SIZES)), ", ".join(map(str, CHANCES))))
 for name, which in (("ks", 0), ("ad", 1)):
     print(f"inline constexpr Quantiles {name}{{{{")
     for table in tables:

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "fragility/fit.hpp"
-#include "fragility/goodness.hpp"
 #include "fragility/tally.hpp"
 #include "sampling/design.hpp"
 #include "sampling/distribution.hpp"

@@ -1,6 +1,7 @@
 // Measurements of specimens on a shaken floor: what was put in, what came out, test by test.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <freestand/floor_motion.hpp>
 #include <freestand/specimen.hpp>
@@ -58,7 +59,8 @@ struct Test {
   Peaks peaks;
   std::vector<std::string> unused_columns;  // of its file, whose names say nothing to freestand
 
-  bool has_history() const { return !slip_m.empty() || !rotation_rad.empty() || !block_acceleration_mps2.empty(); }
+  bool has_history() const { return points() > 0; }
+  std::size_t points() const { return std::max({slip_m.size(), rotation_rad.size(), block_acceleration_mps2.size()}); }
   bool has_vertical() const { return !motion.vertical_mps2.empty(); }
   Shaking shaking() const { return {.motion = &motion, .scale = scale, .stretch = stretch}; }  // points into the test
 };

@@ -1,6 +1,5 @@
 #include "measurement/fit/least_squares.hpp"
 
-#include <gsl/gsl_blas.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
 

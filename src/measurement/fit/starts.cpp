@@ -95,9 +95,11 @@ bool changes_predictions(const Bench& bench, const ModelFit& fit, const std::vec
   const ModelSpec model = with_effect(fit.model, effect, bench.reach());
   for (const Values& known : vantage) {
     const auto without = test_errors(bench, tests, fit.model, known);
-    for (const auto& with : test_errors(bench, tests, model, starts_from({known}, model, points)))
+    for (const Values& x : starts_from({known}, model, points)) {
+      const auto with = test_errors(bench, tests, model, x);
       for (std::size_t t = 0; t < tests.size(); ++t)
         if (std::abs(with[t].score - without[t].score) >= seen_change) return true;
+    }
   }
   return false;
 }

@@ -79,7 +79,7 @@ Shaking shaking_of(const Asked& asked) {
 Prediction at_steps_of(const Asked& asked, const Response& response, const History& history) {
   Prediction out{.response = response};
   const Test& test = asked.test;
-  const std::size_t n = std::max({test.slip_m.size(), test.rotation_rad.size(), test.block_acceleration_mps2.size()});
+  const std::size_t n = test.points();
   const double steps_behind = asked.model.clock_behind.of(asked.x) / test.dt_s;
   for (std::vector<double>* channel : {&out.slip_m, &out.rotation_rad, &out.slip_velocity_mps}) channel->reserve(n);
   out.mode.reserve(n);
@@ -99,7 +99,17 @@ Prediction at_steps_of(const Asked& asked, const Response& response, const Histo
   return out;
 }
 
-constexpr std::size_t at_once = 32;  // whose histories are held
+constexpr std::size_t at_once = 32, points_at_once = 200000;  // whose histories are held; 24 MB if all are alike
+
+// How many of those from i on have histories and are computed together.
+std::size_t count_together(const std::vector<Asked>& asked, std::size_t i) {
+  std::size_t count = 0, points = 0;
+  for (; count < at_once && i + count < asked.size() && asked[i + count].test.has_history(); ++count) {
+    points += asked[i + count].test.points();
+    if (count > 0 && points > points_at_once) break;
+  }
+  return count;
+}
 
 void predict_some(std::span<const Asked> asked, std::size_t first,
                   const std::function<void(std::size_t, Prediction)>& use) {
@@ -116,25 +126,22 @@ void predict_some(std::span<const Asked> asked, std::size_t first,
   std::vector<Response> responses(asked.size());
   respond_batch(specimens, shakings, {.tolerance = predicted_to, .free_vibration_s = 0}, responses,
                 std::span(histories).first(asked.size()));
-  for (std::size_t i = 0; i < asked.size(); ++i) use(first + i, at_steps_of(asked[i], responses[i], histories[i]));
+  std::vector<Prediction> all;  // first, since who uses one may ask for others
+  for (std::size_t i = 0; i < asked.size(); ++i) all.push_back(at_steps_of(asked[i], responses[i], histories[i]));
+  for (std::size_t i = 0; i < asked.size(); ++i) use(first + i, std::move(all[i]));
 }
 
 }  // namespace
 
 void predict(const std::vector<Asked>& asked, const std::function<void(std::size_t i, Prediction)>& use) {
-  const auto has_history = [](const Asked& one) { return one.test.has_history(); };
   for (std::size_t i = 0; i < asked.size();) {
-    if (!has_history(asked[i])) {
-      const Asked& one = asked[i];
-      use(i++,
-          {.response = respond(specimen(one.model, one.test, one.x), shaking_of(one), {.tolerance = predicted_to})});
+    if (const std::size_t count = count_together(asked, i)) {
+      predict_some(std::span(asked).subspan(i, count), i, use);
+      i += count;
       continue;
     }
-    const auto from = asked.begin() + static_cast<long>(i);
-    const auto end = from + static_cast<long>(std::min(at_once, asked.size() - i));
-    const std::span some(from, std::find_if_not(from, end, has_history));
-    predict_some(some, i, use);
-    i += some.size();
+    const Asked& one = asked[i];
+    use(i++, {.response = respond(specimen(one.model, one.test, one.x), shaking_of(one), {.tolerance = predicted_to})});
   }
 }
 

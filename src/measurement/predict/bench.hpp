@@ -15,9 +15,10 @@ namespace freestand::measurement {
 // What the model gives for a test, on the time steps of its histories.
 struct Prediction {
   Response response;
-  std::vector<double> slip_m, rotation_rad, block_acceleration_mps2;  // as long as the measured ones; empty: no history
-  std::vector<double> slip_velocity_mps;
-  std::vector<Mode> mode;
+  std::vector<double> slip_m = {}, rotation_rad = {},
+                      block_acceleration_mps2 = {};  // as long as the measured ones; empty: no history
+  std::vector<double> slip_velocity_mps = {};
+  std::vector<Mode> mode = {};
   bool failed() const { return response.outcome >= Outcome::painleve; }
   const std::vector<double>& channel(Channel) const;
 };
@@ -25,7 +26,7 @@ struct Prediction {
 // The test with the free numbers at x, under its own motion or another one of the same length.
 Prediction predict(const ModelSpec&, const Test&, std::span<const double> x, const FloorMotion* other = nullptr);
 
-// Many of them at once, in packs: each with the bits that it has alone.
+// Many of them at once, in packs: each with the bits that it has alone. Model, test and motion must outlive the answer.
 struct Asked {
   const ModelSpec& model;
   const Test& test;
