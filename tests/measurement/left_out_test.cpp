@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <set>
+
 #include "effects/effects.hpp"
 #include "measurement/made_tests.hpp"
 #include "measurement/verdict/diagnose.hpp"
@@ -93,6 +96,33 @@ TEST(Pairs, WithAsManyNumbersAsTestsAreNotTried) {
     return sentence.find("not tried") == 0 && sentence.find("floor_tilt with rate_weakening") != std::string::npos;
   });
   EXPECT_TRUE(told);
+}
+
+// Friction in waves, which no three of these effects explain: the best pair is not enough, no third effect makes it better, and the search
+// ends all the same. Each combination is a candidate once.
+TEST(Pairs, SearchEndsWhereNoThirdEffectMakesTheBestPairBetter) {
+  dynamics::Effect waves;
+  waves.name = waves.law = "waves";
+  waves.friction = [](const dynamics::At& at, const dynamics::Parameters&) { return 1.0 + 0.4 * sin(50.0 * at.u); };
+  Dataset data = test::made_dataset(block(0.2, {{&waves, {}}}));
+  for (measurement::Test& test : data.tests) test.role = Role::calibration;
+  const Bench bench(data, 2);
+  DiagnosisOptions options;
+  options.effort = little;
+  const Diagnosis d = diagnose(bench, test::free_friction(),
+                               {effects::find("floor_tilt"), effects::find("viscous_drag"),
+                                effects::find("directional_friction"), effects::find("centering_spring")},
+                               options, run_here);
+  EXPECT_EQ(d.verdict, Verdict::unknown);
+  std::set<std::vector<std::string>> combinations;
+  std::size_t most = 0;
+  for (const Candidate& c : d.candidates) {
+    std::vector<std::string> effects = c.effects;
+    std::sort(effects.begin(), effects.end());
+    EXPECT_TRUE(combinations.insert(effects).second) << effects.front() << " with " << effects.back();
+    most = std::max(most, effects.size());
+  }
+  EXPECT_EQ(most, 3U);
 }
 
 }  // namespace

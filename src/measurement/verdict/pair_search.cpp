@@ -32,7 +32,9 @@ bool PairSearch::second_effect_wanted() const {
 
 bool PairSearch::add_one_more() {
   const Candidate whole = best();
-  return whole.effects.size() >= 2 && one_more_wanted(whole) && join_others_to(whole);
+  if (whole.effects.size() < 2 || whole.effects == joined_ || !one_more_wanted(whole)) return false;
+  joined_ = whole.effects;
+  return join_others_to(whole);
 }
 
 bool PairSearch::join_others_to(const Candidate& whole) {

@@ -22,7 +22,7 @@ class PairSearch : public EffectSearch {
 
  private:
   bool second_effect_wanted() const;
-  // To the best one of several effects.
+  // To the best one of several effects. False: nothing more is wanted or can join, or none of those that joined it has made a better one.
   bool add_one_more();
   void fit_pairs();
   // Fits them, and the best few of them to the end, which become candidates.
@@ -43,6 +43,7 @@ class PairSearch : public EffectSearch {
   bool look_again();
 
   Pairs pairs_;
+  std::vector<std::string> joined_;  // effects that all others were joined to last
 };
 
 }  // namespace freestand::measurement
