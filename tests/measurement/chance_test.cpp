@@ -8,6 +8,7 @@
 #include "effects/effects.hpp"
 #include "measurement/fit/least_squares.hpp"
 #include "measurement/made_tests.hpp"
+#include "measurement/verdict/candidates.hpp"
 #include "support/repeats.hpp"
 
 namespace freestand::measurement {
@@ -102,6 +103,28 @@ TEST(ChanceOfLead, OfAModelOverItselfIsChance) {
   EXPECT_TRUE(chance_of_lead(bench, Judge(bench), base, base, run_here).chance());
 }
 
+double misfit_of(const Judge& judge, const ModelFit& fit) {
+  double sum = 0;
+  for (const double g : judge.misfit_of_fit(fit)) sum += g;
+  return sum;
+}
+
+// Twins differ by where their fits end, not by what they say: chance, of which the straight lines between them know nothing.
+TEST(ChanceOfLead, ThatIsSmallerThanWhatFitsLeaveIsChance) {
+  const Dataset data = test::with_noise(test::made_dataset(test::cabinet(), 0), 1);
+  const Bench bench(data, 0);
+  const Judge judge(bench);
+  const ModelFit base = test::fitted(bench, test::free_friction(), {0.2});
+  ModelFit twin = base;
+  const double n = total(judge.samples());
+  for (double by = 1e-8; misfit_of(judge, twin) - misfit_of(judge, base) < 0.3 * least_gain * n; by *= 1.2)
+    twin.x[0] = base.x[0] + by;
+  const Chance chance = chance_of_lead(bench, judge, base, twin, run_here);
+  EXPECT_GT(chance.observed, 0.2 * least_gain * n);
+  EXPECT_LT(chance.observed, least_gain * n);
+  EXPECT_TRUE(chance.chance());
+}
+
 double told_apart(const Dataset& data, double rate) {
   const Bench bench(data, 0);
   const ModelFit drag{.model = with("viscous_drag", bench), .x = {0.2, rate}};
@@ -129,12 +152,6 @@ TEST(ChanceOfLead, IsToldApartAsOftenAsItSays) {
   EXPECT_GT(told, 0.3);
   EXPECT_LT(told, 0.7 + 1e-9);
   EXPECT_NEAR(static_cast<double>(apart) / sets, told, 3 * std::sqrt(0.25 / sets));
-}
-
-double misfit_of(const Judge& judge, const ModelFit& fit) {
-  double sum = 0;
-  for (const double g : judge.misfit_of_fit(fit)) sum += g;
-  return sum;
 }
 
 TEST(ChanceOfMisfit, HasItsSize) {

@@ -154,7 +154,7 @@ Fitted least_squares(const Judge& judge, const Tests& tests, const ModelSpec& mo
     const double score = least_squares_score(judge, tests, model, found), gain = best.score - score;
     best.evaluations += problem.evaluations + 2;
     if (gain > 0) best.x = found, best.score = score;
-    if (gain < 1e-5) break;
+    if (gain < least_gain) break;
   }
   gsl_set_error_handler(handler);
   return best;

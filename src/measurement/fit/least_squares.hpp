@@ -23,6 +23,9 @@ std::vector<double> misfits(const Judge&, const std::vector<std::size_t>& of_jud
 double least_squares_score(const Judge&, const std::vector<std::size_t>& of_judge, const ModelSpec&,
                            std::span<const double> x);
 
+// Of S: a round that gains no more is the last. So G of all tests may end above its least by that share of the samples.
+inline constexpr double least_gain = 1e-5;
+
 // From x downhill, in at most `rounds`. score: S.
 Fitted least_squares(const Judge&, const std::vector<std::size_t>& of_judge, const ModelSpec&, const Values& x,
                      int rounds);

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numeric>
 
 #include "base/random.hpp"
+#include "measurement/fit/least_squares.hpp"
 #include "measurement/fit/slopes.hpp"
 #include "measurement/fit/starts.hpp"
 
@@ -234,7 +236,9 @@ Chance chance_of_lead(const Bench& bench, const Judge& judge, const ModelFit& be
     const VectorXd z = noise.draw(s);
     return own_best.gain(z.head(b)) - own_rival.gain(z.segment(b, r) - to_rival) - 2 * z[q - 1] + difference;
   });
-  if (chance.observed <= 0) chance.p = 1;  // no lead
+  // A lead that is no larger than what the rival's fit may have left is none.
+  const double n = std::accumulate(judge.samples().begin(), judge.samples().end(), 0.0);
+  if (chance.observed <= least_gain * n) chance.p = 1;
   return chance;
 }
 
