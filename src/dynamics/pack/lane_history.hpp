@@ -21,18 +21,18 @@ class LaneHistory {
       const PackMask which = lanes_of(due);
       const Pack t = freestand::choose(which, xsimd::max(next_ - start, Pack(0.0)), Pack(0.0)),
                  push = number(Row::push);
-      keep(0, start + t);
-      keep(1, floor.a.at(t) - push);
-      keep(2, u.at(t));
-      keep(3, arc.w.at(t));
-      keep(4, arc.theta.at(t));
-      keep(5, arc.omega.at(t));
-      keep(6, arc.ax.at(t) - push);
+      keep(time, start + t);
+      keep(floor_acceleration, floor.a.at(t) - push);
+      keep(slip, u.at(t));
+      keep(slip_velocity, arc.w.at(t));
+      keep(rotation, arc.theta.at(t));
+      keep(rotation_rate, arc.omega.at(t));
+      keep(acceleration, arc.ax.at(t) - push);
       const Series<Pack, N> up = lifted ? combination(Pack(1.0), arc.fy, Pack(1.0), arc.lift) : arc.fy;
-      keep(7, up.at(t) - number(Row::gravity));
-      keep(8, arc.fx.at(t));
-      keep(9, arc.fy.at(t));
-      keep(10, at.half_base);
+      keep(vertical_acceleration, up.at(t) - number(Row::gravity));
+      keep(contact_x, arc.fx.at(t));
+      keep(contact_y, arc.fy.at(t));
+      keep(half_base, at.half_base);
       for (unsigned open = due; open; open &= open - 1) add(__builtin_ctz(open));
       next_ = freestand::choose(which, load(after_), next_);
     }
@@ -53,27 +53,42 @@ class LaneHistory {
   void save() { store(rows_.numbers[static_cast<int>(Row::next_output)] + first_, next_); }
 
  private:
+  enum Value {
+    time,
+    floor_acceleration,
+    slip,
+    slip_velocity,
+    rotation,
+    rotation_rate,
+    acceleration,
+    vertical_acceleration,
+    contact_x,
+    contact_y,
+    half_base,
+    value_count
+  };
   Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)] + first_); }
-  void keep(int which, const Pack& x) { store(value_[which], x); }
+  void keep(Value which, const Pack& x) { store(value_[which], x); }
 
   void add(int lane) {
     const int i = first_ + lane;
-    const auto value = [&](int which) { return value_[which][lane]; };
+    const auto value = [&](Value which) { return value_[which][lane]; };
     clear_upper_parts();
     HistoryPoint& point = add_point(*rows_.history[i]);
-    point.time_s = value(0);
-    point.floor_acceleration_mps2 = value(1);
-    point.slip_m = value(2);
-    point.slip_velocity_mps = value(3);
-    point.rotation_rad = value(4);
-    point.rotation_rate_radps = value(5);
+    point.time_s = value(time);
+    point.floor_acceleration_mps2 = value(floor_acceleration);
+    point.slip_m = value(slip);
+    point.slip_velocity_mps = value(slip_velocity);
+    point.rotation_rad = value(rotation);
+    point.rotation_rate_radps = value(rotation_rate);
     point.mode = rows_.mode[i];
-    if (rows_.turns) point.slip_velocity_mps += value(10) * sin_outside(point.rotation_rad) * point.rotation_rate_radps;
+    if (rows_.turns)
+      point.slip_velocity_mps += value(half_base) * sin_outside(point.rotation_rad) * point.rotation_rate_radps;
     if (rows_.history[i]->forces) {
-      point.acceleration_mps2 = value(6);
-      point.vertical_acceleration_mps2 = value(7);
-      point.contact_x_mps2 = value(8);
-      point.contact_y_mps2 = value(9);
+      point.acceleration_mps2 = value(acceleration);
+      point.vertical_acceleration_mps2 = value(vertical_acceleration);
+      point.contact_x_mps2 = value(contact_x);
+      point.contact_y_mps2 = value(contact_y);
     }
     after_[lane] = static_cast<double>(++rows_.points[i]) * rows_.numbers[static_cast<int>(Row::output_step)][i];
   }
@@ -81,7 +96,7 @@ class LaneHistory {
   LawRows& rows_;
   const int first_;
   Pack next_;
-  alignas(64) double value_[11][pack_lanes];
+  alignas(64) double value_[value_count][pack_lanes];
   alignas(64) double after_[pack_lanes] = {};
 };
 
