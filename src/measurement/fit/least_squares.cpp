@@ -20,12 +20,9 @@ constexpr double noise_score = 0.4;  // of S: 1.2 noise units
 constexpr double far_score = 4;      // of S without replays: what no floor's noise explains
 constexpr double over_steps = 0.01;  // of the box: an event more or less in one test is a wall to derivatives
 
-// Of all points and tests, these within.
-std::vector<Asked> asked(const Judge& judge, const Tests& tests, const ModelSpec& model,
-                         const std::vector<Values>& points) {
-  std::vector<Asked> all;
-  for (const Values& x : points)
-    for (const std::size_t i : tests) all.push_back({model, judge.test(i), x});
+std::vector<const Test*> those(const Judge& judge, const Tests& tests) {
+  std::vector<const Test*> all;
+  for (const std::size_t i : tests) all.push_back(&judge.test(i));
   return all;
 }
 
@@ -47,10 +44,8 @@ struct Problem {
   std::vector<Values> residuals(const std::vector<Values>& z) {
     std::vector<Values> x, all(z.size());
     for (const Values& at : z) x.push_back(point(at));
-    predict(asked(judge, tests, model, x), [&](std::size_t k, const Prediction& prediction) {
-      const std::size_t place = k % tests.size();
-      for (const double r : judge.whitened(tests[place], prediction))
-        all[k / tests.size()].push_back(weights[place] * r);
+    predict(model, those(judge, tests), x, [&](std::size_t k, std::size_t place, const Prediction& prediction) {
+      for (const double r : judge.whitened(tests[place], prediction)) all[k].push_back(weights[place] * r);
     });
     for (std::size_t k = 0; k < z.size(); ++k)
       for (std::size_t i = 0; i < x[k].size(); ++i)
@@ -124,7 +119,8 @@ std::vector<std::size_t> all_of(const Judge& judge) {
 
 std::vector<double> misfits(const Judge& judge, const Tests& tests, const ModelSpec& model, std::span<const double> x) {
   std::vector<double> all;
-  predict(asked(judge, tests, model, {Values(x.begin(), x.end())}), [&](std::size_t k, const Prediction& prediction) {
+  const std::vector<Values> point = {Values(x.begin(), x.end())};
+  predict(model, those(judge, tests), point, [&](std::size_t, std::size_t k, const Prediction& prediction) {
     const auto r = judge.whitened(tests[k], prediction);
     all.push_back(std::inner_product(r.begin(), r.end(), r.begin(), 0.0));
   });

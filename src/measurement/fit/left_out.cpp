@@ -49,9 +49,7 @@ class FoldSearch {
   // From the best of these starts downhill.
   Fitted from_best_of(const std::vector<Values>& starts, bool by_strides) const {
     const Measure measure = by_strides ? mean_stride_scores : mean_scores;
-    const Objective rough = [&](std::span<const double> x) {
-      return measure(bench_, tests_, model_, {Values(x.begin(), x.end())}).front();
-    };
+    const Objective rough = objective(bench_, model_, tests_, measure);
     const std::vector<double> scores = measure(bench_, tests_, model_, starts);
     Fitted best{{}, 1e300};
     int evaluations = static_cast<int>(starts.size());

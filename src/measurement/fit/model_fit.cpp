@@ -14,13 +14,6 @@ struct Place {
   std::size_t task, part;
 };
 
-Objective objective(const Bench& bench, const ModelSpec& model, std::vector<std::size_t> tests,
-                    Measure measure = mean_scores) {
-  return [&bench, &model, tests = std::move(tests), measure](std::span<const double> x) {
-    return measure(bench, tests, model, {Values(x.begin(), x.end())}).front();
-  };
-}
-
 // A fitted point as a job returns it, and back.
 Values packed(const Fitted& fitted) {
   Values values = fitted.x;
@@ -117,6 +110,12 @@ double ModelFit::mean_left_out() const {
   double sum = 0;
   for (const TestError& e : left_out) sum += e.score;
   return sum / static_cast<double>(std::max<std::size_t>(left_out.size(), 1));
+}
+
+Objective objective(const Bench& bench, const ModelSpec& model, std::vector<std::size_t> tests, Measure measure) {
+  return [&bench, &model, tests = std::move(tests), measure](std::span<const double> x) {
+    return measure(bench, tests, model, {Values(x.begin(), x.end())}).front();
+  };
 }
 
 std::vector<std::size_t> fold_of(std::size_t n) {

@@ -60,6 +60,9 @@ std::vector<std::size_t> fold_of(std::size_t n);
 using Measure = std::vector<double> (*)(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&,
                                         const std::vector<Values>& points);
 
+// The measure of one point x. The model must outlive it.
+Objective objective(const Bench&, const ModelSpec&, std::vector<std::size_t> tests, Measure = mean_scores);
+
 // Screens and descends; no folds yet. In the order of the tasks; score is that of the measure.
 std::vector<ModelFit> fit_models(const Bench&, const std::vector<FitTask>&, const Effort&, const Jobs&,
                                  Measure = mean_scores);

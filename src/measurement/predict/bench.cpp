@@ -151,6 +151,14 @@ std::vector<Prediction> predict(const std::vector<Asked>& asked) {
   return all;
 }
 
+void predict(const ModelSpec& model, const std::vector<const Test*>& tests, const std::vector<Values>& points,
+             const std::function<void(std::size_t point, std::size_t test, const Prediction&)>& use) {
+  std::vector<Asked> asked;
+  for (const Values& x : points)
+    for (const Test* test : tests) asked.push_back({model, *test, x});
+  predict(asked, [&](std::size_t i, const Prediction& p) { use(i / tests.size(), i % tests.size(), p); });
+}
+
 Prediction predict(const ModelSpec& model, const Test& test, std::span<const double> x, const FloorMotion* other) {
   return std::move(predict(std::vector<Asked>{{model, test, Values(x.begin(), x.end()), other}}).front());
 }

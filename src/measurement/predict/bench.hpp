@@ -36,6 +36,9 @@ struct Asked {
 std::vector<Prediction> predict(const std::vector<Asked>&);
 // The same one after the other, for those who need not keep them.
 void predict(const std::vector<Asked>&, const std::function<void(std::size_t i, Prediction)>& use);
+// Each of the tests, by its place, at each of the points x.
+void predict(const ModelSpec&, const std::vector<const Test*>& tests, const std::vector<Values>& points,
+             const std::function<void(std::size_t point, std::size_t test, const Prediction&)>& use);
 
 // Variance of each channel at each time that the noise of the measured floor motion makes: mean square of the
 // differences between replays with that noise added once more, and the history without. What even the true model would

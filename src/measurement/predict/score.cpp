@@ -215,14 +215,10 @@ TestError test_error(const Bench& bench, std::size_t i, const ModelSpec& model, 
 
 namespace {
 
-// use(point, place of the test, prediction) of all points and tests.
-template <class Use>
-void predict_all(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
-                 const std::vector<Values>& points, Use&& use) {
-  std::vector<Asked> asked;
-  for (const Values& x : points)
-    for (const std::size_t i : tests) asked.push_back({model, bench.test(i), x});
-  predict(asked, [&](std::size_t i, const Prediction& p) { use(i / tests.size(), i % tests.size(), p); });
+std::vector<const Test*> those(const Bench& bench, const std::vector<std::size_t>& tests) {
+  std::vector<const Test*> all;
+  for (const std::size_t i : tests) all.push_back(&bench.test(i));
+  return all;
 }
 
 }  // namespace
@@ -236,7 +232,7 @@ std::vector<std::vector<TestError>> test_errors(const Bench& bench, const std::v
     (outcome ? outcomes : others).push_back(tests[k]);
     (outcome ? outcome_places : places).push_back(k);
   }
-  predict_all(bench, others, model, points, [&](std::size_t point, std::size_t k, const Prediction& prediction) {
+  predict(model, those(bench, others), points, [&](std::size_t point, std::size_t k, const Prediction& prediction) {
     errors[point][places[k]] = test_error(bench, others[k], prediction);
   });
   for (std::size_t point = 0; point < points.size(); ++point) {
@@ -271,7 +267,7 @@ double mean_score(const Bench& bench, const std::vector<std::size_t>& tests, con
 std::vector<double> mean_stride_scores(const Bench& bench, const std::vector<std::size_t>& tests,
                                        const ModelSpec& model, const std::vector<Values>& points) {
   std::vector<double> means(points.size());
-  predict_all(bench, tests, model, points, [&](std::size_t point, std::size_t k, const Prediction& prediction) {
+  predict(model, those(bench, tests), points, [&](std::size_t point, std::size_t k, const Prediction& prediction) {
     means[point] += stride_score(bench, bench.test(tests[k]), prediction);
   });
   for (double& mean : means) mean /= static_cast<double>(std::max<std::size_t>(tests.size(), 1));

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <numeric>
 
 #include "base/random.hpp"
 #include "measurement/fit/least_squares.hpp"
 #include "measurement/fit/slopes.hpp"
 #include "measurement/fit/starts.hpp"
+#include "measurement/verdict/candidates.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -237,8 +237,7 @@ Chance chance_of_lead(const Bench& bench, const Judge& judge, const ModelFit& be
     return own_best.gain(z.head(b)) - own_rival.gain(z.segment(b, r) - to_rival) - 2 * z[q - 1] + difference;
   });
   // A lead that is no larger than what the rival's fit may have left is none.
-  const double n = std::accumulate(judge.samples().begin(), judge.samples().end(), 0.0);
-  if (chance.observed <= least_gain * n) chance.p = 1;
+  if (chance.observed <= least_gain * total(judge.samples())) chance.p = 1;
   return chance;
 }
 
