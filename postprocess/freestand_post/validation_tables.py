@@ -21,13 +21,13 @@ def tests(results):
     quantities = [name for name in QUANTITY if name != "residual_slip_m" and any(name in test["peaks"] for test in last.tests)]
     earlier = [{test["id"]: test for test in comparison.tests} for comparison in results.comparisons]
     table = {"labels": results.labels, "several": len(results.comparisons) > 1, "history": "history" in kinds,
-             "outcome": "outcome" in kinds, "peaks_only": kinds == {"peaks"}, "quantities": [words.with_unit(QUANTITY[name][1], QUANTITY[name][2]) for name in quantities], "rows": [],
+             "of_mean": any(math.isfinite(test["error_of_mean"]) for test in last.tests), "outcome": "outcome" in kinds, "peaks_only": kinds == {"peaks"}, "quantities": [words.with_unit(QUANTITY[name][1], QUANTITY[name][2]) for name in quantities], "rows": [],
              "missed": 0, "many": len(last.tests) > MANY, "count": len(last.tests)}
     for test in last.tests:
         found = [tests.get(test["id"]) for tests in earlier]
         row = {"id": test["id"], "role": ROLES.get(test["role"], test["role"]),
                "relative": words.percent(test["error_relative"]) if math.isfinite(test["error_relative"]) else "–",
-               "explained": test["error_floor_noise_allowed"], "expected": test["error_expected"],
+               "explained": test["error_floor_noise_allowed"], "expected": test["error_expected"], "of_mean": test["error_of_mean"],
                "errors": [other["error_noise_units"] if other else math.nan for other in found],
                "peaks": [_peak(test, found, name) for name in quantities], "measured": "", "probabilities": [], "far": _far(test)}
         if test["kind"] == "outcome" or isinstance(test["overturned_measured"], bool):

@@ -98,6 +98,9 @@ Json history_json(const Bench& bench, const TestComparison& t, const Bands& band
     for (std::size_t k = 0; k < n; k += stride) list.push_back(number_or_null(value(k)));
     return list;
   };
+  const auto each = [&](const std::vector<double>& values) {
+    return thinned([&](std::size_t k) { return values[k]; });
+  };
   json["time_s"] = thinned([&](std::size_t k) { return static_cast<double>(k) * test.dt_s; });
   json["floor_acceleration_mps2"] = thinned(
       [&](std::size_t k) { return horizontal_acceleration(test.shaking(), static_cast<double>(k) * test.dt_s); });
@@ -108,12 +111,13 @@ Json history_json(const Bench& bench, const TestComparison& t, const Bands& band
     const auto& model = t.model.channel(channel);
     const auto& spread = t.spread[static_cast<std::size_t>(c)];
     Json band = nullptr;
-    if (!bands.empty())
-      band = {{"lower", thinned([&, &b = bands[static_cast<std::size_t>(c)]](std::size_t k) { return b.lower[k]; })},
-              {"upper", thinned([&, &b = bands[static_cast<std::size_t>(c)]](std::size_t k) { return b.upper[k]; })}};
+    if (!bands.empty()) {
+      const Band& b = bands[static_cast<std::size_t>(c)];
+      band = {{"lower", each(b.lower)}, {"mean", each(b.mean)}, {"upper", each(b.upper)}};
+    }
     json[name(channel)] = {{"noise", bench.noise(channel)},
-                           {"measured", thinned([&](std::size_t k) { return measured[k]; })},
-                           {"model", thinned([&](std::size_t k) { return model[k]; })},
+                           {"measured", each(measured)},
+                           {"model", each(model)},
                            {"residual", thinned([&](std::size_t k) { return model[k] - measured[k]; })},
                            {"spread", thinned([&](std::size_t k) { return std::sqrt(spread[k]); })},
                            {"band", std::move(band)}};
@@ -138,14 +142,20 @@ Json tables_json(const std::vector<ErrorTable>& tables) {
   return list;
 }
 
-Json role_json(const Bench& bench, const std::vector<TestComparison>& tests, Role role) {
+// of_mean: error_of_mean of each of the tests.
+Json role_json(const Bench& bench, const std::vector<TestComparison>& tests, const std::vector<double>& of_mean,
+               Role role) {
   const RoleError e = role_error(bench, tests, role);
   if (e.tests == 0) return nullptr;
+  double square = 0;
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    if (bench.test(tests[i].test).role == role) square += of_mean[i] * of_mean[i] / static_cast<double>(e.tests);
   return {{"error_noise_units", number_or_null(e.noise_units)},
           {"error_relative", number_or_null(e.relative)},
           {"error", number_or_null(e.error)},
           {"error_expected", number_or_null(e.expected)},
           {"error_floor_noise_allowed", number_or_null(e.explained)},
+          {"error_of_mean", number_or_null(std::sqrt(square))},
           {"tests", e.tests}};
 }
 
@@ -207,6 +217,9 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
 
   std::vector<std::string> effects;
   for (const EffectTerm& term : fit.model.effects) effects.push_back(term.effect->name);
+  const std::vector<Bands> bands = predicted_bands(bench, fit.model, open, jobs);
+  std::vector<double> of_mean;
+  for (const TestComparison& t : c.tests) of_mean.push_back(error_of_mean(bench, t.test, bands[t.test]).noise_units);
   const PeakRatio ratio = peak_ratio(bench, c.tests);
   Json json = {{"format", "freestand-comparison/2"},
                {"study", run.study},
@@ -216,8 +229,8 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
                {"error_unit", error_unit(bench)},
                {"method", calibration_method(bench)},
                {"findings", c.findings},
-               {"calibration", role_json(bench, c.tests, Role::calibration)},
-               {"holdout", role_json(bench, c.tests, Role::holdout)},
+               {"calibration", role_json(bench, c.tests, of_mean, Role::calibration)},
+               {"holdout", role_json(bench, c.tests, of_mean, Role::holdout)},
                {"parameters", parameters_json(fit, open, calibrated)},
                {"posterior", posterior_json(open)},
                {"peak_ratio",
@@ -226,9 +239,10 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
                  {"bias_ln", number_or_null(ratio.bias_ln)},
                  {"scatter_ln", number_or_null(ratio.scatter_ln)}}}};
   json["tests"] = Json::array();
-  const std::vector<Bands> bands = predicted_bands(bench, fit.model, open, jobs);
-  for (const TestComparison& t : c.tests) {
+  for (std::size_t i = 0; i < c.tests.size(); ++i) {
+    const TestComparison& t = c.tests[i];
     json["tests"].push_back(test_json(bench, t));
+    json["tests"].back()["error_of_mean"] = number_or_null(of_mean[i]);
     json["tests"].back()["within_band"] = number_or_null(share_within(bench.test(t.test), bands[t.test]));
   }
   json["histories"] = Json::array();

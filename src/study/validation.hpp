@@ -6,10 +6,11 @@
 //   tests: [{id, role, kind (history|peaks|outcome), floor_peak_g, error_noise_units, error_relative,
 //     error_floor_noise_allowed (error_noise_units with the floor's noise allowed for, sample by sample), error_expected
 //     (what noise alone would make), channels: [{name, error_noise_units, error_relative, bias, autocorrelation}],
-//     peaks: [{name, measured, model, compared}], overturned_measured, overturned_probability, outcome, within_band (share of the
-//     readings that lie where 90 of 100 are predicted)}]
-//   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_floor_noise_allowed, tests}; error in
-//     error_unit; error_expected of outcomes: the score that chance alone would make, were the model's probabilities
+//     peaks: [{name, measured, model, compared}], overturned_measured, overturned_probability, outcome, error_of_mean
+//     (error_noise_units of the mean of the predictions of many draws, or null), within_band (share of the readings that lie where
+//     90 of 100 are predicted)}]
+//   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_floor_noise_allowed, error_of_mean,
+//     tests}; error in error_unit; error_expected of outcomes: the score that chance alone would make, were the model's probabilities
 //     right; null where there are no such tests
 //   parameters: [{name, unit, value, lower, upper, interval: [l, u] or null, no_interval (why, where it is null),
 //     calibrated (by this run), interval_90 (of the joint draws, or null)}]
@@ -20,7 +21,7 @@
 //   findings: [sentence]
 //   histories: of the five worst: [{id, dt_s, time_s: [], floor_acceleration_mps2: [], CHANNEL: {measured: [], model: [],
 //     residual: [], noise, spread: [] (standard deviation that the floor's noise makes),
-//     band: {lower, upper} (where 90 of 100 readings are predicted, or null)}}], at most 2000 points each
+//     band: {lower, mean, upper} (where 90 of 100 readings are predicted, and the mean of the predictions, or null)}}], at most 2000 points each
 //   error_tables: {calibration: [{variable, unit, label, edge, centre, count, error_noise_units, growth_noise_units,
 //     bias_noise_units, growth_slip_m, growth_rotation_rad}], holdout: [...]}; variables phase, speed_mps, path_m,
 //     position_m, direction (where slip was measured), normal_g, time_s, floor_g; growth: change of the residual within

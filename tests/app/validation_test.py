@@ -63,6 +63,7 @@ class Validation(InFolder):
         self.succeed(["compare", second, "-o", out, "--quiet"])
         comparison = numbers(out / "comparison.json")
         self.assertLess(comparison["holdout"]["error_noise_units"], 1.2)
+        self.assertLess(comparison["holdout"]["error_of_mean"], 1.2)
         base, added = comparison["ladder"]
         self.assertEqual((base["step"], added["step"]), ("base", "rate_weakening"))
         self.assertGreater(base["error_holdout"], 20 * added["error_holdout"])

@@ -45,8 +45,11 @@ std::vector<Bands> predicted_bands(const Bench& bench, const ModelSpec& model, c
       std::vector<double> here(all_of_them.size());
       for (std::size_t t = 0; t < history(test, channel).size(); ++t) {
         for (std::size_t k = 0; k < here.size(); ++k) here[k] = all_of_them[k].channel(channel)[t];
+        double sum = 0;
+        for (const double value : here) sum += value;
         const double middle = at_share(here, 0.5), lower = at_share(here, 0.05), upper = at_share(here, 0.95);
         ends.push_back(middle - std::hypot(middle - lower, sensor));
+        ends.push_back(sum / static_cast<double>(here.size()));
         ends.push_back(middle + std::hypot(upper - middle, sensor));
       }
     }
@@ -60,11 +63,23 @@ std::vector<Bands> predicted_bands(const Bench& bench, const ModelSpec& model, c
       Band& band = all[i][static_cast<std::size_t>(c)];
       for (std::size_t t = 0; t < history(bench.test(i), static_cast<Channel>(c)).size(); ++t) {
         band.lower.push_back(*at++);
+        band.mean.push_back(*at++);
         band.upper.push_back(*at++);
       }
     }
   }
   return all;
+}
+
+TestError error_of_mean(const Bench& bench, std::size_t test, const Bands& bands) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (bands.empty()) return {unknown, unknown, unknown, unknown};
+  const auto mean = [&](Channel channel) { return bands[static_cast<std::size_t>(channel)].mean; };
+  return test_error(bench, test,
+                    Prediction{.response = {},
+                               .slip_m = mean(Channel::slip),
+                               .rotation_rad = mean(Channel::rotation),
+                               .block_acceleration_mps2 = mean(Channel::block_acceleration)});
 }
 
 double share_within(const Test& test, const Bands& bands) {
