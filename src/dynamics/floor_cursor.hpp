@@ -79,18 +79,21 @@ class FloorCursor {
   void go_to(std::size_t segments_left, double start, double offset);
 
   // Bounds of the floor's accelerations [m/s2], over the present segment, or over the run that starts here: `shaken` across,
-  // with gravity along the floor `a`; v upwards.
+  // with gravity along the floor `a`; v upwards. end: of the segment or run [s].
   struct Bound {
-    double shaken, a, v;
+    double shaken, a, v, end;
   };
-  Bound segment_bound() const { return bound(bound_of(horizontal_), vertical_ ? bound_of(vertical_) : 0.0); }
+  Bound segment_bound() const {
+    return bound(bound_of(horizontal_), vertical_ ? bound_of(vertical_) : 0.0, segment_ + 1);
+  }
   bool run_starts_here() const {
     return offset_ == 0 && segment_ % FloorMotion::run_length == 0 && !motion_->horizontal_run_mps2.empty();
   }
   Bound run_bound() const {
     const std::size_t run = segment_ / FloorMotion::run_length;
-    return bound(motion_->horizontal_run_mps2[run], vertical_ ? motion_->vertical_run_mps2[run] : 0.0);
+    return bound(motion_->horizontal_run_mps2[run], vertical_ ? motion_->vertical_run_mps2[run] : 0.0, run_end());
   }
+  double run_end_s() const { return knots_[run_end()] * stretch_; }
 
   // Floor acceleration and effective gravity about time(). N must be at least the degree of the motion.
   template <int N>
@@ -110,9 +113,12 @@ class FloorCursor {
   Units units(double scale) const;
   void shift(const double* coefficients, const Units& unit, double* out, int order) const;
 
-  Bound bound(double horizontal, double vertical) const {
+  std::size_t run_end() const {
+    return std::min(segments_, (segment_ / FloorMotion::run_length + 1) * FloorMotion::run_length);
+  }
+  Bound bound(double horizontal, double vertical, std::size_t end) const {
     const double shaken = std::abs(scale_) * horizontal;
-    return {shaken, std::abs(push_) + shaken, std::abs(vertical_scale_) * vertical};
+    return {shaken, std::abs(push_) + shaken, std::abs(vertical_scale_) * vertical, knots_[end] * stretch_};
   }
   double bound_of(const double* coefficients) const {
     const double h = knots_[segment_ + 1] - knots_[segment_];

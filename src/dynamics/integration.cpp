@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "dynamics/impact.hpp"
-#include "dynamics/law_values.hpp"
+#include "dynamics/law_range.hpp"
 #include "dynamics/overturned.hpp"
 
 namespace freestand::dynamics {
@@ -75,24 +75,31 @@ Integration::Integration(const Setup& setup, const Settings& settings_, History*
 
 Rig::AtRest Integration::laws_at_rest() const {
   if (!rig.laws) return {};
-  const LawValues left = law_values(rig, state, cursor.time(), -1);
-  const LawValues right = law_values(rig, state, cursor.time(), 1);
-  const bool constant = !rig.laws->change_at_rest() && (!rig.laws->uses(Input::normal) || shaking.vertical_scale == 0);
-  return {std::max(std::abs(left.force), std::abs(right.force)), std::max(left.lift, right.lift),
-          std::max(std::abs(left.moment), std::abs(right.moment)), std::min(left.factor, right.factor),
-          constant && left.finite() && right.finite()};
+  const double now = cursor.time();
+  Rig::AtRest rest;
+  if (rig.laws->change_at_rest()) rest.until = cursor.run_end_s();
+  rest.known = !rig.laws->uses(Input::normal) || shaking.vertical_scale == 0;
+  rest.factor = std::numeric_limits<double>::infinity();
+  for (const int sigma : {-1, 1}) {
+    const LawRange range = law_range(rig, state, now, rest.constant() ? now : rest.until, sigma);
+    rest.force = std::max(rest.force, range.force.magnitude());
+    rest.lift = std::max(rest.lift, range.lift.upper);
+    rest.moment = std::max(rest.moment, range.moment.magnitude());
+    rest.factor = std::min(rest.factor, range.factor.lower);
+    rest.known &= range.known;
+  }
+  return rest;
 }
 
 void Integration::wait() {
   if (cursor.motion_over()) return resolve(Witness::regular);  // settles() found that the still floor does not hold it
-  const Rig::AtRest rest = laws_at_rest();
-  const bool passes = rest.constant && !peaks.follow_rest();
+  Rig::AtRest rest = laws_at_rest();
   while (!cursor.motion_over()) {
-    if (passes && cursor.at_knot()) pass_over_quiet_floor(rest);
-    if (cursor.motion_over()) return;
+    if (cursor.time() >= rest.until) rest = laws_at_rest();
+    if (!peaks.follow_rest() && cursor.at_knot() && pass_over_quiet_floor(rest)) continue;
     // What holds a block at rest under laws that do not change is linear in a record.
     const bool event =
-        shaking.motion->degree == 1 && rest.constant ? look_ahead<2>(rest) : look_ahead<wait_order>(rest);
+        shaking.motion->degree == 1 && rest.constant() ? look_ahead<2>(rest) : look_ahead<wait_order>(rest);
     if (event) return;
   }
 }
@@ -107,15 +114,20 @@ bool Integration::ends_with_the_motion() const {
 }
 
 // The floor mostly shakes hardest just before rest ends: seen from there, few segments hold a new peak.
-void Integration::pass_over_quiet_floor(const Rig::AtRest& rest) {
+bool Integration::pass_over_quiet_floor(const Rig::AtRest& rest) {
   const std::size_t from = cursor.segment();
   FloorCursor passed = cursor;
-  if (!cursor.pass_over([&](const FloorCursor::Bound& floor) { return rig.stays_put(floor.a, floor.v, rest); })) return;
+  if (!cursor.pass_over([&](const FloorCursor::Bound& floor) { return stays_put(floor, rest); })) return false;
   watch_.steps = 0;
   for (; recorder.wanted() && passed.segment() != cursor.segment(); passed.next_segment()) record_rest(passed);
   cursor.look_back(
       from, [&](const FloorCursor::Bound& floor) { return !peaks.may_exceed(floor.shaken, floor.v); },
       [&](const FloorCursor& at) { peaks.observe_rest(rig, at.local<wait_order>(), at.left()); });
+  return true;
+}
+
+bool Integration::stays_put(const FloorCursor::Bound& floor, const Rig::AtRest& rest) const {
+  return floor.end <= rest.until && rig.stays_put(floor.a, floor.v, rest);
 }
 
 void Integration::record_rest(const FloorCursor& at) {
@@ -131,7 +143,7 @@ template <int N>
 bool Integration::look_ahead(const Rig::AtRest& rest) {
   const FloorCursor::Bound bound = cursor.segment_bound();
   const Floor<double, N> floor = cursor.local<N>();
-  if (!peaks.follow_rest() && rig.stays_put(bound.a, bound.v, rest)) {
+  if (!peaks.follow_rest() && stays_put(bound, rest)) {
     peaks.observe_rest(rig, floor, cursor.left());
     record_rest(cursor);
     next_segment();

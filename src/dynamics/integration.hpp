@@ -121,7 +121,8 @@ class Integration {
   void start_from(const Start&);
   bool beyond_a_wall() const;
   double slip() const;
-  void pass_over_quiet_floor(const Rig::AtRest& rest);
+  bool pass_over_quiet_floor(const Rig::AtRest& rest);  // false: here it moves the block
+  bool stays_put(const FloorCursor::Bound& floor, const Rig::AtRest& rest) const;
   void record_rest(const FloorCursor& segment);
   template <int N>
   bool look_ahead(const Rig::AtRest& rest);

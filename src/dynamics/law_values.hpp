@@ -31,9 +31,7 @@ struct LawValues {
   }
 };
 
-inline LawValues law_values(const Rig& rig, const State& state, double time, int sigma) {
-  const Laws& laws = *rig.laws;
-  Series<double, 0> values[max_nodes];
+inline void inputs_at(const Rig& rig, const State& state, double time, int sigma, Series<double, 0>* values) {
   for (int i = 0; i < input_count; ++i) values[i][0] = 0;
   const auto set = [&](Input input, double x) { values[static_cast<int>(input)][0] = x; };
   const double B = state.pivot * rig.half_base();
@@ -51,7 +49,13 @@ inline LawValues law_values(const Rig& rig, const State& state, double time, int
   set(Input::rest, state.rested(time));
   set(Input::rise, B * rotation.sine);
   set(Input::climb, B * rotation.cosine * state.omega);
-  for (int i = 0; i < laws.states; ++i) values[static_cast<int>(Input::state) + i][0] = state.states[i];
+  for (int i = 0; i < rig.laws->states; ++i) values[static_cast<int>(Input::state) + i][0] = state.states[i];
+}
+
+inline LawValues law_values(const Rig& rig, const State& state, double time, int sigma) {
+  const Laws& laws = *rig.laws;
+  Series<double, 0> values[max_nodes];
+  inputs_at(rig, state, time, sigma, values);
   const std::uint32_t sides = laws.sides_at(values, state.sides);
   const auto value = [&](int node, double without) { return node < 0 ? without : values[node][0]; };
   return {value(laws.force, 0), value(laws.lift, 0), value(laws.moment, 0), value(laws.friction, 1), sides};

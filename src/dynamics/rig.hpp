@@ -71,15 +71,17 @@ struct Rig {
     if (!std::isnan(settings.acceleration_height_m)) point = {0.5 * (right - left), settings.acceleration_height_m - h};
   }
 
-  // What laws that do not change while the block rests do to it: the largest force, lift and moment, the least friction factor.
+  // What laws do to a block that rests, up to some time: the largest force, lift and moment, the least friction factor.
   struct AtRest {
     double force = 0, lift = 0, moment = 0, factor = 1;
-    bool constant = true;
+    bool known = true;
+    double until = std::numeric_limits<double>::infinity();  // [s]; infinite: they do not change at all
+    bool constant() const { return known && until == std::numeric_limits<double>::infinity(); }
   };
   // No floor acceleration with |a| <= a_max, |v| <= v_max can move the block from rest.
   bool stays_put(double a_max, double v_max, const AtRest& rest) const {
     const double weight = g - v_max - rest.lift, push_max = carried_mass() * a_max + rest.force;
-    return rest.constant && (!can_slip || push_max < mu_s * rest.factor * weight) &&
+    return rest.known && (!can_slip || push_max < mu_s * rest.factor * weight) &&
            (!can_rock || h * push_max + rest.moment < (right < left ? right : left) * weight) && weight > 0;
   }
 

@@ -50,6 +50,7 @@ RawRecord read(const RecordText& text) {
   }
   text.whole_to_its_end(header + 1);
   record.dt_s = text.even_step(times, lines);
+  record.start = text.start_of(times);
   return record;
 }
 

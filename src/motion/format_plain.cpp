@@ -45,7 +45,10 @@ RawRecord read(const RecordText& text) {
     record.channels[0].values.push_back(row.back());
   }
   text.whole_to_its_end(first_line(text));
-  if (columns == 2) record.dt_s = text.even_step(times, lines);
+  if (columns == 2) {
+    record.dt_s = text.even_step(times, lines);
+    record.start = text.start_of(times);
+  }
   return record;
 }
 

@@ -127,29 +127,12 @@ Samples read_samples(const std::filesystem::path& path, const ReadOptions& optio
   return samples;
 }
 
-void add_vertical(Samples& samples, const ReadOptions& options) {
-  ReadOptions own = options;
-  own.vertical_file.clear();
-  own.channel.clear();
-  own.component = Component::vertical;
-  Samples vertical = read_samples(options.vertical_file, own);
-  if (std::abs(vertical.dt_s - samples.dt_s) > 1e-6 * samples.dt_s)
-    throw Error(fmt::format("{}: another time step ({} s) than the horizontal record ({} s): resample one of them",
-                            options.vertical_file, vertical.dt_s, samples.dt_s),
-                Exit::data);
-  samples.vertical = std::move(vertical.horizontal);
-  const std::size_t size = std::max(samples.horizontal.size(), samples.vertical.size());
-  samples.horizontal.resize(size, 0.0);
-  samples.vertical.resize(size, 0.0);
-}
-
 // Components that do not begin together make a motion that never was.
 void check_pair(const std::filesystem::path& path, const Samples& one, const ReadOptions& options,
-                const Samples& other) {
+                const std::string& other_file, const Samples& other) {
   const auto refuse = [&](const std::string& why, const char* cure) {
-    throw Error(
-        fmt::format("{} and {} are no pair of components ({}): {}", path.string(), options.cross_file, why, cure),
-        Exit::data);
+    throw Error(fmt::format("{} and {} are no pair of components ({}): {}", path.string(), other_file, why, cure),
+                Exit::data);
   };
   if (std::abs(other.dt_s - one.dt_s) > 1e-6 * one.dt_s)
     refuse(fmt::format("their steps are {} s and {} s", one.dt_s, other.dt_s), "resample one of them");
@@ -157,10 +140,19 @@ void check_pair(const std::filesystem::path& path, const Samples& one, const Rea
     refuse(fmt::format("they begin at {} and at {}", one.start.empty() ? "an unknown time" : shown(one.start),
                        other.start.empty() ? "an unknown time" : shown(other.start)),
            "cut the earlier one");
-  if (one.start.empty() && !options.begin_together && one.horizontal.size() != other.horizontal.size())
-    refuse(fmt::format("they have {} and {} samples, and nothing tells whether they begin together",
-                       one.horizontal.size(), other.horizontal.size()),
-           "cut both to the same instants, or say that they do (begin_together)");
+}
+
+void add_vertical(const std::filesystem::path& path, Samples& samples, const ReadOptions& options) {
+  ReadOptions own = options;
+  own.vertical_file.clear();
+  own.channel.clear();
+  own.component = Component::vertical;
+  Samples vertical = read_samples(options.vertical_file, own);
+  check_pair(path, samples, options, options.vertical_file, vertical);
+  samples.vertical = std::move(vertical.horizontal);
+  const std::size_t size = std::max(samples.horizontal.size(), samples.vertical.size());
+  samples.horizontal.resize(size, 0.0);
+  samples.vertical.resize(size, 0.0);
 }
 
 // Cosine of an angle in degrees, exact at right angles.
@@ -176,7 +168,14 @@ std::vector<double> read_cross(const std::filesystem::path& path, const Samples&
   own.vertical_file.clear();
   own.component = Component::horizontal;
   Samples other = read_samples(options.cross_file, own);
-  check_pair(path, samples, options, other);
+  check_pair(path, samples, options, options.cross_file, other);
+  if (samples.start.empty() && !options.begin_together && samples.horizontal.size() != other.horizontal.size())
+    throw Error(
+        fmt::format(
+            "{} and {} are no pair of components (they have {} and {} samples, and nothing tells whether they begin "
+            "together): cut both to the same instants, or say that they do (begin_together)",
+            path.string(), options.cross_file, samples.horizontal.size(), other.horizontal.size()),
+        Exit::data);
   return std::move(other.horizontal);
 }
 
@@ -199,7 +198,7 @@ FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& op
     turn(samples, std::move(cross), options.rotate_deg);
     cross.clear();
   }
-  if (!options.vertical_file.empty()) add_vertical(samples, options);
+  if (!options.vertical_file.empty()) add_vertical(path, samples, options);
   if (cross.empty()) return piecewise_linear(path.string(), samples.dt_s, samples.horizontal, samples.vertical);
   const std::size_t size = std::max(samples.horizontal.size(), cross.size());
   samples.horizontal.resize(size, 0.0);

@@ -196,6 +196,10 @@ double RecordText::even_step(const std::vector<double>& times, const std::vector
   return dt;
 }
 
+std::string RecordText::start_of(const std::vector<double>& times) {
+  return std::abs(times.front()) < 1.5 * (times[1] - times[0]) ? "" : fmt::format("{:.9g} s", times.front());
+}
+
 // Names the step that differs most from the usual one.
 void RecordText::uneven(const std::vector<double>& times, const std::vector<std::size_t>& lines) const {
   std::vector<double> steps;

@@ -51,6 +51,8 @@ class RecordText {
   // Constant step of the times in column order; `lines` says on which line each stands. Throws where a time is further
   // than 5 % of a step off the even grid.
   double even_step(const std::vector<double>& times, const std::vector<std::size_t>& lines) const;
+  // In RawRecord's words. A clock that begins with the record, at 0 or after one step, does not say when that was.
+  static std::string start_of(const std::vector<double>& times);
 
   const std::filesystem::path& path() const { return path_; }
 

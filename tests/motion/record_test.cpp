@@ -201,7 +201,7 @@ TEST_F(Record, VerticalFileIsPairedAndTheShorterEndsAtRest) {
               testing::Pointwise(testing::DoubleNear(1e-12), in_mps2({3, 4, 5, 6}, g)));
   const auto slow = write("s.AT2", head + "2, DT= .02 SEC\n1 2\n");
   const auto [message, exit] = problem(horizontal, {.vertical_file = slow.string()});
-  EXPECT_THAT(message, HasSubstr("s.AT2: another time step (0.02 s) than the horizontal record (0.01 s)"));
+  EXPECT_THAT(message, HasSubstr("s.AT2 are no pair of components (their steps are 0.01 s and 0.02 s)"));
   EXPECT_EQ(exit, Exit::data);
 }
 

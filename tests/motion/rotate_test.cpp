@@ -90,6 +90,38 @@ TEST_F(Rotation, GoesByTheTimesThatFilesState) {
   EXPECT_THAT(problem(early, {.cross_file = a_.string(), .rotate_deg = 90}).first, HasSubstr("no pair of components"));
 }
 
+TEST_F(Rotation, VerticalRecordsBeginWithTheirHorizontalOnes) {
+  const std::string start = "20190728_160919.870";
+  const auto along = write("h.ASC", esm(start, 3, "10\n20\n30\n"));
+  const auto up = write("z.ASC", esm(start, 3, "1\n2\n3\n"));
+  const auto late = write("zl.ASC", esm("20190728_160925.870", 3, "1\n2\n3\n"));
+  EXPECT_FALSE(read_record(along, {.vertical_file = up.string()}).vertical_mps2.empty());
+  const auto [text, exit] = problem(along, {.vertical_file = late.string()});
+  EXPECT_EQ(exit, Exit::data);
+  EXPECT_THAT(text, AllOf(HasSubstr("no pair of components"), HasSubstr("20190728_160925.870")));
+}
+
+// A clock of a table tells when it begins, unless it begins with the record itself.
+TEST_F(Rotation, GoesByTheClocksOfTables) {
+  const auto table = [&](const std::string& name, const std::string& times) {
+    std::string text = "time_s,floor_acceleration_mps2\n";
+    for (const char* value : {"1", "2", "3"}) text += times + value + "," + value + "\n";
+    return write(name, text);
+  };
+  const auto zero = table("zero.csv", "0.0"), late = table("late.csv", "35.0"), too = table("too.csv", "35.0");
+  EXPECT_THAT(problem(zero, {.cross_file = late.string(), .rotate_deg = 30}).first,
+              AllOf(HasSubstr("no pair of components"), HasSubstr("35.01 s")));
+  EXPECT_THAT(problem(zero, {.vertical_file = late.string()}).first, HasSubstr("35.01 s"));
+  EXPECT_NO_THROW(read_record(late, {.cross_file = too.string(), .rotate_deg = 30}));
+  EXPECT_NO_THROW(read_record(zero, {.cross_file = late.string(), .rotate_deg = 30, .begin_together = true}));
+  const auto pair = [&](const std::string& name, const std::string& from) {
+    return write(name, from + " 1\n" + from + "1 2\n" + from + "2 3\n");
+  };
+  const auto plain = pair("plain.txt", "0.0"), plain_late = pair("plain_late.txt", "6.0");
+  EXPECT_THAT(problem(plain, {.unit = "g", .cross_file = plain_late.string(), .rotate_deg = 30}).first,
+              HasSubstr("6 s"));
+}
+
 class Pairs : public Rotation {
  protected:
   RecordTable paired(const std::string& rows,
