@@ -10,7 +10,7 @@ function at(curve, im) {
   const t = b === a ? 1 : (im - a[IM]) / (b[IM] - a[IM]), between = (value) => (1 - t) * value(a) + t * value(b);
   if (!byLognormal(curve)) return [P, LOW, HIGH].map((i) => between((p) => p[i]));
   const fitted = (x) => phi(Math.log(x / curve.median) / curve.dispersion), here = fitted(im);  // its band goes along
-  const [low, high] = [LOW, HIGH].map((i) => here + between((p) => p[i] - fitted(p[IM])));
+  const [low, high] = [LOW, HIGH].map((i) => here + between((p) => p[i] - p[P]));
   return [here, Math.max(0, Math.min(low, here)), Math.min(1, Math.max(high, here))];
 }
 const byLognormal = (curve) => curve.family === "lognormal" && curve.dispersion > 0;

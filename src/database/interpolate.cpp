@@ -97,8 +97,8 @@ Probability at(const Curve& curve, double im) {
   }
   for (const Point* point : points) {
     Probability p = of(*point);
-    p.lower -= fitted(point->im);
-    p.upper -= fitted(point->im);
+    p.lower -= p.value;
+    p.upper -= p.value;
     nodes.push_back({point->im, p});
   }
   Probability p = lines(nodes, im);

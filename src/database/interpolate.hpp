@@ -23,7 +23,8 @@ Probability blend(std::span<const Probability> known, std::span<const double> we
 // The curve at an intensity > 0, by the rule that its family states: the lognormal of median and dispersion, or straight lines
 // in P over the intensity between the points, from 0 at 0 to the first one (level below one from which the curve falls) and level above the last. So do the page of the
 // database and exports read it. The band is on straight lines too: its ends, or of a lognormal, which takes it along, how far they
-// are from the curve; level beyond the points. It is widened where it does not hold the curve. NaN where no point is known.
+// are from their point (a bin's, which a curve that bends within the bin need not meet); level beyond the points. It is widened where it
+// does not hold the curve. NaN where no point is known.
 Probability at(const Curve&, double im);
 
 // Is it read by its lognormal?

@@ -18,9 +18,10 @@ constexpr int grid_points = 81;
 
 // Counts by fine cell of IM and by group of motions. Cells without samples are left out.
 struct Cells {
-  std::vector<double> im;        // mean of its samples
-  std::vector<std::size_t> bin;  // in which it lies
-  Eigen::MatrixXd n, above;      // [group, cell]
+  std::vector<double> im;          // mean of its samples
+  std::vector<std::size_t> place;  // among all cells, those without samples too
+  Eigen::MatrixXd n, above;        // [group, cell]
+  std::size_t bin(std::size_t cell) const { return place[cell] / TallyLayout::cells_per_bin; }
 };
 
 // Samples and those above, of one cell and one group.
@@ -38,7 +39,7 @@ Cells cells_of(const Tally& tally, const ShareOf& share_of) {
     const ImCell total = tally.im_cell(i);
     if (total.n == 0) continue;
     cells.im.push_back(total.im_sum / static_cast<double>(total.n));
-    cells.bin.push_back(i / TallyLayout::cells_per_bin);
+    cells.place.push_back(i);
     for (Eigen::Index g = 0; g < groups; ++g) {
       const Share share = share_of(i, static_cast<std::size_t>(g));
       cells.n(g, used) = static_cast<double>(share.n);
@@ -76,16 +77,17 @@ struct Shape {
   double operator()(double im) const { return std::isnan(share) ? probit_probability(fit, im) : im > 0 ? share : 0; }
 };
 
-// Counted share less the curve, by bin; NaN where a bin holds fewer samples than `least`.
-std::vector<double> misfits(const Cells& cells, std::size_t bins, const Eigen::RowVectorXd& n,
+// Counted share less the curve, by bin or by `parts` of each; NaN where one holds fewer samples than `least`.
+std::vector<double> misfits(const Cells& cells, std::size_t bins, std::size_t parts, const Eigen::RowVectorXd& n,
                             const Eigen::RowVectorXd& above, const Shape& shape, double least) {
-  std::vector<double> there(bins, 0), difference(bins, 0);
+  std::vector<double> there(bins * parts, 0), difference(bins * parts, 0);
   for (Eigen::Index i = 0; i < n.size(); ++i) {
-    const std::size_t cell = static_cast<std::size_t>(i), bin = cells.bin[cell];
-    there[bin] += n(i);
-    difference[bin] += above(i) - n(i) * shape(cells.im[cell]);
+    const std::size_t cell = static_cast<std::size_t>(i);
+    const std::size_t part = cells.place[cell] / (TallyLayout::cells_per_bin / parts);
+    there[part] += n(i);
+    difference[part] += above(i) - n(i) * shape(cells.im[cell]);
   }
-  for (std::size_t b = 0; b < bins; ++b) difference[b] = there[b] >= least ? difference[b] / there[b] : unknown;
+  for (std::size_t p = 0; p < there.size(); ++p) difference[p] = there[p] >= least ? difference[p] / there[p] : unknown;
   return difference;
 }
 
@@ -218,34 +220,75 @@ class Resampled {
     return share;
   }
 
-  // The resampled misfits scatter about those of the samples as those do about the true ones.
+  // The shares of bins say how far the curve may be off. Where it bends in another way within them, and their halves, quarters or eighths
+  // show it, off by more than a curve may be and by more than chance explains (in three looks), it is off by what those show.
   void misfit(FragilityFunction& curve) const {
-    const std::size_t bins = tally_.layout().bins;
-    const std::vector<double> none(bins, 0),
-        found = misfits(cells_, bins, cells_.n.colwise().sum(), cells_.above.colwise().sum(), shape_,
-                        tally_.options().minimum_samples);
-    const auto [size, bin] = largest_difference(found, none);
-    if (bin == bins) return;
-    curve.misfit = size;
-    curve.misfit_im = tally_.mean_im(bin);
+    const Misfit of_bins = misfit_of(1);
+    if (std::isnan(of_bins.im)) return;
+    Misfit worst = of_bins;
+    for (std::size_t parts = 2; parts <= TallyLayout::cells_per_bin && motions_ > 1; parts *= 2)
+      if (Misfit of = misfit_of(parts);
+          of.size > std::max(worst.size, tally_.options().adequate) && of.chance() <= test_level / 3)
+        worst = std::move(of);
+    curve.misfit = worst.size;
+    curve.misfit_im = worst.im;
     if (motions_ < 2) return;
-    const double expand = std::sqrt(motions_ / (motions_ - 1.0));
-    std::vector<double> scatter;
-    for (Eigen::Index r = 0; r < n_.rows(); ++r) {
-      const auto again = misfits(cells_, bins, n_.row(r), above_.row(r), shapes_[static_cast<std::size_t>(r)], 1);
-      scatter.push_back(expand * largest_difference(again, found).value);
-    }
-    std::sort(scatter.begin(), scatter.end());
-    const auto larger = scatter.end() - std::lower_bound(scatter.begin(), scatter.end(), size);
-    curve.misfit_p = (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(scatter.size()));
+    curve.misfit_p = worst.chance();
     // Through the shares of two bins there is a lognormal always, which tells nothing of others.
-    const auto known = std::count_if(found.begin(), found.end(), [](double one) { return std::isfinite(one); });
-    if (known > 2) curve.off_by = size + sorted_quantile(scatter, tally_.options().confidence);
-    curve.rate_p = chance_of_small_shares(small_shares(found));
+    const auto known =
+        std::count_if(of_bins.found.begin(), of_bins.found.end(), [](double d) { return std::isfinite(d); });
+    if (known > 2) curve.off_by = std::max(of_bins.at_most(), worst.at_most());
+    curve.rate_p = chance_of_small_shares(small_shares(of_bins.found));
     curve.adequate = curve.off_by <= tally_.options().adequate && !rates_differ(curve);
   }
 
  private:
+  // Of bins, or of parts of them.
+  struct Misfit {
+    std::vector<double> found;         // counted share less the curve
+    double size = 0, im = unknown;     // the largest, and where
+    std::vector<double> scatter = {};  // of the largest, [resample]
+    double reach = 0;                  // of the scatter, at Options::confidence
+    double at_most() const { return size + reach; }
+    // Of a larger one if the curve were true.
+    double chance() const {
+      const auto larger = std::count_if(scatter.begin(), scatter.end(), [&](double one) { return one >= size; });
+      return (1.0 + static_cast<double>(larger)) / (1.0 + static_cast<double>(scatter.size()));
+    }
+  };
+
+  // The resampled misfits scatter about those of the samples as those do about the true ones.
+  Misfit misfit_of(std::size_t parts) const {
+    const std::size_t bins = tally_.layout().bins;
+    Misfit of{misfits(cells_, bins, parts, cells_.n.colwise().sum(), cells_.above.colwise().sum(), shape_,
+                      tally_.options().minimum_samples)};
+    const auto [size, part] = largest_difference(of.found, std::vector<double>(of.found.size(), 0));
+    if (part == of.found.size()) return of;
+    of.size = size;
+    of.im = mean_im(part, parts);
+    const double expand = std::sqrt(motions_ / (motions_ - 1.0));
+    for (Eigen::Index r = 0; r < n_.rows() && motions_ > 1; ++r) {
+      const auto again =
+          misfits(cells_, bins, parts, n_.row(r), above_.row(r), shapes_[static_cast<std::size_t>(r)], 1);
+      of.scatter.push_back(expand * largest_difference(again, of.found).value);
+    }
+    std::vector<double> sorted = of.scatter;
+    std::sort(sorted.begin(), sorted.end());
+    if (!sorted.empty()) of.reach = sorted_quantile(sorted, tally_.options().confidence);
+    return of;
+  }
+
+  double mean_im(std::size_t part, std::size_t parts) const {
+    double n = 0, im = 0;
+    for (std::size_t cell = 0; cell < cells_.im.size(); ++cell) {
+      if (cells_.place[cell] / (TallyLayout::cells_per_bin / parts) != part) continue;
+      const double here = cells_.n.col(static_cast<Eigen::Index>(cell)).sum();
+      n += here;
+      im += here * cells_.im[cell];
+    }
+    return im / n;
+  }
+
   SmallShares small_shares(const std::vector<double>& found) const {
     const std::size_t bins = tally_.layout().bins;
     SmallShares small{
@@ -254,7 +297,7 @@ class Resampled {
     double binomial = 0;
     Eigen::VectorXd left = Eigen::VectorXd::Zero(cells_.n.rows());  // [group], counted less expected
     for (Eigen::Index i = 0; i < cells_.n.cols(); ++i) {
-      const std::size_t cell = static_cast<std::size_t>(i), bin = cells_.bin[cell];
+      const std::size_t cell = static_cast<std::size_t>(i), bin = cells_.bin(cell);
       const double p = shape_(cells_.im[cell]), n = cells_.n.col(i).sum();
       small.fitted[bin] += n * p;
       small.samples[bin] += n;
@@ -269,7 +312,7 @@ class Resampled {
     small.left_out.resize(n_left_.rows(), static_cast<Eigen::Index>(bins));
     for (Eigen::Index r = 0; r < n_left_.rows(); ++r) {
       const auto without =
-          misfits(cells_, bins, n_left_.row(r), above_left_.row(r), left_out_[static_cast<std::size_t>(r)], 1);
+          misfits(cells_, bins, 1, n_left_.row(r), above_left_.row(r), left_out_[static_cast<std::size_t>(r)], 1);
       for (std::size_t b = 0; b < bins; ++b) small.left_out(r, static_cast<Eigen::Index>(b)) = without[b];
     }
     return small;

@@ -80,7 +80,7 @@ constexpr FunctionField of_function[] = {
   {"im_most", true, "highest IM swept", get<Fitted, &Fitted::im_most>, set<Fitted, &Fitted::im_most>},
   {"extrapolated", false, "1: the median lies outside of what was swept", get<Fitted, &Fitted::extrapolated>, set<Fitted, &Fitted::extrapolated>},
   {"misfit", false, "largest difference to the counted share of a bin", get<Fitted, &Fitted::misfit>, set<Fitted, &Fitted::misfit>},
-  {"misfit_im", true, "mean IM of that bin", get<Fitted, &Fitted::misfit_im>, set<Fitted, &Fitted::misfit_im>},
+  {"misfit_im", true, "mean IM of that bin, or of that part of one", get<Fitted, &Fitted::misfit_im>, set<Fitted, &Fitted::misfit_im>},
   {"misfit_p", false, "chance of a larger misfit if the curve were true, from resampled motions", get<Fitted, &Fitted::misfit_p>, set<Fitted, &Fitted::misfit_p>},
   {"off_by", false, "upper bound of the difference to the true shares", get<Fitted, &Fitted::off_by>, set<Fitted, &Fitted::off_by>},
   {"rate_p", false, "chance of annual rates as far from those of the counts if the curve were true", get<Fitted, &Fitted::rate_p>, set<Fitted, &Fitted::rate_p>},

@@ -83,6 +83,18 @@ TEST(Interpolate, TheBandOfALognormalGoesAlongWithItBetweenThePoints) {
   }
 }
 
+// A curve that rises within a bin from 0 to 1 has a share there that it does not go through. The band about the curve is as wide as
+// the one about the share, to either side, and does not end at the curve.
+TEST(Interpolate, TheBandOfALognormalIsAboutTheCurveAsThatOfAShareIsAboutTheShare) {
+  Curve curve = test::curve(0, 0.05, 0.4, 0.2);
+  const double share = 0.62;
+  ASSERT_LT(test::lognormal(0.4, 0.4, 0.2), share - 0.1);
+  curve.points = {{0.4, share, share - 0.03, share + 0.04, 1000}};
+  const Probability p = at(curve, 0.4);
+  EXPECT_NEAR(p.lower, p.value - 0.03, 1e-12);
+  EXPECT_NEAR(p.upper, p.value + 0.04, 1e-12);
+}
+
 // As OpenQuake reads levels: straight over the intensity itself, from 0 at 0, level above the last.
 TEST(Interpolate, WithoutAnAdequateLognormalLinesBetweenThePointsAreStraight) {
   for (const char* family : {points_family, not_refuted_family}) {
