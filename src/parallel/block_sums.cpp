@@ -78,6 +78,8 @@ Parts parts_of(const std::string& file, const fs::path& path) {
       header.checksum != header.expected_checksum() || header.blocks < 0 || header.words < 0)
     reject();
   const std::string_view content = std::string_view(file).substr(sizeof(SumsHeader));
+  const auto most = static_cast<std::int64_t>(content.size());  // sizes beyond it may have no sum
+  if (header.blocks / bits > most || header.words > most) reject();
   const auto set_bytes = static_cast<std::size_t>(header.words_of_set()) * sizeof(std::int64_t);
   if (content.size() != set_bytes + static_cast<std::size_t>(header.words) * sizeof(std::int64_t) ||
       fnv1a(std::as_bytes(std::span(content))) != header.content_checksum)
@@ -89,7 +91,7 @@ Parts parts_of(const std::string& file, const fs::path& path) {
 
 Words words_in(std::string_view bytes) {
   Words words(bytes.size() / sizeof(std::int64_t));
-  std::memcpy(words.data(), bytes.data(), bytes.size());
+  if (!words.empty()) std::memcpy(words.data(), bytes.data(), bytes.size());
   return words;
 }
 

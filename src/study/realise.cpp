@@ -118,7 +118,7 @@ const std::vector<Column>& derived_columns() {
   static const std::vector<Column> columns = {
       {"block_width_m", "m", "width of the block"},
       {"block_height_m", "m", "height of the block"},
-      {"block_alpha_rad", "rad", "slenderness angle of the block, atan(W/H)"},
+      {"block_alpha_rad", "rad", "slenderness angle of the block, atan(W/(2 h)), h: height of the centre of mass"},
       {"block_size_m", "m", "R, half the diagonal of the block"},
       {"block_p_radps", "rad/s", "frequency parameter of the block, sqrt(3g/(4R))"},
       {"friction_mu_k", "1", "kinetic friction coefficient"},
