@@ -10,7 +10,7 @@ const Register pga_over_g_tan_alpha{{
     .name = "pga_over_g_tan_alpha",
     .unit = "1",
     .symbol = "PGA/(g tan α)",
-    .summary = "peak floor acceleration over the acceleration that starts rocking",
+    .summary = "peak floor acceleration over the acceleration that starts rocking, of the block as it is stated, without effects",
     .source = "[KM05 ch. 6], uplift at a = g tan(alpha)",
     .value = [](const Input& in) { return in.peaks().pga_mps2 / (standard_gravity_mps2 * std::tan(in.alpha_rad)); },
     .proportional = true,

@@ -3,9 +3,12 @@
 // (chance.hpp). How hard is searched (Effort, DiagnosisOptions) decides what is found, not what is said of it.
 //
 //   constant          decides                                     derivation
-//   chance_level      every p value: help, lead, enough           custom: one set in twenty without an effect may be
+//   chance_level      every other p value: help, lead, enough     custom: one set in twenty without an effect may be
 //                                                                  said to have one, as a laboratory that publishes
 //                                                                  at 5 % agrees to
+//   further_level     does one more help                          of sets with one effect that is enough at most 3 in
+//                                                                  100 may be given a wrong name: 1 by this question, the
+//                                                                  rest by leads
 //   adequate          enough, though G is more than chance         a model's own error e beside noise of 1 leaves
 //                                                                  sqrt(1 + e^2); at e = 1 it is as large as what one
 //                                                                  reading strays by. (With 10^4 readings a test of
@@ -23,6 +26,7 @@
 namespace freestand::measurement {
 
 inline constexpr double chance_level = 0.05;
+inline constexpr double further_level = 0.01;
 inline constexpr double adequate = 1.4142135623730951;
 inline constexpr double beyond_practice = 3.1622776601683795;
 inline constexpr double fault_deviations = 3;

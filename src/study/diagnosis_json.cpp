@@ -275,7 +275,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
     json["tests_of_chance"].push_back({{"question", c.question},
                                        {"about", c.about},
                                        {"p", c.p},
-                                       {"level", chance_level},
+                                       {"level", c.level()},
                                        {"observed", c.observed},
                                        {"chance_reaches", c.usual},
                                        {"simulations", c.simulations},

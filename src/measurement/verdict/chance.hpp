@@ -26,7 +26,8 @@ struct Chance {
   // Leads: in which share of data from the best it would exceed what chance reaches, so that the two were told apart.
   double told_apart = std::numeric_limits<double>::quiet_NaN();
   bool within_tolerances = false;  // chance only if what the laboratory states is off within its tolerances
-  bool chance() const { return p > chance_level; }
+  double level() const { return question == another_question ? further_level : chance_level; }
+  bool chance() const { return p > level(); }
 };
 
 // Of data made again and again, draw(s) saying what is asked of the s-th: p, and the value that chance reaches in one of twenty.
