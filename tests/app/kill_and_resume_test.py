@@ -45,15 +45,16 @@ class KillAndResume(InFolder):
         self.assertEqual(datasets(folder / "samples.h5"), datasets(self.whole / "samples.h5"))
 
     def test_kill_nine_of_a_rank_at_random_moments(self):
-        """One while it starts, the others soon after a share of the blocks is kept, however fast the machine is at that time."""
+        """Soon after a share of the blocks is kept, however fast the machine is at that time. Not while it starts: Open MPI's launcher may wait
+        for ever for a rank that was killed before it had joined the others."""
         dice = random.Random(20051)
         kept = []
-        for number, share in enumerate((0, dice.uniform(0, 0.4), dice.uniform(0.4, 0.8), dice.uniform(0.8, 1))):
+        for number, share in enumerate(dice.uniform(quarter, quarter + 0.25) for quarter in (0, 0.25, 0.5, 0.75)):
             folder = self.folder / f"killed-{number}"
             launcher = self.start(folder)
-            while launcher.poll() is None and finished_blocks(folder) < share * self.samples / 64:
+            while launcher.poll() is None and finished_blocks(folder) <= share * self.samples / 64:
                 time.sleep(0.01)
-            time.sleep(dice.uniform(0, 0.02 if share else 0.4))
+            time.sleep(dice.uniform(0, 0.02))
             for rank in ranks_of(launcher.pid)[:1]:
                 os.kill(rank, signal.SIGKILL)
             launcher.communicate(timeout=60)
