@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace freestand::decision {
 namespace {
@@ -138,8 +139,18 @@ Rate ByCounts::banded(const CurveReach& curve) {
       rates(edp_.surface.resampled, f_.resampled_median, f_.resampled_dispersion, f_.resampled_cell_share), result_,
       curve);
   if (std::isnan(limits.lower(tail))) return {value};
-  const auto counted_lower = [&](double of) { return limits.lower(of); };
-  const auto counted_upper = [&](double of) { return limits.upper(of); };
+  // Each tail is asked for again and again, and takes two integrals over the hazard curve.
+  std::map<double, double> lowers, uppers;
+  const auto counted_lower = [&](double of) {
+    const auto [known, fresh] = lowers.try_emplace(of);
+    if (fresh) known->second = limits.lower(of);
+    return known->second;
+  };
+  const auto counted_upper = [&](double of) {
+    const auto [known, fresh] = uppers.try_emplace(of);
+    if (fresh) known->second = limits.upper(of);
+    return known->second;
+  };
   const auto lower = [&](double of) {
     return -fragility::largest_beside_nothing(
         of, [&](double share, double rest) { return added(&Row::to_lower, share) - counted_lower(rest); });

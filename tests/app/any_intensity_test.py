@@ -3,9 +3,10 @@
 import csv
 import json
 import re
+import shutil
 import unittest
 
-from support import InFolder, datasets, h5py, study_text, write_records
+from support import InFolder, datasets, folder_of_class, h5py, run, study_text, write_records
 
 RECORDS = '  - {records: "records/*.csv", scale_to: {pta_g: {uniform: [0.1, 1.5]}}}\n'
 WITHOUT_ORIGIN = {"study", "study_name", "command", "host", "created_utc", "ranks"}
@@ -17,11 +18,20 @@ def study_over(im, samples=1500):
 
 
 class AnyIntensity(InFolder):
+    """Each test has a copy of one sweep and of its records."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.swept = folder_of_class(cls)
+        write_records(cls.swept / "records")
+        (cls.swept / "study.yaml").write_text(study_over("report"))
+        cls.done = run(["run", cls.swept / "study.yaml", "-o", cls.swept / "out"], 2)
+        cls.done.check_returncode()
+
     def setUp(self):
         super().setUp()
-        write_records(self.folder / "records")
+        shutil.copytree(self.swept, self.folder, dirs_exist_ok=True)
         self.out = self.folder / "out"
-        self.done = self.succeed(["run", self.write("study.yaml", study_over("report")), "-o", self.out], 2)
 
     def fit(self, name, *options, ranks=1):
         self.succeed(["fit", self.out, *options, "-o", self.folder / name], ranks)

@@ -34,9 +34,7 @@ class KillAndResume(InFolder):
         folder = folder_of_class(cls)
         cls.study, cls.whole = folder / "study.yaml", folder / "whole"
         cls.study.write_text(study_text(samples=cls.samples))
-        start = time.monotonic()
         run(["sweep", cls.study, "-o", cls.whole, "--quiet"], 2).check_returncode()
-        cls.seconds = time.monotonic() - start
 
     def start(self, folder, *options):
         return subprocess.Popen(command(["sweep", self.study, "-o", folder, "--quiet", *options], 2),
@@ -47,12 +45,16 @@ class KillAndResume(InFolder):
         self.assertEqual(datasets(folder / "samples.h5"), datasets(self.whole / "samples.h5"))
 
     def test_kill_nine_of_a_rank_at_random_moments(self):
+        """Soon after a share of the blocks is kept, however fast the machine is at that time. Not while it starts: Open MPI's launcher may wait
+        for ever for a rank that was killed before it had joined the others."""
         dice = random.Random(20051)
         kept = []
-        for number in range(4):
+        for number, share in enumerate(dice.uniform(quarter, quarter + 0.25) for quarter in (0, 0.25, 0.5, 0.75)):
             folder = self.folder / f"killed-{number}"
             launcher = self.start(folder)
-            time.sleep(dice.uniform(0.2, 1.0) * self.seconds)
+            while launcher.poll() is None and finished_blocks(folder) <= share * self.samples / 64:
+                time.sleep(0.01)
+            time.sleep(dice.uniform(0, 0.02))
             for rank in ranks_of(launcher.pid)[:1]:
                 os.kill(rank, signal.SIGKILL)
             launcher.communicate(timeout=60)

@@ -109,13 +109,17 @@ def numbers(document):
     return {key: value for key, value in found.items() if key not in about_the_run}
 
 
-def walkthrough(folder, tests=None):
-    """The walk-through's study in a folder of its own, with some of its tests."""
+def walkthrough(folder, tests=None, until_s=None):
+    """The walk-through's study in a folder of its own, with some of its tests, and of these what was measured up to some time."""
     shutil.copytree(CONFIGS / "walkthrough", folder)
     if tests:
         head, *entries = (folder / "dataset.yaml").read_text(encoding="utf-8").split("  - id: ")
         kept = [entry for entry in entries if entry[:3] in tests]
         (folder / "dataset.yaml").write_text(head + "".join("  - id: " + entry for entry in kept), encoding="utf-8")
+    if until_s:
+        for file in (folder / f"{test}.csv" for test in tests):
+            head, *rows = file.read_text(encoding="utf-8").splitlines()
+            file.write_text("\n".join([head] + [row for row in rows if float(row.split(",")[0]) <= until_s]) + "\n", encoding="utf-8")
     return folder / "cabinet.yaml"
 
 

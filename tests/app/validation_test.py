@@ -16,8 +16,8 @@ class Validation(InFolder):
         super().setUp()
         self.study = self.copy("all", None)
 
-    def copy(self, name, tests):
-        return walkthrough(self.folder / name, tests)
+    def copy(self, name, tests, until_s=None):
+        return walkthrough(self.folder / name, tests, until_s)
 
     def kill_on_the_way(self, arguments):
         """Kills the run when it has kept something."""
@@ -29,7 +29,7 @@ class Validation(InFolder):
         self.assertEqual(process.wait(), -9)
 
     def test_any_number_of_ranks(self):
-        study = self.copy("few", ("t01", "t02", "t05", "t07"))  # the shortest
+        study = self.copy("few", ("t01", "t02", "t05", "t07"), 2.2)  # the shortest, until they have come to rest
         found = {}
         for ranks in (1, 3):
             out = self.folder / f"{ranks}"

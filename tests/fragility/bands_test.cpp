@@ -26,8 +26,10 @@ double coverage(const Study& study, bool group_by_record, double& mean_width) {
     Options o = options(study.records, group_by_record);
     o.empirical_fallback = false;
     o.seed = r + 1;
-    const Result result = fit(counted(o, study, r));
-    const Surface& surface = result.edps[0].surface;
+    const Tally tally = counted(o, study, r);
+    std::vector<BinFit> bins = fit_bins(tally, 0);
+    const Resampling resampling(tally.groups(), tally.groups_with_samples(), o.resamples, o.seed);
+    const Surface surface = fragility::surface(tally, 0, resampling, bins);
     if (surface.lower[2] <= truth && truth <= surface.upper[2]) covered += 1.0 / repeats;
     mean_width += (surface.upper[2] - surface.lower[2]) / repeats;
   }

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <functional>
 
+#include "fragility/bin_fit.hpp"
 #include "fragility/lognormal.hpp"
 #include "fragility/made_study.hpp"
 #include "fragility/normal.hpp"
+#include "fragility/surface.hpp"
 
 namespace freestand::fragility::bin_use_test {
 namespace {
@@ -73,9 +75,11 @@ Found simulated(const Law& law, const Samples& of, int repeats) {
         const double value = std::exp(law.shape(z));
         tally.add({i, test::uniform(i, stream + 2000000), record, Outcome::moved, {&value, 1}, {}});
       }
-    const Result result = fit(tally);
-    const BinFit& bin = result.edps[0].bins[0];
-    const Surface& surface = result.edps[0].surface;
+    // As fit() makes them, without its curves over the intensity.
+    std::vector<BinFit> bins = fit_bins(tally, 0);
+    const Resampling resampling(tally.groups(), tally.groups_with_samples(), o.resamples, o.seed);
+    const Surface surface = fragility::surface(tally, 0, resampling, bins);
+    const BinFit& bin = bins[0];
     for (std::size_t c = 0; c < at_places; ++c) {
       const double truth = normal_cdf(-places[c]);
       used[c] += std::pow(surface.probability[c] - truth, 2) / repeats;

@@ -86,7 +86,7 @@ TEST(MakeSet, NoiseIsAsLargeAsTold) {
 
 TEST(MakeSet, TestsMoveAsOnShakeTables) {
   for (const char* effect : {"static_friction", "reduced_base", "pressure_friction", "stick_ageing"}) {
-    const MadeSet set = make_set({{effect}, 3, 6, 8});
+    const MadeSet set = make_set({{effect}, 3, 6, 4});
     const double alpha = std::atan(set.drawn.width_m / set.drawn.height_m);
     int held_out = 0;
     for (const MadeTest& t : set.tests) {

@@ -42,7 +42,7 @@ class RotationAlone(unittest.TestCase):
         return json.loads(self.folder.joinpath(*path).read_text(encoding="utf-8"))
 
     def test_a_rocking_block(self):
-        self.succeed(MAKE_SETS, "-o", ".", "--effects", "impact_loss", "--first", 41, "--seeds", 1, "--tests", 5, "--duration", 8)
+        self.succeed(MAKE_SETS, "-o", ".", "--effects", "impact_loss", "--first", 41, "--seeds", 1, "--tests", 5, "--duration", 5)
         without_slip(self.folder / "impact_loss-41")
         (self.folder / "study.yaml").write_text(STUDY, encoding="utf-8")
         told = self.succeed(FREESTAND, "compare", "study.yaml", "-o", "before")

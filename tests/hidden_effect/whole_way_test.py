@@ -32,7 +32,7 @@ class WholeWay(unittest.TestCase):
     def read(self, *path):
         return json.loads(self.folder.joinpath(*path).read_text())
 
-    def make(self, effects, tests, seed=1, duration=8):
+    def make(self, effects, tests, seed=1, duration=4):
         self.run_in_folder(MAKE_SETS, "-o", ".", "--effects", effects, "--first", seed, "--seeds", 1, "--tests", tests,
                            "--duration", duration)
         (self.folder / "study.yaml").write_text(STUDY.format(f"{effects}-{seed}"))

@@ -268,7 +268,7 @@ std::string difference_of_a_sweep(const JudgedCase& c, const Evidence& e, const 
 Judgement judge(const JudgedCase& judged) try {
   const bool on_contact = judged.family == Family::bouc_wen;
   const Answer answers[] = {answer(judged, "respond", respond), answer(judged, "respond_reference", respond_reference)};
-  const Answer sweep = answer(judged, "respond, tolerance of a sweep", respond, usual);
+  const Answer sweep = on_contact ? Answer{} : answer(judged, "respond, tolerance of a sweep", respond, usual);
   const JudgedCase c = on_contact ? rung_out(judged) : judged;
   Judgement result;
   const auto first_difference = [&](const Evidence& e) {

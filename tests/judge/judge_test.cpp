@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "judge/known_gaps.hpp"
 #include "judge/tally.hpp"
@@ -68,16 +69,23 @@ TEST(Judge, AgreesOnWallsOnTheLeftAndOnBothSides) {
   EXPECT_GE(struck, judged / 2);
 }
 
-// Bouc-Wen's contact, with every effect that goes with it, alone and in pairs.
+// Bouc-Wen's contact, with every effect that goes with it, alone and in pairs. Pairs on the stiffest contact, which takes two thirds of the time
+// for its tiny steps, only with FREESTAND_LONG_TESTS; each effect alone meets it, as its number draws it, in any case.
 TEST(Judge, AgreesWithTheKernelOnABoucWenContact) {
+  const bool all = std::getenv("FREESTAND_LONG_TESTS") != nullptr;
   Tally tally;
+  int stiffest = 0;
   for (std::uint64_t number = 0; number < recipes(Family::bouc_wen).size(); ++number) {
     const JudgedCase c = judged_case(1, number, Family::bouc_wen);
+    const bool stiff = c.truth.contact.yield_m < 1e-6, alone = c.recipe.effects.size() < 2;
+    if (stiff && !alone && !all) continue;
+    stiffest += stiff;
     const Judgement judgement = judge(c);
     tally.add(c, judgement);
     EXPECT_NE(judgement.finding, Finding::disagrees) << c.text() << "\n  " << judgement.what;
   }
   std::printf("%s", tally.table().c_str());
+  EXPECT_GE(stiffest, 3);
   EXPECT_THAT(tally.empty_cells(Family::bouc_wen), testing::IsEmpty());
   EXPECT_GT(tally.total().compared, tally.total().samples * 9 / 10);
 }

@@ -259,8 +259,10 @@ def write_overturning(root, parts):
     centre = root["im/centre"][()]
     grid = np.geomspace(EDGES[EDGES > 0][0], EDGES[-1], 80)
     use = centre > 0
-    best = max(((m, s) for m in np.linspace(1, 12, 60) for s in np.linspace(0.2, 1.5, 40)),
-               key=lambda ms: stats.binom.logpmf(k[use], n[use], stats.norm.cdf(np.log(centre[use] / ms[0]) / ms[1])).sum())
+    medians, dispersions = (axis.ravel() for axis in np.meshgrid(np.linspace(1, 12, 60), np.linspace(0.2, 1.5, 40), indexing="ij"))
+    shares = stats.norm.cdf(np.log(centre[use] / medians[:, None]) / dispersions[:, None])
+    most_likely = stats.binom.logpmf(k[use], n[use], shares).sum(axis=1).argmax()
+    best = medians[most_likely], dispersions[most_likely]
     group = root.create_group("overturning")
     group.attrs.update(median=best[0], dispersion=best[1], median_se=0.1, dispersion_se=0.05, penalised=0, im="report", im_least=0.02,
                        im_most=8.6, extrapolated=0, misfit=0.08, misfit_im=2.6, misfit_p=0.21)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Comparisons and diagnoses: what is read and refused, and the pictures drawn of them."""
 import json
+import os
 import math
 import pathlib
 import tempfile
@@ -140,17 +141,19 @@ class Drawn(Temporary):
         super().setUp()
         style.apply()
 
-    def draw(self, *folders):
-        """All pictures of a validation by name; none of them crowded, all of them said in words."""
+    def draw(self, *folders, about=""):
+        """All pictures of a validation by name; all of them said in words, and none of those that the test is about crowded (the others are
+        those of other tests; all of them where FREESTAND_LONG_TESTS is set)."""
         drawn = {picture.name: picture for picture in pictures.draw(command.read(folders)[0])}
         for name, picture in drawn.items():
             with self.subTest(name):
-                self.assertEqual(overlaps(picture.figure), [])
                 self.assertGreater(len(picture.finding), 15)
                 self.assertNotRegex(picture.finding + picture.caption, r"\bnan\b|\{|\}|_")
                 self.assertTrue(picture.caption.endswith("."))
-                title, _ = style.take_headline(picture.figure)  # as the page shows it
-                self.assertEqual((title, overlaps(picture.figure)), (picture.finding, []))
+                if name.startswith(about) or "FREESTAND_LONG_TESTS" in os.environ:
+                    self.assertEqual(overlaps(picture.figure), [])
+                    title, _ = style.take_headline(picture.figure)  # as the page shows it
+                    self.assertEqual((title, overlaps(picture.figure)), (picture.finding, []))
         return drawn
 
     def test_whole_ladder(self):
@@ -171,22 +174,22 @@ class Drawn(Temporary):
                 for step, error in (("base", 70.1), ("impact_loss", 9.0), ("viscous_drag", 1.04))]
         before = make.comparison(self.folder / "before")
         after = make.comparison(self.folder / "after", ["impact_loss", "viscous_drag"], 1.04, 1.02, ladder=rows)
-        drawn = self.draw(before, after)["ladder"]
+        drawn = self.draw(before, after, about="ladder")["ladder"]
         (axes,) = drawn.figure.axes
         self.assertEqual([label.get_text() for label in axes.get_xticklabels()], ["base", "+ impact loss", "+ viscous drag"])
         self.assertIn("With impact loss and viscous drag the calibration error falls from 70.1 to 1.04", drawn.finding)
-        one = self.draw(before, make.comparison(self.folder / "after", ["impact_loss"], 1.04, 1.02))["ladder"]
+        one = self.draw(before, make.comparison(self.folder / "after", ["impact_loss"], 1.04, 1.02), about="ladder")["ladder"]
         self.assertEqual([label.get_text() for label in one.figure.axes[0].get_xticklabels()], ["base", "+ impact loss"])
 
     def test_ladder_that_ends_above_the_noise(self):
         before, after = make.comparison(self.folder / "before"), make.comparison(self.folder / "after", ["impact_loss"], 6.0, 5.0)
-        self.assertEqual(self.draw(before, after)["ladder"].finding,
+        self.assertEqual(self.draw(before, after, about="ladder")["ladder"].finding,
                          "With impact loss the held-out error falls from 13.8 to 5.00 noise units, above the noise floor of 1.04")
 
     def test_effects_without_an_error_on_tests_left_out_are_crosses(self):
         found = [make.candidate("viscous_drag", 1.0, True), make.candidate("rate_strengthening", 1.01) | {"numbers_as_met_in_practice": False},
                  make.candidate("floor_tilt", 3.0), make.candidate("flexible_legs", 2.0) | {"left_out_refitted": False}]
-        drawn = self.draw(make.diagnosis(self.folder / "crosses", candidates=found))["ranking"]
+        drawn = self.draw(make.diagnosis(self.folder / "crosses", candidates=found), about="ranking")["ranking"]
         (axes,) = drawn.figure.axes
         self.assertEqual([label.get_text() for label in axes.get_yticklabels()],
                          ["viscous drag", "rate strengthening", "floor tilt", "flexible legs"])
@@ -197,14 +200,14 @@ class Drawn(Temporary):
     def test_worst_histories_in_order_with_the_errors_of_both_models(self):
         before = make.comparison(self.folder / "before")
         after = make.comparison(self.folder / "after", ["static_friction"], 1.03, 1.01, histories=[])
-        drawn = self.draw(before, after)
+        drawn = self.draw(before, after, about="worst")
         self.assertEqual([name for name in drawn if name.startswith("worst")], ["worst_t04", "worst_t02"])
         self.assertEqual(drawn["worst_t02"].finding, "Test t02: 19.1 noise units with the base model, 1.13 with static friction")
 
     def test_history_shows_the_numbers_of_the_file(self):
         folder = make.comparison(self.folder / "one")
         value = json.loads((folder / "comparison.json").read_text())["histories"][0]
-        _, slip, residual = self.draw(folder)["worst_t02"].figure.axes
+        _, slip, residual = self.draw(folder, about="worst_t02")["worst_t02"].figure.axes
         shown = [line.get_ydata() for line in slip.get_lines()]
         np.testing.assert_allclose(shown[0], 100 * np.array(value["slip_m"]["measured"]))
         np.testing.assert_allclose(shown[1], 100 * np.array(value["slip_m"]["model"]))
@@ -213,12 +216,12 @@ class Drawn(Temporary):
     def test_a_test_that_only_the_last_model_lists_is_shown_if_missed(self):
         before = make.comparison(self.folder / "before", histories=[make.history("t02", 17)])
         after = make.comparison(self.folder / "after", ["wall_impact"], 1.0, 1.0, histories=[make.history("t03", 1)])
-        self.assertNotIn("worst_t03", self.draw(before, after))
+        self.assertNotIn("worst_t03", self.draw(before, after, about="worst_t03"))
         after = make.comparison(self.folder / "after", ["wall_impact"], 9.0, 9.0, histories=[make.history("t03", 9)])
-        self.assertIn("worst_t03", self.draw(before, after))
+        self.assertIn("worst_t03", self.draw(before, after, about="worst_t03"))
 
     def test_ranking_shows_ten_and_says_how_many_more(self):
-        drawn = self.draw(make.diagnosis(self.folder, "ambiguous"))["ranking"]
+        drawn = self.draw(make.diagnosis(self.folder, "ambiguous"), about="ranking")["ranking"]
         (axes,) = drawn.figure.axes
         names = [label.get_text() for label in axes.get_yticklabels()]
         self.assertEqual((len(names), names[:3]), (10, ["rate weakening", "static friction", "floor tilt"]))
@@ -226,7 +229,7 @@ class Drawn(Temporary):
         self.assertEqual(axes.get_xscale(), "log")
 
     def test_law_is_drawn_where_it_is_a_law_of_that_variable(self):
-        drawn = self.draw(make.diagnosis(self.folder))["recovered"]
+        drawn = self.draw(make.diagnosis(self.folder), about="recovered")["recovered"]
         panels = {axes.get_xlabel(): axes for axes in drawn.figure.axes}
         self.assertEqual(list(panels)[0], "sliding speed (m/s)")
         self.assertNotIn("normal force over mass (g)", panels)
@@ -241,12 +244,12 @@ class Drawn(Temporary):
 
     def test_no_law_is_drawn_where_no_effect_is_named(self):
         for verdict in ("none", "unknown"):
-            self.assertFalse(self.blue_lines(self.draw(make.diagnosis(self.folder / verdict, verdict))))
+            self.assertFalse(self.blue_lines(self.draw(make.diagnosis(self.folder / verdict, verdict), about="recovered")))
 
     def test_no_law_is_drawn_but_that_of_the_effect_that_the_verdict_names(self):
         found = [make.candidate("static_friction", 1.2, True), make.candidate("rate_weakening", 2.0)]
         folder = make.diagnosis(self.folder, candidates=found, best="static_friction", effects=["static_friction"])
-        drawn = self.draw(folder)
+        drawn = self.draw(folder, about="recovered")
         self.assertFalse(self.blue_lines(drawn))
         self.assertNotIn("law of", drawn["recovered"].finding)
 
@@ -257,7 +260,7 @@ class Drawn(Temporary):
                             ({"error_left_out_floor_noise_allowed": 1.4}, "static friction leaves 1.17, but 1.40 against 1.02 where the floor's noise"),
                             ({"error_left_out_floor_noise_allowed": 0.9}, "static friction leaves 1.17, which chance does not part from it")):
             rows = [best, make.candidate("static_friction", 1.17) | other, make.candidate("floor_tilt", 2.5)]
-            finding = self.draw(make.diagnosis(self.folder, candidates=rows))["ranking"].finding
+            finding = self.draw(make.diagnosis(self.folder, candidates=rows), about="ranking")["ranking"].finding
             self.assertIn("With rate weakening the left-out error falls from 17.7 to 1.37 noise units", finding)
             self.assertIn(told, finding)
             self.assertIn("the next best leaves 2.50", finding)
@@ -266,7 +269,7 @@ class Drawn(Temporary):
     def test_verdict_none_keeps_small_differences_small(self):
         base = make.candidate("", 1.02)
         near = [make.candidate(name, value) for name, value in (("wall_impact", 1.01), ("floor_tilt", 1.02))]
-        (axes,) = self.draw(make.diagnosis(self.folder, "none", candidates=near, base=base, noise_floor=1.04))["ranking"].figure.axes
+        (axes,) = self.draw(make.diagnosis(self.folder, "none", candidates=near, base=base, noise_floor=1.04), about="ranking")["ranking"].figure.axes
         low, high = axes.get_xlim()
         self.assertGreater(high - low, 0.3)
 
@@ -301,7 +304,7 @@ class Drawn(Temporary):
             root.attrs["effects"] = json.dumps([{"name": "static_friction", "parameters": []}])
             for key in ("probability", "lower", "upper"):
                 root[f"edp/delta/surface/{key}"][...] *= 0.5
-        picture = self.draw(make.comparison(self.folder / "one"), support.sweep(), changed)["before_after"]
+        picture = self.draw(make.comparison(self.folder / "one"), support.sweep(), changed, about="before_after")["before_after"]
         self.assertRegex(picture.finding, r"With static friction P\(Δ.>.0\.5\) falls by up to 0\.50")
         self.assertEqual(picture.figure.axes[-1].get_title(loc="left").strip(), "P(overturned)")
 
@@ -310,7 +313,7 @@ class Drawn(Temporary):
         with h5py.File(other / "fragility.h5", "a") as root:
             root.attrs["im"] = "pga_g"
         folders = [make.comparison(self.folder / "one"), support.sweep(), other]
-        self.assertNotIn("before_after", self.draw(*folders))
+        self.assertNotIn("before_after", self.draw(*folders, about="before_after"))
         self.assertEqual(support.run("report", *folders, "-o", self.folder / "page.html").returncode, 0)
         self.assertIn("not drawn together", Page((self.folder / "page.html").read_text()).text)
 
