@@ -14,23 +14,7 @@ namespace {
 constexpr double flat = 9;
 constexpr std::size_t nodes = 16;
 
-// One stretch of the hazard curve, cut to a range: rate = rate_from (im/from)^-slope.
-struct Piece {
-  double from, to, rate_from, rate_to, slope;
-};
-
-std::vector<Piece> pieces(const HazardCurve& hazard, const Range& range) {
-  std::vector<Piece> found;
-  for (std::size_t i = 0; i + 1 < hazard.im.size(); ++i) {
-    const double from = std::max(hazard.im[i], range.from), to = std::min(hazard.im[i + 1], range.to);
-    if (!(from < to)) continue;
-    const double slope =
-        -std::log(hazard.annual_rate[i + 1] / hazard.annual_rate[i]) / std::log(hazard.im[i + 1] / hazard.im[i]);
-    const auto rate = [&](double im) { return hazard.annual_rate[i] * std::pow(im / hazard.im[i], -slope); };
-    found.push_back({from, to, rate(from), rate(to), slope});
-  }
-  return found;
-}
+using Piece = HazardPiece;
 
 // Integral of f(ln im) slope rate(im) d ln im, in `panels` panels.
 template <class F>
@@ -74,10 +58,27 @@ double LognormalFragility::operator()(double im) const {
   return gsl_cdf_ugaussian_P(std::log(im / median) / dispersion);
 }
 
+std::vector<HazardPiece> pieces(const HazardCurve& hazard, const Range& range) {
+  std::vector<Piece> found;
+  for (std::size_t i = 0; i + 1 < hazard.im.size(); ++i) {
+    const double from = std::max(hazard.im[i], range.from), to = std::min(hazard.im[i + 1], range.to);
+    if (!(from < to)) continue;
+    const double slope =
+        -std::log(hazard.annual_rate[i + 1] / hazard.annual_rate[i]) / std::log(hazard.im[i + 1] / hazard.im[i]);
+    const auto rate = [&](double im) { return hazard.annual_rate[i] * std::pow(im / hazard.im[i], -slope); };
+    found.push_back({from, to, rate(from), rate(to), slope});
+  }
+  return found;
+}
+
 double annual_rate(const HazardCurve& hazard, const LognormalFragility& fragility, const Range& range) {
+  return annual_rate(pieces(hazard, range), fragility);
+}
+
+double annual_rate(const std::vector<HazardPiece>& hazard, const LognormalFragility& fragility) {
   if (!(fragility.median > 0) || !(fragility.dispersion > 0)) return std::numeric_limits<double>::quiet_NaN();
   double sum = 0;
-  for (const Piece& piece : pieces(hazard, range)) sum += of_piece(piece, fragility);
+  for (const Piece& piece : hazard) sum += of_piece(piece, fragility);
   return sum;
 }
 

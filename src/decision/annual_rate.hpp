@@ -28,6 +28,13 @@ struct LognormalFragility {
 // k0 median^-k exp(k^2 dispersion^2/2). NaN where the fragility is.
 double annual_rate(const HazardCurve&, const LognormalFragility&, const Range& range = {});
 
+// The same under a curve that is cut once, for many fragilities. A stretch of it: rate = rate_from (im/from)^-slope.
+struct HazardPiece {
+  double from, to, rate_from, rate_to, slope;
+};
+std::vector<HazardPiece> pieces(const HazardCurve&, const Range& range = {});
+double annual_rate(const std::vector<HazardPiece>&, const LognormalFragility&);
+
 // A fragility that is known at some intensities (increasing): linear in ln im between them, constant to the ends of `known`, which
 // holds them; nothing is said outside.
 struct TabulatedFragility {

@@ -36,7 +36,12 @@ HazardCurve begun_earlier(const HazardCurve& hazard, double im) {
 // Events above the hazard curve's end are as many as it has there, and as likely to exceed as there.
 struct ByFunction {
   const HazardCurve& hazard;
-  double rate(const LognormalFragility& f, const Range& range = {}) const {
+  std::vector<HazardPiece> whole = pieces(hazard);
+
+  double rate(const LognormalFragility& f) const {
+    return annual_rate(whole, f) + hazard.annual_rate.back() * f(hazard.last());
+  }
+  double rate(const LognormalFragility& f, const Range& range) const {
     const double tail = range.to > hazard.last() ? hazard.annual_rate.back() * f(hazard.last()) : 0;
     return annual_rate(hazard, f, range) + tail;
   }
