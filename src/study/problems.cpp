@@ -7,9 +7,7 @@
 namespace freestand::study {
 
 void Problems::add(int line, std::string text) {
-  const bool told = std::any_of(entries_.begin(), entries_.end(),
-                                [&](const Entry& entry) { return entry.line == line && entry.text == text; });
-  if (!told) entries_.push_back({line, std::move(text)});
+  if (told_.emplace(line, text).second) entries_.push_back({line, std::move(text)});
 }
 
 void Problems::add(const Problems& more, int line, int end) {

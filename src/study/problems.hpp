@@ -3,8 +3,10 @@
 
 #include <freestand/error.hpp>
 #include <limits>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/key_names.hpp"
@@ -38,6 +40,7 @@ class Problems {
   };
   std::string file_;
   std::vector<Entry> entries_;
+  std::set<std::pair<int, std::string>> told_;
 };
 
 // One line a text, in the order of their first: "text", or "text; and the same of b, c and 12 more" where it is that of several but

@@ -220,8 +220,11 @@ class Reader {
       file.problem("table",
                    fmt::format("table {} cannot be read (there is no such file): correct the name", table.string()));
     else
-      for (const SpecimenRow& row : read_specimen_table(table, problems))
-        read_entry(row.entry, row.line, problems, table);
+      for (const SpecimenRow& row : read_specimen_table(table, problems)) {
+        Problems of_row(table.string());
+        read_entry(row.entry, row.line, of_row, table);
+        problems.add(of_row, row.line);
+      }
     if (problems_.empty()) problems.throw_if_any();
     if (!problems.empty()) throw Error(problems_.text() + "\n" + problems.text());
     problems_.throw_if_any();

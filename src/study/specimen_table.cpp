@@ -119,7 +119,7 @@ void read_row(const Cells& header, const std::string& text, int line, std::vecto
     return;
   }
   try {
-    rows.push_back({line, on_line(line, entry_text(header, cells))});
+    rows.push_back({line, YAML::Load(entry_text(header, cells))});
   } catch (const YAML::Exception& error) {
     problems.add(line, fmt::format("a cell of the row is no number and no distribution ({}): correct it",
                                    shown(error.msg, 200)));

@@ -16,7 +16,7 @@ namespace freestand::study {
 
 struct SpecimenRow {
   int line = 0;
-  YAML::Node entry;  // as an item of `entries`; its marks are on the row's line
+  YAML::Node entry;  // as an item of `entries`; all of it stands on the row's line, whatever its marks say
 };
 
 // What is wrong with the table goes to `problems`, by lines. Throws Error where the file cannot be read.
