@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -45,9 +44,8 @@ void take(YAML::Node& root, const YAML::Node& from, const Keys& without) {
 using Named = std::vector<std::pair<std::string, YAML::Node>>;
 
 bool is_name(const std::string& text) {
-  return !text.empty() && text.size() <= longest_id &&
-         text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-") ==
-             std::string::npos;
+  const auto may_stand = [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; };
+  return !text.empty() && text.size() <= longest_id && std::all_of(text.begin(), text.end(), may_stand);
 }
 
 // One entry on one floor with one friction.
@@ -215,8 +213,7 @@ class Reader {
   void read_table(Section& file) {
     const std::filesystem::path table = read_paths_from(file, path_) / file.text("table", "");
     Problems problems(table.string());
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(table, ignored))
+    if (std::error_code ignored; !std::filesystem::is_regular_file(table, ignored))
       file.problem("table",
                    fmt::format("table {} cannot be read (there is no such file): correct the name", table.string()));
     else
@@ -374,7 +371,7 @@ class Reader {
     if (const auto [first, fresh] = ids_.try_emplace(words.id, place); !fresh)
       section.problem("id", fmt::format("id {} stands twice (first at {}): rename one", words.id, first->second));
     // What an entry makes wrong of the common parts, which are sound, is its own.
-    section.problems().add(found, section.line(), path == path_ ? section.line() : std::numeric_limits<int>::max());
+    section.problems().add(found, section.line(), section.line());
     if (!found.empty()) return;
     study.name = words.id;
     if (!intensities_.empty()) study.fragility.im = intensities_.front();
