@@ -72,6 +72,13 @@ Diagnosis searched(const Dataset& data) {
   return d;
 }
 
+// Tests whose friction differs, each alone right: a law in their stead gained 1 to 4 % of the error of tests left out, and was proposed.
+TEST(LawSearch, WhereEachTestDiffersNoLawIsProposed) {
+  for (const std::vector<double>& friction :
+       {std::vector{1.4, 1.2, 1.0, 1.0, 0.9}, std::vector{1.0, 1.2, 0.8, 0.8, 1.3}})
+    EXPECT_FALSE(searched(measured({}, friction)).proposal) << friction[0];
+}
+
 TEST(LawSearch, FindsTheLawThatIsThere) {
   const Diagnosis wavy = searched(measured({{.effect = &waves, .parameters = {0.4, 0.13}}}));
   ASSERT_TRUE(wavy.proposal);

@@ -24,6 +24,14 @@ Dataset of_two_specimens() {
   return data;
 }
 
+TEST(Specimens, AreTheirTestsWithTheSameDimensions) {
+  Dataset data = of_two_specimens();
+  data.tests[1].role = Role::holdout;
+  EXPECT_THAT(several_specimens(Bench(data, 0)), testing::HasSubstr("2 specimens (t1, t3; t4, t5, t6, t7, t8)"));
+  for (measurement::Test& t : data.tests) t.specimen = data.tests[0].specimen;
+  EXPECT_EQ(several_specimens(Bench(data, 0)), "");
+}
+
 TEST(Specimens, OfTwoFrictionsAreTold) {
   const Dataset data = of_two_specimens();
   const Bench bench(data, 0);

@@ -60,6 +60,8 @@ class Diagnoser : PairSearch {
     if (kind_of_set(bench_) == Kind::history && only_friction_scatters(out_))
       if (std::string specimens = friction_of_specimens(bench_, *out_.own_friction); !specimens.empty())
         out_.sentences.push_back(std::move(specimens));
+    if (out_.verdict == Verdict::unknown)
+      if (std::string specimens = several_specimens(bench_); !specimens.empty()) out_.sentences.push_back(specimens);
     name_untried();
     return std::move(out_);
   }

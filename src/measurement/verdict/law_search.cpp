@@ -51,15 +51,14 @@ class LawSearch : PairSearch {
     if (!form) return;
     const bool better = better_than_the_catalogue(*form);
     if (!better && !does_for_several(*form)) return;
-    const auto tests = tests_of(bench_.data(), Role::calibration);
+    if (diagnosis_.verdict == Verdict::unknown && !earns_its_numbers(*form)) return;
     diagnosis_.proposal = *form;
     if (diagnosis_.verdict != Verdict::unknown) withdraw(*form);
     diagnosis_.sentences.push_back(
         fmt::format("a law of no catalogue does {}: {}; it brings the left-out error from {} to {} (proposed_law.yaml, "
                     "which `freestand add` takes)",
-                    better ? "better" : "as well", law_of(*form),
-                    three_digits(pooled(bench_, tests, diagnosis_.base.fit.left_out).error),
-                    three_digits(pooled(bench_, tests, form->fit.left_out).error)));
+                    better ? "better" : "as well", law_of(*form), three_digits(left_out(diagnosis_.base.fit)),
+                    three_digits(left_out(form->fit))));
   }
 
  private:
@@ -107,9 +106,27 @@ class LawSearch : PairSearch {
     return !chance.chance();
   }
 
+  double left_out(const ModelFit& fit) const {
+    return pooled(bench_, tests_of(bench_.data(), Role::calibration), fit.left_out).error;
+  }
+
+  // Half of what the base leaves of tests left out, in the mean square, or a part of it in so many of them that it is no chance: where each
+  // test differs from the others a law in their stead misses them all the same.
+  bool earns_its_numbers(const Candidate& form) const {
+    const auto &before = diagnosis_.base.fit.left_out, &after = form.fit.left_out;
+    if (std::pow(left_out(form.fit), 2) <= std::pow(left_out(diagnosis_.base.fit), 2) / 2) return true;
+    const auto n = static_cast<double>(after.size());
+    double sum = 0, squares = 0;
+    for (std::size_t k = 0; k < after.size(); ++k) {
+      const double gain = before[k].score - after[k].score;
+      sum += gain;
+      squares += gain * gain;
+    }
+    const double error = std::sqrt(std::max(squares - sum * sum / n, 0.0) / (n - 1) / n);
+    return n > 1 && sum / n > gsl_cdf_tdist_Pinv(1 - chance_level, n - 1) * error;
+  }
+
   const Candidate* simplest_that_leads() {
-    const auto tests = tests_of(bench_.data(), Role::calibration);
-    const auto left_out = [&](const ModelFit& fit) { return pooled(bench_, tests, fit.left_out).error; };
     std::vector<const Candidate*> forms;
     for (const Candidate& c : out_.candidates)
       if (c.visible && c.fit.left_out_refitted && c.misfit < out_.base.misfit &&

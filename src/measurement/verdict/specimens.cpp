@@ -21,23 +21,41 @@ struct OneSpecimen {
   double mean() const { return sum / n(); }
 };
 
-}  // namespace
-
-std::string friction_of_specimens(const Bench& bench, const OwnNumbers& friction) {
+// ln: of the calibration tests, in their order.
+std::vector<OneSpecimen> specimens_of(const Bench& bench, const std::vector<double>& ln) {
   std::vector<OneSpecimen> all;
   const auto tests = tests_of(bench.data(), Role::calibration);
-  double sum = 0;
   for (std::size_t k = 0; k < tests.size(); ++k) {
     const Test& test = bench.test(tests[k]);
-    const double ln = std::log(friction.of_tests[k]);
     auto at = std::find_if(all.begin(), all.end(), [&](const OneSpecimen& s) { return s.dimensions == test.specimen; });
     if (at == all.end()) at = all.insert(at, {.dimensions = test.specimen, .tests = {}});
     at->tests.push_back(test.id);
-    at->sum += ln;
-    at->squares += ln * ln;
-    sum += ln;
+    at->sum += ln[k];
+    at->squares += ln[k] * ln[k];
   }
-  const auto n = static_cast<double>(tests.size()), groups = static_cast<double>(all.size());
+  return all;
+}
+
+}  // namespace
+
+std::string several_specimens(const Bench& bench) {
+  const auto all = specimens_of(bench, std::vector<double>(bench.size(), 0));
+  if (all.size() < 2) return {};
+  std::vector<std::string> told;
+  for (const OneSpecimen& s : all) told.push_back(fmt::format("{}", fmt::join(s.tests, ", ")));
+  return fmt::format(
+      "the tests are of {} specimens ({}), of which one may have an effect that another has not: hold the model "
+      "against one "
+      "specimen at a time",
+      all.size(), fmt::join(told, "; "));
+}
+
+std::string friction_of_specimens(const Bench& bench, const OwnNumbers& friction) {
+  std::vector<double> ln;
+  double sum = 0;
+  for (const double factor : friction.of_tests) sum += ln.emplace_back(std::log(factor));
+  const std::vector<OneSpecimen> all = specimens_of(bench, ln);
+  const auto n = static_cast<double>(ln.size()), groups = static_cast<double>(all.size());
   if (groups < 2 || n <= groups) return {};
   double between = 0, within = 0;
   for (const OneSpecimen& s : all) {

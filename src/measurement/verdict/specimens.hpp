@@ -11,4 +11,8 @@ namespace freestand::measurement {
 // (analysis of variance, F test); else empty.
 std::string friction_of_specimens(const Bench&, const OwnNumbers& friction);
 
+// A sentence where the calibration tests are of several specimens, one of which may have an effect that another has not: which tests are
+// of which; else empty.
+std::string several_specimens(const Bench&);
+
 }  // namespace freestand::measurement
