@@ -20,7 +20,8 @@ const std::vector<LawForm>& law_forms();
 // One law of several: the product of their factors, the sum of their forces, their numbers in this order.
 LawForm together(const std::vector<LawForm>&);
 
-// The entry of a study's `effects`, as `freestand add` takes it, its numbers to be calibrated around these values.
+// The entry of a study's `effects`, as `freestand add` takes it, its numbers to be calibrated around these values. Where the law would make
+// friction negative, farther than was measured, there is none.
 std::string entry_of(const LawForm&, const std::vector<double>& values);
 
 // The law at these places of its variable, all else at rest: friction coefficient where mu is that of the base's number, or

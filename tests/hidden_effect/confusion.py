@@ -38,7 +38,7 @@ from coverage import interval_of_share
 COLUMNS = ["right", "ambiguous", "wrong", "none", "unknown", "failed"]
 STUDY = "measurements: {}/dataset.yaml\nmodel: {{friction: {{mu: {{calibrate: [0.03, 1.2]}}}}, effects: []}}\n"
 # Faults that a verdict may name, by a word of its sentence; noise and friction that scatter spoil no verdict.
-NAMED = {"gain": "accelerometer", "wrong_width": "width", "late_clock": "clock", "one_late_clock": "clock"}
+NAMED = {"gain": ["accelerometer"], "wrong_width": ["width"], "late_clock": ["clock", "stamped"], "one_late_clock": ["clock", "stamped"]}
 FAULTS = ["coloured_noise", "drift", "gain", "wrong_width", "friction_scatter", "understated_noise", "overstated_noise",
           "late_clock", "one_late_clock"]
 SIZES = [1, 2, 3, 4, 6, 12, 30, math.inf]  # [noise units] of the plain model
@@ -94,9 +94,8 @@ def answer_kind(answer):
 def judged(answer, diagnosis):
     verdict, named, hidden = diagnosis["verdict"], set(diagnosis["effects"]), set(answer["effects"])
     kind, twins = answer_kind(answer), set(answer["twins"])
-    fault = NAMED.get(answer.get("fault"))
     if verdict == "bad_data":
-        return "right" if fault and fault in " ".join(diagnosis["sentences"]) else "wrong"
+        return "right" if any(word in " ".join(diagnosis["sentences"]) for word in NAMED.get(answer.get("fault"), [])) else "wrong"
     if kind == "outside":
         return "right" if verdict == "unknown" else verdict if verdict == "none" else "wrong"
     if kind == "none":

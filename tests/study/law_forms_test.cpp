@@ -29,6 +29,28 @@ TEST(LawForms, EachEntryIsReadAsAnEffectWithItsNumbersFree) {
   }
 }
 
+std::string friction_in(const std::string& entry) {
+  const std::string key = "friction: \"";
+  const std::size_t from = entry.find(key) + key.size();
+  return entry.substr(from, entry.find('"', from) - from);
+}
+
+// Measured to 0.03 m a friction that falls by 18 a metre is right there, and turns round at 0.055 m: a slip beyond it had no motion at all.
+TEST(LawForms, FrictionOfAnEntryEndsAtZero) {
+  const auto& all = law_forms();
+  const auto named = [&](const std::string& name) {
+    return *std::find_if(all.begin(), all.end(), [&](const LawForm& f) { return f.effect.name == name; });
+  };
+  const formula::Formula one(friction_in(entry_of(named("law_of_position"), {-18})), {"a"});
+  EXPECT_NEAR(one.value({0.03, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0}, 0.2, {-18}), 0.2 * 0.46, 1e-15);
+  EXPECT_EQ(one.value({0.06, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0}, 0.2, {-18}), 0);
+  const LawForm two = together({named("law_of_position"), named("law_of_time")});
+  const formula::Formula both(friction_in(entry_of(two, {-18, -0.1})), {"a", "d"});
+  EXPECT_NEAR(both.value({0.03, 0, 0, 0, 5, 0, 1, 0, 1, 0, 0}, 0.2, {-18, -0.1}), 0.2 * 0.46 * 0.5, 1e-15);
+  EXPECT_EQ(both.value({0.06, 0, 0, 0, 20, 0, 1, 0, 1, 0, 0}, 0.2, {-18, -0.1}), 0);
+  EXPECT_EQ(friction_in(entry_of(named("healing_at_rest"), {0.3, 0.1})), named("healing_at_rest").friction());
+}
+
 // Over its own variable every law is what its formula says by hand.
 TEST(LawForms, TheLawOverItsVariable) {
   const auto& all = law_forms();
