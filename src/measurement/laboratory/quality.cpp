@@ -154,6 +154,19 @@ struct SlipsSeen {
   std::vector<bool> in_another_unit;  // of each test
 };
 
+// Springs, and contents that move, pull with the slip's acceleration as well: they make factors up to five, others in each test. So small a
+// one is a unit where most of the other tests are in a unit too, be it the right one.
+bool may_be_physical(const std::vector<SlipScale>& scales, std::size_t i) {
+  if (std::abs(std::log(scales[i].factor)) > std::log(5)) return false;
+  std::size_t others = 0, in_a_unit = 0;
+  for (std::size_t j = 0; j < scales.size(); ++j) {
+    if (j == i || !scales[j].judged) continue;
+    ++others;
+    in_a_unit += std::abs(std::log(scales[j].factor)) < 0.05 || is_ratio_of_units(scales[j].factor);
+  }
+  return 2 * in_a_unit <= others;
+}
+
 // Signs, clocks, units and files of the slips by themselves.
 SlipsSeen look_at_slips(const Bench& bench, Quality& quality) {
   std::vector<std::size_t> wrong, mirrored;
@@ -173,10 +186,12 @@ SlipsSeen look_at_slips(const Bench& bench, Quality& quality) {
   SlipsSeen seen{false, std::vector<bool>(bench.size(), false)};
   double largest = 1;  // factor
   const auto others = floors_of_others(bench);
+  std::vector<SlipScale> scales;
+  for (std::size_t i = 0; i < bench.size(); ++i) scales.push_back(slip_scale(bench, i));
   for (std::size_t i = 0; i < others.size(); ++i) {
     const Test& test = bench.test(i);
-    const SlipScale scale = slip_scale(bench, i);
-    if (scale.is_a_unit() && scale.gain > std::max(timings[i].gain, others[i].gain)) {
+    const SlipScale& scale = scales[i];
+    if (scale.is_a_unit() && !may_be_physical(scales, i) && scale.gain > std::max(timings[i].gain, others[i].gain)) {
       timings[i] = {};
       in_units.push_back(test.id);
       seen.in_another_unit[i] = true;

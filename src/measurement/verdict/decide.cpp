@@ -346,8 +346,8 @@ class Decision {
     d_.verdict = Verdict::unknown;
     d_.reason = Reason::none_suffices;
     say(
-        fmt::format("the best effect, {}, still leaves an error of {:.2f} where noise explains 1: none of the "
-                    "catalogue is the one; look at the recovered force, and write its law as a formula{}",
+        fmt::format("the effect that foretells tests left out best, {}, still leaves an error of {:.2f} where noise "
+                    "explains 1: look at the recovered force, and write its law as a formula{}",
                     joined(best.effects), best.explained,
                     ahead.empty() ? "" : " (every other misses the tests left out by more" + ahead + ")"));
   }

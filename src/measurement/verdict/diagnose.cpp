@@ -13,6 +13,7 @@
 #include "measurement/verdict/chance_of_peaks.hpp"
 #include "measurement/verdict/decide.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"
+#include "measurement/verdict/meets_all.hpp"
 #include "measurement/verdict/pair_search.hpp"
 #include "measurement/verdict/specimens.hpp"
 
@@ -60,6 +61,11 @@ class Diagnoser : PairSearch {
     if (kind_of_set(bench_) == Kind::history && only_friction_scatters(out_))
       if (std::string specimens = friction_of_specimens(bench_, *out_.own_friction); !specimens.empty())
         out_.sentences.push_back(std::move(specimens));
+    if (kind_of_set(bench_) == Kind::history)
+      if (std::string met =
+              meets_all_tests(out_, [&](const Candidate& c) { return chance_of_misfit_of(c.fit).chance(); });
+          !met.empty())
+        out_.sentences.push_back(std::move(met));
     if (out_.verdict == Verdict::unknown)
       if (std::string specimens = several_specimens(bench_); !specimens.empty()) out_.sentences.push_back(specimens);
     name_untried();
