@@ -77,11 +77,12 @@ Rig::AtRest Integration::laws_at_rest() const {
   if (!rig.laws) return {};
   const double now = cursor.time();
   Rig::AtRest rest;
-  if (rig.laws->change_at_rest()) rest.until = cursor.run_end_s();
+  const bool changes = rig.laws->change_at_rest();
+  if (changes) rest.until = cursor.run_end_s();
   rest.known = !rig.laws->uses(Input::normal) || shaking.vertical_scale == 0;
   rest.factor = std::numeric_limits<double>::infinity();
   for (const int sigma : {-1, 1}) {
-    const LawRange range = law_range(rig, state, now, rest.constant() ? now : rest.until, sigma);
+    const LawRange range = law_range(rig, state, now, changes ? rest.until : now, sigma);
     rest.force = std::max(rest.force, range.force.magnitude());
     rest.lift = std::max(rest.lift, range.lift.upper);
     rest.moment = std::max(rest.moment, range.moment.magnitude());

@@ -127,19 +127,23 @@ Samples read_samples(const std::filesystem::path& path, const ReadOptions& optio
   return samples;
 }
 
+[[noreturn]] void refuse_pair(const std::filesystem::path& path, const std::string& other_file, const std::string& why,
+                              const char* cure) {
+  throw Error(fmt::format("{} and {} are no pair of components ({}): {}", path.string(), other_file, why, cure),
+              Exit::data);
+}
+
 // Components that do not begin together make a motion that never was.
 void check_pair(const std::filesystem::path& path, const Samples& one, const ReadOptions& options,
                 const std::string& other_file, const Samples& other) {
-  const auto refuse = [&](const std::string& why, const char* cure) {
-    throw Error(fmt::format("{} and {} are no pair of components ({}): {}", path.string(), other_file, why, cure),
-                Exit::data);
-  };
   if (std::abs(other.dt_s - one.dt_s) > 1e-6 * one.dt_s)
-    refuse(fmt::format("their steps are {} s and {} s", one.dt_s, other.dt_s), "resample one of them");
+    refuse_pair(path, other_file, fmt::format("their steps are {} s and {} s", one.dt_s, other.dt_s),
+                "resample one of them");
   if (one.start != other.start && !(options.begin_together && (one.start.empty() || other.start.empty())))
-    refuse(fmt::format("they begin at {} and at {}", one.start.empty() ? "an unknown time" : shown(one.start),
-                       other.start.empty() ? "an unknown time" : shown(other.start)),
-           "cut the earlier one");
+    refuse_pair(path, other_file,
+                fmt::format("they begin at {} and at {}", one.start.empty() ? "an unknown time" : shown(one.start),
+                            other.start.empty() ? "an unknown time" : shown(other.start)),
+                "cut the earlier one");
 }
 
 void add_vertical(const std::filesystem::path& path, Samples& samples, const ReadOptions& options) {
@@ -170,12 +174,10 @@ std::vector<double> read_cross(const std::filesystem::path& path, const Samples&
   Samples other = read_samples(options.cross_file, own);
   check_pair(path, samples, options, options.cross_file, other);
   if (samples.start.empty() && !options.begin_together && samples.horizontal.size() != other.horizontal.size())
-    throw Error(
-        fmt::format(
-            "{} and {} are no pair of components (they have {} and {} samples, and nothing tells whether they begin "
-            "together): cut both to the same instants, or say that they do (begin_together)",
-            path.string(), options.cross_file, samples.horizontal.size(), other.horizontal.size()),
-        Exit::data);
+    refuse_pair(path, options.cross_file,
+                fmt::format("they have {} and {} samples, and nothing tells whether they begin together",
+                            samples.horizontal.size(), other.horizontal.size()),
+                "cut both to the same instants, or say that they do (begin_together)");
   return std::move(other.horizontal);
 }
 

@@ -162,7 +162,7 @@ bool may_be_physical(const std::vector<SlipScale>& scales, std::size_t i) {
   for (std::size_t j = 0; j < scales.size(); ++j) {
     if (j == i || !scales[j].judged) continue;
     ++others;
-    in_a_unit += std::abs(std::log(scales[j].factor)) < 0.05 || is_ratio_of_units(scales[j].factor);
+    in_a_unit += is_in_a_unit(scales[j].factor);
   }
   return 2 * in_a_unit <= others;
 }

@@ -9,12 +9,22 @@
 
 namespace freestand::measurement {
 
-bool is_ratio_of_units(double factor) {
-  constexpr double ratios[] = {10, 100, 1000, 2.54, 25.4, 39.37, 12, 3.281, 57.296}, told_to = 0.05;
-  return factor > 0 && std::any_of(std::begin(ratios), std::end(ratios), [&](double ratio) {
-           return std::abs(std::abs(std::log(factor)) - std::log(ratio)) < told_to;
-         });
+namespace {
+
+// Either way round.
+bool is_near(double factor, double ratio) {
+  constexpr double told_to = 0.05;
+  return factor > 0 && std::abs(std::abs(std::log(factor)) - std::log(ratio)) < told_to;
 }
+
+}  // namespace
+
+bool is_ratio_of_units(double factor) {
+  constexpr double ratios[] = {10, 100, 1000, 2.54, 25.4, 39.37, 12, 3.281, 57.296};
+  return std::any_of(std::begin(ratios), std::end(ratios), [&](double ratio) { return is_near(factor, ratio); });
+}
+
+bool is_in_a_unit(double factor) { return is_near(factor, 1) || is_ratio_of_units(factor); }
 
 std::vector<OtherUnit> other_units(const Bench& bench, const ModelFit& fit, const std::vector<bool>& told) {
   constexpr double far = 8, closer = 4, right = 3;  // noise units

@@ -10,6 +10,7 @@ namespace freestand::measurement {
 
 // Units that stand for one another by mistake, over each other: of lengths (m, cm, mm, in, ft), and of angles.
 bool is_ratio_of_units(double factor);
+bool is_in_a_unit(double factor);  // one of these, or 1
 
 struct OtherUnit {
   std::size_t test = 0;

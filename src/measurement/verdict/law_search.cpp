@@ -8,6 +8,7 @@
 
 #include "base/digits.hpp"
 #include "measurement/levels.hpp"
+#include "measurement/verdict/candidates.hpp"
 #include "measurement/verdict/decide.hpp"
 #include "measurement/verdict/pair_search.hpp"
 
@@ -115,15 +116,9 @@ class LawSearch : PairSearch {
   bool earns_its_numbers(const Candidate& form) const {
     const auto &before = diagnosis_.base.fit.left_out, &after = form.fit.left_out;
     if (std::pow(left_out(form.fit), 2) <= std::pow(left_out(diagnosis_.base.fit), 2) / 2) return true;
+    const Pooled gain = paired_difference(before, after);
     const auto n = static_cast<double>(after.size());
-    double sum = 0, squares = 0;
-    for (std::size_t k = 0; k < after.size(); ++k) {
-      const double gain = before[k].score - after[k].score;
-      sum += gain;
-      squares += gain * gain;
-    }
-    const double error = std::sqrt(std::max(squares - sum * sum / n, 0.0) / (n - 1) / n);
-    return n > 1 && sum / n > gsl_cdf_tdist_Pinv(1 - chance_level, n - 1) * error;
+    return n > 1 && gain.error > gsl_cdf_tdist_Pinv(1 - chance_level, n - 1) * gain.standard_error;
   }
 
   const Candidate* simplest_that_leads() {
