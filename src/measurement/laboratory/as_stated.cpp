@@ -65,6 +65,51 @@ AsStated moved(const AsStated& s, const VectorXd& change) {
   return next;
 }
 
+// The fit with all that is stated free besides, and as stated yet.
+AsStated beside(const Bench& bench, const ModelFit& fit) {
+  AsStated s{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}};
+  for (const StatedNumber& number : stated_numbers(bench.data().tolerance, fit.model)) {
+    s.x.push_back((fit.model.*number.number).value);
+    s.names.emplace_back(number.name);
+    let_free(s.model, number);
+  }
+  return s;
+}
+
+// The same, at the numbers of a fit in which one of them was free.
+AsStated moved_to(AsStated s, const ModelFit& other) {
+  for (std::size_t i = 0; i < s.x.size(); ++i)
+    for (std::size_t k = 0; k < other.x.size(); ++k)
+      if (s.model.free[i].name == other.model.free[k].name) s.x[i] = other.x[k];
+  return s;
+}
+
+// By steps of Gauss and Newton, halved where one goes too far.
+AsStated downhill(const Bench& bench, const Judge& judge, AsStated best, const Jobs& jobs) {
+  constexpr int most_steps = 12;
+  constexpr double worth_a_step = 0.01;  // of a misfit: moves no p value
+  best.misfit = misfit(judge, best);
+  double length = 1;
+  VectorXd variance;
+  for (int step = 0; step < most_steps && count(best) > 0; ++step) {
+    const auto [gram, against] = equations(bench, judge, best, jobs);
+    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(gram);
+    variance = solver.pseudoInverse().diagonal();
+    const VectorXd change = solver.solve(against);
+    AsStated next = moved(best, length * change);
+    double there = misfit(judge, next);
+    for (; !(there < best.misfit) && length > 0.05; there = misfit(judge, next))
+      length /= 2, next = moved(best, length * change);
+    if (!(there < best.misfit - worth_a_step)) break;
+    best = std::move(next);
+    best.misfit = there, length = std::min(1.0, 2 * length);
+  }
+  const VectorXd off = deviations(best);
+  for (Index d = 0; d < off.size(); ++d)
+    best.is_off.push_back(off[d] * off[d] > gsl_cdf_chisq_Pinv(1 - chance_level, 1) * variance.tail(off.size())[d]);
+  return best;
+}
+
 }  // namespace
 
 MatrixXd slopes_as_stated(const AsStated& s, const Judge& judge, const Test& test, std::size_t i,
@@ -115,35 +160,13 @@ std::pair<ModelSpec, Values> moved_alike(const AsStated& s, const ModelFit& fit,
   return {std::move(model), std::move(x)};
 }
 
-// By steps of Gauss and Newton, halved where one goes too far.
-AsStated as_stated(const Bench& bench, const Judge& judge, const ModelFit& fit, const Jobs& jobs) {
-  constexpr int most_steps = 12;
-  constexpr double worth_a_step = 0.01;  // of a misfit: moves no p value
-  AsStated best{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}};
-  for (const StatedNumber& number : stated_numbers(bench.data().tolerance, fit.model)) {
-    best.x.push_back((fit.model.*number.number).value);
-    best.names.emplace_back(number.name);
-    let_free(best.model, number);
-  }
-  best.misfit = misfit(judge, best);
-  double length = 1;
-  VectorXd variance;
-  for (int step = 0; step < most_steps && count(best) > 0; ++step) {
-    const auto [gram, against] = equations(bench, judge, best, jobs);
-    const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(gram);
-    variance = solver.pseudoInverse().diagonal();
-    const VectorXd change = solver.solve(against);
-    AsStated next = moved(best, length * change);
-    double there = misfit(judge, next);
-    for (; !(there < best.misfit) && length > 0.05; there = misfit(judge, next))
-      length /= 2, next = moved(best, length * change);
-    if (!(there < best.misfit - worth_a_step)) break;
-    best = std::move(next);
-    best.misfit = there, length = std::min(1.0, 2 * length);
-  }
-  const VectorXd off = deviations(best);
-  for (Index d = 0; d < off.size(); ++d)
-    best.is_off.push_back(off[d] * off[d] > gsl_cdf_chisq_Pinv(1 - chance_level, 1) * variance.tail(off.size())[d]);
+AsStated as_stated(const Bench& bench, const Judge& judge, const ModelFit& fit, const Jobs& jobs,
+                   const std::vector<ModelFit>& elsewhere) {
+  const AsStated stated_so = beside(bench, fit);
+  AsStated best = downhill(bench, judge, stated_so, jobs);
+  for (const ModelFit& other : elsewhere)
+    if (AsStated there = downhill(bench, judge, moved_to(stated_so, other), jobs); there.misfit < best.misfit)
+      best = std::move(there);
   return best;
 }
 

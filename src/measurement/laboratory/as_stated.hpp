@@ -13,7 +13,8 @@ namespace freestand::measurement {
 
 // The numbers of the fit, and behind them those that are stated, where both together are likeliest: G and the squares of the deviations (over
 // their standard deviations) are least. These squares are observations like others, one more and one more number each, so that what is
-// left compares with chance as G alone does. Found downhill from the fit: a deviation by which a long rocking falls out of step is not.
+// left compares with chance as G alone does. Found downhill from the fit: a deviation by which a long rocking falls out of step is not, and is
+// to be looked for by fits of their own (`elsewhere`: the fit's numbers with one that is stated), from which it is found downhill too.
 struct AsStated {
   ModelSpec model;
   Values x;
@@ -21,7 +22,8 @@ struct AsStated {
   double misfit = 0;               // that sum
   std::vector<bool> is_off;        // by more than chance
 };
-AsStated as_stated(const Bench&, const Judge&, const ModelFit&, const Jobs&);
+AsStated as_stated(const Bench&, const Judge&, const ModelFit&, const Jobs&,
+                   const std::vector<ModelFit>& elsewhere = {});
 
 // "the width is 1.2 % smaller than stated": what is off by the most standard deviations, of what is off by more than chance; empty: nothing is.
 std::string most_off(const AsStated&);

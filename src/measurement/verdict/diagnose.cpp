@@ -120,7 +120,7 @@ class Diagnoser : PairSearch {
     const Candidate& c = out_.candidates[*out_.best];
     const Judge judge = judge_of(c.fit);
     if (c.laboratory || chance_as_stated(judge, c.fit).chance()) return;
-    if (const std::string off = most_off(as_stated(bench_, judge, c.fit, jobs_)); !off.empty())
+    if (const std::string off = most_off(stated_beside(judge, c.fit)); !off.empty())
       out_.sentences.push_back(
           fmt::format("beside {} the tests are judged by what suits them best within the tolerances of what is stated, "
                       "above all as if {}: measure that again",
@@ -134,7 +134,7 @@ class Diagnoser : PairSearch {
     for (const Candidate& c : out_.candidates)
       if (c.visible && c.fit.left_out_refitted && enough(c.fit)) return {};
     const Judge judge = judge_of(out_.base.fit);
-    const AsStated stated = as_stated(bench_, judge, out_.base.fit, jobs_);
+    const AsStated stated = stated_beside(judge, out_.base.fit);
     const std::string off = most_off(stated);
     if (off.empty() || !chance_of_misfit(bench_, judge, out_.base.fit, stated.misfit).chance()) return {};
     return fmt::format(
@@ -218,7 +218,7 @@ class Diagnoser : PairSearch {
     if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return false;
     const Judge judge = judge_of(known.fit);
     OwnNumbers own = own_friction(bench_, judge, known.fit, jobs_);
-    const double least = as_stated(bench_, judge, known.fit, jobs_).misfit - chance_of_another(known).observed;
+    const double least = stated_beside(judge, known.fit).misfit - chance_of_another(known).observed;
     if (!explain_tests(own, total(judge.samples()), least)) return false;
     out_.friction_scatter = own.scatter;
     out_.own_friction = std::move(own);

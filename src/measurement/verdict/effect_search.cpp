@@ -6,6 +6,7 @@
 #include "measurement/fit/left_out.hpp"
 #include "measurement/fit/starts.hpp"
 #include "measurement/fit/strides.hpp"
+#include "measurement/laboratory/laboratory.hpp"
 #include "measurement/verdict/decide.hpp"
 #include "measurement/verdict/pairs.hpp"
 
@@ -19,6 +20,14 @@ Values numbers_of(const ModelFit& fit, const ModelSpec& model) {
     for (std::size_t i = 0; i < fit.x.size(); ++i)
       if (fit.model.free[i].name == free.name) x.push_back(fit.x[i]);
   return fit.x.size() == model.free.size() ? x : Values{};
+}
+
+// Those that the base lacks.
+std::vector<std::string> effects_of(const ModelFit& fit, const ModelSpec& base) {
+  std::vector<std::string> names;
+  for (std::size_t i = base.effects.size(); i < fit.model.effects.size(); ++i)
+    names.push_back(fit.model.effects[i].effect->name);
+  return names;
 }
 
 }  // namespace
@@ -92,9 +101,26 @@ Chance EffectSearch::chance_of_misfit_of(const ModelFit& fit) const {
   const Judge judge = judge_of(fit);
   const Chance plain = chance_as_stated(judge, fit);
   if (plain.chance() || fit.model.effects.size() == base_.effects.size()) return plain;
-  Chance allowed = chance_of_misfit(bench_, judge, fit, as_stated(bench_, judge, fit, jobs_).misfit);
+  Chance allowed = chance_of_misfit(bench_, judge, fit, stated_beside(judge, fit).misfit);
   allowed.within_tolerances = allowed.chance();
   return allowed;
+}
+
+AsStated EffectSearch::stated_beside(const Judge& judge, const ModelFit& fit) const {
+  const auto known = deviated_.find(effects_of(fit, base_));
+  return as_stated(bench_, judge, fit, jobs_, known == deviated_.end() ? std::vector<ModelFit>{} : known->second);
+}
+
+bool EffectSearch::look_for_deviations(const Candidate& c) {
+  constexpr std::size_t points = 24;  // of each number, as of an effect that joins another
+  if (c.effects.empty() || c.laboratory || deviated_.count(c.effects)) return false;
+  std::vector<FitTask> tasks;
+  for (LaboratoryFault& fault : laboratory_faults(bench_, narrowed(c.fit), c.fit.x)) {
+    tasks.push_back({.model = std::move(fault.model), .screened = false});
+    tasks.back().starts = starts_from({c.fit.x}, tasks.back().model, points);
+  }
+  deviated_[c.effects] = fit_models(bench_, tasks, quick(), jobs_);
+  return !tasks.empty();
 }
 
 // Each as it would be at nothing, and as it was fitted beside them where it was.
@@ -114,7 +140,7 @@ Chance EffectSearch::chance_of_another(const Candidate& candidate) const {
   for (const ModelFit& fit : fits) tried.push_back(&fit);
   if (tried.empty()) return {.question = another_question, .about = {}};
   const Judge judge = judge_of(without);
-  const AsStated stated = as_stated(bench_, judge, without, jobs_);
+  const AsStated stated = stated_beside(judge, without);
   Chance chance = chance_of_gain(bench_, judge, without, tried, jobs_, &stated);
   chance.question = another_question;
   return chance;
@@ -190,9 +216,7 @@ bool EffectSearch::fit_again_by_strides(const std::vector<FitTask>& tasks, std::
 }
 
 std::optional<std::size_t> EffectSearch::improved(ModelFit& fit) {
-  std::vector<std::string> effects;
-  for (std::size_t i = base_.effects.size(); i < fit.model.effects.size(); ++i)
-    effects.push_back(fit.model.effects[i].effect->name);
+  const std::vector<std::string> effects = effects_of(fit, base_);
   if (fit.score > out_.base.fit.score - no_gain) return {};
   for (std::size_t i = 0; i < out_.candidates.size(); ++i) {
     Candidate& known = out_.candidates[i];

@@ -1,6 +1,9 @@
 // What every search for effects does with its candidates: who can be seen, fits to the end, judgement.
 #pragma once
 
+#include <map>
+
+#include "measurement/laboratory/as_stated.hpp"
 #include "measurement/verdict/diagnose.hpp"
 
 namespace freestand::measurement {
@@ -49,6 +52,10 @@ class EffectSearch {
   // Is it enough? Its misfit against data from itself; of the base with effects but for what goes with deviations from what the laboratory
   // states, which beside the bare base are candidates of their own.
   Chance chance_of_misfit_of(const ModelFit&) const;
+  // What the laboratory states, as suits a fit best.
+  AsStated stated_beside(const Judge&, const ModelFit&) const;
+  // Looks for it as for an effect, by fits with one of these numbers free. False: it was looked for, or none changes anything.
+  bool look_for_deviations(const Candidate&);
   // With nothing that is stated off.
   Chance chance_as_stated(const Judge&, const ModelFit&) const;
   // Does one more effect help beside those of a candidate? Of all that may join it, beyond such deviations.
@@ -63,6 +70,9 @@ class EffectSearch {
   const Jobs& jobs_;
   std::size_t tests_;
   Diagnosis out_;
+
+ private:
+  std::map<std::vector<std::string>, std::vector<ModelFit>> deviated_;  // what that found beside which effects
 };
 
 }  // namespace freestand::measurement

@@ -5,6 +5,8 @@
 
 #include <utility>
 
+#include "measurement/levels.hpp"
+
 namespace freestand::measurement {
 
 std::string meets_all_tests(const Diagnosis& d, const std::function<bool(const Candidate&)>& enough) {
@@ -14,8 +16,8 @@ std::string meets_all_tests(const Diagnosis& d, const std::function<bool(const C
   };
   const Candidate* found = nullptr;
   for (const Candidate& c : d.candidates)
-    if (c.visible && !c.laboratory && c.fit.left_out_refitted && c.misfit_of_fit < d.base.misfit_of_fit &&
-        (!found || before(c, *found)) && enough(c))
+    if (c.visible && !c.laboratory && c.fit.left_out_refitted && c.explained > adequate &&
+        c.misfit_of_fit < d.base.misfit_of_fit && (!found || before(c, *found)) && enough(c))
       found = &c;
   if (!found) return {};
   return fmt::format(

@@ -9,7 +9,7 @@
 namespace freestand::measurement {
 
 // A sentence where the verdict is `unknown` and an effect of the catalogue, fitted to all tests together, is enough, while tests left out are
-// missed as much or more: few tests do not fix its numbers. Of these the one with fewest numbers, and of those the closest. Else empty.
+// missed by more than is adequate (levels.hpp): few tests do not fix its numbers. Of these the one with fewest numbers, and of those the closest. Else empty.
 std::string meets_all_tests(const Diagnosis&, const std::function<bool(const Candidate&)>& enough);
 
 }  // namespace freestand::measurement

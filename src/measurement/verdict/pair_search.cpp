@@ -20,11 +20,12 @@ void PairSearch::search_more() {
   while (add_one_more()) judge();
 }
 
-bool PairSearch::one_more_wanted(const Candidate& c) const {
-  return !chance_of_misfit_of(c.fit).chance() || !chance_of_another(c).chance();
+bool PairSearch::one_more_wanted(const Candidate& c) {
+  const auto wanted = [&] { return !chance_of_misfit_of(c.fit).chance() || !chance_of_another(c).chance(); };
+  return wanted() && (!look_for_deviations(c) || wanted());
 }
 
-bool PairSearch::second_effect_wanted() const {
+bool PairSearch::second_effect_wanted() {
   if (tests_ < 4 || kind_of_set(bench_) != Kind::history || only_friction_scatters(out_)) return false;
   if (!effect_may_help(out_) && chance_of_misfit_of(out_.base.fit).chance()) return false;
   return one_more_wanted(best());

@@ -16,12 +16,13 @@ class PairSearch : public EffectSearch {
   // Adds candidates of two effects to those of one, where they are wanted, then of three and more, and judges them.
   void search_more();
   const Pairs& pairs() const { return pairs_; }
-  bool one_more_wanted(const Candidate&) const;
+  // Not where it is enough once all that is stated was let off within its tolerances.
+  bool one_more_wanted(const Candidate&);
   // Each other effect beside those of a candidate. False: none may join, or changes any prediction.
   bool join_others_to(const Candidate& whole);
 
  private:
-  bool second_effect_wanted() const;
+  bool second_effect_wanted();
   // To the best one of several effects. False: nothing more is wanted or can join, or none of those that joined it has made a better one.
   bool add_one_more();
   void fit_pairs();
