@@ -1,4 +1,4 @@
-// The constants on which a verdict on histories or peaks rests. All else is computed: from the sensors' noise as it is
+// The constants on which a verdict rests. All else is computed: from the sensors' noise as it is
 // heard (sensor.hpp), from replays of the floor's noise (judge.hpp), and from data that are made and fitted again
 // (chance.hpp). How hard is searched (Effort, DiagnosisOptions) decides what is found, not what is said of it.
 //

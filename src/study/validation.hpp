@@ -32,7 +32,7 @@
 // diagnosis.json
 //   format "freestand-diagnosis/2", study, measurements, fingerprint (of all that it follows from), error_unit, verdict, effects, sentences, findings
 //   decided_by: the key by which the verdict was reached: tests_of_chance, friction_scatter, findings; where no chance was
-//     computed chi_square_left_out (histories) or score_left_out_above_best (peaks, outcomes) of the candidates
+//     computed chi_square_left_out (histories) or score_left_out_above_best (peaks) of the candidates
 //   reason: of bad_data: "data" (they look wrong in a sign, a clock or a unit, or a dimension or a gain is not as stated);
 //     of the verdict unknown: "none_helps" (no effect lowers
 //     the error by more than chance), "none_suffices" (one does, and more is left than noise makes), "one_law" (several

@@ -269,6 +269,15 @@ TEST(DecideByChance, AFaultOfTheLaboratoryIsNoEffect) {
   EXPECT_NE(d.sentences.at(0).find("the width is 2.0 % smaller than stated"), std::string::npos) << d.sentences.at(0);
 }
 
+// A gain at the end of what may be off brought a tether's tests within 1.3 times the noise, and was named.
+TEST(DecideByChance, AFaultThatLeavesMoreThanChanceIsNone) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  const Diagnosis d =
+      decided_among(bench, {candidate(bench, {"reduced_base"}, 3.0, 2.0), width_stated_wrongly(bench, 1.3)});
+  EXPECT_EQ(d.verdict, Verdict::unknown);
+}
+
 TEST(DecideByChance, AnEffectThatAWidthExplainsAsWellIsAmbiguous) {
   const Dataset data = cabinet_tests();
   const Bench bench(data, 0);

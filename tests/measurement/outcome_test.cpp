@@ -10,72 +10,13 @@
 
 #include "base/random.hpp"
 #include "effects/effects.hpp"
+#include "measurement/made_outcomes.hpp"
 #include "measurement/tell/suggest_outcomes.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"
 #include "measurement/verdict/outcome_screen.hpp"
 
 namespace freestand::measurement {
 namespace {
-
-// Slenderness and scatter free, size known.
-ModelSpec rocking_model(double size_m) {
-  ModelSpec model;
-  model.model = Model::rock;
-  model.mu_k = {.value = 1};
-  model.size = Number{.value = size_m};
-  model.slenderness = Number{.free = 0};
-  model.placement_scatter = Number{.free = 1};
-  model.free = {{.name = "block.slenderness_rad",
-                 .unit = "rad",
-                 .lower = 0.05,
-                 .upper = 0.5,
-                 .low = 0.05,
-                 .high = 0.5,
-                 .logarithmic = true},
-                {.name = "placement_scatter",
-                 .unit = "1",
-                 .lower = 0.001,
-                 .upper = 0.5,
-                 .low = 0.02,
-                 .high = 0.3,
-                 .logarithmic = true}};
-  return model;
-}
-
-// One swing of the floor to and fro: a block falls to one side, by the sign.
-FloorMotion swing(double peak_mps2, double period_s) {
-  std::vector<double> a;
-  for (int i = 0; i < 401; ++i) {
-    const double t = 0.005 * i - 0.1;
-    a.push_back(t > 0 && t < period_s ? peak_mps2 * std::sin(2 * std::numbers::pi * t / period_s) : 0);
-  }
-  return piecewise_linear("swing", 0.005, a, {});
-}
-
-constexpr double true_slenderness = 0.2, true_size_m = 0.6, true_scatter = 0.1;
-
-// Tests of a block whose slenderness scatters, with the effects of `truth`; motions that make about half overturn.
-Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& truth, std::uint64_t seed = 7,
-                      double scatters = true_scatter) {
-  Dataset data;
-  data.name = "made";
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto draw = [&](std::uint64_t stream) { return random::uniform(seed, i, stream); };
-    Test test;
-    test.id = "t" + std::to_string(i);
-    test.motion = swing((draw(1) < 0.5 ? -1 : 1) * (2 + 3 * draw(2)), 0.5 + 0.7 * draw(3));
-    const double scatter = scatters * gsl_cdf_ugaussian_Pinv(draw(4));
-    const double slenderness = true_slenderness * std::exp(scatter);
-    Specimen s;
-    s.model = Model::rock;
-    s.friction = {1, 1};
-    s.block = Block::rectangular(2 * true_size_m * std::sin(slenderness), 2 * true_size_m * std::cos(slenderness), 1);
-    s.effects = truth;
-    test.peaks.overturned = respond(s, test.shaking()).outcome == Outcome::overturned;
-    data.tests.push_back(std::move(test));
-  }
-  return data;
-}
 
 Diagnosis diagnosed(const Bench& bench, const std::vector<std::string>& names) {
   std::vector<const dynamics::Effect*> catalogue;

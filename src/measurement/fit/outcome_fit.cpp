@@ -13,48 +13,6 @@
 namespace freestand::measurement {
 namespace {
 
-// Fits of the model without the effect, to all tests and with folds left out: distinct points.
-std::vector<Values> plain_points(const ModelFit& without) {
-  std::vector<Values> points = {without.x};
-  const auto numbers = other_numbers(without.model);
-  for (const Values& x : without.fold_x) {
-    const bool known = std::any_of(points.begin(), points.end(), [&](const Values& p) {
-      return std::all_of(numbers.begin(), numbers.end(), [&](std::size_t i) { return p[i] == x[i]; });
-    });
-    if (!known) points.push_back(x);
-  }
-  return points;
-}
-
-}  // namespace
-
-void add_points(OutcomeTable& table, const std::vector<Free>& box, const std::vector<std::size_t>& numbers,
-                const Values& x, std::size_t count) {
-  if (numbers.empty()) {
-    if (table.points.empty()) table.points.push_back({x});
-    return;
-  }
-  for (const Values& z : sobol_starts(box, count)) {
-    table.points.push_back({x});
-    for (std::size_t i = 0; i < numbers.size(); ++i) table.points.back().x[numbers[i]] = z[i];
-  }
-}
-
-void add_plain_points(OutcomeTable& table, const ModelFit& without) {
-  for (const Values& x : plain_points(without)) {
-    ModelFit at = without;
-    at.x = x;
-    table.points.push_back({.x = start_at_nothing(at, *table.model.effects.back().effect), .plain = true});
-  }
-}
-
-bool is_slow(const OutcomeTable& table) {
-  const auto one_by_one = [](const EffectTerm& term) { return term.effect->dynamic() || term.effect->floor; };
-  return std::any_of(table.model.effects.begin(), table.model.effects.end(), one_by_one);
-}
-
-namespace {
-
 constexpr double usual_scatter = 0.25, wide_room = 1, room = 0.2;  // in ln(width)
 constexpr double least_box = 0.03;                                 // of the range
 // Rounds in which points close in on the best, while it gains a tenth: a scatter can be halved in each, since places are as far apart.
@@ -280,8 +238,8 @@ void look_at_ends(const Bench& bench, std::vector<OutcomeTable>& tables, const J
 }
 
 // From coarse tables to fits.
-std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTable*>& coarse, const ModelFit* without,
-                               const OutcomeEffort& effort, const Jobs& jobs) {
+std::vector<TabulatedFit> close_in(const Bench& bench, const std::vector<OutcomeTable*>& coarse,
+                                   const ModelFit* without, const OutcomeEffort& effort, const Jobs& jobs) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   std::vector<OutcomeTable> fine;
   std::vector<std::vector<Interval>> known;
@@ -331,8 +289,11 @@ std::vector<ModelFit> close_in(const Bench& bench, const std::vector<OutcomeTabl
   const auto answers = jobs("folds and resampled tests", fine.size(), [&](std::size_t i) {
     return Reading(bench, fine[i], known[i], effort.resamples).answer();
   });
-  std::vector<ModelFit> fits;
-  for (std::size_t i = 0; i < fine.size(); ++i) fits.push_back(unpacked(bench, fine[i], answers[i]));
+  std::vector<TabulatedFit> fits;
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    ModelFit fit = unpacked(bench, fine[i], answers[i]);
+    fits.push_back({std::move(fit), std::move(fine[i])});
+  }
   return fits;
 }
 
@@ -346,6 +307,11 @@ bool outcomes_only(const Dataset& data) {
 
 ModelFit fit_outcomes(const Bench& bench, const ModelSpec& model, const Values& start, const OutcomeEffort& effort,
                       const Jobs& jobs) {
+  return tabulate_outcomes(bench, model, start, effort, jobs).fit;
+}
+
+TabulatedFit tabulate_outcomes(const Bench& bench, const ModelSpec& model, const Values& start,
+                               const OutcomeEffort& effort, const Jobs& jobs) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   const auto numbers = other_numbers(model);
   const Values x = start.empty() ? middle_of_range(model) : start;
@@ -369,9 +335,9 @@ ModelFit fit_outcomes(const Bench& bench, const ModelSpec& model, const Values& 
   return close_in(bench, {&coarse}, nullptr, effort, jobs).front();
 }
 
-std::vector<ModelFit> fit_outcomes(const Bench& bench, const ModelFit& without,
-                                   const std::vector<OutcomeTable*>& coarse, const OutcomeEffort& effort,
-                                   const Jobs& jobs) {
+std::vector<TabulatedFit> tabulate_outcomes(const Bench& bench, const ModelFit& without,
+                                            const std::vector<OutcomeTable*>& coarse, const OutcomeEffort& effort,
+                                            const Jobs& jobs) {
   return close_in(bench, coarse, &without, effort, jobs);
 }
 

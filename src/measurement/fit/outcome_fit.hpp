@@ -18,18 +18,6 @@ struct OutcomeEffort {
   std::size_t seen_tests = 24, screened_tests = 60;  // with which effects are looked at before they are fitted
 };
 
-// Adds points of the fit without the effect, to all tests and with folds left out, with the effect at nothing: with it no
-// fit is worse than without.
-void add_plain_points(OutcomeTable&, const ModelFit& without);
-
-// Adds Sobol points of those numbers in the box, the rest as in x. No numbers: x alone, once.
-void add_points(OutcomeTable&, const std::vector<Free>& box, const std::vector<std::size_t>& numbers, const Values& x,
-                std::size_t count);
-
-// Does an effect go sample by sample, some tens of times slower than in packs? Then points are fewer, and places twice as
-// far apart.
-bool is_slow(const OutcomeTable&);
-
 // Do all calibration tests say no more than whether the specimen overturned?
 bool outcomes_only(const Dataset&);
 
@@ -37,9 +25,17 @@ bool outcomes_only(const Dataset&);
 // empty.
 ModelFit fit_outcomes(const Bench&, const ModelSpec&, const Values& start, const OutcomeEffort&, const Jobs&);
 
+// The same with the table that it was read off, from which fits to other outcomes of the same tests are read as well.
+struct TabulatedFit {
+  ModelFit fit;
+  OutcomeTable table;
+};
+TabulatedFit tabulate_outcomes(const Bench&, const ModelSpec&, const Values& start, const OutcomeEffort&, const Jobs&);
+
 // Models with one more effect each, from their coarse tables on (outcome_screen.hpp). `without`: fitted.
-std::vector<ModelFit> fit_outcomes(const Bench&, const ModelFit& without, const std::vector<OutcomeTable*>& coarse,
-                                   const OutcomeEffort&, const Jobs&);
+std::vector<TabulatedFit> tabulate_outcomes(const Bench&, const ModelFit& without,
+                                            const std::vector<OutcomeTable*>& coarse, const OutcomeEffort&,
+                                            const Jobs&);
 
 // At the best point of each table, on all calibration tests, without folds and intervals; left-out errors are nan.
 std::vector<ModelFit> read_outcomes(const Bench&, const std::vector<OutcomeTable*>& coarse, const Jobs&);

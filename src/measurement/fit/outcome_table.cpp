@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "measurement/fit/starts.hpp"
+
 namespace freestand::measurement {
 namespace {
 
@@ -58,7 +60,45 @@ std::vector<double> middles_of(const OutcomeTable& table, const Values& x) {
   return between(std::clamp(first, least, most), std::clamp(last, least, most), middle_step);
 }
 
+// Fits of the model without the effect, to all tests and with folds left out: distinct points.
+std::vector<Values> plain_points(const ModelFit& without) {
+  std::vector<Values> points = {without.x};
+  const auto numbers = other_numbers(without.model);
+  for (const Values& x : without.fold_x) {
+    const bool known = std::any_of(points.begin(), points.end(), [&](const Values& p) {
+      return std::all_of(numbers.begin(), numbers.end(), [&](std::size_t i) { return p[i] == x[i]; });
+    });
+    if (!known) points.push_back(x);
+  }
+  return points;
+}
+
 }  // namespace
+
+void add_points(OutcomeTable& table, const std::vector<Free>& box, const std::vector<std::size_t>& numbers,
+                const Values& x, std::size_t count) {
+  if (numbers.empty()) {
+    if (table.points.empty()) table.points.push_back({x});
+    return;
+  }
+  for (const Values& z : sobol_starts(box, count)) {
+    table.points.push_back({x});
+    for (std::size_t i = 0; i < numbers.size(); ++i) table.points.back().x[numbers[i]] = z[i];
+  }
+}
+
+void add_plain_points(OutcomeTable& table, const ModelFit& without) {
+  for (const Values& x : plain_points(without)) {
+    ModelFit at = without;
+    at.x = x;
+    table.points.push_back({.x = start_at_nothing(at, *table.model.effects.back().effect), .plain = true});
+  }
+}
+
+bool is_slow(const OutcomeTable& table) {
+  const auto one_by_one = [](const EffectTerm& term) { return term.effect->dynamic() || term.effect->floor; };
+  return std::any_of(table.model.effects.begin(), table.model.effects.end(), one_by_one);
+}
 
 void compute(const Bench& bench, const std::vector<OutcomeTable*>& tables, const std::string& what, const Jobs& jobs) {
   struct Place {
@@ -237,6 +277,20 @@ std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std:
     widen(i, first, last, {first ? 0 : below[further - 1], last ? 0 : above[further - 1]});
   }
   return range;
+}
+
+Eigen::VectorXf TableSearch::least_squares(const Eigen::MatrixXf& outcomes) const {
+  using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::Index tests = outcomes.rows(), rows = static_cast<Eigen::Index>(rows_.size());
+  constexpr Eigen::Index at_once = 256;  // rows, so that products stay small
+  Eigen::VectorXf least = Eigen::VectorXf::Constant(outcomes.cols(), std::numeric_limits<float>::infinity());
+  for (Eigen::Index first = 0; first < rows; first += at_once) {
+    const Eigen::Map<const Rows> p(probability_.data() + first * tests, std::min(at_once, rows - first), tests);
+    Eigen::MatrixXf square = -2 * p * outcomes;  // but for what happened, which is the same for all rows
+    square.colwise() += p.rowwise().squaredNorm();
+    least = least.cwiseMin(square.colwise().minCoeff().transpose());
+  }
+  return least + outcomes.colwise().sum().transpose();
 }
 
 std::vector<double> TableSearch::scores() const {

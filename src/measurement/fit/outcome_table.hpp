@@ -3,6 +3,8 @@
 // over middle and scatter of the placements, in which it is smooth. So folds and resampled tests cost nothing.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "measurement/fit/model_fit.hpp"
 #include "measurement/predict/placements.hpp"
 
@@ -20,6 +22,18 @@ struct OutcomeTable {
   Places places = {};
   std::vector<TablePoint> points = {};
 };
+
+// Adds points of the fit without the effect, to all tests and with folds left out, with the effect at nothing: with it no
+// fit is worse than without.
+void add_plain_points(OutcomeTable&, const ModelFit& without);
+
+// Adds Sobol points of those numbers in the box, the rest as in x. No numbers: x alone, once.
+void add_points(OutcomeTable&, const std::vector<Free>& box, const std::vector<std::size_t>& numbers, const Values& x,
+                std::size_t count);
+
+// Does an effect go sample by sample, some tens of times slower than in packs? Then points are fewer, and places twice as
+// far apart.
+bool is_slow(const OutcomeTable&);
 
 // Fills what is not yet computed, in jobs of one point and a part of the tests.
 void compute(const Bench&, const std::vector<OutcomeTable*>&, const std::string& what, const Jobs&);
@@ -39,6 +53,8 @@ class TableSearch {
   // Least mean score with these weights of the tests; all alike where empty. Of rows with the same score, which may be many where few tests
   // say little, the one at that share of them.
   TableFit best(const std::vector<double>& weight = {}, double among = 0) const;
+  // Least sums of squares of each set of outcomes (a column, 0 or 1 of each test), as it would be fitted by the rows.
+  Eigen::VectorXf least_squares(const Eigen::MatrixXf& outcomes) const;
   // Least score of each point of the table over middle and scatter, all tests alike; infinite where it was left out.
   std::vector<double> scores() const;
   // Of each number, from all points whose scores are worse than those of the fit by no more than chance: by their paired

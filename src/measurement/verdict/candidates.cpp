@@ -1,7 +1,5 @@
 #include "measurement/verdict/candidates.hpp"
 
-#include <gsl/gsl_cdf.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -42,10 +40,11 @@ Pooled paired_difference(const std::vector<TestError>& a, const std::vector<Test
   return difference;
 }
 
-bool worse_left_out(const Candidate& a, const Candidate& b) {
-  const Pooled difference = paired_difference(a.fit.left_out, b.fit.left_out);
-  const double n = static_cast<double>(a.fit.left_out.size());
-  return difference.error > gsl_cdf_tdist_Pinv(0.975, n - 1) * difference.standard_error && difference.error > 1e-9;
+double least_misfit(const Diagnosis& d) {
+  double least = d.base.misfit_of_fit;
+  for (const Candidate& c : d.candidates)
+    if (c.visible && c.fit.left_out_refitted) least = std::min(least, c.misfit_of_fit);
+  return least;
 }
 
 void put_in_order(const Bench& bench, const Candidate* best, Diagnosis& d) {

@@ -17,9 +17,8 @@ bool is_part(const Candidate& part, const Candidate& whole);
 // Fills misfits, explained and delta_bic of base and candidates.
 void judge_histories(const Bench&, const Judge&, Diagnosis&, const Jobs&);
 
-// Does a miss the tests left out by more than b, beyond chance? Of paired differences of their scores, Student's t at
-// 97.5 %: one that is as good in truth is held to be worse in one set of forty.
-bool worse_left_out(const Candidate& a, const Candidate& b);
+// Of the base and of what was fitted to the end, with the fit to all tests.
+double least_misfit(const Diagnosis&);
 
 // Remarks of candidates that do as well as the best one and are not named.
 inline constexpr const char *odd_numbers = "with numbers that are not met in practice",

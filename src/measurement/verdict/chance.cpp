@@ -18,8 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A p value of 0.05 is known to 0.005 (one standard deviation) by so many.
-constexpr std::uint64_t simulations = 2000;
 constexpr double least_length = 1e-2;  // of a direction: histories that change by less in all show nothing
 
 double standard_normal(std::uint64_t sample, std::uint64_t i) { return random::standard_normal(20, sample, i); }
@@ -169,9 +167,9 @@ Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& ba
 
 void weigh(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
   std::vector<double> made;
-  for (std::uint64_t s = 0; s < simulations; ++s) made.push_back(draw(s));
+  for (std::uint64_t s = 0; s < chance_simulations; ++s) made.push_back(draw(s));
   const auto more = std::count_if(made.begin(), made.end(), [&](double m) { return m >= chance.observed; });
-  chance.simulations = static_cast<int>(simulations);
+  chance.simulations = static_cast<int>(chance_simulations);
   chance.p = (1 + static_cast<double>(more)) / (1 + static_cast<double>(made.size()));
   const auto place = made.begin() + static_cast<long>((1 - chance_level) * static_cast<double>(made.size()));
   std::nth_element(made.begin(), place, made.end());
@@ -180,8 +178,8 @@ void weigh(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
 
 void weigh_power(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
   std::uint64_t more = 0;
-  for (std::uint64_t s = 0; s < simulations; ++s) more += draw(s) > chance.usual;
-  chance.told_apart = static_cast<double>(more) / static_cast<double>(simulations);
+  for (std::uint64_t s = 0; s < chance_simulations; ++s) more += draw(s) > chance.usual;
+  chance.told_apart = static_cast<double>(more) / static_cast<double>(chance_simulations);
 }
 
 // Of n independent numbers the sum of squares has the mean n and the variance 2 n (n is some thousand); p of them go into the

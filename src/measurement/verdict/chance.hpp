@@ -3,6 +3,7 @@
 // sensors as estimated (sensor.hpp), and of the floor a replay drawn for each test, judged by the covariance of the others.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -29,6 +30,9 @@ struct Chance {
   double level() const { return question == another_question ? further_level : chance_level; }
   bool chance() const { return p > level(); }
 };
+
+inline constexpr std::uint64_t chance_simulations =
+    2000;  // a p value of 0.05 is known to 0.005 (one standard deviation)
 
 // Of data made again and again, draw(s) saying what is asked of the s-th: p, and the value that chance reaches in one of twenty.
 void weigh(Chance&, const std::function<double(std::uint64_t s)>& draw);

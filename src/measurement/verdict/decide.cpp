@@ -217,15 +217,15 @@ class Decision {
   // Also by the plain error: a base that strayed after one test that the floor's noise had turned elsewhere looks worse to
   // the covariance of its own replays than it is. And by more than its own replays stray. An effect that one test alone tells of cannot
   // be foretold without it, and gains in the fit to all.
-  bool better_than_base(const Candidate& best) const {
+  bool better_than_base(const Candidate& best) {
     if (!histories_) return left_out(best) < left_out(d_.base) && help() && !help()->chance();
     const bool foretold = left_out(best) < left_out(d_.base) && best.misfit < d_.base.misfit &&
                           gain_beyond_strays(d_.base.misfits, best.misfits) > 0;
     const bool told_by_one =
         is_missed_like_base(best) && gain_beyond_strays(d_.base.misfits_of_fit, best.misfits_of_fit) > gain_of_chance();
     if (!foretold && !told_by_one) return false;
-    if (best.laboratory || !help()) return d_.base.misfit_of_fit - best.misfit_of_fit > gain_of_chance();
-    return !help()->chance();
+    const bool gains = d_.base.misfit_of_fit - best.misfit_of_fit > gain_of_chance();
+    return best.laboratory ? gains && enough(best) : help() ? !help()->chance() : gains;
   }
   // On tests left out, by what the table shows.
   bool is_missed_like_base(const Candidate& c) const {
@@ -251,9 +251,10 @@ class Decision {
     }
   }
 
+  // A number that is stated wrongly, and no law that comes near: put right it leaves noise alone.
   bool enough(const Candidate& c) {
     return !histories_ || chance_of(misfit_question, whole(c), [&] { return ask_.enough(c); }) ||
-           c.explained <= adequate;
+           (c.explained <= adequate && !c.laboratory);
   }
 
   // Said where a model that is near enough still leaves more than chance.
@@ -383,13 +384,6 @@ class Decision {
 }  // namespace
 
 bool effect_may_help(const Diagnosis& d) { return !help_of(d) || !help_of(d)->chance(); }
-
-double least_misfit(const Diagnosis& d) {
-  double least = d.base.misfit_of_fit;
-  for (const Candidate& c : d.candidates)
-    if (c.visible && c.fit.left_out_refitted) least = std::min(least, c.misfit_of_fit);
-  return least;
-}
 
 bool only_friction_scatters(const Diagnosis& d) {
   return d.own_friction && d.friction_of_base && explain_tests(*d.own_friction, total(d.samples), least_misfit(d));

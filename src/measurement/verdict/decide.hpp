@@ -6,7 +6,8 @@
 //             lead is more than data from the smaller would give it, and so is the gain of one more effect, among all
 //             that may join
 //   rivals    those whose own data would give the best its lead, and those that miss tests left out by less
-//   enough    its misfit is one that data from itself may have, or its own error is no larger than the noise
+//   enough    its misfit is one that data from itself may have, or its own error is no larger than the noise. What the laboratory states
+//             wrongly is named only by the former: a number that is put right leaves noise alone
 //
 // Of the best and its rivals, and of all candidates where none helps, the one of least left-out error is told as the best.
 // What leaves less still, and what does as well with odd numbers, has a remark that says why it is not named.
@@ -30,8 +31,6 @@ bool effect_may_help(const Diagnosis&);
 // A friction of its own in each test takes the base to the noise, and the best candidate misses the tests by more than so
 // many numbers gain by chance.
 bool only_friction_scatters(const Diagnosis&);
-// Of the base and of what was fitted to the end, with the fit to all tests.
-double least_misfit(const Diagnosis&);
 
 // Fills verdict, reason, effects, best, rivals, chances, differences, sentences, and orders the candidates.
 void decide(const Bench&, Diagnosis&, const Questions&);

@@ -8,7 +8,7 @@
 //   3. Histories: models are compared by their misfit G = r^T C^-1 r of the tests left out (judge.hpp), and by chance that
 //      is computed (chance.hpp): may the largest gain of all effects tried be chance, may the lead of the best over a
 //      rival? Beside the effects stand faults of the laboratory (laboratory.hpp), and a friction of its own in each test
-//      (own_numbers.hpp). Peaks and outcomes: by paired differences of the left-out scores with their standard error.
+//      (own_numbers.hpp).
 //
 // Tests that say only whether the specimen overturned go their own way (diagnose_outcomes.hpp).
 //

@@ -1,14 +1,15 @@
 #include "measurement/verdict/diagnose_outcomes.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include "base/random.hpp"
 #include "measurement/levels.hpp"
+#include "measurement/verdict/chance_of_outcomes.hpp"
 #include "measurement/verdict/outcome_screen.hpp"
 
 namespace freestand::measurement {
@@ -34,16 +35,17 @@ class OutcomeDiagnoser {
 
   Diagnosis run(const ModelSpec& base, const Catalogue& catalogue, const Values& start) {
     out_.base.effects = {};
-    out_.base.fit = fit_outcomes(bench_, base, start, effort_, jobs_);
+    base_ = tabulate_outcomes(bench_, base, start, effort_, jobs_);
+    out_.base.fit = base_.fit;
     for (const TestError& e : out_.base.fit.calibration)
       out_.noise_floor.push_back(e.probability * (1 - e.probability));
     describe_base();
-    tried_ = join({}, out_.base.fit, catalogue);
-    if (const Candidate* best = accepted(out_.base, 1, tried_)) {
+    join({}, out_.base.fit, catalogue);
+    if (const Candidate* best = accepted(out_.base)) {
       const Candidate first = *best;
-      const std::size_t pairs = join(first.effects, first.fit, catalogue);
-      const Candidate* second = accepted(first, 2, pairs);
-      settle(second ? *second : first, second ? first : out_.base, second ? pairs : tried_);
+      join(first.effects, first.fit, catalogue);
+      const Candidate* second = accepted(first);
+      settle(second ? *second : first, second ? first : out_.base);
     } else {
       nothing_found();
     }
@@ -56,8 +58,8 @@ class OutcomeDiagnoser {
   static double left_out(const Candidate& c) { return c.fit.mean_left_out(); }
   static std::string label(const Candidate& c) { return joined(c.effects, " and "); }
 
-  // Candidates of one effect more than `known`. Returns how many of them the tests can see.
-  std::size_t join(const std::vector<std::string>& known, const ModelFit& without, const Catalogue& catalogue) {
+  // Candidates of one effect more than `known`.
+  void join(const std::vector<std::string>& known, const ModelFit& without, const Catalogue& catalogue) {
     Catalogue effects;
     for (const auto* effect : catalogue)
       if (goes_with(without.model, *effect) && without.x.size() + fitted_numbers(*effect) < tests_)
@@ -68,17 +70,19 @@ class OutcomeDiagnoser {
     std::vector<OutcomeTable*> promising, others;
     for (Screened& s : screened)
       if (s.visible()) (s.promising() ? promising : others).push_back(&s.table);
-    auto fitted = fit_outcomes(bench_, without, promising, effort_, jobs_);
+    auto fitted = tabulate_outcomes(bench_, without, promising, effort_, jobs_);
     auto read = read_outcomes(bench_, others, jobs_);
-    std::size_t seen = 0, next_fitted = 0, next_read = 0;
+    std::size_t next_fitted = 0, next_read = 0;
     for (std::size_t i = 0; i < effects.size(); ++i) {
       const Screened& s = screened[i];
       Candidate c{.effects = known, .fit = without, .visible = s.visible()};
       c.effects.push_back(effects[i]->name);
       c.fit.left_out_refitted = false;
       if (c.visible) {
-        ++seen;
-        c.fit = std::move(s.promising() ? fitted[next_fitted++] : read[next_read++]);
+        if (s.promising())
+          c.fit = (tables_[c.effects] = std::move(fitted[next_fitted++])).fit;
+        else
+          c.fit = std::move(read[next_read++]);
         c.practical = practical(c.fit, without.x.size());
         c.delta_bic = bic(c.fit) - bic(out_.base.fit);
         if (!s.promising())
@@ -91,51 +95,71 @@ class OutcomeDiagnoser {
       }
       if (known.empty() || c.visible) out_.candidates.push_back(std::move(c));
     }
-    return seen;
+  }
+  const TabulatedFit& table_of(const Candidate& c) const { return c.effects.empty() ? base_ : tables_.at(c.effects); }
+  static bool is_rankable(const Candidate& c, std::size_t effects) {
+    return c.visible && c.fit.left_out_refitted && c.practical && c.effects.size() == effects;
+  }
+  bool is_chance(Chance chance, std::string about) {
+    chance.about = std::move(about);
+    out_.chances.push_back(std::move(chance));
+    return out_.chances.back().chance();
+  }
+  bool enough(const Candidate& c) {
+    return is_chance(chance_of_misfit_of_outcomes(bench_, table_of(c)),
+                     c.effects.empty() ? "the model as it is" : label(c));
   }
 
-  // The best candidate of so many effects, if it beats `without` by more than chance.
-  const Candidate* accepted(const Candidate& without, std::size_t effects, std::size_t tried) const {
+  // The best candidate of one effect more, if the tests left out are missed by less with it, and any such effect gains more than chance.
+  const Candidate* accepted(const Candidate& without) {
     const Candidate* best = nullptr;
-    for (const Candidate& c : out_.candidates)
-      if (c.visible && c.fit.left_out_refitted && c.effects.size() == effects && c.practical &&
-          (!best || left_out(c) < left_out(*best)))
-        best = &c;
+    std::vector<const TabulatedFit*> tried;
+    for (const Candidate& c : out_.candidates) {
+      if (!is_rankable(c, without.effects.size() + 1)) continue;
+      tried.push_back(&table_of(c));
+      if (!best || left_out(c) < left_out(*best)) best = &c;
+    }
     if (!best) return nullptr;
-    return beyond_chance(paired_difference(without.fit.left_out, best->fit.left_out), tests_, tried) ? best : nullptr;
+    Chance chance = chance_of_gain_of_outcomes(bench_, table_of(without), tried, jobs_);
+    if (!without.effects.empty()) chance.question = another_question;
+    const bool gained = !is_chance(std::move(chance),
+                                   without.effects.empty() ? fmt::format("{} effects", tried.size()) : label(without));
+    return gained && left_out(*best) < left_out(without) ? best : nullptr;
   }
 
   // `without`: what the best was accepted against.
-  void settle(const Candidate chosen, const Candidate without, std::size_t tried) {
+  void settle(const Candidate chosen, const Candidate without) {
     std::vector<const Candidate*> rivals;
     for (Candidate& c : out_.candidates) {
-      if (!c.visible || !c.fit.left_out_refitted || !c.practical || c.effects.size() != chosen.effects.size()) continue;
-      const Pooled behind = paired_difference(c.fit.left_out, chosen.fit.left_out);
-      const Pooled gain = paired_difference(without.fit.left_out, c.fit.left_out);
-      c.rival = c.effects == chosen.effects || (!beyond_chance(behind, tests_, 1) && gain.error > gain.standard_error);
+      if (!is_rankable(c, chosen.effects.size()) || left_out(c) >= left_out(without)) continue;
+      c.rival = c.effects == chosen.effects ||
+                is_chance(chance_of_lead_of_outcomes(bench_, table_of(chosen), table_of(c), jobs_),
+                          fmt::format("{} before {}", label(chosen), label(c)));
     }
     put_in_order(bench_, &chosen, out_);
     for (const Candidate& c : out_.candidates)
-      if (c.rival) {
-        rivals.push_back(&c);
-        for (const auto& effect : c.effects)
-          if (std::find(out_.effects.begin(), out_.effects.end(), effect) == out_.effects.end())
-            out_.effects.push_back(effect);
-      }
-    out_.verdict = rivals.size() > 1 ? Verdict::ambiguous : Verdict::missing;
+      if (c.rival) rivals.push_back(&c);
     const Pooled gain = paired_difference(without.fit.left_out, chosen.fit.left_out);
-    say(fmt::format(
-        "{} lowers the left-out Brier score from {:.4f} to {:.4f}, by {:.4f} +- {:.4f}: {:.1f} standard errors, "
-        "more than chance makes when {} effects are tried",
-        label(chosen), left_out(without), left_out(chosen), gain.error, gain.standard_error,
-        gain.error / gain.standard_error, tried));
+    say(fmt::format("{} lowers the left-out Brier score from {:.4f} to {:.4f}, by {:.4f} +- {:.4f}", label(chosen),
+                    left_out(without), left_out(chosen), gain.error, gain.standard_error));
     for (const Candidate* rival : rivals) {
       if (rival->effects == chosen.effects) continue;
       say(fmt::format("{} cannot be told from it on these tests: its left-out score is {:.4f}, {:.4f} +- {:.4f} higher",
                       label(*rival), left_out(*rival), rival->difference, rival->difference_se));
     }
     name_those_ahead(chosen);
-    doubt(chosen);
+    if (std::any_of(rivals.begin(), rivals.end(), [&](const Candidate* c) { return enough(*c); }))
+      name_rivals(rivals);
+    else
+      nothing_suffices(chosen);
+  }
+
+  void name_rivals(const std::vector<const Candidate*>& rivals) {
+    for (const Candidate* c : rivals)
+      for (const auto& effect : c->effects)
+        if (std::find(out_.effects.begin(), out_.effects.end(), effect) == out_.effects.end())
+          out_.effects.push_back(effect);
+    out_.verdict = rivals.size() > 1 ? Verdict::ambiguous : Verdict::missing;
   }
 
   // The table shows them with less.
@@ -147,14 +171,14 @@ class OutcomeDiagnoser {
     }
   }
 
-  // What has been found stands by its own gain. But compare would say that something is missing, and so does this.
-  void doubt(const Candidate& chosen) {
-    if (!surer_than_it_may_be(chosen.fit.calibration)) return;
+  void nothing_suffices(const Candidate& chosen) {
     const Pooled chance = expected_brier(chosen.fit.calibration);
+    out_.verdict = Verdict::unknown;
+    out_.reason = Reason::none_suffices;
+    for (Candidate& c : out_.candidates) c.rival = false;
     say(
         fmt::format("even with {} the model is surer than it may be: its Brier score is {:.4f} where chance alone "
-                    "would make {:.4f} +- "
-                    "{:.4f}; something more is missing, and it is no effect of the catalogue",
+                    "would make {:.4f} +- {:.4f}; something more is missing, and it is no effect of the catalogue",
                     label(chosen), chosen.fit.score, chance.error, chance.standard_error));
   }
 
@@ -164,17 +188,17 @@ class OutcomeDiagnoser {
       if (c.visible && c.fit.left_out_refitted && (!best || left_out(c) < left_out(*best))) best = &c;
     put_in_order(bench_, best, out_);
     best = best ? &out_.candidates.front() : nullptr;
-    if (surer_than_it_may_be(out_.base.fit.calibration)) {
+    if (!enough(out_.base)) {
       out_.verdict = Verdict::unknown;
       out_.reason = Reason::none_helps;
       say("the model is surer than it may be: something is missing, and it is no effect of the catalogue");
     }
     if (!best) return say("no effect promises to lower the Brier score of the base");
     const Pooled gain = paired_difference(out_.base.fit.left_out, best->fit.left_out);
-    say(fmt::format(
-        "no effect lowers the left-out Brier score by more than chance: the best of {}, {}, changes it from "
-        "{:.4f} to {:.4f}, a gain of {:.4f} +- {:.4f}",
-        tried_, label(*best), left_out(out_.base), left_out(*best), gain.error, gain.standard_error));
+    say(
+        fmt::format("no effect lowers the left-out Brier score by more than chance: the best, {}, changes it from "
+                    "{:.4f} to {:.4f}, a gain of {:.4f} +- {:.4f}",
+                    label(*best), left_out(out_.base), left_out(*best), gain.error, gain.standard_error));
   }
 
   void describe_base() {
@@ -201,10 +225,11 @@ class OutcomeDiagnoser {
         continue;
       }
       const Pooled gain = paired_difference(out_.base.fit.left_out, c.fit.left_out);
-      const bool real = beyond_chance(gain, tests_, 1);
-      say(fmt::format("{} {} the left-out Brier score of the base by {:.4f} +- {:.4f}: {}", label(c),
-                      gain.error > 0 ? "lowers" : "raises", std::abs(gain.error), gain.standard_error,
-                      real ? "more than chance, if it were the only effect tried" : "no more than chance"));
+      const Chance alone = chance_of_gain_of_outcomes(bench_, base_, {&table_of(c)}, jobs_);
+      say(fmt::format(
+          "{} {} the left-out Brier score of the base by {:.4f} +- {:.4f} (were it the only effect tried, "
+          "outcomes from the base would be met so much better in a share of {:.2g})",
+          label(c), gain.error > 0 ? "lowers" : "raises", std::abs(gain.error), gain.standard_error, alone.p));
     }
     if (!unpromising.empty())
       say(fmt::format("not fitted to the end, since even where they were fitted they gained no more than chance: {}",
@@ -217,7 +242,9 @@ class OutcomeDiagnoser {
   const Bench& bench_;
   const OutcomeEffort& effort_;
   const Jobs& jobs_;
-  std::size_t tests_, tried_ = 0;
+  std::size_t tests_;
+  TabulatedFit base_;
+  std::map<std::vector<std::string>, TabulatedFit> tables_;  // of what was fitted to the end
   std::vector<std::string> untried_;
   Diagnosis out_;
 };
@@ -250,12 +277,6 @@ bool surer_than_it_may_be(const std::vector<TestError>& errors) {
     as_large += sum >= observed - 1e-12;
   }
   return static_cast<double>(1 + as_large) <= chance_level * static_cast<double>(1 + simulations);
-}
-
-bool beyond_chance(const Pooled& difference, std::size_t tests, std::size_t tried) {
-  const double freedom = std::max<double>(static_cast<double>(tests) - 1, 1);
-  const double t = gsl_cdf_tdist_Qinv(0.025 / static_cast<double>(std::max<std::size_t>(tried, 1)), freedom);
-  return difference.error > 1e-9 && difference.error > t * difference.standard_error;
 }
 
 Diagnosis diagnose_outcomes(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue, const Values& start,

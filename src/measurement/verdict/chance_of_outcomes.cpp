@@ -1,0 +1,77 @@
+#include "measurement/verdict/chance_of_outcomes.hpp"
+
+#include <algorithm>
+
+#include "base/random.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXf;
+using Eigen::VectorXf;
+
+// What happened in the first column; behind it sets of outcomes as the model would have them.
+MatrixXf outcomes_from(const Bench& bench, const TabulatedFit& model, std::uint64_t stream) {
+  const auto& tests = model.table.tests;
+  MatrixXf y(static_cast<Index>(tests.size()), static_cast<Index>(1 + chance_simulations));
+  for (std::size_t t = 0; t < tests.size(); ++t) {
+    const auto row = static_cast<Index>(t);
+    y(row, 0) = bench.test(tests[t]).peaks.overturned.value_or(false) ? 1 : 0;
+    for (std::uint64_t s = 0; s < chance_simulations; ++s)
+      y(row, static_cast<Index>(1 + s)) = random::uniform(stream, s, t) < model.fit.calibration[t].probability ? 1 : 0;
+  }
+  return y;
+}
+
+// Mean scores of the fits of a model to each set.
+VectorXf scores(const Bench& bench, const TabulatedFit& model, const MatrixXf& y) {
+  return TableSearch(bench, model.table).least_squares(y) / static_cast<float>(y.rows());
+}
+
+std::function<double(std::uint64_t)> in_simulations(const VectorXf& values) {
+  return [&values](std::uint64_t s) { return static_cast<double>(values[static_cast<Index>(1 + s)]); };
+}
+
+VectorXf leads(const Bench& bench, const TabulatedFit& best, const TabulatedFit& rival, const MatrixXf& y) {
+  return scores(bench, rival, y) - scores(bench, best, y);
+}
+
+}  // namespace
+
+Chance chance_of_gain_of_outcomes(const Bench& bench, const TabulatedFit& base,
+                                  const std::vector<const TabulatedFit*>& tried, const Jobs& jobs) {
+  const MatrixXf y = outcomes_from(bench, base, 24);
+  const VectorXf without = scores(bench, base, y);
+  const auto answers = jobs("what effects gain in outcomes from the base", tried.size(), [&](std::size_t i) {
+    const VectorXf with = scores(bench, *tried[i], y);
+    return Values(with.begin(), with.end());
+  });
+  VectorXf gains = VectorXf::Zero(without.size());  // at nothing an effect is as good as the base
+  for (const Values& with : answers)
+    gains = gains.cwiseMax(without - Eigen::Map<const Eigen::VectorXd>(with.data(), without.size()).cast<float>());
+  Chance chance{.question = help_question, .about = {}, .observed = gains[0]};
+  weigh(chance, in_simulations(gains));
+  return chance;
+}
+
+Chance chance_of_lead_of_outcomes(const Bench& bench, const TabulatedFit& best, const TabulatedFit& rival,
+                                  const Jobs& jobs) {
+  const auto answers = jobs("whether the lead is chance", 2, [&](std::size_t i) {
+    const VectorXf of = leads(bench, best, rival, outcomes_from(bench, i == 0 ? rival : best, 25 + i));
+    return Values(of.begin(), of.end());
+  });
+  Chance chance{.question = lead_question, .about = {}, .observed = answers[0][0]};
+  weigh(chance, [&](std::uint64_t s) { return answers[0][1 + s]; });
+  weigh_power(chance, [&](std::uint64_t s) { return answers[1][1 + s]; });
+  return chance;
+}
+
+Chance chance_of_misfit_of_outcomes(const Bench& bench, const TabulatedFit& model) {
+  const VectorXf of = scores(bench, model, outcomes_from(bench, model, 27));
+  Chance chance{.question = misfit_question, .about = {}, .observed = of[0]};
+  weigh(chance, in_simulations(of));
+  return chance;
+}
+
+}  // namespace freestand::measurement

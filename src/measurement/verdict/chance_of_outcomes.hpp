@@ -1,0 +1,21 @@
+// chance.hpp for tests that say only whether the specimen overturned: outcomes are drawn from the probabilities of a fitted model, and every
+// model is fitted to them again by the rows of the table that it was read off. What counts are mean Brier scores of the fits to all tests.
+#pragma once
+
+#include "measurement/fit/outcome_fit.hpp"
+#include "measurement/verdict/chance.hpp"
+
+namespace freestand::measurement {
+
+// Does any effect help? observed: by how much the one that gains most lowers the score of the base. tried: models that hold the base's
+// numbers first.
+Chance chance_of_gain_of_outcomes(const Bench&, const TabulatedFit& base, const std::vector<const TabulatedFit*>& tried,
+                                  const Jobs&);
+
+// Can the best be told from a rival? observed: the score of the rival less that of the best.
+Chance chance_of_lead_of_outcomes(const Bench&, const TabulatedFit& best, const TabulatedFit& rival, const Jobs&);
+
+// Is a model enough? observed: its score. A model that is surer than it may be has a larger one than data from itself give it.
+Chance chance_of_misfit_of_outcomes(const Bench&, const TabulatedFit&);
+
+}  // namespace freestand::measurement
