@@ -14,7 +14,7 @@ function at(curve, im) {
   return [here, Math.max(0, Math.min(low, here)), Math.min(1, Math.max(high, here))];
 }
 const byLognormal = (curve) => curve.family === "lognormal" && curve.dispersion > 0;
-const ruleOf = (curve) => !curve ? "" : byLognormal(curve) ? "read by its lognormal, which is adequate" : "read by straight lines between its points over the intensity";
+const ruleOf = (curve) => !curve ? "" : byLognormal(curve) ? "read by its lognormal, which is adequate" : "read by straight lines between its points over the intensity; what it does between them no band holds";
 // What the rule draws: [im, probability, lower, upper], finely, with the points themselves in it.
 function trace(curve) {
   const ims = curve.points.flatMap((p, i) => i ? [1, 2, 3, 4, 5, 6, 7, 8].map((k) => curve.points[i - 1][IM] * (p[IM] / curve.points[i - 1][IM]) ** (k / 8)) : [p[IM]]);

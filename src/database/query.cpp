@@ -145,7 +145,28 @@ void check_intensity(const Database& db, const Question& question, const std::ve
     }
 }
 
-std::string rule(const std::vector<Between>& parts) {
+// Of curves that are read by lines, the points on both sides of the intensity that lie farthest apart, where P changes from one to the other
+// by more than the band there is wide: the samples' errors are in it, and not what P does between two points. Empty: nowhere.
+std::string between_points(const std::vector<Between>& parts, double im) {
+  std::string text;
+  double most = 0;
+  for (const Between& part : parts)
+    for (const Curve* curve : part.curves) {
+      const auto next = std::ranges::find_if(curve->points, [&](const Point& point) { return point.im >= im; });
+      if (by_lognormal(*curve) || next == curve->points.begin() || next == curve->points.end()) continue;
+      const Point &a = *std::prev(next), &b = *next;
+      const Probability here = at(*curve, im);
+      const double change = std::abs(b.probability - a.probability);
+      if (!(change > here.upper - here.lower && change > most)) continue;
+      most = change;
+      text = fmt::format(
+          "; from {:.3g} to {:.3g} it goes from {:.2g} to {:.2g}, and what it does between them no band holds", a.im,
+          b.im, a.probability, b.probability);
+    }
+  return text;
+}
+
+std::string rule(const std::vector<Between>& parts, double im) {
   std::size_t all = 0, lognormal = 0;
   for (const Between& part : parts)
     for (const Curve* curve : part.curves) {
@@ -156,6 +177,7 @@ std::string rule(const std::vector<Between>& parts) {
                      : lognormal == 0
                          ? "read by straight lines between the points over the intensity, as exports by levels are"
                          : "read by the lognormal where it is adequate, else by straight lines between the points";
+  text += between_points(parts, im);
   if (all > 1) text += "; between entries and capacities by Phi^-1(P) over logarithms, whose error no band holds";
   return text;
 }
@@ -178,7 +200,7 @@ Answer answer(const Database& db, const Question& question, bool binary, GridPoi
     p.lower = std::min(p.lower, p.value);
     p.upper = std::max(p.upper, p.value);
   }
-  answer.rule = rule(parts);
+  answer.rule = rule(parts, question.im_value);
   answer.parts = std::move(point.parts);
   if (parts.size() == 1 && parts[0].curves.size() == 1 && by_lognormal(*parts[0].curves[0])) {
     answer.median = parts[0].curves[0]->median;

@@ -128,10 +128,15 @@ Rate ByCounts::banded(const CurveReach& curve) {
     known_by_limits.push_back({weight_[i], p - limits.lower, limits.upper - p, falling - p});
   }
   // Of a row of which nothing (or all) was counted in tail^share of the cases.
+  const bool same_records = result_.left_out_records > 0;
   const auto added = [&](double Row::*reach, double share) {
-    double squares = 0;
-    for (const Row& row : known_by_limits) squares += std::pow(row.weight * (1 - std::pow(1 - row.*reach, share)), 2);
-    return std::sqrt(squares);
+    double sum = 0, squares = 0;
+    for (const Row& row : known_by_limits) {
+      const double unseen = row.weight * (1 - std::pow(1 - row.*reach, share));
+      sum += unseen;
+      squares += unseen * unseen;
+    }
+    return same_records ? sum : std::sqrt(squares);
   };
   const double value = rate(), tail = (1 - result_.confidence) / 2;
   const RateLimits limits(

@@ -28,9 +28,10 @@ class ByCounts {
   double rate(const Range& = {}) const;
 
   // Rows that no resample changes (nothing above was counted, say) are known to their own bands, which hold the exact binomial limits.
-  // What these allow adds among them as independent errors do, and to the limit of what was counted as largest_beside_nothing says. What
-  // of its tail the upper limit then does not need the lower one takes, and the other way round (unused_tail). Half a leap within
-  // the cells adds as one more of the independent errors.
+  // What these allow adds up where the same records stand in all rows: what they do not show in one row they do not show in the next,
+  // and the limit of a P that is level is that of one row. Of pulses, each a motion of its own, it adds as independent errors do. To the
+  // limit of what was counted it adds as largest_beside_nothing says. What of its tail the upper limit then does not need the lower one
+  // takes, and the other way round (unused_tail). Half a leap within the cells adds as one more of the independent errors.
   Rate banded(const CurveReach&);
 
   // Rates without each group of motions.

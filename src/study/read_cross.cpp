@@ -26,7 +26,8 @@ bool MotionSource::in_plane() const {
   return pairs && !turn;
 }
 
-void check_cross(Section& file, const Study& study) {
+void check_cross(Section& file, const Study& study, Files look) {
+  if (look == Files::ignore) return;  // a table that is not there does not say whether it holds pairs; it was asked before the sweep
   const bool on_a_line =
       std::any_of(study.motions.begin(), study.motions.end(), [](const auto& source) { return !source.in_plane(); });
   if (study.model.friction.ratio_across && on_a_line)

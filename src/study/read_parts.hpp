@@ -56,7 +56,7 @@ void read_records(Section& section, MotionSource& source, const RecordKeys&);
 void check_neighbour(Section& file, const Study&);
 
 // Problems of motions with a second horizontal channel in a study of which something does not go with one.
-void check_cross(Section& file, const Study&);
+void check_cross(Section& file, const Study&, Files look);
 // Into which direction pairs are turned; what is wrong with that where records come without a table; the rows of a table as
 // pairs.
 std::optional<TurnPart> read_turn(Section& section);

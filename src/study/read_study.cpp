@@ -224,7 +224,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   read_common(file, path, study, look);
   read_design(file, study);
   study.motions = read_motions(file, study.folder, look, shakes_vertically(study.model));
-  check_cross(file, study);
+  check_cross(file, study, look);
   check_neighbour(file, study);
   if (problems.empty()) check_synthetic(file, study);
   // What the study draws is known only when its parts are sound.
@@ -255,7 +255,7 @@ Case parse_case(const std::string& text, const std::filesystem::path& path) {
     read_common(file, path, one.study);
     one.study.samples = one.study.block_size = 1;
     one.study.motions = {read_motion(file, one.study.folder)};
-    check_cross(file, one.study);
+    check_cross(file, one.study, Files::look);
     check_neighbour(file, one.study);
     one.output_step_s = file.number("output_step_s", one.output_step_s, range::positive);
     refuse_distributions(one.study, problems);

@@ -1,7 +1,10 @@
 #include "database/query.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "database/made_database.hpp"
 #include "support/error_text.hpp"
@@ -38,6 +41,23 @@ Question at(Question asked, Coordinate c, double value) {
 
 std::string refusal(const Question& asked) {
   return error_text(Exit::usage, [&] { ask(made_database(), asked); });
+}
+
+// What P does between two points that are known far better than they are alike is said to be in no band.
+TEST(Query, LinesBetweenPointsFarApartSayWhatNoBandHolds) {
+  Database db = made_database();
+  for (Curve& curve : db.curves) curve.family.clear();
+  Question asked = question(0.55);
+  asked.id = "rack_30_2";
+  const Curve& curve = *std::find_if(db.curves.begin(), db.curves.end(), [&](const Curve& c) {
+    return db.entries[c.entry].id == asked.id && c.demand == asked.demand && c.capacity == asked.capacity;
+  });
+  const std::string between = fmt::format("from 0.4 to 0.8 it goes from {:.2g} to {:.2g}", curve.points[2].probability,
+                                          curve.points[3].probability);
+  EXPECT_THAT(ask(db, asked)[0].rule, AllOf(HasSubstr(between), HasSubstr("no band holds")));
+  for (Curve& each : db.curves)
+    for (Point& point : each.points) point.lower = 0, point.upper = 1;
+  EXPECT_THAT(ask(db, asked)[0].rule, testing::Not(HasSubstr("no band holds")));
 }
 
 TEST(Query, AnEntryAnswersAtItsPointsAndBetweenThem) {

@@ -35,7 +35,7 @@ inline HazardCurve power_law(double k0, double k, double first, double last) {
 // lognormal where they are not 0 and 1. A share `weak` of the records overturns at 0.3 of the others' intensity. What happens is over again
 // from `ends` times the own intensity on: a window that is entered and left.
 struct Sweep {
-  int records = 40, per_record = 25;
+  int records = 40, per_record = 25, bins = 10;
   double median = 0.6, between = 0.35, within = 0.25, floor = 0, ceiling = 1, weak = 0, ends = HUGE_VAL, least = 0.05,
          most = 3;
   double dispersion() const { return std::hypot(between, within); }
@@ -48,7 +48,7 @@ struct Sweep {
     fragility::Options options;
     options.im_name = "pga_g";
     options.im_unit = "g";
-    for (int i = 0; i <= 10; ++i) options.im_edge.push_back(least * std::pow(most / least, i / 10.0));
+    for (int i = 0; i <= bins; ++i) options.im_edge.push_back(least * std::pow(most / least, i / (1.0 * bins)));
     fragility::EdpOptions edp;
     edp.name = "overturned";
     edp.binary = true;

@@ -45,6 +45,22 @@ Upper simulated(const Sweep& sweep, double k, int repeats) {
   return found;
 }
 
+// Nothing overturned. A P that is level throughout, at the limit that as many records have, shows nothing in a twentieth of such sweeps, into
+// however many bins they are cut. (Bins were taken to err independently: 0.64 of that with six, 0.27 with 48.)
+TEST(UpperLimit, OfNothingCountedIsThatOfTheRecordsWhateverTheBins) {
+  for (const int bins : {3, 6, 24}) {
+    Sweep sweep;
+    sweep.records = 22;
+    sweep.per_record = 40 * bins;  // all records in each bin
+    sweep.bins = bins;
+    sweep.median = 1e6;
+    const HazardCurve hazard = power_law(1e-3, 2.5, 1e-3, 50);
+    const Risk found = risk(sweep.fit(1, 100), hazard);
+    const double limit = 1 - std::pow(0.05, 1.0 / sweep.records);
+    EXPECT_NEAR(found.rows[0].by_counts.upper / hazard.rate(found.im_least), limit, 0.05 * limit) << bins;
+  }
+}
+
 // It misses where it should not by nobody's account if P has no shape, and what P that falls as the curve does makes of it misses too often
 // where a few records are of a kind that the others tell nothing of. FREESTAND_REPEATS for more; the figures of 300 stand in risk.hpp.
 TEST(UpperLimit, HoldsWhereAFewRecordsAreWeakAndWouldNotIfItWereLower) {

@@ -89,6 +89,19 @@ TEST_F(CrossRecords, TheExpandedStudyIsTheSame) {
   EXPECT_NE(load_motions(study("{records: \"along/*\"}")).fingerprint(), load_motions(first).fingerprint());
 }
 
+// A stored study is read without the tables of records that it names, which alone say that they hold pairs.
+TEST_F(CrossRecords, AStoredStudyWithATableOfPairsIsRead) {
+  std::ofstream(folder_ / "table.csv") << "file,cross\nalong/a.csv,across/a.csv\n";
+  const Study first =
+      parse_study(block + "friction: {mu_k: 0.2, ratio_across: 0.7}\n" + samples +
+                      "fragility: {edp: [peak_slip_m], capacities: {peak_slip_m: [0.1]}}\nmodel: slide\nmotions: "
+                      "[{records: table.csv}]\n",
+                  folder_ / "s.yaml", known());
+  const std::string stored = expanded(first);
+  std::filesystem::remove(folder_ / "table.csv");
+  EXPECT_EQ(text_of([&] { parse_stored(stored, folder_ / "s.yaml"); }), "");
+}
+
 TEST_F(CrossRecords, TheDemandIsTheSizeOfTheVector) {
   const Study swept = study("{records: along/a.csv, cross_records: across/a.csv, scale: {uniform: [-2, 2]}}");
   const Evaluator evaluate(swept, load_motions(swept));

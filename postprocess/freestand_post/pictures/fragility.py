@@ -91,7 +91,7 @@ def _finding(sweep, edp, which, symbol, im):
         return f"More than half of the specimens {_beyond(edp, which[always[-1]])} at every intensity shown"
     if np.nanmax(p[:, 0]) == 0:
         return f"No specimens {_beyond(edp, which[0])} in the range swept"
-    return f"At most {words.percent(np.nanmax(p[:, 0]))} of the specimens {_beyond(edp, which[0])} at any intensity"
+    return f"In the range swept at most {words.percent(np.nanmax(p[:, 0]))} of the specimens {_beyond(edp, which[0])}"
 
 
 def _beyond(edp, k):

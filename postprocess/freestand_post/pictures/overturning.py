@@ -64,6 +64,9 @@ def _finding(sweep, bins, curve, drawn, im):
     if np.isfinite(median) and sweep.edge[0] <= median <= sweep.edge[-1]:
         return f"By the fitted curve, half of the specimens overturn at {words.is_(im, median, sweep.im_unit)}"
     top = int(np.nanargmax(bins["p_over"]))
+    if top == np.flatnonzero(np.isfinite(bins["p_over"]))[-1]:
+        return (f"{words.percent(bins['p_over'][top])} of the specimens fall at the end of the range swept, "
+                f"{words.is_(im, sweep.centre[top], sweep.im_unit)}")
     return (f"Overturning peaks {words.is_(f'at {im}', sweep.centre[top], sweep.im_unit)}, "
             f"where {words.percent(bins['p_over'][top])} of the specimens fall")
 
